@@ -34,7 +34,7 @@ BoxRef solid_box(const ShapeGeometry& solid, std::uint32_t id, const Vec3& cente
 
 // In blocks over all threads, each at the place of its ids; closed up where some were left out.
 void append_triangles(const World& world, bool with_kept, FinitePrimitives& out) {
-  constexpr std::uint32_t block_size = 8192;
+  constexpr std::uint32_t block_size = 2048;
   const std::uint32_t count = world.triangle_count();
   std::vector<std::uint32_t> kept((count + block_size - 1) / block_size);
   out.boxes.resize(count);

@@ -14,7 +14,7 @@ struct BuildConfig {
   /// Primitives of the ranges that are split one primitive at a time, by one thread: what fits its cache.
   static constexpr std::uint32_t treelet_size = 256;
   /// Primitives below which a task for another thread costs more than it gains.
-  static constexpr std::uint32_t parallel_threshold = 4096;
+  static constexpr std::uint32_t parallel_threshold = 1024;
   /// Clusters below which there are too few to choose well between: the range gets a grid of its own.
   static constexpr std::uint32_t few_clusters = 8;
   /// Primitives that become a leaf without asking what a split would gain: half the nodes, and rays are no

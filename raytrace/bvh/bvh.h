@@ -82,8 +82,7 @@ struct Bvh {
   std::uint32_t id_at(std::uint32_t leaf) const {
     if (leaf < ids.size()) [[likely]]
       return ids[leaf];
-    const BvhInstance& instance = instance_of(leaf);
-    return instance.first_triangle + trees[instance.tree].ids[leaf - instance.first_leaf];
+    return placed_id(leaf);
   }
   /// A leaf primitive itself. Requires `primitives`.
   LeafPrimitive primitive_at(std::uint32_t leaf) const {
@@ -102,6 +101,7 @@ struct Bvh {
     return instances[instance_leaves.of(leaf - static_cast<std::uint32_t>(ids.size()))];
   }
   LeafPrimitive placed_primitive(std::uint32_t leaf) const;
+  std::uint32_t placed_id(std::uint32_t leaf) const;
 
   /// Asks memory for a primitive ahead of need; not for an instance's.
   void prefetch(std::size_t leaf) const {

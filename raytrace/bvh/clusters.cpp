@@ -8,14 +8,14 @@
 namespace gnomon::raytrace::binned {
 namespace {
 
-constexpr std::size_t parallel_count = 1u << 14;  // below it one share does all
+constexpr std::size_t parallel_count = 1u << 12;  // below it one share does all
 
 /// Cubes, so that the boxes of clusters are not longer than they need be.
 class CentroidGrid {
  public:
   CentroidGrid(const Box& centroids, std::size_t primitives) : origin_(centroids.min) {
     // Some sixty to a cell if they lie on a surface.
-    const int bits = std::clamp((static_cast<int>(std::bit_width(primitives)) - 4) / 2, 2, most_bits);
+    const int bits = std::clamp((static_cast<int>(std::bit_width(primitives)) - 6) / 2, 2, most_bits);
     const float side = largest_extent(centroids) / static_cast<float>(1 << bits);
     per_ = 1.0f / side;
     for (std::size_t a = 0; a < 3; ++a) {

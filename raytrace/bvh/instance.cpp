@@ -169,6 +169,11 @@ void put_instances(const World& world, Bvh& bvh) {
   if (!boxes.empty()) Upper(bvh, std::move(boxes)).run();
 }
 
+std::uint32_t Bvh::placed_id(std::uint32_t leaf) const {
+  const BvhInstance& instance = instance_of(leaf);
+  return instance.first_triangle + trees[instance.tree].ids[leaf - instance.first_leaf];
+}
+
 LeafPrimitive Bvh::placed_primitive(std::uint32_t leaf) const {
   const BvhInstance& instance = instance_of(leaf);
   const LeafPrimitive there = trees[instance.tree].primitives[leaf - instance.first_leaf];

@@ -15,8 +15,6 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
-using Four = hn::CappedTag<float, 4>;
-constexpr Four four;
 
 /// Per packet the intervals of its rays.
 struct alignas(64) Packets {

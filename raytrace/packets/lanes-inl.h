@@ -28,6 +28,8 @@ using V = hn::Vec<F>;
 using M = hn::Mask<F>;
 constexpr F f;
 constexpr I ids;
+using Four = hn::CappedTag<float, 4>;
+constexpr Four four;
 constexpr float inf = std::numeric_limits<float>::infinity();
 
 inline std::size_t lanes() {

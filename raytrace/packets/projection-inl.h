@@ -21,11 +21,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 
-/// A box's eight corners, twice.
-alignas(64) constexpr float corner_bit[3][packet_rays] = {{0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1},
-                                                          {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1},
-                                                          {0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1}};
-
 /// Runs of leaves are not divided below this.
 constexpr std::uint32_t run_size = 48;
 
@@ -62,32 +57,29 @@ class Projection {
     const Vec3 origin = setup.origin - s.bvh.center;
     for (int a = 0; a < 3; ++a) {
       origin_[a] = static_cast<float>(origin[a]);
-      for (int k = 0; k < 3; ++k) axes_[k][a] = static_cast<float>(setup.axes[k][a]);
+      for (int k = 0; k < 3; ++k) axes_[k][a] = coordinate_[a][k] = static_cast<float>(setup.axes[k][a]);
     }
   }
 
-  /// Of a box that counts from the hierarchy's centre. Conservative; infinite, and nearest with it, of what is not clear of
-  /// the common origin.
+  /// Of a box that counts from the hierarchy's centre: the intervals of its coordinates along the axes, and a point's divided by
+  /// the depth's. Conservative, for boxes are floats rounded outwards and widened by the slack; infinite, and nearest with
+  /// it, of what is not clear of the common origin.
   PrimitiveBounds of(const BoxRef& box) const {
-    Bounds bounds;
-    V low[3], high[3];
-    for (std::size_t a = 0; a < 3; ++a) {
-      low[a] = all(box.min[a] - origin_[a]);
-      high[a] = all(box.max[a] - origin_[a]);
+    alignas(16) float low[4], high[4];
+    along_axes(box, low, high);
+    if (setup_.directional) {
+      const float margin = 4.0f * slack_;
+      return {low[0] - margin, high[0] + margin, low[1] - margin, high[1] + margin, high[2] + margin};
     }
-    for (std::size_t i = 0; i < 8; i += lanes()) {
-      V corner[3];
-      for (std::size_t a = 0; a < 3; ++a) {
-        const auto is_high = hn::Ne(hn::LoadU(f, corner_bit[a] + i), hn::Zero(f));
-        corner[a] = hn::IfThenElse(is_high, high[a], low[a]);
-      }
-      grow(bounds, at_box_corner(corner));
+    if (!(low[2] > 64.0f * slack_)) return {-inf, inf, -inf, inf, inf};
+    const float near = 1.0f / low[2], far = 1.0f / high[2];
+    const float error = 2.0f * slack_ * near + 0x1p-20f;
+    for (std::size_t k = 0; k < 2; ++k) {
+      low[k] = std::min(low[k] * near, low[k] * far), high[k] = std::max(high[k] * near, high[k] * far);
+      const float margin = std::max(std::abs(low[k]), std::abs(high[k])) * error + error;
+      low[k] -= margin, high[k] += margin;
     }
-    bounds.u_min = hn::MinOfLanes(f, bounds.u_min), bounds.u_max = hn::MaxOfLanes(f, bounds.u_max);
-    bounds.v_min = hn::MinOfLanes(f, bounds.v_min), bounds.v_max = hn::MaxOfLanes(f, bounds.v_max);
-    finish(bounds, low, high);
-    return {hn::GetLane(bounds.u_min), hn::GetLane(bounds.u_max), hn::GetLane(bounds.v_min),
-            hn::GetLane(bounds.v_max), hn::GetLane(bounds.nearest)};
+    return {low[0], high[0], low[1], high[1], (1.0f + 0x1p-20f) / (low[2] - slack_)};
   }
 
   /// Of up to run_size leaves; what follows them up to a multiple of leaves_together is anything. As near as their boxes:
@@ -152,20 +144,24 @@ class Projection {
     }
   }
 
+  /// The box's least and largest coordinate along each axis, from the origin.
+  void along_axes(const BoxRef& box, float (&low)[4], float (&high)[4]) const {
+    for (std::size_t i = 0; i < 4; i += hn::Lanes(four)) {
+      auto least = hn::Zero(four), most = hn::Zero(four);
+      for (std::size_t a = 0; a < 3; ++a) {
+        const auto axes = hn::Load(four, coordinate_[a] + i);
+        const auto from = hn::Mul(axes, hn::Set(four, box.min[a] - origin_[a]));
+        const auto to = hn::Mul(axes, hn::Set(four, box.max[a] - origin_[a]));
+        least = hn::Add(least, hn::Min(from, to)), most = hn::Add(most, hn::Max(from, to));
+      }
+      hn::Store(least, four, low + i), hn::Store(most, four, high + i);
+    }
+  }
   V along(std::size_t axis, const V (&from_origin)[3]) const {
     const auto times = [&](std::size_t a, V sum) {
       return hn::MulAdd(from_origin[a], all(axes_[axis][a]), sum);
     };
     return times(2, times(1, hn::Mul(from_origin[0], all(axes_[axis][0]))));
-  }
-  /// Of a box's corner, from the origin: boxes are floats already, rounded outwards, and widened by the slack.
-  Place at_box_corner(const V (&p)[3]) const {
-    const V u = along(0, p), v = along(1, p);
-    if (setup_.directional) return {u, v, all(4.0f * slack_)};
-    const V per_depth = hn::Div(all(1.0f), along(2, p));
-    const V error = hn::MulAdd(all(2.0f * slack_), per_depth, all(0x1p-20f));
-    const V at_u = hn::Mul(u, per_depth), at_v = hn::Mul(v, per_depth);
-    return {at_u, at_v, margin_of(at_u, at_v, error)};
   }
   /// Of quotients with that relative error.
   static V margin_of(V u, V v, V error) { return hn::MulAdd(hn::Max(hn::Abs(u), hn::Abs(v)), error, error); }
@@ -271,7 +267,8 @@ class Projection {
 
   const Structures& s_;
   const EdgeSetup& setup_;
-  float origin_[3], axes_[3][3];  ///< from the middle that boxes count from
+  float origin_[3], axes_[3][3];             ///< from the middle that boxes count from
+  alignas(16) float coordinate_[3][4] = {};  ///< the axes' parts along each coordinate
   float slack_;
   float least_width_;   ///< of triangles' areas, beyond their own rounding
   float kernel_error_;  ///< of the double kernels' edge functions; of a point's per world unit

@@ -196,20 +196,21 @@ class TileState {
   std::uint64_t not_missed(const BoundsRows& rows, const EdgeLines& lines, const std::uint32_t* not_from,
                            std::uint64_t leaves, std::size_t packet) const {
     std::uint64_t met = 0;
-    for (std::size_t k = 0; k < packet_steps; ++k) {
-      const std::size_t at = packet * packet_rays + k * lanes();
-      const V u = hn::Load(f, rays_->u + at), v = hn::Load(f, rays_->v + at), far = hn::Load(f, far_ + at);
-      const auto source = hn::Load(ids, rays_->source + at);
-      for (std::uint64_t left = leaves; left != 0; left &= left - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(left));
-        const auto side = [&](std::size_t e) {
-          return value(all(lines.across[e][i]), all(lines.down[e][i]), all(lines.constant[e][i]), u, v);
-        };
-        const M inside = hn::Ge(hn::Min(side(0), hn::Min(side(1), side(2))), all(0.0f));
-        const M asks = hn::And(inside, hn::Le(far, all(rows.nearest[i])));
-        const auto leaves_it = hn::Eq(source, hn::Set(ids, not_from[i]));
-        met |= std::uint64_t{!hn::AllFalse(f, hn::AndNot(hn::RebindMask(f, leaves_it), asks))} << i;
+    for (std::uint64_t left = leaves; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      const auto side = [&](std::size_t e, V u, V v) {
+        return value(all(lines.across[e][i]), all(lines.down[e][i]), all(lines.constant[e][i]), u, v);
+      };
+      M any = hn::Lt(all(inf), all(inf));
+      for (std::size_t k = 0; k < packet_steps; ++k) {
+        const std::size_t at = packet * packet_rays + k * lanes();
+        const V u = hn::Load(f, rays_->u + at), v = hn::Load(f, rays_->v + at);
+        const M inside = hn::Ge(hn::Min(side(0, u, v), hn::Min(side(1, u, v), side(2, u, v))), all(0.0f));
+        const M asks = hn::And(inside, hn::Le(hn::Load(f, far_ + at), all(rows.nearest[i])));
+        const auto leaves_it = hn::Eq(hn::Load(ids, rays_->source + at), hn::Set(ids, not_from[i]));
+        any = hn::Or(any, hn::AndNot(hn::RebindMask(f, leaves_it), asks));
       }
+      met |= std::uint64_t{!hn::AllFalse(f, any)} << i;
     }
     return met;
   }
