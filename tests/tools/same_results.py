@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Holds one built gnomon to another: the same results, pictures and channels, to the last bit.
 
-    tests/tools/same_results.py BASE NEW [--size 160x90] [--data ../shared/data] [SCENE...]
+    tests/tools/same_results.py BASE NEW [--size 160x90] [--data ../shared/data] [--leave-out KEY] [SCENE...]
 
 BASE and NEW are programs. Each renders every scene (all built-in ones and ten model files, or those that
 are named) by compare, raytrace and raster; what differs is printed, and the exit code is then 1. Left out
-are times, versions, and what a run says about itself (command, machine, dates).
+are times, versions, and what a run says about itself (command, machine, dates). Where a hierarchy is built
+otherwise, --leave-out boxes_per_ray --leave-out primitives_per_ray leaves out what counts its nodes and leaves.
 """
 
 import argparse
@@ -137,8 +138,10 @@ def main():
     parser.add_argument("new", type=pathlib.Path)
     parser.add_argument("scenes", nargs="*", help="default: all built-in scenes and ten models")
     parser.add_argument("--size", default="160x90", help="pixels (default %(default)s)")
+    parser.add_argument("--leave-out", action="append", default=[], metavar="KEY", help="a key of result.json")
     parser.add_argument("--data", type=pathlib.Path, help="folder of the models (default: ../shared/data)")
     options = parser.parse_args()
+    NOT_RESULTS.update(options.leave_out)
     programs = [options.base.resolve(), options.new.resolve()]
     data = (options.data or pathlib.Path(__file__).parents[3] / "shared" / "data").resolve()
     scenes = options.scenes
