@@ -57,7 +57,7 @@ class Projection {
     const Vec3 origin = setup.origin - s.bvh.center;
     for (int a = 0; a < 3; ++a) {
       origin_[a] = static_cast<float>(origin[a]);
-      for (int k = 0; k < 3; ++k) axes_[k][a] = coordinate_[a][k] = static_cast<float>(setup.axes[k][a]);
+      for (int k = 0; k < 3; ++k) axes_[a][k] = static_cast<float>(setup.axes[k][a]);
     }
   }
 
@@ -149,7 +149,7 @@ class Projection {
     for (std::size_t i = 0; i < 4; i += hn::Lanes(four)) {
       auto least = hn::Zero(four), most = hn::Zero(four);
       for (std::size_t a = 0; a < 3; ++a) {
-        const auto axes = hn::Load(four, coordinate_[a] + i);
+        const auto axes = hn::Load(four, axes_[a] + i);
         const auto from = hn::Mul(axes, hn::Set(four, box.min[a] - origin_[a]));
         const auto to = hn::Mul(axes, hn::Set(four, box.max[a] - origin_[a]));
         least = hn::Add(least, hn::Min(from, to)), most = hn::Add(most, hn::Max(from, to));
@@ -159,9 +159,9 @@ class Projection {
   }
   V along(std::size_t axis, const V (&from_origin)[3]) const {
     const auto times = [&](std::size_t a, V sum) {
-      return hn::MulAdd(from_origin[a], all(axes_[axis][a]), sum);
+      return hn::MulAdd(from_origin[a], all(axes_[a][axis]), sum);
     };
-    return times(2, times(1, hn::Mul(from_origin[0], all(axes_[axis][0]))));
+    return times(2, times(1, hn::Mul(from_origin[0], all(axes_[0][axis]))));
   }
   /// Of quotients with that relative error.
   static V margin_of(V u, V v, V error) { return hn::MulAdd(hn::Max(hn::Abs(u), hn::Abs(v)), error, error); }
@@ -248,7 +248,7 @@ class Projection {
   M finish(Bounds& bounds, const V (&low)[3], const V (&high)[3]) const {
     V corner[3];
     for (std::size_t a = 0; a < 3; ++a)
-      corner[a] = (axes_[2][a] > 0.0f) == setup_.directional ? high[a] : low[a];
+      corner[a] = (axes_[a][2] > 0.0f) == setup_.directional ? high[a] : low[a];
     const V depth = along(2, corner);
     if (setup_.directional) {
       bounds.nearest = hn::Add(depth, all(4.0f * slack_));
@@ -267,8 +267,8 @@ class Projection {
 
   const Structures& s_;
   const EdgeSetup& setup_;
-  float origin_[3], axes_[3][3];             ///< from the middle that boxes count from
-  alignas(16) float coordinate_[3][4] = {};  ///< the axes' parts along each coordinate
+  float origin_[3];                    ///< from the middle that boxes count from
+  alignas(16) float axes_[3][4] = {};  ///< axes_[coordinate][axis]: of u, v and depth, and nothing
   float slack_;
   float least_width_;   ///< of triangles' areas, beyond their own rounding
   float kernel_error_;  ///< of the double kernels' edge functions; of a point's per world unit
