@@ -24,6 +24,7 @@ Receivers make_receivers(Image<SurfacePoint> points) {
       for (int x = x0; x < x1; ++x)
         tile.put(raytrace::tile_lane(x - x0, y - y0), made.points.at(x, y), draft);
     tile.finish(draft, draft.bounds.center());  // exact: no error grows with a distance
+    raytrace::publish_receivers();
   });
   return made;
 }
@@ -39,6 +40,7 @@ ReceiverCounts ReceiverFinder::find(const View& view, int first_row, const Image
   for_each_tile(grid, [&](std::size_t i, int x0, int y0, int x1, int y1) {
     traced[i] = raytrace::known_tile(tracer_, view, first_row, leaf_of_, {x0, y0, x1, y1}, primitive,
                                      receivers.points, receivers.tiles[i]);
+    raytrace::publish_receivers();
   });
   return {std::accumulate(traced.begin(), traced.end(), std::uint64_t{0})};
 }

@@ -144,6 +144,7 @@ struct Receivers {
           if (point.primitive != no_id) tiles[i].put(tile_lane(x - x0, y - y0), point, draft);
         }
       tiles[i].finish(draft, Vec3(0.0, 3.0, 0.0));
+      publish_receivers();
     });
   }
 

@@ -117,6 +117,7 @@ void primary_pass(const Tracer& tracer, const View& view, const EdgeSetup& eye, 
                    sinks.quantised.empty() ? nullptr : &sinks.quantised[at]);
       if (!sinks.hits.empty()) sinks.hits[at] = block.tiles[i];
     });
+    if (!hits_alone) publish_receivers();
   });
 }
 

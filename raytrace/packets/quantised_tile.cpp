@@ -137,7 +137,6 @@ void settle_kernel(const TileDraft& draft, QuantisedTile& tile) {
     }
     stream_packet(draft.source + first, tile.source + first);
   }
-  hwy::FlushStream();
 }
 
 }  // namespace
@@ -174,6 +173,10 @@ void QuantisedTile::finish(const TileDraft& draft, const Vec3& eye) {
   const Vec3 farthest = glm::max(glm::abs(bounds.min - eye), glm::abs(bounds.max - eye));
   extent = std::max(max_component(0.5 * bounds.extent()), 0x1p-10 * max_component(farthest));
   HWY_DYNAMIC_DISPATCH(settle_kernel)(draft, *this);
+}
+
+void publish_receivers() {
+  hwy::FlushStream();
 }
 
 }  // namespace gnomon::raytrace

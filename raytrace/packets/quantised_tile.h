@@ -29,9 +29,13 @@ struct alignas(64) QuantisedTile {
   /// A receiver by itself; clear() comes first.
   void put(std::size_t lane, const SurfacePoint& point, TileDraft& draft);
   /// From the draft; `eye`: where the receivers were seen from. With non-temporal stores: a picture's tiles are
-  /// read after all of them are written.
+  /// read after all of them are written, and after publish_receivers().
   void finish(const TileDraft& draft, const Vec3& eye);
 };
+
+/// What this thread has written with non-temporal stores (QuantisedTile::finish, ReceiverSinks::non_temporal) comes before
+/// whatever it does next, as other threads see it. Waits for memory, so that it is called once for many tiles.
+void publish_receivers();
 
 /// Asks memory for a packet of a tile that is read next. Inlined by force: GCC leaves out calls of functions that do nothing
 /// else.

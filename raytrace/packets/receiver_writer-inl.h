@@ -59,7 +59,6 @@ class ReceiverWriter {
   }
 
   void finish() const {
-    if (sinks_.non_temporal) hwy::FlushStream();
     if (sinks_.quantised == nullptr) return;
     Aabb& bounds = sinks_.draft->bounds;
     for (int a = 0; a < 3; ++a) {

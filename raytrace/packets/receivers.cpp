@@ -4,8 +4,7 @@
 #include <hwy/highway.h>
 
 #include "raytrace/packets/known_hit.h"
-#include "raytrace/packets/plane_receivers.h"
-#include "raytrace/packets/receiver_writer-inl.h"
+#include "raytrace/packets/plane_points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
@@ -114,11 +113,6 @@ class PacketDirections {
   alignas(64) double along_[3][packet_rays];
 };
 
-inline bool shows_triangles(const Bvh& bvh, const std::uint32_t* leaf) {
-  unsigned any = 0;
-  for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d)) any |= on_triangles(bvh, leaf + i);
-  return any != 0;
-}
 inline bool shows_nothing(const std::uint32_t* leaf) {
   constexpr hn::CappedTag<std::uint32_t, packet_rays> ids;
   bool nothing = true;
@@ -127,41 +121,50 @@ inline bool shows_nothing(const std::uint32_t* leaf) {
   return nothing;
 }
 
+/// Of a packet the lanes that show triangles, and planes.
+struct PacketLanes {
+  unsigned triangles = 0, planes = 0;
+  PacketLanes(const Bvh& bvh, const PlanesSeen& seen, const std::uint32_t* leaf) {
+    for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d))
+      triangles |= on_triangles(bvh, leaf + i) << i, planes |= seen.lanes(leaf + i) << i;
+  }
+};
+
 template <int axis>
-LaneMask receivers_along(const Bvh& bvh, const View& view, int x0, int y0, const TileHits& hits,
+LaneMask receivers_along(const Structures& s, const View& view, int x0, int y0, const TileHits& hits,
                          const ReceiverSinks& sinks) {
   constexpr std::size_t ahead = 3;  // packets
+  constexpr unsigned together = (1u << hn::MaxLanes(d)) - 1;
   const PixelPlane pixels(view, x0, y0);
   const V3 origin = all(view.eye);
+  const PlanesSeen planes(s);
   ReceiverWriter writer(sinks);
   HitTriangles triangles;
   PacketDirections directions;
   LaneMask left{};
-  for (std::size_t p = 0; p < ahead; ++p) prefetch(bvh, hits.leaf + p * packet_rays);
+  for (std::size_t p = 0; p < ahead; ++p) prefetch(s.bvh, hits.leaf + p * packet_rays);
   for (std::size_t p = 0; p < tile_packets; ++p) {
-    if (p + ahead < tile_packets) prefetch(bvh, hits.leaf + (p + ahead) * packet_rays);
-    if (sinks.non_temporal && shows_nothing(hits.leaf + p * packet_rays)) {
+    const std::uint32_t* leaf = hits.leaf + p * packet_rays;
+    if (p + ahead < tile_packets) prefetch(s.bvh, leaf + ahead * packet_rays);
+    if (sinks.non_temporal && shows_nothing(leaf)) {
       writer.put_nothing(p);
       continue;
     }
-    if (!shows_triangles(bvh, hits.leaf + p * packet_rays)) {
-      left[p] = 0xffff;
-      continue;
-    }
-    directions.set(view, pixels, p);
+    const PacketLanes shown(s.bvh, planes, leaf);
     unsigned done = 0;
+    if ((shown.triangles | shown.planes) != 0) directions.set(view, pixels, p);
     for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d)) {
       const std::size_t lane = p * packet_rays + i;
-      const std::uint32_t* leaf = hits.leaf + lane;
-      const unsigned known = on_triangles(bvh, leaf);
-      if (known == 0) continue;
-      triangles.load(bvh, leaf, known);
-      const V3 direction = directions.at(i);
-      const Weights weights = intersect<axis>(direction, origin, triangles.from.corner);
-      const unsigned sound = bits_of(weights.sound) & known;
-      if (sound == 0) continue;
-      writer.put(points_of(direction, triangles, weights), sound, lane);
-      done |= sound << i;
+      if (const unsigned known = shown.triangles >> i & together; known != 0) {
+        triangles.load(s.bvh, leaf + i, known);
+        const V3 direction = directions.at(i);
+        const Weights weights = intersect<axis>(direction, origin, triangles.from.corner);
+        const unsigned sound = bits_of(weights.sound) & known;
+        if (sound != 0) writer.put(points_of(direction, triangles, weights), sound, lane);
+        done |= sound << i;
+      }
+      if (const unsigned known = shown.planes >> i & together; known != 0)
+        done |= planes.put(view, directions.at(i), leaf + i, known, lane, writer) << i;
     }
     left[p] = static_cast<std::uint16_t>(~done);
   }
@@ -169,15 +172,15 @@ LaneMask receivers_along(const Bvh& bvh, const View& view, int x0, int y0, const
   return left;
 }
 
-LaneMask receivers_kernel(const Bvh& bvh, const View& view, int x0, int y0, int axis, const TileHits& hits,
-                          const ReceiverSinks& sinks) {
+LaneMask receivers_kernel(const Structures& s, const View& view, int x0, int y0, int axis,
+                          const TileHits& hits, const ReceiverSinks& sinks) {
   switch (axis) {
     case 0:
-      return receivers_along<0>(bvh, view, x0, y0, hits, sinks);
+      return receivers_along<0>(s, view, x0, y0, hits, sinks);
     case 1:
-      return receivers_along<1>(bvh, view, x0, y0, hits, sinks);
+      return receivers_along<1>(s, view, x0, y0, hits, sinks);
     default:
-      return receivers_along<2>(bvh, view, x0, y0, hits, sinks);
+      return receivers_along<2>(s, view, x0, y0, hits, sinks);
   }
 }
 
@@ -191,10 +194,7 @@ HWY_EXPORT(receivers_kernel);
 
 LaneMask store_receivers(const Structures& s, const View& view, const TileRect& rect, const TileHits& hits,
                          const ReceiverSinks& sinks) {
-  const LaneMask left =
-      HWY_DYNAMIC_DISPATCH(receivers_kernel)(s.bvh, view, rect.x0, rect.y0, axis_of(view, rect), hits, sinks);
-  return s.planes.empty() || left == LaneMask{} ? left
-                                                : store_plane_receivers(s, view, rect, hits, left, sinks);
+  return HWY_DYNAMIC_DISPATCH(receivers_kernel)(s, view, rect.x0, rect.y0, axis_of(view, rect), hits, sinks);
 }
 
 }  // namespace gnomon::raytrace

@@ -14,8 +14,8 @@ namespace gnomon::raytrace {
 struct ReceiverSinks {
   SurfacePoint* points = nullptr;
   std::size_t stride = 0;
-  /// Points of a picture, which are read long after they were written: with non-temporal stores, and the packets that show
-  /// nothing are written as well.
+  /// Points of a picture, which are read long after they were written, and after publish_receivers(): with non-temporal
+  /// stores, and the packets that show nothing are written as well.
   bool non_temporal = false;
   QuantisedTile* quantised = nullptr;  ///< these two together; finish() is left to the caller
   TileDraft* draft = nullptr;
