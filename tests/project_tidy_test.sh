@@ -17,7 +17,7 @@ built=${GNOMON_BUILD_DIR:-build/release} build=${GNOMON_TIDY_DIR:-build/tidy}
 
 alone_configured() {
   mkdir -p "$(dirname -- "$build")"
-  cmake --preset release -B "$build" -DGNOMON_UNITY=OFF -DGNOMON_TESTS=ON >"$build.log" 2>&1 || { cat "$build.log"; return 1; }
+  cmake --preset release -B "$build" -DGNOMON_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DGNOMON_TESTS=ON >"$build.log" 2>&1 || { cat "$build.log"; return 1; }
   mkdir -p "$build/raster" && cp -r "$built/raster/glad" "$build/raster/"  # generated; the rest is there once configured
 }
 
