@@ -3,6 +3,7 @@
 // section 6.8.1). Every file of this room must be compiled with -ffp-contract=off.
 #pragma once
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 
@@ -16,11 +17,10 @@ constexpr double error_gamma(int operations) {
   return operations * unit_roundoff / (1.0 - operations * unit_roundoff);
 }
 
-/// A float that is surely below (above) a double, by at least one unit in its last place. Infinite values
-/// stay on their side; NaN stays NaN.
+/// A float that is surely below (above) a double, by at least one unit in its last place; finite below +infinity. -infinity
+/// and NaN stay.
 inline float float_below(double value) {
-  const float f = static_cast<float>(value);
-  if (std::isinf(f)) return f > 0.0f ? FLT_MAX : f;
+  const float f = std::min(static_cast<float>(value), FLT_MAX);
   return f - (std::abs(f) * FLT_EPSILON + FLT_MIN);
 }
 inline float float_above(double value) {

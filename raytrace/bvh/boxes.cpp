@@ -32,6 +32,17 @@ BoxRef solid_box(const ShapeGeometry& solid, std::uint32_t id, const Vec3& cente
   return box_of(box.min - error - center, box.max + error - center, id);
 }
 
+/// The boxes of those of a part's triangles from `first` to before `last`, by its own numbers, that have a surface; returns
+/// the end of what is written.
+BoxRef* put_boxes(const WorldPart& part, std::uint32_t first, std::uint32_t last, const Vec3& center,
+                  BoxRef* at) {
+  for (std::uint32_t i = first; i < last; ++i) {
+    const std::array<Vec3, 3> corners = part.corners(i);
+    if (has_surface(corners)) *at++ = triangle_box(corners, part.first_triangle + i, center);
+  }
+  return at;
+}
+
 // In blocks over all threads, each at the place of its ids; closed up where some were left out.
 void append_triangles(const World& world, bool with_kept, FinitePrimitives& out) {
   constexpr std::uint32_t block_size = 2048;
@@ -40,15 +51,13 @@ void append_triangles(const World& world, bool with_kept, FinitePrimitives& out)
   out.boxes.resize(count);
   parallel_for(kept.size(), [&](std::size_t block) {
     const auto first = static_cast<std::uint32_t>(block) * block_size;
+    const std::uint32_t end = std::min(first + block_size, count);
     BoxRef* at = out.boxes.data() + first;
-    for (std::uint32_t id = first; id < std::min(first + block_size, count); ++id) {
+    for (std::uint32_t id = first; id < end;) {
       const WorldPart& part = world.part_of(id);
-      if (part.kept() && !with_kept) {
-        id = part.first_triangle + part.triangle_count() - 1;
-        continue;
-      }
-      const std::array<Vec3, 3> corners = part.corners(id - part.first_triangle);
-      if (has_surface(corners)) *at++ = triangle_box(corners, id, out.center);
+      const std::uint32_t begin = part.first_triangle, last = std::min(end - begin, part.triangle_count());
+      if (with_kept || !part.kept()) at = put_boxes(part, id - begin, last, out.center, at);
+      id = begin + last;
     }
     kept[block] = static_cast<std::uint32_t>(at - out.boxes.data()) - first;
   });
