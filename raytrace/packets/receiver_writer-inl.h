@@ -8,7 +8,6 @@
 #define GNOMON_RAYTRACE_PACKETS_RECEIVER_WRITER_INL_H_
 #endif
 
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 
 #include "raytrace/packets/known_hit.h"
 #include "raytrace/packets/plane_points-inl.h"
+#include "raytrace/packets/receiver_writer-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
