@@ -1,6 +1,7 @@
 // The two verbs, specialised by whether the world has alpha masks and whether work is counted.
 #pragma once
 
+#include <memory>
 #include <utility>
 
 #include "raytrace/accel/structure.h"
@@ -21,10 +22,10 @@ struct FastPrimitive {
 /// What the kernels read. Infinite planes stand apart: they have no box.
 struct Structures {
   const World* world = nullptr;
-  Bvh bvh;              ///< the default hierarchy; else the primitives alone, in ascending order of ids
-  Structure structure;  ///< when it is neither that nor brute force
-  std::unique_ptr<WideOnDemand> wide;  ///< beside the default hierarchy, for single rays
-  std::vector<std::uint32_t> planes;   ///< primitive ids, ascending
+  Bvh bvh;  ///< the default hierarchy; else the primitives alone, in ascending order of ids
+  std::shared_ptr<const Structure> structure;  ///< null: it is that, or brute force
+  std::unique_ptr<WideOnDemand> wide;          ///< beside the default hierarchy, for single rays
+  std::vector<std::uint32_t> planes;           ///< primitive ids, ascending
   Precision precision = Precision::robust;
   std::vector<FastPrimitive> fast;  ///< in leaf order, for Precision::fast alone
   bool has_masks = false;
@@ -35,8 +36,8 @@ struct Structures {
 /// traverse() through whichever structure there is.
 template <class Stats, class Visit>
 bool traverse(const Structures& s, BoxRay& ray, Stats& stats, const Visit& visit) {
-  if (s.structure.index() != 0) [[unlikely]]
-    return traverse_structure(s.structure, ray, stats.work(), visit);
+  if (s.structure != nullptr) [[unlikely]]
+    return traverse_structure(*s.structure, ray, stats.work(), visit);
   return traverse(s.bvh, ray, stats, visit);
 }
 

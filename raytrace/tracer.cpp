@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "raytrace/accel/any_structure.h"
 #include "raytrace/bvh/wide_single.h"
 #include "raytrace/kernels.h"
 #include "raytrace/precision/exact.h"
@@ -41,11 +42,13 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
   Structures s;
   s.world = &world;
   s.precision = precision;
-  s.structure = build_structure(world, accel);
-  if (auto* two = std::get_if<TwoLevel>(&s.structure))
+  std::shared_ptr<Structure> other;
+  if (has_structure(accel)) other = std::make_shared<Structure>(build_structure(world, accel));
+  if (auto* two = std::get_if<TwoLevel>(other.get()))
     s.bvh = std::move(two->leaves);
   else
     s.bvh = accel == Accel::bvh ? build_bvh(world) : build_flat(world);
+  s.structure = std::move(other);
   if (accel == Accel::bvh && s.bvh.instances.empty())
     s.wide = std::make_unique<WideOnDemand>(precision == Precision::fast);
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
@@ -171,7 +174,8 @@ Tracer::Tracer(const World& world, Accel accel, Precision precision) : impl_(std
   const Stopwatch watch;
   impl_->structures = make_structures(world, accel, precision);
   const Bvh& bvh = impl_->structures.bvh;
-  const StructureSize size = size_of(impl_->structures.structure);
+  const auto& other = impl_->structures.structure;
+  const StructureSize size = other != nullptr ? size_of(*other) : StructureSize{};
   impl_->stats = {.build_ms = watch.elapsed_ms(),
                   .bytes = bytes_of(bvh) + size.bytes + impl_->structures.fast.size() * sizeof(FastPrimitive),
                   .nodes = nodes_of(bvh) + size.nodes,

@@ -23,6 +23,7 @@ target_link_libraries(gnomon_scene PRIVATE $<LINK_ONLY:draco::draco> $<LINK_ONLY
 
 # OpenImageIO, loaded when an image file is read or an EXR written (scene/files/image_library.h).
 add_library(gnomon_images MODULE files/image_module.cpp)
+gnomon_compile_for_text(gnomon_images)
 target_link_libraries(gnomon_images PRIVATE gnomon_flags gnomon_warnings OpenImageIO::OpenImageIO fmt::fmt glm::glm tl::expected)
 target_include_directories(gnomon_images PRIVATE ${PROJECT_SOURCE_DIR})
 set_target_properties(gnomon_images PROPERTIES CXX_VISIBILITY_PRESET hidden)

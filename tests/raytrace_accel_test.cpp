@@ -7,7 +7,7 @@
 
 #include <atomic>
 
-#include "raytrace/accel/structure.h"
+#include "raytrace/accel/any_structure.h"
 #include "raytrace/frame.h"
 #include "raytrace/kernels.h"
 #include "raytrace/sheets.h"

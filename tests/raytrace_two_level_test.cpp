@@ -7,6 +7,7 @@
 
 #include <atomic>
 
+#include "raytrace/accel/any_structure.h"
 #include "raytrace/frame.h"
 #include "raytrace/kernels.h"
 #include "raytrace_support.h"

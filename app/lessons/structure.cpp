@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "raytrace/accel/structure.h"
+#include "raytrace/accel/any_structure.h"
 #include "scene/load.h"
 
 namespace gnomon::app::lessons {

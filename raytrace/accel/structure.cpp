@@ -1,5 +1,7 @@
 #include "raytrace/accel/structure.h"
 
+#include "raytrace/accel/any_structure.h"
+
 namespace gnomon::raytrace {
 namespace {
 

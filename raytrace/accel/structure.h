@@ -1,25 +1,14 @@
-// Every structure but the default one (raytrace/bvh/bvh.h) and brute force, behind one function: traverse().
-// A structure is plain data with a build function, and a traverse() that has the contract of
-// raytrace/bvh/traverse.h: it reports every primitive that the ray may intersect before ray.t_max, near ones
-// first as far as it can, some perhaps twice. Which structure it is, is decided once per ray and never
-// inside.
+// Every structure but the default one (raytrace/bvh/bvh.h) and brute force, behind one function. What they are is in
+// raytrace/accel/any_structure.h, so that the default one's kernels are compiled without them.
 #pragma once
 
-#include <variant>
-
-#include "raytrace/accel/bsp.h"
-#include "raytrace/accel/grid.h"
-#include "raytrace/accel/kdtree.h"
-#include "raytrace/accel/median_bvh.h"
-#include "raytrace/accel/octree.h"
-#include "raytrace/accel/two_level.h"
 #include "raytrace/tracer.h"
 #include "scene/function_ref.h"
 
 namespace gnomon::raytrace {
 
-/// monostate: the default hierarchy or brute force, both in Structures::bvh.
-using Structure = std::variant<std::monostate, MedianBvh, KdTree, Octree, UniformGrid, BspTree, TwoLevel>;
+struct BoxRay;
+struct Structure;
 
 /// Whether `accel` lives in a Structure.
 bool has_structure(Accel accel);

@@ -196,7 +196,7 @@ TexelLists build_texel_lists(const Tracer& tracer, const LightView& view, std::v
   constexpr std::size_t block = 256;  // keys per task
   const Structures& s = tracer.structures();
   std::optional<Bvh> made;  // the other structures answer rays, not columns
-  if (s.structure.index() != 0) made = build_bvh(*s.world);
+  if (s.structure != nullptr) made = build_bvh(*s.world);
   const Bvh& bvh = made ? *made : s.bvh;
   TexelLists lists;
   std::sort(keys.begin(), keys.end());
