@@ -97,12 +97,12 @@ bool passes(const compare::Threshold& threshold, const std::string& light,
 ExitCode judge_lights(const ResultOutput& output, const compare::Comparison& comparison, Console& console) {
   ExitCode code = ExitCode::done;
   if (!output.fail_above) return code;
-  std::vector<compare::ErrorFigures> lights;
-  for (const compare::LightComparison& light : comparison.lights)
-    lights.push_back(compare::figures_of(light));
+  const std::vector<compare::ErrorFigures> lights = compare::figures_of(comparison);
   if (compare::says_nothing(*output.fail_above, lights)) {
-    console.message("no pixel could be compared, so nothing holds against --fail-above " +
-                    compare::threshold_text(*output.fail_above));
+    const bool empty = comparison.world->scene->is_empty_model;
+    console.message(fmt::format("{}, so nothing holds against --fail-above {}",
+                                empty ? "the file has no triangles" : "no pixel could be compared",
+                                compare::threshold_text(*output.fail_above)));
     return ExitCode::threshold_exceeded;
   }
   for (std::size_t i = 0; i < lights.size(); ++i)

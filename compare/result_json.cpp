@@ -56,8 +56,7 @@ Json costs_json(const Comparison& c) {
 // What --fail-above was held against; absent where nothing was asked for.
 void add_threshold(const Comparison& c, Json& json) {
   if (!c.fail_above) return;
-  std::vector<ErrorFigures> lights;
-  for (const LightComparison& light : c.lights) lights.push_back(figures_of(light));
+  const std::vector<ErrorFigures> lights = figures_of(c);
   json["fail_above"] = {{"threshold", threshold_text(*c.fail_above)},
                         {"measure", measure_name(c.fail_above->measure)},
                         {"limit", number(c.fail_above->limit)},

@@ -73,6 +73,13 @@ ErrorFigures figures_of(const LightComparison& light) {
       light.shimmer ? light.shimmer->flips_per_receiver_second : std::numeric_limits<double>::quiet_NaN()};
 }
 
+std::vector<ErrorFigures> figures_of(const Comparison& comparison) {
+  std::vector<ErrorFigures> lights;
+  if (comparison.world->scene->is_empty_model) return lights;
+  for (const LightComparison& light : comparison.lights) lights.push_back(figures_of(light));
+  return lights;
+}
+
 double figure(const ErrorFigures& f, ErrorMeasure measure) {
   switch (measure) {
     case ErrorMeasure::wrong_and_mean:

@@ -7,9 +7,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::compare {
 
+struct Comparison;
 struct LightComparison;
 
 enum class ErrorMeasure : std::uint8_t {
@@ -44,6 +46,8 @@ struct ErrorFigures {
   double flips_per_second = std::numeric_limits<double>::quiet_NaN();  ///< per receiver
 };
 ErrorFigures figures_of(const LightComparison& light);
+/// Of all lights, for a threshold: none where nothing of the scene's file is shown.
+std::vector<ErrorFigures> figures_of(const Comparison& comparison);
 /// The figure that a measure is about.
 double figure(const ErrorFigures& figures, ErrorMeasure measure);
 /// "0.26 % wrong, mean error 0.3 %"; of flip and edge what they are too: "mean FLIP 0.0421".

@@ -139,6 +139,29 @@ TEST(Answers, ACameraThatSeesNothing) {
   }
 }
 
+constexpr const char* one_point = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":0}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":1,"type":"VEC3","min":[0,0,0],"max":[0,0,0]}],
+"bufferViews":[{"buffer":0,"byteLength":12}],
+"buffers":[{"byteLength":12,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAA"}]})";
+
+// The ground that is made for a bare model says nothing about a file that draws nothing.
+TEST(Answers, NoLimitIsKeptByAFileThatDrawsNothing) {
+  const TemporaryFolder folder;
+  write_text(folder / "point.gltf", one_point);
+  const Words plain{"compare", folder / "point.gltf", "--size", "64x36", "-o", folder / "out"};
+  EXPECT_EQ(run_gnomon(plain).exit_code, 0);
+  Words limited = plain;
+  limited.insert(limited.end(), {"--fail-above", "1%"});
+  const ProcessResult compared = run_gnomon(limited);
+  EXPECT_EQ(compared.exit_code, 1);
+  EXPECT_NE(compared.err.find("the file has no triangles, so nothing holds against --fail-above 1%"),
+            std::string::npos)
+      << compared.err;
+  const nlohmann::json result = nlohmann::json::parse(read_file(folder / "out/result.json"));
+  EXPECT_EQ(result.at("fail_above").at("failed"), true);
+}
+
 // Who asks for a limit wants to know that it was kept.
 TEST(Answers, NoLimitIsKeptWhereNothingIsCompared) {
   const TemporaryFolder folder;

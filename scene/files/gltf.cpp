@@ -344,7 +344,8 @@ Expected<LoadedFile> build(const tinygltf::Model& model, GltfData& data, Checked
   if (errors.first) return fail(std::move(*errors.first));
   if (loaded.scene.instances.empty() && !meshes.skipped_points())
     return fail(gltf_error(file, "", "the file has no triangles"));
-  if (loaded.scene.instances.empty())
+  loaded.scene.is_empty_model = loaded.scene.instances.empty();
+  if (loaded.scene.is_empty_model)
     loaded.scene.notes.push_back("The file has no triangles: only what was made for it is shown.");
   return loaded;
 }
