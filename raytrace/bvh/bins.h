@@ -58,9 +58,12 @@ struct alignas(16) Ref {
   }
 };
 
+/// Rows are stored whole: a processor waits when what it loads whole was stored float by float.
 inline Ref ref_of(const BoxRef& b) {
-  return {
-      {{{b.min[0], b.min[1], b.min[2], std::bit_cast<float>(b.id)}}, {{b.max[0], b.max[1], b.max[2], 0.0f}}}};
+  Ref ref;
+  Float4::of(b.min[0], b.min[1], b.min[2], std::bit_cast<float>(b.id)).store(ref.box.min.at);
+  Float4::of(b.max[0], b.max[1], b.max[2], 0.0f).store(ref.box.max.at);
+  return ref;
 }
 
 inline const Ref& as_ref(const Ref& ref) {

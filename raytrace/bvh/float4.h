@@ -17,6 +17,7 @@ struct Float4 {
   __m128 v;
   static Float4 load(const float* aligned) { return {_mm_load_ps(aligned)}; }
   static Float4 all(float x) { return {_mm_set1_ps(x)}; }
+  static Float4 of(float x, float y, float z, float w) { return {_mm_setr_ps(x, y, z, w)}; }
   void store(float* aligned) const { _mm_store_ps(aligned, v); }
 };
 inline Float4 operator-(Float4 a, Float4 b) {
@@ -54,6 +55,7 @@ struct Float4 {
   float v[4];
   static Float4 load(const float* p) { return {{p[0], p[1], p[2], p[3]}}; }
   static Float4 all(float x) { return {{x, x, x, x}}; }
+  static Float4 of(float x, float y, float z, float w) { return {{x, y, z, w}}; }
   void store(float* p) const {
     for (int i = 0; i < 4; ++i) p[i] = v[i];
   }
