@@ -124,7 +124,10 @@ class Classifier {
   /// Bits of those that surely face the light, and of those that may.
   void facing(unsigned& surely, unsigned& perhaps) const {
     V cosine, size;
-    const auto normal = [&](std::size_t a) { return hn::Load(f, tile_.normal[a] + lane_); };
+    constexpr hn::Rebind<std::int16_t, decltype(f)> units;
+    const auto normal = [&](std::size_t a) {
+      return hn::ConvertTo(f, hn::PromoteTo(index, hn::Load(units, tile_.normal[a] + lane_)));
+    };
     if (directional_) {
       cosine = hn::Neg(hn::MulAdd(
           normal(0), all(light_direction_.x),
@@ -138,7 +141,8 @@ class Classifier {
       size = hn::Add(hn::Add(hn::Abs(offset[0]), hn::Abs(offset[1])),
                      hn::Add(hn::Abs(offset[2]), all(2.0 * tile_.extent)));
     }
-    const V error = hn::Mul(all(0x1p-21), size);  // eight roundings at most
+    constexpr double roundings = 0x1p-21;  // eight of them at most, in parts of the normal's length
+    const V error = hn::Mul(all(raytrace::normal_error + roundings * double{raytrace::normal_units}), size);
     surely = bits_of(hn::Gt(cosine, error));
     perhaps = bits_of(hn::Not(hn::Lt(cosine, hn::Neg(error))));
   }

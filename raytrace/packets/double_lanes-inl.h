@@ -12,10 +12,11 @@
 #include <hwy/highway.h>
 
 #include <bit>
-#include <cstring>
 
 #include "raytrace/mask_bits-inl.h"
+#include "raytrace/packets/quantised_tile.h"
 #include "raytrace/packets/tile.h"
+#include "raytrace/tiles.h"
 #include "scene/camera.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -24,6 +25,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
+using Ids = hn::Rebind<std::uint32_t, D>;  ///< of primitives and leaves
 constexpr D d;
 
 inline V all(double v) {
@@ -68,6 +70,12 @@ inline V3 facing(const V3& normal, M away) {
   const auto turned = [&](V component) { return hn::IfThenElse(away, hn::Neg(component), component); };
   return {turned(normal.x), turned(normal.y), turned(normal.z)};
 }
+/// Components of unit normals as QuantisedTile has them.
+using Units = hn::Rebind<std::int16_t, D>;
+inline hn::Vec<Units> in_units(hn::Vec<hn::Rebind<float, D>> components) {
+  constexpr hn::Rebind<float, D> half;
+  return hn::DemoteTo(Units(), hn::NearestInt(hn::Mul(components, hn::Set(half, normal_units))));
+}
 /// In the order of glm's operations, none of them fused.
 inline V dot(const V3& a, const V3& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
@@ -88,73 +96,40 @@ inline V3 pixel_direction(const View& view, V sx, V sy) {
 }
 
 /// A tile's pixels on the plane at distance one.
-struct PixelPlane {
-  alignas(64) double x[tile_rays], y[tile_rays];
+class PixelPlane {
+ public:
   PixelPlane(const View& view, int x0, int y0) {
-    double column[16], row[16];
-    for (int i = 0; i < 16; ++i) {
-      column[i] = (2.0 * (x0 + i + 0.5) / view.size.width - 1.0) * view.tan_half_x;
-      row[i] = (1.0 - 2.0 * (y0 + i + 0.5) / view.size.height) * view.tan_half_y;
-    }
-    for (std::size_t lane = 0; lane < tile_rays; lane += 4) {
-      const TilePixel at = tile_pixel(lane);
-      for (std::size_t i = 0; i < 4; ++i)
-        x[lane + i] = column[static_cast<std::size_t>(at.x) + i], y[lane + i] = row[at.y];
+    for (std::size_t i = 0; i < tile_pixels; i += hn::Lanes(d)) {
+      const V at = hn::Iota(d, static_cast<double>(i) + 0.5);
+      const auto along = [&](int first, int size) {
+        return hn::Div(hn::Mul(all(2.0), hn::Add(at, all(first))), all(size));
+      };
+      hn::Store(hn::Mul(hn::Sub(along(x0, view.size.width), all(1.0)), all(view.tan_half_x)), d, column_ + i);
+      hn::Store(hn::Mul(hn::Sub(all(1.0), along(y0, view.size.height)), all(view.tan_half_y)), d, row_ + i);
     }
   }
-};
-
-/// Those lanes that show a triangle.
-inline unsigned on_triangles(const Bvh& bvh, const std::uint32_t* leaf) {
-  constexpr hn::Rebind<std::uint32_t, D> ids;
-  return mask_bits(ids, hn::Lt(hn::LoadU(ids, leaf), hn::Set(ids, bvh.leaf_count())));
-}
-
-/// The corners of as many pixels' triangles as there are lanes; often these are one and the same.
-class HitCorners {
- public:
-  V3 corner[3] = {all(Vec3(0.0)), all(Vec3(0.0)), all(Vec3(0.0))};
-
-  /// `known`, not 0: the lanes that show a triangle; the others get one of those. False: nothing has changed.
-  bool load(const Bvh& bvh, const std::uint32_t* leaf, unsigned known) {
-    constexpr hn::Rebind<std::uint32_t, D> ids;
-    const auto first = leaf[std::countr_zero(known)];
-    const bool same = hn::AllTrue(ids, hn::Eq(hn::LoadU(ids, leaf), hn::Set(ids, first)));
-    if (same && first == only_) return false;
-    only_ = same ? first : nothing_hit;
-    PlacedCorners scratch;
-    const CornerPointers one = bvh.corners_at(first, scratch);
-    if (same)
-      for (std::size_t k = 0; k < 3; ++k) corner[k] = {all(one[k][0]), all(one[k][1]), all(one[k][2])};
-    else
-      load_each(bvh, leaf, known, one);
-    return true;
+  /// Of the lanes from this one on.
+  V x(std::size_t lane) const {
+    const double* first = column_ + tile_pixel(lane).x;
+#if HWY_MAX_BYTES == 64
+    const auto row = hn::LoadU(hn::Half<D>(), first);
+    return hn::Combine(d, row, row);
+#else
+    return hn::LoadU(d, first);
+#endif
+  }
+  V y(std::size_t lane) const {
+    const double* first = row_ + tile_pixel(lane).y;
+#if HWY_MAX_BYTES == 64
+    return hn::Combine(d, hn::Set(hn::Half<D>(), first[1]), hn::Set(hn::Half<D>(), first[0]));
+#else
+    return all(*first);
+#endif
   }
 
  private:
-  void load_each(const Bvh& bvh, const std::uint32_t* leaf, unsigned known, const CornerPointers& other) {
-    alignas(64) double row[3][4 * 8];
-    for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
-      PlacedCorners scratch;
-      const CornerPointers at = (known >> i & 1) != 0 ? bvh.corners_at(leaf[i], scratch) : other;
-      for (std::size_t k = 0; k < 3; ++k) std::memcpy(row[k] + 4 * i, at[k], 4 * sizeof(double));
-    }
-    V nothing;
-    for (std::size_t k = 0; k < 3; ++k)
-      hn::LoadInterleaved4(d, row[k], corner[k].x, corner[k].y, corner[k].z, nothing);
-  }
-
-  std::uint32_t only_ = nothing_hit;  ///< what all lanes show
+  alignas(64) double column_[tile_pixels], row_[tile_pixels];
 };
-
-/// A packet's triangles on their way to the cache; where all are one they are there.
-inline void prefetch(const Bvh& bvh, const std::uint32_t* leaf) {
-  if (leaf[0] == leaf[packet_rays - 1]) return;
-  const std::uint32_t count = bvh.leaf_count();
-  for (std::size_t i = 0; i < packet_rays; ++i) {
-    if (leaf[i] < count) bvh.prefetch(leaf[i]);
-  }
-}
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE::doubles
 HWY_AFTER_NAMESPACE();

@@ -11,7 +11,6 @@
 
 #include <hwy/highway.h>
 
-#include <algorithm>
 #include <bit>
 
 #include "raytrace/kernels.h"
@@ -40,10 +39,8 @@ inline PlanePoints points_on(const Plane& plane, std::uint32_t id, const View& v
   const V3 on_plane = minus(near, times(above, normal));
   const V3 error = plus(times(distance_error, normal_size), times(all(error_gamma(2)), size_of(on_plane)));
   const M away = hn::Gt(slope, all(0.0));
-  PlanePoints found{{on_plane, error, facing(normal, away), all(0.0), all(0.0), {}},
-                    hn::And(hn::Gt(t, all(1e-200)), hn::Lt(t, all(1e200)))};
-  std::fill_n(found.points.ids, 8, id);
-  return found;
+  return {{on_plane, error, facing(normal, away), all(0.0), all(0.0), hn::Set(Ids(), id)},
+          hn::And(hn::Gt(t, all(1e-200)), hn::Lt(t, all(1e200)))};
 }
 
 /// Of as many pixels as there are lanes the planes that they see.
@@ -76,7 +73,7 @@ class PlanesSeen {
   }
 
  private:
-  static constexpr hn::Rebind<std::uint32_t, D> ids{};
+  static constexpr Ids ids{};
   const Structures& s_;
 };
 

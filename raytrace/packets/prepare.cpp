@@ -19,6 +19,10 @@ constexpr Half half;
 inline V load(const float* at) {
   return hn::PromoteTo(d, hn::Load(half, at));
 }
+inline V load(const std::int16_t* at) {
+  constexpr hn::Rebind<std::int32_t, D> whole;
+  return hn::PromoteTo(d, hn::PromoteTo(whole, hn::Load(Units(), at)));
+}
 inline void store(V v, float* at) {
   hn::Store(hn::DemoteTo(half, v), half, at);
 }
@@ -39,7 +43,7 @@ class QuantisedRays {
   }
 
   void at(std::size_t lane) {
-    const auto at = [lane](const float(&rows)[3][tile_rays]) {
+    const auto at = [lane](const auto(&rows)[3][tile_rays]) {
       return V3{load(rows[0] + lane), load(rows[1] + lane), load(rows[2] + lane)};
     };
     offset_ = plus(at(tile_.position), from_light_), normal_ = at(tile_.normal);
@@ -56,7 +60,7 @@ class QuantisedRays {
       const V3 distance = size_of(offset_);
       size = hn::Add(hn::Add(distance.x, distance.y), hn::Add(distance.z, all(2.0 * tile_.extent)));
     }
-    const V error = hn::Mul(all(0x1p-22), size);  // the roundings of the normal and of the position to floats
+    const V error = hn::Mul(all(normal_error), size);
     surely = bits_of(hn::Gt(cosine, error));
     perhaps = bits_of(hn::Not(hn::Lt(cosine, hn::Neg(error))));
   }
@@ -83,7 +87,7 @@ class QuantisedRays {
   const Light& light_;
   V3 axes_[3], from_light_;
   double lateral_, height_, least_depth_;
-  V3 offset_, normal_;
+  V3 offset_, normal_;  ///< the normal in units
 };
 
 void quantised_kernel(const Light& light, const EdgeSetup& setup, const QuantisedTile& tile,

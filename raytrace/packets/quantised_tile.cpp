@@ -4,7 +4,9 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "raytrace/packets/double_lanes-inl.h"
+#include <cmath>
+
+#include "raytrace/packets/hit_corners-inl.h"
 #include "raytrace/packets/quantised_tile.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -12,9 +14,50 @@ namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
 using namespace doubles;
 using Half = hn::Rebind<float, D>;
-using Leaf = hn::Rebind<std::uint32_t, D>;
 constexpr Half half;
-constexpr Leaf leaves;
+constexpr Ids leaves;
+
+inline hn::Vec<Units> units(std::int16_t number) {
+  return hn::Set(Units(), number);
+}
+
+/// The planes of the triangles that several pixels show, as the eye sees them.
+struct TrianglePlanes {
+  HitCorners corners;
+  V3 normal = all(Vec3(0.0));                               ///< of no length in particular
+  V height = all(0.0);                                      ///< along it, of the triangle above the eye
+  hn::Vec<Units> unit[3] = {units(0), units(0), units(0)};  ///< of length one
+  unsigned well_known = 0;  ///< bits of those whose planes say where the receiver lies
+
+  void load(const Bvh& bvh, const V3& eye, const std::uint32_t* leaf, unsigned known) {
+    if (!corners.load(bvh, leaf, known)) return;
+    const V3(&corner)[3] = corners.corner;
+    const V3 e1 = minus(corner[1], corner[0]), e2 = minus(corner[2], corner[0]);
+    const V3 to_corner = minus(corner[0], eye);
+    normal = cross(e1, e2);
+    const V n2 = fused_dot(normal, normal);
+    height = fused_dot(normal, to_corner);
+    well_known = bits_of(is_well_known(e1, e2, n2, to_corner, height));
+    const auto length = hn::Sqrt(hn::DemoteTo(half, n2));
+    const auto scale = hn::Div(hn::Set(half, 1.0f), length);
+    unit[0] = in_units(hn::Mul(hn::DemoteTo(half, normal.x), scale));
+    unit[1] = in_units(hn::Mul(hn::DemoteTo(half, normal.y), scale));
+    unit[2] = in_units(hn::Mul(hn::DemoteTo(half, normal.z), scale));
+  }
+
+ private:
+  // With k = |e1||e2| / |n| and c the cosine between ray and normal, the plane through the first corner is
+  // turned by 2^-51 k, the crossing moved by 2^-51 (|to_corner| + k |e|) / c. That is to stay below 2^-39 of
+  // the crossing's distance, and the turn below 2^-24. All is squared, and (a + b)^2 <= 2 (a^2 + b^2). And n2 is to be a
+  // float far from the ends of their range.
+  static M is_well_known(const V3& e1, const V3& e2, V n2, const V3& to_corner, V height) {
+    const V l1 = fused_dot(e1, e1), l2 = fused_dot(e2, e2), spread = hn::Mul(l1, l2);
+    const V sum = hn::MulAdd(hn::Max(l1, l2), spread, hn::Mul(fused_dot(to_corner, to_corner), n2));
+    const M near = hn::Lt(sum, hn::Mul(all(0x1p23), hn::Mul(height, height)));
+    const M turned = hn::Lt(spread, hn::Mul(all(0x1p54), n2));
+    return hn::And(hn::And(near, turned), hn::And(hn::Gt(n2, all(0x1p-100)), hn::Lt(n2, all(0x1p100))));
+  }
+};
 
 class Draft {
  public:
@@ -25,38 +68,30 @@ class Draft {
 
   /// Bits of those written.
   unsigned put(const PixelPlane& plane, const std::uint32_t* leaf, unsigned known, std::size_t lane) {
-    corners_.load(bvh_, leaf, known);
-    const V3(&corner)[3] = corners_.corner;
-    const V x = hn::Load(d, plane.x + lane), y = hn::Load(d, plane.y + lane);
+    const V x = plane.x(lane), y = plane.y(lane);
     const auto along = [&](int a) {
       return hn::MulAdd(y, all(view_.up[a]), hn::MulAdd(x, all(view_.right[a]), all(view_.forward[a])));
     };
     const V3 ray = {along(0), along(1), along(2)};
     const V3 eye = all(view_.eye);
-    const V3 e1 = minus(corner[1], corner[0]), e2 = minus(corner[2], corner[0]);
-    const V3 n = cross(e1, e2), to_corner = minus(corner[0], eye);
-    const V height = fused_dot(n, to_corner), slope = fused_dot(n, ray), n2 = fused_dot(n, n);
-    const V inverse = hn::Div(all(1.0), hn::Mul(slope, hn::Sqrt(n2)));  // one division for both quotients
-    const V t = hn::Mul(height, hn::Mul(hn::Sqrt(n2), inverse));
-    const unsigned sound = bits_of(well_known(e1, e2, n2, to_corner, height, t)) & known;
+    planes_.load(bvh_, eye, leaf, known);
+    const V slope = fused_dot(planes_.normal, ray), t = hn::Div(planes_.height, slope);
+    const M ahead = hn::And(hn::Gt(t, all(0.0)), hn::Lt(t, all(infinity)));
+    const unsigned sound = bits_of(ahead) & planes_.well_known & known;
     if (sound == 0) return 0;
     const V position[3] = {hn::MulAdd(t, ray.x, eye.x), hn::MulAdd(t, ray.y, eye.y),
                            hn::MulAdd(t, ray.z, eye.z)};
-    // Towards the eye: against the ray.
-    const V unit = hn::Neg(hn::Mul(hn::Abs(slope), hn::Abs(inverse)));
-    const V turned = hn::CopySign(unit, hn::Neg(slope));
-    const V normal[3] = {hn::Mul(n.x, turned), hn::Mul(n.y, turned), hn::Mul(n.z, turned)};
+    constexpr hn::Rebind<std::int32_t, D> whole;
+    const auto side =  // towards the eye
+        hn::DemoteTo(Units(), hn::DemoteTo(whole, hn::CopySign(all(1.0), hn::Neg(slope))));
     const M here = mask_of(sound);
     for (std::size_t a = 0; a < 3; ++a) {
       hn::Store(position[a], d, draft_.position[a] + lane);
-      hn::Store(hn::DemoteTo(half, normal[a]), half, draft_.normal[a] + lane);
+      hn::Store(hn::Mul(planes_.unit[a], side), Units(), draft_.normal[a] + lane);
       low_[a] = hn::IfThenElse(here, hn::Min(low_[a], position[a]), low_[a]);
       high_[a] = hn::IfThenElse(here, hn::Max(high_[a], position[a]), high_[a]);
     }
-    for (unsigned left = sound; left != 0; left &= left - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(left));
-      draft_.source[lane + i] = bvh_.id_at(leaf[i]);
-    }
+    hn::Store(planes_.corners.ids(), leaves, draft_.source + lane);
     tile_.present[lane / packet_rays] |= static_cast<std::uint16_t>(sound << (lane % packet_rays));
     return sound;
   }
@@ -69,22 +104,11 @@ class Draft {
   }
 
  private:
-  // With k = |e1||e2| / |n| and c the cosine between ray and normal, the plane through the first corner is
-  // turned by 2^-51 k, the crossing moved by 2^-51 (|to_corner| + k |e|) / c. That is to stay below 2^-39 of
-  // the crossing's distance, and the turn below 2^-24. All is squared, and (a + b)^2 <= 2 (a^2 + b^2).
-  static M well_known(const V3& e1, const V3& e2, V n2, const V3& to_corner, V height, V t) {
-    const V l1 = fused_dot(e1, e1), l2 = fused_dot(e2, e2), spread = hn::Mul(l1, l2);
-    const V sum = hn::MulAdd(hn::Max(l1, l2), spread, hn::Mul(fused_dot(to_corner, to_corner), n2));
-    const M near = hn::Lt(sum, hn::Mul(all(0x1p23), hn::Mul(height, height)));
-    const M turned = hn::Lt(spread, hn::Mul(all(0x1p54), n2));
-    return hn::And(hn::And(near, turned), hn::And(hn::Gt(t, all(0.0)), hn::Lt(t, all(infinity))));
-  }
-
   const Bvh& bvh_;
   const View& view_;
   QuantisedTile& tile_;
   TileDraft& draft_;
-  HitCorners corners_;
+  TrianglePlanes planes_;
   V low_[3], high_[3];
 };
 
@@ -95,7 +119,7 @@ DraftLeft draft_kernel(const Bvh& bvh, const View& view, int x0, int y0, const T
   const std::uint32_t count = bvh.leaf_count();
   DraftLeft left{};
   Draft some(bvh, view, tile, draft);
-  const auto bits = [](hn::Mask<Leaf> mask) { return mask_bits(leaves, mask); };
+  const auto bits = [](hn::Mask<Ids> mask) { return mask_bits(leaves, mask); };
   for (std::size_t p = 0; p < ahead; ++p) prefetch(bvh, hits.leaf + p * packet_rays);
   for (std::size_t p = 0; p < tile_packets; ++p) {
     if (p + ahead < tile_packets) prefetch(bvh, hits.leaf + (p + ahead) * packet_rays);
@@ -115,27 +139,29 @@ DraftLeft draft_kernel(const Bvh& bvh, const View& view, int x0, int y0, const T
   return left;
 }
 
+/// Lines of the cache, whole ones.
 template <class T>
-void stream_packet(const T* from, T* to) {
-  constexpr hn::CappedTag<T, packet_rays> tag;
-  for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(tag))
-    hn::Stream(hn::Load(tag, from + i), tag, to + i);
+void stream(const T* from, std::size_t count, T* to) {
+  constexpr hn::CappedTag<T, 64 / sizeof(T)> tag;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(tag)) hn::Stream(hn::Load(tag, from + i), tag, to + i);
 }
 
 void settle_kernel(const TileDraft& draft, QuantisedTile& tile) {
+  constexpr std::size_t pair = 2 * packet_rays;
   for (std::size_t p = 0; p < tile_packets; ++p) {
-    if (tile.present[p] == 0) continue;
     const std::size_t first = p * packet_rays;
+    if (p % 2 == 0 && (tile.present[p] | tile.present[p + 1]) != 0)
+      for (std::size_t a = 0; a < 3; ++a) stream(draft.normal[a] + first, pair, tile.normal[a] + first);
+    if (tile.present[p] == 0) continue;
     for (std::size_t a = 0; a < 3; ++a) {
       const V origin = all(tile.origin[static_cast<int>(a)]);
       alignas(64) float offset[packet_rays];
       for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d))
         hn::Store(hn::DemoteTo(half, hn::Sub(hn::Load(d, draft.position[a] + first + i), origin)), half,
                   offset + i);
-      stream_packet(offset, tile.position[a] + first);
-      stream_packet(draft.normal[a] + first, tile.normal[a] + first);
+      stream(offset, packet_rays, tile.position[a] + first);
     }
-    stream_packet(draft.source + first, tile.source + first);
+    stream(draft.source + first, packet_rays, tile.source + first);
   }
 }
 
@@ -159,7 +185,7 @@ void QuantisedTile::put(std::size_t lane, const SurfacePoint& point, TileDraft& 
   draft.bounds.grow(point.position);
   for (int a = 0; a < 3; ++a) {
     draft.position[a][lane] = point.position[a];
-    draft.normal[a][lane] = static_cast<float>(point.normal[a]);
+    draft.normal[a][lane] = static_cast<std::int16_t>(std::lround(point.normal[a] * double{normal_units}));
   }
   draft.source[lane] = point.primitive;
 }

@@ -1,4 +1,4 @@
-// A tile's receivers as shadow rays read them: floats that count from the middle of the tile's, a third of
+// A tile's receivers as shadow rays read them: floats that count from the middle of the tile's, a quarter of
 // the size of SurfacePoint. The passes let into their bounds what a component may be wrong by, and what that
 // leaves open they ask of the receivers in double.
 #pragma once
@@ -8,10 +8,16 @@
 
 namespace gnomon::raytrace {
 
+/// A normal's components are whole numbers of a unit, which sixteen bits hold: to facing a light its direction matters, and
+/// what the rounding leaves open is asked of the receiver in double.
+inline constexpr float normal_units = 32767.0f;
+/// What a component may be wrong by, in units: its rounding, and what the normal itself is wrong by in floats.
+inline constexpr double normal_error = 0.51;
+
 /// What a quantised tile is made of: positions in double, until their middle is known.
 struct alignas(64) TileDraft {
   double position[3][tile_rays];
-  float normal[3][tile_rays];
+  std::int16_t normal[3][tile_rays];
   std::uint32_t source[tile_rays];
   Aabb bounds;  ///< of the positions, world
 };
@@ -22,7 +28,8 @@ struct alignas(64) QuantisedTile {
   Vec3 origin;
   Aabb bounds;          ///< of the positions, world
   double extent = 0.0;  ///< no component of `position` is above this, and each is right to 1.13 * 2^-24 of it
-  alignas(64) float position[3][tile_rays], normal[3][tile_rays];
+  alignas(64) float position[3][tile_rays];
+  alignas(64) std::int16_t normal[3][tile_rays];
   alignas(64) std::uint32_t source[tile_rays];
 
   void clear() { present.fill(0), any = false, bounds = Aabb{}, extent = 0.0; }

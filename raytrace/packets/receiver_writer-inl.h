@@ -23,7 +23,7 @@ namespace gnomon::raytrace::HWY_NAMESPACE::doubles {
 struct Points {
   V3 position, error, normal;
   V b1, b2;
-  alignas(32) std::uint32_t ids[8];
+  hn::Vec<Ids> ids;
 };
 
 /// The doubles of a SurfacePoint, in the order of its members: three times four.
@@ -78,8 +78,7 @@ class ReceiverWriter {
 
   void store(const Points& p, unsigned sound, std::size_t lane) const {
     constexpr hn::RebindToUnsigned<D> u64;
-    constexpr hn::Rebind<std::uint32_t, D> u32;
-    const V id = hn::BitCast(d, hn::PromoteTo(u64, hn::Load(u32, p.ids)));
+    const V id = hn::BitCast(d, hn::PromoteTo(u64, p.ids));
     alignas(64) double part[3][4 * 8];
     hn::StoreInterleaved4(p.position.x, p.position.y, p.position.z, p.error.x, d, part[0]);
     hn::StoreInterleaved4(p.error.y, p.error.z, p.normal.x, p.normal.y, d, part[1]);
@@ -109,21 +108,20 @@ class ReceiverWriter {
 
   void draft(const Points& p, unsigned sound, std::size_t lane) {
     constexpr hn::Rebind<float, D> half;
-    constexpr hn::Rebind<std::uint32_t, D> u32;
     TileDraft& draft = *sinks_.draft;
     const M here = mask_of(sound);
     const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(sound)};
-    const auto here_of_half = hn::LoadMaskBits(half, bytes);
+    const auto here_of_units = hn::LoadMaskBits(Units(), bytes);
     const auto put_along = [&](std::size_t axis, V position, V normal) {
       blend_into(d, draft.position[axis] + lane, here, position);
-      blend_into(half, draft.normal[axis] + lane, here_of_half, hn::DemoteTo(half, normal));
+      blend_into(Units(), draft.normal[axis] + lane, here_of_units, in_units(hn::DemoteTo(half, normal)));
       low_[axis] = hn::Min(low_[axis], hn::IfThenElse(here, position, low_[axis]));
       high_[axis] = hn::Max(high_[axis], hn::IfThenElse(here, position, high_[axis]));
     };
     put_along(0, p.position.x, p.normal.x);
     put_along(1, p.position.y, p.normal.y);
     put_along(2, p.position.z, p.normal.z);
-    blend_into(u32, draft.source + lane, hn::RebindMask(u32, here_of_half), hn::Load(u32, p.ids));
+    blend_into(Ids(), draft.source + lane, hn::LoadMaskBits(Ids(), bytes), p.ids);
     sinks_.quantised->present[lane / packet_rays] |=
         static_cast<std::uint16_t>(sound << (lane % packet_rays));
   }

@@ -3,6 +3,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include "raytrace/packets/hit_corners-inl.h"
 #include "raytrace/packets/known_hit.h"
 #include "raytrace/packets/plane_points-inl.h"
 #include "raytrace/packets/receiver_writer-inl.h"
@@ -63,12 +64,8 @@ struct HitTriangles {
   V3 normal = all(Vec3(0.0));   ///< unit, on the side of the corners' order
   V position_error = all(0.0);  ///< the part that comes of their size
 
-  std::uint32_t ids[8] = {};
-
   void load(const Bvh& bvh, const std::uint32_t* leaf, unsigned known) {
     if (!from.load(bvh, leaf, known)) return;
-    for (std::size_t i = 0; i < hn::Lanes(d); ++i)
-      if ((known >> i & 1) != 0) ids[i] = bvh.id_at(leaf[i]);
     const V3(&corner)[3] = from.corner;
     const auto extent = [](V p, V q, V r) { return hn::Sub(most_of(p, q, r), least_of(p, q, r)); };
     position_error = hn::Mul(all(error_gamma(24)), most_of(extent(corner[0].x, corner[1].x, corner[2].x),
@@ -89,10 +86,8 @@ inline Points points_of(const V3& direction, const HitTriangles& triangles, cons
   const V3 reach = times(all(error_gamma(7)), plus(plus(size_of(a), size_of(b)), size_of(c)));
   const V3& normal = triangles.normal;
   const M away = hn::Gt(dot(normal, direction), all(0.0));
-  Points points{
-      plus(plus(a, b), c), plus(reach, V3{widest, widest, widest}), facing(normal, away), w.b1, w.b2, {}};
-  std::copy(triangles.ids, triangles.ids + 8, points.ids);
-  return points;
+  return {plus(plus(a, b), c), plus(reach, V3{widest, widest, widest}), facing(normal, away), w.b1, w.b2,
+          triangles.from.ids()};
 }
 
 /// A packet's. All of them are found before the first receiver, so that their long chains of operations overlap.
@@ -101,7 +96,7 @@ class PacketDirections {
   void set(const View& view, const PixelPlane& pixels, std::size_t packet) {
     for (std::size_t i = 0; i < packet_rays; i += hn::Lanes(d)) {
       const std::size_t lane = packet * packet_rays + i;
-      const V3 ray = pixel_direction(view, hn::Load(d, pixels.x + lane), hn::Load(d, pixels.y + lane));
+      const V3 ray = pixel_direction(view, pixels.x(lane), pixels.y(lane));
       hn::Store(ray.x, d, along_[0] + i), hn::Store(ray.y, d, along_[1] + i),
           hn::Store(ray.z, d, along_[2] + i);
     }

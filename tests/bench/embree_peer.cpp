@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "raytrace/packets/tile.h"
@@ -30,6 +31,19 @@ void put(PeerRays& rays, std::size_t at, const Vec3& origin, const Vec3& directi
   rays.dy[at] = static_cast<float>(direction.y), rays.dz[at] = static_cast<float>(direction.z);
   rays.far[at] = static_cast<float>(far), rays.valid[at] = -1;
   ++rays.count;
+}
+
+/// Leaves out what is not to be traced.
+void close_up(PeerRays& rays) {
+  std::size_t to = 0;
+  for (std::size_t from = 0; from < rays.valid.size(); ++from) {
+    if (rays.valid[from] == 0) continue;
+    for (auto* v : {&rays.ox, &rays.oy, &rays.oz, &rays.dx, &rays.dy, &rays.dz, &rays.far})
+      (*v)[to] = (*v)[from];
+    ++to;
+  }
+  for (std::size_t i = 0; i < rays.valid.size(); ++i) rays.valid[i] = i < to ? -1 : 0;
+  rays.tiles = (to + tile_rays - 1) / tile_rays;
 }
 
 template <class Pixel>
@@ -107,6 +121,7 @@ PeerRays mirror_rays(const raytrace::RayTracedFrame& frame, const View& view, do
     put(rays, at, p.position + 0x1p-14 * scale * p.normal, d - 2.0 * glm::dot(d, p.normal) * p.normal,
         infinity);
   });
+  close_up(rays);
   return rays;
 }
 
@@ -183,10 +198,12 @@ void Embree::closest_single(const PeerRays& rays, PeerHits& hits) const {
   for_each_tile(rays.tiles, [&](std::size_t first) {
     test::EmbreeQuery coherent(true);
     for (std::size_t at = first; at < first + tile_rays; ++at) {
+      hits.primitive[at] = RTC_INVALID_GEOMETRY_ID;
+      if (rays.valid[at] == 0) continue;
       RTCRayHit query;
       load_one(rays, at, query.ray);
       query.hit.primID = query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      if (rays.valid[at] != 0) test::embree_intersect(scene_, coherent, query);
+      test::embree_intersect(scene_, coherent, query);
       hits.t[at] = query.ray.tfar, hits.u[at] = query.hit.u, hits.v[at] = query.hit.v;
       hits.primitive[at] = query.hit.primID;
     }
@@ -234,9 +251,13 @@ void Embree::occluded_packets(const PeerRays& rays, std::vector<std::uint8_t>& o
     test::EmbreeQuery coherent(true);
     RTCRay16 query;
     for (std::size_t at = first; at < first + tile_rays; at += 16) {
-      load(rays, at, query);
       alignas(64) int valid[16];
       std::memcpy(valid, &rays.valid[at], sizeof valid);
+      if (std::all_of(valid, valid + 16, [](int v) { return v == 0; })) {
+        std::fill_n(&occluded[at], 16, std::uint8_t{0});
+        continue;
+      }
+      load(rays, at, query);
       test::embree_occluded(valid, scene_, coherent, query);
       for (std::size_t i = 0; i < 16; ++i)
         occluded[at + i] = rays.valid[at + i] != 0 && query.tfar[i] < 0.0f ? 1 : 0;

@@ -30,7 +30,7 @@ PeerRays primary_rays(const View& view);
 /// normal.
 PeerRays shadow_rays(const raytrace::RayTracedFrame& frame, const Light& light, double scale);
 
-/// Mirrored at the receivers: rays that share neither origin nor direction.
+/// Mirrored at the receivers, one after another: rays that share neither origin nor direction.
 PeerRays mirror_rays(const raytrace::RayTracedFrame& frame, const View& view, double scale);
 
 struct PeerHits {

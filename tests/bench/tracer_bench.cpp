@@ -97,7 +97,7 @@ class Bench {
   void add(BenchRow row) {
     const double ratio = row.ratio().value();
     fmt::print(
-        settings_.table(), "  {:<26} {} thr {:>9.2f} {:<8} {:<26} {:>9.2f}  x{:.2f}{}\n", row.name,
+        settings_.table(), "  {:<32} {} thr {:>9.2f} {:<8} {:<26} {:>9.2f}  x{:.2f}{}\n", row.name,
         row.threads, row.value, row.unit, row.peer->name, row.peer->value, ratio,
         row.goal ? fmt::format("  goal {:.1f} {}", *row.goal, ratio >= *row.goal ? "met" : "NOT MET") : "");
     std::fflush(settings_.table());
@@ -109,7 +109,7 @@ class Bench {
     primary_pass(tracer_, view_, edge_setup_of_eye(tracer_, view_),
                  {.size = view_.size, .hits = hits_, .receivers = nullptr, .quantised = {}});
   }
-  /// The product's pass: a fresh eye, receivers in double and compact.
+  /// What `compare` does: a fresh eye, receivers in double and quantised.
   void our_receivers() {
     primary_pass(tracer_, view_, edge_setup_of_eye(tracer_, view_),
                  {.size = view_.size,
@@ -117,15 +117,34 @@ class Bench {
                   .receivers = &frame_.receiver,
                   .quantised = {tiles_.data(), tiles_.size()}});
   }
-  /// The product's pass: a fresh light.
+  /// What `raytrace` does: the primitives, and receivers quantised.
+  void our_quantised_receivers() {
+    primary_pass(tracer_, view_, edge_setup_of_eye(tracer_, view_),
+                 {.size = view_.size,
+                  .hits = hits_,
+                  .receivers = nullptr,
+                  .quantised = {tiles_.data(), tiles_.size()}});
+  }
+  /// A fresh light, after our_receivers().
   void our_shadows(std::size_t light) {
-    shadow_pass({.tracer = tracer_,
-                 .size = settings_.size,
-                 .stored = &frame_.receiver,
-                 .view = nullptr,
-                 .hits = {},
-                 .quantised = {tiles_.data(), tiles_.size()}},
-                scene_.scene.lights[light], frame_.lights[light].centre);
+    our_shadows(light, {.tracer = tracer_,
+                        .size = settings_.size,
+                        .stored = &frame_.receiver,
+                        .view = nullptr,
+                        .hits = {},
+                        .quantised = {tiles_.data(), tiles_.size()}});
+  }
+  /// The same after our_quantised_receivers().
+  void our_shadows_on_quantised(std::size_t light) {
+    our_shadows(light, {.tracer = tracer_,
+                        .size = settings_.size,
+                        .stored = nullptr,
+                        .view = &view_,
+                        .hits = hits_,
+                        .quantised = {tiles_.data(), tiles_.size()}});
+  }
+  void our_shadows(std::size_t light, const raytrace::PictureReceivers& receivers) {
+    shadow_pass(receivers, scene_.scene.lights[light], frame_.lights[light].centre);
   }
 
   void primary(int threads) {
@@ -145,9 +164,13 @@ class Bench {
       against(
           "primary, hits alone", [&] { our_hits(); }, [&] { tiny_->closest(primary_, peer_); },
           "tinybvh single", std::nullopt);
-    // Like for like: the rows above say which primitive alone, Embree says where on it as well.
+    // The rows above say which primitive alone; Embree says how far it is and where on it as well. These say its place and
+    // its normal.
     against(
-        "primary, stored receivers", [&] { our_receivers(); }, packets, "Embree 16 coherent", 1.5);
+        "primary, raytrace's receivers", [&] { our_quantised_receivers(); }, packets, "Embree 16 coherent",
+        1.5);
+    against(
+        "primary, compare's receivers", [&] { our_receivers(); }, packets, "Embree 16 coherent", 1.5);
   }
 
   void shadows(std::size_t light, int threads) {
@@ -179,7 +202,7 @@ class Bench {
           settings_.runs, 2, [&] { on(2); }, [&] { on(1); });
       add(name, 2, rays, ms, "one thread", 1.8);
     };
-    row("primary, stored receivers", static_cast<double>(primary_.count), [&] { our_receivers(); });
+    row("primary, compare's receivers", static_cast<double>(primary_.count), [&] { our_receivers(); });
     row("point shadow", static_cast<double>(shadow_[0].count), [&] { our_shadows(0); });
   }
 
@@ -188,10 +211,9 @@ class Bench {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
     const PeerRays rays = mirror_rays(frame_, view_, world_.finite_bounds.diagonal());
     std::vector<Ray> ours;
-    for (std::size_t i = 0; i < rays.valid.size(); ++i)
-      if (rays.valid[i] != 0)
-        ours.push_back({Vec3(Vec3f(rays.ox[i], rays.oy[i], rays.oz[i])),
-                        Vec3(Vec3f(rays.dx[i], rays.dy[i], rays.dz[i]))});
+    for (std::size_t i = 0; i < rays.count; ++i)
+      ours.push_back(
+          {Vec3(Vec3f(rays.ox[i], rays.oy[i], rays.oz[i])), Vec3(Vec3f(rays.dx[i], rays.dy[i], rays.dz[i]))});
     std::size_t hits = 0;
     const auto trace = [&] {
       hits = 0;
@@ -200,8 +222,7 @@ class Bench {
     const auto against = [&](const char* peer, std::optional<double> goal, const auto& closest) {
       const auto ms = in_turn(settings_.runs, 1, trace, closest);
       std::size_t theirs = 0;
-      for (std::size_t i = 0; i < rays.valid.size(); ++i)
-        theirs += rays.valid[i] != 0 && peer_.primitive[i] != no_id ? 1 : 0;
+      for (std::size_t i = 0; i < rays.count; ++i) theirs += peer_.primitive[i] != no_id ? 1 : 0;
       fmt::print(settings_.table(), "  mirrored rays that hit: {} here, {} by {}\n", hits, theirs, peer);
       add("mirrored rays, one by one", 1, static_cast<double>(rays.count), ms, peer, goal);
     };
@@ -235,21 +256,25 @@ class Bench {
   void whole_frame() {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
     Times build, peer_build;
-    const auto ms = in_turn(
-        settings_.runs, 2,
-        [&] {
-          const Stopwatch watch;
-          Tracer fresh(world_, Accel::bvh);
-          build.runs.push_back(watch.elapsed_ms());
-          tracer_ = std::move(fresh);
-          our_receivers(), our_shadows(0);
-        },
-        [&] {
-          const Stopwatch watch;
-          const Embree embree(world_, embree_settings(settings_));
-          peer_build.runs.push_back(watch.elapsed_ms());
-          embree.closest_packets(primary_, peer_), embree.occluded_packets(shadow_[0], occluded_);
-        });
+    const auto frame = [&](const auto& ours) {
+      return in_turn(
+          settings_.runs, 2,
+          [&] {
+            const Stopwatch watch;
+            Tracer fresh(world_, Accel::bvh);
+            build.runs.push_back(watch.elapsed_ms());
+            tracer_ = std::move(fresh);
+            ours();
+          },
+          [&] {
+            const Stopwatch watch;
+            const Embree embree(world_, embree_settings(settings_));
+            peer_build.runs.push_back(watch.elapsed_ms());
+            embree.closest_packets(primary_, peer_), embree.occluded_packets(shadow_[0], occluded_);
+          });
+    };
+    const auto of_compare = frame([&] { our_receivers(), our_shadows(0); });
+    const auto of_raytrace = frame([&] { our_quantised_receivers(), our_shadows_on_quantised(0); });
     const auto row = [&](std::string name, std::pair<double, double> ms_of_both, std::string peer,
                          std::optional<double> goal) {
       add_cost(std::move(name), 2, "ms", ms_of_both, std::move(peer), goal);
@@ -259,7 +284,8 @@ class Bench {
         settings_.runs, 2, [&] { raytrace::prepare_single_rays(Tracer(world_, Accel::bvh)); },
         [&] { const Embree embree(world_, embree_settings(settings_)); });
     row("build, with single rays", with_single, "Embree medium", std::nullopt);
-    row("build, primary, point", ms, "Embree medium, packets", 1.5);
+    row("whole frame, raytrace's receivers", of_raytrace, "Embree medium, packets", 1.5);
+    row("whole frame, compare's receivers", of_compare, "Embree medium, packets", 1.5);
   }
 
   // Receivers against Embree's hits; how many pixels the floats left to double.

@@ -1,0 +1,115 @@
+// The triangles that several pixels show.
+
+#if defined(GNOMON_RAYTRACE_PACKETS_HIT_CORNERS_INL_H_) == \
+    defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
+#ifdef GNOMON_RAYTRACE_PACKETS_HIT_CORNERS_INL_H_
+#undef GNOMON_RAYTRACE_PACKETS_HIT_CORNERS_INL_H_
+#else
+#define GNOMON_RAYTRACE_PACKETS_HIT_CORNERS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cstdint>
+
+#include "raytrace/packets/double_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE::doubles {
+
+/// Those lanes that show a triangle.
+inline unsigned on_triangles(const Bvh& bvh, const std::uint32_t* leaf) {
+  constexpr Ids ids;
+  return mask_bits(ids, hn::Lt(hn::LoadU(ids, leaf), hn::Set(ids, bvh.leaf_count())));
+}
+
+#if HWY_TARGET == HWY_SCALAR
+
+template <class From>
+HWY_INLINE V3 load_by_pixels(const From& from) {
+  const double* first = from(0);
+  return {all(first[0]), all(first[1]), all(first[2])};
+}
+
+#else
+
+/// The first three of four numbers of each pixel, which are at from(pixel).
+template <class From>
+HWY_INLINE V3 load_by_pixels(const From& from) {
+#if HWY_MAX_BYTES == 16
+  const V first = hn::LoadU(d, from(0)), second = hn::LoadU(d, from(1));
+  const V third[2] = {hn::LoadU(d, from(0) + 2), hn::LoadU(d, from(1) + 2)};
+  return {hn::InterleaveLower(d, first, second), hn::InterleaveUpper(d, first, second),
+          hn::InterleaveLower(d, third[0], third[1])};
+#else
+  [[maybe_unused]] constexpr hn::Half<D> half;
+  V row[4];  // of pixels i and i + 4
+  for (std::size_t i = 0; i < 4; ++i)
+#if HWY_MAX_BYTES == 32
+    row[i] = hn::LoadU(d, from(i));
+#else
+    row[i] = hn::Combine(d, hn::LoadU(half, from(i + 4)), hn::LoadU(half, from(i)));
+#endif
+  const V xz[2] = {hn::InterleaveLower(d, row[0], row[1]), hn::InterleaveLower(d, row[2], row[3])};
+  const V y[2] = {hn::InterleaveUpper(d, row[0], row[1]), hn::InterleaveUpper(d, row[2], row[3])};
+  return {hn::OddEvenBlocks(hn::SwapAdjacentBlocks(xz[1]), xz[0]),
+          hn::OddEvenBlocks(hn::SwapAdjacentBlocks(y[1]), y[0]),
+          hn::OddEvenBlocks(xz[1], hn::SwapAdjacentBlocks(xz[0]))};
+#endif
+}
+
+#endif
+
+/// The corners of as many pixels' triangles as there are lanes; often these are one and the same.
+class HitCorners {
+ public:
+  V3 corner[3] = {all(Vec3(0.0)), all(Vec3(0.0)), all(Vec3(0.0))};
+
+  /// Of the primitives; of lanes that show none any.
+  hn::Vec<Ids> ids() const { return hn::Load(Ids(), ids_); }
+
+  /// `known`, not 0: the lanes that show a triangle; the others get one of those. False: nothing has changed.
+  bool load(const Bvh& bvh, const std::uint32_t* leaf, unsigned known) {
+    constexpr Ids tag;
+    const auto first = leaf[std::countr_zero(known)];
+    const bool same = hn::AllTrue(tag, hn::Eq(hn::LoadU(tag, leaf), hn::Set(tag, first)));
+    if (same && first == only_) return false;
+    only_ = same ? first : nothing_hit;
+    PlacedCorners scratch;
+    const CornerPointers one = bvh.corners_at(first, scratch);
+    hn::Store(hn::Set(tag, bvh.id_at(first)), tag, ids_);
+    if (same)
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = {all(one[k][0]), all(one[k][1]), all(one[k][2])};
+    else
+      load_each(bvh, leaf, known, one);
+    return true;
+  }
+
+ private:
+  void load_each(const Bvh& bvh, const std::uint32_t* leaf, unsigned known, const CornerPointers& other) {
+    PlacedCorners scratch[hn::MaxLanes(d)];
+    CornerPointers at[hn::MaxLanes(d)];
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
+      at[i] = other;
+      if ((known >> i & 1) != 0) at[i] = bvh.corners_at(leaf[i], scratch[i]), ids_[i] = bvh.id_at(leaf[i]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = load_by_pixels([&](std::size_t i) { return at[i][k]; });
+  }
+
+  std::uint32_t only_ = nothing_hit;  ///< what all lanes show
+  alignas(32) std::uint32_t ids_[8] = {};
+};
+
+/// A packet's triangles on their way to the cache; where all are one they are there.
+inline void prefetch(const Bvh& bvh, const std::uint32_t* leaf) {
+  if (leaf[0] == leaf[packet_rays - 1]) return;
+  const std::uint32_t count = bvh.leaf_count();
+  for (std::size_t i = 0; i < packet_rays; ++i) {
+    if (leaf[i] < count) bvh.prefetch(leaf[i]);
+  }
+}
+
+}  // namespace gnomon::raytrace::HWY_NAMESPACE::doubles
+HWY_AFTER_NAMESPACE();
+#endif  // per-target guard
