@@ -49,12 +49,13 @@ inline Weights intersect(const V3& direction, const V3& origin, const V3 (&corne
   // An edge function of zero: not here.
   const M inside = hn::Or(hn::Gt(least_of(u, v, w), zero), hn::Lt(most_of(u, v, w), zero));
   const M longest = hn::And(hn::Gt(largest, hn::Max(hn::Abs(dx), hn::Abs(dy))), hn::Lt(largest, all(1.0)));
-  // The depth is depth_det / det, clamped to the corners' own; far from where it would be rounded to zero or to infinity.
+  // The depth is depth_det / det, far from where it would be rounded to zero or to infinity. Where it is ahead a corner is, so
+  // that clamping it to the corners' own depths changes nothing here.
   const V depth_det = hn::Add(hn::Add(hn::Mul(u, p.z), hn::Mul(v, q.z)), hn::Mul(w, r.z));
   const V ahead_det = hn::Mul(depth_det, hn::CopySign(all(1.0), hn::Mul(det, dz)));
-  const V farthest = most_of(hn::Mul(p.z, dz), hn::Mul(q.z, dz), hn::Mul(r.z, dz));
-  const M ahead = hn::And(hn::Gt(ahead_det, hn::Mul(hn::Abs(det), all(0x1p-500))),
-                          hn::And(hn::Gt(farthest, zero), hn::Lt(farthest, all(0x1p1000))));
+  const V size = hn::Abs(det);
+  const M ahead = hn::And(hn::Gt(ahead_det, hn::Mul(size, all(0x1p-500))),
+                          hn::Lt(ahead_det, hn::Mul(size, all(0x1p500))));
   return {hn::Div(v, det), hn::Div(w, det), hn::And(inside, hn::And(longest, ahead))};
 }
 
