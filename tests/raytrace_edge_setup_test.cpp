@@ -15,6 +15,7 @@ namespace {
 
 using raytrace::EdgeSetupPass;
 using raytrace::EdgeSetupRows;
+using raytrace::PlacedCorners;
 using Real = long double;
 using Real3 = std::array<Real, 3>;
 constexpr std::size_t together = EdgeSetupRows::together;
@@ -30,21 +31,22 @@ Real length(const Real3& a) {
 }
 
 /// Corners within `scale` of the axis, and once to twice that away.
-EdgeSetupRows random_corners(double scale, std::mt19937& random) {
+std::array<PlacedCorners, together> random_triangles(double scale, std::mt19937& random) {
   std::uniform_real_distribution<double> across(-scale, scale), depth(scale, 2.0 * scale);
-  EdgeSetupRows rows;
-  for (std::size_t k = 0; k < 9; ++k)
-    for (double& number : rows.corner[k]) number = k % 3 == 2 ? depth(random) : across(random);
-  return rows;
+  std::array<PlacedCorners, together> triangles{};
+  for (PlacedCorners& t : triangles)
+    for (auto& corner : t.corner)
+      for (std::size_t a = 0; a < 3; ++a) corner[a] = a == 2 ? depth(random) : across(random);
+  return triangles;
 }
 
 struct Sides {
   std::array<Real3, 3> corner, edge;  ///< edge k is opposite to corner k
   Real extent, farthest;
 };
-Sides sides_of(const EdgeSetupRows& rows, std::size_t i) {
+Sides sides_of(const PlacedCorners& triangle) {
   Sides s{};
-  for (std::size_t k = 0; k < 9; ++k) s.corner[k / 3][k % 3] = rows.corner[k][i];
+  for (std::size_t k = 0; k < 9; ++k) s.corner[k / 3][k % 3] = triangle.corner[k / 3][k % 3];
   for (std::size_t k = 0; k < 3; ++k) {
     s.edge[k] = minus(s.corner[(k + 2) % 3], s.corner[(k + 1) % 3]);
     s.extent = std::max(s.extent, length(s.edge[k])), s.farthest = std::max(s.farthest, length(s.corner[k]));
@@ -75,13 +77,17 @@ template <class Check>
 void for_each_triangle(bool directional, const Check& check) {
   std::mt19937 random(41);
   const auto check_scale = [&](double scale) {
-    EdgeSetupRows rows = random_corners(scale, random);
+    const std::array<PlacedCorners, together> triangles = random_triangles(scale, random);
+    std::array<raytrace::CornerPointers, together> pointers;
+    for (std::size_t i = 0; i < together; ++i)
+      for (std::size_t k = 0; k < 3; ++k) pointers[i][k] = triangles[i].corner[k].data();
+    EdgeSetupRows rows;
     EdgeSetupPass pass;
     pass.directional = directional;
     pass.axes[0] = Vec3(1, 0, 0), pass.axes[1] = Vec3(0, 1, 0), pass.axes[2] = Vec3(0, 0, 1);
     pass.largest = 2.0 * scale, pass.radius = 2.0 * scale, pass.farthest = 4.0 * scale;
-    raytrace::set_up_eight_triangles(rows, pass);
-    for (std::size_t i = 0; i < together; ++i) check(pass, rows, i, sides_of(rows, i), scale);
+    raytrace::set_up_eight_triangles(pointers, pass, rows);
+    for (std::size_t i = 0; i < together; ++i) check(pass, rows, i, sides_of(triangles[i]), scale);
   };
   test::for_each_target([&] {
     for (const int exponent : {-85, -61, -40, -10, 0, 10, 40, 61, 85}) check_scale(std::ldexp(1.0, exponent));

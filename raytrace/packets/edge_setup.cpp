@@ -1,5 +1,8 @@
 #include "raytrace/packets/edge_setup.h"
 
+#include <algorithm>
+#include <array>
+
 #include "raytrace/packets/edge_setup_rows.h"
 
 namespace gnomon::raytrace {
@@ -109,12 +112,11 @@ EdgeSetup edge_setup_along(const Structures& s, const Vec3& to_light) {
 unsigned set_up_leaves(const Structures& s, const EdgeSetupPass& pass, std::span<const std::uint32_t> leaves,
                        EdgeSetupRows& rows) {
   constexpr float inf = std::numeric_limits<float>::infinity();
-  for (std::size_t i = 0; i < 8; ++i) {
-    PlacedCorners scratch;
-    const CornerPointers at = s.bvh.corners_at(leaves[std::min(i, leaves.size() - 1)], scratch);
-    for (std::size_t k = 0; k < 9; ++k) rows.corner[k][i] = at[k / 3][k % 3];
-  }
-  set_up_eight_triangles(rows, pass);
+  std::array<PlacedCorners, EdgeSetupRows::together> placed;
+  std::array<CornerPointers, EdgeSetupRows::together> triangles;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    triangles[i] = s.bvh.corners_at(leaves[std::min(i, leaves.size() - 1)], placed[i]);
+  set_up_eight_triangles(triangles, pass, rows);
   if (!s.has_shapes && !s.has_masks) return 0;
   unsigned never = 0;
   for (std::size_t i = 0; i < leaves.size(); ++i) {

@@ -19,6 +19,7 @@
 
 #include "raytrace/packets/edge_setup.h"
 #include "raytrace/packets/edge_setup_rows.h"
+#include "raytrace/packets/load_points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
@@ -234,14 +235,14 @@ void store(const Out& out, EdgeSetupRows& rows, std::size_t first) {
                      hn::Mul(out.depth_floor, all(1.0 + 0x1p-20)), all(-infinity)));
 }
 
-// rows: corners in, PrimitiveEdges's numbers out, eight triangles.
-void see_eight(EdgeSetupRows& rows, const EdgeSetupPass& pass) {
+void see_eight(std::span<const CornerPointers, EdgeSetupRows::together> triangles, const EdgeSetupPass& pass,
+               EdgeSetupRows& rows) {
   for (std::size_t first = 0; first < 8; first += hn::Lanes(d)) {
     V3 corner[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto in = [&](std::size_t a) { return hn::Load(d, rows.corner[3 * k + a] + first); };
-      const V3 p = V3{in(0), in(1), in(2)} - V3{all(pass.origin.x), all(pass.origin.y), all(pass.origin.z)};
-      corner[k] = p;
+      V in[3];
+      load_points([&](std::size_t lane) { return triangles[first + lane][k]; }, in);
+      const V3 p = V3{in[0], in[1], in[2]} - V3{all(pass.origin.x), all(pass.origin.y), all(pass.origin.z)};
       const auto along = [&](const Vec3& axis) { return dot(p, V3{all(axis.x), all(axis.y), all(axis.z)}); };
       corner[k] = {along(pass.axes[0]), along(pass.axes[1]), along(pass.axes[2])};
     }
@@ -264,8 +265,9 @@ namespace gnomon::raytrace {
 HWY_EXPORT(see_eight);
 HWY_EXPORT(target);
 
-void set_up_eight_triangles(EdgeSetupRows& rows, const EdgeSetupPass& pass) {
-  HWY_DYNAMIC_DISPATCH(see_eight)(rows, pass);
+void set_up_eight_triangles(std::span<const CornerPointers, EdgeSetupRows::together> triangles,
+                            const EdgeSetupPass& pass, EdgeSetupRows& rows) {
+  HWY_DYNAMIC_DISPATCH(see_eight)(triangles, pass, rows);
 }
 const char* packet_target() {
   return HWY_DYNAMIC_DISPATCH(target)();

@@ -7,11 +7,10 @@
 
 namespace gnomon::raytrace {
 
-/// Eight triangles by rows: nine corner coordinates in; edges (9), reciprocal depth (3) and the three bounds
-/// out, those rounded up, in the order of PrimitiveEdges.
+/// Eight triangles' numbers by rows: edges (9), reciprocal depth (3) and the three bounds, those rounded up, in the order of
+/// PrimitiveEdges.
 struct alignas(64) EdgeSetupRows {
   static constexpr std::size_t together = 8, count = 15;
-  double corner[9][together];
   float out[count][together];
   const float* edge_error() const { return out[12]; }
   void set(std::size_t i, const PrimitiveEdges& p) {
@@ -37,7 +36,7 @@ EdgeSetupPass edge_setup_pass(const Structures& structures, const EdgeSetup& set
 unsigned set_up_leaves(const Structures& structures, const EdgeSetupPass& pass,
                        std::span<const std::uint32_t> leaves, EdgeSetupRows& rows);
 
-/// Corners in, numbers out.
-void set_up_eight_triangles(EdgeSetupRows& rows, const EdgeSetupPass& pass);
+void set_up_eight_triangles(std::span<const CornerPointers, EdgeSetupRows::together> triangles,
+                            const EdgeSetupPass& pass, EdgeSetupRows& rows);
 
 }  // namespace gnomon::raytrace

@@ -14,6 +14,7 @@
 #include <cstdint>
 
 #include "raytrace/packets/double_lanes-inl.h"
+#include "raytrace/packets/load_points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE::doubles {
@@ -23,43 +24,6 @@ inline unsigned on_triangles(const Bvh& bvh, const std::uint32_t* leaf) {
   constexpr Ids ids;
   return mask_bits(ids, hn::Lt(hn::LoadU(ids, leaf), hn::Set(ids, bvh.leaf_count())));
 }
-
-#if HWY_TARGET == HWY_SCALAR
-
-template <class From>
-HWY_INLINE V3 load_by_pixels(const From& from) {
-  const double* first = from(0);
-  return {all(first[0]), all(first[1]), all(first[2])};
-}
-
-#else
-
-/// The first three of four numbers of each pixel, which are at from(pixel).
-template <class From>
-HWY_INLINE V3 load_by_pixels(const From& from) {
-#if HWY_MAX_BYTES == 16
-  const V first = hn::LoadU(d, from(0)), second = hn::LoadU(d, from(1));
-  const V third[2] = {hn::LoadU(d, from(0) + 2), hn::LoadU(d, from(1) + 2)};
-  return {hn::InterleaveLower(d, first, second), hn::InterleaveUpper(d, first, second),
-          hn::InterleaveLower(d, third[0], third[1])};
-#else
-  [[maybe_unused]] constexpr hn::Half<D> half;
-  V row[4];  // of pixels i and i + 4
-  for (std::size_t i = 0; i < 4; ++i)
-#if HWY_MAX_BYTES == 32
-    row[i] = hn::LoadU(d, from(i));
-#else
-    row[i] = hn::Combine(d, hn::LoadU(half, from(i + 4)), hn::LoadU(half, from(i)));
-#endif
-  const V xz[2] = {hn::InterleaveLower(d, row[0], row[1]), hn::InterleaveLower(d, row[2], row[3])};
-  const V y[2] = {hn::InterleaveUpper(d, row[0], row[1]), hn::InterleaveUpper(d, row[2], row[3])};
-  return {hn::OddEvenBlocks(hn::SwapAdjacentBlocks(xz[1]), xz[0]),
-          hn::OddEvenBlocks(hn::SwapAdjacentBlocks(y[1]), y[0]),
-          hn::OddEvenBlocks(xz[1], hn::SwapAdjacentBlocks(xz[0]))};
-#endif
-}
-
-#endif
 
 /// The corners of as many pixels' triangles as there are lanes; often these are one and the same.
 class HitCorners {
@@ -94,7 +58,11 @@ class HitCorners {
       at[i] = other;
       if ((known >> i & 1) != 0) at[i] = bvh.corners_at(leaf[i], scratch[i]), ids_[i] = bvh.id_at(leaf[i]);
     }
-    for (std::size_t k = 0; k < 3; ++k) corner[k] = load_by_pixels([&](std::size_t i) { return at[i][k]; });
+    for (std::size_t k = 0; k < 3; ++k) {
+      V point[3];
+      load_points([&](std::size_t i) { return at[i][k]; }, point);
+      corner[k] = {point[0], point[1], point[2]};
+    }
   }
 
   std::uint32_t only_ = nothing_hit;  ///< what all lanes show

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "raytrace/packets/lanes-inl.h"
+#include "raytrace/packets/load_points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
@@ -24,30 +25,21 @@ constexpr std::size_t leaves_together = 16;
 /// Up to leaves_together triangles' corners as floats that count from `origin`; where there are fewer, the last one's again.
 class LeafCorners {
  public:
-  LeafCorners(const Bvh& bvh, std::span<const std::uint32_t> leaves, const Vec3& origin) {
-    using D = hn::CappedTag<double, 4>;
-    constexpr D d;
-    constexpr hn::Rebind<float, D> half;
-    alignas(32) const double from[4] = {origin.x, origin.y, origin.z, 0.0};
-    for (std::size_t i = 0; i < leaves_together; ++i) {
-      PlacedCorners scratch;
-      const CornerPointers at = bvh.corners_at(leaves[std::min(i, leaves.size() - 1)], scratch);
-      for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t a = 0; a < 4; a += hn::Lanes(d)) {
-          const auto p = hn::Sub(hn::LoadU(d, at[k] + a), hn::Load(d, from + a));
-          hn::Store(hn::DemoteTo(half, p), half, corner_[k] + 4 * i + a);
-        }
-    }
+  LeafCorners(const Bvh& bvh, std::span<const std::uint32_t> leaves, const Vec3& origin) : origin_(origin) {
+    for (std::size_t i = 0; i < leaves_together; ++i)
+      at_[i] = bvh.corners_at(leaves[std::min(i, leaves.size() - 1)], placed_[i]);
   }
   /// From lane i on: corner[k][axis] of the k-th corners.
   void get(std::size_t i, V (&corner)[3][3]) const {
-    V nothing;
     for (std::size_t k = 0; k < 3; ++k)
-      hn::LoadInterleaved4(f, corner_[k] + 4 * i, corner[k][0], corner[k][1], corner[k][2], nothing);
+      load_offsets(
+          origin_, [&](std::size_t lane) { return at_[i + lane][k]; }, corner[k]);
   }
 
  private:
-  alignas(64) float corner_[3][4 * leaves_together];
+  Vec3 origin_;
+  CornerPointers at_[leaves_together];
+  PlacedCorners placed_[leaves_together];  ///< of kept instances' leaves
 };
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE
