@@ -1,15 +1,14 @@
-// Whitted's recursion (Whitted 1980): local shading, the mirror's ray, and behind glass Fresnel's split into
-// a reflected and a refracted ray; rough surfaces and indirect light by samples. Compiled for what changes a path
-// (no secondary rays, mirrors, glass); the other effects are asked of the plan, which says the same for a whole
-// picture: such a branch takes no time that could be measured beside a ray.
+// Whitted's recursion (Whitted 1980): local shading, the mirror's ray, and behind glass Fresnel's split into a
+// reflected and a refracted ray; rough surfaces and indirect light by samples. Compiled for what changes a path (no
+// secondary rays, mirrors, glass); the other effects are asked of the plan, in branches that cost nothing beside rays.
 //
-// Conventions. The geometric normal decides what a surface is turned towards (light, viewer, entering or
-// leaving); the interpolated one, turned to the viewer's side, shades, reflects and refracts. Closed surfaces
-// of glass are solid: a ray against the outward normal enters; what is there where bodies nest or overlap is
-// said by raytrace/shading/interior.h. A shadow ray goes straight through glass: each boundary lets
-// transmission * (1 - Fresnel) pass, as seen from its thinner side, and the media between absorb. Rays beyond
-// Scene::max_depth or below the contribution cut-off bring nothing. Paths that share a pixel share its
-// samples: where n of them run side by side, each takes 1/n of the samples that are asked for, at least one.
+// Conventions. The geometric normal decides what a surface is turned towards (light, viewer, entering or leaving); the
+// interpolated one, turned to the viewer's side, shades, reflects and refracts. Closed surfaces of glass are solid: a
+// ray against the outward normal enters; what is there where bodies nest or overlap is said by
+// raytrace/shading/interior.h. A shadow ray goes straight through glass: each boundary lets transmission * (1 -
+// Fresnel) pass, as seen from its thinner side, and the media between absorb. Rays beyond Scene::max_depth or below
+// the contribution cut-off bring nothing. Paths that share a pixel share its samples: where n of them run side by
+// side, each takes 1/n of the samples that are asked for, at least one.
 #pragma once
 
 #include <type_traits>

@@ -5,12 +5,20 @@
 
 namespace gnomon::bench {
 
-/// Milliseconds of the process's own, all threads; for one thread the wall clock's, but for other programs'
-/// share.
-inline double cpu_ms() {
+inline double clock_ms(clockid_t clock) {
   timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  clock_gettime(clock, &now);
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+/// Milliseconds of the process's own, all threads.
+inline double cpu_ms() {
+  return clock_ms(CLOCK_PROCESS_CPUTIME_ID);
+}
+/// Of the calling thread's own: for work on one thread the wall clock's, but for other programs' share, and without what idle
+/// workers of earlier work take before they sleep.
+inline double thread_ms() {
+  return clock_ms(CLOCK_THREAD_CPUTIME_ID);
 }
 
 }  // namespace gnomon::bench

@@ -8,13 +8,13 @@
 
 namespace gnomon::bench {
 
-/// Processor time where one thread runs, else the clock's.
+/// The calling thread's processor time where it runs alone, else the clock's.
 template <class Pass>
 void time_pass(Times& times, int threads, const Pass& pass) {
   const Stopwatch watch;
-  const double start = cpu_ms();
+  const double start = thread_ms();
   pass();
-  times.runs.push_back(threads == 1 ? cpu_ms() - start : watch.elapsed_ms());
+  times.runs.push_back(threads == 1 ? thread_ms() - start : watch.elapsed_ms());
 }
 
 /// Runs both in turn, `runs` times after a warm-up, and gives the median milliseconds of each.
