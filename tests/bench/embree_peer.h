@@ -3,6 +3,7 @@
 // beforehand: their making is not in its times.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -17,12 +18,29 @@
 
 namespace gnomon::bench {
 
+/// A row of rays' numbers, of which there are several. Large blocks of memory begin at the same place of a page, so that one ray's
+/// numbers would lie in one set of the processor's cache and drive each other out: the `place`-th row begins a little farther on.
+template <class T>
+class PeerRow {
+ public:
+  explicit PeerRow(std::size_t place) : skipped_(13 * place * 64 / sizeof(T)) {}
+  void resize(std::size_t count) { values_.resize(skipped_ + count); }
+  void assign(std::size_t count, T value) { values_.assign(skipped_ + count, value); }
+  std::size_t size() const { return values_.size() - std::min(skipped_, values_.size()); }
+  T& operator[](std::size_t i) { return values_[skipped_ + i]; }
+  const T& operator[](std::size_t i) const { return values_[skipped_ + i]; }
+
+ private:
+  std::size_t skipped_;
+  std::vector<T> values_;
+};
+
 /// Rays of all pixels in the order of tiles and places in tiles; pixels outside the image have valid 0.
 struct PeerRays {
   std::size_t tiles = 0;
-  std::vector<float> ox, oy, oz, dx, dy, dz, far;
-  std::vector<int> valid;  ///< -1: to be traced
-  std::size_t count = 0;   ///< valid ones
+  PeerRow<float> ox{0}, oy{1}, oz{2}, dx{3}, dy{4}, dz{5}, far{6};
+  PeerRow<int> valid{7};  ///< -1: to be traced
+  std::size_t count = 0;  ///< valid ones
 };
 
 PeerRays primary_rays(const View& view);
@@ -34,8 +52,8 @@ PeerRays shadow_rays(const raytrace::RayTracedFrame& frame, const Light& light, 
 PeerRays mirror_rays(const raytrace::RayTracedFrame& frame, const View& view, double scale);
 
 struct PeerHits {
-  std::vector<float> t, u, v;
-  std::vector<unsigned> primitive;
+  PeerRow<float> t{8}, u{9}, v{10};
+  PeerRow<unsigned> primitive{11};
 };
 
 class Embree {
