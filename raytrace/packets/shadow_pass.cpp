@@ -16,13 +16,13 @@ namespace {
 /// Below this many rays a block's traversal costs more than single rays.
 constexpr std::uint64_t few_rays = 12;
 
-/// Four pixels' visibility from four bits: a byte of 1, lit, for every bit that is not set.
-constexpr auto four_visibilities = [] {
+/// Eight pixels' visibility from eight bits: a byte of 1, lit, for every bit that is not set.
+constexpr auto eight_visibilities = [] {
   static_assert(static_cast<int>(PointVisibility::shadowed) == 0 &&
                 static_cast<int>(PointVisibility::lit) == 1);
-  std::array<std::array<PointVisibility, 4>, 16> table{};
-  for (std::size_t dark = 0; dark < 16; ++dark)
-    for (std::size_t i = 0; i < 4; ++i)
+  std::array<std::array<PointVisibility, 8>, 256> table{};
+  for (std::size_t dark = 0; dark < table.size(); ++dark)
+    for (std::size_t i = 0; i < 8; ++i)
       table[dark][i] = (dark >> i & 1) != 0 ? PointVisibility::shadowed : PointVisibility::lit;
   return table;
 }();
@@ -270,11 +270,15 @@ class ShadowPass {
 void store_visibility(const TileRect& rect, const LaneMask& dark, Image<PointVisibility>& visibility) {
   if (is_whole(rect)) {
     const auto stride = static_cast<std::size_t>(visibility.size.width);
-    for (std::size_t p = 0; p < tile_packets; ++p) {
-      const TilePixel place = tile_pixel(p * packet_rays);
-      PointVisibility* out = &visibility.at(rect.x0 + place.x, rect.y0 + place.y);
-      for (std::size_t row = 0; row < 4; ++row)
-        std::memcpy(out + row * stride, four_visibilities[dark[p] >> (4 * row) & 15].data(), 4);
+    PointVisibility* first = &visibility.at(rect.x0, rect.y0);
+    for (std::size_t y = 0; y < tile_pixels; ++y) {
+      // Of each of four packets side by side four bits: sixteen pixels of a row.
+      const std::uint16_t* packets = &dark[y / 4 * 4];
+      const auto four = [&](std::size_t column) { return packets[column] >> y % 4 * 4 & 15U; };
+      for (std::size_t half = 0; half < 2; ++half) {
+        const std::size_t bits = four(2 * half) | four(2 * half + 1) << 4;
+        std::memcpy(first + y * stride + 8 * half, eight_visibilities[bits].data(), 8);
+      }
     }
     return;
   }
