@@ -25,7 +25,7 @@ inline hn::Vec<Units> units(std::int16_t number) {
 struct TrianglePlanes {
   HitCorners corners;
   V3 normal = all(Vec3(0.0));                               ///< of no length in particular
-  V height = all(0.0);                                      ///< along it, of the triangle above the eye
+  V height = all(0.0);                                      ///< of the triangle above the eye, along it
   hn::Vec<Units> unit[3] = {units(0), units(0), units(0)};  ///< of length one
   unsigned well_known = 0;  ///< bits of those whose planes say where the receiver lies
 
@@ -48,8 +48,8 @@ struct TrianglePlanes {
  private:
   // With k = |e1||e2| / |n| and c the cosine between ray and normal, the plane through the first corner is
   // turned by 2^-51 k, the crossing moved by 2^-51 (|to_corner| + k |e|) / c. That is to stay below 2^-39 of
-  // the crossing's distance, and the turn below 2^-24. All is squared, and (a + b)^2 <= 2 (a^2 + b^2). And n2 is to be a
-  // float far from the ends of their range.
+  // the crossing's distance, and the turn below 2^-24. All is squared, and (a + b)^2 <= 2 (a^2 + b^2). And n2 is to
+  // lie well within the range of floats, in which the normal is divided by its length.
   static M is_well_known(const V3& e1, const V3& e2, V n2, const V3& to_corner, V height) {
     const V l1 = fused_dot(e1, e1), l2 = fused_dot(e2, e2), spread = hn::Mul(l1, l2);
     const V sum = hn::MulAdd(hn::Max(l1, l2), spread, hn::Mul(fused_dot(to_corner, to_corner), n2));
