@@ -35,6 +35,7 @@ HWY_INLINE unsigned mask_bits(D d, hn::Mask<D> mask) {
   } else {
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, mask, bytes);
+    if constexpr (lanes <= 8) return bytes[0];
     std::uint16_t bits;
     std::memcpy(&bits, bytes, sizeof bits);
     return bits;

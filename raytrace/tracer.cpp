@@ -83,7 +83,7 @@ std::uint64_t nodes_of(const Bvh& bvh) {
 
 /// verb(masks, arithmetic) with types that stand for the scene's masks and the chosen arithmetic.
 template <class Verb>
-auto specialise(const Structures& s, const Verb& verb) {
+[[gnu::always_inline]] inline auto specialise(const Structures& s, const Verb& verb) {
   const auto with = [&]<class Arithmetic>() {
     return s.has_masks ? verb.template operator()<true, Arithmetic>()
                        : verb.template operator()<false, Arithmetic>();
@@ -103,30 +103,48 @@ auto specialise(const Structures& s, const Verb& verb) {
 // hierarchy: counts are to be compared with other structures', and not to depend on the rays that came
 // before.
 
-/// False: there is no wide tree (yet), or it refuses the ray.
-bool closest_in_wide(const Structures& s, const Ray& ray, std::uint32_t skip, std::optional<Hit>& best,
-                     WorkCounts* work) {
+/// refused also where there is no wide tree (yet).
+[[gnu::always_inline]] inline WideAnswer closest_in_wide(const Structures& s, const Ray& ray,
+                                                         std::uint32_t skip, Hit& best, WorkCounts* work) {
   const WideTree* tree = wide_tree(s);
-  return tree != nullptr && specialise(s, [&]<bool masks, class Arithmetic>() {
-           return closest_wide<masks, Arithmetic>(s, *tree, ray, skip, best, work);
-         });
+  if (tree == nullptr) return WideAnswer::refused;
+  return specialise(s, [&]<bool masks, class Arithmetic>() {
+    return closest_wide<masks, Arithmetic>(s, *tree, ray, skip, best, work);
+  });
 }
-bool any_in_wide(const Structures& s, const Ray& ray, bool& found, WorkCounts* work) {
+[[gnu::always_inline]] inline WideAnswer any_in_wide(const Structures& s, const Ray& ray, WorkCounts* work) {
   const WideTree* tree = wide_tree(s);
-  return tree != nullptr && specialise(s, [&]<bool masks, class Arithmetic>() {
-           return any_wide<masks, Arithmetic>(s, *tree, ray, found, work);
+  if (tree == nullptr) return WideAnswer::refused;
+  return specialise(
+      s, [&]<bool masks, class Arithmetic>() { return any_wide<masks, Arithmetic>(s, *tree, ray, work); });
+}
+
+template <class Stats>
+[[gnu::noinline]] std::optional<Hit> closest_plainly(const Structures& s, const Ray& ray, std::uint32_t skip,
+                                                     Stats stats) {
+  const std::optional<RayFrame> frame = make_ray_frame(ray);
+  if (!frame) return std::nullopt;
+  return specialise(
+      s, [&]<bool masks, class Arithmetic>() { return closest<masks, Arithmetic>(s, *frame, skip, stats); });
+}
+template <class Stats>
+[[gnu::noinline]] bool any_plainly(const Structures& s, const Ray& ray, Stats stats) {
+  const std::optional<RayFrame> frame = make_ray_frame(ray);
+  return frame && specialise(s, [&]<bool masks, class Arithmetic>() {
+           return any<masks, Arithmetic>(s, *frame, stats);
          });
 }
 
 template <class Stats>
-std::optional<Hit> closest_of(const Structures& s, const Ray& ray, std::uint32_t skip, Stats stats) {
-  std::optional<Hit> best;
-  if (std::is_same_v<Stats, NoStats> && closest_in_wide(s, ray, skip, best, nullptr)) return best;
-  if (const std::optional<RayFrame> frame = make_ray_frame(ray))
-    best = specialise(s, [&]<bool masks, class Arithmetic>() {
-      return closest<masks, Arithmetic>(s, *frame, skip, stats);
-    });
-  return best;
+[[gnu::always_inline]] inline std::optional<Hit> closest_of(const Structures& s, const Ray& ray,
+                                                            std::uint32_t skip, Stats stats) {
+  if constexpr (std::is_same_v<Stats, NoStats>) {
+    Hit hit;
+    const WideAnswer answer = closest_in_wide(s, ray, skip, hit, nullptr);
+    if (answer == WideAnswer::nothing) return std::nullopt;
+    if (answer == WideAnswer::hit) return hit;
+  }
+  return closest_plainly(s, ray, skip, stats);
 }
 
 /// Few hits are backs that are not seen, so the search that knows of them comes second.
@@ -142,13 +160,10 @@ std::optional<Hit> seen_of(const Structures& s, const Ray& ray, Stats stats) {
 template <class Stats>
 bool any_of(const Structures& s, const Ray& ray, Stats stats) {
   if constexpr (std::is_same_v<Stats, NoStats>) {
-    bool found = false;
-    if (any_in_wide(s, ray, found, nullptr)) return found;
+    const WideAnswer answer = any_in_wide(s, ray, nullptr);
+    if (answer != WideAnswer::refused) return answer == WideAnswer::hit;
   }
-  const std::optional<RayFrame> frame = make_ray_frame(ray);
-  if (!frame) return false;
-  return specialise(s,
-                    [&]<bool masks, class Arithmetic>() { return any<masks, Arithmetic>(s, *frame, stats); });
+  return any_plainly(s, ray, stats);
 }
 
 /// The textbook's point: what the ray says, and no bound.
@@ -207,12 +222,14 @@ std::uint64_t single_ray_bytes(const Tracer& tracer) {
 }
 
 std::optional<Hit> counted_closest_hit(const Tracer& tracer, const Ray& ray, WorkCounts& work) {
-  std::optional<Hit> best;
-  return closest_in_wide(tracer.structures(), ray, no_id, best, &work) ? best : tracer.closest_hit(ray, work);
+  Hit hit;
+  const WideAnswer answer = closest_in_wide(tracer.structures(), ray, no_id, hit, &work);
+  if (answer == WideAnswer::refused) return tracer.closest_hit(ray, work);
+  return answer == WideAnswer::hit ? std::optional(hit) : std::nullopt;
 }
 bool counted_occluded(const Tracer& tracer, const Ray& ray, WorkCounts& work) {
-  bool found = false;
-  return any_in_wide(tracer.structures(), ray, found, &work) ? found : tracer.occluded(ray, work);
+  const WideAnswer answer = any_in_wide(tracer.structures(), ray, &work);
+  return answer == WideAnswer::refused ? tracer.occluded(ray, work) : answer == WideAnswer::hit;
 }
 
 std::optional<Hit> Tracer::closest_hit(const Ray& ray) const {

@@ -108,6 +108,9 @@ HWY_INLINE V corners_of(const WideLeaf& leaf, std::size_t axis, std::size_t i) {
   return hn::ConvertTo(f, hn::PromoteTo(integers, hn::LoadU(shorts, row + i * lanes)));
 }
 
+/// x, y and z by which axis is z.
+inline constexpr std::size_t axes_with_z[3][3] = {{1, 2, 0}, {2, 0, 1}, {0, 1, 2}};
+
 /// What the floats say of a leaf's triangles (raytrace/bvh/wide_ray.h).
 struct LeafTest {
   using Leaf = WideLeaf;
@@ -123,25 +126,25 @@ struct LeafTest {
       std::fill(below, below + leaf_lanes, -inf);
       return;
     }
+    const auto& axis = axes_with_z[ray.z];
     const auto from = [&](std::size_t k) {
-      const std::size_t a = ray.axis[k];
-      return hn::Sub(all(ray.origin[a]), all(leaf.anchor(a)));
+      return hn::Sub(all(ray.origin[axis[k]]), all(leaf.anchor(axis[k])));
     };
     const V o[3] = {from(0), from(1), from(2)};
+    const V inverse_z = all(ray.inverse[axis[2]]);
+    const V direction_x = all(ray.direction[axis[0]]), direction_y = all(ray.direction[axis[1]]);
     const V reach = hn::Max(hn::Max(hn::Abs(o[0]), hn::Abs(o[1])), hn::Abs(o[2])), step = all(leaf.step());
-    const V off = hn::MulAdd(all(12.0f * 0x1p-24f), reach,
+    const V off = hn::MulAdd(all(WideRay::origin_error), reach,
                              hn::MulAdd(all(WideRay::corner_error), step, all(ray.coordinate_error)));
     const V coarse = hn::Mul(off, hn::MulAdd(all(16.0f), off, all(leaf.size_13())));
-    const V depth_off = hn::Mul(off, all(2.0f * ray.t_per_z));
+    const V depth_off = hn::Mul(off, hn::Abs(hn::Add(inverse_z, inverse_z)));
     Corners x, y, t;
     for (std::size_t i = 0; i < leaf_steps; ++i) {
-      const auto corner = [&](std::size_t k) {
-        return hn::MulSub(corners_of(leaf, ray.axis[k], i), step, o[k]);
-      };
-      const V along = hn::Mul(corner(2), all(ray.inverse_z));
+      const auto corner = [&](std::size_t k) { return hn::MulSub(corners_of(leaf, axis[k], i), step, o[k]); };
+      const V along = hn::Mul(corner(2), inverse_z);
       t.set(i, along);
-      x.set(i, hn::NegMulAdd(all(ray.direction_x), along, corner(0)));
-      y.set(i, hn::NegMulAdd(all(ray.direction_y), along, corner(1)));
+      x.set(i, hn::NegMulAdd(direction_x, along, corner(0)));
+      y.set(i, hn::NegMulAdd(direction_y, along, corner(1)));
     }
     for (std::size_t i = 0; i < leaf_steps; ++i) {
       const unsigned present = (triangles.lanes() >> i * lanes) & lane_bits;

@@ -53,12 +53,11 @@ inline constexpr OctantPlaces octant_places[8] = {places_of(0), places_of(1), pl
 
 /// The ray in every lane.
 struct SpreadRay {
-  V inverse[3], near[3], far_inverse[3], far[3], t_min;
+  V inverse[3], near[3], far[3], t_min;
   const OctantPlaces& places;
   explicit SpreadRay(const WideRay& ray) : t_min(all(ray.t_min)), places(octant_places[ray.octant]) {
     for (std::size_t a = 0; a < 3; ++a) {
-      inverse[a] = all(ray.inverse[a]), near[a] = all(ray.near[a]);
-      far_inverse[a] = all(ray.far_inverse[a]), far[a] = all(ray.far[a]);
+      inverse[a] = all(ray.inverse[a]), near[a] = all(ray.near[a]), far[a] = all(ray.far[a]);
     }
   }
 
@@ -78,9 +77,9 @@ HWY_INLINE void intersect_boxes(const WideNode& node, const SpreadRay& ray, std:
   near = hn::Max(hn::Max(at(ray.places.near_row[0], ray.inverse[0], ray.near[0]),
                          at(ray.places.near_row[1], ray.inverse[1], ray.near[1])),
                  hn::Max(at(ray.places.near_row[2], ray.inverse[2], ray.near[2]), ray.t_min));
-  far = hn::Min(hn::Min(at(ray.places.far_row[0], ray.far_inverse[0], ray.far[0]),
-                        at(ray.places.far_row[1], ray.far_inverse[1], ray.far[1])),
-                hn::Min(at(ray.places.far_row[2], ray.far_inverse[2], ray.far[2]), t_max));
+  far = hn::Min(hn::Min(at(ray.places.far_row[0], ray.inverse[0], ray.far[0]),
+                        at(ray.places.far_row[1], ray.inverse[1], ray.far[1])),
+                hn::Min(at(ray.places.far_row[2], ray.inverse[2], ray.far[2]), t_max));
 }
 
 /// The children of a node whose boxes the ray may intersect, by bits; where vectors hold a whole node.

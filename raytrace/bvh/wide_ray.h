@@ -5,14 +5,13 @@
 // none that underflows is missed, because 2^-26 <= r <= 2^30 and q <= 64 r; other rays are refused, and traverse
 // the plain way.
 //
-// Boxes. inverse = fl(1 / fl(d)) is right to 2 e of itself, -o / d made of it to 4 e, and b / d - o / d by
-// one step, fused or not, to 4 e |t| + 7 e |o / d|; widened by 2^-20, as the far ends are, to 5 e |t| + 9 e
-// |o / d|. The second term and more, 16 e (|o| + r 2^-10) / d, is in the constants `near` and `far`; the
-// first, for near and far ends together, is less than the 16 e of the widening. What the doubles themselves
-// are off by, 2^-50 of r + q, is well within r 2^-30. A direction's |d_a| < 2^-60 is taken for +-2^-60: on
-// its way to a hit no ray moves by more than 2^-60 T along such an axis, T = 4 (r + q) < 2^9 r, and the
-// constants, which give way by 2^30 r, hold all of [0, T] in the slab if the origin is within it but for that
-// much.
+// Boxes. inverse = fl(1 / fl(d)) is right to 2 e of itself, so that b inverse is right to 3 e |b / d|, -o
+// inverse made of rounded o to 4 e |o / d|, and their sum, fused or not, to 2 e more of either: together less
+// than 8 e (r + |o|) / |d|, for |b| <= r. The constants `near` and `far` give way by 16 e (r + |o|) / |d|,
+// whose own rounding, and what the doubles themselves are off by, 2^-50 of r + q, is well within the rest. A
+// direction's |d_a| < 2^-60 is taken for +-2^-60: on its way to a hit no ray moves by more than 2^-60 T along
+// such an axis, T = 4 (r + q) < 2^9 r, and the constants, which give way by 2^40 r, hold all of [0, T] in the
+// slab if the origin is within it but for that much. The interval's ends are widened by 2^-20.
 //
 // Triangles. The test in double (raytrace/shapes/intersect.h) moves corners to the ray's origin and shears
 // them so that the ray is the z axis; so do these floats, z being the direction's largest component, and with
@@ -20,11 +19,12 @@
 // from its anchor in steps of g, |v| <= X = 2^15 g; o' is the origin from there, S = |o'| + X. v is right to
 // g / 2 and, times g, to e X, o' to e (q + |o'|), s to g / 2 + e (q + 2 S); d_x t is d_x / d_z times s_z, the
 // factor, of at most 1, right to 5 e; so x, with fused steps or without, is right to g + 2 e (q + 2 S) + 8 e
-// S,
-//   f = 12 e |o'| + `corner_error` g + `coordinate_error`,
-// where corner_error is 1.03 > 1 + 12 e 2^15 and coordinate_error 2.75 e q + 2^-34 r, whose last term holds
-// what the doubles' own coordinates are off by, and the bounds of a visibility
-// (raytrace/precision/ambiguous_ray.cpp) in a point's place, all below 2^-41 r.
+// S, less than 12 e |o'| + 1.03 g + 2.75 e q + 2^-34 r, for 1.03 > 1 + 12 e 2^15; the last term holds what the
+// doubles' own coordinates are off by, and the bounds of a visibility (raytrace/precision/ambiguous_ray.cpp)
+// in a point's place, all below 2^-41 r. No anchor is farther than r from the centre, so that q <= |o'| + r
+// and x is right to
+//   f = `origin_error` |o'| + `corner_error` g + `coordinate_error`,
+// which are 14.75 e, 1.03 and 2.875 e r.
 //   First, for all triangles of a leaf: let no component of an edge be above L >= 2^-16 r. Where the doubles
 // see edge functions of one sign, or cannot tell their signs for a visibility and pass the triangle's box, the axis
 // passes within the corners' x and y, so none of these is above 2 L but for f. The edge functions U, V, W =
@@ -43,6 +43,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cfloat>
 
 #include "raytrace/bvh/wide_tree.h"
 
@@ -51,19 +52,24 @@ namespace gnomon::raytrace {
 struct WideRay {
   static constexpr float widening = 1.0f + 0x1p-20f;
   static constexpr float least_direction = 0x1p-60f;  ///< smaller ones are taken for this
-  static constexpr float corner_error = 1.03f;        ///< in steps of a leaf
+  static constexpr float origin_error = 14.75f * 0x1p-24f;
+  static constexpr float corner_error = 1.03f;  ///< in steps of a leaf
+  // An end of an interval that was rounded to a float is less than it times this and FLT_MIN, or more.
+  static constexpr float up = 1.0f + FLT_EPSILON, down = 1.0f - FLT_EPSILON;
+
   // By axis; the fourth means nothing.
-  alignas(16) float origin[4], direction[4];
-  // t of a plane at x along an axis: x inverse + near, and, widened, x far_inverse + far.
-  alignas(16) float inverse[4], near[4], far_inverse[4], far[4];
-  float t_min, t_max;                 ///< t_max: widened, and finite
-  float surely_after, surely_before;  ///< t between these is in range
-  float inverse_z, t_per_z;           ///< 1 / d_z and its size
-  float direction_x, direction_y;
-  float coordinate_error;                               ///< 2.75 e q + 2^-34 r
+  alignas(16) float origin[4], direction[4], size[4];  ///< size: the direction's components without signs
+  // t of a plane at x along an axis is between x inverse + near and x inverse + far.
+  alignas(16) float inverse[4], near[4], far[4];
+  float t_min, t_max;  ///< what the ray surely ends within; t_max: widened, and finite
+  float least, most;   ///< the interval's ends to the nearest
+  float coordinate_error;
   float plain_origin[3], plain_direction[3], kernel_t;  ///< as they are, for PlainTest alone; t's own scale
-  std::uint32_t axis[3];  ///< which are x, y and z: z the direction's largest component
-  std::uint32_t octant;   ///< bit a: backwards along axis a
+  std::uint32_t z;                                      ///< the axis of the direction's largest component
+  std::uint32_t octant;                                 ///< bit a: backwards along axis a
+
+  bool surely_starts_before(float t) const { return t > least * up + FLT_MIN; }
+  bool surely_ends_after(float t) const { return t < std::min(most, FLT_MAX) * down - FLT_MIN; }
 
   /// t in the units of RayFrame.
   void limit(float t_above) { t_max = std::min(t_max, t_above * widening); }

@@ -37,11 +37,10 @@ bool spread(const WideTree& tree, const Shaft& shaft, SpreadShaft& to) {
     const float direction =
         std::abs(widest) < narrowest ? (lower ? narrowest : -narrowest) : widest;  // wider, too
     const float inverse = 1.0f / direction;
-    const float slack = 0x1p-20f * std::abs(inverse) * (0x1p-10f * r + std::abs(origin));
+    const float slack = 0x1p-20f * std::abs(inverse) * (r + std::abs(origin));
     to.enters[row] = lower == (direction > 0.0f);
-    to.inverse[row] = all(to.enters[row] ? inverse : inverse * WideRay::widening);
-    to.constant[row] =
-        all(to.enters[row] ? -origin * inverse - slack : (-origin * inverse + slack) * WideRay::widening);
+    to.inverse[row] = all(inverse);
+    to.constant[row] = all(-origin * inverse + (to.enters[row] ? -slack : slack));
   }
   to.end = all(shaft.endless ? FLT_MAX : static_cast<float>(size) * WideRay::widening);
   return true;

@@ -12,70 +12,112 @@ inline const WideTree* wide_tree(const Structures& s) {
   return s.wide != nullptr ? s.wide->for_ray(s.bvh, *s.world) : nullptr;
 }
 
-/// False: refused, the ray has to go another way. `work`: adds what the tree's floats and the planes' tests are.
-template <bool masks, class Arithmetic>
-bool closest_wide(const Structures& s, const WideTree& tree, const Ray& ray, std::uint32_t skip,
-                  std::optional<Hit>& best, WorkCounts* work = nullptr) {
-  if (work != nullptr) work->primitives += s.planes.size();
-  RayFrame frame;
-  if (!masks && skip == no_id) {
-    LeafCandidates found;
-    if (closest_candidates(tree, ray, found, work) != WideTraversal::refused) {
-      std::size_t left = 0;
-      for (std::size_t i = 0; i < found.count; ++i)
-        if (found.t[i] <= found.t_max) found.leaf[left++] = found.leaf[i];
-      if (left == 0 && s.planes.empty()) return true;
-      scale_ray(ray, frame), shear_ray(frame);
-      if (left == 1 && s.planes.empty()) {
-        Hit& hit = best.emplace();
-        if (Arithmetic(s, frame).leaf(s, frame, found.leaf[0], hit))
-          hit.t /= frame.kernel_t_from_t;
-        else
-          best.reset();
-        return true;
-      }
-      best = closest_reported<masks, Arithmetic>(s, frame, skip, [&](const RayFrame&, const auto& visit) {
-        for (std::size_t i = 0; i < left; ++i) visit(found.leaf[i]);
-      });
-      return true;
-    }
-  }
-  if (!scale_ray(ray, frame)) return true;
-  shear_ray(frame);
-  auto traversed = WideTraversal::done;
-  best = closest_reported<masks, Arithmetic>(s, frame, skip, [&](const RayFrame& left, const auto& visit) {
-    const auto visit_leaf = [&](std::uint32_t leaf, WideRay& limited) {
-      if (visit(leaf)) limited.limit(float_above(left.t.max));
-      return false;
-    };
-    traversed = visit_candidates(tree, ray, {.t_above = float_above(left.t.max)}, visit_leaf, work);
-  });
-  return traversed != WideTraversal::refused;
+/// What the wide tree says of a ray. refused: nothing, the ray has to go another way.
+enum class WideAnswer : std::uint8_t { refused, nothing, hit };
+
+inline WideAnswer hit_or_nothing(bool is_hit) {
+  return is_hit ? WideAnswer::hit : WideAnswer::nothing;
 }
 
-template <bool masks, class Arithmetic>
-bool any_wide(const Structures& s, const WideTree& tree, const Ray& ray, bool& found,
-              WorkCounts* work = nullptr) {
+/// The closest hit among candidates, of which there is one at least.
+template <class Arithmetic>
+[[gnu::noinline]] WideAnswer closest_found(const Structures& s, const Ray& ray, LeafCandidates& found,
+                                           Hit& best) {
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < found.count; ++i)
+    if (found.t[i] <= found.t_max) found.leaf[left++] = found.leaf[i];
   RayFrame frame;
-  if (!scale_ray(ray, frame)) return true;
+  scale_ray(ray, frame), shear_ray(frame);
+  if (left == 1) {
+    if (!Arithmetic(s, frame).leaf(s, frame, found.leaf[0], best)) return WideAnswer::nothing;
+    best.t /= frame.kernel_t_from_t;
+    return WideAnswer::hit;
+  }
+  const auto closest =
+      closest_reported<false, Arithmetic>(s, frame, no_id, [&](const RayFrame&, const auto& visit) {
+        for (std::size_t i = 0; i < left; ++i) visit(found.leaf[i]);
+      });
+  if (closest) best = *closest;
+  return hit_or_nothing(closest.has_value());
+}
+
+/// Each candidate decided as it is found.
+template <bool masks, class Arithmetic>
+[[gnu::noinline]] WideAnswer closest_visited(const Structures& s, const WideTree& tree, const Ray& ray,
+                                             std::uint32_t skip, Hit& best, WorkCounts* work) {
+  if (work != nullptr) work->primitives += s.planes.size();
+  RayFrame frame;
+  if (!scale_ray(ray, frame)) return WideAnswer::nothing;
   shear_ray(frame);
-  const Arithmetic arithmetic(s, frame);
-  Hit hit;
-  const auto blocks = [&]() {
-    if constexpr (masks) return passes_alpha_test(s, frame, hit);
+  auto traversed = WideTraversal::done;
+  const auto closest =
+      closest_reported<masks, Arithmetic>(s, frame, skip, [&](const RayFrame& left, const auto& visit) {
+        const auto visit_leaf = [&](std::uint32_t leaf, WideRay& limited) {
+          if (visit(leaf)) limited.limit(float_above(left.t.max));
+          return false;
+        };
+        traversed = visit_candidates(tree, ray, {.t_above = float_above(left.t.max)}, visit_leaf, work);
+      });
+  if (traversed == WideTraversal::refused) return WideAnswer::refused;
+  if (closest) best = *closest;
+  return hit_or_nothing(closest.has_value());
+}
+
+/// `work`: adds what the tree's floats and the planes' tests are.
+template <bool masks, class Arithmetic>
+[[gnu::noinline]] WideAnswer closest_wide(const Structures& s, const WideTree& tree, const Ray& ray,
+                                          std::uint32_t skip, Hit& best, WorkCounts* work = nullptr) {
+  if (!masks && skip == no_id && s.planes.empty()) {
+    LeafCandidates found;
+    if (closest_candidates(tree, ray, found, work) != WideTraversal::refused)
+      return found.count == 0 ? WideAnswer::nothing : closest_found<Arithmetic>(s, ray, found, best);
+  }
+  return closest_visited<masks, Arithmetic>(s, tree, ray, skip, best, work);
+}
+
+/// Whether a primitive blocks a ray, by the arithmetic of choice. The ray is made ready for it when the first is
+/// asked for: of most rays the floats know enough.
+template <bool masks, class Arithmetic>
+class Blockers {
+ public:
+  Blockers(const Structures& s, const Ray& ray) : s_(s), ray_(ray) {}
+  bool leaf(std::uint32_t leaf) {
+    return is_ready() && arithmetic_->leaf(s_, frame_, leaf, hit_) && is_opaque_there();
+  }
+  bool plane(std::uint32_t plane) {
+    return is_ready() && arithmetic_->plane(s_, frame_, plane, hit_) && is_opaque_there();
+  }
+
+ private:
+  /// False: a ray that hits nothing.
+  bool is_ready() {
+    if (!arithmetic_ && scale_ray(ray_, frame_)) shear_ray(frame_), arithmetic_.emplace(s_, frame_);
+    return arithmetic_.has_value();
+  }
+  bool is_opaque_there() {
+    if constexpr (masks) return passes_alpha_test(s_, frame_, hit_);
     return true;
-  };
+  }
+
+  const Structures& s_;
+  const Ray& ray_;
+  RayFrame frame_;
+  std::optional<Arithmetic> arithmetic_;
+  Hit hit_;
+};
+
+template <bool masks, class Arithmetic>
+WideAnswer any_wide(const Structures& s, const WideTree& tree, const Ray& ray, WorkCounts* work = nullptr) {
+  Blockers<masks, Arithmetic> blockers(s, ray);
   for (const std::uint32_t plane : s.planes) {
     if (work != nullptr) ++work->primitives;
-    if (arithmetic.plane(s, frame, plane, hit) && blocks()) return found = true;
+    if (blockers.plane(plane)) return WideAnswer::hit;
   }
-  const auto visit = [&](std::uint32_t leaf, WideRay&) {
-    return arithmetic.leaf(s, frame, leaf, hit) && blocks();
-  };
+  const auto visit = [&](std::uint32_t leaf, WideRay&) { return blockers.leaf(leaf); };
   const WideTraversal traversed =
       masks ? visit_candidates(tree, ray, {}, visit, work) : visit_ambiguous(tree, ray, visit, work);
-  found = traversed == WideTraversal::ended;
-  return traversed != WideTraversal::refused;
+  return traversed == WideTraversal::refused ? WideAnswer::refused
+                                             : hit_or_nothing(traversed == WideTraversal::ended);
 }
 
 }  // namespace gnomon::raytrace

@@ -4,86 +4,13 @@
 #include <hwy/highway.h>
 
 #include "raytrace/bvh/wide_node-inl.h"
+#include "raytrace/bvh/wide_ray-inl.h"
 #include "raytrace/bvh/wide_traverse.h"
 #include "raytrace/tracer.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
-/// What PlainTest needs; false: its floats would not be those of the textbook but for their scale.
-inline bool prepare_plain(const Ray& given, double kernel_t, WideRay& ray) {
-  for (int a = 0; a < 3; ++a) {
-    ray.plain_origin[a] = static_cast<float>(given.origin[a]);
-    ray.plain_direction[a] = static_cast<float>(given.direction[a]);
-  }
-  ray.kernel_t = static_cast<float>(kernel_t);
-  return kernel_t >= 0x1p-60 && kernel_t <= 0x1p60;
-}
-
-/// Fills the ray; false: refused. The order of operations is that of raytrace/bvh/wide_ray.h.
-HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const TraversalLimits& limits, WideRay& ray) {
-  static_assert(sizeof(Ray) == 8 * sizeof(double) && offsetof(Ray, direction) == 3 * sizeof(double));
-  using D = hn::CappedTag<double, 4>;
-  using Half = hn::Rebind<float, D>;
-  constexpr D d;
-  constexpr Half half;
-  const auto* numbers = reinterpret_cast<const double*>(&given);
-  const double largest = std::max(std::max(std::abs(numbers[3]), std::abs(numbers[4])), std::abs(numbers[5]));
-  if (!(largest >= 0x1p-900 && largest <= 0x1p900)) return false;
-  const std::uint64_t exponent = std::bit_cast<std::uint64_t>(largest) & (0x7ffull << 52);
-  const double kernel_t = std::bit_cast<double>(exponent + (1ull << 52));
-  const auto scale = hn::Set(d, std::bit_cast<double>((2045ull << 52) - exponent));
-  const float r = tree.reach;
-  const auto narrowest = hn::Set(half, WideRay::least_direction);
-  unsigned good = 0, backwards = 0;
-  for (std::size_t i = 0; i < 4; i += hn::MaxLanes(d)) {
-    const auto o =
-        hn::DemoteTo(half, hn::Sub(hn::LoadU(d, numbers + i), hn::Load(d, tree.center.data() + i)));
-    const auto v = hn::DemoteTo(half, hn::Mul(hn::LoadU(d, numbers + 3 + i), scale));
-    const auto inverse = hn::Div(
-        hn::Set(half, 1.0f), hn::IfThenElse(hn::Lt(hn::Abs(v), narrowest), hn::CopySign(narrowest, v), v));
-    const auto middle = hn::Mul(hn::Neg(o), inverse);
-    const auto slack = hn::Mul(hn::Mul(hn::Set(half, 0x1p-20f), hn::Abs(inverse)),
-                               hn::Add(hn::Set(half, 0x1p-10f * r), hn::Abs(o)));
-    hn::Store(o, half, ray.origin + i), hn::Store(v, half, ray.direction + i);
-    hn::Store(inverse, half, ray.inverse + i);
-    hn::Store(hn::Sub(middle, slack), half, ray.near + i);
-    const auto widening = hn::Set(half, WideRay::widening);
-    hn::Store(hn::Mul(inverse, widening), half, ray.far_inverse + i);
-    hn::Store(hn::Mul(hn::Add(middle, slack), widening), half, ray.far + i);
-    const auto bits = [&](auto mask) { return mask_bits(half, mask) << i; };
-    good |=
-        bits(hn::And(hn::Le(hn::Abs(o), hn::Set(half, 64.0f * r)), hn::Le(hn::Abs(v), hn::Set(half, 1.0f))));
-    backwards |= bits(hn::Lt(inverse, hn::Zero(half)));
-  }
-  constexpr unsigned axes = 7;
-  const double t_min = given.t.min * kernel_t, t_max = given.t.max * kernel_t;
-  if ((good & axes) != axes || !(t_min >= 0.0 && t_min <= 0x1p100 && t_min <= t_max) ||
-      limits.origin_error > 0x1p-44 * static_cast<double>(r))
-    return false;
-  const float q =
-      std::max(std::max(std::abs(ray.origin[0]), std::abs(ray.origin[1])), std::abs(ray.origin[2]));
-  ray.octant = backwards & axes;
-  const auto rounding = [](float t) { return t * FLT_EPSILON + FLT_MIN; };  // as float_above and float_below
-  const auto least = static_cast<float>(t_min), most = static_cast<float>(t_max);
-  ray.t_min = std::max(0.0f, least - rounding(least)), ray.surely_after = least + rounding(least);
-  const auto last = static_cast<float>(t_max + limits.beyond * kernel_t);
-  ray.t_max = std::min((last + rounding(last)) * WideRay::widening, FLT_MAX);
-  ray.surely_before = most <= FLT_MAX ? most - rounding(most) : FLT_MAX;
-  ray.limit(limits.t_above);
-  ray.coordinate_error = 1.375f * 0x1p-23f * q + 0x1p-34f * r;
-  // Without branches, which would be taken at random.
-  const auto size = [&](std::size_t a) { return std::abs(numbers[3 + a]); };
-  constexpr std::uint8_t next[3] = {1, 2, 0};
-  const std::uint32_t z01 = size(0) >= size(1) ? 0 : 1;
-  const std::uint32_t is_2 = size(2) > std::max(size(0), size(1)) ? 1 : 0;
-  const std::uint32_t z = z01 + (2 - z01) * is_2, x = next[z], y = next[x];
-  ray.axis[0] = x, ray.axis[1] = y, ray.axis[2] = z;
-  ray.inverse_z = ray.inverse[z], ray.t_per_z = std::abs(ray.inverse_z);
-  ray.direction_x = ray.direction[x], ray.direction_y = ray.direction[y];
-  if (tree.plain) return prepare_plain(given, kernel_t, ray);
-  return true;
-}
 
 template <class Leaf>
 const Leaf* leaves_of(const WideTree& tree) {
@@ -192,7 +119,8 @@ HWY_INLINE bool each_candidate(const typename Test::Leaf& leaf, const WideRay& r
 
 template <class Test>
 bool is_surely_hit(unsigned i, const Test& test, const WideRay& ray) {
-  return test.is_sure(i) && test.t_below(i) > ray.surely_after && test.t_above(i) < ray.surely_before;
+  return test.is_sure(i) && ray.surely_starts_before(test.t_below(i)) &&
+         ray.surely_ends_after(test.t_above(i));
 }
 
 template <class Test, class Counts>
@@ -205,7 +133,7 @@ HWY_INLINE WideTraversal closest(const WideTree& tree, WideRay& ray, LeafCandida
         return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
           const float t = test.t_below(i);
           if (t > ray.t_max) return false;
-          if (test.is_sure(i) && t > ray.surely_after) ray.limit(test.t_above(i));
+          if (test.is_sure(i) && ray.surely_starts_before(t)) ray.limit(test.t_above(i));
           tree.origin->prefetch(leaf.triangles.first() + i);
           return !keep(found, leaf.triangles.first() + i, t, ray);
         });
@@ -321,25 +249,41 @@ HWY_EXPORT(ambiguous_kernel);
 HWY_EXPORT(ambiguous_counted);
 HWY_EXPORT(collect_kernel);
 
+namespace {
+
+/// Asked for once: Highway's own function lies in a library, and a ray is too short for such a call.
+const hwy::ChosenTarget& chosen = hwy::GetChosenTarget();
+
+}  // namespace
+
+// What HWY_DYNAMIC_DISPATCH says, but for that.
+#if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
+#define GNOMON_KERNEL(name) HWY_STATIC_DISPATCH(name)
+#else
+#define GNOMON_KERNEL(name) (*HWY_DISPATCH_TABLE(name)[chosen.GetIndex()])
+#endif
+
 WideTraversal closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found,
                                  WorkCounts* work) {
-  return work != nullptr ? HWY_DYNAMIC_DISPATCH(closest_counted)(tree, ray, found, *work)
-                         : HWY_DYNAMIC_DISPATCH(closest_kernel)(tree, ray, found);
+  return work != nullptr ? GNOMON_KERNEL(closest_counted)(tree, ray, found, *work)
+                         : GNOMON_KERNEL(closest_kernel)(tree, ray, found);
 }
 WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                CandidateVisitor visit, WorkCounts* work) {
-  return work != nullptr ? HWY_DYNAMIC_DISPATCH(visit_counted)(tree, ray, limits, visit, *work)
-                         : HWY_DYNAMIC_DISPATCH(visit_kernel)(tree, ray, limits, visit);
+  return work != nullptr ? GNOMON_KERNEL(visit_counted)(tree, ray, limits, visit, *work)
+                         : GNOMON_KERNEL(visit_kernel)(tree, ray, limits, visit);
 }
 WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
                               WorkCounts* work) {
-  return work != nullptr ? HWY_DYNAMIC_DISPATCH(ambiguous_counted)(tree, ray, visit, *work)
-                         : HWY_DYNAMIC_DISPATCH(ambiguous_kernel)(tree, ray, visit);
+  return work != nullptr ? GNOMON_KERNEL(ambiguous_counted)(tree, ray, visit, *work)
+                         : GNOMON_KERNEL(ambiguous_kernel)(tree, ray, visit);
 }
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                    std::uint32_t skip, LeafCandidates& found) {
-  return HWY_DYNAMIC_DISPATCH(collect_kernel)(tree, ray, limits, skip, found);
+  return GNOMON_KERNEL(collect_kernel)(tree, ray, limits, skip, found);
 }
+
+#undef GNOMON_KERNEL
 
 }  // namespace gnomon::raytrace
 #endif  // HWY_ONCE

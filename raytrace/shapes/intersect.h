@@ -31,26 +31,32 @@ struct RayFrame {
   Interval t;              ///< hits count in the open interval (t.min, t.max)
 };
 
+/// A scaled frame's direction and scale where a power of two or its inverse is no normal number.
+[[gnu::noinline, gnu::cold]] inline void scale_extreme(const Ray& ray, double largest, RayFrame& frame) {
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  frame.kernel_t_from_t = std::ldexp(1.0, std::min(exponent, 1023));
+  for (std::size_t a = 0; a < 3; ++a)
+    frame.direction[a] = std::ldexp(ray.direction[static_cast<int>(a)], -exponent);
+}
+
 /// Fills origin, direction, t and their scale. False for a ray that cannot hit: NaN or infinite origin or
 /// direction, direction zero, interval empty or NaN.
 inline bool scale_ray(const Ray& ray, RayFrame& frame) {
   if (!all_finite(ray.origin) || !all_finite(ray.direction)) return false;
-  const double largest = max_component(glm::abs(ray.direction));
+  const Vec3& d = ray.direction;
+  const double largest = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
   if (!(largest > 0.0) || !(ray.t.min <= ray.t.max)) return false;
   constexpr int exponent_bits = 52, bias = 1023;
-  int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> exponent_bits) - (bias - 1);
-  double scale = 1.0;  // 2^-exponent
+  const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> exponent_bits) - (bias - 1);
   if (exponent > 1 - bias && exponent < bias) [[likely]] {
     const auto power = [](int e) {
       return std::bit_cast<double>(static_cast<std::uint64_t>(bias + e) << exponent_bits);
     };
-    frame.kernel_t_from_t = power(exponent), scale = power(-exponent);
-    for (std::size_t a = 0; a < 3; ++a) frame.direction[a] = ray.direction[static_cast<int>(a)] * scale;
+    const double scale = power(-exponent);
+    frame.kernel_t_from_t = power(exponent), frame.direction = {d.x * scale, d.y * scale, d.z * scale};
   } else {
-    std::frexp(largest, &exponent);
-    frame.kernel_t_from_t = std::ldexp(1.0, std::min(exponent, bias));
-    for (std::size_t a = 0; a < 3; ++a)
-      frame.direction[a] = std::ldexp(ray.direction[static_cast<int>(a)], -exponent);
+    scale_extreme(ray, largest, frame);
   }
   frame.t = {ray.t.min * frame.kernel_t_from_t, ray.t.max * frame.kernel_t_from_t};
   frame.origin = {ray.origin.x, ray.origin.y, ray.origin.z};

@@ -1,0 +1,129 @@
+// A ray made ready for the wide tree: fills WideRay, whose bounds are derived in raytrace/bvh/wide_ray.h.
+
+#if defined(GNOMON_RAYTRACE_BVH_WIDE_RAY_INL_H_) == \
+    defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
+#ifdef GNOMON_RAYTRACE_BVH_WIDE_RAY_INL_H_
+#undef GNOMON_RAYTRACE_BVH_WIDE_RAY_INL_H_
+#else
+#define GNOMON_RAYTRACE_BVH_WIDE_RAY_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+
+#include "raytrace/bvh/wide_traverse.h"
+#include "raytrace/mask_bits-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
+
+static_assert(sizeof(Ray) == 8 * sizeof(double) && offsetof(Ray, direction) == 3 * sizeof(double));
+inline const double* numbers_of(const Ray& ray) {
+  return reinterpret_cast<const double*>(&ray);
+}
+
+/// The origin, counted from the tree's centre, and the direction as it is.
+HWY_INLINE void put_floats(const WideTree& tree, const Ray& given, WideRay& ray) {
+  constexpr hn::CappedTag<double, 4> d;
+  constexpr hn::Rebind<float, hn::CappedTag<double, 4>> half;
+  const double* numbers = numbers_of(given);
+  for (std::size_t i = 0; i < 4; i += hn::MaxLanes(d)) {
+    const auto from_center = hn::Sub(hn::LoadU(d, numbers + i), hn::Load(d, tree.center.data() + i));
+    const auto direction = hn::DemoteTo(half, hn::LoadU(d, numbers + 3 + i));
+    hn::Store(hn::DemoteTo(half, from_center), half, ray.origin + i);
+    hn::Store(direction, half, ray.direction + i);
+    hn::Store(hn::Abs(direction), half, ray.size + i);
+  }
+}
+
+/// Of a vector's three components.
+inline float largest_of(const float* v) {
+  const auto larger = [](float a, float b) { return a > b ? a : b; };
+  return larger(larger(v[0], v[1]), v[2]);
+}
+
+/// The direction times the power of two that RayFrame has it by. Returns what t is to be multiplied by; 0: refused.
+[[gnu::noinline]] inline double put_scaled(const Ray& given, WideRay& ray) {
+  const double* direction = numbers_of(given) + 3;
+  const double largest =
+      std::max(std::max(std::abs(direction[0]), std::abs(direction[1])), std::abs(direction[2]));
+  if (!(largest >= 0x1p-900 && largest <= 0x1p900)) return 0.0;
+  const std::uint64_t exponent = std::bit_cast<std::uint64_t>(largest) & (0x7ffull << 52);
+  const double scale = std::bit_cast<double>((2045ull << 52) - exponent);
+  for (std::size_t a = 0; a < 3; ++a) {
+    ray.direction[a] = static_cast<float>(direction[a] * scale);
+    ray.size[a] = std::abs(ray.direction[a]);
+  }
+  return std::bit_cast<double>(exponent + (1ull << 52));
+}
+
+/// What the tests of boxes and triangles read. `largest`: of the direction's components, in size. False: the
+/// bounds would not hold.
+HWY_INLINE bool put_slabs(float r, float largest, WideRay& ray) {
+  constexpr hn::CappedTag<float, 4> four;
+  const auto every = [&](float v) { return hn::Set(four, v); };
+  unsigned good = 0, backwards = 0, is_largest = 0;
+  for (std::size_t i = 0; i < 4; i += hn::MaxLanes(four)) {
+    const auto o = hn::Load(four, ray.origin + i), d = hn::Load(four, ray.direction + i);
+    const auto size = hn::Load(four, ray.size + i), distance = hn::Abs(o);
+    const auto widest = hn::CopySign(hn::Max(size, every(WideRay::least_direction)), d);
+    const auto inverse = hn::Div(every(1.0f), widest);
+    const auto slack = hn::Mul(hn::Mul(hn::Add(distance, every(r)), every(0x1p-20f)), hn::Abs(inverse));
+    hn::Store(inverse, four, ray.inverse + i);
+    hn::Store(hn::NegMulSub(o, inverse, slack), four, ray.near + i);
+    hn::Store(hn::NegMulAdd(o, inverse, slack), four, ray.far + i);
+    const auto bits = [&](auto mask) { return mask_bits(four, mask) << i; };
+    good |= bits(hn::And(hn::Le(distance, every(64.0f * r)), hn::Le(size, every(1.0f))));
+    backwards |= bits(hn::Lt(inverse, hn::Zero(four)));
+    is_largest |= bits(hn::Eq(size, every(largest)));
+  }
+  constexpr unsigned axes = 7;
+  ray.octant = backwards & axes;
+  ray.z = static_cast<std::uint32_t>(std::countr_zero(is_largest));
+  ray.coordinate_error = 0x1.7p-23f * r;
+  return (good & axes) == axes;
+}
+
+/// False: refused.
+HWY_INLINE bool put_interval(const Interval& t, double kernel_t, double beyond, WideRay& ray) {
+  const double t_min = t.min * kernel_t, t_max = t.max * kernel_t;
+  ray.least = static_cast<float>(t_min), ray.most = static_cast<float>(t_max);
+  const float last = beyond > 0.0 ? static_cast<float>(t_max + beyond * kernel_t) : ray.most;
+  const float t_above = last * (WideRay::up * WideRay::widening) + FLT_MIN;
+  ray.t_min = ray.least * WideRay::down - FLT_MIN;
+  ray.t_max = t_above < FLT_MAX ? t_above : FLT_MAX;
+  return t_min >= 0.0;
+}
+
+/// What PlainTest needs; false: its floats would not be those of the textbook but for their scale.
+inline bool put_plain(const Ray& given, double kernel_t, WideRay& ray) {
+  for (int a = 0; a < 3; ++a) {
+    ray.plain_origin[a] = static_cast<float>(given.origin[a]);
+    ray.plain_direction[a] = static_cast<float>(given.direction[a]);
+  }
+  ray.kernel_t = static_cast<float>(kernel_t);
+  return kernel_t >= 0x1p-60 && kernel_t <= 0x1p60;
+}
+
+/// Fills the ray; false: refused.
+HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const TraversalLimits& limits, WideRay& ray) {
+  put_floats(tree, given, ray);
+  double kernel_t = 1.0;
+  float largest = largest_of(ray.size);
+  if (!(largest > 0.5f && largest < 1.0f)) [[unlikely]] {  // of unit directions few; those have scale 1
+    kernel_t = put_scaled(given, ray), largest = largest_of(ray.size);
+    if (!(kernel_t > 0.0)) return false;
+  }
+  if (!put_slabs(tree.reach, largest, ray) || !put_interval(given.t, kernel_t, limits.beyond, ray) ||
+      limits.origin_error > 0x1p-44 * static_cast<double>(tree.reach))
+    return false;
+  ray.limit(limits.t_above);
+  return !tree.plain || put_plain(given, kernel_t, ray);
+}
+
+}  // namespace
+}  // namespace gnomon::raytrace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target guard
