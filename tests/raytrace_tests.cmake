@@ -14,7 +14,8 @@ gnomon_test(raytrace_packet_test
   LIBS raytrace_support TBB::tbb hwy::hwy)
 
 gnomon_test(raytrace_wide_test
-  SOURCES raytrace_wide_test.cpp raytrace_wide_tree_test.cpp raytrace_light_shaft_test.cpp
+  SOURCES raytrace_wide_test.cpp raytrace_wide_tree_test.cpp raytrace_wide_interval_test.cpp
+    raytrace_light_shaft_test.cpp
   LIBS raytrace_support TBB::tbb hwy::hwy)
 
 gnomon_test(raytrace_cells_test

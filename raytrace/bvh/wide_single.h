@@ -19,7 +19,7 @@ inline WideAnswer hit_or_nothing(bool is_hit) {
   return is_hit ? WideAnswer::hit : WideAnswer::nothing;
 }
 
-/// The closest hit among candidates, of which there is one at least.
+/// The closest hit among candidates and planes.
 template <class Arithmetic>
 [[gnu::noinline]] WideAnswer closest_found(const Structures& s, const Ray& ray, LeafCandidates& found,
                                            Hit& best) {
@@ -27,8 +27,9 @@ template <class Arithmetic>
   for (std::size_t i = 0; i < found.count; ++i)
     if (found.t[i] <= found.t_max) found.leaf[left++] = found.leaf[i];
   RayFrame frame;
-  scale_ray(ray, frame), shear_ray(frame);
-  if (left == 1) {
+  if (!scale_ray(ray, frame)) return WideAnswer::nothing;
+  shear_ray(frame);
+  if (left == 1 && s.planes.empty()) {
     if (!Arithmetic(s, frame).leaf(s, frame, found.leaf[0], best)) return WideAnswer::nothing;
     best.t /= frame.kernel_t_from_t;
     return WideAnswer::hit;
@@ -45,7 +46,6 @@ template <class Arithmetic>
 template <bool masks, class Arithmetic>
 [[gnu::noinline]] WideAnswer closest_visited(const Structures& s, const WideTree& tree, const Ray& ray,
                                              std::uint32_t skip, Hit& best, WorkCounts* work) {
-  if (work != nullptr) work->primitives += s.planes.size();
   RayFrame frame;
   if (!scale_ray(ray, frame)) return WideAnswer::nothing;
   shear_ray(frame);
@@ -67,10 +67,13 @@ template <bool masks, class Arithmetic>
 template <bool masks, class Arithmetic>
 [[gnu::noinline]] WideAnswer closest_wide(const Structures& s, const WideTree& tree, const Ray& ray,
                                           std::uint32_t skip, Hit& best, WorkCounts* work = nullptr) {
-  if (!masks && skip == no_id && s.planes.empty()) {
+  if (work != nullptr) work->primitives += s.planes.size();
+  if (!masks && skip == no_id) {
     LeafCandidates found;
-    if (closest_candidates(tree, ray, found, work) != WideTraversal::refused)
-      return found.count == 0 ? WideAnswer::nothing : closest_found<Arithmetic>(s, ray, found, best);
+    if (closest_candidates(tree, ray, found, work) != WideTraversal::refused) {
+      const bool is_empty = found.count == 0 && s.planes.empty();
+      return is_empty ? WideAnswer::nothing : closest_found<Arithmetic>(s, ray, found, best);
+    }
   }
   return closest_visited<masks, Arithmetic>(s, tree, ray, skip, best, work);
 }
