@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "every_target.h"
+#include "raytrace/packets/edge_setup.h"
 #include "raytrace/single_rays.h"
 #include "raytrace_support.h"
 

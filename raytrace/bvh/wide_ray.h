@@ -54,14 +54,14 @@ struct WideRay {
   static constexpr float least_direction = 0x1p-60f;  ///< smaller ones are taken for this
   static constexpr float origin_error = 14.75f * 0x1p-24f;
   static constexpr float corner_error = 1.03f;  ///< in steps of a leaf
-  // An end of an interval that was rounded to a float is less than it times this and FLT_MIN, or more.
+  // A number that was rounded to a float f is between down f - FLT_MIN and up f + FLT_MIN.
   static constexpr float up = 1.0f + FLT_EPSILON, down = 1.0f - FLT_EPSILON;
 
   // By axis; the fourth means nothing.
   alignas(16) float origin[4], direction[4], size[4];  ///< size: the direction's components without signs
   // t of a plane at x along an axis is between x inverse + near and x inverse + far.
   alignas(16) float inverse[4], near[4], far[4];
-  float t_min, t_max;  ///< what the ray surely ends within; t_max: widened, and finite
+  float t_min, t_max;  ///< no hit is outside; t_max is widened and finite
   float least, most;   ///< the interval's ends to the nearest
   float coordinate_error;
   float plain_origin[3], plain_direction[3], kernel_t;  ///< as they are, for PlainTest alone; t's own scale
