@@ -151,6 +151,14 @@ TEST(Packets, RandomTriangles) {
   }
 }
 
+// Foliage: neighbouring pixels see triangles far apart, and between them and the lights lie more than a packet is worth.
+TEST(Packets, ScatteredReceiversGoOnOneByOne) {
+  Scene scene = test::scene_of({test::triangle_soup(20000, 1.0, 0.03, 7)});
+  look(scene, {0.3, 0.4, 3.0}, {0, 0, 0});
+  scene.lights = lights_around(Vec3(0.0), 2.0);
+  check(scene, {101, 67});
+}
+
 // Backs that are not seen, among such as are: from afar, from within, and with eyes in triangles' planes.
 TEST(Packets, SingleSidedTriangles) {
   for (const double size : {0.05, 1.5}) {

@@ -101,6 +101,14 @@ class BlockShadows {
   void put(LeafRange run, unsigned tiles) {
     pending_.put(run, static_cast<std::uint16_t>(tiles));
     while (pending_.count() >= std::size_t{2} * run_size) flush();
+    bool any_left = false;
+    for (; tiles != 0; tiles &= tiles - 1) {
+      const auto t = static_cast<std::size_t>(std::countr_zero(tiles));
+      if (tiles_[t].affords(run.count)) continue;
+      tiles_[t].leave_to_single_rays(), tiles_[t].update_regions(regions_, t);
+      any_left = true;
+    }
+    if (any_left) update_limit();
   }
 
   /// Of the longest waiting leaves finds which packets each may concern, in plain loops, because branches that nobody can

@@ -126,6 +126,11 @@ inline bool worth_splitting(const Extent& whole, const Extent& a, const Extent& 
 }
 
 /// One tile's rays: what is still asked, and what is known.
+///
+/// A leaf costs a tile some 40 ns, whatever the scene, and a single ray costs what some 8 leaves do through the wide tree and
+/// some 50 without one. So a tile may meet a number of leaves for each of its rays, after which the rays go on one by one. It is
+/// small where neighbouring pixels see surfaces far apart, leaves and twigs, say: their packets lie one over another in the
+/// plane, each is as large as the tile, and what lies between them and the light concerns all.
 class TileState {
  public:
   void start(const ShadowTileRays& tile) {
@@ -141,6 +146,21 @@ class TileState {
     }
     find_extents();
     for (std::size_t p = 0; p < tile_packets; ++p) update(p);
+    unsigned rays = 0;
+    for (const std::uint16_t alive : rays_->alive) rays += static_cast<unsigned>(std::popcount(alive));
+    leaves_left_ = static_cast<std::int64_t>(rays) * (is_scattered() ? few_leaves : many_leaves);
+  }
+
+  /// Whether the tile is still worth its part in so many more leaves.
+  bool affords(std::uint32_t leaves) { return (leaves_left_ -= leaves) >= 0; }
+  /// What is not yet decided is ambiguous, and what it may intersect is not known.
+  void leave_to_single_rays() {
+    for (std::size_t p = 0; p < tile_packets; ++p) {
+      out_->ambiguous[p] |= rays_->alive[p];
+      packets_.part[0].far_min[p] = packets_.part[1].far_min[p] = inf;
+    }
+    std::fill_n(far_, tile_rays, inf);
+    out_->ambiguous_count = TileShadows::most_ambiguous + 1;
   }
 
   const SplitRegions& packets() const { return packets_; }
@@ -230,6 +250,19 @@ class TileState {
   }
 
  private:
+  static constexpr int few_leaves = 4, many_leaves = 48;  ///< for a ray; the comment of the class
+
+  bool is_scattered() const {
+    Extent whole;
+    float area = 0.0f;
+    for (const Packets& part : packets_.part)
+      for (std::size_t i = 0; i < tile_packets; ++i) {
+        const Extent e = Extent::of(part, i);
+        whole.grow(e), area += e.area();
+      }
+    return area > 3.0f * whole.area();
+  }
+
   template <bool plane>
   HWY_INLINE BlockedRays<plane> blocked(const LaneNumbers& primitive, const Blocker& blocker,
                                         std::size_t packet, std::size_t step) const {
@@ -326,6 +359,7 @@ class TileState {
   LaneMask beyond_;                 ///< of each packet the rays of its second part
   std::array<unsigned, 2> second_;  ///< packets' first and second parts that are of the tile's second part
   bool divided_ = false;
+  std::int64_t leaves_left_ = 0;  ///< that the tile may still meet
   alignas(64) float far_[tile_rays];
 };
 
