@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 
+#include "raster/clip_sides.h"
 #include "raster/expression_glsl.h"
 #include "scene/parallel.h"
 #include "scene/solid.h"
@@ -351,6 +352,7 @@ void WorldBuffers::bind() const {
 
 void WorldBuffers::draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
                                   bool culls) const {
+  const ClipSides sides(clip_from_relative, *reference_);
   if (culls) (*gl_)->CullFace(GL_BACK);
   for (const bool with_mask : {false, true}) {
     const TriangleProgram* used = nullptr;
@@ -359,6 +361,7 @@ void WorldBuffers::draw_triangles(const TrianglePrograms& programs, const Mat4& 
       const bool kept = run.part != no_id;
       const std::uint32_t count = std::min(run.count, left[kept ? 1 : 0]);
       if (run.masked != with_mask || count == 0) continue;
+      if (kept && sides.surely_outside(world_->parts[run.part].bounds)) continue;
       left[kept ? 1 : 0] -= count;
       const TriangleProgram& program = *programs.of[with_mask ? 1 : 0][kept ? 1 : 0];
       if (used != &program)

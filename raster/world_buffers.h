@@ -69,7 +69,8 @@ class WorldBuffers {
   const World& world() const { return *world_; }
   /// Binds what the shaders read, and the vertex array.
   void bind() const;
-  /// Draws every run with the program of its kind; all get the matrix. `culls`: single-sided triangles are not drawn
+  /// Draws every run with the program of its kind; all get the matrix. Kept parts that it surely shows nothing of are
+  /// left out; depths must be clamped (GL_DEPTH_CLAMP). `culls`: single-sided triangles are not drawn
   /// where their back is seen (GL_CULL_FACE is off before and after); else the caller's state holds for all. A front is
   /// that of the mesh in its own space, of mirrored parts, too.
   void draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,

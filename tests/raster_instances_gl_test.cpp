@@ -58,6 +58,15 @@ TEST(KeptInstances, AreDrawnAsFlattenedOnes) {
   }
 }
 
+// From among them: many are beside or behind the camera, or on other faces of a point light's cube, and are not drawn.
+TEST(KeptInstances, ThatAreNotInViewChangeNothing) {
+  Scene scene = boxes(Vec3(0.0));
+  scene.lights.push_back(lamp(LightType::point, Vec3(0.1, 1.2, 0.3), Vec3(0.0, 0.0, 1.0)));
+  scene.camera.eye = Vec3(-0.4, 0.9, 0.2), scene.camera.target = Vec3(3.0, 0.6, 1.0);
+  expect_same(draw(scene, small_options(), InstanceChoice::keep),
+              draw(scene, small_options(), InstanceChoice::flatten));
+}
+
 TEST(KeptInstances, WithHolesAndTexturesToo) {
   Scene scene = boxes(Vec3(0.0));
   Texture texture;
