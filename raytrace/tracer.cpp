@@ -49,8 +49,7 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
   else
     s.bvh = accel == Accel::bvh ? build_bvh(world) : build_flat(world);
   s.structure = std::move(other);
-  if (accel == Accel::bvh && s.bvh.instances.empty())
-    s.wide = std::make_unique<WideOnDemand>(precision == Precision::fast);
+  if (accel == Accel::bvh) s.wide = std::make_unique<WideOnDemand>(precision == Precision::fast);
   for (std::uint32_t id = world.triangle_count(); id < world.primitive_count(); ++id) {
     const auto* plane = std::get_if<Plane>(&world.shape(id).geometry);
     if (plane == nullptr)

@@ -9,6 +9,7 @@
 #include "raytrace/frame.h"
 #include "raytrace/kernels.h"
 #include "raytrace/sheets.h"
+#include "raytrace/single_rays.h"
 #include "scene/light_view.h"
 #include "support/placements.h"
 
@@ -109,31 +110,47 @@ TEST(Instances, EveryBoxHoldsItsTrianglesInTheWorld) {
     }
 }
 
-TEST(Instances, RaysFindTheSame) {
-  for (const test::Kind& kind : test::kinds) {
-    const BothWays w(placed_scene(kind, 40, 11));
-    const std::vector<Ray> rays = test::aimed_rays(w.flat, 500, kind.extent, Vec3(0.0), 12);
-    // The textbook's floats find hits outside a triangle's own box, so there the boxes do matter.
-    for (const Precision precision : {Precision::robust, Precision::exact}) {
-      const Tracer kept(w.kept, Accel::bvh, precision), flat(w.flat, Accel::brute, precision);
-      std::atomic<int> wrong = 0;
-      tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
-        const auto truth = flat.closest_hit(rays[i]);
-        WorkCounts work;
-        bool right = same(kept.closest_hit(rays[i]), truth) && same(kept.closest_hit(rays[i], work), truth) &&
-                     kept.occluded(rays[i]) == truth.has_value();
-        if (right && truth) {
-          const SurfacePoint point = flat.surface_point(rays[i], *truth);
-          right = point.position == kept.surface_point(rays[i], *truth).position;
-          for (const Light& light :
-               {test::point_light(Vec3(2.0 * kind.extent)), test::sun(Vec3(0.3, -1.0, 0.2))})
-            right = right && kept.centre_visibility(point, light) == flat.centre_visibility(point, light);
-        }
-        wrong += right ? 0 : 1;
-      });
-      EXPECT_EQ(wrong, 0) << kind.name << " " << precision_name(precision);
+/// Rays and visibility in a kept world against brute force over the same world flattened. Returns whether single rays had a
+/// tree of their own.
+bool expect_same_rays(const BothWays& w, const test::Kind& kind, const Vec3& middle, Precision precision) {
+  const std::vector<Ray> rays = test::aimed_rays(w.flat, 500, kind.extent, middle, 12);
+  const Tracer kept(w.kept, Accel::bvh, precision), flat(w.flat, Accel::brute, precision);
+  prepare_single_rays(kept);
+  std::atomic<int> wrong = 0;
+  tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
+    const auto truth = flat.closest_hit(rays[i]);
+    WorkCounts work;
+    bool right = same(kept.closest_hit(rays[i]), truth) && same(kept.closest_hit(rays[i], work), truth) &&
+                 same(counted_closest_hit(kept, rays[i], work), truth) &&
+                 counted_occluded(kept, rays[i], work) == truth.has_value() &&
+                 kept.occluded(rays[i]) == truth.has_value();
+    if (right && truth) {
+      const SurfacePoint point = flat.surface_point(rays[i], *truth);
+      right = point.position == kept.surface_point(rays[i], *truth).position;
+      for (const Light& light :
+           {test::point_light(middle + Vec3(2.0 * kind.extent)), test::sun(Vec3(0.3, -1.0, 0.2))})
+        right = right && kept.centre_visibility(point, light) == flat.centre_visibility(point, light);
     }
-  }
+    wrong += right ? 0 : 1;
+  });
+  EXPECT_EQ(wrong, 0) << kind.name << " " << precision_name(precision);
+  return single_ray_bytes(kept) > 0;
+}
+
+TEST(Instances, RaysFindTheSame) {
+  for (const test::Kind& kind : test::kinds)
+    for (const double extents : {0.0, 30.0, 3000.0}) {
+      const Vec3 away = extents * kind.extent * Vec3(0.2, -1.0, 0.1);
+      Scene scene = placed_scene(kind, 40, 11);
+      scene.meshes.push_back(test::triangle_soup(30, 1.0, 0.5, 6));  // not kept, for it stands once
+      scene.instances.push_back({"once", 2, test::scaling(Vec3(kind.extent)), 0});
+      for (MeshInstance& instance : scene.instances)
+        instance.world_from_object = test::moved(away, instance.world_from_object);
+      const BothWays w(std::move(scene));
+      // The textbook's floats find hits outside a triangle's own box, so there the boxes do matter.
+      for (const Precision precision : {Precision::robust, Precision::exact})
+        EXPECT_TRUE(expect_same_rays(w, kind, away, precision)) << kind.name;
+    }
 }
 
 TEST(Instances, EveryStructureFindsTheSame) {

@@ -73,9 +73,10 @@ inline int intersect_boxes(const BvhNode& node, const BoxRay& ray, float t_max, 
 }
 
 /// leaf(child) for every leaf of a tree, and every instance, whose boxes the ray may intersect before t_max, nearest
-/// boxes first; true ends the traversal. `space`: NodesThere or NodesPlaced.
+/// boxes first; true ends the traversal. `space`: NodesThere or NodesPlaced. `root`: the node to begin with.
 template <class Space, class Stats, class Leaf>
-bool traverse_tree(const Bvh& tree, const Space& space, BoxRay& ray, Stats& stats, const Leaf& leaf) {
+bool traverse_tree(const Bvh& tree, const Space& space, BoxRay& ray, Stats& stats, const Leaf& leaf,
+                   std::uint32_t root = 0) {
   struct Entry {
     BvhChild child;
     float t_near;
@@ -83,7 +84,7 @@ bool traverse_tree(const Bvh& tree, const Space& space, BoxRay& ray, Stats& stat
   BvhNode scratch;
   std::array<Entry, Bvh::stack_size> stack;
   std::size_t size = 0;
-  stack[size++] = {BvhChild::node(0), -std::numeric_limits<float>::infinity()};
+  stack[size++] = {BvhChild::node(root), -std::numeric_limits<float>::infinity()};
   while (size > 0) {
     const Entry entry = stack[--size];
     if (entry.t_near > ray.t_max) continue;

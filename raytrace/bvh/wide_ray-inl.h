@@ -119,6 +119,7 @@ HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const TraversalL
   if (!put_slabs(tree.reach, largest, ray) || !put_interval(given.t, kernel_t, limits.beyond, ray) ||
       limits.origin_error > 0x1p-44 * static_cast<double>(tree.reach))
     return false;
+  ray.unit = limits.frame_t > 0.0 ? static_cast<float>(kernel_t / limits.frame_t) : 1.0f;
   ray.limit(limits.t_above);
   return !tree.plain || put_plain(given, kernel_t, ray);
 }

@@ -93,7 +93,7 @@ namespace gnomon::raytrace {
 HWY_EXPORT(shaft_kernel);
 
 bool leaves_in_shaft(const WideTree& tree, const Shaft& shaft, ShaftLeaves& found) {
-  return !tree.plain && HWY_DYNAMIC_DISPATCH(shaft_kernel)(tree, shaft, found);
+  return !tree.plain && tree.instances.empty() && HWY_DYNAMIC_DISPATCH(shaft_kernel)(tree, shaft, found);
 }
 
 }  // namespace gnomon::raytrace

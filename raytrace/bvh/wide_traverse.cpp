@@ -3,6 +3,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include "raytrace/bvh/wide_instances.h"
 #include "raytrace/bvh/wide_node-inl.h"
 #include "raytrace/bvh/wide_ray-inl.h"
 #include "raytrace/bvh/wide_traverse.h"
@@ -181,10 +182,10 @@ HWY_INLINE WideTraversal visit_of(const WideTree& tree, const Ray& given, const 
 }
 
 template <class Counts>
-HWY_INLINE WideTraversal ambiguous_of(const WideTree& tree, const Ray& given, const CandidateVisitor& visit,
-                                      const Counts& counts) {
+HWY_INLINE WideTraversal ambiguous_of(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
+                                      const CandidateVisitor& visit, const Counts& counts) {
   WideRay ray;
-  if (!prepare(tree, given, {}, ray)) return WideTraversal::refused;
+  if (!prepare(tree, given, limits, ray)) return WideTraversal::refused;
   return tree.plain ? visit_ambiguous_hits<PlainTest>(tree, ray, visit, counts)
                     : visit_ambiguous_hits<LeafTest>(tree, ray, visit, counts);
 }
@@ -228,11 +229,15 @@ WideTraversal collect_kernel(const WideTree& tree, const Ray& given, const Trave
 }
 
 WideTraversal ambiguous_kernel(const WideTree& tree, const Ray& ray, CandidateVisitor visit) {
-  return ambiguous_of(tree, ray, visit, NoCounts{});
+  return ambiguous_of(tree, ray, {}, visit, NoCounts{});
 }
-WideTraversal ambiguous_counted(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
-                                WorkCounts& work) {
-  return ambiguous_of(tree, ray, visit, CountTests{work});
+WideTraversal ambiguous_placed(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                               CandidateVisitor visit) {
+  return ambiguous_of(tree, ray, limits, visit, NoCounts{});
+}
+WideTraversal ambiguous_counted(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                                CandidateVisitor visit, WorkCounts& work) {
+  return ambiguous_of(tree, ray, limits, visit, CountTests{work});
 }
 
 }  // namespace
@@ -246,6 +251,7 @@ HWY_EXPORT(closest_counted);
 HWY_EXPORT(visit_kernel);
 HWY_EXPORT(visit_counted);
 HWY_EXPORT(ambiguous_kernel);
+HWY_EXPORT(ambiguous_placed);
 HWY_EXPORT(ambiguous_counted);
 HWY_EXPORT(collect_kernel);
 
@@ -263,24 +269,42 @@ const hwy::ChosenTarget& chosen = hwy::GetChosenTarget();
 #define GNOMON_KERNEL(name) (*HWY_DISPATCH_TABLE(name)[chosen.GetIndex()])
 #endif
 
+WideTraversal visit_in_tree(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                            CandidateVisitor visit, WorkCounts* work) {
+  return work != nullptr ? GNOMON_KERNEL(visit_counted)(tree, ray, limits, visit, *work)
+                         : GNOMON_KERNEL(visit_kernel)(tree, ray, limits, visit);
+}
+WideTraversal visit_ambiguous_in_tree(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                                      CandidateVisitor visit, WorkCounts* work) {
+  return work != nullptr ? GNOMON_KERNEL(ambiguous_counted)(tree, ray, limits, visit, *work)
+                         : GNOMON_KERNEL(ambiguous_placed)(tree, ray, limits, visit);
+}
+WideTraversal ambiguous_in_tree(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                                std::uint32_t skip, LeafCandidates& found) {
+  return GNOMON_KERNEL(collect_kernel)(tree, ray, limits, skip, found);
+}
+
 WideTraversal closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found,
                                  WorkCounts* work) {
+  if (!tree.instances.empty()) return WideTraversal::refused;
   return work != nullptr ? GNOMON_KERNEL(closest_counted)(tree, ray, found, *work)
                          : GNOMON_KERNEL(closest_kernel)(tree, ray, found);
 }
 WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                CandidateVisitor visit, WorkCounts* work) {
-  return work != nullptr ? GNOMON_KERNEL(visit_counted)(tree, ray, limits, visit, *work)
-                         : GNOMON_KERNEL(visit_kernel)(tree, ray, limits, visit);
+  return tree.instances.empty() ? visit_in_tree(tree, ray, limits, visit, work)
+                                : visit_in_instances(tree, ray, limits, visit, work);
 }
 WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
                               WorkCounts* work) {
-  return work != nullptr ? GNOMON_KERNEL(ambiguous_counted)(tree, ray, visit, *work)
+  if (!tree.instances.empty()) return visit_ambiguous_in_instances(tree, ray, visit, work);
+  return work != nullptr ? GNOMON_KERNEL(ambiguous_counted)(tree, ray, {}, visit, *work)
                          : GNOMON_KERNEL(ambiguous_kernel)(tree, ray, visit);
 }
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                    std::uint32_t skip, LeafCandidates& found) {
-  return GNOMON_KERNEL(collect_kernel)(tree, ray, limits, skip, found);
+  return tree.instances.empty() ? ambiguous_in_tree(tree, ray, limits, skip, found)
+                                : ambiguous_in_instances(tree, ray, limits, skip, found);
 }
 
 #undef GNOMON_KERNEL

@@ -27,7 +27,7 @@ struct LeafCandidates {
 enum class WideTraversal : std::uint8_t { refused, done, ended };
 
 /// All that may be the closest hit: those before the least t where there surely is one. Every primitive must
-/// count (no masks). `refused` also where there would be too many.
+/// count (no masks). `refused` also where there would be too many, and of a tree with instances.
 WideTraversal closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found,
                                  WorkCounts* work = nullptr);
 
@@ -37,6 +37,7 @@ struct TraversalLimits {
   float t_above = std::numeric_limits<float>::infinity();  ///< none from here on; in the units of RayFrame
   double origin_error = 0.0;  ///< how far the ray's true origin may lie from its own, along any axis
   double beyond = 0.0;        ///< how far past its end the ray is followed; in its own units
+  double frame_t = 0.0;  ///< RayFrame's units of t, where they are not those of this ray's own frame; else 0
 };
 WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                CandidateVisitor visit, WorkCounts* work = nullptr);
@@ -48,5 +49,13 @@ WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVis
 /// `refused` also where there would be too many.
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                    std::uint32_t skip, LeafCandidates& found);
+
+/// The same for what the tree itself holds, without its instances (raytrace/bvh/wide_instances.h).
+WideTraversal visit_in_tree(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                            CandidateVisitor visit, WorkCounts* work);
+WideTraversal visit_ambiguous_in_tree(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                                      CandidateVisitor visit, WorkCounts* work);
+WideTraversal ambiguous_in_tree(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                                std::uint32_t skip, LeafCandidates& found);
 
 }  // namespace gnomon::raytrace

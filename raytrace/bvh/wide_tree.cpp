@@ -6,6 +6,7 @@
 #include <span>
 #include <thread>
 
+#include "raytrace/bvh/wide_instances.h"
 #include "raytrace/bvh/wide_pack.h"
 #include "raytrace/given_up.h"
 #include "scene/parallel.h"
@@ -90,10 +91,11 @@ class Collapse {
         tree_(tree),
         has_shapes_(world.primitive_count() > world.triangle_count()),
         pairs_(most_parts(bvh, has_shapes_)) {
+    const BvhNode& top = bvh.nodes[bvh.flat_root];
     WideBox all;
     for (std::size_t i = 0; i < 4; ++i)
-      if (!is_empty(bvh.nodes[0].child[i])) all.grow(wide_box_of(bvh.nodes[0], i));
-    const Part root = part_of(BvhChild::node(0), all);
+      if (!is_empty(top.child[i])) all.grow(wide_box_of(top, i));
+    const Part root = part_of(BvhChild::node(bvh.flat_root), all);
     const std::size_t most = std::size_t{1} + used_pairs_.load();  // a node is a pair, or the only leaf's
     tree.nodes.resize(most), resize_leaves(most);
     collapse(root, nodes_++, 0);
@@ -361,7 +363,11 @@ std::unique_ptr<const WideTree> collapse_bvh(const Bvh& bvh, const World& world,
   tree->center = {bvh.center.x, bvh.center.y, bvh.center.z, 0.0};
   tree->reach = reach_of(bvh.nodes[0]);
   if (!(tree->reach >= 0x1p-26f && tree->reach <= 0x1p30f)) return nullptr;
-  const Collapse collapse(bvh, world, *tree);
+  if (!bvh.instances.empty()) {
+    if (plain) return nullptr;
+    put_wide_instances(world, *tree);
+  }
+  if (!bvh.ids.empty()) const Collapse collapse(bvh, world, *tree);
   return tree;
 }
 
@@ -390,7 +396,9 @@ const WideTree* WideOnDemand::count_ray(const Bvh& bvh, const World& world) {
   const std::uint64_t thread = std::hash<std::thread::id>{}(std::this_thread::get_id());
   RayCount& count = counts_[(thread * 0x9e3779b97f4a7c15u) >> 60];
   if ((count.rays.fetch_add(1, std::memory_order_relaxed) + 1) % told_at_once != 0) return nullptr;
-  if ((rays_ += told_at_once) >= least + bvh.primitives.size() / 16) collapse(bvh, world);
+  std::uint64_t primitives = bvh.primitives.size();
+  for (const Bvh& tree : bvh.trees) primitives += tree.primitives.size();
+  if ((rays_ += told_at_once) >= least + primitives / 16) collapse(bvh, world);
   return ready_.load(std::memory_order_acquire);
 }
 

@@ -69,6 +69,15 @@ struct alignas(64) PlainLeaf {
   LeafTriangles triangles;
 };
 
+/// What brings rays into the space of a kept instance's mesh (raytrace/bvh/wide_instances.h).
+struct WideInstance {
+  Mat3 object_from_world;  ///< but for the translation
+  Vec3 translation;        ///< of the instance, in the world
+  double inverse_norm;  ///< by how much object_from_world makes vectors longer at most, in the maximum norm
+  double
+      error;  ///< how far off a ray's origin is there, beyond what its own size makes of it; infinite: unknown
+};
+
 struct WideTree {
   HugeVector<WideNode> nodes;  ///< node 0 is the root
   HugeVector<WideLeaf> leaves;
@@ -76,15 +85,19 @@ struct WideTree {
   const Bvh* origin = nullptr;                 ///< what was collapsed; it must outlive the tree
   alignas(32) std::array<double, 4> center{};  ///< all floats count from here; the last is 0
   bool plain = false;
-  float reach = 0.0;  ///< no coordinate of a box is above this
+  float reach = 0.0;                                   ///< no coordinate of a box is above this
+  std::vector<std::unique_ptr<const WideTree>> trees;  ///< as Bvh::trees, in object space
+  std::vector<WideInstance> instances;                 ///< as Bvh::instances; `nodes` has what is flattened
   std::uint64_t bytes() const {
-    return nodes.size() * sizeof(WideNode) + leaves.size() * sizeof(WideLeaf) +
+    std::uint64_t sum = instances.size() * sizeof(WideInstance);
+    for (const auto& tree : trees) sum += tree != nullptr ? tree->bytes() : 0;
+    return sum + nodes.size() * sizeof(WideNode) + leaves.size() * sizeof(WideLeaf) +
            plain_leaves.size() * sizeof(PlainLeaf);
   }
 };
 
 /// Nothing where the floats' bounds would not hold: no tree, or a scene larger than 2^30 or smaller than
-/// 2^-26.
+/// 2^-26; nor `plain` with kept instances, for the textbook's floats are the world's.
 std::unique_ptr<const WideTree> collapse_bvh(const Bvh& bvh, const World& world, bool plain = false);
 
 /// Collapses the tree when so many rays have asked for it that it pays. Any number of threads may ask. There is

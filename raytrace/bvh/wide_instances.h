@@ -1,0 +1,29 @@
+// Kept instances under the wide tree's kernels: each mesh has a wide tree in its own space, and a ray comes to it by
+// the inverse of the instance's matrix (Rubin and Whitted 1980). The tree above them is the default one.
+//
+// Notation as in raytrace/bvh/wide_ray.h; M is the instance's matrix, N its inverse in double, T its translation. What a
+// ray N (o - T) + t N d is off by, and what the triangles are, whose corners were rounded in the world, is as if the ray's
+// origin were: with k = |M| |N|, by no more than
+//   |N| (e' + 2^-46 (|o| + |T| + |M| (|c| + r))) + 2^-40 k r
+// for every hit, e' being what the given origin is off by, c the mesh's centre, and t |d| of N d at most 2^8 (q + r); by
+// the first term's 2^-46 all of the doubles' own roundings in the world, the inverse's, of less than 2^-50 k, within the
+// last. Where that is at most 2^-35 r it is part of the 2^-34 r that the bounds have to spare. Other rays meet the
+// instance by its plain boxes.
+#pragma once
+
+#include "raytrace/bvh/wide_traverse.h"
+
+namespace gnomon::raytrace {
+
+/// Fills the tree's instances from its origin's.
+void put_wide_instances(const World& world, WideTree& tree);
+
+/// The verbs of wide_traverse.h for trees that have instances.
+WideTraversal visit_in_instances(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                                 CandidateVisitor visit, WorkCounts* work);
+WideTraversal visit_ambiguous_in_instances(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
+                                           WorkCounts* work);
+WideTraversal ambiguous_in_instances(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+                                     std::uint32_t skip, LeafCandidates& found);
+
+}  // namespace gnomon::raytrace
