@@ -15,7 +15,7 @@
 
 namespace gnomon::raytrace {
 
-/// Fills the tree's instances from its origin's.
+/// Fills the tree's instances from its origin's, if that has any.
 void put_wide_instances(const World& world, WideTree& tree);
 
 /// The verbs of wide_traverse.h for trees that have instances.

@@ -228,10 +228,7 @@ WideTraversal collect_kernel(const WideTree& tree, const Ray& given, const Trave
   return full ? WideTraversal::refused : traversed;
 }
 
-WideTraversal ambiguous_kernel(const WideTree& tree, const Ray& ray, CandidateVisitor visit) {
-  return ambiguous_of(tree, ray, {}, visit, NoCounts{});
-}
-WideTraversal ambiguous_placed(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
+WideTraversal ambiguous_kernel(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                CandidateVisitor visit) {
   return ambiguous_of(tree, ray, limits, visit, NoCounts{});
 }
@@ -251,7 +248,6 @@ HWY_EXPORT(closest_counted);
 HWY_EXPORT(visit_kernel);
 HWY_EXPORT(visit_counted);
 HWY_EXPORT(ambiguous_kernel);
-HWY_EXPORT(ambiguous_placed);
 HWY_EXPORT(ambiguous_counted);
 HWY_EXPORT(collect_kernel);
 
@@ -277,7 +273,7 @@ WideTraversal visit_in_tree(const WideTree& tree, const Ray& ray, const Traversa
 WideTraversal visit_ambiguous_in_tree(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                       CandidateVisitor visit, WorkCounts* work) {
   return work != nullptr ? GNOMON_KERNEL(ambiguous_counted)(tree, ray, limits, visit, *work)
-                         : GNOMON_KERNEL(ambiguous_placed)(tree, ray, limits, visit);
+                         : GNOMON_KERNEL(ambiguous_kernel)(tree, ray, limits, visit);
 }
 WideTraversal ambiguous_in_tree(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                 std::uint32_t skip, LeafCandidates& found) {
@@ -297,9 +293,8 @@ WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const Trave
 }
 WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
                               WorkCounts* work) {
-  if (!tree.instances.empty()) return visit_ambiguous_in_instances(tree, ray, visit, work);
-  return work != nullptr ? GNOMON_KERNEL(ambiguous_counted)(tree, ray, {}, visit, *work)
-                         : GNOMON_KERNEL(ambiguous_kernel)(tree, ray, visit);
+  return tree.instances.empty() ? visit_ambiguous_in_tree(tree, ray, {}, visit, work)
+                                : visit_ambiguous_in_instances(tree, ray, visit, work);
 }
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                    std::uint32_t skip, LeafCandidates& found) {

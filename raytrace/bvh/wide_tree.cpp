@@ -357,16 +357,12 @@ float reach_of(const BvhNode& root) {
 }  // namespace
 
 std::unique_ptr<const WideTree> collapse_bvh(const Bvh& bvh, const World& world, bool plain) {
-  if (bvh.nodes.empty()) return nullptr;
+  if (bvh.nodes.empty() || (plain && !bvh.instances.empty())) return nullptr;
   auto tree = std::make_unique<WideTree>();
   tree->origin = &bvh, tree->plain = plain;
-  tree->center = {bvh.center.x, bvh.center.y, bvh.center.z, 0.0};
-  tree->reach = reach_of(bvh.nodes[0]);
+  tree->center = {bvh.center.x, bvh.center.y, bvh.center.z, 0.0}, tree->reach = reach_of(bvh.nodes[0]);
   if (!(tree->reach >= 0x1p-26f && tree->reach <= 0x1p30f)) return nullptr;
-  if (!bvh.instances.empty()) {
-    if (plain) return nullptr;
-    put_wide_instances(world, *tree);
-  }
+  put_wide_instances(world, *tree);
   if (!bvh.ids.empty()) const Collapse collapse(bvh, world, *tree);
   return tree;
 }

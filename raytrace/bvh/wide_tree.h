@@ -74,8 +74,8 @@ struct WideInstance {
   Mat3 object_from_world;  ///< but for the translation
   Vec3 translation;        ///< of the instance, in the world
   double inverse_norm;  ///< by how much object_from_world makes vectors longer at most, in the maximum norm
-  double
-      error;  ///< how far off a ray's origin is there, beyond what its own size makes of it; infinite: unknown
+  /// How far off a ray's origin is there, beyond what the size of its coordinates makes of it; infinite: unknown.
+  double error;
 };
 
 struct WideTree {
