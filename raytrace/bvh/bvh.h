@@ -69,9 +69,7 @@ struct Bvh {
   Vec3 center{0.0};  ///< the boxes count from here, so that scenes far from the origin keep their precision
   std::vector<Bvh> trees;  ///< of kept instances' meshes, in object space; ids: the mesh's own triangles
   std::vector<BvhInstance> instances;
-  Ranges instance_leaves;        ///< of the instances, counted from the last of `ids`
-  std::uint32_t flat_root = 0;   ///< the node above all that is flattened
-  std::uint32_t upper_root = 0;  ///< the node above the instances
+  Ranges instance_leaves;  ///< of the instances, counted from the last of `ids`
   /// The tree's depth is limited so that a stack of this size always suffices: three per level and one. Of the
   /// levels some are kept for the nodes above instances.
   static constexpr int max_depth = 88, stack_size = 3 * max_depth + 1;

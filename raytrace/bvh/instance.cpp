@@ -76,10 +76,8 @@ class Upper {
       set_child(root, 0, flat, BvhChild::node(moved));
       set_child(root, 1, around(tree_.nodes[0]), BvhChild::empty());
       bvh_.below[0] = no_run;
-      bvh_.flat_root = moved;
     }
     const std::uint32_t top = copy(0);
-    bvh_.upper_root = top;
     if (!alone) bvh_.nodes[0].child[1] = BvhChild::node(top);
   }
 

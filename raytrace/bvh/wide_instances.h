@@ -1,5 +1,5 @@
-// Kept instances under the wide tree's kernels: each mesh has a wide tree in its own space, and a ray comes to it by
-// the inverse of the instance's matrix (Rubin and Whitted 1980). The tree above them is the default one.
+// Kept instances in the wide tree: each mesh has a wide tree in its own space, and a ray comes to it by the inverse of the
+// instance's matrix (Rubin and Whitted 1980). The nodes above them are the wide tree's own.
 //
 // Notation as in raytrace/bvh/wide_ray.h; M is the instance's matrix, N its inverse in double, T its translation. What a
 // ray N (o - T) + t N d is off by, and what the triangles are, whose corners were rounded in the world, is as if the ray's
@@ -18,12 +18,20 @@ namespace gnomon::raytrace {
 /// Fills the tree's instances from its origin's, if that has any.
 void put_wide_instances(const World& world, WideTree& tree);
 
-/// The verbs of wide_traverse.h for trees that have instances.
-WideTraversal visit_in_instances(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                                 CandidateVisitor visit, WorkCounts* work);
-WideTraversal visit_ambiguous_in_instances(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
-                                           WorkCounts* work);
-WideTraversal ambiguous_in_instances(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                                     std::uint32_t skip, LeafCandidates& found);
+/// How far off the ray's origin may be for the doubles of the world, in the maximum norm: e' + 2^-46 |o|.
+double error_in_world(const Ray& ray, const TraversalLimits& limits);
+
+/// Whether floats suffice for a ray of such an error.
+inline bool has_bounds(const WideInstance& instance, double error) {
+  constexpr double most_error = 0x1p-35;
+  return instance.mesh != nullptr && instance.inverse_norm * error + instance.error <=
+                                         most_error * static_cast<double>(instance.mesh->reach);
+}
+
+/// All leaves of an instance whose plain boxes the ray may intersect before `limited` ends; visit(leaf) returns true to
+/// end, and may limit. Returns whether it was ended.
+bool visit_plainly(const WideTree& tree, std::uint32_t instance, const Ray& ray,
+                   const TraversalLimits& limits, WideRay& limited,
+                   FunctionRef<bool(std::uint32_t leaf)> visit, WorkCounts* work);
 
 }  // namespace gnomon::raytrace

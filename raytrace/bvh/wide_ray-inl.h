@@ -19,19 +19,24 @@ HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
 
+/// A ray's numbers; of origin and direction a fourth may be read but means nothing.
+struct RayNumbers {
+  const double *origin, *direction;
+  Interval t;
+};
 static_assert(sizeof(Ray) == 8 * sizeof(double) && offsetof(Ray, direction) == 3 * sizeof(double));
-inline const double* numbers_of(const Ray& ray) {
-  return reinterpret_cast<const double*>(&ray);
+inline RayNumbers numbers_of(const Ray& ray) {
+  const auto* numbers = reinterpret_cast<const double*>(&ray);
+  return {numbers, numbers + 3, ray.t};
 }
 
 /// The origin, counted from the tree's centre, and the direction as it is.
-HWY_INLINE void put_floats(const WideTree& tree, const Ray& given, WideRay& ray) {
+HWY_INLINE void put_floats(const WideTree& tree, const RayNumbers& given, WideRay& ray) {
   constexpr hn::CappedTag<double, 4> d;
   constexpr hn::Rebind<float, hn::CappedTag<double, 4>> half;
-  const double* numbers = numbers_of(given);
   for (std::size_t i = 0; i < 4; i += hn::MaxLanes(d)) {
-    const auto from_center = hn::Sub(hn::LoadU(d, numbers + i), hn::Load(d, tree.center.data() + i));
-    const auto direction = hn::DemoteTo(half, hn::LoadU(d, numbers + 3 + i));
+    const auto from_center = hn::Sub(hn::LoadU(d, given.origin + i), hn::Load(d, tree.center.data() + i));
+    const auto direction = hn::DemoteTo(half, hn::LoadU(d, given.direction + i));
     hn::Store(hn::DemoteTo(half, from_center), half, ray.origin + i);
     hn::Store(direction, half, ray.direction + i);
     hn::Store(hn::Abs(direction), half, ray.size + i);
@@ -45,8 +50,7 @@ inline float largest_of(const float* v) {
 }
 
 /// The direction times the power of two that RayFrame has it by. Returns what t is to be multiplied by; 0: refused.
-[[gnu::noinline]] inline double put_scaled(const Ray& given, WideRay& ray) {
-  const double* direction = numbers_of(given) + 3;
+[[gnu::noinline]] inline double put_scaled(const double* direction, WideRay& ray) {
   const double largest =
       std::max(std::max(std::abs(direction[0]), std::abs(direction[1])), std::abs(direction[2]));
   if (!(largest >= 0x1p-900 && largest <= 0x1p900)) return 0.0;
@@ -98,7 +102,7 @@ HWY_INLINE bool put_interval(const Interval& t, double kernel_t, double beyond, 
 }
 
 /// What PlainTest needs; false: its floats would not be those of the textbook but for their scale.
-inline bool put_plain(const Ray& given, double kernel_t, WideRay& ray) {
+inline bool put_plain(const RayNumbers& given, double kernel_t, WideRay& ray) {
   for (int a = 0; a < 3; ++a) {
     ray.plain_origin[a] = static_cast<float>(given.origin[a]);
     ray.plain_direction[a] = static_cast<float>(given.direction[a]);
@@ -107,21 +111,26 @@ inline bool put_plain(const Ray& given, double kernel_t, WideRay& ray) {
   return kernel_t >= 0x1p-60 && kernel_t <= 0x1p60;
 }
 
-/// Fills the ray; false: refused.
-HWY_INLINE bool prepare(const WideTree& tree, const Ray& given, const TraversalLimits& limits, WideRay& ray) {
+/// Fills the ray, and returns what t is multiplied by; 0: refused.
+HWY_INLINE double prepare(const WideTree& tree, const RayNumbers& given, const TraversalLimits& limits,
+                          WideRay& ray) {
   put_floats(tree, given, ray);
   double kernel_t = 1.0;
   float largest = largest_of(ray.size);
   if (!(largest > 0.5f && largest < 1.0f)) [[unlikely]] {  // of unit directions few; those have scale 1
-    kernel_t = put_scaled(given, ray), largest = largest_of(ray.size);
-    if (!(kernel_t > 0.0)) return false;
+    kernel_t = put_scaled(given.direction, ray), largest = largest_of(ray.size);
+    if (!(kernel_t > 0.0)) return 0.0;
   }
   if (!put_slabs(tree.reach, largest, ray) || !put_interval(given.t, kernel_t, limits.beyond, ray) ||
       limits.origin_error > 0x1p-44 * static_cast<double>(tree.reach))
-    return false;
-  ray.unit = limits.frame_t > 0.0 ? static_cast<float>(kernel_t / limits.frame_t) : 1.0f;
+    return 0.0;
+  ray.unit = ray.per_unit = 1.0f;
+  if (limits.frame_t > 0.0) {
+    ray.unit = static_cast<float>(kernel_t / limits.frame_t);
+    ray.per_unit = static_cast<float>(limits.frame_t / kernel_t);
+  }
   ray.limit(limits.t_above);
-  return !tree.plain || put_plain(given, kernel_t, ray);
+  return !tree.plain || put_plain(given, kernel_t, ray) ? kernel_t : 0.0;
 }
 
 }  // namespace

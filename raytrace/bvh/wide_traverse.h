@@ -27,7 +27,7 @@ struct LeafCandidates {
 enum class WideTraversal : std::uint8_t { refused, done, ended };
 
 /// All that may be the closest hit: those before the least t where there surely is one. Every primitive must
-/// count (no masks). `refused` also where there would be too many, and of a tree with instances.
+/// count (no masks). `refused` also where there would be too many.
 WideTraversal closest_candidates(const WideTree& tree, const Ray& ray, LeafCandidates& found,
                                  WorkCounts* work = nullptr);
 
@@ -49,13 +49,5 @@ WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVis
 /// `refused` also where there would be too many.
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                    std::uint32_t skip, LeafCandidates& found);
-
-/// The same for what the tree itself holds, without its instances (raytrace/bvh/wide_instances.h).
-WideTraversal visit_in_tree(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                            CandidateVisitor visit, WorkCounts* work);
-WideTraversal visit_ambiguous_in_tree(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                                      CandidateVisitor visit, WorkCounts* work);
-WideTraversal ambiguous_in_tree(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                                std::uint32_t skip, LeafCandidates& found);
 
 }  // namespace gnomon::raytrace

@@ -15,15 +15,16 @@ namespace gnomon::raytrace {
 namespace {
 
 constexpr float inf = WideBox::inf;
-constexpr std::uint32_t parallel_size = 4096;        // of fewer primitives one thread makes the parts,
-constexpr int parallel_depth = 2;                    // and the nodes below
-constexpr float node_cost = 1.0f, leaf_cost = 1.0f;  // of a visit
+constexpr std::uint32_t parallel_size = 4096;  // of fewer primitives one thread makes the parts,
+constexpr int parallel_depth = 2;              // and the nodes below
+constexpr float node_cost = 1.0f, leaf_cost = 1.0f, instance_cost = 4.0f;  // of a visit
 
-/// Part of the default hierarchy: a range of leaf order small enough for a leaf, or a Pair.
+/// Part of the default hierarchy: a range of leaf order small enough for a leaf, a kept instance, or a Pair.
 struct Part {
   WideBox box;
   std::uint32_t pair = 0;              // its index, if it is one
   std::uint32_t first = 0, count = 0;  // count 0: a pair
+  bool instance = false;               // of the number `first`
   bool is_leaf() const { return count > 0; }
 };
 
@@ -40,16 +41,17 @@ WideBox wide_box_of(const BvhNode& node, std::size_t child) {
   return box;
 }
 bool is_empty(const BvhChild& child) {
-  return child.is_leaf() && child.count() == 0;
+  return child.is_leaf() && child.count() == 0 && !child.is_instance();
 }
 
-/// No fewer than the leaves of the wide tree: a leaf of the default hierarchy is one, unless it has to be
+/// No fewer than the leaves and instances of the wide tree: a leaf of the default hierarchy is one, unless it has to be
 /// halved.
 std::size_t most_parts(const Bvh& bvh, bool has_shapes) {
   std::size_t parts = 0;
   for (const BvhNode& node : bvh.nodes)
     for (const BvhChild& child : node.child)
-      if (child.is_leaf()) parts += has_shapes || child.count() > leaf_corners / 3 ? child.count() : 1U;
+      if (child.is_leaf())
+        parts += has_shapes || child.count() > leaf_corners / 3 ? std::max(child.count(), 1U) : 1U;
   return parts;
 }
 
@@ -91,11 +93,10 @@ class Collapse {
         tree_(tree),
         has_shapes_(world.primitive_count() > world.triangle_count()),
         pairs_(most_parts(bvh, has_shapes_)) {
-    const BvhNode& top = bvh.nodes[bvh.flat_root];
     WideBox all;
     for (std::size_t i = 0; i < 4; ++i)
-      if (!is_empty(top.child[i])) all.grow(wide_box_of(top, i));
-    const Part root = part_of(BvhChild::node(bvh.flat_root), all);
+      if (!is_empty(bvh.nodes[0].child[i])) all.grow(wide_box_of(bvh.nodes[0], i));
+    const Part root = part_of(BvhChild::node(0), all);
     const std::size_t most = std::size_t{1} + used_pairs_.load();  // a node is a pair, or the only leaf's
     tree.nodes.resize(most), resize_leaves(most);
     collapse(root, nodes_++, 0);
@@ -115,6 +116,7 @@ class Collapse {
   /// Whether all below a child is few enough for a leaf; then the range of leaf order that it is.
   bool is_short(const BvhChild& child, std::uint32_t& first, std::uint32_t& end) const {
     if (is_empty(child)) return true;
+    if (child.is_instance()) return false;
     if (!child.is_leaf()) {
       const BvhNode& node = bvh_.nodes[child.index()];
       return std::all_of(std::begin(node.child), std::end(node.child),
@@ -148,6 +150,7 @@ class Collapse {
   }
 
   Part part_of(const BvhChild& child, const WideBox& box) {
+    if (child.is_instance()) return {box, 0, child.instance(), 1, true};
     std::uint32_t first = std::numeric_limits<std::uint32_t>::max(), end = 0;
     if (is_short(child, first, end) && fits(first, end - first)) return {box, 0, first, end - first};
     if (child.is_leaf()) return halved(child.first(), child.count(), box);
@@ -197,14 +200,15 @@ class Collapse {
   std::array<float, node_lanes> costs_of(const Part& part) const {
     if (!part.is_leaf()) return pairs_[part.pair].cost;
     std::array<float, node_lanes> costs;
-    costs.fill(leaf_cost * part.box.half_area());
+    costs.fill((part.instance ? instance_cost : leaf_cost) * part.box.half_area());
     return costs;
   }
 
   Part pair_of(const Part& one, const Part& other, const WideBox& box) {
     const std::uint32_t first = std::min(one.first, other.first);
     const std::uint32_t end = std::max(one.first + one.count, other.first + other.count);
-    const bool whole = one.is_leaf() && other.is_leaf() && end - first == one.count + other.count;
+    const bool whole = one.is_leaf() && other.is_leaf() && !one.instance && !other.instance &&
+                       end - first == one.count + other.count;
     if (whole && fits(first, end - first)) return {box, 0, first, end - first};
     const std::uint32_t index = used_pairs_++;
     Pair& pair = pairs_[index];
@@ -266,6 +270,10 @@ class Collapse {
     put_order({pieces.at.data(), pieces.count}, node);
     const auto put_child = [&](std::size_t i) {
       const Part& piece = pieces.at[i];
+      if (piece.instance) {
+        node.child[i] = WideChild::leaf_flag | WideChild::instance_flag | piece.first;
+        return;
+      }
       const std::uint32_t place = piece.is_leaf() ? leaves_++ : nodes_++;
       node.child[i] = piece.is_leaf() ? WideChild::leaf_flag | place : place;
       if (piece.is_leaf())
@@ -363,7 +371,7 @@ std::unique_ptr<const WideTree> collapse_bvh(const Bvh& bvh, const World& world,
   tree->center = {bvh.center.x, bvh.center.y, bvh.center.z, 0.0}, tree->reach = reach_of(bvh.nodes[0]);
   if (!(tree->reach >= 0x1p-26f && tree->reach <= 0x1p30f)) return nullptr;
   put_wide_instances(world, *tree);
-  if (!bvh.ids.empty()) const Collapse collapse(bvh, world, *tree);
+  const Collapse collapse(bvh, world, *tree);
   return tree;
 }
 

@@ -15,12 +15,14 @@ namespace gnomon::raytrace {
 
 inline constexpr std::size_t node_lanes = 16, leaf_lanes = 16, leaf_corners = 15;
 
-/// A node's index, or a leaf's with the top bit set.
+/// A node's index, a leaf's with the top bit set, or a kept instance's with the next one set as well.
 struct WideChild {
   std::uint32_t bits;
-  static constexpr std::uint32_t leaf_flag = 0x80000000u;
-  bool is_leaf() const { return (bits & leaf_flag) != 0; }
-  std::uint32_t index() const { return bits & ~leaf_flag; }
+  static constexpr std::uint32_t leaf_flag = 0x80000000u, instance_flag = 0x40000000u;
+  static constexpr std::uint32_t index_mask = instance_flag - 1;
+  bool is_leaf() const { return (bits & leaf_flag) != 0; }  ///< or an instance
+  bool is_instance() const { return (bits & instance_flag) != 0; }
+  std::uint32_t index() const { return bits & index_mask; }
 };
 
 /// bounds as in BvhNode. order[k]: the children as rays of octant k (bit a: backwards along axis a) visit them;
@@ -69,17 +71,21 @@ struct alignas(64) PlainLeaf {
   LeafTriangles triangles;
 };
 
+struct WideTree;
+
 /// What brings rays into the space of a kept instance's mesh (raytrace/bvh/wide_instances.h).
 struct WideInstance {
   Mat3 object_from_world;  ///< but for the translation
   Vec3 translation;        ///< of the instance, in the world
   double inverse_norm;  ///< by how much object_from_world makes vectors longer at most, in the maximum norm
-  /// How far off a ray's origin is there, beyond what the size of its coordinates makes of it; infinite: unknown.
+  /// How far off a ray's origin is there, beyond what the size of its coordinates makes of it.
   double error;
+  const WideTree* mesh;                      ///< in object space; null: the bounds would not hold
+  std::uint32_t first_leaf, first_triangle;  ///< as in BvhInstance
 };
 
 struct WideTree {
-  HugeVector<WideNode> nodes;  ///< node 0 is the root
+  HugeVector<WideNode> nodes;  ///< node 0 is the root, in the world above all instances, too
   HugeVector<WideLeaf> leaves;
   HugeVector<PlainLeaf> plain_leaves;          ///< instead of these, where `plain`
   const Bvh* origin = nullptr;                 ///< what was collapsed; it must outlive the tree
@@ -87,7 +93,7 @@ struct WideTree {
   bool plain = false;
   float reach = 0.0;                                   ///< no coordinate of a box is above this
   std::vector<std::unique_ptr<const WideTree>> trees;  ///< as Bvh::trees, in object space
-  std::vector<WideInstance> instances;                 ///< as Bvh::instances; `nodes` has what is flattened
+  std::vector<WideInstance> instances;                 ///< as Bvh::instances
   std::uint64_t bytes() const {
     std::uint64_t sum = instances.size() * sizeof(WideInstance);
     for (const auto& tree : trees) sum += tree != nullptr ? tree->bytes() : 0;

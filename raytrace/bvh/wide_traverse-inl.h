@@ -1,0 +1,175 @@
+// One ray through the wide tree, node by node, and through the instances in it.
+
+#if defined(GNOMON_RAYTRACE_BVH_WIDE_TRAVERSE_INL_H_) == \
+    defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
+#ifdef GNOMON_RAYTRACE_BVH_WIDE_TRAVERSE_INL_H_
+#undef GNOMON_RAYTRACE_BVH_WIDE_TRAVERSE_INL_H_
+#else
+#define GNOMON_RAYTRACE_BVH_WIDE_TRAVERSE_INL_H_
+#endif
+
+#include "raytrace/bvh/wide_instances.h"
+#include "raytrace/bvh/wide_node-inl.h"
+#include "raytrace/bvh/wide_ray-inl.h"
+#include "raytrace/tracer.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gnomon::raytrace::HWY_NAMESPACE {
+namespace {
+
+template <class Leaf>
+const Leaf* leaves_of(const WideTree& tree) {
+  if constexpr (std::is_same_v<Leaf, PlainLeaf>)
+    return tree.plain_leaves.data();
+  else
+    return tree.leaves.data();
+}
+
+/// Asks memory ahead of need for a child that comes after the next one; not for an instance.
+template <class Leaf>
+HWY_INLINE void prefetch(const WideNode* nodes, const Leaf* leaves, WideChild child) {
+  constexpr std::size_t line = 64;
+  const auto lines = [](const void* at, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; i += line) __builtin_prefetch(static_cast<const char*>(at) + i);
+  };
+  if (child.is_instance()) return;
+  if (child.is_leaf())
+    lines(leaves + child.index(), sizeof(Leaf));
+  else
+    lines(nodes + child.index(), sizeof(WideNode));
+}
+
+/// What a traversal tests: nothing is counted, or the boxes of a node's children and the triangles of a leaf.
+struct NoCounts {
+  static WorkCounts* work() { return nullptr; }
+  void node(const WideNode&) const {}
+  void leaf(const LeafTriangles&) const {}
+};
+struct CountTests {
+  WorkCounts& counts;
+  WorkCounts* work() const { return &counts; }
+  void node(const WideNode& node) const {
+    for (std::size_t i = 0; i < node_lanes; ++i)
+      counts.boxes += node.bounds[0][i] <= node.bounds[3][i] ? 1 : 0;
+  }
+  void leaf(const LeafTriangles& triangles) const { counts.primitives += triangles.last() + 1; }
+};
+
+/// Of trees in which there are none.
+struct NoInstances {};
+
+/// intersect(leaf) and enter(an instance's number) return true to end the traversal.
+template <class Leaf, class Counts, class Intersect, class Enter = NoInstances>
+HWY_INLINE WideTraversal traverse(const WideTree& tree, WideRay& ray, const Counts& counts,
+                                  const Intersect& intersect, const Enter& enter = {}) {
+  constexpr bool has_instances = !std::is_same_v<Enter, NoInstances>;
+  const SpreadRay spread(ray);
+  const WideNode* nodes = tree.nodes.data();
+  const Leaf* leaves = leaves_of<Leaf>(tree);
+  float t_max = ray.t_max;
+  Stack stack;
+  std::size_t size = 0;
+  std::size_t known = 0;  // on the stack, asked for already
+  const auto ask_ahead = [&] {
+    if (size > known) prefetch(nodes, leaves, WideChild{stack.child[size - 1]});
+    known = size;
+  };
+  WideChild child{0};
+  for (;;) {
+    if (has_instances && child.is_instance()) {
+      if constexpr (has_instances)
+        if (enter(child.index())) return WideTraversal::ended;
+      t_max = ray.t_max;
+    } else if (child.is_leaf()) {
+      counts.leaf(leaves[child.index()].triangles);
+      if (intersect(leaves[child.index()])) return WideTraversal::ended;
+      t_max = ray.t_max;
+    } else if (size > 0 && !WideChild{stack.child[size - 1]}.is_leaf() && stack.near[size - 1] <= t_max) {
+      known = 0;
+      const WideNode& after = nodes[stack.child[--size]];
+      counts.node(nodes[child.index()]), counts.node(after);
+      if (take_children_of_two(nodes[child.index()], after, spread, t_max, stack, size, child.bits)) {
+        ask_ahead();
+        continue;
+      }
+    } else {
+      const WideNode& node = nodes[child.index()];
+      counts.node(node);
+      if (IntersectedChildren<>(node, spread, t_max).take(node, spread, stack, size, child.bits)) {
+        ask_ahead();
+        continue;
+      }
+    }
+    do {
+      if (size == 0) return WideTraversal::done;
+      child.bits = stack.child[--size];
+    } while (stack.near[size] > t_max);
+    known = 0;
+    ask_ahead();
+  }
+}
+
+/// Where a tree's leaves are in the world's leaf order, and its triangles among the world's.
+struct Place {
+  std::uint32_t first_leaf = 0, first_triangle = 0;
+};
+
+/// A ray's numbers in the space of an instance's mesh.
+class PlacedNumbers {
+ public:
+  HWY_INLINE PlacedNumbers(const WideInstance& instance, const RayNumbers& ray) : t_(ray.t) {
+    for (std::size_t i = 0; i < 4; i += hn::MaxLanes(d)) {
+      const auto column = [&](int c) { return hn::LoadU(d, &instance.object_from_world[c][0] + i); };
+      const auto times = [&](double x, double y, double z) {
+        return hn::MulAdd(column(0), hn::Set(d, x),
+                          hn::MulAdd(column(1), hn::Set(d, y), hn::Mul(column(2), hn::Set(d, z))));
+      };
+      const auto from = [&](int a) { return ray.origin[a] - instance.translation[a]; };
+      hn::Store(times(from(0), from(1), from(2)), d, origin_ + i);
+      hn::Store(times(ray.direction[0], ray.direction[1], ray.direction[2]), d, direction_ + i);
+    }
+  }
+  RayNumbers numbers() const { return {origin_, direction_, t_}; }
+
+ private:
+  static constexpr hn::CappedTag<double, 4> d{};
+  static_assert(offsetof(WideInstance, translation) ==
+                offsetof(WideInstance, object_from_world) +
+                    sizeof(Mat3));  // what the last column's load reads, too
+  Interval t_;
+  alignas(32) double origin_[4], direction_[4];
+};
+
+/// The same through a tree with instances; `ray`: `given` made ready, with what `frame_t` its t was multiplied. Verb:
+/// leaf(tree, leaf, ray, place) for every leaf, plainly(number of the leaf, ray) for every one of an instance for which
+/// floats do not suffice; both return true to end.
+template <class Verb, class Counts>
+HWY_NOINLINE WideTraversal traverse_instances(const WideTree& tree, const Ray& given, TraversalLimits limits,
+                                              double frame_t, WideRay& ray, const Verb& verb,
+                                              const Counts& counts) {
+  const double error = error_in_world(given, limits);
+  const auto enter = [&](std::uint32_t number) {
+    const WideInstance& instance = tree.instances[number];
+    limits.t_above = ray.t_max;
+    WideRay placed;
+    if (!has_bounds(instance, error) ||
+        !(prepare(*instance.mesh, PlacedNumbers(instance, numbers_of(given)).numbers(),
+                  {.t_above = ray.t_max, .beyond = limits.beyond, .frame_t = frame_t}, placed) > 0.0)) {
+      const auto visit = [&](std::uint32_t leaf) { return verb.plainly(leaf, ray); };
+      return visit_plainly(tree, number, given, limits, ray, visit, counts.work());
+    }
+    const Place place{instance.first_leaf, instance.first_triangle};
+    const auto traversed = traverse<WideLeaf>(*instance.mesh, placed, counts, [&](const WideLeaf& leaf) {
+      return verb.leaf(*instance.mesh, leaf, placed, place);
+    });
+    ray.t_max = std::min(ray.t_max, placed.t_max * placed.per_unit);
+    return traversed == WideTraversal::ended;
+  };
+  const auto intersect = [&](const WideLeaf& leaf) { return verb.leaf(tree, leaf, ray, Place{}); };
+  return traverse<WideLeaf>(tree, ray, counts, intersect, enter);
+}
+
+}  // namespace
+}  // namespace gnomon::raytrace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target guard
