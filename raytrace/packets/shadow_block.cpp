@@ -49,6 +49,7 @@ class BlockShadows {
       if (t >= count_) continue;
       tiles_[t].start(tiles[t]);
       tiles_[t].enter(regions_, t);
+      misses_left_ += misses_a_ray * tiles_[t].rays();
     }
   }
 
@@ -65,9 +66,8 @@ class BlockShadows {
       const Frustum frustum(s_.bvh, setup_, whole());
       traverse_block(
           s_.bvh, frustum, [&] { return limit_; },
-          [&](const BoxRef& box, LeafRange leaves) {
-            if (const unsigned tiles = touched_tiles(LaneBounds::of(projection_.of(box)))) put(leaves, tiles);
-          });
+          [&](const BoxRef& box, LeafRange leaves) { find(projection_.of(box), leaves); });
+      test_found();
       while (pending_.count() > 0) flush();
       if (ready_ > 0) test_ready();
     }
@@ -76,6 +76,11 @@ class BlockShadows {
 
  private:
   static constexpr std::size_t batch = 8;
+  static constexpr std::size_t most_found = 4096, misses_a_ray = 2;
+  struct FoundRun {
+    PrimitiveBounds bounds;
+    LeafRange leaves;
+  };
   /// Leaves that are set up together: a last batch with few of them is little beside the others.
   static constexpr std::size_t enough = 16, most_ready = enough + run_size;
 
@@ -98,17 +103,39 @@ class BlockShadows {
     return 0;
   }
 
-  void put(LeafRange run, unsigned tiles) {
-    pending_.put(run, static_cast<std::uint16_t>(tiles));
-    while (pending_.count() >= std::size_t{2} * run_size) flush();
-    bool any_left = false;
+  /// A run of leaves that the traversal has come to. It waits until many more are found, so that a tile that meets too many
+  /// leaves is left to single rays before work has been done for it.
+  void find(const PrimitiveBounds& bounds, LeafRange leaves) {
+    const unsigned tiles = touched_tiles(LaneBounds::of(bounds));
+    if (tiles == 0) {
+      if (--misses_left_ == 0) leave_to_single_rays((1u << count_) - 1);
+      return;
+    }
+    found_[found_count_++] = {bounds, leaves};
+    const bool placed = leaves.first >= s_.bvh.ids.size();
+    unsigned costly = 0;
+    for (unsigned left = tiles; left != 0; left &= left - 1) {
+      const auto t = static_cast<std::size_t>(std::countr_zero(left));
+      costly |= tiles_[t].affords(leaves.count, placed) ? 0 : left & -left;
+    }
+    if (costly != 0) leave_to_single_rays(costly);
+    if (found_count_ == most_found) test_found();
+  }
+  void leave_to_single_rays(unsigned tiles) {
     for (; tiles != 0; tiles &= tiles - 1) {
       const auto t = static_cast<std::size_t>(std::countr_zero(tiles));
-      if (tiles_[t].affords(run.count)) continue;
       tiles_[t].leave_to_single_rays(), tiles_[t].update_regions(regions_, t);
-      any_left = true;
     }
-    if (any_left) update_limit();
+    update_limit();
+  }
+  void test_found() {
+    for (std::size_t i = 0; i < found_count_; ++i) {
+      const unsigned tiles = regions_.touched_by(LaneBounds::of(found_[i].bounds));
+      if (tiles == 0) continue;
+      pending_.put(found_[i].leaves, static_cast<std::uint16_t>(tiles));
+      while (pending_.count() >= std::size_t{2} * run_size) flush();
+    }
+    found_count_ = 0;
   }
 
   /// Of the longest waiting leaves finds which packets each may concern, in plain loops, because branches that nobody can
@@ -239,6 +266,11 @@ class BlockShadows {
   TileState tiles_[most_shadow_tiles];
   SplitRegions regions_;  ///< of the tiles
   float far_min_ = inf, limit_ = -inf;
+  FoundRun found_[most_found];
+  std::size_t found_count_ = 0;
+  /// How many more runs may concern no tile before all rays are left to single rays: where the tiles' regions are small in the
+  /// block's, as in foliage, the traversal alone costs more than these.
+  std::uint64_t misses_left_ = 1;
   BoundsRows bounds_;
   EdgeLines lines_;
   std::uint32_t not_from_[run_size];
