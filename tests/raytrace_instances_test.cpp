@@ -139,7 +139,7 @@ bool expect_same_rays(const BothWays& w, const test::Kind& kind, const Vec3& mid
 
 TEST(Instances, RaysFindTheSame) {
   for (const test::Kind& kind : test::kinds)
-    for (const double extents : {0.0, 30.0, 3000.0}) {
+    for (const double extents : {0.0, 30.0, 3000.0, 3e6}) {
       const Vec3 away = extents * kind.extent * Vec3(0.2, -1.0, 0.1);
       Scene scene = placed_scene(kind, 40, 11);
       scene.meshes.push_back(test::triangle_soup(30, 1.0, 0.5, 6));  // not kept, for it stands once
