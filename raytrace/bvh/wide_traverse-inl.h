@@ -56,7 +56,9 @@ struct CountTests {
 };
 
 /// Of trees in which there are none.
-struct NoInstances {};
+struct NoInstances {
+  bool operator()(std::uint32_t) const { return false; }
+};
 
 /// intersect(leaf) and enter(an instance's number) return true to end the traversal.
 template <class Leaf, class Counts, class Intersect, class Enter = NoInstances>
@@ -77,8 +79,7 @@ HWY_INLINE WideTraversal traverse(const WideTree& tree, WideRay& ray, const Coun
   WideChild child{0};
   for (;;) {
     if (has_instances && child.is_instance()) {
-      if constexpr (has_instances)
-        if (enter(child.index())) return WideTraversal::ended;
+      if (enter(child.index())) return WideTraversal::ended;
       t_max = ray.t_max;
     } else if (child.is_leaf()) {
       counts.leaf(leaves[child.index()].triangles);
