@@ -141,17 +141,16 @@ class PlacedNumbers {
   alignas(32) double origin_[4], direction_[4];
 };
 
-/// The same through a tree with instances; `ray`: `given` made ready, with what `frame_t` its t was multiplied. Verb:
-/// leaf(tree, leaf, ray, place) for every leaf, plainly(number of the leaf, ray) for every one of an instance for which
-/// floats do not suffice; both return true to end.
+/// The same through a tree with instances; `ray`: what prepare made of `given`, `frame_t`: what it returned. Verb:
+/// leaf(tree, leaf, ray, place) for every leaf of a mesh or of what is flattened, plainly(position in leaf order, ray) for
+/// every leaf primitive of an instance for which floats do not suffice; both return true to end.
 template <class Verb, class Counts>
-HWY_NOINLINE WideTraversal traverse_instances(const WideTree& tree, const Ray& given, TraversalLimits limits,
-                                              double frame_t, WideRay& ray, const Verb& verb,
-                                              const Counts& counts) {
+HWY_NOINLINE WideTraversal traverse_instances(const WideTree& tree, const Ray& given,
+                                              const TraversalLimits& limits, double frame_t, WideRay& ray,
+                                              const Verb& verb, const Counts& counts) {
   const double error = error_in_world(given, limits);
   const auto enter = [&](std::uint32_t number) {
     const WideInstance& instance = tree.instances[number];
-    limits.t_above = ray.t_max;
     WideRay placed;
     if (!has_bounds(instance, error) ||
         !(prepare(*instance.mesh, PlacedNumbers(instance, numbers_of(given)).numbers(),

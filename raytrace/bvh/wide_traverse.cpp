@@ -46,9 +46,9 @@ bool is_surely_hit(unsigned i, const Test& test, const WideRay& ray) {
 
 // What is done with the leaves that a ray comes to, by a test of their triangles in floats; true ends the traversal.
 
-template <class LeafTest>
+template <class AnyTest>
 struct Closest {
-  using Test = LeafTest;
+  using Test = AnyTest;
   LeafCandidates& found;
 
   HWY_INLINE bool leaf(const WideTree& tree, const typename Test::Leaf& leaf, WideRay& ray,
@@ -66,35 +66,27 @@ struct Closest {
   bool plainly(std::uint32_t leaf, WideRay&) const { return !keep(found, leaf); }
 };
 
-template <class LeafTest>
-struct VisitAll {
-  using Test = LeafTest;
-  const CandidateVisitor& visit;
-
-  HWY_INLINE bool leaf(const WideTree&, const typename Test::Leaf& leaf, WideRay& ray, Place place) const {
-    const std::uint32_t first = place.first_leaf + leaf.triangles.first();
-    return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test&) { return visit(first + i, ray); });
-  }
-  bool plainly(std::uint32_t leaf, WideRay& ray) const { return visit(leaf, ray); }
-};
-
-template <class LeafTest>
-struct VisitAmbiguous {
-  using Test = LeafTest;
+template <class AnyTest, bool sure_hits_end>
+struct Visit {
+  using Test = AnyTest;
   const CandidateVisitor& visit;
 
   HWY_INLINE bool leaf(const WideTree&, const typename Test::Leaf& leaf, WideRay& ray, Place place) const {
     const std::uint32_t first = place.first_leaf + leaf.triangles.first();
     return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
-      return is_surely_hit(i, test, ray) || visit(first + i, ray);
+      return (sure_hits_end && is_surely_hit(i, test, ray)) || visit(first + i, ray);
     });
   }
   bool plainly(std::uint32_t leaf, WideRay& ray) const { return visit(leaf, ray); }
 };
+template <class AnyTest>
+using VisitAll = Visit<AnyTest, false>;
+template <class AnyTest>
+using VisitAmbiguous = Visit<AnyTest, true>;
 
-template <class LeafTest>
+template <class AnyTest>
 struct KeepAmbiguous {
-  using Test = LeafTest;
+  using Test = AnyTest;
   const Bvh& world;
   std::uint32_t skip;  // another triangle's number wraps to one that an instance's mesh does not have
   LeafCandidates& found;

@@ -76,7 +76,8 @@ class BlockShadows {
 
  private:
   static constexpr std::size_t batch = 8;
-  static constexpr std::size_t most_found = 4096, misses_a_ray = 2;
+  static constexpr std::size_t most_found = 4096;  ///< runs that wait for their tests
+  static constexpr unsigned misses_a_ray = 2;      ///< as misses_left_ has them
   struct FoundRun {
     PrimitiveBounds bounds;
     LeafRange leaves;
@@ -128,6 +129,7 @@ class BlockShadows {
     }
     update_limit();
   }
+  /// Hands on the runs that still concern tiles.
   void test_found() {
     for (std::size_t i = 0; i < found_count_; ++i) {
       const unsigned tiles = regions_.touched_by(LaneBounds::of(found_[i].bounds));

@@ -128,8 +128,8 @@ inline bool worth_splitting(const Extent& whole, const Extent& a, const Extent& 
 /// One tile's rays: what is still asked, and what is known.
 ///
 /// A leaf costs a tile 30 to 50 ns, whatever the scene, and a kept instance's leaf, whose corners are brought into the world
-/// first, some 130; a single ray costs 0.3 to 0.6 us through the wide tree, and two or three times as much without one. So a
-/// tile may meet a number of leaves for each of its rays; the rays of a tile that meets more go on one by one.
+/// first, some 130; a single ray costs 0.3 to 0.6 us through the wide tree. So a tile may meet a number of leaves for each of
+/// its rays; the rays of a tile that meets more go on one by one.
 class TileState {
  public:
   void start(const ShadowTileRays& tile) {
@@ -256,7 +256,8 @@ class TileState {
   }
 
  private:
-  static constexpr int most_leaves = 32, placed_price = 4;  ///< the comment of the class
+  static constexpr int most_leaves = 32;  ///< for a ray; the comment of the class
+  static constexpr int placed_price = 4;  ///< of an instance's leaf, in others
 
   template <bool plane>
   HWY_INLINE BlockedRays<plane> blocked(const LaneNumbers& primitive, const Blocker& blocker,
