@@ -76,8 +76,8 @@ class BlockShadows {
 
  private:
   static constexpr std::size_t batch = 8;
-  static constexpr std::size_t most_found = 4096;  ///< runs that wait for their tests
-  static constexpr unsigned misses_a_ray = 2;      ///< as misses_left_ has them
+  static constexpr std::size_t most_found = 4096;   ///< runs that wait for their tests
+  static constexpr std::uint64_t misses_a_ray = 2;  ///< as misses_left_ has them
   struct FoundRun {
     PrimitiveBounds bounds;
     LeafRange leaves;
