@@ -253,6 +253,29 @@ TEST(Instances, ThatTouchAreWeldedToEachOther) {
   EXPECT_GT(other, 0u);  // the edges that two cubes share
 }
 
+/// Along each axis a row of cubes, every second one of which touches the next, and a long box beside it that touches the
+/// first and the last; and one that touches nothing but what is flattened, for it has no length.
+TEST(Instances, ThatTouchAreFoundAlongEachAxis) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 along(0.0), aside(0.0), length(1.0), flat(1.0);
+    along[axis] = 1.0, aside[(axis + 1) % 3] = 1.0, length[axis] = 149.0, flat[axis] = 0.0;
+    std::vector<std::pair<std::uint32_t, Mat4>> placed{
+        {0, test::moved(aside + 0.5 * along, test::scaling(length))}};
+    for (int i = 0; i < 100; ++i)
+      placed.emplace_back(0, test::moved((1.5 * i + 0.5 * (i % 2 == 0)) * along, Mat4(1.0)));
+    for (const Vec3& scale : {Vec3(1.0), flat})
+      placed.emplace_back(0, test::moved(-3.0 * along, test::scaling(scale)));
+    const BothWays w(test::instances_of({cube()}, placed));
+    EXPECT_EQ(w.kept_count(), placed.size() - 1);
+    expect_same_topology(w.kept, w.flat);
+    const Topology topology(w.kept);
+    std::uint32_t joined = 0;
+    for (std::uint32_t t = 0; t < w.kept.triangle_count(); ++t)
+      for (int k = 0; k < 3; ++k) joined += topology.welded(t, k) < w.kept.part_of(t).first_vertex ? 1 : 0;
+    EXPECT_GT(joined, 50u);
+  }
+}
+
 TEST(Instances, ColumnsHoldTheSame) {
   const BothWays w(garden(9));
   const LightView view = fit_light_view(w.flat, w.scene.lights[0], w.scene.camera, 1.0, 64).value();

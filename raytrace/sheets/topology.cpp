@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <tuple>
 
 #include "raytrace/choose_tracer.h"
 #include "raytrace/huge_array.h"
 #include "raytrace/sheets.h"
+#include "raytrace/sheets/position_hash.h"
+#include "raytrace/sheets/touching.h"
 #include "scene/parallel.h"
 #include "scene/sort_numbers.h"
 #include "scene/stages.h"
@@ -62,15 +63,6 @@ class Soup {
   std::vector<Vec3> moved_;
   std::span<const Vec3> positions_;
 };
-
-std::uint64_t hash_of(const Vec3& p) {
-  std::uint64_t hash = 0;
-  for (int a = 0; a < 3; ++a) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(p[a] + 0.0)) * 0x9e3779b97f4a7c15u;  // -0 becomes 0
-    hash ^= hash >> 32;
-  }
-  return hash;
-}
 
 /// The lowest vertex at each vertex's position (-0 equals 0).
 class Weld {
@@ -193,69 +185,6 @@ class Pairing {
   HugeArray<HalfEdge> edges_;
 };
 
-/// Which parts have a vertex where another part has one, or where another one of their own came to lie; what is
-/// flattened counts as such. A part too many does no harm.
-class Touching {
- public:
-  /// `welded`: by mesh, of those that kept parts show.
-  Touching(const World& world, const std::vector<std::vector<std::uint32_t>>& welded)
-      : world_(world), welded_(welded), touches_(world.parts.size(), 0) {}
-
-  std::vector<char> run() {
-    std::uint64_t vertices = 0;
-    for (const WorldPart& part : world_.parts) vertices += part.vertex_count();
-    constexpr std::uint64_t at_a_time = std::uint64_t{1} << 23;  // so that the hashes take little memory
-    passes_ = vertices / at_a_time + 1;
-    std::vector<std::uint64_t> shared;
-    for (std::uint64_t pass = 0; pass < passes_; ++pass) append_shared(pass, shared);
-    std::sort(shared.begin(), shared.end());
-    parallel_for(touches_.size(), [&](std::size_t i) {
-      const WorldPart& part = world_.parts[i];
-      touches_[i] = !part.kept();
-      if (part.kept() && !shared.empty())
-        each_vertex(part, [&](std::uint64_t hash) {
-          if (std::binary_search(shared.begin(), shared.end(), hash)) touches_[i] = 1;
-        });
-    });
-    return touches_;
-  }
-
- private:
-  /// Of a kept part one vertex at each place, of a flattened one all.
-  template <class Use>
-  void each_vertex(const WorldPart& part, const Use& use) const {
-    const auto& welded = welded_[static_cast<std::size_t>(part.mesh - world_.scene->meshes.data())];
-    for (std::uint32_t v = 0; v < part.vertex_count(); ++v)
-      if (!part.kept() || welded[v] == v) use(hash_of(part.position(v)));
-  }
-
-  /// Of the hashes of this pass those that two vertices have, once each.
-  void append_shared(std::uint64_t pass, std::vector<std::uint64_t>& shared) const {
-    std::vector<std::vector<std::uint64_t>> of_part(world_.parts.size());
-    parallel_for(of_part.size(), [&](std::size_t i) {
-      each_vertex(world_.parts[i], [&](std::uint64_t hash) {
-        if (hash % passes_ == pass) of_part[i].push_back(hash);
-      });
-    });
-    std::vector<std::uint64_t> flat, all;
-    for (std::size_t i = 0; i < of_part.size(); ++i) {
-      std::vector<std::uint64_t>& to = world_.parts[i].kept() ? all : flat;
-      to.insert(to.end(), of_part[i].begin(), of_part[i].end());
-      std::vector<std::uint64_t>().swap(of_part[i]);
-    }
-    sort_numbers(std::span(flat));  // together already: each place once
-    all.insert(all.end(), flat.begin(), std::unique(flat.begin(), flat.end()));
-    sort_numbers(std::span(all));
-    for (std::size_t i = 1; i < all.size(); ++i)
-      if (all[i] == all[i - 1] && (shared.empty() || shared.back() != all[i])) shared.push_back(all[i]);
-  }
-
-  const World& world_;
-  const std::vector<std::vector<std::uint32_t>>& welded_;
-  std::vector<char> touches_;
-  std::uint64_t passes_ = 1;
-};
-
 }  // namespace
 
 Topology::Topology(const World& world) : triangles_(world.triangle_ranges), parts_(world.parts.size()) {
@@ -300,7 +229,7 @@ std::vector<char> Topology::share_meshes(const World& world) {
     places[m] = connect({&alone.parts[0]});
     welded[m].assign(welded_.begin() + static_cast<std::ptrdiff_t>(places[m].welded), welded_.end());
   }
-  const std::vector<char> together = Touching(world, welded).run();
+  const std::vector<char> together = touching_parts(world, welded);
   for (std::size_t i = 0; i < world.parts.size(); ++i) {
     const WorldPart& part = world.parts[i];
     if (together[i] != 0) continue;
