@@ -154,13 +154,22 @@ void VertexArray::set_indices(const Buffer& buffer) {
   gl()->VertexArrayElementBuffer(id(), buffer.id());
 }
 
-void VertexArray::set_floats(int attribute, const Buffer& buffer, int components) {
+void VertexArray::set_floats(int attribute, const Buffer& buffer, int components, std::uint32_t first) {
   const auto index = static_cast<GLuint>(attribute);
+  const auto stride = components * static_cast<GLsizei>(sizeof(float));
   gl()->EnableVertexArrayAttrib(id(), index);
   gl()->VertexArrayAttribFormat(id(), index, components, GL_FLOAT, GL_FALSE, 0);
   gl()->VertexArrayAttribBinding(id(), index, index);
+  gl()->VertexArrayVertexBuffer(id(), index, buffer.id(), static_cast<GLintptr>(first) * stride, stride);
+}
+
+void VertexArray::set_doubles(int attribute, const Buffer& buffer, int components) {
+  const auto index = static_cast<GLuint>(attribute);
+  gl()->EnableVertexArrayAttrib(id(), index);
+  gl()->VertexArrayAttribLFormat(id(), index, components, GL_DOUBLE, 0);
+  gl()->VertexArrayAttribBinding(id(), index, index);
   gl()->VertexArrayVertexBuffer(id(), index, buffer.id(), 0,
-                                components * static_cast<GLsizei>(sizeof(float)));
+                                components * static_cast<GLsizei>(sizeof(double)));
 }
 
 }  // namespace gnomon::raster

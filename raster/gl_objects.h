@@ -137,7 +137,9 @@ class VertexArray : public GlObject<GlKind::vertex_array> {
   VertexArray() = default;
   explicit VertexArray(const Gl& gl);
   void set_indices(const Buffer& buffer);
-  void set_floats(int attribute, const Buffer& buffer, int components);
+  /// Of vertex 0 on: from the buffer's element `first` on, of so many components.
+  void set_floats(int attribute, const Buffer& buffer, int components, std::uint32_t first = 0);
+  void set_doubles(int attribute, const Buffer& buffer, int components);
 };
 
 }  // namespace gnomon::raster

@@ -84,8 +84,14 @@ void TriangleProgram::set_first_primitive(std::uint32_t primitive) const {
   if (reads_primitive_) gl()->ProgramUniform1ui(id(), shaders::first_primitive_uniform, primitive);
 }
 
-void TriangleProgram::set_part(std::uint32_t part) const {
-  gl()->ProgramUniform1ui(id(), shaders::part_uniform, part);
+void TriangleProgram::set_part(const Mat4& world_from_object) const {
+  std::array<Vec3, 4> columns;
+  for (int c = 0; c < 4; ++c) columns[static_cast<std::size_t>(c)] = Vec3(world_from_object[c]);
+  gl()->ProgramUniform3dv(id(), shaders::part_columns_uniform, 4, glm::value_ptr(columns[0]));
+}
+
+void TriangleProgram::set_reference(const Vec3& reference) const {
+  gl()->ProgramUniform3dv(id(), shaders::reference_uniform, 1, glm::value_ptr(reference));
 }
 
 void TrianglePrograms::set_peel(int face, float step) const {

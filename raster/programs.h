@@ -48,8 +48,9 @@ class TriangleProgram : public Program {
   void set_clip_from_relative(const Mat4& matrix) const;
   /// The primitive id of the next draw call's first triangle.
   void set_first_primitive(std::uint32_t primitive) const;
-  /// Of a program of kept parts: which one.
-  void set_part(std::uint32_t part) const;
+  /// Of a program of kept parts: where the next one lies, and the reference point.
+  void set_part(const Mat4& world_from_object) const;
+  void set_reference(const Vec3& reference) const;
   /// Of a program that peels: the face of the first layer, and a step of its number format.
   void set_peel(int face, float step) const;
 

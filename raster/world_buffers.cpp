@@ -154,6 +154,7 @@ WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
       world_(&world),
       meshes_(world),
       vertex_array_(gl),
+      kept_vertex_array_(gl),
       positions_(gl),
       normals_(gl),
       uvs_(gl),
@@ -197,35 +198,48 @@ Expected<WorldBuffers> WorldBuffers::upload(Gl& gl, const World& world, const Sc
 }
 
 void WorldBuffers::upload_fixed(const SceneFeatures& features) {
-  const World& world = *world_;
-  using Corners = std::array<std::uint32_t, 3>;
-  const auto corners_of = [](const WorldPart& part, const StoredMeshes::Place& at, std::uint32_t i) {
-    const Corners t = part.triangle(i);
-    return Corners{at.vertices + t[0], at.vertices + t[1], at.vertices + t[2]};
-  };
-  indices_.fill<Corners>(meshes_.all.triangles, [&](std::span<Corners> out) {
-    for_each_stored([&](const WorldPart& part, const StoredMeshes::Place& at) {
-      for_each_index(part.triangle_count(),
-                     [&](std::uint32_t i) { out[at.triangles + i] = corners_of(part, at, i); });
-    });
-  });
+  upload_indices();
   triangles_.fill<glm::uvec4>(meshes_.all.triangles, [&](std::span<glm::uvec4> out) {
     for_each_stored([&](const WorldPart& part, const StoredMeshes::Place& at) {
       for_each_index(part.triangle_count(), [&](std::uint32_t i) {
-        const Corners t = corners_of(part, at, i);
-        out[at.triangles + i] = {t[0], t[1], t[2], stored_material(part, i)};
+        const auto t = part.triangle(i);
+        out[at.triangles + i] = {at.vertices + t[0], at.vertices + t[1], at.vertices + t[2],
+                                 stored_material(part, i)};
       });
     });
   });
   std::vector<MaterialData> materials;
-  for (const Material& m : world.scene->materials) materials.push_back(material_data(m));
+  for (const Material& m : world_->scene->materials) materials.push_back(material_data(m));
   materials_.write(std::span<const MaterialData>(materials));
   upload_vertices(features);
-  vertex_array_.set_indices(indices_);
+  set_vertex_arrays(features);
+}
+
+// Vertices of kept meshes have an array of their own, which begins with them.
+void WorldBuffers::upload_indices() {
+  using Corners = std::array<std::uint32_t, 3>;
+  indices_.fill<Corners>(meshes_.all.triangles, [&](std::span<Corners> out) {
+    for_each_stored([&](const WorldPart& part, const StoredMeshes::Place& at) {
+      const std::uint32_t first = at.vertices - (part.kept() ? meshes_.flat.vertices : 0);
+      for_each_index(part.triangle_count(), [&](std::uint32_t i) {
+        const Corners t = part.triangle(i);
+        out[at.triangles + i] = {first + t[0], first + t[1], first + t[2]};
+      });
+    });
+  });
+}
+
+void WorldBuffers::set_vertex_arrays(const SceneFeatures& features) {
   vertex_array_.set_floats(shaders::position_attribute, positions_, 3);
-  if (!features.alpha_mask) return;
-  vertex_array_.set_floats(shaders::uv_attribute, uvs_, 2);
-  if (features.vertex_colors) vertex_array_.set_floats(shaders::color_attribute, colors_, 4);
+  if (features.instances) kept_vertex_array_.set_doubles(shaders::position_attribute, object_positions_, 3);
+  for (const bool kept : {false, true}) {
+    VertexArray& array = kept ? kept_vertex_array_ : vertex_array_;
+    const std::uint32_t first = kept ? meshes_.flat.vertices : 0;
+    array.set_indices(indices_);
+    if (!features.alpha_mask || (kept && !features.instances)) continue;
+    array.set_floats(shaders::uv_attribute, uvs_, 2, first);
+    if (features.vertex_colors) array.set_floats(shaders::color_attribute, colors_, 4, first);
+  }
 }
 
 void WorldBuffers::upload_vertices(const SceneFeatures& features) {
@@ -364,10 +378,9 @@ void WorldBuffers::draw_triangles(const TrianglePrograms& programs, const Mat4& 
       if (kept && sides.surely_outside(world_->parts[run.part].bounds)) continue;
       left[kept ? 1 : 0] -= count;
       const TriangleProgram& program = *programs.of[with_mask ? 1 : 0][kept ? 1 : 0];
-      if (used != &program)
-        program.use(), program.set_clip_from_relative(clip_from_relative), used = &program;
+      if (used != &program) start_kind(program, kept, clip_from_relative), used = &program;
       program.set_first_primitive(run.first);
-      if (kept) program.set_part(run.part);
+      if (kept) program.set_part(world_->parts[run.part].world_from_object);
       (*gl_)->FrontFace(run.inside_out ? GL_CW : GL_CCW);
       if (culls) run.single_sided ? (*gl_)->Enable(GL_CULL_FACE) : (*gl_)->Disable(GL_CULL_FACE);
       const auto offset = static_cast<std::uintptr_t>(run.at) * 3 * sizeof(std::uint32_t);
@@ -376,6 +389,15 @@ void WorldBuffers::draw_triangles(const TrianglePrograms& programs, const Mat4& 
     }
   }
   if (culls) (*gl_)->Disable(GL_CULL_FACE);
+  (*gl_)->BindVertexArray(vertex_array_.id());
+}
+
+void WorldBuffers::start_kind(const TriangleProgram& program, bool kept,
+                              const Mat4& clip_from_relative) const {
+  program.use();
+  program.set_clip_from_relative(clip_from_relative);
+  if (kept) program.set_reference(*reference_);
+  (*gl_)->BindVertexArray(kept ? kept_vertex_array_.id() : vertex_array_.id());
 }
 
 }  // namespace gnomon::raster

@@ -67,7 +67,7 @@ class WorldBuffers {
   void set_reference(const Vec3& reference);
   const Vec3& reference() const { return *reference_; }
   const World& world() const { return *world_; }
-  /// Binds what the shaders read, and the vertex array.
+  /// Binds what the shaders read, and the vertex array of flattened triangles.
   void bind() const;
   /// Draws every run with the program of its kind; all get the matrix. Kept parts that it surely shows nothing of are
   /// left out; depths must be clamped (GL_DEPTH_CLAMP). `culls`: single-sided triangles are not drawn
@@ -81,7 +81,10 @@ class WorldBuffers {
   WorldBuffers(const Gl& gl, const World& world);
   void upload_fixed(const SceneFeatures& features);
   void attach_textures();
+  void upload_indices();
   void upload_vertices(const SceneFeatures& features);
+  void set_vertex_arrays(const SceneFeatures& features);
+  void start_kind(const TriangleProgram& program, bool kept, const Mat4& clip_from_relative) const;
   void make_runs(const SceneFeatures& features);
   void write_parts();
   template <class Put>
@@ -92,7 +95,7 @@ class WorldBuffers {
   StoredMeshes meshes_;
   std::optional<Vec3> reference_;
   std::vector<TriangleRun> runs_;
-  VertexArray vertex_array_;
+  VertexArray vertex_array_, kept_vertex_array_;
   Buffer positions_, normals_, uvs_, colors_, indices_, triangles_, planes_, shapes_, materials_;
   Buffer parts_, object_positions_;  ///< of kept parts; empty where there are none
   BufferTexture position_texels_, normal_texels_, uv_texels_, color_texels_, triangle_texels_, plane_texels_,

@@ -1,6 +1,5 @@
-// The parts of a world that keeps instances, and a kept part's vertices in the world. The arithmetic is that of
-// scene/world.h and raster/world_buffers.cpp, operation for operation (precise: none are contracted), so that a kept
-// vertex has the very floats that a flattened one has. Twin of raster/stored_meshes.h.
+// The parts of a world that keeps instances, and a kept part's vertices in the world. Twin of raster/stored_meshes.h.
+#include "placed_vertex.glsl"
 
 // What comes first: the frame's reference in the world (a dvec4), the number of parts, and of vertices before those of
 // meshes that are kept. Then of each part four columns of the matrix to the world and three of its inverse transpose
@@ -57,16 +56,12 @@ dvec3 object_position(uint vertex) {
 }
 
 dvec3 placed_vertex(uint part, uint vertex) {
-  dvec3 p = object_position(vertex);
-  precise dvec3 first = part_column(part, 0) * p.x + part_column(part, 1) * p.y;
-  precise dvec3 second = part_column(part, 2) * p.z + part_column(part, 3);
-  precise dvec3 placed = first + second;
-  return placed;
+  return placed_vertex(object_position(vertex), part_column(part, 0), part_column(part, 1), part_column(part, 2),
+                       part_column(part, 3));
 }
 
 vec3 relative_position(uint part, uint vertex) {
-  precise dvec3 offset = placed_vertex(part, vertex) - frame_reference();
-  return vec3(offset);
+  return relative_vertex(placed_vertex(part, vertex), frame_reference());
 }
 
 // Unit length, or zero.

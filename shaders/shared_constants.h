@@ -27,7 +27,8 @@ const int step_uniform = 1;
 const int blur_radius_uniform = 2;
 const int peel_uniform = 9;
 const int triangle_count_uniform = 6;
-const int part_uniform = 10;
+const int part_columns_uniform = 10;  // and the next three
+const int reference_uniform = 14;
 
 // Shader storage buffers
 const int izb_points_buffer = 10;

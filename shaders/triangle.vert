@@ -7,33 +7,27 @@ layout(location = clip_from_relative_uniform) uniform mat4 clip_from_relative;
 
 invariant gl_Position;
 #ifdef KEPT
-#include "triangles.glsl"
-layout(location = part_uniform) uniform uint part;
+#include "placed_vertex.glsl"
+layout(location = part_columns_uniform) uniform dvec3 part_columns[4];  // of the matrix to the world
+layout(location = reference_uniform) uniform dvec3 reference;
+layout(location = position_attribute) in dvec3 object_position;
 #else
 layout(location = position_attribute) in vec3 position;
 #endif
 #ifdef ALPHA_MASK
-#ifndef KEPT
 layout(location = uv_attribute) in vec2 uv;
-#endif
 out vec2 vertex_uv;
 #ifdef VERTEX_COLORS
-#ifndef KEPT
 layout(location = color_attribute) in vec4 color;
-#endif
 out float vertex_alpha;
 #endif
 #endif
 
 void main() {
 #ifdef KEPT
-  vec3 position = relative_position(part, uint(gl_VertexID));
-#ifdef ALPHA_MASK
-  vec2 uv = uv_of(uint(gl_VertexID));
-#ifdef VERTEX_COLORS
-  vec4 color = color_of(uint(gl_VertexID));
-#endif
-#endif
+  dvec3 placed =
+      placed_vertex(object_position, part_columns[0], part_columns[1], part_columns[2], part_columns[3]);
+  vec3 position = relative_vertex(placed, reference);
 #endif
   gl_Position = clip_from_relative * vec4(position, 1.0);
 #ifdef ALPHA_MASK
