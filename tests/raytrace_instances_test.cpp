@@ -112,8 +112,8 @@ TEST(Instances, EveryBoxHoldsItsTrianglesInTheWorld) {
 
 /// Rays and visibility in a kept world against brute force over the same world flattened. Returns whether single rays had a
 /// tree of their own.
-bool expect_same_rays(const BothWays& w, const test::Kind& kind, const Vec3& middle, Precision precision) {
-  const std::vector<Ray> rays = test::aimed_rays(w.flat, 500, kind.extent, middle, 12);
+bool expect_same_rays(const BothWays& w, const std::vector<Ray>& rays, const test::Kind& kind,
+                      const Vec3& middle, Precision precision) {
   const Tracer kept(w.kept, Accel::bvh, precision), flat(w.flat, Accel::brute, precision);
   prepare_single_rays(kept);
   std::atomic<int> wrong = 0;
@@ -147,10 +147,33 @@ TEST(Instances, RaysFindTheSame) {
       for (MeshInstance& instance : scene.instances)
         instance.world_from_object = test::moved(away, instance.world_from_object);
       const BothWays w(std::move(scene));
+      const std::vector<Ray> rays = test::aimed_rays(w.flat, 500, kind.extent, away, 12);
       // The textbook's floats find hits outside a triangle's own box, so there the boxes do matter.
       for (const Precision precision : {Precision::robust, Precision::exact})
-        EXPECT_TRUE(expect_same_rays(w, kind, away, precision)) << kind.name;
+        EXPECT_TRUE(expect_same_rays(w, rays, kind, away, precision)) << kind.name;
     }
+}
+
+/// Each ray from further back, up to 4,000 extents: over the whole way, over what it was, or over the first part of that.
+std::vector<Ray> from_afar(std::vector<Ray> rays, double extent) {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Ray& ray = rays[i];
+    const double one = extent / glm::length(ray.direction);
+    const double back = one * std::exp2(static_cast<double>(i % 25) * 0.5);
+    ray.origin -= back * ray.direction;
+    ray.t.max = i % 3 == 2 ? back + 0.3 * one * static_cast<double>(i % 11) : ray.t.max + back;
+    ray.t.min = i % 3 == 0 ? 0.0 : ray.t.min + back;
+  }
+  return rays;
+}
+
+TEST(Instances, RaysFromAfarFindTheSame) {
+  for (const test::Kind& kind : test::kinds) {
+    const BothWays w(placed_scene(kind, 40, 11));
+    const std::vector<Ray> rays =
+        from_afar(test::aimed_rays(w.flat, 1500, kind.extent, Vec3(0.0), 12), kind.extent);
+    EXPECT_TRUE(expect_same_rays(w, rays, kind, Vec3(0.0), Precision::robust)) << kind.name;
+  }
 }
 
 TEST(Instances, EveryStructureFindsTheSame) {

@@ -9,6 +9,12 @@
 // the first term's 2^-46 all of the doubles' own roundings in the world, the inverse's, of less than 2^-50 k, within the
 // last. Where that is at most 2^-35 r it is part of the 2^-34 r that the bounds have to spare. Other rays meet the
 // instance by its plain boxes.
+//
+// A ray whose origin is too far from the mesh for floats starts at t0 instead: there it is 16 r before the plane through c
+// across the direction's largest component. Every hit is later by at least 15 r along that axis, so that t counted from t0 is
+// positive, and as right as t, to 2^-40 of itself. The point at t0 is as right as a hit: its roundings, of less than
+// 2^-50 |N| (|o| + |T| + |M| (|c| + r)), are part of the first term. Where bounds of t and of t - t0 are made of each other,
+// they give way by 2^-20 of t upwards and 2^-21 downwards, which is more than the floats' roundings.
 #pragma once
 
 #include "raytrace/bvh/wide_traverse.h"

@@ -23,6 +23,7 @@ namespace {
 struct RayNumbers {
   const double *origin, *direction;
   Interval t;
+  double start = 0.0;  ///< of the ray that it is a part of: that one's t at this origin
 };
 static_assert(sizeof(Ray) == 8 * sizeof(double) && offsetof(Ray, direction) == 3 * sizeof(double));
 inline RayNumbers numbers_of(const Ray& ray) {
@@ -101,6 +102,16 @@ HWY_INLINE bool put_interval(const Interval& t, double kernel_t, double beyond, 
   return t_min >= 0.0;
 }
 
+HWY_INLINE void put_units(double start, double kernel_t, double frame_t, WideRay& ray) {
+  ray.unit = ray.per_unit_below = ray.per_unit_above = 1.0f;
+  ray.start = static_cast<float>(start * kernel_t);
+  if (frame_t > 0.0) {
+    ray.unit = static_cast<float>(kernel_t / frame_t);
+    ray.per_unit_below = ray.per_unit_above = static_cast<float>(frame_t / kernel_t);
+  }
+  if (ray.start > 0.0f) ray.per_unit_below *= 1.0f - 0x1p-21f, ray.per_unit_above *= WideRay::widening;
+}
+
 /// What PlainTest needs; false: its floats would not be those of the textbook but for their scale.
 inline bool put_plain(const RayNumbers& given, double kernel_t, WideRay& ray) {
   for (int a = 0; a < 3; ++a) {
@@ -124,11 +135,7 @@ HWY_INLINE double prepare(const WideTree& tree, const RayNumbers& given, const T
   if (!put_slabs(tree.reach, largest, ray) || !put_interval(given.t, kernel_t, limits.beyond, ray) ||
       limits.origin_error > 0x1p-44 * static_cast<double>(tree.reach))
     return 0.0;
-  ray.unit = ray.per_unit = 1.0f;
-  if (limits.frame_t > 0.0) {
-    ray.unit = static_cast<float>(kernel_t / limits.frame_t);
-    ray.per_unit = static_cast<float>(limits.frame_t / kernel_t);
-  }
+  put_units(given.start, kernel_t, limits.frame_t, ray);
   ray.limit(limits.t_above);
   return !tree.plain || put_plain(given, kernel_t, ray) ? kernel_t : 0.0;
 }

@@ -64,7 +64,9 @@ struct WideRay {
   float t_min, t_max;  ///< no hit is outside; t_max is widened and finite
   float least, most;   ///< the interval's ends to the nearest
   float coordinate_error;
-  float unit, per_unit;  ///< of t here, in the units of who limits the ray: a power of two, and 1 / unit
+  // Who limits the ray counts t from the ray's own origin, in units of `per_unit`, a power of two. Here it is counted from
+  // `start` on, in units of 1 (raytrace/bvh/wide_instances.h): bounds change by more than that rounds.
+  float unit, start, per_unit_below, per_unit_above;
   float plain_origin[3], plain_direction[3], kernel_t;  ///< as they are, for PlainTest alone; t's own scale
   std::uint32_t z;                                      ///< the axis of the direction's largest component
   std::uint32_t octant;                                 ///< bit a: backwards along axis a
@@ -73,7 +75,10 @@ struct WideRay {
   bool surely_ends_after(float t) const { return t < std::min(most, FLT_MAX) * down - FLT_MIN; }
 
   /// t in the units of RayFrame; of an instance's ray, of the frame in the world.
-  void limit(float t_above) { limit_here(t_above * unit); }
+  void limit(float t_above) { t_max = std::min(t_max, t_above * unit * widening - start); }
+  /// Bounds of such a t.
+  float given_below(float t) const { return (t + start) * per_unit_below; }
+  float given_above(float t) const { return (t + start) * per_unit_above; }
   /// t in the units of this ray.
   void limit_here(float t_above) { t_max = std::min(t_max, t_above * widening); }
 };

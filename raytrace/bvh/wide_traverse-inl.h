@@ -130,7 +130,23 @@ class PlacedNumbers {
       hn::Store(times(ray.direction[0], ray.direction[1], ray.direction[2]), d, direction_ + i);
     }
   }
-  RayNumbers numbers() const { return {origin_, direction_, t_}; }
+  RayNumbers numbers() const { return {origin_, direction_, t_, start_}; }
+
+  /// Moves the origin near the mesh where that lies far ahead. False: it does not.
+  [[gnu::noinline]] bool move_near(const WideTree& mesh) {
+    double offset[3];
+    std::size_t z = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      offset[a] = origin_[a] - mesh.center[a];
+      if (std::abs(direction_[a]) > std::abs(direction_[z])) z = a;
+    }
+    const double before = 16.0 * static_cast<double>(mesh.reach);
+    const double start = -(offset[z] + std::copysign(before, direction_[z])) / direction_[z];
+    if (!(start > 0.0 && start < infinity)) return false;
+    for (std::size_t a = 0; a < 3; ++a) origin_[a] += start * direction_[a];
+    start_ = start, t_ = {std::max(t_.min - start, 0.0), t_.max - start};
+    return true;
+  }
 
  private:
   static constexpr hn::CappedTag<double, 4> d{};
@@ -138,6 +154,7 @@ class PlacedNumbers {
                 offsetof(WideInstance, object_from_world) +
                     sizeof(Mat3));  // what the last column's load reads, too
   Interval t_;
+  double start_ = 0.0;
   alignas(32) double origin_[4], direction_[4];
 };
 
@@ -152,9 +169,14 @@ HWY_NOINLINE WideTraversal traverse_instances(const WideTree& tree, const Ray& g
   const auto enter = [&](std::uint32_t number) {
     const WideInstance& instance = tree.instances[number];
     WideRay placed;
-    if (!has_bounds(instance, error) ||
-        !(prepare(*instance.mesh, PlacedNumbers(instance, numbers_of(given)).numbers(),
-                  {.t_above = ray.t_max, .beyond = limits.beyond, .frame_t = frame_t}, placed) > 0.0)) {
+    const auto is_prepared = [&] {
+      PlacedNumbers numbers(instance, numbers_of(given));
+      const TraversalLimits here{.t_above = ray.t_max, .beyond = limits.beyond, .frame_t = frame_t};
+      return prepare(*instance.mesh, numbers.numbers(), here, placed) > 0.0 ||
+             (numbers.move_near(*instance.mesh) &&
+              prepare(*instance.mesh, numbers.numbers(), here, placed) > 0.0);
+    };
+    if (!has_bounds(instance, error) || !is_prepared()) {
       const auto visit = [&](std::uint32_t leaf) { return verb.plainly(leaf, ray); };
       return visit_plainly(tree, number, given, limits, ray, visit, counts.work());
     }
@@ -162,7 +184,7 @@ HWY_NOINLINE WideTraversal traverse_instances(const WideTree& tree, const Ray& g
     const auto traversed = traverse<WideLeaf>(*instance.mesh, placed, counts, [&](const WideLeaf& leaf) {
       return verb.leaf(*instance.mesh, leaf, placed, place);
     });
-    ray.t_max = std::min(ray.t_max, placed.t_max * placed.per_unit);
+    ray.t_max = std::min(ray.t_max, placed.given_above(placed.t_max));
     return traversed == WideTraversal::ended;
   };
   const auto intersect = [&](const WideLeaf& leaf) { return verb.leaf(tree, leaf, ray, Place{}); };

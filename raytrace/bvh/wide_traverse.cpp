@@ -60,7 +60,7 @@ struct Closest {
       if (t > ray.t_max) return false;
       if (test.is_sure(i) && ray.surely_starts_before(t)) ray.limit_here(test.t_above(i));
       tree.origin->prefetch(first + i);
-      return !keep(found, place.first_leaf + first + i, t * ray.per_unit, ray.t_max * ray.per_unit);
+      return !keep(found, place.first_leaf + first + i, ray.given_below(t), ray.given_above(ray.t_max));
     });
   }
   bool plainly(std::uint32_t leaf, WideRay&) const { return !keep(found, leaf); }
