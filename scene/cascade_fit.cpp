@@ -3,6 +3,7 @@
 #include "scene/light_fit_parts.h"
 #include "scene/size_steps.h"
 #include "scene/solid.h"
+#include "scene/triangle_blocks.h"
 
 namespace gnomon {
 namespace {
@@ -79,15 +80,26 @@ double nearest_seen(const World& world, const View& view, double limit) {
       view.forward * view.tan_half_x + view.right, view.forward * view.tan_half_x - view.right,
       view.forward * view.tan_half_y + view.up, view.forward * view.tan_half_y - view.up};
   const auto depth = [&](const Vec3& p) { return glm::dot(p - view.eye, view.forward); };
-  double nearest = limit;
-  for (std::uint32_t t = 0; t < world.triangle_count(); ++t) {
-    const auto corners = world.corners(t);
-    if (std::min({depth(corners[0]), depth(corners[1]), depth(corners[2])}) >= nearest) continue;
-    std::vector<Vec3> polygon;
-    for (const Vec3& corner : corners) polygon.push_back(corner - view.eye);
-    for (const Vec3& side : sides) polygon = clipped(polygon, side);
-    for (const Vec3& p : polygon) nearest = std::min(nearest, std::max(0.0, glm::dot(p, view.forward)));
-  }
+  // By a little more than roundings are.
+  const auto is_no_nearer = [&](double nearest, const Aabb& box) {
+    const Aabb from{box.min - view.eye, box.max - view.eye};
+    const double spare = 1e-9 * glm::dot(Vec3(1.0), glm::abs(from.min) + glm::abs(from.max));
+    return -farthest_along(from, -view.forward) > nearest + spare ||
+           std::any_of(sides.begin(), sides.end(),
+                       [&](const Vec3& side) { return farthest_along(from, side) < -spare; });
+  };
+  const auto keep_less = [](double& nearest, double other) { nearest = std::min(nearest, other); };
+  double nearest = over_blocks(
+      world, limit, is_no_nearer,
+      [&](double& sum, const WorldPart& part, std::uint32_t triangle) {
+        const auto corners = part.corners(triangle);
+        if (std::min({depth(corners[0]), depth(corners[1]), depth(corners[2])}) >= sum) return;
+        std::vector<Vec3> polygon;
+        for (const Vec3& corner : corners) polygon.push_back(corner - view.eye);
+        for (const Vec3& side : sides) polygon = clipped(polygon, side);
+        for (const Vec3& p : polygon) keep_less(sum, std::max(0.0, glm::dot(p, view.forward)));
+      },
+      keep_less);
   for (const Shape& shape : world.shapes) {
     if (const auto* plane = std::get_if<Plane>(&shape.geometry)) {
       for (const Vec2 s : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {

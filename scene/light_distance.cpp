@@ -1,8 +1,8 @@
 // How near to a light the nearest surface is, and how far the farthest.
 
 #include "scene/light_fit_parts.h"
-#include "scene/parallel.h"
 #include "scene/solid.h"
+#include "scene/triangle_blocks.h"
 
 namespace gnomon::light_fit {
 namespace {
@@ -37,30 +37,19 @@ double distance_to_box(const Vec3& p, const ShapeGeometry& solid) {
   return glm::length(local - glm::clamp(local, box.min, box.max));
 }
 
-/// The best of `start` and value(0 ... count - 1), of each two better(a, b); on every thread.
-template <class Value, class Better>
-double best_of(std::size_t count, double start, const Value& value, const Better& better) {
-  return parallel_reduce(
-      count, 8192, start,
-      [&](std::size_t first, std::size_t last, double best) {
-        for (std::size_t i = first; i < last; ++i) best = better(best, value(i));
-        return best;
-      },
-      better);
-}
-
 }  // namespace
 
 double closest_distance(const World& world, const Vec3& p) {
-  double closest = infinity;
-  for (const WorldPart& part : world.parts) {
-    const double to_box = glm::length(p - glm::clamp(p, part.bounds.min, part.bounds.max));
-    if (part.kept() && 0.999 * to_box > closest) continue;
-    closest = best_of(
-        part.triangle_count(), closest,
-        [&](std::size_t i) { return distance_to_triangle(p, part.corners(i)); },
-        [](double a, double b) { return std::min(a, b); });
-  }
+  const auto is_farther = [&](double closest, const Aabb& box) {
+    return 0.999 * glm::length(p - glm::clamp(p, box.min, box.max)) > closest;
+  };
+  const auto keep_less = [](double& closest, double other) { closest = std::min(closest, other); };
+  double closest = over_blocks(
+      world, infinity, is_farther,
+      [&](double& sum, const WorldPart& part, std::uint32_t triangle) {
+        keep_less(sum, distance_to_triangle(p, part.corners(triangle)));
+      },
+      keep_less);
   for (const Shape& shape : world.shapes) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
       closest = std::min(closest, std::abs(glm::length(sphere->center - p) - sphere->radius));
@@ -75,11 +64,16 @@ double closest_distance(const World& world, const Vec3& p) {
 }
 
 double farthest_distance(const World& world, const Vec3& p) {
-  double farthest = 0.0;
-  for (const WorldPart& part : world.parts)
-    farthest = best_of(
-        part.vertex_count(), farthest, [&](std::size_t v) { return glm::length(part.position(v) - p); },
-        [](double a, double b) { return std::max(a, b); });
+  const auto is_nearer = [&](double farthest, const Aabb& box) {
+    return 1.001 * glm::length(glm::max(glm::abs(box.min - p), glm::abs(box.max - p))) < farthest;
+  };
+  const auto keep_more = [](double& farthest, double other) { farthest = std::max(farthest, other); };
+  double farthest = over_blocks(
+      world, 0.0, is_nearer,
+      [&](double& sum, const WorldPart& part, std::uint32_t triangle) {
+        for (const Vec3& corner : part.corners(triangle)) keep_more(sum, glm::length(corner - p));
+      },
+      keep_more);
   for (const Shape& shape : world.shapes) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
       farthest = std::max(farthest, glm::length(sphere->center - p) + sphere->radius);

@@ -9,8 +9,8 @@
 
 #include "scene/light_fit_parts.h"
 #include "scene/light_window.h"
-#include "scene/parallel.h"
 #include "scene/solid.h"
+#include "scene/triangle_blocks.h"
 
 namespace gnomon {
 namespace {
@@ -86,14 +86,13 @@ double view_reach(const World& world, const View& view) {
   return has_plane ? far_away : light_fit::finite_reach(world, view);
 }
 
-// The light-space box of a part's box, by so much too large that no rounding puts a corner outside it.
-Aabb extent_of(const WorldPart& part, const LightFace& face, const Vec3& reference) {
+// The light-space box of a box, by so much too large that no rounding puts a corner outside it.
+Aabb extent_of(const Aabb& bounds, const LightFace& face, const Vec3& reference) {
+  const Aabb from{bounds.min - reference, bounds.max - reference};
   Aabb box;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner((i & 1) != 0 ? part.bounds.max.x : part.bounds.min.x,
-                      (i & 2) != 0 ? part.bounds.max.y : part.bounds.min.y,
-                      (i & 4) != 0 ? part.bounds.max.z : part.bounds.min.z);
-    box.grow(to_light_space(face, corner - reference));
+  for (int a = 0; a < 3; ++a) {
+    const Vec3& axis = a == 0 ? face.right : a == 1 ? face.up : face.forward;
+    box.min[a] = -farthest_along(from, -axis), box.max[a] = farthest_along(from, axis);
   }
   const Vec3 size = glm::abs(box.min) + glm::abs(box.max);
   const Vec3 margin(1e-9 * (size.x + size.y + size.z));
@@ -105,31 +104,22 @@ struct Extent {
   double z_min, z_max;
 };
 
-// Adds up the light-space extents of all finite primitives, by add(sum, extent) and join(sum, other sum), on every
-// thread; but for kept parts of whose boxes makes_no_difference(sum, box) says so.
-template <class Sum, class Makes, class Add, class Join>
+// Adds up the light-space extents of all finite primitives, by add(sum, extent) and join(sum, other sum), as over_blocks()
+// does; makes_no_difference(sum, box) is asked with boxes in light space.
+template <class Sum, class Without, class Add, class Join>
 Sum over_extents(const World& world, const LightFace& face, const Vec3& reference, const Sum& none,
-                 const Makes& makes_no_difference, const Add& add, const Join& join) {
-  constexpr std::size_t at_a_time = 8192;
-  Sum sum = none;
-  for (const WorldPart& part : world.parts) {
-    if (part.kept() && makes_no_difference(sum, extent_of(part, face, reference))) continue;
-    join(sum, parallel_reduce(
-                  part.triangle_count(), at_a_time, none,
-                  [&](std::size_t first, std::size_t last, Sum some) {
-                    for (std::size_t t = first; t < last; ++t) {
-                      Aabb box;
-                      for (const Vec3& corner : part.corners(t))
-                        box.grow(to_light_space(face, corner - reference));
-                      add(some, Extent{{Vec2(box.min), Vec2(box.max)}, box.min.z, box.max.z});
-                    }
-                    return some;
-                  },
-                  [&](Sum some, const Sum& more) {
-                    join(some, more);
-                    return some;
-                  }));
-  }
+                 const Without& makes_no_difference, const Add& add, const Join& join) {
+  Sum sum = over_blocks(
+      world, none,
+      [&](const Sum& so_far, const Aabb& box) {
+        return makes_no_difference(so_far, extent_of(box, face, reference));
+      },
+      [&](Sum& so_far, const WorldPart& part, std::uint32_t triangle) {
+        Aabb box;
+        for (const Vec3& corner : part.corners(triangle)) box.grow(to_light_space(face, corner - reference));
+        add(so_far, Extent{{Vec2(box.min), Vec2(box.max)}, box.min.z, box.max.z});
+      },
+      join);
   for (const Shape& shape : world.shapes) {
     if (std::holds_alternative<Plane>(shape.geometry)) continue;
     const auto* sphere = std::get_if<Sphere>(&shape.geometry);
@@ -271,8 +261,7 @@ Rect casters_rect(const World& world, const LightFace& face, const Vec3& referen
 Interval depths_over(const World& world, const LightFace& face, const Vec3& reference, const Rect& casters,
                      const Rect& rect) {
   const auto beside_or_inside = [&](const Interval& z, const Aabb& box) {
-    return (!box.empty() && !Rect{Vec2(box.min), Vec2(box.max)}.overlaps(casters)) ||
-           (box.min.z > z.min && box.max.z < z.max);
+    return !Rect{Vec2(box.min), Vec2(box.max)}.overlaps(casters) || (box.min.z > z.min && box.max.z < z.max);
   };
   const auto grow = [](Interval& z, double min, double max) {
     z.min = std::min(z.min, min), z.max = std::max(z.max, max);

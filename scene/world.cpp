@@ -57,19 +57,21 @@ void flatten(World& world, WorldPart& part) {
   world.moved.push_back(moved);
 }
 
-/// The left part's bounds come first: of zeros of both signs the first one stays, as in one thread.
-Aabb bounds_of(const WorldPart& part) {
-  return parallel_reduce(
-      part.triangle_count(), at_a_time, Aabb{},
-      [&](std::size_t first, std::size_t last, Aabb bounds) {
-        for (std::size_t i = first; i < last; ++i)
-          for (const Vec3& corner : part.corners(i)) bounds.grow(corner);
-        return bounds;
-      },
-      [](Aabb left, const Aabb& right) {
-        left.grow(right);
-        return left;
-      });
+/// Cuts the parts into blocks, and finds the bounds of these, of the parts and of all together.
+void put_blocks(World& world) {
+  for (std::uint32_t p = 0; p < world.parts.size(); ++p) {
+    const WorldPart& part = world.parts[p];
+    const std::uint32_t count = part.triangle_count(), most = part.kept() ? count : TriangleBlock::most;
+    for (std::uint32_t first = 0; first < count; first += std::min(most, count - first))
+      world.blocks.push_back({p, first, std::min(most, count - first), {}});
+  }
+  parallel_for(world.blocks.size(), [&](std::size_t b) {
+    TriangleBlock& block = world.blocks[b];
+    for (std::uint32_t i = 0; i < block.count; ++i)
+      for (const Vec3& corner : world.parts[block.part].corners(block.first + i)) block.bounds.grow(corner);
+  });
+  for (const TriangleBlock& block : world.blocks) world.parts[block.part].bounds.grow(block.bounds);
+  for (const WorldPart& part : world.parts) world.finite_bounds.grow(part.bounds);
 }
 
 /// Beyond these sizes the boxes of a shared tree, which are floats, could overflow on their way into the world.
@@ -163,8 +165,7 @@ void put_parts(World& world, const std::vector<char>& kept) {
   });
   for (std::size_t i = 0; i < world.parts.size(); ++i)
     if (flat[i] != 0) flatten(world, world.parts[i]);
-  parallel_for(world.parts.size(), [&](std::size_t i) { world.parts[i].bounds = bounds_of(world.parts[i]); });
-  for (const WorldPart& part : world.parts) world.finite_bounds.grow(part.bounds);
+  put_blocks(world);
 }
 
 }  // namespace
@@ -209,10 +210,9 @@ World make_world(const Scene& scene, const Mesh& mesh) {
   world.scene = &scene;
   WorldPart part;
   part.mesh = &mesh, part.positions = start_of(mesh.positions);
-  part.bounds = bounds_of(part);
-  world.finite_bounds = part.bounds;
   world.parts.push_back(part);
   number_parts(world);
+  put_blocks(world);
   return world;
 }
 

@@ -59,9 +59,17 @@ struct WorldPart {
   }
 };
 
+/// Consecutive triangles of a part.
+struct TriangleBlock {
+  static constexpr std::uint32_t most = 1024;    ///< but of a kept part, which is one block
+  std::uint32_t part = 0, first = 0, count = 0;  ///< first: by the part's own numbers
+  Aabb bounds;                                   ///< of the triangles' corners, in the world
+};
+
 struct World {
   const Scene* scene = nullptr;  ///< meshes, materials, textures, lights; must outlive the World
   std::vector<WorldPart> parts;
+  std::vector<TriangleBlock> blocks;      ///< of the parts, in their order
   Ranges triangle_ranges, vertex_ranges;  ///< of the parts
   std::span<const Shape> shapes;          ///< in world space already
 

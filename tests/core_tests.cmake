@@ -1,3 +1,4 @@
-gnomon_test(core_geometry_test SOURCES core_geometry_test.cpp scene_cascade_test.cpp LIBS small_scenes fmt::fmt)
+gnomon_test(core_geometry_test SOURCES core_geometry_test.cpp scene_cascade_test.cpp scene_light_fit_test.cpp
+  LIBS small_scenes fmt::fmt)
 gnomon_test(core_freed_memory_test SOURCES core_freed_memory_test.cpp LIBS gnomon::scene)
 gnomon_test(core_parallel_test SOURCES core_parallel_test.cpp LIBS gnomon::scene)
