@@ -11,25 +11,14 @@
 namespace gnomon::raytrace {
 namespace {
 
-/// Neighbouring columns of one row, which share one descent. The lists do not depend on how keys are grouped:
-/// whatever the boxes leave out, the test of the single column would leave out too.
-struct Strip {
-  int face, row, first, last;  // columns first ... last
-  static constexpr int longest = 8;
-  bool joins(TexelKey key) const {
-    return key.face() == face && key.row() == row && key.column() < first + longest;
-  }
-};
-
 /// A box is kept unless it lies wholly outside one plane: normal . p >= offset for its farthest corner.
 class BoxColumn {
  public:
-  BoxColumn(const LightView& view, const Strip& strip, const Bvh& bvh, double reach) {
-    auto planes = column_planes(view, strip.face, strip.first, strip.row);
-    planes[1] = column_planes(view, strip.face, strip.last, strip.row)[1];
+  BoxColumn(const LightView& view, TexelKey key, const Bvh& bvh, double reach) {
+    const auto planes = column_planes(view, key.face(), key.column(), key.row());
     for (std::size_t k = 0; k < 4; ++k) sides_[k] = side(planes[k], view.origin, bvh, reach);
     if (view.projection != LightProjection::perspective) return;
-    const Vec3& forward = view.faces[static_cast<std::size_t>(strip.face)].forward;
+    const Vec3& forward = view.faces[static_cast<std::size_t>(key.face())].forward;
     sides_[count_++] = side({forward, 0.0}, view.origin, bvh, reach);
   }
 
@@ -102,41 +91,28 @@ class Collector {
   /// The lists one after the other in `out`; ends[i] is where the i-th ends.
   void collect(std::span<const TexelKey> keys, std::span<std::uint64_t> ends,
                std::vector<std::uint32_t>& out) {
-    for (std::size_t i = 0; i < keys.size();) {
-      Strip strip{keys[i].face(), keys[i].row(), keys[i].column(), keys[i].column()};
-      std::size_t end = i + 1;
-      for (; end < keys.size() && strip.joins(keys[end]); ++end) strip.last = keys[end].column();
-      gather(strip);
-      for (; i < end; ++i) {
-        list(keys[i], out);
-        ends[i] = out.size();
-      }
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      list(keys[i], out);
+      ends[i] = out.size();
     }
   }
 
  private:
-  struct Candidate {
-    std::uint32_t id;
-    std::array<LightVertex, 3> corners;  // of a triangle
-  };
-
-  // The primitives that may intersect the strip, ascending.
-  void gather(const Strip& strip) {
+  // Into found_ the leaf primitives whose boxes the column may intersect.
+  void gather(TexelKey key) {
     found_.clear();
     if (bvh_.nodes.empty())
       for (std::uint32_t i = 0; i < bvh_.ids.size(); ++i) found_.push_back(i);
     else
-      descend(bvh_, NodesThere{}, BoxColumn(view_, strip, bvh_, reach_));
-    std::sort(found_.begin(), found_.end(), [&](auto a, auto b) { return bvh_.id_at(a) < bvh_.id_at(b); });
-    const TexelColumn column(view_, strip.face, strip.first, strip.row);
-    candidates_.resize(found_.size());
-    for (std::size_t i = 0; i < found_.size(); ++i) {
-      Candidate& c = candidates_[i];
-      c.id = bvh_.id_at(found_[i]);
-      if (!s_.world->is_triangle(c.id)) continue;
-      const LeafPrimitive triangle = bvh_.primitive_at(found_[i]);
-      for (std::size_t k = 0; k < 3; ++k) c.corners[k] = column.vertex(triangle.corner(k));
-    }
+      descend(bvh_, NodesThere{}, BoxColumn(view_, key, bvh_, reach_));
+  }
+
+  bool surely_misses(const TexelColumn& column, TexelKey key, std::uint32_t leaf, std::uint32_t id) const {
+    if (!s_.world->is_triangle(id))
+      return sphere_surely_misses(around(s_.world->shape(id).geometry), view_, key);
+    const LeafPrimitive triangle = bvh_.primitive_at(leaf);
+    return column.surely_misses({column.vertex(triangle.corner(0)), column.vertex(triangle.corner(1)),
+                                 column.vertex(triangle.corner(2))});
   }
 
   template <class Space>
@@ -163,16 +139,15 @@ class Collector {
     }
   }
 
-  void list(TexelKey key, std::vector<std::uint32_t>& out) const {
+  // The primitives that may intersect the column, ascending.
+  void list(TexelKey key, std::vector<std::uint32_t>& out) {
+    gather(key);
     const TexelColumn column(view_, key.face(), key.column(), key.row());
     const std::size_t first = out.size();
-    for (const Candidate& c : candidates_) {
-      const bool misses = s_.world->is_triangle(c.id)
-                              ? column.surely_misses(c.corners)
-                              : sphere_surely_misses(around(s_.world->shape(c.id).geometry), view_, key);
-      if (!misses) out.push_back(c.id);
+    for (const std::uint32_t leaf : found_) {
+      const std::uint32_t id = bvh_.id_at(leaf);
+      if (!surely_misses(column, key, leaf, id)) out.push_back(id);
     }
-    if (s_.planes.empty()) return;
     out.insert(out.end(), s_.planes.begin(), s_.planes.end());
     std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
   }
@@ -182,7 +157,6 @@ class Collector {
   const LightView& view_;
   double reach_;
   std::vector<std::uint32_t> found_;  // places in leaf order
-  std::vector<Candidate> candidates_;
 };
 
 }  // namespace
