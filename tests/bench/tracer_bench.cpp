@@ -9,10 +9,12 @@
 #include "embree_peer.h"
 #include "in_turn.h"
 #include "instruction_set.h"
+#include "must.h"
 #include "raytrace/packets/edge_setup.h"
 #include "raytrace/packets/shadow_pass.h"
 #include "raytrace/single_rays.h"
 #include "raytrace/tiles.h"
+#include "scene/light_view.h"
 #include "tinybvh_peer.h"
 
 namespace gnomon::bench {
@@ -60,7 +62,7 @@ class Bench {
                                       static_cast<std::size_t>(threads));
       primary(threads), shadows(0, threads), shadows(1, threads);
     }
-    two_threads(), mirrors(), ball_light(), memory();
+    two_threads(), mirrors(), ball_light(), map_fits(), memory();
     whole_frame();
     return rows_;
   }
@@ -241,6 +243,27 @@ class Bench {
     fmt::print(settings_.table(), "  mean share of the ball seen: {} with the shaft, {} by every ray\n",
                with_shaft, by_rays);
     add("ball light, 64 samples", 1, light.rays(), ms, "every ray cast", std::nullopt);
+  }
+
+  /// The fit of a map to its casters, and the same where every triangle is asked.
+  void map_fits() {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
+    World all = world_;
+    for (TriangleBlock& block : all.blocks) block.bounds = {Vec3(-1e100), Vec3(1e100)};
+    const double aspect = static_cast<double>(settings_.size.width) / settings_.size.height;
+    for (std::size_t i = 0; i < 2; ++i) {
+      LightView by_blocks, by_all;
+      const auto fit = [&](const World& world) {
+        return must(fit_light_view(world, scene_.scene.lights[i], scene_.scene.camera, aspect, 1024));
+      };
+      const auto ms = in_turn(
+          settings_.runs, 2, [&] { by_blocks = fit(world_); }, [&] { by_all = fit(all); });
+      const auto depths = [](const LightView& view) { return view.face(0).far_depth; };
+      fmt::print(settings_.table(), "  far depth of the map: {} by blocks, {} by every triangle\n",
+                 depths(by_blocks), depths(by_all));
+      add_cost(i == 0 ? "fit of a point light's map" : "fit of a sun's map", 2, "ms", ms,
+               "every triangle asked", std::nullopt);
+    }
   }
 
   /// Of all that packets need, and with the tree that many single rays make.
