@@ -61,7 +61,8 @@ void flatten(World& world, WorldPart& part) {
 void put_blocks(World& world) {
   for (std::uint32_t p = 0; p < world.parts.size(); ++p) {
     const WorldPart& part = world.parts[p];
-    const std::uint32_t count = part.triangle_count(), most = part.kept() ? count : TriangleBlock::most;
+    const std::uint32_t count = part.triangle_count();
+    const std::uint32_t most = part.kept() ? TriangleBlock::most_of_kept : TriangleBlock::most;
     for (std::uint32_t first = 0; first < count; first += std::min(most, count - first))
       world.blocks.push_back({p, first, std::min(most, count - first), {}});
   }

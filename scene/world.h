@@ -61,7 +61,7 @@ struct WorldPart {
 
 /// Consecutive triangles of a part.
 struct TriangleBlock {
-  static constexpr std::uint32_t most = 1024;    ///< but of a kept part, which is one block
+  static constexpr std::uint32_t most = 1024, most_of_kept = 65536;
   std::uint32_t part = 0, first = 0, count = 0;  ///< first: by the part's own numbers
   Aabb bounds;                                   ///< of the triangles' corners, in the world
 };

@@ -64,8 +64,9 @@ struct WideRay {
   float t_min, t_max;  ///< no hit is outside; t_max is widened and finite
   float least, most;   ///< the interval's ends to the nearest
   float coordinate_error;
-  // Who limits the ray counts t from the ray's own origin, in units of `per_unit`, a power of two. Here it is counted from
-  // `start` on, in units of 1 (raytrace/bvh/wide_instances.h): bounds change by more than that rounds.
+  // A given t, of who limits the ray, counts from the given origin; t here from `start` on (raytrace/bvh/wide_instances.h).
+  // It is a given t times `unit`, a power of two, less `start`; the other way round there are two factors near 1 / unit, one
+  // for lower and one for upper bounds, which give way by more than the roundings. Where start is 0 they are 1 / unit.
   float unit, start, per_unit_below, per_unit_above;
   float plain_origin[3], plain_direction[3], kernel_t;  ///< as they are, for PlainTest alone; t's own scale
   std::uint32_t z;                                      ///< the axis of the direction's largest component
@@ -74,9 +75,9 @@ struct WideRay {
   bool surely_starts_before(float t) const { return t > least * up + FLT_MIN; }
   bool surely_ends_after(float t) const { return t < std::min(most, FLT_MAX) * down - FLT_MIN; }
 
-  /// t in the units of RayFrame; of an instance's ray, of the frame in the world.
+  /// A given t, in the units of RayFrame; of an instance's ray, of the frame in the world.
   void limit(float t_above) { t_max = std::min(t_max, t_above * unit * widening - start); }
-  /// Bounds of such a t.
+  /// Bounds of a given t by bounds of t here.
   float given_below(float t) const { return (t + start) * per_unit_below; }
   float given_above(float t) const { return (t + start) * per_unit_above; }
   /// t in the units of this ray.
