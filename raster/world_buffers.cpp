@@ -99,30 +99,27 @@ Vec4f triangle_plane(const std::array<Vec3, 3>& corners, const Vec3& reference) 
 
 /// What the shaders read of the world are texels of buffer textures.
 Expected<void> check_size(const Gl& gl, const World& world, const StoredMeshes& meshes) {
-  GLint limit = 0;
-  gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-  const auto check = [&](std::size_t got, const char* what) -> Expected<void> {
-    if (got <= static_cast<std::size_t>(limit)) return {};
-    return fail(ErrorKind::graphics,
-                fmt::format("the scene is too large for this OpenGL's GL_MAX_TEXTURE_BUFFER_SIZE (got {} {}, "
-                            "allowed {})",
-                            got, what, limit));
+  const GLint limit = gl.integer(GL_MAX_TEXTURE_BUFFER_SIZE);
+  struct Count {
+    std::size_t got;
+    const char* what;
   };
-  if (const auto fits = check(meshes.all.triangles, "triangles"); !fits) return fits;
-  if (const auto fits =
-          check(3 * std::size_t{meshes.all.vertices - meshes.flat.vertices}, "instanced coordinates");
-      !fits)
-    return fits;
-  if (const auto fits = check(world.shapes.size() * shaders::shape_texel_count, "numbers of shapes"); !fits)
-    return fits;
-  if (const auto fits =
-          check(world.scene->materials.size() * shaders::material_texel_count, "numbers of materials");
-      !fits)
-    return fits;
-  const std::size_t parts =
-      shaders::parts_header_texel_count + world.parts.size() * shaders::part_texel_count;
-  if (const auto fits = check(parts, "numbers of instances"); !fits) return fits;
-  return check(meshes.all.vertices, "vertices");
+  for (const auto& [got, what] : {
+           Count{meshes.all.triangles, "triangles"},
+           Count{3 * std::size_t{meshes.all.vertices - meshes.flat.vertices}, "instanced coordinates"},
+           Count{world.shapes.size() * shaders::shape_texel_count, "numbers of shapes"},
+           Count{world.scene->materials.size() * shaders::material_texel_count, "numbers of materials"},
+           Count{shaders::parts_header_texel_count + world.parts.size() * shaders::part_texel_count,
+                 "numbers of instances"},
+           Count{meshes.all.vertices, "vertices"},
+       })
+    if (got > static_cast<std::size_t>(limit))
+      return fail(
+          ErrorKind::graphics,
+          fmt::format("the scene is too large for this OpenGL's GL_MAX_TEXTURE_BUFFER_SIZE (got {} {}, "
+                      "allowed {})",
+                      got, what, limit));
+  return {};
 }
 
 /// put(i) for 0 ... count - 1, on every thread.
