@@ -51,11 +51,10 @@ KindGaps gaps_of_kinds(const LadderInput& in, const raster::Bias& bias,
   parallel_for(pixels.size(), [&](std::size_t i) {
     const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixels[i]];
     const Vec3 to_light = light_at(in.light, receiver.position).to_light;
-    std::size_t texel = 0;
     gaps[normal_offset][i] =
-        gap_number(biased_gap(record, biases[normal_offset], to_light, receiver, pixels[i], texel));
+        gap_number(biased_gap(record, biases[normal_offset], to_light, receiver, pixels[i]));
     const auto lookup = biased_lookup(record, biases[plain], to_light, receiver, pixels[i]);
-    const auto depth = lookup ? stored_caster(record, lookup->key, texel) : std::nullopt;
+    const auto depth = lookup ? stored_caster(record, lookup->key) : std::nullopt;
     for (std::size_t k = plain; k < normal_offset; ++k)
       gaps[k][i] =
           depth ? gap_number(gap_before(record, biases[k], receiver.normal, *lookup, *depth)) : -infinite;

@@ -113,20 +113,18 @@ double gap_before(const raster::LightRecord& record, const raster::Bias& bias, c
   return gap;
 }
 
-std::optional<double> stored_caster(const raster::LightRecord& record, raytrace::TexelKey key,
-                                    std::size_t& texel) {
+std::optional<double> stored_caster(const raster::LightRecord& record, raytrace::TexelKey key) {
   const LightView& view = record.map.view;
-  texel = record.map.texel_index(key.face(), key.column(), key.row());
-  const double stored = record.map.depth[texel];
+  const double stored = record.map.depth[record.map.texel_index(key.face(), key.column(), key.row())];
   if (!holds_caster(view, stored)) return std::nullopt;
   return depth_from_stored(view, key.face(), key.row() + 0.5, stored);
 }
 
 double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& to_light,
-                  const raytrace::SurfacePoint& receiver, std::size_t pixel, std::size_t& texel) {
+                  const raytrace::SurfacePoint& receiver, std::size_t pixel) {
   const auto lookup = biased_lookup(record, bias, to_light, receiver, pixel);
   if (!lookup) return -infinity;
-  const auto depth = stored_caster(record, lookup->key, texel);
+  const auto depth = stored_caster(record, lookup->key);
   return depth ? gap_before(record, bias, receiver.normal, *lookup, *depth) : -infinity;
 }
 

@@ -31,16 +31,15 @@ struct BiasedLookup {
 std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, const raster::Bias& bias,
                                           const Vec3& to_light, const raytrace::SurfacePoint& receiver,
                                           std::size_t pixel);
-/// The depth along forward that is stored in a texel, if a caster is; `texel` receives its index.
-std::optional<double> stored_caster(const raster::LightRecord& record, raytrace::TexelKey key,
-                                    std::size_t& texel);
+/// The depth along forward that is stored in a texel, if a caster is.
+std::optional<double> stored_caster(const raster::LightRecord& record, raytrace::TexelKey key);
 /// The gap to a caster at a depth along forward on the light ray through the looked-up texel's centre.
 double gap_before(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
                   const BiasedLookup& lookup, double caster_depth);
 
 /// The gap of rung V5 less slope and plane terms: the receiver is shadowed iff it exceeds the constant bias.
-/// -infinity where the lookup is outside the map or nothing is stored. `texel` receives the texel looked up.
+/// -infinity where the lookup is outside the map or nothing is stored.
 double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& to_light,
-                  const raytrace::SurfacePoint& receiver, std::size_t pixel, std::size_t& texel);
+                  const raytrace::SurfacePoint& receiver, std::size_t pixel);
 
 }  // namespace gnomon::compare

@@ -20,8 +20,7 @@ float hard_test(const raster::LightRecord& record, const raster::Bias& bias, con
   }
   if (!lookup.at.inside) return 1.0f;
   lookup.key = raytrace::TexelKey::pack(lookup.at.face, lookup.at.column(), lookup.at.row());
-  std::size_t texel = 0;
-  const auto depth = stored_caster(record, lookup.key, texel);
+  const auto depth = stored_caster(record, lookup.key);
   if (!depth) return 1.0f;
   return gap_before(record, bias, receiver.normal, lookup, *depth) > record.bias_constant_world ? 0.0f : 1.0f;
 }

@@ -240,6 +240,8 @@ struct LightComparison {
   /// FLIP of each pixel, and SSIM of each window by its middle pixel (NaN where no window fits); empty where
   /// not computed.
   Image<float> flip_map, ssim_map;
+  Image<std::uint32_t>
+      stored_glass;  ///< shown_materials.h; empty where no material is glass, and where not made
 };
 
 struct MachineInfo {

@@ -13,19 +13,15 @@ inline bool is_exact(const LadderInput& input, double stored_depth, double exact
   return std::abs(stored_depth - exact_depth) <= input.record.rounding.float_world;
 }
 
-/// Whether a hit of a ray from the light is what the map's culling leaves in a texel that stores its primitive: a
-/// shape's two sides have one number.
-bool is_stored_side(const LadderInput& input, const Ray& ray, const raytrace::Hit& hit);
-
 /// The gap of rung V5, in double precision (biased_test.h). `group`: the pixel's; `lookup` receives the texel
 /// looked up.
 double gap_with_bias(const LowerClimb& lower, const LadderInput& input, std::size_t group, std::size_t pixel,
-                     std::size_t& lookup);
+                     raytrace::TexelKey& lookup);
 
 /// The gap of V5 to the surface that the looked-up texel stores, at the exact depth at which the ray through
-/// the texel's centre meets it: the ray's first hit, or with culling its hit with the stored primitive;
-/// -infinity where the ray meets nothing. None where the depth is no surface's (midpoint), or the ray does
-/// not meet the stored primitive. `group`: the pixel's.
+/// the texel's centre meets it: the ray's first hit, or with culling the stored one (stored_surface.h); -infinity
+/// where the ray meets nothing. None where the depth is no surface's (midpoint), or with culling nothing is stored.
+/// `group`: the pixel's.
 std::optional<double> exact_gap(const LowerClimb& lower, const LadderInput& input, std::size_t group,
                                 std::size_t pixel);
 

@@ -3,6 +3,7 @@
 #include "compare/features.h"
 #include "compare/filter_parameters.h"
 #include "compare/filter_probe.h"
+#include "compare/stored_surface.h"
 
 namespace gnomon::compare {
 
@@ -18,7 +19,7 @@ Label sampling_label(const LadderInput& in, const Column& column, const WrongPix
 
 // The stored primitive, or one that hangs together with it in this column, lies between x and the light.
 bool stored_is_true_occluder(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
-  const std::uint32_t stored = in.record.map.primitive[wrong.lookup];
+  const std::uint32_t stored = stored_surface(in, wrong.lookup).primitive;
   const SurfacePoint& receiver = in.traced.receiver.data[wrong.pixel];
   const auto met = first_on_ray(
       in.tracer, in.tracer.shadow_ray(receiver, in.light), infinity, [&](const raytrace::Hit& hit) {
@@ -30,7 +31,7 @@ bool stored_is_true_occluder(const LadderInput& in, const Column& column, const 
 Label bias_label(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
   if (!wrong.false_shadow)
     return stored_is_true_occluder(in, column, wrong) ? Label::peter_panning : Label::light_leak;
-  const std::uint32_t stored = in.record.map.primitive[wrong.lookup];
+  const std::uint32_t stored = stored_surface(in, wrong.lookup).primitive;
   const std::uint32_t receiver = in.traced.receiver.data[wrong.pixel].primitive;
   return stored != no_id && column.same_sheet(receiver, stored) ? Label::acne : Label::false_feature;
 }

@@ -7,10 +7,10 @@
 namespace gnomon::compare {
 
 struct WrongPixel {
-  std::size_t pixel;    ///< index in the image
-  std::size_t lookup;   ///< index in the map of the texel that the biased test looked up
-  Cause step;           ///< deciding_step()
-  bool false_shadow;    ///< drawn darker than the truth; otherwise a missed shadow
+  std::size_t pixel;          ///< index in the image
+  raytrace::TexelKey lookup;  ///< the texel that the biased test looked up
+  Cause step;                 ///< deciding_step()
+  bool false_shadow;          ///< drawn darker than the truth; otherwise a missed shadow
   bool exact_is_right;  ///< V5 is wrong, and would be right with the exact depth in place of the stored one
   float truth;          ///< V0
 };

@@ -9,6 +9,7 @@
 #include "compare/exact_depth.h"
 #include "compare/labelling.h"
 #include "compare/pixel_list.h"
+#include "compare/stored_surface.h"
 #include "raster/technique_traits.h"
 #include "raytrace/sheets/shape_sheets.h"
 #include "scene/parallel.h"
@@ -134,17 +135,13 @@ bool beyond_map(const LightView& view, const TexelCentre& centre) {
 // doing, not a matter of precision: the rung then stays at V3 and the bias step takes the difference. So it
 // does where the map stores the midpoint between two surfaces, where its depths end before the first surface,
 // and where the stored depth is the exact one.
-float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::TexelKey key, double own,
-                  float flat) {
+float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::TexelKey key, bool stores_first,
+                  double own, float flat) {
   const raster::ShadowMap& map = in.record.map;
-  const std::size_t texel = map.texel_index(key.face(), key.column(), key.row());
   if (raster::traits_of(in.drawn.options.map.technique).contents == raster::MapContents::midpoint_depth)
     return flat;
-  if (in.drawn.options.map.cull != raster::Cull::none &&
-      (!centre.hit || map.primitive[texel] != centre.hit->primitive ||
-       !is_stored_side(in, centre.ray, *centre.hit)))
-    return flat;
-  const double stored = map.depth[texel];
+  if (!stores_first) return flat;
+  const double stored = map.depth[map.texel_index(key.face(), key.column(), key.row())];
   const double row = key.row();
   if (!holds_caster(map.view, stored)) return beyond_map(map.view, centre) ? flat : 1.0f;
   const double before = depth_from_stored(map.view, centre.face, row + 0.5, stored);
@@ -165,8 +162,15 @@ void climb_outside(const LadderInput& in, std::size_t pixel, Climb& out) {
     out.labels.data[pixel] = Label::outside_map;
 }
 
-void climb_lower(const Column& column, const TexelCentre& centre, raytrace::TexelKey key, std::size_t pixel,
-                 LowerClimb& out) {
+// Whether culling left the centre ray's first surface in the map.
+bool stores_first_surface(const LadderInput& in, const TexelCentre& centre, raytrace::TexelKey key) {
+  if (in.drawn.options.map.cull == raster::Cull::none) return true;
+  const StoredSurface stored = stored_surface(in, key);
+  return centre.hit && stored.primitive == centre.hit->primitive && stored.t == centre.hit->t;
+}
+
+void climb_lower(const Column& column, const TexelCentre& centre, raytrace::TexelKey key, bool stores_first,
+                 std::size_t pixel, LowerClimb& out) {
   const LadderInput& in = out.input;
   const SurfacePoint& receiver = in.traced.receiver.data[pixel];
   const LightView& view = in.record.map.view;
@@ -177,7 +181,7 @@ void climb_lower(const Column& column, const TexelCentre& centre, raytrace::Texe
   out.rungs[1].data[pixel] = point_rung(in, pixel);
   out.rungs[2].data[pixel] = texel_rung(in, column, receiver, centre);
   out.rungs[3].data[pixel] = flat;
-  out.rungs[4].data[pixel] = stored_rung(in, centre, key, own, flat);
+  out.rungs[4].data[pixel] = stored_rung(in, centre, key, stores_first, own, flat);
 }
 
 // A shader of the user's own that names neither bias nor gap draws without a bias.
@@ -202,7 +206,7 @@ bool right_with_exact_depth(const LowerClimb& lower, const LadderInput& in, std:
 void climb_group(const LowerClimb& lower, const LadderInput& in, std::size_t group, Climb& out) {
   std::optional<Column> column;
   for (const std::uint32_t pixel : lower.groups[group]) {
-    std::size_t lookup = texel_of_group(lower, group);
+    raytrace::TexelKey lookup = lower.groups.keys[group];
     const double gap = gap_with_bias(lower, in, group, pixel, lookup);
     out.rungs[5].data[pixel] =
         tests_bias(in) ? lit(!(gap > in.record.bias_constant_world)) : out.rungs[4].data[pixel];
@@ -263,11 +267,6 @@ std::vector<std::uint32_t> compared_pixels(const Image<Label>& labels) {
 
 }  // namespace
 
-std::size_t texel_of_group(const LowerClimb& lower, std::size_t group) {
-  const raytrace::TexelKey key = lower.groups.keys[group];
-  return lower.input.record.map.texel_index(key.face(), key.column(), key.row());
-}
-
 LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
     : input(in), sorted(std::move(to_compare)) {
   const TimedStage stage("columns and sheets");
@@ -279,11 +278,13 @@ LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
   });
   const std::vector<TexelCentre> rays = trace_centres(in, groups.keys);
   centres.reserve(rays.size());
-  for (const TexelCentre& ray : rays) centres.push_back({ray.depth, ray.hit ? ray.hit->primitive : no_id});
+  for (const TexelCentre& ray : rays) centres.push_back(ray.depth);
   columns = std::make_unique<ColumnSet>(input, groups, rays);
   parallel_for(groups.keys.size(), [&](std::size_t g) {
     const Column column = columns->column(g);
-    for (const std::uint32_t pixel : groups[g]) climb_lower(column, rays[g], groups.keys[g], pixel, *this);
+    const bool stores_first = stores_first_surface(in, rays[g], groups.keys[g]);
+    for (const std::uint32_t pixel : groups[g])
+      climb_lower(column, rays[g], groups.keys[g], stores_first, pixel, *this);
   });
 }
 

@@ -50,12 +50,6 @@ struct Climb {
 
 class ColumnSet;
 
-/// The first thing that the exact light ray through a texel's centre meets.
-struct CentreHit {
-  double depth = infinity;  ///< along the map's forward axis
-  std::uint32_t primitive = no_id;
-};
-
 /// What the map as stored makes of the compared pixels, before the technique's bias and filter: V0 … V4, and
 /// the columns that they look up. Frames of one light that were drawn with the same map share it.
 struct LowerClimb {
@@ -70,7 +64,9 @@ struct LowerClimb {
   std::array<Image<float>, rung_count> rungs;  ///< V5 and V6 are 1, and V2 … V4 of pixels outside the map
   std::vector<std::uint32_t> outside;          ///< compared pixels whose own texel lies outside the map
   TexelGroups groups;                          ///< the other compared pixels
-  std::vector<CentreHit> centres;              ///< by group
+  /// By group, the depth along the map's forward axis of the first thing that the exact light ray through the texel's
+  /// centre meets.
+  std::vector<double> centres;
   std::unique_ptr<ColumnSet> columns;
 };
 
@@ -81,8 +77,6 @@ Climb climb_up(const LowerClimb& lower, const LadderInput& input);
 /// Climbs the compared pixels (label `right` on entry) and labels the wrong ones.
 Climb climb(const LadderInput& input, Image<Label> sorted);
 
-/// Index in the map of the texel that a group's pixels look up.
-std::size_t texel_of_group(const LowerClimb& lower, std::size_t group);
 /// The step that made a wrong pixel wrong. Of a false shadow, the step at which V0 - V last rose above one
 /// half. Of a missed shadow the filter where V5 is right, else the step at which V - V0 first rose above one
 /// half: what darkens it in between by accident, and is taken away again, is not what it lacks.

@@ -10,6 +10,7 @@
 #include "compare/light_parts.h"
 #include "compare/penumbra.h"
 #include "compare/shadow_cost.h"
+#include "compare/shown_materials.h"
 #include "compare/ssim.h"
 #include "compare/theory.h"
 #include "scene/stages.h"
@@ -94,7 +95,10 @@ LightComparison measure_light(const LadderInput& in, std::size_t record, Climb c
   if (options.perceptual) out.edge_map = edge_displacement_map(edges);
   Image<float> detached = detachment_map(in.tracer, in.light, in.traced.receiver, out.labels);
   out.detachment = measure_detachment(detached);
-  if (options.perceptual) out.detachment_map = std::move(detached);
+  if (options.perceptual) {
+    out.detachment_map = std::move(detached);
+    out.stored_glass = stored_glass(in.tracer, in.record, in.drawn.options.map, in.traced.receiver);
+  }
   out.bleeding = measure_bleeding(in, out.rungs, out.labels);
   if (!in.truth.visibility.data.empty()) {
     out.pixels.uncertain_by_samples = count_pixels(climbed_labels).compared - out.pixels.compared;

@@ -4,7 +4,7 @@
 set(GNOMON_COMPARE_OUTPUT_SOURCES
   aov.cpp flip.cpp labels.cpp palette.cpp picture_set.cpp pictures.cpp report/channels.cpp report/colour_numbers.cpp
   report/light_channels.cpp report/light_numbers.cpp report/packing.cpp report/section_mesh.cpp
-  report/shown_materials.cpp report/surface_prediction.cpp)
+  report/surface_prediction.cpp)
 set(GNOMON_COMPARE_TEXT_SOURCES
   bias_advice.cpp csv_field.cpp engine_units.cpp file_names.cpp number_text.cpp option_names.cpp result_json.cpp
   result_light_json.cpp result_table.cpp shadow_cost.cpp summary.cpp text_layout.cpp time_budget.cpp verdict.cpp

@@ -329,7 +329,7 @@ Json light_times_json(const Comparison& c, const LightComparison& light) {
             {"light_structure", times_json(truth.light_structure)},
             {"exact_shadows", times_json(truth.exact_times())},
             {"exact_shadows_standing", times_json(standing_rays(truth))},
-            {"id_map", drawn.id_map_ms > 0.0 ? one_time_json(drawn.id_map_ms) : times_json({})},
+            {"id_map", times_json({})},  // nothing is drawn for it any more
             {"classify", times_json(light.classify)}};
   if (truth.is_soft()) json["soft_shadow_rays"] = times_json(truth.soft_shadow_rays);
   return json;

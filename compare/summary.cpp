@@ -254,21 +254,16 @@ void add_times(Page& page, const Comparison& c, const LightComparison& light) {
 
 // What comes before the first frame, and what only the comparison needs.
 void add_once(Page& page, const Comparison& c) {
-  double first_map = 0.0, id_map = 0.0;
-  for (const LightComparison& light : c.lights) {
-    first_map += drawn_record(c, light).first_map_ms;
-    id_map += drawn_record(c, light).id_map_ms;
-  }
+  double first_map = 0.0;
+  for (const LightComparison& light : c.lights) first_map += drawn_record(c, light).first_map_ms;
   page.field(
       "once",
       fmt::format("{} to upload the scene, {} to make memory for the maps and draw them first; "
                   "{} to build the tracer's hierarchy",
                   milliseconds(c.raster.upload_ms), first_map > 0.0 ? milliseconds(first_map) : "not timed",
                   milliseconds(c.accel_build_ms)));
-  page.field("", fmt::format(
-                     "for the comparison alone: {} to join triangles, {} to draw maps with ids, {} to "
-                     "read back",
-                     milliseconds(c.topology_ms), milliseconds(id_map), milliseconds(c.raster.read_back_ms)));
+  page.field("", fmt::format("for the comparison alone: {} to join triangles, {} to read back",
+                             milliseconds(c.topology_ms), milliseconds(c.raster.read_back_ms)));
   if (is_software(c.raster.context)) page.field("", std::string(software_note));
 }
 

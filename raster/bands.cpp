@@ -33,7 +33,7 @@ void take_light(const LightRecord& band, LightRecord& sum) {
   sum.bias_constant_world = band.bias_constant_world;
   sum.texel_world = band.texel_world, sum.rounding_world = band.rounding_world;
   sum.map_pass = band.map_pass, sum.map_texels = band.map_texels;
-  sum.first_map_ms = band.first_map_ms, sum.id_map_ms = band.id_map_ms;
+  sum.first_map_ms = band.first_map_ms;
 }
 
 }  // namespace

@@ -29,33 +29,24 @@ bool face_warps(const LightView& view) {
 
 }  // namespace
 
-Expected<void> DepthMapPass::prepare(const LightView& view, DepthFormat format, bool with_ids) {
+Expected<void> DepthMapPass::prepare(const LightView& view, DepthFormat format) {
   Gl& gl = *gl_;
   const ImageSize size{view.size, view.size};
   const bool same = depth_ && depth_.size() == size && depth_.layers() == view.face_count &&
                     depth_.format() == gl_format(format);
-  if (same && !faces_.empty() && (!with_ids || ids_)) return {};
+  if (same && !faces_.empty()) return {};
   faces_.clear();
   depth_ = Texture2D();
-  ids_ = Texture2D();
   depth_ = Texture2D(gl, gl_format(format), size, view.face_count);
-  if (with_ids) ids_ = Texture2D(gl, GL_R32UI, size, view.face_count);
   const std::string what =
       fmt::format("a depth map of {0} x {0} texels, {1} face(s)", view.size, view.face_count);
   if (auto ok = gl.check(what); !ok) return ok;
-  std::vector<Face> faces;
+  std::vector<Framebuffer> faces;
   for (int i = 0; i < view.face_count; ++i) {
-    Face face{Framebuffer(gl), Framebuffer(gl)};
-    face.depth.attach(GL_DEPTH_ATTACHMENT, depth_, i);
-    face.depth.draw_to(0);
-    if (auto ok = face.depth.check_complete(); !ok) return ok;
-    if (with_ids) {
-      face.depth_and_ids.attach(GL_DEPTH_ATTACHMENT, depth_, i);
-      face.depth_and_ids.attach(GL_COLOR_ATTACHMENT0, ids_, i);
-      face.depth_and_ids.draw_to(1);
-      if (auto ok = face.depth_and_ids.check_complete(); !ok) return ok;
-    }
-    faces.push_back(std::move(face));
+    Framebuffer& face = faces.emplace_back(gl);
+    face.attach(GL_DEPTH_ATTACHMENT, depth_, i);
+    face.draw_to(0);
+    if (auto ok = face.check_complete(); !ok) return ok;
   }
   if (auto ok = gl.check(what); !ok) return ok;
   faces_ = std::move(faces);
@@ -85,12 +76,12 @@ float DepthMapPass::format_step() const {
   return std::exp2(-static_cast<float>(bits));
 }
 
-Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& view, Cull cull, bool with_ids,
+Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& view, Cull cull,
                                   const DepthMapPass* first) {
   const Gl& gl = *gl_;
-  const Drawing drawing{view, cull, with_ids, first != nullptr};
-  const auto programs = programs_->triangles(
-      {.primitive_ids = with_ids, .peel = drawing.peel, .reversed = drawing.peel && view.reversed});
+  const Drawing drawing{view, cull, first != nullptr};
+  const auto programs =
+      programs_->triangles({.peel = drawing.peel, .reversed = drawing.peel && view.reversed});
   if (!programs) return fail(programs.error());
   world.bind();
   set_state(view, cull);
@@ -102,12 +93,10 @@ Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& vi
   if (first != nullptr) first->bind(shaders::first_layer_unit);
   for (int face = 0; face < view.face_count; ++face) {
     if (first != nullptr) programs->set_peel(face, format_step());
-    const Face& target = faces_[static_cast<std::size_t>(face)];
-    const Framebuffer& framebuffer = with_ids ? target.depth_and_ids : target.depth;
+    const Framebuffer& framebuffer = faces_[static_cast<std::size_t>(face)];
     gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     const float clear_depth = view.reversed ? 0.0f : shaders::map_clear_depth;
     gl->ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &clear_depth);
-    if (with_ids) gl->ClearNamedFramebufferuiv(framebuffer.id(), GL_COLOR, 0, &no_id);
     world.draw_triangles(*programs, light_clip_from_relative(view, face, world.reference()));
     gl->Disable(GL_CULL_FACE);
     if (auto ok = draw_shapes(world, drawing, face); !ok) return ok;
@@ -124,21 +113,17 @@ Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const Draw
                          .perspective = view.projection == LightProjection::perspective,
                          .warp = face_warps(view),
                          .reversed = view.reversed,
-                         .peel = drawing.peel,
-                         .primitive_ids = drawing.with_ids},
+                         .peel = drawing.peel},
                         [&](const ImpostorProgram& program) {
                           program.set_face(face, drawing.cull);
                           if (drawing.peel) program.set_peel(face, format_step());
                         });
 }
 
-void DepthMapPass::read(ShadowMap& map, bool with_ids) const {
+void DepthMapPass::read(ShadowMap& map) const {
   const std::size_t texels = depth_.size().pixels() * static_cast<std::size_t>(depth_.layers());
   map.depth.resize(texels);
   depth_.read(GL_DEPTH_COMPONENT, GL_FLOAT, std::as_writable_bytes(std::span(map.depth)));
-  if (!with_ids) return;
-  map.primitive.resize(texels);
-  ids_.read(GL_RED_INTEGER, GL_UNSIGNED_INT, std::as_writable_bytes(std::span(map.primitive)));
 }
 
 void DepthMapPass::bind_for_lookup() const {

@@ -1,5 +1,4 @@
-// Renders a light's depth map, face by face, and reads it back. The timed pass stores depth alone; the
-// analysis pass is the same pass that also stores which primitive each texel holds. Private to raster.
+// Renders a light's depth map, face by face, and reads it back. Private to raster.
 #pragma once
 
 #include <vector>
@@ -14,25 +13,22 @@ class DepthMapPass {
   DepthMapPass(Gl& gl, ProgramCache& programs) : gl_(&gl), programs_(&programs) {}
 
   /// Makes (or keeps) the textures. Error (graphics): out of memory.
-  Expected<void> prepare(const LightView& view, DepthFormat format, bool with_ids);
+  Expected<void> prepare(const LightView& view, DepthFormat format);
   /// Clears and draws every face; the light's block must be bound.
   /// With `first`, another map of the same shape: only what lies behind what that one holds.
-  Expected<void> draw(const WorldBuffers& world, const LightView& view, Cull cull, bool with_ids,
+  Expected<void> draw(const WorldBuffers& world, const LightView& view, Cull cull,
                       const DepthMapPass* first = nullptr);
-  /// Reads the last map drawn; primitive ids only if it was drawn with them.
-  void read(ShadowMap& map, bool with_ids) const;
+  /// Reads the last map drawn.
+  void read(ShadowMap& map) const;
   void bind_for_lookup() const;
   void bind(int unit) const { depth_.bind(unit); }
   std::uint64_t bytes() const;
 
  private:
-  struct Face {
-    Framebuffer depth, depth_and_ids;
-  };
   struct Drawing {
     const LightView& view;
     Cull cull;
-    bool with_ids, peel;
+    bool peel;
   };
   Expected<void> draw_shapes(const WorldBuffers& world, const Drawing& drawing, int face);
   float format_step() const;
@@ -40,8 +36,8 @@ class DepthMapPass {
 
   Gl* gl_;
   ProgramCache* programs_;
-  Texture2D depth_, ids_;
-  std::vector<Face> faces_;
+  Texture2D depth_;
+  std::vector<Framebuffer> faces_;
 };
 
 }  // namespace gnomon::raster

@@ -21,13 +21,12 @@ struct ContextInfo {
   int max_map_size = 0;  ///< texels
 };
 
-/// The depth map as stored, and what lies in it.
+/// The depth map as stored.
 struct ShadowMap {
   LightView view;
   DepthFormat format = DepthFormat::d32f;
   std::vector<float>
       depth;  ///< stored value in [0, 1]; 1 where nothing was drawn (0 where depths are reversed); faces*size*size
-  std::vector<std::uint32_t> primitive;  ///< the primitive drawn there, no_id where nothing was
   std::size_t texel_index(int face, int column, int row) const {
     const auto n = static_cast<std::size_t>(view.size);
     return (static_cast<std::size_t>(face) * n + static_cast<std::size_t>(row)) * n +
@@ -72,7 +71,7 @@ struct CapturedTest {
 };
 
 /// One light's records, per pixel. Only where a primitive is visible; elsewhere visibility is 1, the rest 0.
-/// The images, map.depth and map.primitive are empty unless RasterOptions::analysis.
+/// The images and map.depth are empty unless RasterOptions::analysis.
 struct LightRecord {
   std::uint32_t light = 0;  ///< index in Scene::lights
   ShadowMap map;
@@ -102,7 +101,6 @@ struct LightRecord {
   Times unshadowed_pass;
   double first_map_ms =
       0.0;  ///< the map's memory, what is compiled for it, and its first run, in map_pass too; 0: not timed
-  double id_map_ms = 0.0;  ///< drawing the map once more with primitive ids, for the comparison alone
   /// What each pixel's visibility took of the map: texels compared, or filtered reads of moments.
   Image<std::uint16_t> lookups;
   std::optional<ExternalCosts> external;  ///< Technique::hybrid

@@ -50,8 +50,8 @@ class GlRenderer final : public Renderer {
   struct Job;  // one call of render()
   Expected<RasterFrame> render_checked(const RasterOptions& options, std::span<const std::uint32_t> lights);
   Expected<void> draw_light(Job& job, std::uint32_t light, LightRecord* record);
-  Expected<void> prepare_maps(Job& job, const MapJob& map, bool with_ids);
-  Expected<void> draw_map(const MapJob& map, bool with_ids);
+  Expected<void> prepare_maps(Job& job, const MapJob& map);
+  Expected<void> draw_map(const MapJob& map, bool for_records);
   Expected<std::vector<Vec3>> visible_surfaces(Job& job, const Camera& camera);
   Expected<LightView> fit(Job& job, const Light& light, const MapOptions& map);
   Expected<void> time_and_draw_map(Job& job, const MapJob& map, LightRecord* record);
@@ -79,7 +79,7 @@ class GlRenderer final : public Renderer {
     Vec3 reference;  ///< that its depths were rounded from
     ShadowMap map;
     Times map_pass;
-    double first_map_ms, id_map_ms;
+    double first_map_ms;
   };
   bool take_kept_map(const Job& job, const Light& light, LightRecord& record) const;
   void keep_map(const Job& job, const Light& light, const LightRecord& record);
@@ -135,7 +135,9 @@ ShadePermutation shade_permutation(const Light& light, const MapOptions& map, bo
 /// The same light, with nothing looked up: every receiver is lit.
 ShadePermutation unshadowed(ShadePermutation shadowed);
 std::uint64_t texels_of(const LightView& view);
-/// Whether the records of a light hold its map: izb and hybrid draw one for the records alone.
+/// Exact techniques have no depth map of their own: izb and hybrid draw one for the records alone.
+bool draws_map_for_records(Technique technique);
+/// Whether the records of a light hold its map.
 bool hands_on_map(const RasterOptions& options);
 
 }  // namespace gnomon::raster

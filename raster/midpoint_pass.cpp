@@ -6,7 +6,7 @@ namespace gnomon::raster {
 
 Expected<void> MidpointPass::prepare(const MapJob& job) {
   const LightView& view = job.view;
-  if (auto ok = second_.prepare(view, job.options.depth_format, false); !ok) return ok;
+  if (auto ok = second_.prepare(view, job.options.depth_format); !ok) return ok;
   const ImageSize size{view.size, view.size};
   if (middle_ && middle_.size() == size && middle_.layers() == view.face_count) return {};
   faces_.clear();
@@ -38,7 +38,7 @@ Expected<const Program*> MidpointPass::program(const LightView& view) {
 
 Expected<void> MidpointPass::draw(const MapJob& job) {
   const Gl& gl = *gl_;
-  if (auto ok = second_.draw(job.world, job.view, job.options.cull, false, &job.map); !ok) return ok;
+  if (auto ok = second_.draw(job.world, job.view, job.options.cull, &job.map); !ok) return ok;
   const auto program_of_view = program(job.view);
   if (!program_of_view) return fail(program_of_view.error());
   (*program_of_view)->use();

@@ -153,9 +153,8 @@ struct RasterOptions {
   double enough_ms = never_enough_ms;  ///< no further run of a pass once those made took so long together
   /// Time the shading without shadows, too (LightRecord::unshadowed_pass): as many runs again.
   bool shadow_cost = false;
-  bool analysis =
-      true;  ///< also hand on the per-pixel records and the map's primitive ids (compare needs them)
-  /// analysis: hand on the map's depths and primitive ids too (izb and hybrid always do).
+  bool analysis = true;  ///< also hand on the per-pixel records and the map (compare needs them)
+  /// analysis: hand on the map's depths too (izb and hybrid always do).
   bool map_contents = true;
   int shadow_samples = 0;  ///< Technique::hybrid, lights with size: rays per point; 0: as the light says
   std::uint64_t seed = 0;  ///< of those samples

@@ -129,7 +129,6 @@ Expected<ImpostorProgram> ImpostorProgram::link(const Gl& gl, const Permutation&
                            .add(p.warp, "WARP")
                            .add(p.reversed, "REVERSED")
                            .add(p.peel, "PEEL")
-                           .add(p.primitive_ids, "PRIMITIVE_IDS")
                            .add(p.alpha_mask, "ALPHA_MASK")
                            .add(p.textures && p.alpha_mask, "TEXTURES");
   return typed<ImpostorProgram>(

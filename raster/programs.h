@@ -32,7 +32,7 @@ struct SceneFeatures {
 };
 SceneFeatures scene_features(const EffectPlan& plan, const World& world);
 
-/// Triangles into the depth and, with `primitive_ids`, into an image of primitive ids.
+/// Triangles into the depth and, with `primitive_ids`, into the camera's image of primitive ids.
 class TriangleProgram : public Program {
  public:
   struct Permutation {
@@ -79,7 +79,6 @@ class ImpostorProgram : public Program {
     bool perspective = false;
     bool warp = false, reversed = false;  ///< of a map (light_map.glsl)
     bool peel = false;                    ///< only what lies behind a map's first layer
-    bool primitive_ids = false;           ///< always in the camera's pass
     bool alpha_mask = false;
     bool textures = false;
     auto operator<=>(const Permutation&) const = default;

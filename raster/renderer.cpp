@@ -1,4 +1,4 @@
-// The order of things: fit a light's map, draw it (timed), keep it (with primitive ids), shade with it
+// The order of things: fit a light's map, draw it (timed), keep it, shade with it
 // (timed), keep the picture and the records; light after light. All OpenGL state is set where it is used and
 // given back at the end.
 #include "raster/renderer.h"
@@ -123,7 +123,6 @@ bool GlRenderer::take_kept_map(const Job& job, const Light& light, LightRecord& 
   if (options.runs > 0 && !same_times) return false;
   if (!options.analysis) return true;
   record.map = kept.map;
-  record.id_map_ms = kept.id_map_ms;
   if (options.runs == 0) return true;
   record.map_pass = kept.map_pass;
   record.first_map_ms = kept.first_map_ms;
@@ -134,8 +133,8 @@ void GlRenderer::keep_map(const Job& job, const Light& light, const LightRecord&
   // A frame whose map was kept would not tell which of the user's shaders drew it.
   if (!gl_->shader_folder().replaced().empty() || !hands_on_map(job.options)) return;
   if (!outlasts_frame(job.options.map.technique, world_->scene->lights.size())) return;
-  kept_map_ = KeptMap{job.options,         light,           buffers_.reference(), record.map, record.map_pass,
-                      record.first_map_ms, record.id_map_ms};
+  kept_map_ =
+      KeptMap{job.options, light, buffers_.reference(), record.map, record.map_pass, record.first_map_ms};
   kept_map_->options.map = without_bias(job.options.map);
 }
 
@@ -167,14 +166,13 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
   const MapJob map_job{buffers_, light, *view, map_pass_, map, &job.view, &shading_};
   const VisibilityRequest request{
       index, *view, job.view, job.options.shadow_samples, job.options.seed, job.options.analysis};
-  const bool with_ids = record != nullptr && hands_on_map(job.options);
   if (map.technique == Technique::hybrid) {
     kept_map_.reset();
     if (auto ok = prepare_external(job, request, record); !ok) return ok;
-    if (!with_ids) return shade(job, map_job, request, record);
+    if (record == nullptr || !hands_on_map(job.options)) return shade(job, map_job, request, record);
   }
   job.map_started = Stopwatch();
-  if (auto ok = prepare_maps(job, map_job, with_ids); !ok) return ok;
+  if (auto ok = prepare_maps(job, map_job); !ok) return ok;
   if (record == nullptr || !take_kept_map(job, light, *record)) {
     kept_map_.reset();
     if (auto ok = time_and_draw_map(job, map_job, record); !ok) return ok;

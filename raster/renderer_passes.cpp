@@ -11,9 +11,12 @@
 
 namespace gnomon::raster {
 
-// Exact techniques draw a depth map for the records alone.
+bool draws_map_for_records(Technique technique) {
+  return !compares_depths(technique);
+}
+
 bool hands_on_map(const RasterOptions& options) {
-  return options.analysis && (options.map_contents || !compares_depths(options.map.technique));
+  return options.analysis && (options.map_contents || draws_map_for_records(options.map.technique));
 }
 
 ShadePermutation shade_permutation(const Light& light, const MapOptions& map, bool first, bool records) {
@@ -106,12 +109,12 @@ Expected<LightView> GlRenderer::fit(Job& job, const Light& light, const MapOptio
   return view;
 }
 
-Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map, bool with_ids) {
+Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map) {
   if (technique_ != map.options.technique) {
     technique_pass_ = make_technique_pass(*gl_, programs_, map.options.technique);
     technique_ = map.options.technique;
   }
-  if (auto ok = map_pass_.prepare(map.view, map.options.depth_format, with_ids); !ok) return ok;
+  if (auto ok = map_pass_.prepare(map.view, map.options.depth_format); !ok) return ok;
   if (map.options.technique == Technique::hybrid) return {};  // drawn for the records alone
   const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
   if (!replaced) job.frame.map_texels += texels_of(map.view);
@@ -125,10 +128,10 @@ Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map, bool with_i
   return {};
 }
 
-Expected<void> GlRenderer::draw_map(const MapJob& map, bool with_ids) {
+Expected<void> GlRenderer::draw_map(const MapJob& map, bool for_records) {
   const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
-  if (!replaced || with_ids) {
-    if (auto ok = map_pass_.draw(buffers_, map.view, map.options.cull, with_ids); !ok) return ok;
+  if (!replaced || for_records) {
+    if (auto ok = map_pass_.draw(buffers_, map.view, map.options.cull); !ok) return ok;
   }
   return technique_pass_ != nullptr ? technique_pass_->draw(map) : Expected<void>{};
 }
@@ -155,16 +158,16 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
     if (auto ok = time_pass("map runs", job.options, record->map_pass, warm_up, pass); !ok) return ok;
     if (!record->map_pass.runs.empty()) record->first_map_ms += record->map_pass.runs.front();
   }
-  const bool with_ids = record != nullptr && hands_on_map(job.options);
-  TimedStage drawing(with_ids ? "map with ids" : "map");
-  const Stopwatch kept;
-  if (auto ok = draw_map(map, with_ids); !ok) return ok;
-  (*gl_)->Finish();
-  if (with_ids) record->id_map_ms = kept.elapsed_ms();
-  drawing.end();
+  const bool for_records = record != nullptr && hands_on_map(job.options);
+  const bool drawn = record != nullptr && !job.goes_on && !record->map_pass.runs.empty();
+  if (!drawn || draws_map_for_records(map.options.technique)) {
+    const TimedStage drawing("map");
+    if (auto ok = draw_map(map, for_records); !ok) return ok;
+    (*gl_)->Finish();
+  }
   const ReadBack reading(job.frame);
-  if (with_ids) map_pass_.read(record->map, true);
-  if (with_ids && technique_pass_ != nullptr) technique_pass_->read(record->map);
+  if (for_records) map_pass_.read(record->map);
+  if (for_records && technique_pass_ != nullptr) technique_pass_->read(record->map);
   return gl_->check("drawing the shadow map");
 }
 

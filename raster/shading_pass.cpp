@@ -154,7 +154,7 @@ Expected<void> ShadingPass::draw_shapes(const WorldBuffers& buffers, const View&
                               Vec2(2.0 / size_.width, 2.0 / size_.height)};
   const LightFace world_axes = axes(Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1));
   return draw_impostors(*gl_, *programs_, buffers.world(), projection, world_axes,
-                        {.camera = true, .perspective = true, .primitive_ids = true});
+                        {.camera = true, .perspective = true});
 }
 
 Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePermutation& permutation,

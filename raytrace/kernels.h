@@ -121,6 +121,14 @@ inline bool is_hidden_back(const Structures& s, const Vec3& direction, std::uint
   return hides_back(s, primitive) && is_back(*s.world, direction, primitive);
 }
 
+/// Whether what is looked for may be a triangle met on this side.
+inline bool is_on_side(const Structures& s, const Vec3& direction, std::uint32_t primitive, Sides sides) {
+  if (sides == Sides::both || !s.world->is_triangle(primitive)) return true;
+  if (sides == Sides::seen) return !is_hidden_back(s, direction, primitive);
+  const bool inside_out = s.world->part_of(primitive).is_inside_out();
+  return (is_back(*s.world, direction, primitive) != inside_out) == (sides == Sides::backs);
+}
+
 inline bool precedes(const Hit& a, const Hit& b) {
   return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
 }
@@ -134,10 +142,10 @@ inline double next_above(double t) {
 
 /// Among the planes and the leaves that report(ray, visit) reports to visit(leaf). `ray` is shortened on the
 /// way; visit returns whether it was. The primitive `skip` (no_id: none) is left out. The result's t is the
-/// ray's own. `masks`: some hits are none; with `seen`, those are so, too, of backs that are not seen.
+/// ray's own. `masks`: some hits are none; those on other sides of triangles are so, too.
 template <bool masks, class Arithmetic = RobustArithmetic, class Report>
 std::optional<Hit> closest_reported(const Structures& s, const RayFrame& frame, std::uint32_t skip,
-                                    const Report& report_leaves, bool seen = false) {
+                                    const Report& report_leaves, Sides sides = Sides::both) {
   const Arithmetic arithmetic(s, frame);
   Hit best{.t = infinity};
   RayFrame ray = frame;
@@ -153,7 +161,7 @@ std::optional<Hit> closest_reported(const Structures& s, const RayFrame& frame, 
   };
   const auto keep = [&](Hit& hit) {
     if constexpr (masks) {
-      if (seen && is_hidden_back(s, direction, hit.primitive)) return false;
+      if (!is_on_side(s, direction, hit.primitive, sides)) return false;
       if (!passes_alpha_test(s, ray, hit)) return false;
     }
     return report(hit);
@@ -173,7 +181,7 @@ std::optional<Hit> closest_reported(const Structures& s, const RayFrame& frame, 
 /// Among all primitives.
 template <bool masks, class Arithmetic = RobustArithmetic, class Stats>
 std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint32_t skip, Stats stats,
-                           bool seen = false) {
+                           Sides sides = Sides::both) {
   for (const std::uint32_t plane : s.planes)
     if (plane != skip) stats.primitive();
   const auto report = [&](const RayFrame& ray, const auto& visit) {
@@ -183,7 +191,7 @@ std::optional<Hit> closest(const Structures& s, const RayFrame& frame, std::uint
       return false;
     });
   };
-  return closest_reported<masks, Arithmetic>(s, frame, skip, report, seen);
+  return closest_reported<masks, Arithmetic>(s, frame, skip, report, sides);
 }
 
 template <bool masks, class Arithmetic = RobustArithmetic, class Stats>

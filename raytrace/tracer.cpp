@@ -146,14 +146,14 @@ template <class Stats>
   return closest_plainly(s, ray, skip, stats);
 }
 
-/// Few hits are backs that are not seen, so the search that knows of them comes second.
+/// Few hits are backs that are not seen, so the search that knows of sides comes second.
 template <class Stats>
-std::optional<Hit> seen_of(const Structures& s, const Ray& ray, Stats stats) {
+std::optional<Hit> closest_on_side(const Structures& s, const Ray& ray, Sides sides, Stats stats) {
   const std::optional<Hit> hit = closest_of(s, ray, no_id, stats);
-  if (!hit || !is_hidden_back(s, ray.direction, hit->primitive)) return hit;
+  if (!hit || is_on_side(s, ray.direction, hit->primitive, sides)) return hit;
   const std::optional<RayFrame> frame = make_ray_frame(ray);
   return specialise(
-      s, [&]<bool, class Arithmetic>() { return closest<true, Arithmetic>(s, *frame, no_id, stats, true); });
+      s, [&]<bool, class Arithmetic>() { return closest<true, Arithmetic>(s, *frame, no_id, stats, sides); });
 }
 
 template <class Stats>
@@ -234,14 +234,17 @@ bool counted_occluded(const Tracer& tracer, const Ray& ray, WorkCounts& work) {
 std::optional<Hit> Tracer::closest_hit(const Ray& ray) const {
   return closest_of(impl_->structures, ray, no_id, NoStats{});
 }
+std::optional<Hit> Tracer::closest_hit(const Ray& ray, Sides sides) const {
+  return closest_on_side(impl_->structures, ray, sides, NoStats{});
+}
 bool Tracer::occluded(const Ray& ray) const {
   return any_of(impl_->structures, ray, NoStats{});
 }
 std::optional<Hit> Tracer::closest_seen(const Ray& ray) const {
-  return seen_of(impl_->structures, ray, NoStats{});
+  return closest_on_side(impl_->structures, ray, Sides::seen, NoStats{});
 }
 std::optional<Hit> Tracer::closest_seen(const Ray& ray, WorkCounts& work) const {
-  return seen_of(impl_->structures, ray, CountWork{work});
+  return closest_on_side(impl_->structures, ray, Sides::seen, CountWork{work});
 }
 std::optional<Hit> Tracer::closest_hit(const Ray& ray, WorkCounts& work) const {
   return closest_of(impl_->structures, ray, no_id, CountWork{work});
@@ -316,7 +319,7 @@ std::optional<Hit> Tracer::closest_seen_among(const Ray& ray, std::span<const st
     for (const std::uint32_t leaf : leaves) visit(leaf);
   };
   return specialise(s, [&]<bool masks, class Arithmetic>() {
-    return s.hides_backs ? closest_reported<true, Arithmetic>(s, *frame, no_id, report, true)
+    return s.hides_backs ? closest_reported<true, Arithmetic>(s, *frame, no_id, report, Sides::seen)
                          : closest_reported<masks, Arithmetic>(s, *frame, no_id, report);
   });
 }

@@ -59,6 +59,10 @@ std::string_view precision_name(Precision precision);
 /// answer.
 enum class PointVisibility : std::uint8_t { shadowed = 0, lit = 1, uncertain = 2 };
 
+/// Of triangles; shapes are met on both. fronts: as the mesh has them, of mirrored instances too. seen: both, but for
+/// backs of single-sided materials (scene/scene.h, shows_back).
+enum class Sides : std::uint8_t { both, seen, fronts, backs };
+
 struct AccelStats {
   double build_ms = 0.0;
   std::uint64_t bytes = 0;
@@ -81,6 +85,8 @@ class Tracer {
   Tracer& operator=(Tracer&&) noexcept;
 
   std::optional<Hit> closest_hit(const Ray& ray) const;
+  /// The closest hit, but for triangles that are met on another side.
+  std::optional<Hit> closest_hit(const Ray& ray, Sides sides) const;
   bool occluded(const Ray& ray) const;
   /// What the eye, or a mirrored, refracted or gathered ray sees: the closest hit, but for backs of single-sided
   /// materials (scene/scene.h, shows_back), which hide nothing. Shadows are cast from both sides: occluded().

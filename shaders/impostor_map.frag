@@ -21,9 +21,6 @@ layout(location = solid_from_frame_uniform) uniform mat4 solid_from_frame;  // l
 #ifdef PEEL
 #include "peel.glsl"
 #endif
-#ifdef PRIMITIVE_IDS
-layout(location = 0) out uint primitive_id;
-#endif
 
 // Ray of a texel in the face's own frame (right, up, forward); t along it is the depth in both projections.
 struct TexelRay {
@@ -99,7 +96,4 @@ void main() {
   float stored = stored_from_depth(ivec3(gl_FragCoord.xy, face), t);
   if (!holds_caster(stored)) discard;
   gl_FragDepth = clamp(stored, 0.0, 1.0);
-#ifdef PRIMITIVE_IDS
-  primitive_id = shape_at(shape_index).primitive;
-#endif
 }

@@ -1,4 +1,4 @@
-// Primitive ids of the camera's pass and of the depth map's analysis pass (PRIMITIVE_IDS), holes of alpha-masked
+// Primitive ids of the camera's pass (PRIMITIVE_IDS), holes of alpha-masked
 // materials (ALPHA_MASK), only what lies behind a map's first layer (PEEL). Without any, the depth pass needs no fragment shader.
 #include "shared_constants.h"
 

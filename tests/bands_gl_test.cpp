@@ -119,7 +119,6 @@ TEST_P(DrawnBands, AreTheWholesRows) {
       EXPECT_TRUE(same_bits(a.outside_map, b.outside_map, rows)) << rows.first;
       EXPECT_TRUE(same_bits(a.lookups, b.lookups, rows)) << rows.first;
       EXPECT_EQ(a.map.depth, b.map.depth) << rows.first;
-      EXPECT_EQ(a.map.primitive, b.map.primitive) << rows.first;
       EXPECT_EQ(a.bias_constant_world, b.bias_constant_world);
     }
     raster::add_costs(*band, costs);

@@ -23,6 +23,7 @@
 
 #include "app/verify/random_scene.h"
 #include "compare/compare.h"
+#include "compare/stored_surface.h"
 #include "hybrid/visibility.h"
 #include "raster/technique_traits.h"
 #include "scene/light.h"
@@ -158,24 +159,29 @@ bool beside_an_edge(const Image<std::uint32_t>& shown, std::size_t i) {
   return ((i + 1) % width != 0 && other(i + 1)) || other(i + width);
 }
 
-/// The same of the texel that the pixel's receiver lies in.
-bool beside_an_edge(const raster::LightRecord& record, std::size_t pixel) {
+/// The same of what is stored in the texel that the pixel's receiver lies in.
+bool beside_an_edge(const raytrace::Tracer& tracer, const Comparison& c, std::size_t pixel) {
+  const raster::LightRecord& record = record_of(c);
   const raster::ShadowMap& map = record.map;
   const auto clamped = [&](float x) { return std::clamp(static_cast<int>(x), 0, map.view.size - 2); };
   const int face = record.face.data[pixel], column = clamped(record.texel_uv.data[pixel].x),
             row = clamped(record.texel_uv.data[pixel].y);
-  const std::uint32_t here = map.primitive[map.texel_index(face, column, row)];
-  return map.primitive[map.texel_index(face, column + 1, row)] != here ||
-         map.primitive[map.texel_index(face, column, row + 1)] != here;
+  const auto stored = [&](int x, int y) {
+    const raytrace::TexelKey key = raytrace::TexelKey::pack(face, x, y);
+    return compare::stored_surface(tracer, record, c.raster.options.map, key).primitive;
+  };
+  const std::uint32_t here = stored(column, row);
+  return stored(column + 1, row) != here || stored(column, row + 1) != here;
 }
 
 /// A corner is rounded by up to 1/512 along each axis, the given as well as the new one, so that an edge moves by up to
 /// sqrt(2)/256 of the distance between two centres. It lies anywhere between them: the share of edges that pass over a
 /// centre is no more, and most corners are rounded by less.
 double labels_at_moved_edges(const Comparison& given) {
+  const raytrace::Tracer tracer(*given.world, raytrace::Accel::bvh);
   std::size_t edges = 0;
   for (std::size_t i = 0; i < given.raster.primitive.data.size(); ++i)
-    edges += beside_an_edge(given.raster.primitive, i) + beside_an_edge(record_of(given), i);
+    edges += beside_an_edge(given.raster.primitive, i) + beside_an_edge(tracer, given, i);
   return std::numbers::sqrt2 / 256 * static_cast<double>(edges);
 }
 

@@ -1,5 +1,6 @@
 // Impostors of quadrics, tori and implicit surfaces against the ray tracer: which solid is seen at each pixel
 // and texel, the stored depths, the receivers, culling, and the whole comparison of the scene "shapes".
+#include "compare/stored_surface.h"
 #include "raytrace/tracer.h"
 #include "scene/load.h"
 #include "tests/raster_fixture.h"
@@ -94,7 +95,9 @@ Tally check_map(const Drawn& drawn, const Tracer& tracer) {
         const bool stored = depth < map.view.face(face).far_depth;
         const std::size_t i = map.texel_index(face, column, row);
         ++tally.seen;
-        if (map.primitive[i] != (stored ? hit->primitive : no_id)) {
+        const raytrace::TexelKey key = raytrace::TexelKey::pack(face, column, row);
+        const auto found = compare::stored_surface(tracer, drawn.light(), drawn.frame.options.map, key);
+        if (found.primitive != (stored ? hit->primitive : no_id)) {
           ++tally.wrong_id;
           continue;
         }
@@ -168,12 +171,14 @@ TEST(SolidImpostors, CullingChoosesTheSide) {
           }
           if (!steep) continue;
           const std::size_t i = map.texel_index(down, column, row);
+          const raytrace::TexelKey key = raytrace::TexelKey::pack(down, column, row);
+          const auto found = compare::stored_surface(tracer, drawn.light(), drawn.frame.options.map, key);
           ++kept;
           if (depth == infinity)
-            wrong += map.primitive[i] == 0 ? 1 : 0;
+            wrong += found.primitive == 0 ? 1 : 0;
           else
             wrong +=
-                map.primitive[i] != 0 ||
+                found.primitive != 0 || std::abs(found.depth - depth) > 1e-3 ||
                         std::abs(depth_from_stored(map.view, down, row + 0.5, map.depth[i]) - depth) > 1e-3
                     ? 1
                     : 0;

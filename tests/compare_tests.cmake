@@ -10,8 +10,8 @@ gnomon_test(compare_models_gl_test TIMEOUT 1200
   SOURCES compare_models_gl_test.cpp
   LIBS compare_support embree TBB::tbb nlohmann_json::nlohmann_json)
 gnomon_test(compare_solids_gl_test TIMEOUT 900
-  SOURCES compare_solids_gl_test.cpp compare_surfaces_gl_test.cpp
-  LIBS gnomon::raster gnomon::raytrace)
+  SOURCES compare_solids_gl_test.cpp compare_stored_surface_gl_test.cpp compare_surfaces_gl_test.cpp
+  LIBS gnomon::compare)
 
 # The same scene in other numbers: the same labels. GNOMON_INVARIANCE=N: N scenes, every technique under every light.
 gnomon_test(compare_invariance_gl_test SOURCES compare_invariance_gl_test.cpp LIBS gnomon::verify gnomon::compare gnomon::hybrid)

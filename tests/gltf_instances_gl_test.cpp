@@ -106,7 +106,6 @@ void expect_same_kept(const Scene& scene, std::size_t instances) {
   ASSERT_EQ(kept.lights.size(), 1u);
   EXPECT_EQ(kept.raytraced.lights[0].centre.data, flat.raytraced.lights[0].centre.data);
   EXPECT_EQ(kept.raster.lights[0].map.depth, flat.raster.lights[0].map.depth);
-  EXPECT_EQ(kept.raster.lights[0].map.primitive, flat.raster.lights[0].map.primitive);
   EXPECT_EQ(kept.raster.lights[0].gap.data, flat.raster.lights[0].gap.data);
   EXPECT_EQ(kept.lights[0].labels.data, flat.lights[0].labels.data);
   for (std::size_t k = 0; k < flat.lights[0].rungs.size(); ++k)

@@ -101,11 +101,12 @@ TEST_P(AlphaMask, HasHolesInTheLightsMap) {
   for (int row = 0; row < map.view.size; ++row) {
     for (int column = 0; column < map.view.size; ++column) {
       bool sure = true;
-      const bool screen =
-          meets_screen(*drawn.scene, texel_ray(map.view, 0, column + 0.5, row + 0.5), as_plane, sure);
-      const std::uint32_t primitive = map.primitive[map.texel_index(0, column, row)];
-      if (!sure || primitive == no_id) continue;
-      ASSERT_EQ(primitive >= 2, screen) << column << ", " << row;
+      const Ray ray = texel_ray(map.view, 0, column + 0.5, row + 0.5);
+      const bool screen = meets_screen(*drawn.scene, ray, as_plane, sure);
+      const double stored = map.depth[map.texel_index(0, column, row)];
+      if (!sure || !holds_caster(map.view, stored)) continue;
+      const double height = ray.at(depth_from_stored(map.view, 0, row + 0.5, stored)).y;
+      ASSERT_EQ(height > 0.5, screen) << column << ", " << row;  // the screen lies at 1, the ground at 0
       (screen ? opaque : holes_seen) += 1;
     }
   }

@@ -109,18 +109,24 @@ std::string case_name(const testing::TestParamInfo<DepthCase>& chosen) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, StoredDepth, testing::ValuesIn(cases()), case_name);
 
-// The texture with primitive ids is drawn by another program than the one that is timed: both must store one
-// depth.
-TEST(DepthMap, AnalysisPassStoresWhatTheTimedPassStores) {
+// Whether a map is drawn in a timed run or once, and whether records are asked for, it is the same map.
+TEST(DepthMap, IsTheSameTimedOrNotAndWithRecordsOrNot) {
   Scene scene = still_life(true);
   scene.lights = {sun({-0.5, -1.0, -0.6}), lamp(LightType::point, {0.2, 2.0, 1.2}, {0.0, 0.0, 0.0})};
   Drawn drawn = draw(scene);
-  const auto with_ids = drawn.frame.color.data;
-  raster::RasterOptions options = drawn.frame.options;
-  options.analysis = false;
+  const raster::RasterFrame once = drawn.frame;
+  raster::RasterOptions options = once.options;
+  options.runs = 2;
   drawn.render(options);
-  EXPECT_EQ(drawn.frame.color.data, with_ids);
-  EXPECT_TRUE(drawn.light().map.primitive.empty());
+  ASSERT_EQ(drawn.light(1).map_pass.runs.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(drawn.light(i).map.depth, once.lights[i].map.depth);
+    EXPECT_EQ(drawn.light(i).visibility.data, once.lights[i].visibility.data);
+  }
+  options.runs = 0, options.analysis = false;
+  drawn.render(options);
+  EXPECT_EQ(drawn.frame.color.data, once.color.data);
+  EXPECT_TRUE(drawn.light().map.depth.empty());
   EXPECT_TRUE(drawn.light().gap.data.empty());
 }
 

@@ -130,8 +130,8 @@ class DrawnMap {
     block_->write_one(raster::make_light_block(scene_.lights[0], view_, options, 0.0, {}, Vec3(0.0)));
     block_->bind(GL_UNIFORM_BUFFER, shaders::light_block);
     map_ = std::make_unique<raster::DepthMapPass>(*gl_, *programs_);
-    EXPECT_TRUE(map_->prepare(view_, options.depth_format, false).has_value());
-    EXPECT_TRUE(map_->draw(*buffers_, view_, options.cull, false).has_value());
+    EXPECT_TRUE(map_->prepare(view_, options.depth_format).has_value());
+    EXPECT_TRUE(map_->draw(*buffers_, view_, options.cull).has_value());
   }
 
   /// The moments of face 0, one component, after a blur.

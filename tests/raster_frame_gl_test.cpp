@@ -137,7 +137,6 @@ TEST_P(Records, AreTheSameBitForBitOnASecondRender) {
   EXPECT_EQ(drawn.frame.color.data, first.color.data);
   EXPECT_EQ(drawn.frame.primitive.data, first.primitive.data);
   EXPECT_EQ(a.map.depth, b.map.depth);
-  EXPECT_EQ(a.map.primitive, b.map.primitive);
   EXPECT_EQ(a.gap.data, b.gap.data);
   EXPECT_EQ(a.texel_uv.data, b.texel_uv.data);
   EXPECT_EQ(a.distance.data, b.distance.data);

@@ -46,7 +46,6 @@ void expect_same(const Drawn& kept, const Drawn& flat) {
     EXPECT_EQ(a.gap.data, b.gap.data);
     EXPECT_EQ(a.distance.data, b.distance.data);
     EXPECT_EQ(a.map.depth, b.map.depth);
-    EXPECT_EQ(a.map.primitive, b.map.primitive);
   }
 }
 

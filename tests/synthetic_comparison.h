@@ -108,7 +108,6 @@ inline raster::ShadowMap make_map(const Light& light) {
   map.view.set_extent(point ? Vec2(1.0) : Vec2(160.0), 1.0, 11.0);
   const auto texels = static_cast<std::size_t>(map.view.face_count) * map_size * map_size;
   map.depth.assign(texels, 1.0f);
-  map.primitive.assign(texels, no_id);
   for (int face = 0; face < map.view.face_count; ++face)
     for (int row = 0; row < map_size; ++row)
       for (int column = 0; column < map_size; ++column)

@@ -132,10 +132,9 @@ void expect_outlines_alone(const compare::Comparison& c) {
     int empty = 0;
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx)
-        empty += map.primitive[map.texel_index(face, column + dx, row + dy)] == no_id;
-    std::printf("    false shadow: label %s, texel holds %u, receiver on %u, gap %g, %d empty neighbours\n",
-                std::string(compare::label_name(light.labels.data[i])).c_str(),
-                map.primitive[map.texel_index(face, column, row)], c.raster.primitive.data[i],
+        empty += !holds_caster(map.view, map.depth[map.texel_index(face, column + dx, row + dy)]);
+    std::printf("    false shadow: label %s, receiver on %u, gap %g, %d empty neighbours\n",
+                std::string(compare::label_name(light.labels.data[i])).c_str(), c.raster.primitive.data[i],
                 static_cast<double>(record.gap.data[i]), empty);
     EXPECT_GT(empty, 0);
   }

@@ -39,19 +39,17 @@ void draw_pictures(ComparisonOutcome& outcome) {
   outcome.depth = compare::depth_map_picture(comparison.raster.lights.front().map);
 }
 
-ShownSurfaces shown_surfaces(const compare::Comparison& comparison) {
+ShownSurfaces shown_surfaces(const raytrace::Tracer& tracer, const compare::Comparison& comparison) {
   const compare::ShownMaterials materials(*comparison.world);
   ShownSurfaces shown;
   if (materials.empty()) return shown;
   const auto& receiver = comparison.raytraced.receiver;
   const raster::LightRecord& record = comparison.raster.lights.front();
   shown.list = materials.list();
-  shown.material = shown.stored_glass = Image<std::uint32_t>(receiver.size);
-  for (std::size_t i = 0; i < receiver.data.size(); ++i) {
-    const std::uint32_t primitive = receiver.data[i].primitive;
-    shown.material.data[i] = materials.of(primitive);
-    shown.stored_glass.data[i] = materials.stored_glass(record, i, primitive);
-  }
+  shown.material = Image<std::uint32_t>(receiver.size);
+  for (std::size_t i = 0; i < receiver.data.size(); ++i)
+    shown.material.data[i] = materials.of(receiver.data[i].primitive);
+  shown.stored_glass = compare::stored_glass(tracer, record, comparison.raster.options.map, receiver);
   return shown;
 }
 
@@ -175,7 +173,7 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   outcome.normals = Image<Vec3f>(comparison.raytraced.receiver.size);
   for (std::size_t i = 0; i < outcome.normals.data.size(); ++i)
     outcome.normals.data[i] = Vec3f(comparison.raytraced.receiver.data[i].normal);
-  outcome.shown = shown_surfaces(comparison);
+  outcome.shown = shown_surfaces(*tracer_, comparison);
   comparison.raytraced.receiver = {};
   return Expected<ComparisonOutcome>(std::move(outcome));
 }

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "compare/compare.h"
-#include "compare/report/shown_materials.h"
+#include "compare/shown_materials.h"
 #include "compare/verdict.h"
 #include "scene/effects.h"
 #include "scene/expected.h"

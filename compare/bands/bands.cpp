@@ -6,6 +6,7 @@
 #include "compare/bands/reduced.h"
 #include "compare/bands/run_all.h"
 #include "compare/output_parts.h"
+#include "compare/shown_materials.h"
 #include "raster/bands.h"
 #include "raytrace/band.h"
 #include "scene/exposure.h"
@@ -47,8 +48,8 @@ class BandedWork {
                                   const raytrace::RayTracedFrame& traced, const PictureRows& rows);
   Expected<void> keep(const raster::RasterFrame& drawn, const raytrace::RayTracedFrame& traced,
                       const std::vector<NearLight>& lights, const PictureRows& rows);
-  Expected<void> keep_light(std::size_t i, const Climb& climbed, const Image<float>& detached,
-                            const raster::LightRecord& record, const PictureRows& rows);
+  Expected<void> keep_light(const LadderInput& input, std::size_t i, const Climb& climbed,
+                            const Image<float>& detached, const PictureRows& rows);
   Expected<void> keep_maps(std::size_t i, const FinishedMaps& maps, const PictureRows& rows);
   Expected<void> measure_neighbours(int end);
   Expected<void> finish_exposure();
@@ -147,8 +148,7 @@ Expected<NearLight> BandedWork::climb_light(std::size_t i, const raster::RasterF
   near.climbed = labels_climbed(input, climbed.labels);
   const auto detached = measures_[i].add_pixels(input, climbed, near.climbed, {size(), rows});
   if (!detached) return fail(detached.error());
-  if (const auto kept = keep_light(i, climbed, *detached, drawn.lights[i], rows); !kept)
-    return fail(kept.error());
+  if (const auto kept = keep_light(input, i, climbed, *detached, rows); !kept) return fail(kept.error());
   if (!in_.aov.empty()) {
     const AovRows channels{in_.tracer.world(), drawn, drawn.lights[i], traced, climbed.rungs, climbed.labels};
     const auto written = out_.parts->channels[i].write(
@@ -160,9 +160,10 @@ Expected<NearLight> BandedWork::climb_light(std::size_t i, const raster::RasterF
   return near;
 }
 
-Expected<void> BandedWork::keep_light(std::size_t i, const Climb& climbed, const Image<float>& detached,
-                                      const raster::LightRecord& record, const PictureRows& rows) {
+Expected<void> BandedWork::keep_light(const LadderInput& input, std::size_t i, const Climb& climbed,
+                                      const Image<float>& detached, const PictureRows& rows) {
   const TimedStage stage(band_stage);
+  const raster::LightRecord& record = input.record;
   StoredLight& stored = store().lights[i];
   std::vector<Step> steps{[&] { return stored.truth.append(in_.folder, climbed.rungs.front()); },
                           [&] { return stored.drawn.append(in_.folder, climbed.rungs.back()); },
@@ -178,6 +179,9 @@ Expected<void> BandedWork::keep_light(std::size_t i, const Climb& climbed, const
         append_reduced(shown.rungs[k], climbed.rungs[k], rows.first, step_);
       append_reduced(shown.labels, climbed.labels, rows.first, step_);
       if (in_.options.perceptual) append_reduced(shown.detachment_map, detached, rows.first, step_);
+      const Image<std::uint32_t> glass =
+          stored_glass(input.tracer, record, input.drawn.options.map, input.traced.receiver);
+      append_reduced(shown.stored_glass, glass, rows.first, step_);
       return {};
     });
   return run_all(steps);
@@ -243,6 +247,7 @@ Expected<void> BandedWork::finish() {
     light->rungs = std::move(shown.rungs), light->labels = std::move(shown.labels);
     light->edge_map = std::move(shown.edge_map), light->detachment_map = std::move(shown.detachment_map);
     light->flip_map = std::move(shown.flip_map), light->ssim_map = std::move(shown.ssim_map);
+    light->stored_glass = std::move(shown.stored_glass);
     light->classify.runs = {classify_[i]};
     out.lights[i] = std::move(*light);
     out_.parts->cascades.push_back(measures_[i].cascades());

@@ -62,7 +62,7 @@ Comparison reduced_images(const Comparison& whole, int every) {
     LightComparison& light = out.lights[i];
     for (Image<float>& rung : light.rungs) reduce(rung);
     reduce(light.labels), reduce(light.flip_map), reduce(light.ssim_map);
-    reduce(light.edge_map), reduce(light.detachment_map);
+    reduce(light.edge_map), reduce(light.detachment_map), reduce(light.stored_glass);
   }
   return out;
 }

@@ -1,10 +1,11 @@
 #include "compare/judge/captured_frame.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "compare/biased_test.h"
 #include "compare/columns.h"
+#include "compare/stored_surface.h"
+#include "compare/texel_groups.h"
 #include "scene/parallel.h"
 #include "scene/stages.h"
 
@@ -99,79 +100,22 @@ ColorImage shown_colour(const FrameInput& in) {
   return out;
 }
 
-/// The surface whose depth on the centre's ray lies nearest to the stored one.
-struct StoredSurface {
-  std::uint32_t primitive = no_id;
-  bool is_first = true;
-};
-StoredSurface surface_of(const raytrace::Tracer& tracer, const raster::ShadowMap& map, int face, int column,
-                         int row) {
-  const double stored = map.depth[map.texel_index(face, column, row)];
-  if (!holds_caster(map.view, stored)) return {};
-  const double wanted = depth_from_stored(map.view, face, row + 0.5, stored);
-  const Ray ray = caster_ray(map.view, face, column + 0.5, row + 0.5);
-  const Vec3& forward = map.view.face(face).forward;
-  StoredSurface best;
-  double nearest = infinity;
-  visit_hits(
-      // As casters are found: both sides of single-sided materials cast shadows, and a map may hold their backs.
-      ray, [&](const Ray& from) { return tracer.closest_hit(from); },
-      [&](const raytrace::Hit& hit) {
-        const double off = std::abs(glm::dot(ray.at(hit.t) - map.view.origin, forward) - wanted);
-        if (off >= nearest) return false;
-        best = {hit.primitive, nearest == infinity}, nearest = off;
-        return true;
-      });
-  return best;
-}
-
 /// A quarter of the texels with another surface than the first: the renderer left the first ones out.
 constexpr double culled_share = 0.25;
 
-bool is_culled(const FrameInput& in, const raster::LightRecord& record) {
+bool is_culled(const FrameInput& in, const raster::MapOptions& map, const raster::LightRecord& record) {
   std::size_t seen = 0, later = 0;
   const std::size_t step = std::max<std::size_t>(1, in.traced.receiver.data.size() / 4096);
   for (std::size_t i = 0; i < in.traced.receiver.data.size(); i += step) {
     raytrace::TexelKey key;
     if (in.traced.receiver.data[i].primitive == no_id || !texel_of_pixel(record, i, key)) continue;
-    const auto found = surface_of(in.tracer, record.map, key.face(), key.column(), key.row());
+    const StoredSurface found = stored_surface(in.tracer, record, map, key);
     if (found.primitive == no_id) continue;
-    ++seen, later += found.is_first ? 0 : 1;
+    const Ray ray = caster_ray(record.map.view, key.face(), key.column() + 0.5, key.row() + 0.5);
+    const auto first = in.tracer.closest_hit(ray);
+    ++seen, later += first && first->t < found.t ? 1 : 0;
   }
   return seen > 0 && static_cast<double>(later) > culled_share * static_cast<double>(seen);
-}
-
-/// The primitives of the texels that the pixels look up; `all`: not of wrong pixels alone.
-void find_primitives(const FrameInput& in, const raster::Bias& bias, bool all, raster::LightRecord& record) {
-  const std::size_t texels = record.map.depth.size();
-  std::vector<std::uint8_t> wanted(texels, 0);
-  const raytrace::LightTruth& truth = in.traced.lights.front();
-  const Light& light = in.world.scene->lights[truth.light];
-  const auto mark = [&](std::size_t i) {
-    const SurfacePoint& point = in.traced.receiver.data[i];
-    if (point.primitive == no_id) return;
-    const float exact = truth.is_soft()
-                            ? truth.visibility.data[i]
-                            : (truth.centre.data[i] == raytrace::PointVisibility::lit ? 1.0f : 0.0f);
-    if (!all && !(std::abs(record.visibility.data[i] - exact) > 0.5f)) return;
-    raytrace::TexelKey key;
-    const auto set = [&](raytrace::TexelKey k) {
-      std::atomic_ref(wanted[record.map.texel_index(k.face(), k.column(), k.row())])
-          .store(1, std::memory_order_relaxed);
-    };
-    if (texel_of_pixel(record, i, key)) set(key);
-    const Vec3 to_light = light_at(light, point.position).to_light;
-    if (const auto lookup = biased_lookup(record, bias, to_light, point, i)) set(lookup->key);
-  };
-  parallel_for(in.traced.receiver.data.size(), mark);
-  const auto n = static_cast<std::size_t>(record.map.view.size);
-  parallel_for(texels, [&](std::size_t t) {
-    if (wanted[t] == 0) return;
-    const std::size_t in_face = t % (n * n);
-    record.map.primitive[t] = surface_of(in.tracer, record.map, static_cast<int>(t / (n * n)),
-                                         static_cast<int>(in_face % n), static_cast<int>(in_face / n))
-                                  .primitive;
-  });
 }
 
 /// Of a picture without its map: a place to measure pixels by, nothing stored in it.
@@ -184,7 +128,6 @@ Expected<raster::ShadowMap> empty_map(const FrameInput& in, const Light& light) 
   map.view = *view;
   const auto count = static_cast<std::size_t>(view->face_count) * texels * texels;
   map.depth.assign(count, 1.0f);
-  map.primitive.assign(count, no_id);
   return map;
 }
 
@@ -206,9 +149,7 @@ void fill_light(const FrameInput& in, bool known, bool distances, raster::Raster
   test.normal_offset_world = bias.normal_offset_world;
   record.bias_constant_world = map.bias.constant = bias.constant_depth * test.unit_world;
   fill_record(in, map.bias, record);
-  const bool culled = is_culled(in, record);
-  if (culled) map.cull = raster::Cull::front;
-  find_primitives(in, map.bias, culled, record);
+  if (is_culled(in, map, record)) map.cull = raster::Cull::front;
 }
 
 }  // namespace
@@ -230,9 +171,8 @@ void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRe
     record.distance.data[i] = static_cast<float>(at.distance);
     record.outside_map.data[i] = at.inside ? 0 : 1;
     if (!has_map) return;
-    std::size_t texel = 0;
-    record.gap.data[i] = static_cast<float>(
-        biased_gap(record, bias, light_at(light, point.position).to_light, point, i, texel));
+    record.gap.data[i] =
+        static_cast<float>(biased_gap(record, bias, light_at(light, point.position).to_light, point, i));
   });
 }
 

@@ -232,7 +232,6 @@ Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (const auto read = read_texels(capture, i, faces[i].mirrored, (*order)[i], out); !read)
       return fail(read.error());
-  out.map.primitive.assign(out.map.depth.size(), no_id);
   out.map.format = view.reversed ? raster::DepthFormat::d32f_reversed : raster::DepthFormat::d32f;
   return out;
 }

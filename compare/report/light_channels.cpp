@@ -255,17 +255,17 @@ void add_decisions(Channels& channels, const raster::LightRecord& record) {
 }
 
 // Glass that the map stores in the texel that a pixel looks up, other than the pixel's own surface.
-void add_stored_glass(Channels& channels, const raster::LightRecord& record, const PixelSurfaces& surfaces,
-                      const ShownMaterials& materials) {
-  if (!materials.any_glass()) return;
-  channels.add("stored_glass", surfaces.count(), {2, From::previous},
-               [&](std::size_t i) { return materials.stored_glass(record, i, surfaces.primitive(i)); });
+void add_stored_glass(Channels& channels, const LightComparison& light) {
+  const auto& places = light.stored_glass.data;
+  if (places.empty()) return;
+  channels.add("stored_glass", places.size(), {2, From::previous},
+               [&places](std::size_t i) { return places[i]; });
 }
 
 }  // namespace
 
 nlohmann::ordered_json light_data(const PageInput& in, std::size_t index, Packer& packer,
-                                  const PixelSurfaces& surfaces, const ShownMaterials& materials) {
+                                  const PixelSurfaces& surfaces) {
   const Comparison& c = in.comparison;
   const LightComparison& light = c.lights[index];
   const raster::LightRecord& record = drawn_record(c, light);
@@ -277,7 +277,7 @@ nlohmann::ordered_json light_data(const PageInput& in, std::size_t index, Packer
   add_lookup(channels, light, record, bias, map, surfaces);
   add_metrics(channels, light);
   add_decisions(channels, record);
-  add_stored_glass(channels, record, surfaces, materials);
+  add_stored_glass(channels, light);
   Json map_json{{"step", map->step}};
   map_json.update(packer.add({4, From::previous}, [map] { return map->depths; }));
   return {{"name", shown_light_name(c, index)},

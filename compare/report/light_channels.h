@@ -4,15 +4,14 @@
 
 #include "compare/report/channels.h"
 #include "compare/report/page.h"
-#include "compare/report/shown_materials.h"
 #include "compare/report/surface_prediction.h"
 
 namespace gnomon::compare {
 
 constexpr double position_steps = 256.0, visibility_steps = 25200.0;
 
-/// `surfaces` and `materials` must last until the packer has run.
+/// `surfaces` must last until the packer has run.
 nlohmann::ordered_json light_data(const PageInput& input, std::size_t index, Packer& packer,
-                                  const PixelSurfaces& surfaces, const ShownMaterials& materials);
+                                  const PixelSurfaces& surfaces);
 
 }  // namespace gnomon::compare

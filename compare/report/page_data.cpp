@@ -18,7 +18,7 @@
 #include "compare/report/html.h"
 #include "compare/report/light_channels.h"
 #include "compare/report/section_mesh.h"
-#include "compare/report/shown_materials.h"
+#include "compare/shown_materials.h"
 #include "scene/parallel.h"
 
 namespace gnomon::compare {
@@ -243,7 +243,7 @@ PageData page_data(const PageInput& in) {
     out.head = head.dump();
     add("pixels", [&] { return pixels_json(c, packer, *surfaces, *materials); });
     for (std::size_t i = 0; i < c.lights.size(); ++i)
-      add(fmt::format("light-{}", i), [&] { return light_data(in, i, packer, *surfaces, *materials); });
+      add(fmt::format("light-{}", i), [&] { return light_data(in, i, packer, *surfaces); });
   };
   parallel_invoke(describe_pixels, [&] { geometry.emplace(*c.world); });
   add("geometry", [&] { return geometry_json(*c.world, *geometry, packer); });

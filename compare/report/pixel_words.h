@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "compare/comparison.h"
-#include "compare/report/shown_materials.h"
+#include "compare/shown_materials.h"
 
 namespace gnomon::compare {
 

@@ -15,14 +15,13 @@ namespace {
 
 /// What goes on in a stage, where its name alone does not say it.
 std::string_view stage_words(std::string_view stage) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 20> words{{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 19> words{{
       {"start", "until the command begins"},
       {"rest", "what belongs to no other stage"},
       {"load", "reading and preparing the scene"},
       {"context", "making the OpenGL context"},
       {"upload", "handing the scene to OpenGL"},
       {"map runs", "the depth map, timed, all runs"},
-      {"map with ids", "the depth map once more, with what each texel shows"},
       {"shading runs", "the picture with its shadows, timed, all runs"},
       {"shading with records", "the picture once more, with what each pixel looked up"},
       {"read-back", "fetching pictures and maps from OpenGL"},

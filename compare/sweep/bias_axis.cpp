@@ -169,7 +169,7 @@ class BiasAxis {
   void add_group(std::size_t group) {
     std::optional<Column> column;
     for (const std::uint32_t pixel : lower_.groups[group]) {
-      std::size_t lookup = texel_of_group(lower_, group);
+      raytrace::TexelKey lookup = lower_.groups.keys[group];
       const double gap = gap_with_bias(lower_, in_, group, pixel, lookup);
       const std::uint32_t biased_from = Biases::first_lit(biases_.ascending, gap);
       const std::uint32_t drawn_from = first_drawn_lit(pixel);

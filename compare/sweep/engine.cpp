@@ -37,8 +37,8 @@ bool same_map(const raster::RasterFrame& a, const raster::RasterFrame& b, std::s
   return a.options.map.cull == b.options.map.cull &&
          stores_midpoints(a.options.map) == stores_midpoints(b.options.map) && x.light == y.light &&
          x.map.format == y.map.format && x.map.view.size == y.map.view.size && x.map.depth == y.map.depth &&
-         x.map.primitive == y.map.primitive && x.texel_uv.data == y.texel_uv.data &&
-         x.face.data == y.face.data && a.primitive.data == b.primitive.data;
+         x.texel_uv.data == y.texel_uv.data && x.face.data == y.face.data &&
+         a.primitive.data == b.primitive.data;
 }
 
 // Of one light's compared pixels.

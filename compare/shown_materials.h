@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "raster/frame.h"
-#include "scene/world.h"
+#include "raytrace/tracer.h"
 
 namespace gnomon::compare {
 
@@ -25,10 +25,6 @@ class ShownMaterials {
   const std::vector<ShownMaterial>& list() const { return list_; }
   /// The place in the list of what the primitive (or no_id) is made of, from 1 on; 0: of none of them.
   std::uint32_t of(std::uint32_t primitive) const;
-  /// The same of what the map stores in the texel that a pixel looks up, where that is glass and not the pixel's own
-  /// surface (`primitive`, or no_id).
-  std::uint32_t stored_glass(const raster::LightRecord& record, std::size_t pixel,
-                             std::uint32_t primitive) const;
 
  private:
   const World& world_;
@@ -36,5 +32,11 @@ class ShownMaterials {
   std::vector<ShownMaterial> list_;
   bool any_glass_ = false;
 };
+
+/// By pixel, the place in that list of what the map stores in the texel that the pixel looks up, where that is glass and
+/// not the pixel's own surface, else 0; empty where no material is glass.
+Image<std::uint32_t> stored_glass(const raytrace::Tracer& tracer, const raster::LightRecord& record,
+                                  const raster::MapOptions& options,
+                                  const Image<raytrace::SurfacePoint>& receivers);
 
 }  // namespace gnomon::compare
