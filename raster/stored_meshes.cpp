@@ -26,14 +26,6 @@ std::uint32_t stored_material(const WorldPart& part, std::uint32_t triangle) {
   return part.kept() && part.mesh->triangle_materials.empty() ? no_material : part.material_of(triangle);
 }
 
-std::uint32_t same_material(const WorldPart& part, std::uint32_t first) {
-  const auto& of_triangles = part.mesh->triangle_materials;
-  if (of_triangles.empty()) return part.triangle_count() - first;
-  const auto begin = of_triangles.begin() + first;
-  return static_cast<std::uint32_t>(
-      std::find_if(begin, of_triangles.end(), [&](std::uint32_t m) { return m != *begin; }) - begin);
-}
-
 PartData part_data(const WorldPart& part, const StoredMeshes::Place& at) {
   PartData out{};
   for (int c = 0; c < 4; ++c) out.column[c] = part.world_from_object[c];

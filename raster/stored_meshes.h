@@ -42,7 +42,4 @@ PartData part_data(const WorldPart& part, const StoredMeshes::Place& at);
 inline constexpr std::uint32_t no_material = ~0u;
 std::uint32_t stored_material(const WorldPart& part, std::uint32_t triangle);
 
-/// How many triangles from this one on have its material.
-std::uint32_t same_material(const WorldPart& part, std::uint32_t first);
-
 }  // namespace gnomon::raster

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstring>
 
-#include "raster/clip_sides.h"
 #include "raster/expression_glsl.h"
 #include "scene/parallel.h"
 #include "scene/solid.h"
@@ -184,7 +183,7 @@ Expected<WorldBuffers> WorldBuffers::upload(Gl& gl, const World& world, const Sc
   WorldBuffers out(gl, world);
   if (const auto fits = check_size(gl, world, out.meshes_); !fits) return fail(fits.error());
   out.upload_fixed(features);
-  out.make_runs(features);
+  out.runs_ = TriangleRuns(world, out.meshes_, features);
   if (features.textures) {
     auto texels = TexelPages::upload(gl, world.scene->textures);
     if (!texels) return fail(texels.error());
@@ -280,27 +279,6 @@ void WorldBuffers::attach_textures() {
   part_texels_.attach(parts_, GL_RGBA32UI);
 }
 
-void WorldBuffers::make_runs(const SceneFeatures& features) {
-  const auto& materials = world_->scene->materials;
-  for (std::uint32_t p = 0; p < world_->parts.size(); ++p) {
-    const WorldPart& part = world_->parts[p];
-    for (std::uint32_t i = 0; i < part.triangle_count();) {
-      const std::uint32_t alike = same_material(part, i);
-      TriangleRun run{part.first_triangle + i, alike, meshes_.of_part[p].triangles + i,
-                      part.kept() ? p : no_id};
-      const Material& material = materials[part.material_of(i)];
-      run.masked = features.alpha_mask && material.alpha_mode == AlphaMode::mask;
-      run.single_sided = features.single_sided && !shows_back(material);
-      run.inside_out = part.is_inside_out();
-      if (!runs_.empty() && run.follows(runs_.back()))
-        runs_.back().count += alike;
-      else
-        runs_.push_back(run);
-      i += alike;
-    }
-  }
-}
-
 void WorldBuffers::write_parts() {
   if (object_positions_.size() == 0) return;
   PartsHeader header;
@@ -363,16 +341,15 @@ void WorldBuffers::bind() const {
 
 void WorldBuffers::draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
                                   bool culls) const {
-  const ClipSides sides(clip_from_relative, *reference_);
+  const std::vector<TriangleRun> runs = runs_.within(ClipSides(clip_from_relative, *reference_));
   if (culls) (*gl_)->CullFace(GL_BACK);
   for (const bool with_mask : {false, true}) {
     const TriangleProgram* used = nullptr;
     std::array<std::uint32_t, 2> left{most_, most_};  // of flattened triangles, and of kept instances
-    for (const TriangleRun& run : runs_) {
+    for (const TriangleRun& run : runs) {
       const bool kept = run.part != no_id;
       const std::uint32_t count = std::min(run.count, left[kept ? 1 : 0]);
       if (run.masked != with_mask || count == 0) continue;
-      if (kept && sides.surely_outside(world_->parts[run.part].bounds)) continue;
       left[kept ? 1 : 0] -= count;
       const TriangleProgram& program = *programs.of[with_mask ? 1 : 0][kept ? 1 : 0];
       if (used != &program) start_kind(program, kept, clip_from_relative), used = &program;

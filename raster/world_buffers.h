@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "raster/programs.h"
-#include "raster/stored_meshes.h"
 #include "raster/texel_pages.h"
+#include "raster/triangle_runs.h"
 #include "scene/camera.h"
 #include "scene/world.h"
 #include "shaders/shared_constants.h"
@@ -37,20 +37,6 @@ struct MaterialData {
 static_assert(sizeof(ShapeData) == shaders::shape_texel_count * sizeof(Vec4f));
 static_assert(sizeof(MaterialData) == shaders::material_texel_count * sizeof(Vec4f));
 
-/// A run of triangles that share one program; of a kept part each run is drawn by itself.
-struct TriangleRun {
-  std::uint32_t first = 0, count = 0;  ///< by the world's numbers
-  std::uint32_t at = 0;                ///< of the first one in the buffers
-  std::uint32_t part = no_id;          ///< of a kept part: its number
-  bool masked = false;
-  bool single_sided = false;
-  bool inside_out = false;  ///< of a mirrored part: fronts run clockwise
-  bool follows(const TriangleRun& run) const {
-    return masked == run.masked && single_sided == run.single_sided && inside_out == run.inside_out &&
-           part == run.part && first == run.first + run.count && at == run.at + run.count;
-  }
-};
-
 /// The reference point for a camera: its eye, or the nearest point to it of the finite scene's box.
 Vec3 reference_point(const World& world, const Vec3& eye);
 
@@ -69,8 +55,8 @@ class WorldBuffers {
   const World& world() const { return *world_; }
   /// Binds what the shaders read, and the vertex array of flattened triangles.
   void bind() const;
-  /// Draws every run with the program of its kind; all get the matrix. Kept parts that it surely shows nothing of are
-  /// left out; depths must be clamped (GL_DEPTH_CLAMP). `culls`: single-sided triangles are not drawn
+  /// Draws every triangle with the program of its kind; all get the matrix. Blocks that it surely shows nothing of are left
+  /// out; depths must be clamped (GL_DEPTH_CLAMP). `culls`: single-sided triangles are not drawn
   /// where their back is seen (GL_CULL_FACE is off before and after); else the caller's state holds for all. A front is
   /// that of the mesh in its own space, of mirrored parts, too.
   void draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
@@ -85,7 +71,6 @@ class WorldBuffers {
   void upload_vertices(const SceneFeatures& features);
   void set_vertex_arrays(const SceneFeatures& features);
   void start_kind(const TriangleProgram& program, bool kept, const Mat4& clip_from_relative) const;
-  void make_runs(const SceneFeatures& features);
   void write_parts();
   template <class Put>
   void for_each_stored(const Put& put) const;
@@ -94,7 +79,7 @@ class WorldBuffers {
   const World* world_;
   StoredMeshes meshes_;
   std::optional<Vec3> reference_;
-  std::vector<TriangleRun> runs_;
+  TriangleRuns runs_;
   VertexArray vertex_array_, kept_vertex_array_;
   Buffer positions_, normals_, uvs_, colors_, indices_, triangles_, planes_, shapes_, materials_;
   Buffer parts_, object_positions_;  ///< of kept parts; empty where there are none

@@ -46,9 +46,10 @@ TEST_P(Ids, TexelsStoreTheHitNearestToTheLight) {
         const bool stored =
             hit->primitive != no_id && stored_from_depth(map.view, face, row + 0.5, depth) < 1.0;
         ASSERT_EQ(map.depth[texel] == 1.0f, !stored) << face << ": " << column << ", " << row;
-        if (stored)
+        if (stored) {
           ASSERT_NEAR(depth_from_stored(map.view, face, row + 0.5, map.depth[texel]), depth, 1e-4)
               << face << ": " << column << ", " << row;
+        }
         ++tested;
         empty += stored ? 0 : 1;
       }
