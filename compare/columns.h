@@ -1,13 +1,13 @@
 // What belongs to a texel rather than to a pixel: the exact ray through its centre, and the sheets in its
-// column. Sheets are found only for columns where a decision hangs on them.
+// column.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "compare/ladder.h"
 #include "compare/surfaces.h"
+#include "raytrace/sheets/column_sheets.h"
 
 namespace gnomon::compare {
 
@@ -68,48 +68,23 @@ double plane_rounding(const Ray& ray, const raytrace::SurfacePoint& receiver);
 bool meets_plane_unhindered(const LadderInput& input, const TexelCentre& centre,
                             const raytrace::SurfacePoint& receiver);
 
-/// One texel's sheets; empty when none of its pixels needs them.
+/// One texel's sheets, found as they are asked for: by one thread.
 class Column {
  public:
-  Column() = default;
-  using Sheets = std::shared_ptr<const std::vector<raytrace::Sheet>>;
-  Column(const LadderInput& input, raytrace::TexelKey key, Sheets sheets, const Surfaces& surfaces)
-      : input_(&input), key_(key), sheets_(std::move(sheets)), surfaces_(&surfaces) {}
+  Column(const LadderInput& input, raytrace::TexelKey key, const Surfaces& surfaces)
+      : input_(input), key_(key), surfaces_(surfaces) {}
   raytrace::TexelKey key() const { return key_; }
   /// Whether two primitives, both met by light rays on the side that faces the light, hang together in this
-  /// column.
-  bool same_sheet(std::uint32_t a, std::uint32_t b) const;
+  /// column. Asked of several b, a is best the same one.
+  bool same_sheet(std::uint32_t a, std::uint32_t b);
   /// Which primitives hang together at all, in any column.
-  const Surfaces& surfaces() const { return *surfaces_; }
+  const Surfaces& surfaces() const { return surfaces_; }
 
  private:
-  bool faces_light(std::uint32_t primitive) const;
-  const LadderInput* input_ = nullptr;
-  raytrace::TexelKey key_;
-  Sheets sheets_;
-  const Surfaces* surfaces_ = nullptr;
-};
-
-/// Triangle lists for the groups that need sheets; the sheets themselves are found on demand, per column.
-class ColumnSet {
- public:
-  /// Lists for the groups whose lower rungs hang on sheets. `input` and `groups` must outlive this.
-  ColumnSet(const LadderInput& input, const TexelGroups& groups, const std::vector<TexelCentre>& centres);
-  /// Lists for the marked groups too, where they have none yet. Not to be called while others read.
-  void add(const std::vector<char>& marked_groups);
-  /// Empty for a group that was never marked.
-  Column column(std::size_t group) const;
-  /// The same, kept for the next frame that looks at it; by one thread at a time for each group.
-  Column kept_column(std::size_t group);
-
- private:
-  Column::Sheets find(std::size_t group) const;
   const LadderInput& input_;
-  const TexelGroups& groups_;
-  std::vector<raytrace::TexelLists> lists_;
-  std::vector<std::uint32_t> batch_of_group_;  ///< index in lists_, or no_id
-  std::vector<Column::Sheets> kept_;           ///< by group; null: not asked for yet
-  Surfaces surfaces_;
+  raytrace::TexelKey key_;
+  const Surfaces& surfaces_;
+  std::optional<raytrace::ColumnSheets> sheets_;
 };
 
 }  // namespace gnomon::compare

@@ -60,7 +60,7 @@ Casters casters_on(const raytrace::Tracer& tracer, const Ray& ray, double t_end,
 
 }  // namespace
 
-bool missed_caster_is_known(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
+bool missed_caster_is_known(const LadderInput& in, Column& column, const WrongPixel& wrong) {
   const Nearby nearby(in, column, wrong.pixel);
   const Casters casters = casters_on(in.tracer, in.tracer.shadow_ray(nearby.receiver(), in.light), infinity,
                                      [](std::uint32_t) { return true; });
@@ -70,7 +70,7 @@ bool missed_caster_is_known(const LadderInput& in, const Column& column, const W
   return casters.empty();
 }
 
-bool false_caster_goes_on(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
+bool false_caster_goes_on(const LadderInput& in, Column& column, const WrongPixel& wrong) {
   const Nearby nearby(in, column, wrong.pixel);
   const std::uint32_t own = nearby.receiver().primitive;
   const Vec2 centre(column.key().column() + 0.5, column.key().row() + 0.5);

@@ -11,29 +11,29 @@ using raytrace::SurfacePoint;
 
 namespace {
 
-Label sampling_label(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
+Label sampling_label(const LadderInput& in, Column& column, const WrongPixel& wrong) {
   if (wrong.false_shadow)
     return false_caster_goes_on(in, column, wrong) ? Label::aliasing : Label::false_feature;
   return missed_caster_is_known(in, column, wrong) ? Label::aliasing : Label::missed_feature;
 }
 
 // The stored primitive, or one that hangs together with it in this column, lies between x and the light.
-bool stored_is_true_occluder(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
+bool stored_is_true_occluder(const LadderInput& in, Column& column, const WrongPixel& wrong) {
   const std::uint32_t stored = stored_surface(in, wrong.lookup).primitive;
   const SurfacePoint& receiver = in.traced.receiver.data[wrong.pixel];
   const auto met = first_on_ray(
       in.tracer, in.tracer.shadow_ray(receiver, in.light), infinity, [&](const raytrace::Hit& hit) {
-        return hit.primitive == stored || (stored != no_id && column.same_sheet(hit.primitive, stored));
+        return hit.primitive == stored || (stored != no_id && column.same_sheet(stored, hit.primitive));
       });
   return met.has_value();
 }
 
-Label bias_label(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
+Label bias_label(const LadderInput& in, Column& column, const WrongPixel& wrong) {
   if (!wrong.false_shadow)
     return stored_is_true_occluder(in, column, wrong) ? Label::peter_panning : Label::light_leak;
   const std::uint32_t stored = stored_surface(in, wrong.lookup).primitive;
   const std::uint32_t receiver = in.traced.receiver.data[wrong.pixel].primitive;
-  return stored != no_id && column.same_sheet(receiver, stored) ? Label::acne : Label::false_feature;
+  return stored != no_id && column.same_sheet(stored, receiver) ? Label::acne : Label::false_feature;
 }
 
 // A filter that averages comparisons draws what they say: where true comparisons, averaged alike, are right,
@@ -55,7 +55,7 @@ Label filter_label(const LadderInput& in, const WrongPixel& wrong) {
 
 }  // namespace
 
-Label label_wrong_pixel(const LadderInput& in, const Column& column, const WrongPixel& wrong) {
+Label label_wrong_pixel(const LadderInput& in, Column& column, const WrongPixel& wrong) {
   if (in.drawn.custom_shader && !in.drawn.custom_shader->reads_bias) return Label::custom_shader;
   if (wrong.exact_is_right) return Label::precision;
   switch (wrong.step) {

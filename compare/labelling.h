@@ -16,7 +16,7 @@ struct WrongPixel {
 };
 
 /// The label of a wrong pixel, by the rules of docs/labels.md.
-Label label_wrong_pixel(const LadderInput& input, const Column& column, const WrongPixel& wrong);
+Label label_wrong_pixel(const LadderInput& input, Column& column, const WrongPixel& wrong);
 
 /// The step that a label stands for: the one whose doing it is, which for a missed shadow that leaks is the
 /// deciding one.

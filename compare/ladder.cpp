@@ -11,7 +11,7 @@
 #include "compare/pixel_list.h"
 #include "compare/stored_surface.h"
 #include "raster/technique_traits.h"
-#include "raytrace/sheets/shape_sheets.h"
+#include "raytrace/sheets/solid_sheets.h"
 #include "scene/parallel.h"
 #include "scene/solid.h"
 #include "scene/stages.h"
@@ -110,10 +110,10 @@ bool on_one_piece(const LadderInput& in, const SurfacePoint& receiver, const Tex
 
 // V2: the ray through the texel's centre is lit on x's own sheet, or where it reaches the receiver's tangent
 // plane unhindered.
-float texel_rung(const LadderInput& in, const Column& column, const SurfacePoint& receiver,
+float texel_rung(const LadderInput& in, Column& column, const SurfacePoint& receiver,
                  const TexelCentre& centre) {
   if (meets_plane_unhindered(in, centre, receiver)) return 1.0f;
-  if (on_inner_side(in, receiver) || !column.same_sheet(receiver.primitive, centre.hit->primitive))
+  if (on_inner_side(in, receiver) || !column.same_sheet(centre.hit->primitive, receiver.primitive))
     return 0.0f;
   return lit(on_one_piece(in, receiver, centre));
 }
@@ -169,7 +169,7 @@ bool stores_first_surface(const LadderInput& in, const TexelCentre& centre, rayt
   return centre.hit && stored.primitive == centre.hit->primitive && stored.t == centre.hit->t;
 }
 
-void climb_lower(const Column& column, const TexelCentre& centre, raytrace::TexelKey key, bool stores_first,
+void climb_lower(Column& column, const TexelCentre& centre, raytrace::TexelKey key, bool stores_first,
                  std::size_t pixel, LowerClimb& out) {
   const LadderInput& in = out.input;
   const SurfacePoint& receiver = in.traced.receiver.data[pixel];
@@ -202,9 +202,9 @@ bool right_with_exact_depth(const LowerClimb& lower, const LadderInput& in, std:
   return gap && !(std::abs(lit(!(*gap > in.record.bias_constant_world)) - v[0]) > 0.5f);
 }
 
-// V5 and V6 of one texel's pixels. The column is looked at only where some pixel is wrong.
+// V5 and V6 of one texel's pixels, and the labels of those that are wrong.
 void climb_group(const LowerClimb& lower, const LadderInput& in, std::size_t group, Climb& out) {
-  std::optional<Column> column;
+  Column column(in, lower.groups.keys[group], lower.surfaces);
   for (const std::uint32_t pixel : lower.groups[group]) {
     raytrace::TexelKey lookup = lower.groups.keys[group];
     const double gap = gap_with_bias(lower, in, group, pixel, lookup);
@@ -214,10 +214,9 @@ void climb_group(const LowerClimb& lower, const LadderInput& in, std::size_t gro
     if (!drawn_wrong(in, out, pixel)) continue;
     std::array<float, rung_count> v{};
     for (std::size_t k = 0; k < rung_count; ++k) v[k] = out.rungs[k].data[pixel];
-    if (!column) column = lower.columns->kept_column(group);
     const bool exact = right_with_exact_depth(lower, in, group, pixel, v);
     out.labels.data[pixel] =
-        label_wrong_pixel(in, *column, {pixel, lookup, deciding_step(v), v[6] < v[0], exact, v[0]});
+        label_wrong_pixel(in, column, {pixel, lookup, deciding_step(v), v[6] < v[0], exact, v[0]});
   }
 }
 
@@ -268,7 +267,7 @@ std::vector<std::uint32_t> compared_pixels(const Image<Label>& labels) {
 }  // namespace
 
 LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
-    : input(in), sorted(std::move(to_compare)) {
+    : input(in), sorted(std::move(to_compare)), surfaces(in.world, in.topology) {
   const TimedStage stage("columns and sheets");
   parallel_for(rungs.size(), [&](std::size_t k) { rungs[k] = Image<float>(sorted.size, 1.0f); });
   groups = group_by_texel(in.record, compared_pixels(labels_climbed(in, sorted)), outside);
@@ -279,16 +278,13 @@ LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
   const std::vector<TexelCentre> rays = trace_centres(in, groups.keys);
   centres.reserve(rays.size());
   for (const TexelCentre& ray : rays) centres.push_back(ray.depth);
-  columns = std::make_unique<ColumnSet>(input, groups, rays);
   parallel_for(groups.keys.size(), [&](std::size_t g) {
-    const Column column = columns->column(g);
+    Column column(in, groups.keys[g], surfaces);
     const bool stores_first = stores_first_surface(in, rays[g], groups.keys[g]);
     for (const std::uint32_t pixel : groups[g])
       climb_lower(column, rays[g], groups.keys[g], stores_first, pixel, *this);
   });
 }
-
-LowerClimb::~LowerClimb() = default;
 
 namespace {
 
@@ -298,12 +294,6 @@ Climb climb_on(const LowerClimb& lower, const LadderInput& in, Climb out) {
   if (!raster::compares_depths(in.drawn.options.map.technique)) return climb_without_map(in, std::move(out));
   parallel_for(lower.outside.size(), [&](std::size_t i) { climb_outside(in, lower.outside[i], out); });
   const std::size_t count = lower.groups.keys.size();
-  std::vector<char> wrong(count, 0);
-  parallel_for(count, [&](std::size_t g) {
-    for (const std::uint32_t pixel : lower.groups[g])
-      wrong[g] |= static_cast<char>(drawn_wrong(in, out, pixel));
-  });
-  lower.columns->add(wrong);
   parallel_for(count, [&](std::size_t g) { climb_group(lower, in, g, out); });
   return out;
 }

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "compare/comparison.h"
+#include "compare/surfaces.h"
 #include "compare/texel_groups.h"
 #include "raytrace/sheets.h"
 
@@ -48,14 +48,10 @@ struct Climb {
   Image<Label> labels;
 };
 
-class ColumnSet;
-
-/// What the map as stored makes of the compared pixels, before the technique's bias and filter: V0 … V4, and
-/// the columns that they look up. Frames of one light that were drawn with the same map share it.
+/// What the map as stored makes of the compared pixels, before the technique's bias and filter: V0 … V4. Frames of one light that were drawn with the same map share it.
 struct LowerClimb {
   /// `sorted`: label `right` on what is to be compared. The parts of `input` must outlive this.
   LowerClimb(const LadderInput& input, Image<Label> sorted);
-  ~LowerClimb();
   LowerClimb(const LowerClimb&) = delete;
   LowerClimb& operator=(const LowerClimb&) = delete;
 
@@ -67,7 +63,7 @@ struct LowerClimb {
   /// By group, the depth along the map's forward axis of the first thing that the exact light ray through the texel's
   /// centre meets.
   std::vector<double> centres;
-  std::unique_ptr<ColumnSet> columns;
+  Surfaces surfaces;
 };
 
 /// V5 and V6 of `input`, and the labels of its wrong pixels. `input` may hold another frame than `lower` was

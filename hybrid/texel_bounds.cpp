@@ -124,7 +124,7 @@ ColumnBounds by_overlap(std::span<Piece> pieces, const PieceRelations& relations
   return summary.bounds(relations);
 }
 
-/// Sheets by their edges, as raytrace::find_sheets makes them.
+/// Sheets by their edges, as raytrace::ColumnSheets finds them.
 class EdgeSheets {
  public:
   EdgeSheets(std::span<Piece> pieces, const PieceRelations& relations)

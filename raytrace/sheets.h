@@ -1,12 +1,10 @@
-// Texel columns: which triangles each map texel's column of light rays meets, and which of them hang
-// together. A *sheet* is a connected piece of equally facing triangles inside one column: two triangles join
-// where their shared edge (vertices welded by position) crosses the column. A sheet without boundary inside
-// the column covers it exactly once, so it cannot shadow itself: its projection along the rays is a proper
-// local homeomorphism of a connected surface onto a disc, hence a covering of degree one. Boundary means: an
-// edge crossing the column that is not shared by exactly two equally facing triangles, an edge-on or
-// degenerate triangle, an alpha-masked one, or a vertex whose projected fan winds more than once. Every
-// decision is conservative: rounding can only add triangles and boundaries. A shape is a sheet of its own per
-// side: a sphere bounded by its silhouette, a plane without boundary.
+// Texels of a map, and which triangles share an edge. A *sheet* is a connected piece of equally facing triangles inside
+// the column of light rays of one texel: two triangles join where their shared edge (vertices welded by position) crosses
+// the column (sheets/column_sheets.h). A shape is a sheet of its own per side. A sheet that ends nowhere inside the column
+// covers it exactly once, so it cannot shadow itself: its projection along the rays is a proper local homeomorphism of a
+// connected surface onto a disc, hence a covering of degree one (hybrid/texel_bounds.h). It ends at an edge crossing the
+// column that is not shared by exactly two equally facing triangles, at an edge-on or degenerate triangle, at an
+// alpha-masked one, or at a vertex whose projected fan winds more than once.
 #pragma once
 
 #include <cstdint>
@@ -30,21 +28,6 @@ struct TexelKey {
   int column() const { return static_cast<int>(value & 0xfffffff); }
   auto operator<=>(const TexelKey&) const = default;
 };
-
-/// Primitives (conservatively) overlapping each asked column, ascending ids. keys are sorted and unique.
-struct TexelLists {
-  std::vector<TexelKey> keys;
-  std::vector<std::uint64_t> offsets;  ///< keys.size() + 1
-  std::vector<std::uint32_t> primitives;
-  std::span<const std::uint32_t> operator[](std::size_t i) const {
-    return {primitives.data() + offsets[i], primitives.data() + offsets[i + 1]};
-  }
-  /// Index of a key, or keys.size().
-  std::size_t find(TexelKey key) const;
-};
-
-/// Built in parallel over the asked columns, by descending the tracer's hierarchy with the column's volume.
-TexelLists build_texel_lists(const Tracer& tracer, const LightView& view, std::vector<TexelKey> keys);
 
 /// Triangle adjacency with vertices welded by exact position; built once per world, whose meshes must outlive it.
 class Topology {
@@ -89,22 +72,5 @@ class Topology {
   std::vector<Part> parts_;
   std::vector<std::uint32_t> across_, welded_;  ///< three for each triangle; one for each vertex
 };
-
-struct Sheet {
-  std::vector<std::uint32_t> primitives;  ///< ascending
-  bool faces_light = false;
-  bool has_boundary = false;
-  double nearest = 0.0,
-         farthest = 0.0;  ///< bounds on the distance along the light rays inside the column (conservative)
-};
-
-/// Splits one column's list into its sheets. A piece that rounding put into the list but that lies beside the
-/// column is left out.
-std::vector<Sheet> find_sheets(const World& world, const Topology& topology, const LightView& view,
-                               TexelKey texel, std::span<const std::uint32_t> primitives);
-
-/// Index of the sheet that holds a primitive, or sheets.size(). A sphere's near and far side are told apart
-/// by `faces_light`.
-std::size_t sheet_of(std::span<const Sheet> sheets, std::uint32_t primitive, bool faces_light);
 
 }  // namespace gnomon::raytrace

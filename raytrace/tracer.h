@@ -128,7 +128,7 @@ class Tracer {
   const World& world() const;
   Precision precision() const;
   const AccelStats& stats() const;
-  /// For this room's own algorithms (texel lists, visibility): raytrace/kernels.h.
+  /// For this room's own algorithms (visibility): raytrace/kernels.h.
   const Structures& structures() const;
 
  private:

@@ -142,41 +142,6 @@ std::array<Vec2, 4> column_corners(const LightView& view, int face_index, int co
   return {corner(column, row), corner(column + 1, row), corner(column + 1, row + 1), corner(column, row + 1)};
 }
 
-namespace {
-
-// The plane x = tangent * depth through the light (perspective) or x = offset (orthographic), keeping the
-// side of growing x for sign = 1.
-HalfSpace column_plane(const LightView& view, const Vec3& axis, const Vec3& forward, double bound,
-                       double sign) {
-  if (!is_perspective(view)) return {sign * axis, sign * bound};
-  return {glm::normalize(sign * (axis - bound * forward)), 0.0};
-}
-
-// The plane x = bound (1 + s y) of a warped face, with x and y from its centre.
-HalfSpace warped_plane(const LightFace& face, double bound, double sign) {
-  const Vec3 normal = face.right - (bound * face.warp) * face.up;
-  const double length = glm::length(normal);
-  const double offset = bound + face.center.x - bound * face.warp * face.center.y;
-  return {normal * (sign / length), sign * offset / length};
-}
-
-}  // namespace
-
-std::array<HalfSpace, 4> column_planes(const LightView& view, int face_index, int column, int row) {
-  const LightFace& f = view.face(face_index);
-  const auto x = [&](int i) { return across(view, i, f.half_extent.x); };
-  const auto y = [&](int i) {
-    const double shown = across(view, i, f.half_extent.y);
-    return (f.warp == 0.0 ? shown : unwarped(f, shown)) + f.center.y;
-  };
-  const auto side = [&](int i, double sign) {
-    if (f.warp != 0.0) return warped_plane(f, x(i), sign);
-    return column_plane(view, f.right, f.forward, x(i) + f.center.x, sign);
-  };
-  return {side(column, 1.0), side(column + 1, -1.0), column_plane(view, f.up, f.forward, y(row), 1.0),
-          column_plane(view, f.up, f.forward, y(row + 1), -1.0)};
-}
-
 double stored_from_depth(const LightView& view, int face, double v, double z) {
   const auto [n, f] = range(view, face);
   if (!is_perspective(view)) return (z - n) / (f - n) * warp_share(view, view.face(face), v);

@@ -92,14 +92,6 @@ double texel_world_size(const LightView& view, const TexelCoordinate& at);
 /// 1 of a perspective map.
 std::array<Vec2, 4> column_corners(const LightView& view, int face, int column, int row);
 
-/// The four planes of a texel's column of light rays: p is inside iff dot(normal, p - view.origin) >= offset
-/// for all. Normals are unit length. The column of a perspective map also needs depth > 0.
-struct HalfSpace {
-  Vec3 normal;
-  double offset;
-};
-std::array<HalfSpace, 4> column_planes(const LightView& view, int face, int column, int row);
-
 /// Whether a stored depth is that of a caster, not of an empty texel.
 inline bool holds_caster(const LightView& view, double stored) {
   return view.reversed ? stored > 0.0 : stored < 1.0;

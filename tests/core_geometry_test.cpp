@@ -75,23 +75,6 @@ TEST_P(LightViews, ClipMatrixAgreesWithProjection) {
   }
 }
 
-TEST_P(LightViews, ColumnPlanesHoldExactlyTheirTexel) {
-  const LightView view = fitted(GetParam(), 32);
-  Random random(42);
-  for (int i = 0; i < 20000; ++i) {
-    const Vec3 p = 6.0 * random.in_ball();
-    const TexelCoordinate t = project_to_texel(view, p);
-    if (!t.inside) continue;
-    for (int neighbour = -1; neighbour <= 1; ++neighbour) {
-      const auto planes = column_planes(view, t.face, t.column() + neighbour, t.row());
-      bool inside = true;
-      for (const HalfSpace& plane : planes)
-        inside = inside && glm::dot(plane.normal, p - view.origin) >= plane.offset;
-      EXPECT_EQ(inside, neighbour == 0);
-    }
-  }
-}
-
 TEST_P(LightViews, NothingThatTheCameraSeesIsCutOff) {
   const Scene scene = scene_with(light_of(GetParam()));
   const World world = make_world(scene);

@@ -10,7 +10,6 @@
 #include "raytrace/accel/any_structure.h"
 #include "raytrace/frame.h"
 #include "raytrace/kernels.h"
-#include "raytrace/sheets.h"
 #include "raytrace_support.h"
 #include "tests/support/places.h"
 
@@ -326,19 +325,6 @@ TEST(Accel, VerdictsAndPicturesDoNotDependOnTheStructure) {
       EXPECT_EQ(other.lights[l].centre.data, truth.lights[l].centre.data) << name;
     EXPECT_EQ(other.color.data, truth.color.data) << name;
   }
-}
-
-TEST(Accel, TexelListsAreTheSameBesideAnyStructure) {
-  const TestWorld w(mixed_scene());
-  const LightView view =
-      fit_light_view(w.world(), test::point_light(Vec3(0.5, 6.0, 1.0)), Camera{}, 1.0, 24).value();
-  std::vector<TexelKey> keys;
-  for (int face = 0; face < view.face_count; ++face)
-    for (int i = 0; i < 24 * 24; ++i) keys.push_back(TexelKey::pack(face, i % 24, i / 24));
-  const TexelLists truth = build_texel_lists(Tracer(w.world(), Accel::brute), view, keys);
-  EXPECT_GT(truth.primitives.size(), keys.size());
-  for (const auto& [name, accel] : structures)
-    EXPECT_EQ(build_texel_lists(Tracer(w.world(), accel), view, keys).primitives, truth.primitives) << name;
 }
 
 TEST(Accel, SameForAnyNumberOfThreads) {

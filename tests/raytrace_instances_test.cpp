@@ -8,7 +8,7 @@
 #include "raytrace/bvh/instance.h"
 #include "raytrace/frame.h"
 #include "raytrace/kernels.h"
-#include "raytrace/sheets.h"
+#include "raytrace/sheets/column_sheets.h"
 #include "raytrace/single_rays.h"
 #include "scene/light_view.h"
 #include "support/placements.h"
@@ -299,17 +299,25 @@ TEST(Instances, ThatTouchAreFoundAlongEachAxis) {
   }
 }
 
-TEST(Instances, ColumnsHoldTheSame) {
+TEST(Instances, SheetsAreTheSame) {
   const BothWays w(garden(9));
-  const LightView view = fit_light_view(w.flat, w.scene.lights[0], w.scene.camera, 1.0, 64).value();
-  std::vector<TexelKey> keys;
-  for (int y = 0; y < 64; y += 3)
-    for (int x = 0; x < 64; ++x) keys.push_back(TexelKey::pack(0, x, y));
-  const TexelLists kept = build_texel_lists(Tracer(w.kept, Accel::bvh), view, keys);
-  const TexelLists flat = build_texel_lists(Tracer(w.flat, Accel::bvh), view, keys);
-  EXPECT_EQ(kept.primitives, flat.primitives);
-  EXPECT_EQ(kept.offsets, flat.offsets);
-  EXPECT_FALSE(flat.primitives.empty());
+  const LightView view = fit_light_view(w.flat, w.scene.lights[0], w.scene.camera, 1.0, 256).value();
+  const Topology kept(w.kept), flat(w.flat);
+  const Tracer tracer(w.flat, Accel::bvh);
+  int joined = 0, apart = 0;
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 256; ++x) {
+      const TexelKey key = TexelKey::pack(0, x, y);
+      ColumnSheets of_kept(w.kept, kept, view, key), of_flat(w.flat, flat, view, key);
+      const auto a = tracer.closest_hit(texel_ray(view, 0, x + 0.2, y + 0.3));
+      const auto b = tracer.closest_hit(texel_ray(view, 0, x + 0.8, y + 0.7));
+      if (!a || !b || !w.flat.is_triangle(a->primitive) || !w.flat.is_triangle(b->primitive)) continue;
+      const bool same = of_flat.same(a->primitive, b->primitive);
+      ASSERT_EQ(of_kept.same(a->primitive, b->primitive), same) << x << ", " << y;
+      (same ? joined : apart) += 1;
+    }
+  EXPECT_GT(joined, 50);
+  EXPECT_GT(apart, 5);
 }
 
 TEST(Instances, AreKeptWhereFlatteningThemWouldTakeMuchMemory) {

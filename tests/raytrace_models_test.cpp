@@ -1,11 +1,10 @@
-// Real models: hits and shadows against Embree (float, robust mode), and texel lists and sheets of the bunny.
+// Real models: hits and shadows against Embree (float, robust mode).
 // Vertices and rays are rounded to float first, so that both tracers are asked the same question.
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
 #include "raytrace/frame.h"
-#include "raytrace/sheets.h"
 #include "raytrace_support.h"
 #include "tests/support/embree.h"
 #include "tests/support/places.h"
@@ -16,7 +15,6 @@ namespace {
 using raytrace::Accel;
 using raytrace::PointVisibility;
 using raytrace::SurfacePoint;
-using raytrace::TexelKey;
 using raytrace::Tracer;
 using test::TestWorld;
 
@@ -185,57 +183,6 @@ TEST(Models, ShadowsOfTheBunnyAreHardlyEverInDoubt) {
     const auto uncertain =
         std::count(light.centre.data.begin(), light.centre.data.end(), PointVisibility::uncertain);
     EXPECT_LE(uncertain, 30);  // 1e-4 of the pixels
-  }
-}
-
-TEST(Models, SheetsOfTheBunnyKeepTheirWord) {
-  std::optional<Scene> scene = model_scene("common_organic/stanford-bunny.obj");
-  if (!scene) GTEST_SKIP() << "the bunny is not here";
-  const TestWorld w(std::move(*scene));
-  const Tracer tracer(w.world(), Accel::bvh);
-  const raytrace::Topology topology(w.world());
-  raytrace::RaytraceOptions options;
-  options.size = {320, 240}, options.picture = false;
-  const auto frame = trace_frame(tracer, plan_effects(w.scene()), w.scene().camera,
-                                 std::vector<std::uint32_t>{0, 1}, options);
-  for (const auto& truth : frame.lights) {
-    const Light& light = w.scene().lights[truth.light];
-    const LightView view = fit_light_view(w.world(), light, w.scene().camera, 4.0 / 3.0, 1024).value();
-    std::vector<TexelKey> keys;
-    std::vector<std::pair<std::size_t, TexelCoordinate>> pixels;
-    for (std::size_t i = 0; i < frame.receiver.data.size(); ++i) {
-      const SurfacePoint& p = frame.receiver.data[i];
-      if (p.primitive == no_id || light_cannot_reach(light, p.position, p.normal)) continue;
-      const TexelCoordinate t = project_to_texel(view, p.position);
-      if (!t.inside) continue;
-      pixels.emplace_back(i, t);
-      keys.push_back(TexelKey::pack(t.face, t.column(), t.row()));
-    }
-    const auto lists = build_texel_lists(tracer, view, keys);
-    std::size_t ambiguous = 0;
-    for (const auto& [i, t] : pixels) {
-      const TexelKey key = TexelKey::pack(t.face, t.column(), t.row());
-      const auto sheets = find_sheets(w.world(), topology, view, key, lists[lists.find(key)]);
-      const SurfacePoint& p = frame.receiver.data[i];
-      const Vec3 to_light =
-          light.type == LightType::directional ? -light.direction : light.position - p.position;
-      const bool faces = glm::dot(geometric_normal(w.world(), p.primitive, p.position), to_light) > 0.0;
-      const std::size_t own = sheet_of(sheets, p.primitive, faces);
-      ASSERT_LT(own, sheets.size());
-      bool lit = !sheets[own].has_boundary, shadowed = false;
-      for (std::size_t j = 0; j < sheets.size(); ++j) {
-        if (j == own) continue;
-        lit = lit && sheets[j].nearest > t.distance;
-        shadowed = shadowed || (!sheets[j].has_boundary && sheets[j].farthest < t.distance);
-      }
-      if (!lit && !shadowed)
-        ++ambiguous;
-      else
-        ASSERT_EQ(truth.centre.data[i], shadowed ? PointVisibility::shadowed : PointVisibility::lit) << i;
-    }
-    EXPECT_GT(pixels.size(), 20000U);
-    EXPECT_LT(static_cast<double>(ambiguous), 0.03 * static_cast<double>(pixels.size()));
-    std::printf("  light %u: %zu of %zu pixels ambiguous\n", truth.light, ambiguous, pixels.size());
   }
 }
 

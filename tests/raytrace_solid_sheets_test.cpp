@@ -1,12 +1,11 @@
-// Quadrics, tori and implicit surfaces as sheets of columns of light, and as bodies: the test by odd
+// Quadrics, tori and implicit surfaces as sheets, and as bodies: the test by odd
 // crossings.
 #include <gtest/gtest.h>
 
 #include "raytrace/shapes/along_ray.h"
 #include "raytrace/shapes/inside.h"
 #include "raytrace/shapes/solid.h"
-#include "raytrace/sheets.h"
-#include "raytrace/sheets/shape_sheets.h"
+#include "raytrace/sheets/solid_sheets.h"
 #include "raytrace_support.h"
 #include "solid_samples.h"
 
@@ -17,64 +16,6 @@ using namespace raytrace;  // NOLINT(google-build-using-namespace): every second
 using test::frame_of_ray;
 using test::Random;
 using test::TestWorld;
-
-LightView view_of(const World& world, const Light& light, int size) {
-  Camera camera;
-  camera.eye = Vec3(1.0, 2.0, 6.0);
-  camera.target = Vec3(0.0);
-  const auto view = fit_light_view(world, light, camera, 1.0, size);
-  EXPECT_TRUE(view);
-  return *view;
-}
-
-// Whatever a sheet says of its column holds for rays drawn from it: hits lie between the bounds, and a sheet
-// without boundary is met by every ray.
-TEST(SolidSheets, HoldForEveryRayOfTheColumn) {
-  Random random(82);
-  for (const Shape& shape : test::solid_samples()) {
-    const TestWorld w(test::scene_of({}, {shape}));
-    const Tracer tracer(w.world(), Accel::bvh);
-    const Topology topology(w.world());
-    int wrong = 0, covered = 0, checked = 0;
-    for (const Light& light : {test::sun({-0.3, -1.0, 0.4}), test::point_light({0.5, 2.5, 1.0})}) {
-      const LightView view = view_of(w.world(), light, 24);
-      std::vector<TexelKey> keys;
-      for (int face = 0; face < view.face_count; ++face)
-        for (int row = 0; row < 24; ++row)
-          for (int column = 0; column < 24; ++column) keys.push_back(TexelKey::pack(face, column, row));
-      const TexelLists lists = build_texel_lists(tracer, view, keys);
-      for (std::size_t i = 0; i < lists.keys.size(); ++i) {
-        const TexelKey key = lists.keys[i];
-        const auto sheets = find_sheets(w.world(), topology, view, key, lists[i]);
-        for (int k = 0; k < 6; ++k) {
-          const double u = key.column() + random.uniform(0.0, 1.0), v = key.row() + random.uniform(0.0, 1.0);
-          const Ray ray = texel_ray(view, key.face(), u, v);
-          std::vector<double> hits;
-          for (const double t : solid_crossings(frame_of_ray(ray), shape.geometry))
-            if (t > ray.t.min) hits.push_back(t / frame_of_ray(ray).kernel_t_from_t);
-          ++checked;
-          if (sheets.empty()) {
-            wrong += hits.empty() ? 0 : 1;
-            continue;
-          }
-          const Sheet &front = sheets[0], &back = sheets[1];
-          covered += front.has_boundary ? 0 : 1;
-          if (!front.has_boundary) {
-            wrong += hits.size() == 2 ? 0 : 1;
-            if (hits.size() != 2) continue;
-            wrong += hits[0] >= front.nearest && hits[0] <= front.farthest ? 0 : 1;
-            wrong += hits[1] >= back.nearest && hits[1] <= back.farthest ? 0 : 1;
-          }
-          for (const double t : hits) wrong += t >= front.nearest && t <= back.farthest ? 0 : 1;
-        }
-      }
-    }
-    EXPECT_EQ(wrong, 0) << shape.name << " of " << checked;
-    if (is_convex(shape.geometry)) {
-      EXPECT_GT(covered, checked / 50) << shape.name;
-    }
-  }
-}
 
 TEST(SolidSheets, PiecesOfATorusAreToldApart) {
   const Shape torus = test::solid("torus", Torus{ShapeFrame{}, 0.7, 0.25});

@@ -73,23 +73,13 @@ TEST_P(Shapes, ClipMatrixAndStoredDepthAgree) {
   }
 }
 
-TEST_P(Shapes, ColumnPlanesAndCornersHoldExactlyTheirTexel) {
+TEST_P(Shapes, ColumnCornersAreThoseOfTheirTexel) {
   const LightView view = fitted(32);
   Random random(7);
   for (int i = 0; i < 5000; ++i) {
     const int face = static_cast<int>(random.between(0, view.face_count));
     const double u = random.between(0, 32), v = random.between(0, 32);
-    const Vec3 p = texel_ray(view, face, u, v).at(random.between(-20, 20));
     const auto column = static_cast<int>(u), row = static_cast<int>(v);
-    for (int neighbour = -1; neighbour <= 1; ++neighbour) {
-      bool across = true, up = true;
-      for (const HalfSpace& plane : column_planes(view, face, column + neighbour, row))
-        across = across && glm::dot(plane.normal, p - view.origin) >= plane.offset;
-      for (const HalfSpace& plane : column_planes(view, face, column, row + neighbour))
-        up = up && glm::dot(plane.normal, p - view.origin) >= plane.offset;
-      ASSERT_EQ(across, neighbour == 0);
-      ASSERT_EQ(up, neighbour == 0);
-    }
     const std::array<Vec2, 4> corners = column_corners(view, face, column, row);
     const LightFace& f = view.face(face);
     for (int k = 0; k < 4; ++k) {

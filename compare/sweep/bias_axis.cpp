@@ -86,7 +86,6 @@ class BiasAxis {
         }) {}
 
   void run() {
-    prepare_columns();
     parallel_for(lower_.outside.size(), [&](std::size_t i) { add_outside(lower_.outside[i]); });
     parallel_for(lower_.groups.keys.size(), [&](std::size_t g) { add_group(g); });
     totals_.assign(biases_.count() + std::size_t{1}, {});
@@ -119,14 +118,6 @@ class BiasAxis {
   bool ever_wrong(std::uint32_t pixel) const {
     const std::uint32_t lit_from = first_drawn_lit(pixel);
     return truly_lit(pixel) ? lit_from > 0 : lit_from < biases_.count();
-  }
-
-  void prepare_columns() {
-    std::vector<char> wrong(lower_.groups.keys.size(), 0);
-    parallel_for(wrong.size(), [&](std::size_t g) {
-      for (const std::uint32_t pixel : lower_.groups[g]) wrong[g] |= static_cast<char>(ever_wrong(pixel));
-    });
-    lower_.columns->add(wrong);
   }
 
   // Counts of a pixel in one state, for biases from `from` to `to` (excluded).
@@ -167,7 +158,7 @@ class BiasAxis {
   }
 
   void add_group(std::size_t group) {
-    std::optional<Column> column;
+    Column column(in_, lower_.groups.keys[group], lower_.surfaces);
     for (const std::uint32_t pixel : lower_.groups[group]) {
       raytrace::TexelKey lookup = lower_.groups.keys[group];
       const double gap = gap_with_bias(lower_, in_, group, pixel, lookup);
@@ -185,9 +176,8 @@ class BiasAxis {
         v[6] = ends[s] >= drawn_from ? 1.0f : 0.0f;
         Label label = Label::right;
         if (v[6] != v[0]) {
-          if (!column) column = lower_.columns->column(group);
           const bool exact_is_right = exact && v[5] != v[0] && (ends[s] >= exact_from ? 1.0f : 0.0f) == v[0];
-          label = label_wrong_pixel(in_, *column,
+          label = label_wrong_pixel(in_, column,
                                     {pixel, lookup, deciding_step(v), v[6] < v[0], exact_is_right, v[0]});
         }
         add_state(pixel, v, label, ends[s], ends[s + 1]);

@@ -9,19 +9,8 @@ constexpr double vertex_gamma =
     error_gamma(32);  // of a coordinate, of a receiver on it, and of the light's frame
 constexpr double product_gamma = error_gamma(16);
 
-// A flat convex polygon gains at most one corner per plane; one bent by rounding at most half of its own,
-// five times.
-constexpr std::size_t max_clipped = 32;
-
 double sum_of_magnitudes(const Vec3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-
-double segment_distance(const Vec3& a, const Vec3& b) {
-  const Vec3 d = b - a;
-  const double length_squared = glm::dot(d, d);
-  const double s = length_squared > 0.0 ? std::clamp(-glm::dot(a, d) / length_squared, 0.0, 1.0) : 0.0;
-  return glm::length(a + s * d);
 }
 
 }  // namespace
@@ -39,19 +28,6 @@ TexelColumn::TexelColumn(const LightView& view, int face, int column, int row)
   handedness_ = glm::dot(glm::cross(face_.right, face_.up), face_.forward) < 0.0 ? -1.0 : 1.0;
   corners_ = {Vec3(x_[0], y_[0], 1.0), Vec3(x_[1], y_[0], 1.0), Vec3(x_[1], y_[1], 1.0),
               Vec3(x_[0], y_[1], 1.0)};
-  light_corners_ = corners_;
-  corner_error_ = grid_error_;
-  if (!perspective_) {
-    const std::array<Vec2, 4> xy = column_corners(view, face, column, row);
-    for (std::size_t k = 0; k < 4; ++k) light_corners_[k] = Vec3(xy[k], 1.0);
-    const double sb = face_.warp * face_.half_extent.y;
-    // A shift of the shown height moves the height below it by at most (1 + sb) / (1 - sb) times as much.
-    corner_error_ = 4.0 * grid_error_ * (1.0 + sb) / (1.0 - sb) +
-                    product_gamma * (std::abs(face_.center.x) + std::abs(face_.center.y));
-    if (sb == 0.0 && face_.center == Vec2(0.0)) corner_error_ = grid_error_;
-  }
-  low_ = high_ = Vec2(light_corners_[0]);
-  for (const Vec3& c : light_corners_) low_ = glm::min(low_, Vec2(c)), high_ = glm::max(high_, Vec2(c));
 }
 
 Vec3 TexelColumn::homogeneous(const Vec3& q) const {
@@ -127,56 +103,6 @@ int TexelColumn::facing(const std::array<LightVertex, 3>& t) const {
   if (std::abs(value) <= bound || !std::isfinite(value)) return 0;
   // A mirrored frame turns the cross product round.
   return (value < 0.0) == (handedness_ > 0.0) ? 1 : -1;
-}
-
-Interval TexelColumn::distances(std::span<const LightVertex> polygon) const {
-  std::array<Vec3, max_clipped> scratch, other_room;
-  Vec3 *part = scratch.data(), *next = other_room.data();
-  std::size_t count = 0;
-  double error = 0.0;
-  for (const LightVertex& v : polygon) {
-    part[count++] = v.q;
-    error = std::max(error, plane_error(v));
-  }
-  const Vec3 normal = glm::cross(part[1] - part[0], part[2] - part[0]);
-  // Clipped a little outside each plane (Sutherland & Hodgman 1974): rounding in the cut stays within the
-  // slack.
-  const double slack = 4.0 * error;
-  std::array<double, max_clipped> value;
-  for (std::size_t plane = 0; plane < (perspective_ ? 5U : 4U); ++plane) {
-    bool all_inside = true;
-    for (std::size_t i = 0; i < count; ++i) {
-      value[i] = plane_value(part[i], plane) + slack;
-      all_inside = all_inside && value[i] >= 0.0;
-    }
-    if (all_inside) continue;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t following = i + 1 < count ? i + 1 : 0;
-      const Vec3& a = part[i];
-      const Vec3& b = part[following];
-      const double va = value[i], vb = value[following];
-      if (va >= 0.0) next[kept++] = a;
-      if ((va >= 0.0) != (vb >= 0.0)) next[kept++] = a + (va / (va - vb)) * (b - a);
-    }
-    std::swap(part, next);
-    count = kept;
-    if (count == 0) return {infinity, -infinity};
-  }
-  Interval range{infinity, -infinity};
-  for (std::size_t i = 0; i < count; ++i) {
-    const double distance = perspective_ ? glm::length(part[i]) : part[i].z;
-    range.max = std::max(range.max, distance);
-    range.min =
-        std::min(range.min, perspective_ ? segment_distance(part[i], part[(i + 1) % count]) : distance);
-  }
-  if (perspective_ &&
-      glm::dot(normal, normal) > 0.0) {  // the nearest point of the plane, if the column holds it
-    const Vec3 foot = normal * (glm::dot(normal, part[0]) / glm::dot(normal, normal));
-    const LightVertex v{foot, foot, slack};
-    if (may_contain(v)) range.min = std::min(range.min, glm::length(foot));
-  }
-  return {range.min - slack, range.max + slack};
 }
 
 }  // namespace gnomon::raytrace

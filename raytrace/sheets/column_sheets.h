@@ -1,0 +1,45 @@
+// Which triangles hang together inside one texel's column of light rays: two do where the edge that they share (vertices
+// welded by position) crosses the column and both face the same way. A *sheet* is all that hangs together so. Every
+// decision is conservative: rounding can only let an edge cross the column.
+#pragma once
+
+#include <array>
+#include <unordered_map>
+#include <vector>
+
+#include "raytrace/sheets.h"
+#include "raytrace/sheets/column.h"
+
+namespace gnomon::raytrace {
+
+/// The sheets of a column, each found when it is first asked for, from one of its triangles on.
+class ColumnSheets {
+ public:
+  /// World and topology must outlive this.
+  ColumnSheets(const World& world, const Topology& topology, const LightView& view, TexelKey texel)
+      : world_(world), topology_(topology), column_(view, texel.face(), texel.column(), texel.row()) {}
+
+  /// Whether triangle b is on a's sheet, which is found from a on until b is met.
+  bool same(std::uint32_t a, std::uint32_t b);
+
+ private:
+  struct Piece {
+    std::uint32_t triangle;
+    std::array<LightVertex, 3> corners;
+    int facing;
+  };
+  Piece piece(std::uint32_t triangle) const;
+  void begin(std::uint32_t triangle);
+  void grow_until_met(std::uint32_t triangle);
+  void add_neighbours(const Piece& from);
+
+  const World& world_;
+  const Topology& topology_;
+  const TexelColumn column_;
+  std::unordered_map<std::uint32_t, std::uint32_t>
+      first_;                 ///< by triangle, the one that its sheet is found from
+  std::vector<Piece> queue_;  ///< of the last sheet: what was found of it, from the first one on
+  std::size_t next_ = 0;      ///< of the queue, whose neighbours come next
+};
+
+}  // namespace gnomon::raytrace
