@@ -28,7 +28,8 @@ std::vector<ReferenceHit> all_hits(const World& world, const Ray& ray) {
 
 bool is_left(const World& world, const Ray& ray, const ReferenceHit& hit, Cull cull) {
   const auto [a, b, c] = world.corners(hit.primitive);
-  const bool shows_front = glm::dot(glm::cross(b - a, c - a), ray.direction) < 0.0;
+  const bool clockwise = glm::dot(glm::cross(b - a, c - a), ray.direction) > 0.0;
+  const bool shows_front = clockwise == world.part_of(hit.primitive).is_inside_out();
   return cull == Cull::none || shows_front == (cull == Cull::back);
 }
 
@@ -49,6 +50,7 @@ Scene boxes(const Light& light) {
   scene.shapes.clear();
   scene.instances.push_back({"above", 0, placed(Vec3(-0.5, 1.9, 0.0), 0.7), 1});
   scene.instances.push_back({"beside", 0, placed(Vec3(0.9, 0.4, 0.3), 0.8), 1});
+  scene.instances.back().world_from_object[0] *= -1.0;  // mirrored
   scene.lights = {light};
   return scene;
 }
