@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "raytrace/huge_array.h"
 #include "raytrace/tracer.h"
 #include "scene/light_view.h"
 
@@ -70,7 +71,7 @@ class Topology {
 
   Ranges triangles_;  ///< of the parts
   std::vector<Part> parts_;
-  std::vector<std::uint32_t> across_, welded_;  ///< three for each triangle; one for each vertex
+  HugeVector<std::uint32_t> across_, welded_;  ///< three for each triangle; one for each vertex
 };
 
 }  // namespace gnomon::raytrace

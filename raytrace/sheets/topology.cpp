@@ -69,17 +69,17 @@ class Weld {
  public:
   explicit Weld(std::span<const Vec3> positions) : positions_(positions), order_(positions.size()) {}
 
-  std::vector<std::uint32_t> run() {
+  HugeVector<std::uint32_t> run() {
     const std::size_t count = positions_.size();
     parallel_for(count, [&](std::size_t i) { order_[i] = hash_of(positions_[i]) << 32 | i; });
-    sort_numbers(std::span(order_));
-    std::vector<std::uint32_t> welded(count);
+    sort_numbers(std::span(order_.data(), count));
+    HugeVector<std::uint32_t> welded(count);
     const auto hash_at = [&](std::size_t i) { return order_[i] >> 32; };
     parallel_for(count, [&](std::size_t first) {
       if (first > 0 && hash_at(first) == hash_at(first - 1)) return;
       std::size_t end = first + 1;
       while (end < count && hash_at(end) == hash_at(first)) ++end;
-      join(std::span(order_).subspan(first, end - first), welded);
+      join({order_.data() + first, end - first}, welded);
     });
     return welded;
   }
@@ -88,9 +88,10 @@ class Weld {
   static std::uint32_t vertex(std::uint64_t entry) { return static_cast<std::uint32_t>(entry); }
   const Vec3& at(std::uint64_t entry) const { return positions_[vertex(entry)]; }
 
-  /// Vertices of one hash, ascending: nearly always at one position.
-  void join(std::span<const std::uint64_t> run, std::vector<std::uint32_t>& welded) const {
-    if (std::all_of(run.begin(), run.end(), [&](std::uint64_t e) { return at(e) == at(run[0]); })) {
+  /// Vertices of one hash, ascending: nearly always at one position, and mostly one alone.
+  void join(std::span<const std::uint64_t> run, HugeVector<std::uint32_t>& welded) const {
+    const auto rest = run.subspan(1);
+    if (std::all_of(rest.begin(), rest.end(), [&](std::uint64_t e) { return at(e) == at(run[0]); })) {
       for (const std::uint64_t entry : run) welded[vertex(entry)] = vertex(run[0]);
       return;
     }
@@ -106,7 +107,7 @@ class Weld {
   }
 
   std::span<const Vec3> positions_;
-  std::vector<std::uint64_t> order_;  ///< hashes of positions, and in the lower half the vertices
+  HugeArray<std::uint64_t> order_;  ///< hashes of positions, and in the lower half the vertices
 };
 
 /// A triangle's edge, kept with its lower vertex.
@@ -123,8 +124,8 @@ struct HalfEdge {
 /// Finds what lies across the edges of a soup's triangles.
 class Pairing {
  public:
-  /// across: three for each triangle, filled with Topology::boundary.
-  Pairing(const Soup& soup, const std::vector<std::uint32_t>& welded, std::span<std::uint32_t> across)
+  /// across: three for each triangle, all of which are written.
+  Pairing(const Soup& soup, std::span<const std::uint32_t> welded, std::span<std::uint32_t> across)
       : soup_(soup), welded_(welded), across_(across) {}
 
   void run() {
@@ -144,7 +145,8 @@ class Pairing {
  private:
   // A counting sort: each thread counts, then each fills from the end of the vertex's run.
   void sort_by_lower_vertex() {
-    ends_.assign(welded_.size() + 1, 0);
+    ends_ = HugeArray<std::uint32_t>(welded_.size() + 1);
+    parallel_for(ends_.size(), [&](std::size_t v) { ends_[v] = 0; });
     const auto each_edge = [&](const auto& use) {
       parallel_for(soup_.triangle_count(), [&](std::uint32_t t) {
         const auto corners = soup_.triangle(t);
@@ -158,7 +160,7 @@ class Pairing {
       std::atomic_ref(ends_[low]).fetch_add(1, std::memory_order_relaxed);
     });
     for (std::size_t v = 1; v < ends_.size(); ++v) ends_[v] += ends_[v - 1];
-    edges_ = HugeArray<HalfEdge>(ends_.back());
+    edges_ = HugeArray<HalfEdge>(ends_[welded_.size()]);
     each_edge([&](std::uint32_t low, const HalfEdge& edge) {
       edges_[std::atomic_ref(ends_[low]).fetch_sub(1, std::memory_order_relaxed) - 1] = edge;
     });
@@ -166,22 +168,22 @@ class Pairing {
 
   /// All edges between two vertices.
   void pair(std::size_t low, std::span<const HalfEdge> edges) const {
-    if (edges.size() < 2) return;
-    const HalfEdge &a = edges[0], &b = edges[1];
+    const HalfEdge &a = edges.front(), &b = edges.back();
     if (edges.size() == 2 && low != a.high && a.is_forwards() != b.is_forwards() &&
         a.triangle() != b.triangle()) {
       across_[a.place()] = soup_.world_triangle(b.triangle());
       across_[b.place()] = soup_.world_triangle(a.triangle());
       return;
     }
-    for (const HalfEdge& edge : edges) across_[edge.place()] = Topology::non_manifold;
+    const std::uint32_t none = edges.size() == 1 ? Topology::boundary : Topology::non_manifold;
+    for (const HalfEdge& edge : edges) across_[edge.place()] = none;
   }
 
   static_assert(std::uint64_t{6} * most_primitives < 0xffffffffu, "an edge's place and its direction");
   const Soup& soup_;
-  const std::vector<std::uint32_t>& welded_;
+  std::span<const std::uint32_t> welded_;
   std::span<std::uint32_t> across_;
-  std::vector<std::uint32_t> ends_;  // of the vertices' runs of edges; filled, their beginnings
+  HugeArray<std::uint32_t> ends_;  // of the vertices' runs of edges; filled, their beginnings
   HugeArray<HalfEdge> edges_;
 };
 
@@ -209,8 +211,8 @@ Topology::Topology(const World& world) : triangles_(world.triangle_ranges), part
 Topology::Place Topology::connect(const std::vector<const WorldPart*>& parts) {
   const Soup soup(parts);
   const Place place{across_.size(), welded_.size()};
-  const std::vector<std::uint32_t> welded = Weld(soup.positions()).run();
-  across_.resize(across_.size() + 3 * std::size_t{soup.triangle_count()}, boundary);
+  const HugeVector<std::uint32_t> welded = Weld(soup.positions()).run();
+  across_.resize(across_.size() + 3 * std::size_t{soup.triangle_count()});
   Pairing(soup, welded, std::span(across_).subspan(place.across)).run();
   welded_.resize(welded_.size() + welded.size());
   parallel_for(welded.size(),
