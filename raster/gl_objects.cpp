@@ -78,7 +78,8 @@ BufferTexture::BufferTexture(const Gl& gl)
     : GlObject(gl, created([&](GLuint* id) { gl->CreateTextures(GL_TEXTURE_BUFFER, 1, id); })) {}
 
 void BufferTexture::attach(const Buffer& buffer, GLenum format) {
-  gl()->TextureBuffer(id(), format, buffer.id());
+  if (buffer.size() == 0) return gl()->TextureBuffer(id(), format, buffer.id());  // a range must not be empty
+  gl()->TextureBufferRange(id(), format, buffer.id(), 0, static_cast<GLsizeiptr>(buffer.size()));
 }
 
 void BufferTexture::bind(int unit) const {

@@ -26,6 +26,18 @@ std::uint32_t stored_material(const WorldPart& part, std::uint32_t triangle) {
   return part.kept() && part.mesh->triangle_materials.empty() ? no_material : part.material_of(triangle);
 }
 
+std::optional<std::uint32_t> StoredMeshes::material_of_all(const World& world) const {
+  std::optional<std::uint32_t> every;
+  for (const Stored& s : stored) {
+    const WorldPart& part = world.parts[s.part];
+    if (part.triangle_count() == 0) continue;
+    const std::uint32_t material = stored_material(part, 0);
+    if (!part.mesh->triangle_materials.empty() || every.value_or(material) != material) return std::nullopt;
+    every = material;
+  }
+  return every;
+}
+
 PartData part_data(const WorldPart& part, const StoredMeshes::Place& at) {
   PartData out{};
   for (int c = 0; c < 4; ++c) out.column[c] = part.world_from_object[c];

@@ -1,6 +1,7 @@
 // What the device's buffers hold of a world's parts and of the meshes that kept parts share. Private to raster.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scene/world.h"
@@ -34,6 +35,9 @@ struct StoredMeshes {
   std::vector<Place> of_part;  ///< by part
   Place flat, all;             ///< how many vertices and triangles are of flattened parts, and in all
   explicit StoredMeshes(const World& world);
+  /// The one that stored_material() gives for every triangle; nothing where some mesh lists materials, or where there are
+  /// several.
+  std::optional<std::uint32_t> material_of_all(const World& world) const;
 };
 
 PartData part_data(const WorldPart& part, const StoredMeshes::Place& at);

@@ -156,7 +156,7 @@ WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
       uvs_(gl),
       colors_(gl),
       indices_(gl),
-      triangles_(gl),
+      triangle_materials_(gl),
       planes_(gl),
       shapes_(gl),
       materials_(gl),
@@ -167,6 +167,7 @@ WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
       uv_texels_(gl),
       color_texels_(gl),
       triangle_texels_(gl),
+      triangle_material_texels_(gl),
       plane_texels_(gl),
       object_position_texels_(gl),
       shape_texels_(gl),
@@ -195,15 +196,7 @@ Expected<WorldBuffers> WorldBuffers::upload(Gl& gl, const World& world, const Sc
 
 void WorldBuffers::upload_fixed(const SceneFeatures& features) {
   upload_indices();
-  triangles_.fill<glm::uvec4>(meshes_.all.triangles, [&](std::span<glm::uvec4> out) {
-    for_each_stored([&](const WorldPart& part, const StoredMeshes::Place& at) {
-      for_each_index(part.triangle_count(), [&](std::uint32_t i) {
-        const auto t = part.triangle(i);
-        out[at.triangles + i] = {at.vertices + t[0], at.vertices + t[1], at.vertices + t[2],
-                                 stored_material(part, i)};
-      });
-    });
-  });
+  upload_triangle_materials();
   std::vector<MaterialData> materials;
   for (const Material& m : world_->scene->materials) materials.push_back(material_data(m));
   materials_.write(std::span<const MaterialData>(materials));
@@ -223,6 +216,19 @@ void WorldBuffers::upload_indices() {
       });
     });
   });
+}
+
+// Where all are of one material, it is written once.
+void WorldBuffers::upload_triangle_materials() {
+  const std::optional<std::uint32_t> every = meshes_.material_of_all(*world_);
+  triangle_materials_.fill<std::uint32_t>(
+      every ? 1 : meshes_.all.triangles, [&](std::span<std::uint32_t> out) {
+        if (every) return void(out[0] = *every);
+        for_each_stored([&](const WorldPart& part, const StoredMeshes::Place& at) {
+          for_each_index(part.triangle_count(),
+                         [&](std::uint32_t i) { out[at.triangles + i] = stored_material(part, i); });
+        });
+      });
 }
 
 void WorldBuffers::set_vertex_arrays(const SceneFeatures& features) {
@@ -271,7 +277,8 @@ void WorldBuffers::attach_textures() {
   normal_texels_.attach(normals_, GL_RGB32F);
   uv_texels_.attach(uvs_, GL_RG32F);
   color_texels_.attach(colors_, GL_RGBA32F);
-  triangle_texels_.attach(triangles_, GL_RGBA32UI);
+  triangle_texels_.attach(indices_, GL_RGB32UI);
+  triangle_material_texels_.attach(triangle_materials_, GL_R32UI);
   plane_texels_.attach(planes_, GL_RGBA32F);
   object_position_texels_.attach(object_positions_, GL_RG32UI);
   shape_texels_.attach(shapes_, GL_RGBA32UI);
@@ -329,6 +336,7 @@ void WorldBuffers::bind() const {
   uv_texels_.bind(shaders::uvs_unit);
   color_texels_.bind(shaders::colors_unit);
   triangle_texels_.bind(shaders::triangles_unit);
+  triangle_material_texels_.bind(shaders::triangle_materials_unit);
   plane_texels_.bind(shaders::planes_unit);
   if (object_positions_.size() > 0) {
     object_position_texels_.bind(shaders::object_positions_unit);

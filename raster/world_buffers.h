@@ -68,6 +68,7 @@ class WorldBuffers {
   void upload_fixed(const SceneFeatures& features);
   void attach_textures();
   void upload_indices();
+  void upload_triangle_materials();
   void upload_vertices(const SceneFeatures& features);
   void set_vertex_arrays(const SceneFeatures& features);
   void start_kind(const TriangleProgram& program, bool kept, const Mat4& clip_from_relative) const;
@@ -81,10 +82,11 @@ class WorldBuffers {
   std::optional<Vec3> reference_;
   TriangleRuns runs_;
   VertexArray vertex_array_, kept_vertex_array_;
-  Buffer positions_, normals_, uvs_, colors_, indices_, triangles_, planes_, shapes_, materials_;
+  Buffer positions_, normals_, uvs_, colors_, indices_, triangle_materials_, planes_, shapes_, materials_;
   Buffer parts_, object_positions_;  ///< of kept parts; empty where there are none
-  BufferTexture position_texels_, normal_texels_, uv_texels_, color_texels_, triangle_texels_, plane_texels_,
-      object_position_texels_, shape_texels_, material_texels_, part_texels_;
+  BufferTexture position_texels_, normal_texels_, uv_texels_, color_texels_, triangle_texels_,
+      triangle_material_texels_, plane_texels_, object_position_texels_, shape_texels_, material_texels_,
+      part_texels_;
   std::optional<TexelPages> texels_;
   /// Triangles that are drawn, of opaque ones and of others, flattened and kept, each.
   std::uint32_t most_ = ~0u;

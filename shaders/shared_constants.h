@@ -55,6 +55,7 @@ const int positions_unit = 10;  // buffer textures
 const int normals_unit = 11;
 const int uvs_unit = 12;
 const int triangles_unit = 13;
+const int triangle_materials_unit = 7;
 const int planes_unit = 14;
 const int object_positions_unit = 16;
 const int shapes_unit = 17;

@@ -9,7 +9,8 @@ struct TriangleData {
   uint part;  // that it belongs to, with INSTANCES
 };
 
-layout(binding = triangles_unit) uniform usamplerBuffer triangle_texels;
+layout(binding = triangles_unit) uniform usamplerBuffer triangle_texels;  // the index buffer
+layout(binding = triangle_materials_unit) uniform usamplerBuffer triangle_material_texels;
 layout(binding = planes_unit) uniform samplerBuffer plane_texels;
 layout(binding = positions_unit) uniform samplerBuffer position_texels;
 layout(binding = normals_unit) uniform samplerBuffer normal_texels;
@@ -18,14 +19,21 @@ layout(binding = uvs_unit) uniform samplerBuffer uv_texels;
 layout(binding = colors_unit) uniform samplerBuffer color_texels;
 #endif
 
+// A single texel is every triangle's.
+uint triangle_material(uint at) {
+  return texelFetch(triangle_material_texels, min(int(at), textureSize(triangle_material_texels) - 1)).x;
+}
+
 #ifdef INSTANCES
 #include "instances.glsl"
 
 TriangleData triangle_at(uint id) {
   uint part = part_of(id);
   PartData of = part_at(part);
-  uvec4 t = texelFetch(triangle_texels, int(of.triangles_at + (id - of.first_triangle)));
-  return TriangleData(t.x, t.y, t.z, t.w == no_material ? of.material : t.w, part);
+  uint at = of.triangles_at + (id - of.first_triangle), material = triangle_material(at);
+  // Indices count from the first vertex of the vertex array that draws the triangle.
+  uvec3 t = texelFetch(triangle_texels, int(at)).xyz + (of.kept != 0u ? flat_vertices() : 0u);
+  return TriangleData(t.x, t.y, t.z, material == no_material ? of.material : material, part);
 }
 vec3 position_of(TriangleData t, uint vertex) {
   if (is_kept(t.part)) return relative_position(t.part, vertex);
@@ -42,8 +50,8 @@ vec4 plane_of(uint id, TriangleData t) {
 }
 #else
 TriangleData triangle_at(uint id) {
-  uvec4 t = texelFetch(triangle_texels, int(id));
-  return TriangleData(t.x, t.y, t.z, t.w, 0u);
+  uvec3 t = texelFetch(triangle_texels, int(id)).xyz;
+  return TriangleData(t.x, t.y, t.z, triangle_material(id), 0u);
 }
 vec3 position_of(TriangleData t, uint vertex) { return texelFetch(position_texels, int(vertex)).xyz; }
 vec3 normal_of(TriangleData t, uint vertex) { return texelFetch(normal_texels, int(vertex)).xyz; }

@@ -35,6 +35,7 @@ constexpr Named constants[] = {
     GNOMON_NAMED(uvs_unit),
     GNOMON_NAMED(colors_unit),
     GNOMON_NAMED(triangles_unit),
+    GNOMON_NAMED(triangle_materials_unit),
     GNOMON_NAMED(planes_unit),
     GNOMON_NAMED(object_positions_unit),
     GNOMON_NAMED(part_columns_uniform),

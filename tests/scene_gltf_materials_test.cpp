@@ -7,7 +7,30 @@ namespace gnomon::gltf_test {
 namespace {
 
 Material material_of(const Scene& s) {
-  return s.materials[s.meshes[0].triangle_materials[0]];
+  EXPECT_TRUE(s.meshes[0].triangle_materials.empty());
+  return s.materials[s.instances[0].material];
+}
+
+// Of primitives without triangles nothing is seen, so that their materials do not count.
+TEST_F(Gltf, OnlyMeshesOfSeveralMaterialsListThem) {
+  Builder b;
+  const int positions = b.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const auto primitive = [&](int material, int mode = 4) {
+    return Json{{"attributes", {{"POSITION", positions}}}, {"material", material}, {"mode", mode}};
+  };
+  b.json["materials"] = Json::array({{{"name", "a"}}, {{"name", "b"}}, {{"name", "c"}}});
+  b.json["meshes"] =
+      Json::array({{{"primitives", Json::array({primitive(2, 0), primitive(1), primitive(1)})}},
+                   {{"primitives", Json::array({primitive(1), primitive(1), primitive(0), primitive(1)})}}});
+  b.json["nodes"] = Json::array({{{"mesh", 0}}, {{"mesh", 1}}, {{"mesh", 0}, {"scale", {1, 1, 0}}}});
+  const Scene scene = loaded(b);
+  ASSERT_EQ(scene.instances.size(), 3u);
+  EXPECT_TRUE(scene.meshes[scene.instances[0].mesh].triangle_materials.empty());
+  EXPECT_EQ(scene.instances[0].material, 1u);
+  EXPECT_EQ(scene.meshes[scene.instances[1].mesh].triangle_materials,
+            (std::vector<std::uint32_t>{1, 1, 0, 1}));
+  EXPECT_TRUE(scene.meshes[scene.instances[2].mesh].triangle_materials.empty());  // flattened to a sheet
+  EXPECT_EQ(scene.instances[2].material, 1u);
 }
 
 TEST_F(Gltf, MaterialsAreMappedAsDocumented) {

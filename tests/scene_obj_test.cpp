@@ -200,7 +200,7 @@ TEST(Obj, NamesWithBlanksAndBackslashes) {
           folder, fmt::format("{}mtllib {}\r\n{}usemtl {}\r\nf 1 2 3\r\n", mark, library, quad, material));
       EXPECT_TRUE(scene) << scene.error().message();
       EXPECT_FALSE(test::has_note(*scene, "mtl")) << library;
-      return scene->materials.at(scene->meshes.at(0).triangle_materials.at(0)).diffuse;
+      return scene->materials.at(scene->instances.at(0).material).diffuse;
     };
     EXPECT_EQ(colour("dark red "), Vec3f(1, 0, 0)) << library;
     EXPECT_EQ(colour("dark"), Vec3f(0, 1, 0)) << library;

@@ -201,9 +201,9 @@ class BlockClosest {
   unsigned leave_out_backs(std::span<const std::uint32_t> leaves, unsigned& never) const {
     unsigned backs = 0;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      const std::uint32_t leaf = leaves[i], id = s_.bvh.id_at(leaf);
-      if (!hides_back(s_, id)) continue;
+      const std::uint32_t leaf = leaves[i];
       const Facing facing = facing_of(s_.bvh.primitive_at(leaf).v.data(), setup_.origin);
+      if (facing == Facing::front || !hides_back(s_, s_.bvh.id_at(leaf))) continue;
       if (facing == Facing::back) backs |= 1u << i;
       if (facing == Facing::ambiguous) never |= 1u << i;
     }

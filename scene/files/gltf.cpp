@@ -131,22 +131,27 @@ class SceneBuilder {
     return {};
   }
 
+  /// A mesh of the scene, and its instances' material.
+  struct PosedMesh {
+    std::uint32_t mesh = no_id, material = 0;
+  };
+
   /// The mesh in the node's pose, read when the first node asks for it; no_id: it has no triangles.
-  Expected<std::uint32_t> posed_mesh(const tinygltf::Node& node) {
+  Expected<PosedMesh> posed_mesh(const tinygltf::Node& node) {
     const auto index = static_cast<std::size_t>(node.mesh);
     GltfPose pose{node.weights.empty() ? model_.meshes[index].weights : node.weights};
-    const auto [known, is_new] = our_mesh_.try_emplace({node.mesh, skin_of(node), pose.weights}, no_id);
+    const auto [known, is_new] = our_mesh_.try_emplace({node.mesh, skin_of(node), pose.weights});
     if (!is_new) return known->second;
     if (skin_of(node) >= 0) {
       if (node_transforms_.empty()) node_transforms_ = node_transforms(model_);
       const JsonValue& skin = gltf_list(root_, "skins")[static_cast<std::size_t>(node.skin)];
       pose.joints = joint_transforms(skin, node_transforms_, model_, data_);
     }
-    auto mesh = meshes_.read(index, pose);
-    if (!mesh) return fail(mesh.error());
-    if (mesh->triangles.empty()) return no_id;
-    known->second = static_cast<std::uint32_t>(scene_.meshes.size());
-    scene_.meshes.push_back(std::move(*mesh));
+    auto read = meshes_.read(index, pose);
+    if (!read) return fail(read.error());
+    if (read->mesh.triangles.empty()) return PosedMesh{};
+    known->second = {static_cast<std::uint32_t>(scene_.meshes.size()), read->material};
+    scene_.meshes.push_back(std::move(read->mesh));
     return known->second;
   }
 
@@ -162,7 +167,7 @@ class SceneBuilder {
   Expected<void> add_mesh(const tinygltf::Node& node, int index, const Mat4& world) {
     const auto mesh = posed_mesh(node);
     if (!mesh) return fail(mesh.error());
-    if (*mesh == no_id) return {};
+    if (mesh->mesh == no_id) return {};
     const std::string name = !node.name.empty() ? node.name : fmt::format("node-{}", index);
     if (skin_of(node) >= 0)  // in the world already
       add_instance(name, *mesh, Mat4(1.0));
@@ -174,25 +179,26 @@ class SceneBuilder {
     return {};
   }
 
-  void add_instance(const std::string& name, std::uint32_t mesh, const Mat4& world) {
+  void add_instance(const std::string& name, const PosedMesh& mesh, const Mat4& world) {
     if (is_singular(Mat3(world)))
       add_sheet(name, mesh, world);
     else
-      scene_.instances.push_back({name, mesh, world, 0});
+      scene_.instances.push_back({name, mesh.mesh, world, mesh.material});
   }
 
   /// A transform without inverse: a mesh of its own.
-  void add_sheet(const std::string& name, std::uint32_t mesh, const Mat4& world) {
-    Mesh sheet = flattened(scene_.meshes[mesh], world);
+  void add_sheet(const std::string& name, const PosedMesh& mesh, const Mat4& world) {
+    Mesh sheet = flattened(scene_.meshes[mesh.mesh], world);
     if (sheet.triangles.empty()) {
       ++flattened_;
       return;
     }
-    scene_.instances.push_back({name, static_cast<std::uint32_t>(scene_.meshes.size()), Mat4(1.0), 0});
+    scene_.instances.push_back(
+        {name, static_cast<std::uint32_t>(scene_.meshes.size()), Mat4(1.0), mesh.material});
     scene_.meshes.push_back(std::move(sheet));
   }
 
-  Expected<void> add_instances(const std::string& name, std::uint32_t mesh, const Mat4& world,
+  Expected<void> add_instances(const std::string& name, const PosedMesh& mesh, const Mat4& world,
                                const tinygltf::Value& extension, int node) {
     const auto places = gltf_instances(model_, data_, extension);
     if (!places)
@@ -296,9 +302,9 @@ class SceneBuilder {
   const GltfExtras& extras_;
   GltfMeshReader& meshes_;
   const std::string& file_;
-  std::vector<Mat4> node_transforms_;                                            // once a skin needs them
-  std::map<std::tuple<int, int, std::vector<double>>, std::uint32_t> our_mesh_;  // by mesh, skin and weights
-  std::vector<std::size_t> gltf_cameras_;                                        // of loaded_.cameras
+  std::vector<Mat4> node_transforms_;                                        // once a skin needs them
+  std::map<std::tuple<int, int, std::vector<double>>, PosedMesh> our_mesh_;  // by mesh, skin and weights
+  std::vector<std::size_t> gltf_cameras_;                                    // of loaded_.cameras
   CarriedNodes carried_;
   std::set<std::string> light_names_;
   std::map<std::string, int> next_number_;  // behind a light's name that is taken

@@ -81,18 +81,26 @@ struct Blend {
 
 }  // namespace
 
-Expected<Mesh> GltfMeshReader::read(std::size_t index, const GltfPose& pose) {
+Expected<GltfMesh> GltfMeshReader::read(std::size_t index, const GltfPose& pose) {
   const tinygltf::Mesh& from = model_.meshes[index];
-  Mesh mesh;
+  GltfMesh out;
+  Mesh& mesh = out.mesh;
   mesh.name = from.name.empty() ? fmt::format("mesh-{}", index + 1) : from.name;
-  for (std::size_t p = 0; p < from.primitives.size(); ++p)
+  for (std::size_t p = 0; p < from.primitives.size(); ++p) {
+    const std::size_t before = mesh.triangles.size();
     if (const auto added =
             add_primitive(mesh, from.primitives[p], pose, fmt::format("meshes[{}].primitives[{}]", index, p));
         !added)
       return fail(added.error());
+    const std::uint32_t material = material_of(from.primitives[p]);
+    if (before == 0) out.material = material;
+    if (mesh.triangles.size() > before && material != out.material)
+      mesh.triangle_materials.resize(before, out.material);
+    if (!mesh.triangle_materials.empty()) mesh.triangle_materials.resize(mesh.triangles.size(), material);
+  }
   fill_up(mesh);
   drop_empty(mesh);
-  return mesh;
+  return out;
 }
 
 tl::unexpected<Error> GltfMeshReader::error(std::string field, std::string reason) const {
@@ -308,10 +316,11 @@ Expected<void> GltfMeshReader::add_triangles(Mesh& mesh, const Part& part, int m
       mesh.triangles.push_back({a, b, c});
     });
   }
-  const std::uint32_t material =
-      part.primitive.material < 0 ? default_material_ : static_cast<std::uint32_t>(part.primitive.material);
-  mesh.triangle_materials.resize(mesh.triangles.size(), material);
   return {};
+}
+
+std::uint32_t GltfMeshReader::material_of(const tinygltf::Primitive& primitive) const {
+  return primitive.material < 0 ? default_material_ : static_cast<std::uint32_t>(primitive.material);
 }
 
 void GltfMeshReader::add_notes(Scene& scene) const {

@@ -24,6 +24,12 @@ struct GltfPose {
   std::vector<Mat4> joints{};     ///< joint_transforms(); empty: no skin
 };
 
+/// Where all triangles are of one material, `material`, the mesh has no list of them.
+struct GltfMesh {
+  Mesh mesh;
+  std::uint32_t material = 0;
+};
+
 class GltfMeshReader {
  public:
   /// Primitives without a material get `default_material`. All of these must outlive the reader.
@@ -32,7 +38,7 @@ class GltfMeshReader {
       : model_(model), data_(data), sets_(sets), default_material_(default_material), file_(file) {}
 
   /// One without triangles is empty.
-  Expected<Mesh> read(std::size_t mesh, const GltfPose& pose);
+  Expected<GltfMesh> read(std::size_t mesh, const GltfPose& pose);
   /// The model has primitives of points or lines.
   bool skipped_points() const { return skipped_ > 0; }
   void add_notes(Scene& scene) const;
@@ -58,6 +64,7 @@ class GltfMeshReader {
   template <class Put>
   Expected<void> for_each_index(const Part& part, const Put& put) const;
   Expected<void> add_triangles(Mesh& mesh, const Part& part, int mode);
+  std::uint32_t material_of(const tinygltf::Primitive& primitive) const;
 
   const tinygltf::Model& model_;
   const GltfData& data_;

@@ -164,6 +164,15 @@ void note_warnings(Scene& scene, const std::set<std::string>& warnings) {
   if (count > most) scene.notes.push_back(fmt::format("... and {} more of the kind.", count - most));
 }
 
+// The one material of all of the mesh's triangles, which then needs no list of them; else anything.
+std::uint32_t take_only_material(Mesh& mesh) {
+  auto& of_triangles = mesh.triangle_materials;
+  const std::uint32_t material = of_triangles.front();
+  if (std::all_of(of_triangles.begin(), of_triangles.end(), [&](std::uint32_t m) { return m == material; }))
+    of_triangles = {};
+  return material;
+}
+
 // The name of the file's only unnamed object.
 std::string object_name(const std::string& name, const std::string& file, std::size_t index) {
   if (!name.empty()) return name;
@@ -206,7 +215,7 @@ Expected<LoadedFile> read_obj(std::string_view bytes, const std::string& file, c
     triangles += mesh.triangles.size();
     const auto index = static_cast<std::uint32_t>(scene.meshes.size());
     mesh.name = object_name(mesh.name, file, index);
-    scene.instances.push_back({mesh.name, index, Mat4(1.0), default_material});
+    scene.instances.push_back({mesh.name, index, Mat4(1.0), take_only_material(mesh)});
     scene.meshes.push_back(std::move(mesh));
   }
   note_skipped(scene, *parsed);
