@@ -1,6 +1,7 @@
 // The boxes of a world's primitives, for every structure's builder: raytrace/bvh/bvh.h.
 
 #include "raytrace/bvh/bvh.h"
+#include "raytrace/bvh/float4.h"
 #include "raytrace/given_up.h"
 #include "scene/parallel.h"
 #include "scene/solid.h"
@@ -8,11 +9,22 @@
 namespace gnomon::raytrace {
 namespace {
 
-// A difference of doubles is right to 2^-53 of itself, far less than float_below and float_above give way.
+Float4 floats_of(const Vec3& v) {
+  return Float4::of(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0.0f);
+}
+/// What float_below and float_above give way.
+Float4 way_of(Float4 f) {
+  return magnitude(f) * Float4::all(FLT_EPSILON) + Float4::all(FLT_MIN);
+}
+
+// float_below and float_above, three at a time. A difference of doubles is right to 2^-53 of itself, far less than these
+// give way.
 BoxRef box_of(const Vec3& min, const Vec3& max, std::uint32_t id) {
-  return {{float_below(min.x), float_below(min.y), float_below(min.z)},
-          {float_above(max.x), float_above(max.y), float_above(max.z)},
-          id};
+  const Float4 low = min_keep(Float4::all(FLT_MAX), floats_of(min));
+  const Float4 high = max_keep(Float4::all(-FLT_MAX), floats_of(max));
+  alignas(16) float below[4], above[4];
+  (low - way_of(low)).store(below), (high + way_of(high)).store(above);
+  return {{below[0], below[1], below[2]}, {above[0], above[1], above[2]}, id};
 }
 
 BoxRef triangle_box(const std::array<Vec3, 3>& corners, std::uint32_t id, const Vec3& center) {

@@ -36,16 +36,18 @@ namespace {
 /// A shape's numbers count as three vertices behind the triangles'.
 void read_primitives(const World& world, Bvh& bvh) {
   const std::uint32_t triangles = world.triangle_count(), vertices = world.vertex_count();
-  const auto vertices_of = [&](std::size_t leaf) {
-    const std::uint32_t id = bvh.ids[leaf];
-    if (id < triangles) return world.triangle(id);
-    const std::uint32_t first = vertices + 3 * (id - triangles);
-    return std::array{first, first + 1, first + 2};
+  const auto vertices_of = [&](std::size_t leaf, std::span<std::array<std::uint32_t, 3>> out) {
+    for (auto& corners : out) {
+      const std::uint32_t id = bvh.ids[leaf++], first = vertices + 3 * (id - triangles);
+      corners = id < triangles ? world.triangle(id) : std::array{first, first + 1, first + 2};
+    }
   };
-  const auto position_of = [&](std::uint32_t vertex) {
-    if (vertex < vertices) return world.position(vertex);
-    const std::uint32_t number = vertex - vertices;
-    return leaf_primitive(world, triangles + number / 3).corner(number % 3);
+  const auto position_of = [&](const std::uint32_t* vertex, std::span<Vec3> out) {
+    for (Vec3& position : out) {
+      const std::uint32_t v = *vertex++, number = v - vertices;
+      position =
+          v < vertices ? world.position(v) : leaf_primitive(world, triangles + number / 3).corner(number % 3);
+    }
   };
   bvh.primitives = LeafPrimitives(bvh.ids.size(), {vertices_of, position_of});
 }
@@ -91,6 +93,7 @@ class Builder {
   }
 
  private:
+  template <class In>
   friend class Top;
 
   template <class In>
@@ -107,14 +110,16 @@ class Builder {
   PerThread<TreeletScratch> scratches_;
 };
 
-/// The part of the tree above the runs of one grid.
+/// The part of the tree above the runs of one grid over some boxes.
+template <class In>
 class Top {
  public:
-  Top(Builder& builder, Clusters& grid) : builder_(builder), grid_(grid), scratch_(grid.size()) {}
+  Top(Builder& builder, std::span<const In> in, Clusters& grid)
+      : builder_(builder), in_(in), grid_(grid), scratch_(grid.size()) {}
 
   BvhChild run(std::uint32_t first, int depth) {
     ClusterRange all{0,     static_cast<std::uint32_t>(grid_.size()),
-                     first, static_cast<std::uint32_t>(grid_.refs.size()),
+                     first, static_cast<std::uint32_t>(in_.size()),
                      {},    depth};
     for (const Ref& box : grid_.boxes) all.bounds.grow(box);
     return node(all, 2);
@@ -138,7 +143,7 @@ class Top {
     auto at = refs.begin();
     for (std::uint32_t i = 0; i < range.clusters; ++i) {
       const Cluster& cluster = cluster_at(range.first_cluster + i);
-      at = std::copy_n(grid_.refs.data() + cluster.first, cluster.count, at);
+      for (std::uint32_t k = 0; k < cluster.count; ++k) *at++ = as_ref(in_[grid_.order[cluster.first + k]]);
     }
   }
   const Cluster& cluster_at(std::uint32_t i) const { return grid_.clusters[grid_.boxes[i].id()]; }
@@ -194,6 +199,7 @@ class Top {
   static std::uint32_t fallback_split(const ClusterRange& range) { return range.clusters / 2; }
 
   Builder& builder_;
+  std::span<const In> in_;
   Clusters& grid_;
   std::vector<Ref> scratch_;
 };
@@ -202,7 +208,7 @@ template <class In>
 BvhChild Builder::build(std::span<const In> in, const Box& centroids, std::uint32_t first, int depth) {
   if (in.size() > Config::treelet_size && depth < Config::sah_depth && grid_applies(centroids)) {
     Clusters grid = cluster_by_cells(in, centroids);
-    return Top(*this, grid).run(first, depth);
+    return Top<In>(*this, in, grid).run(first, depth);
   }
   TreeletScratch& scratch = scratches_.local();
   scratch.refs.resize(in.size());

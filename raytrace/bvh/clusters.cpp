@@ -65,10 +65,10 @@ class Sorter {
 
   Clusters run() {
     Clusters out;
-    out.refs = HugeArray<Ref>(in_.size());
+    out.order = HugeArray<std::uint32_t>(in_.size());
     for_each_share([&](std::size_t share) { count(share); });
     place(out);
-    for_each_share([&](std::size_t share) { scatter(share, out.refs); });
+    for_each_share([&](std::size_t share) { scatter(share, out.order); });
     bound(out);
     return out;
   }
@@ -104,22 +104,23 @@ class Sorter {
     for (const Share& share : shares_)
       for (const std::uint32_t i : share.alone) {
         out.clusters.push_back({sum, 1});
-        out.refs[sum++] = as_ref(in_[i]);
+        out.order[sum++] = i;
       }
   }
 
-  void scatter(std::size_t share, HugeArray<Ref>& refs) {
+  void scatter(std::size_t share, HugeArray<std::uint32_t>& order) {
     std::vector<std::uint32_t>& places = shares_[share].places;
     for (std::size_t i = begin_of(share); i < begin_of(share + 1); ++i)
-      if (cell_[i] != no_id) refs[places[cell_[i]]++] = as_ref(in_[i]);
+      if (cell_[i] != no_id) order[places[cell_[i]]++] = static_cast<std::uint32_t>(i);
   }
 
-  static void bound(Clusters& out) {
+  void bound(Clusters& out) const {
     out.boxes.resize(out.clusters.size());
     parallel_for(out.clusters.size(), 512, [&](std::size_t i) {
       const Cluster cluster = out.clusters[i];
       Box box = Box::empty();
-      for (std::uint32_t k = 0; k < cluster.count; ++k) box.grow(out.refs[cluster.first + k].box);
+      for (std::uint32_t k = 0; k < cluster.count; ++k)
+        box.grow(as_ref(in_[out.order[cluster.first + k]]).box);
       box.min[3] = std::bit_cast<float>(static_cast<std::uint32_t>(i)), box.max[3] = 0.0f;
       out.boxes[i].box = box;
     });

@@ -11,13 +11,13 @@
 
 namespace gnomon::raytrace::binned {
 
-/// Those of one cell, or one that is far longer than a cell: refs[first, first + count).
+/// Those of one cell, or one that is far longer than a cell: order[first, first + count).
 struct Cluster {
   std::uint32_t first, count;
 };
 
 struct Clusters {
-  HugeArray<Ref> refs;
+  HugeArray<std::uint32_t> order;  ///< places of the boxes in what was sorted
   std::vector<Cluster> clusters;
   std::vector<Ref> boxes;  ///< of the clusters, each with its number as its id
   std::size_t size() const { return clusters.size(); }

@@ -9,69 +9,87 @@
 namespace gnomon::raytrace {
 
 /// The corners of a group of leaves, each once: equal vertices first, which is quick to see, and then those of equal
-/// bits, for files give a vertex twice where its normal or its texture has a seam.
+/// bits, for files give a vertex twice where its normal or its texture has a seam. In passes over the whole group, so that
+/// no load waits for what another one says.
 class LeafGroup {
  public:
-  LeafGroup() {
-    by_vertex_.fill(vacant), by_position_.fill(vacant);
-    corners_.reserve(LeafPrimitives::group_size);
+  /// Numbers the corners of the leaves from `first` on; returns for each number a vertex that lies there.
+  std::vector<std::uint32_t> number(const LeafPrimitives::Source& source, std::size_t first,
+                                    std::span<LeafPrimitives::Triangle> leaves) {
+    source.vertices(first, {vertex_.data(), leaves.size()});
+    find_distinct(leaves.size());
+    source.positions(distinct_.data(), {position_.data(), distinct_count_});
+    std::vector<std::uint32_t> corners = number_positions();
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) leaves[i][k] = corner_[vertex_[i][k]];
+    return corners;
   }
-
-  LeafPrimitives::Triangle triangle(const LeafPrimitives::Source& source, std::size_t leaf) {
-    const auto vertices = source.vertices(leaf);
-    LeafPrimitives::Triangle out;
-    for (std::size_t k = 0; k < 3; ++k) out[k] = corner_of(vertices[k], source);
-    return out;
-  }
-  const std::vector<Vec3>& corners() const { return corners_; }
 
  private:
-  static constexpr std::size_t slot_bits = LeafPrimitives::group_bits + 2,
+  static constexpr std::size_t most = 3 * LeafPrimitives::group_size,
+                               slot_bits = LeafPrimitives::group_bits + 2,
                                slots = std::size_t{1} << slot_bits;
   static constexpr std::uint16_t vacant = 0xffff;
   static constexpr std::uint64_t factor = 0x9e3779b97f4a7c15u;
-  static_assert(3 * LeafPrimitives::group_size < slots && slot_bits < 16);
+  static_assert(most < slots && slot_bits < 16);
 
-  /// Hashed with linear probing: where is(slot) first holds, or the first vacant slot.
+  /// Hashed with linear probing: the first slot that is vacant or of which is(slot) holds.
   template <class Is>
-  static std::size_t find(const std::array<std::uint16_t, slots>& corner, std::uint64_t hash, const Is& is) {
+  std::size_t find(std::uint64_t hash, const Is& is) const {
     std::size_t at = hash >> (64 - slot_bits);
-    while (corner[at] != vacant && !is(at)) at = (at + 1) % slots;
+    while (slot_[at] != vacant && !is(slot_[at])) at = (at + 1) % slots;
     return at;
   }
 
-  std::uint16_t corner_of(std::uint32_t vertex, const LeafPrimitives::Source& source) {
-    const std::size_t at =
-        find(by_vertex_, vertex * factor, [&](std::size_t slot) { return vertex_[slot] == vertex; });
-    if (by_vertex_[at] == vacant) vertex_[at] = vertex, by_vertex_[at] = corner_at(source.position(vertex));
-    return by_vertex_[at];
-  }
-  std::uint16_t corner_at(const Vec3& position) {
-    const auto bits = std::bit_cast<std::array<std::uint64_t, 3>>(position);
-    const std::size_t at =
-        find(by_position_, ((bits[0] * factor ^ bits[1]) * factor ^ bits[2]) * factor, [&](std::size_t slot) {
-          return std::bit_cast<std::array<std::uint64_t, 3>>(corners_[by_position_[slot]]) == bits;
-        });
-    if (by_position_[at] == vacant) {
-      by_position_[at] = static_cast<std::uint16_t>(corners_.size());
-      corners_.push_back(position);
-    }
-    return by_position_[at];
+  /// Of the leaves' vertices the different ones, and in their place which of these they are.
+  void find_distinct(std::size_t leaves) {
+    slot_.fill(vacant), distinct_count_ = 0;
+    for (std::size_t i = 0; i < leaves; ++i)
+      for (std::uint32_t& vertex : vertex_[i]) {
+        const std::size_t at =
+            find(vertex * factor, [&](std::uint16_t other) { return distinct_[other] == vertex; });
+        distinct_[distinct_count_] = vertex;
+        if (slot_[at] == vacant) slot_[at] = static_cast<std::uint16_t>(distinct_count_++);
+        vertex = slot_[at];
+      }
   }
 
-  std::array<std::uint16_t, slots> by_vertex_, by_position_;  ///< corners
-  std::array<std::uint32_t, slots> vertex_;  ///< of the corner in the same slot of by_vertex_
-  std::vector<Vec3> corners_;
+  std::vector<std::uint32_t> number_positions() {
+    slot_.fill(vacant);
+    std::vector<std::uint32_t> corners;
+    corners.reserve(distinct_count_);
+    const auto bits_of = [&](std::size_t i) {
+      return std::bit_cast<std::array<std::uint64_t, 3>>(position_[i]);
+    };
+    for (std::size_t i = 0; i < distinct_count_; ++i) {
+      const auto bits = bits_of(i);
+      const std::size_t at = find(((bits[0] * factor ^ bits[1]) * factor ^ bits[2]) * factor,
+                                  [&](std::uint16_t other) { return bits_of(other) == bits; });
+      if (slot_[at] == vacant) {
+        slot_[at] = static_cast<std::uint16_t>(i), corner_[i] = static_cast<std::uint16_t>(corners.size());
+        corners.push_back(distinct_[i]);
+      } else {
+        corner_[i] = corner_[slot_[at]];
+      }
+    }
+    return corners;
+  }
+
+  std::array<std::uint16_t, slots> slot_;                                        ///< distinct vertices
+  std::array<std::array<std::uint32_t, 3>, LeafPrimitives::group_size> vertex_;  ///< of leaves
+  std::array<std::uint32_t, most + 1> distinct_;  ///< vertices, and room to try one more
+  std::size_t distinct_count_ = 0;
+  std::array<Vec3, most> position_;         ///< of the distinct vertices
+  std::array<std::uint16_t, most> corner_;  ///< of the distinct vertices
 };
 
 LeafPrimitives::LeafPrimitives(std::size_t count, const Source& source) : triangles_(count) {
   const std::size_t groups = (count + group_size - 1) / group_size;
-  std::vector<std::vector<Vec3>> corners(groups);
+  std::vector<std::vector<std::uint32_t>> corners(groups);  // vertices
   parallel_for(groups, [&](std::size_t g) {
+    const std::size_t first = g * group_size, leaves = std::min(count - first, group_size);
     LeafGroup group;
-    const std::size_t end = std::min(count, (g + 1) * group_size);
-    for (std::size_t i = g * group_size; i < end; ++i) triangles_[i] = group.triangle(source, i);
-    corners[g] = group.corners();
+    corners[g] = group.number(source, first, {triangles_.data() + first, leaves});
   });
   leave_if_given_up();
   std::vector<std::size_t> first(groups + 1, 0);
@@ -80,7 +98,7 @@ LeafPrimitives::LeafPrimitives(std::size_t count, const Source& source) : triang
   corners_[first[groups]] = Vec3(0.0);
   for (std::size_t g = 0; g < groups; ++g) groups_.push_back(corners_.data() + first[g]);
   parallel_for(groups, [&](std::size_t g) {
-    std::copy(corners[g].begin(), corners[g].end(), corners_.data() + first[g]);
+    source.positions(corners[g].data(), {corners_.data() + first[g], corners[g].size()});
   });
   leave_if_given_up();
 }
@@ -88,17 +106,21 @@ LeafPrimitives::LeafPrimitives(std::size_t count, const Source& source) : triang
 namespace {
 
 /// Vertices of primitives that are given by themselves.
-constexpr auto own_vertices = [](std::size_t leaf) {
-  const auto first = static_cast<std::uint32_t>(3 * leaf);
-  return std::array{first, first + 1, first + 2};
+constexpr auto own_vertices = [](std::size_t first, std::span<std::array<std::uint32_t, 3>> out) {
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto vertex = static_cast<std::uint32_t>(3 * (first + i));
+    out[i] = {vertex, vertex + 1, vertex + 2};
+  }
 };
 
 }  // namespace
 
 LeafPrimitives::LeafPrimitives(std::span<const LeafPrimitive> primitives)
-    : LeafPrimitives(primitives.size(), {own_vertices, [&](std::uint32_t vertex) {
-                                           return primitives[vertex / 3].corner(vertex % 3);
-                                         }}) {}
+    : LeafPrimitives(primitives.size(),
+                     {own_vertices, [&](const std::uint32_t* vertices, std::span<Vec3> out) {
+                        for (std::size_t i = 0; i < out.size(); ++i)
+                          out[i] = primitives[vertices[i] / 3].corner(vertices[i] % 3);
+                      }}) {}
 
 std::uint64_t LeafPrimitives::bytes() const {
   return triangles_.bytes() + corners_.bytes() + groups_.size() * sizeof(const Vec3*);

@@ -36,10 +36,12 @@ struct PlacedCorners {
 
 class LeafPrimitives {
  public:
-  /// What they are made of. Both may be asked from any thread.
+  /// What they are made of. Both may be asked from any thread, and fill all that `out` has room for.
   struct Source {
-    FunctionRef<std::array<std::uint32_t, 3>(std::size_t)> vertices;  ///< of a leaf
-    FunctionRef<Vec3(std::uint32_t)> position;  ///< of a vertex; several may have the same
+    /// Of the leaves from `first` on.
+    FunctionRef<void(std::size_t first, std::span<std::array<std::uint32_t, 3>> out)> vertices;
+    /// Of vertices; several may have the same.
+    FunctionRef<void(const std::uint32_t* vertices, std::span<Vec3> out)> positions;
   };
   LeafPrimitives() = default;
   LeafPrimitives(std::size_t count, const Source& source);
