@@ -223,7 +223,7 @@ class Pass {
   /// As the pure tracer does.
   ShadowCounts trace_all() {
     ShadowCounts counts;
-    counts.rays = counts.asked = shadow_pass(all_of(tracer_, receivers_), cache_.light, visibility_);
+    counts.rays = counts.asked = shadow_pass(all_of(tracer_, receivers_), cache_.light, visibility_).cast;
     return counts;
   }
   void trace() {

@@ -14,7 +14,7 @@ void add_costs(const RayTracedFrame& band, RayTracedFrame& sum) {
     const LightTruth& part = band.lights[i];
     LightTruth& truth = sum.lights[i];
     truth.light = part.light, truth.samples = part.samples;
-    truth.rays += part.rays, truth.soft_rays += part.soft_rays;
+    truth.rays += part.rays, truth.single_rays += part.single_rays, truth.soft_rays += part.soft_rays;
     truth.soft_rays_asked += part.soft_rays_asked;
     truth.shadow_rays.add_part(part.shadow_rays);
     truth.light_structure.add_part(part.light_structure);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "raytrace/band.h"
+#include "raytrace/packets/blocks.h"
 #include "scene/light.h"
 
 namespace gnomon::raytrace {
@@ -29,6 +31,19 @@ int coarse(int side, double step) {
   return std::max(1, static_cast<int>(std::lround(side / step)));
 }
 
+/// Rows of blocks, spread evenly; at least three, and all of a small picture.
+std::vector<PictureRows> sampled_rows(const ImageSize& size) {
+  constexpr int most_pixels = 1 << 18;
+  const int all = (size.height + block_pixels - 1) / block_pixels;
+  const int wanted = std::clamp(most_pixels / (block_pixels * size.width), 3, std::max(all, 3));
+  std::vector<PictureRows> rows;
+  for (int i = 0; i < std::min(wanted, all); ++i) {
+    const int first = block_pixels * ((2 * i + 1) * all / (2 * std::min(wanted, all)));
+    rows.push_back({first, std::min(block_pixels, size.height - first)});
+  }
+  return rows;
+}
+
 }  // namespace
 
 Forecast forecast_rays(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
@@ -50,6 +65,23 @@ Forecast forecast_rays(const Tracer& tracer, const EffectPlan& plan, const Camer
        {&rays.primary, &rays.shadow, &rays.soft_shadow, &rays.soft_shadow_asked, &rays.reflection,
         &rays.refraction, &rays.glossy, &rays.indirect, &rays.antialiasing})
     *count = static_cast<std::uint64_t>(std::llround(scale * static_cast<double>(*count)));
+  return forecast;
+}
+
+SingleRayForecasts forecast_single_rays(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
+                                        std::span<const std::uint32_t> lights,
+                                        const RaytraceOptions& options) {
+  RaytraceOptions centres = options;
+  centres.picture = centres.warm_up = false;
+  centres.records = true, centres.runs = centres.shadow_samples = centres.samples_per_pixel = 1;
+  SingleRayForecasts forecast;
+  for (const std::uint32_t light : lights) forecast.lights.push_back({.light = light});
+  for (const PictureRows& rows : sampled_rows(options.size)) {
+    const RayTracedFrame band = trace_band(tracer, plan, camera, lights, centres, rows);
+    forecast.rows += rows.count;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      forecast.lights[i].rays += band.lights[i].rays, forecast.lights[i].single += band.lights[i].single_rays;
+  }
   return forecast;
 }
 

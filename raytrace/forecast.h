@@ -17,4 +17,21 @@ struct Forecast {
 Forecast forecast_rays(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
                        const RaytraceOptions& options);
 
+/// Of the rays to a light's centre those that packets leave to single rays (raytrace/packets/tile_state-inl.h).
+struct SingleRayForecast {
+  std::uint32_t light = 0;             ///< index in Scene::lights
+  std::uint64_t rays = 0, single = 0;  ///< in the rows that were traced
+  double share() const { return rays == 0 ? 0.0 : static_cast<double>(single) / static_cast<double>(rays); }
+};
+struct SingleRayForecasts {
+  std::vector<SingleRayForecast> lights;
+  int rows = 0;  ///< of the picture's pixels, that were traced; all of them where it is small
+};
+
+/// From some rows of the picture's own blocks: how many leaves a tile meets for each of its rays hangs on how dense its
+/// pixels are, so that a coarse grid would not tell. `lights`: those whose centres are asked for.
+SingleRayForecasts forecast_single_rays(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
+                                        std::span<const std::uint32_t> lights,
+                                        const RaytraceOptions& options);
+
 }  // namespace gnomon::raytrace

@@ -110,7 +110,8 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
   truth.shadow_rays = time_pass(shadow_stages, options, [&] {
     truth.light_structure.runs.push_back(0.0);
     if (way == ShadowWay::blocks) {
-      truth.rays = shadow_pass(source, light, truth.centre, options.stop);
+      const ShadowRayCounts counts = shadow_pass(source, light, truth.centre, options.stop);
+      truth.rays = counts.cast, truth.single_rays = counts.single;
       return;
     }
     std::fill(rays.begin(), rays.end(), 0);
@@ -121,7 +122,7 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
       truth.centre.at(x, y) = reached ? tracer.centre_visibility(point, light) : PointVisibility::shadowed;
       rays[tile] += reached ? 1 : 0;
     });
-    truth.rays = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
+    truth.rays = truth.single_rays = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
   });
   return truth;
 }

@@ -68,6 +68,7 @@ struct LightTruth {
   Times shadow_rays;       ///< ms for the pixels that the light can reach
   Times light_structure;   ///< the part of each of these runs that made the light's own structure; 0 of none
   std::uint64_t rays = 0;  ///< cast
+  std::uint64_t single_rays = 0;  ///< of these, traced one by one and not by packets
 
   /// A light with size: the share of it that each pixel's receiver sees, 1 where there is none, 0 where the
   /// light's centre cannot reach it. Empty for a light without size, whose centre is the whole of it.

@@ -166,5 +166,45 @@ TEST(EffectCost, ForecastOfASmallPictureIsExact) {
   EXPECT_EQ(forecast.rays.shadow, real.shadow);
 }
 
+/// Foliage on the left over a ground, under a sun and a lamp with a size.
+Scene half_foliage() {
+  Mesh leaves = test::triangle_soup(30000, 1.0, 0.03, 7);
+  for (Vec3& p : leaves.positions) p.x -= 1.25;
+  Scene scene = test::scene_of({std::move(leaves)}, {test::plane({0, -1.5, 0}, {0, 1, 0})});
+  scene.lights = {test::point_light({2, 4, 3}), test::sun({-0.3, -1.0, -0.2})};
+  scene.lights[0].extent = SphereLight{0.2};
+  scene.camera.eye = {0.3, 0.4, 5.0}, scene.camera.target = {0, 0, 0};
+  return scene;
+}
+
+// What gnomon plan says of single rays against what is then cast: all rows of a small picture, a quarter of a large one.
+TEST(EffectCost, SingleRaysAreForecast) {
+  const test::TestWorld w(half_foliage());
+  const raytrace::Tracer tracer(w.world(), raytrace::Accel::bvh);
+  const EffectPlan plan = plan_effects(w.scene());
+  const std::vector<std::uint32_t> sun{1};
+  for (const ImageSize size : {ImageSize{200, 130}, ImageSize{1280, 720}}) {
+    raytrace::RaytraceOptions options;
+    options.size = size, options.picture = false;
+    const auto forecast = forecast_single_rays(tracer, plan, w.scene().camera, sun, options);
+    const auto frame = trace_frame(tracer, plan, w.scene().camera, sun, options);
+    ASSERT_EQ(forecast.lights.size(), 1u);
+    const raytrace::SingleRayForecast& forecast_sun = forecast.lights[0];
+    const raytrace::LightTruth& truth = frame.lights[0];
+    EXPECT_EQ(forecast_sun.light, 1u);
+    const double share = static_cast<double>(truth.single_rays) / static_cast<double>(truth.rays);
+    EXPECT_GT(share, 0.02);
+    EXPECT_LT(share, 0.98);
+    if (size.height == 130) {
+      EXPECT_EQ(forecast.rows, 130);
+      EXPECT_EQ(forecast_sun.rays, truth.rays);
+      EXPECT_EQ(forecast_sun.single, truth.single_rays);
+    } else {
+      EXPECT_EQ(forecast.rows, 192);
+      EXPECT_NEAR(forecast_sun.share(), share, 0.1);  // three rows of twelve
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gnomon

@@ -8,6 +8,8 @@
 #include <bit>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <tuple>
 
 #include "every_target.h"
 #include "raytrace/frame.h"
@@ -104,19 +106,31 @@ void expect_same_by_floats(const Scene& scene, const Tracer& tracer, const Refer
   EXPECT_EQ(points, 0U) << "receivers differ, " << raytrace::packet_target();
   primary_pass(tracer, view, eye,
                {.size = size, .hits = hits, .receivers = nullptr, .quantised = {tiles.data(), tiles.size()}});
+  using raytrace::PacketUse;
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-    Image<PointVisibility> visibility(size, PointVisibility::lit);
-    shadow_pass({.tracer = tracer,
-                 .size = size,
-                 .stored = nullptr,
-                 .view = &view,
-                 .hits = hits,
-                 .quantised = {tiles.data(), tiles.size()}},
-                scene.lights[l], visibility);
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < visibility.data.size(); ++i)
-      wrong += visibility.data[i] == reference.visibility[l][i] ? 0 : 1;
-    EXPECT_EQ(wrong, 0U) << "visibility of light " << l << " by floats differ, " << raytrace::packet_target();
+    std::map<PacketUse, raytrace::ShadowRayCounts> counts;
+    for (const PacketUse packets : {PacketUse::where_cheaper, PacketUse::always, PacketUse::never}) {
+      Image<PointVisibility> visibility(size, PointVisibility::lit);
+      counts[packets] = shadow_pass({.tracer = tracer,
+                                     .size = size,
+                                     .stored = nullptr,
+                                     .view = &view,
+                                     .hits = hits,
+                                     .quantised = {tiles.data(), tiles.size()},
+                                     .packets = packets},
+                                    scene.lights[l], visibility);
+      std::size_t wrong = 0;
+      for (std::size_t i = 0; i < visibility.data.size(); ++i)
+        wrong += visibility.data[i] == reference.visibility[l][i] ? 0 : 1;
+      EXPECT_EQ(wrong, 0U) << "visibility of light " << l << " by floats differ, "
+                           << raytrace::packet_target();
+    }
+    const auto& [chosen, by_packets, one_by_one] =
+        std::tie(counts[PacketUse::where_cheaper], counts[PacketUse::always], counts[PacketUse::never]);
+    EXPECT_EQ(chosen.cast, by_packets.cast);
+    EXPECT_EQ(chosen.cast, one_by_one.cast);
+    EXPECT_EQ(one_by_one.single, one_by_one.cast);
+    EXPECT_LE(by_packets.single, chosen.single);
   }
 }
 

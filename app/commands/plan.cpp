@@ -14,9 +14,11 @@
 #include "app/render_json.h"
 #include "app/session.h"
 #include "app/strongest_lights.h"
+#include "compare/number_text.h"
 #include "compare/text_layout.h"
 #include "raytrace/choose_tracer.h"
 #include "raytrace/forecast.h"
+#include "scene/light.h"
 #include "scene/one_line.h"
 
 namespace gnomon::app {
@@ -108,6 +110,38 @@ std::string short_count(std::uint64_t count) {
   return unit == 0 ? std::to_string(count) : fmt::format("{:.3g}{}", value, units[unit]);
 }
 
+/// How the rays to lights' centres go.
+struct ShadowWays {
+  const raytrace::TracerPlan& ways;
+  raytrace::SingleRayForecasts forecast;  ///< of those that go by blocks
+  const Scene& scene;
+};
+
+nlohmann::ordered_json shadow_json(const ShadowWays& shadow) {
+  nlohmann::ordered_json json = way_json(name_of(shadow.ways.shadow), shadow.ways.shadow_reason);
+  json["forecast_rows"] = shadow.forecast.rows;
+  json["lights"] = nlohmann::ordered_json::array();
+  for (const raytrace::SingleRayForecast& light : shadow.forecast.lights)
+    json["lights"].push_back({{"light", shadow.scene.lights[light.light].name},
+                              {"rays", light.rays},
+                              {"single_rays", light.single}});
+  return json;
+}
+
+/// The reason, and how many of the rays go on one by one.
+std::string shadow_reason(const ShadowWays& shadow, const ImageSize& size) {
+  raytrace::SingleRayForecast all;
+  for (const raytrace::SingleRayForecast& light : shadow.forecast.lights)
+    all.rays += light.rays, all.single += light.single;
+  if (all.rays == 0) return std::string(shadow.ways.shadow_reason);
+  return fmt::format(
+      "{}; {} of them go on one by one, where 16 x 16 receivers meet more leaves than their rays are worth "
+      "or "
+      "floats do not suffice ({} {} of {} rows)",
+      shadow.ways.shadow_reason, compare::percent(all.share()),
+      shadow.forecast.rows < size.height ? "forecast from" : "counted in", shadow.forecast.rows, size.height);
+}
+
 std::string_view name_of_way(const World& world) {
   return world.keeps_instances() ? "kept" : "flattened";
 }
@@ -142,7 +176,7 @@ nlohmann::ordered_json memory_json(const std::vector<BandPlan>& plans, const Ima
 }
 
 std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytrace::Forecast& forecast,
-                      const raytrace::TracerPlan& ways, const nlohmann::ordered_json& instances,
+                      const ShadowWays& shadow, const nlohmann::ordered_json& instances,
                       const std::vector<BandPlan>& bands) {
   nlohmann::ordered_json effects = nlohmann::ordered_json::array();
   for (const EffectEntry& entry : plan.entries) {
@@ -158,9 +192,10 @@ std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytr
                                     {"exact", forecast.exact},
                                     {"primary", forecast.rays.primary},
                                     {"total", total_rays(forecast.rays)}};
+  const raytrace::TracerPlan& ways = shadow.ways;
   const nlohmann::ordered_json tracer{{"primary", way_json(name_of(ways.primary), ways.primary_reason)},
                                       {"receivers", way_json(name_of(ways.receivers), ways.receivers_reason)},
-                                      {"shadow", way_json(name_of(ways.shadow), ways.shadow_reason)}};
+                                      {"shadow", shadow_json(shadow)}};
   return nlohmann::ordered_json{{"effects", effects},
                                 {"rays", rays},
                                 {"tracer", tracer},
@@ -198,13 +233,15 @@ std::string plan_row(std::string_view name, std::string_view state, const std::s
   return hanging(fmt::format("{:<16}{:<11}{:>9}  ", name, state, rays), why);
 }
 
-std::string ways_table(const raytrace::TracerPlan& ways, const nlohmann::ordered_json& instances) {
+std::string ways_table(const ShadowWays& shadow, const ImageSize& size,
+                       const nlohmann::ordered_json& instances) {
+  const raytrace::TracerPlan& ways = shadow.ways;
   const auto row = [](std::string_view what, std::string_view way, std::string_view reason) {
     return hanging(fmt::format("{:<16}", what), fmt::format("{}: {}", way, reason));
   };
   return "\n" + row("primary rays", name_of(ways.primary), ways.primary_reason) +
          row("receivers", name_of(ways.receivers), ways.receivers_reason) +
-         row("shadow rays", name_of(ways.shadow), ways.shadow_reason) +
+         row("shadow rays", name_of(ways.shadow), shadow_reason(shadow, size)) +
          row("instances", instances["way"].get<std::string>(), instances["reason"].get<std::string>());
 }
 
@@ -245,6 +282,18 @@ raytrace::TracerPlan picture_ways(const raytrace::Tracer& tracer, const Camera& 
   return choose_tracer(tracer, make_view(camera, options.size), lights, options);
 }
 
+ShadowWays shadow_ways(const raytrace::Tracer& tracer, const LoadedScene& loaded,
+                       const raytrace::TracerPlan& ways, const raytrace::RaytraceOptions& options) {
+  const Scene& scene = *loaded.scene;
+  ShadowWays shadow{ways, {}, scene};
+  if (ways.shadow != raytrace::ShadowWay::blocks) return shadow;
+  std::vector<std::uint32_t> lights;
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
+    if (!has_size(scene.lights[i])) lights.push_back(i);
+  shadow.forecast = forecast_single_rays(tracer, loaded.plan, scene.camera, lights, options);
+  return shadow;
+}
+
 Expected<ExitCode> run_plan(const PlanCommand& command) {
   Console console(command.quiet);
   RunFiles files;
@@ -261,15 +310,16 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
   console.progress("tracing a coarse grid", 0.5);
   const raytrace::Tracer tracer(*loaded->world, raytrace::Accel::bvh);
   const raytrace::Forecast forecast = forecast_rays(tracer, loaded->plan, loaded->scene->camera, options);
-  console.clear_progress();
   const raytrace::TracerPlan ways = picture_ways(tracer, loaded->scene->camera, options);
+  const ShadowWays shadow = shadow_ways(tracer, *loaded, ways, options);
+  console.clear_progress();
   const nlohmann::ordered_json instances = instances_json(*loaded, command.scene.instances);
   const std::vector<BandPlan> bands = band_plans(command, *loaded);
-  const std::string json = plan_json(loaded->plan, options.size, forecast, ways, instances, bands);
+  const std::string json = plan_json(loaded->plan, options.size, forecast, shadow, instances, bands);
   if (const auto out = hand_out_json(command.json, json); !out) return fail(out.error());
   if (!command.quiet && command.json != "-")
-    print_data(plan_table(loaded->plan, options.size, forecast) + ways_table(ways, instances) +
-               memory_table(bands, options.size));
+    print_data(plan_table(loaded->plan, options.size, forecast) +
+               ways_table(shadow, options.size, instances) + memory_table(bands, options.size));
   return ExitCode::done;
 }
 

@@ -55,21 +55,38 @@ BoxRef* put_boxes(const WorldPart& part, std::uint32_t first, std::uint32_t last
   return at;
 }
 
-// In blocks over all threads, each at the place of its ids; closed up where some were left out.
+/// The parts that are asked for, and their triangles in one row.
+struct TriangleRow {
+  std::vector<const WorldPart*> parts;
+  Ranges of_parts;
+
+  TriangleRow(const World& world, bool with_kept) {
+    std::vector<std::uint32_t> begins{0};
+    for (const WorldPart& part : world.parts) {
+      if (part.kept() && !with_kept) continue;
+      parts.push_back(&part), begins.push_back(begins.back() + part.triangle_count());
+    }
+    of_parts = Ranges(std::move(begins));
+  }
+};
+
+// In blocks over all threads, each at the place of its triangles; closed up where some were left out.
 void append_triangles(const World& world, bool with_kept, FinitePrimitives& out) {
   constexpr std::uint32_t block_size = 2048;
-  const std::uint32_t count = world.triangle_count();
+  const TriangleRow row(world, with_kept);
+  const std::uint32_t count = row.of_parts.size();
   std::vector<std::uint32_t> kept((count + block_size - 1) / block_size);
   out.boxes.resize(count);
   parallel_for(kept.size(), [&](std::size_t block) {
     const auto first = static_cast<std::uint32_t>(block) * block_size;
     const std::uint32_t end = std::min(first + block_size, count);
     BoxRef* at = out.boxes.data() + first;
-    for (std::uint32_t id = first; id < end;) {
-      const WorldPart& part = world.part_of(id);
-      const std::uint32_t begin = part.first_triangle, last = std::min(end - begin, part.triangle_count());
-      if (with_kept || !part.kept()) at = put_boxes(part, id - begin, last, out.center, at);
-      id = begin + last;
+    for (std::uint32_t i = first; i < end;) {
+      const std::uint32_t number = row.of_parts.of(i), begin = row.of_parts.begin_of(number);
+      const WorldPart& part = *row.parts[number];
+      const std::uint32_t last = std::min(end - begin, part.triangle_count());
+      at = put_boxes(part, i - begin, last, out.center, at);
+      i = begin + last;
     }
     kept[block] = static_cast<std::uint32_t>(at - out.boxes.data()) - first;
   });
@@ -80,8 +97,6 @@ void append_triangles(const World& world, bool with_kept, FinitePrimitives& out)
       std::copy_n(out.boxes.data() + block * block_size, kept[block], out.boxes.data() + size);
   out.boxes.resize(size);
   out.dropped += count - size;
-  for (const WorldPart& part : world.parts)
-    if (part.kept() && !with_kept) out.dropped -= part.triangle_count();
 }
 
 }  // namespace

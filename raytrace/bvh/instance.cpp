@@ -4,6 +4,8 @@
 #include <cfloat>
 
 #include "raytrace/bvh/treelet.h"
+#include "raytrace/given_up.h"
+#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -35,8 +37,8 @@ void close_up(Bvh& tree) {
 /// of the world's own corners (scene/world.h).
 constexpr double float_margin = 0x1p-20, double_margin = 0x1p-47;
 
-BvhInstance place(const WorldPart& part, const Bvh& tree, const Vec3& center) {
-  BvhInstance out{};
+/// All but the tree and its leaves' place.
+void place(const WorldPart& part, const Bvh& tree, const Vec3& center, BvhInstance& out) {
   out.first_triangle = part.first_triangle, out.world_from_object = part.world_from_object;
   const Vec3 offset = placed_vertex(part.world_from_object, tree.center) - center;
   const Box reach = around(tree.nodes[0]);
@@ -56,7 +58,6 @@ BvhInstance place(const WorldPart& part, const Bvh& tree, const Vec3& center) {
     out.low_offset[row] = float_below(offset[r] - margin),
     out.high_offset[row] = float_above(offset[r] + margin);
   }
-  return out;
 }
 
 /// The nodes above the instances, appended to those of what is flattened.
@@ -149,6 +150,7 @@ BoxRef box_around(const Aabb& bounds, const Vec3& center, std::uint32_t id) {
 void put_instances(const World& world, Bvh& bvh) {
   std::vector<std::uint32_t> tree_of(world.scene->meshes.size(), no_id), leaves{0};
   std::vector<BoxRef> boxes;
+  std::vector<const WorldPart*> placed;
   for (const WorldPart& part : world.parts) {
     if (!part.kept()) continue;
     std::uint32_t& tree = tree_of[static_cast<std::size_t>(part.mesh - world.scene->meshes.data())];
@@ -159,12 +161,16 @@ void put_instances(const World& world, Bvh& bvh) {
     }
     bvh.dropped += bvh.trees[tree].dropped;
     if (bvh.trees[tree].nodes.empty()) continue;
-    BvhInstance instance = place(part, bvh.trees[tree], bvh.center);
+    BvhInstance instance{};
     instance.tree = tree, instance.first_leaf = static_cast<std::uint32_t>(bvh.ids.size()) + leaves.back();
     boxes.push_back(box_around(part.bounds, bvh.center, static_cast<std::uint32_t>(bvh.instances.size())));
     leaves.push_back(leaves.back() + static_cast<std::uint32_t>(bvh.trees[tree].ids.size()));
-    bvh.instances.push_back(instance);
+    bvh.instances.push_back(instance), placed.push_back(&part);
   }
+  parallel_for(placed.size(), 256, [&](std::size_t i) {
+    place(*placed[i], bvh.trees[bvh.instances[i].tree], bvh.center, bvh.instances[i]);
+  });
+  leave_if_given_up();
   bvh.instance_leaves = Ranges(std::move(leaves));
   if (!boxes.empty()) Upper(bvh, std::move(boxes)).run();
 }

@@ -37,12 +37,14 @@ constexpr hn::Rebind<std::uint8_t, decltype(eight_pairs)> eight_bytes;
 
 class BlockShadows {
  public:
-  BlockShadows(const Structures& s, const EdgeSetup& setup, std::span<const ShadowTileRays> tiles)
+  BlockShadows(const Structures& s, const EdgeSetup& setup, std::span<const ShadowTileRays> tiles,
+               bool at_any_cost)
       : s_(s),
         setup_(setup),
         pass_(edge_setup_pass(s, setup)),
         projection_(s, setup),
         count_(tiles.size()),
+        at_any_cost_(at_any_cost),
         pending_(s.bvh) {
     for (std::size_t t = 0; t < most_shadow_tiles; ++t) {
       for (Packets& part : regions_.part) Extent{}.store(part, t), part.far_min[t] = inf;
@@ -109,7 +111,7 @@ class BlockShadows {
   void find(const PrimitiveBounds& bounds, LeafRange leaves) {
     const unsigned tiles = touched_tiles(LaneBounds::of(bounds));
     if (tiles == 0) {
-      if (--misses_left_ == 0) leave_to_single_rays((1u << count_) - 1);
+      if (--misses_left_ == 0 && !at_any_cost_) leave_to_single_rays((1u << count_) - 1);
       return;
     }
     found_[found_count_++] = {bounds, leaves};
@@ -119,7 +121,7 @@ class BlockShadows {
       const auto t = static_cast<std::size_t>(std::countr_zero(left));
       costly |= tiles_[t].affords(leaves.count, placed) ? 0 : left & -left;
     }
-    if (costly != 0) leave_to_single_rays(costly);
+    if (costly != 0 && !at_any_cost_) leave_to_single_rays(costly);
     if (found_count_ == most_found) test_found();
   }
   void leave_to_single_rays(unsigned tiles) {
@@ -265,6 +267,7 @@ class BlockShadows {
   EdgeSetupPass pass_;
   Projection projection_;
   std::size_t count_;
+  bool at_any_cost_;
   TileState tiles_[most_shadow_tiles];
   SplitRegions regions_;  ///< of the tiles
   float far_min_ = inf, limit_ = -inf;
@@ -284,8 +287,9 @@ class BlockShadows {
   PendingLeaves pending_;
 };
 
-void block_kernel(const Structures& s, const EdgeSetup& setup, std::span<const ShadowTileRays> tiles) {
-  BlockShadows(s, setup, tiles).run();
+void block_kernel(const Structures& s, const EdgeSetup& setup, std::span<const ShadowTileRays> tiles,
+                  bool at_any_cost) {
+  BlockShadows(s, setup, tiles, at_any_cost).run();
 }
 
 }  // namespace
@@ -296,8 +300,9 @@ HWY_AFTER_NAMESPACE();
 namespace gnomon::raytrace {
 HWY_EXPORT(block_kernel);
 
-void shadows_in_block(const Structures& s, const EdgeSetup& setup, std::span<const ShadowTileRays> tiles) {
-  HWY_DYNAMIC_DISPATCH(block_kernel)(s, setup, tiles);
+void shadows_in_block(const Structures& s, const EdgeSetup& setup, std::span<const ShadowTileRays> tiles,
+                      bool at_any_cost) {
+  HWY_DYNAMIC_DISPATCH(block_kernel)(s, setup, tiles, at_any_cost);
 }
 
 }  // namespace gnomon::raytrace

@@ -18,8 +18,10 @@ struct ShadowTileRays {
   TileShadows* shadows;
 };
 
-/// `setup`: a direction's, or a framed point's. At most most_shadow_tiles.
+/// `setup`: a direction's, or a framed point's. At most most_shadow_tiles. A tile that meets more leaves than its rays are
+/// worth is left to single rays, unless `at_any_cost`: then all its rays are ambiguous, and it says that it does not know
+/// what they may hit.
 void shadows_in_block(const Structures& structures, const EdgeSetup& setup,
-                      std::span<const ShadowTileRays> tiles);
+                      std::span<const ShadowTileRays> tiles, bool at_any_cost = false);
 
 }  // namespace gnomon::raytrace

@@ -1,6 +1,5 @@
 #include "raytrace/packets/shadow_pass.h"
 
-#include <atomic>
 #include <cstring>
 #include <optional>
 
@@ -53,11 +52,11 @@ class ShadowPass {
              Image<PointVisibility>& visibility)
       : receivers_(receivers), light_(light), asked_(asked), visibility_(visibility) {}
 
-  std::uint64_t run(const std::stop_token& stop) {
+  ShadowRayCounts run(const std::stop_token& stop) {
     PerThread<Scratch> scratch;
-    std::atomic<std::uint64_t> rays = 0;
-    for_each_block(receivers_.size, stop,
-                   [&](const BlockRect& rect) { rays += run_block(rect, scratch.local()); });
+    for_each_block(receivers_.size, stop, [&](const BlockRect& rect) { run_block(rect, scratch.local()); });
+    ShadowRayCounts rays;
+    for (const Scratch& part : scratch) rays += part.rays;
     return rays;
   }
 
@@ -70,15 +69,16 @@ class ShadowPass {
   struct Scratch {
     HugeArray<Tile> tiles{most_shadow_tiles};
     HugeArray<SurfacePoint> points{tile_rays};
+    ShadowRayCounts rays;
   };
 
-  std::uint64_t run_block(const BlockRect& rect, Scratch& scratch) const {
+  void run_block(const BlockRect& rect, Scratch& scratch) const {
     std::size_t count = 0;
     Aabb bounds;
     for_each_tile_of(rect, [&](std::size_t, const TileRect& tile) {
       if (begin(tile, scratch.tiles[count], bounds)) ++count;
     });
-    if (count == 0) return 0;
+    if (count == 0) return;
     const std::span<Tile> tiles(scratch.tiles.data(), count);
     if (tiles[0].quantised != nullptr) prefetch(tiles[0].quantised);
     const LightFrame frame = frame_of(bounds);
@@ -88,12 +88,13 @@ class ShadowPass {
       rays += prepare(frame.setup, tiles[t], t + 1 < count ? tiles[t + 1].quantised : nullptr);
       in_block[t] = {&tiles[t].rays, &tiles[t].shadows};
     }
-    if (rays <= few_rays)
+    scratch.rays.cast += rays;
+    const bool at_any_cost = receivers_.packets == PacketUse::always;
+    if (receivers_.packets == PacketUse::never || (rays <= few_rays && !at_any_cost))
       for (Tile& tile : tiles) leave_to_single_rays(tile);
     else
-      shadows_in_block(receivers_.tracer.structures(), frame.setup, {in_block.data(), count});
-    for (const Tile& tile : tiles) finish(frame, tile, scratch.points.data());
-    return rays;
+      shadows_in_block(receivers_.tracer.structures(), frame.setup, {in_block.data(), count}, at_any_cost);
+    for (const Tile& tile : tiles) finish(frame, tile, scratch);
   }
 
   LightFrame frame_of(const Aabb& bounds) const {
@@ -208,7 +209,7 @@ class ShadowPass {
     tile.shadows.shadowed.fill(0), tile.shadows.ambiguous.fill(0), tile.shadows.ambiguous_count = 0;
   }
 
-  void finish(const LightFrame& frame, const Tile& tile, SurfacePoint* points) const {
+  void finish(const LightFrame& frame, const Tile& tile, Scratch& scratch) const {
     if (asked_.empty()) {
       LaneMask dark;
       for (std::size_t p = 0; p < tile_packets; ++p)
@@ -220,19 +221,21 @@ class ShadowPass {
         visibility_.at(x, y) = dark ? PointVisibility::shadowed : PointVisibility::lit;
       });
     }
-    decide_rest(frame, tile, points);
+    decide_rest(frame, tile, scratch);
   }
 
-  void decide_rest(const LightFrame& frame, const Tile& tile, SurfacePoint* points) const {
+  void decide_rest(const LightFrame& frame, const Tile& tile, Scratch& scratch) const {
     LaneMask left;
     for (std::size_t p = 0; p < tile_packets; ++p) left[p] = tile.shadows.ambiguous[p] | tile.lanes.apart[p];
     if (left == LaneMask{}) return;
+    SurfacePoint* points = scratch.points.data();
     tile.source.fill(tile.rect, left, points);
     const bool listed = tile.shadows.ambiguous_count <= TileShadows::most_ambiguous;
     for_each_place(tile.rect, left, [&](int x, int y, std::size_t lane) {
       const SurfacePoint& point =
           points[static_cast<std::size_t>(tile_pixels * (y - tile.rect.y0) + x - tile.rect.x0)];
       const bool in_list = listed && (tile.lanes.apart[lane / packet_rays] & bit_of(lane)) == 0;
+      scratch.rays.single += in_list ? 0 : 1;
       visibility_.at(x, y) =
           in_list ? visibility_among(tile.shadows, point, lane) : full_visibility(frame, point);
     });
@@ -288,8 +291,8 @@ void store_visibility(const TileRect& rect, const LaneMask& dark, Image<PointVis
   });
 }
 
-std::uint64_t shadow_pass(const PictureReceivers& receivers, const Light& light,
-                          Image<PointVisibility>& visibility, const std::stop_token& stop) {
+ShadowRayCounts shadow_pass(const PictureReceivers& receivers, const Light& light,
+                            Image<PointVisibility>& visibility, const std::stop_token& stop) {
   return ShadowPass(receivers, light, {}, visibility).run(stop);
 }
 

@@ -9,6 +9,10 @@
 
 namespace gnomon::raytrace {
 
+/// Which rays go by packets. Where it is cheaper: those of a tile that meets few enough leaves for its rays, which the
+/// traversal finds out (tile_state-inl.h); the other two are for those who ask what that choice is worth.
+enum class PacketUse : std::uint8_t { where_cheaper, always, never };
+
 /// A picture's receivers, or those of its rows from first_row on, as a light's pass reads them.
 struct PictureReceivers {
   const Tracer& tracer;
@@ -18,12 +22,22 @@ struct PictureReceivers {
   std::span<const TileHits> hits{};            ///< by tile
   std::span<const QuantisedTile> quantised{};  ///< by tile; empty: the receivers are stored
   int first_row = 0;                           ///< as PrimarySinks has it
+  PacketUse packets = PacketUse::where_cheaper;
+};
+
+struct ShadowRayCounts {
+  std::uint64_t cast = 0;
+  std::uint64_t single = 0;  ///< of these, traced one by one
+  ShadowRayCounts& operator+=(const ShadowRayCounts& other) {
+    cast += other.cast, single += other.single;
+    return *this;
+  }
 };
 
 /// Fills `visibility` as Tracer::centre_visibility does, `shadowed` where the light cannot reach, and returns the
-/// number of rays. Once a stop is requested no further block is begun.
-std::uint64_t shadow_pass(const PictureReceivers& receivers, const Light& light,
-                          Image<PointVisibility>& visibility, const std::stop_token& stop = {});
+/// numbers of rays. Once a stop is requested no further block is begun.
+ShadowRayCounts shadow_pass(const PictureReceivers& receivers, const Light& light,
+                            Image<PointVisibility>& visibility, const std::stop_token& stop = {});
 
 /// The visibility of the asked receivers alone (by tile, bits per packet), which exist and which the light reaches; the
 /// others' are left as they are. The receivers are stored.

@@ -23,6 +23,7 @@ namespace {
 using app::BenchRow;
 using raytrace::Accel;
 using raytrace::HugeArray;
+using raytrace::PacketUse;
 using raytrace::PointVisibility;
 using raytrace::QuantisedTile;
 using raytrace::RayTracedFrame;
@@ -128,13 +129,14 @@ class Bench {
                   .quantised = {tiles_.data(), tiles_.size()}});
   }
   /// A fresh light, after our_receivers().
-  void our_shadows(std::size_t light) {
+  void our_shadows(std::size_t light, PacketUse packets = PacketUse::where_cheaper) {
     our_shadows(light, {.tracer = tracer_,
                         .size = settings_.size,
                         .stored = &frame_.receiver,
                         .view = nullptr,
                         .hits = {},
-                        .quantised = {tiles_.data(), tiles_.size()}});
+                        .quantised = {tiles_.data(), tiles_.size()},
+                        .packets = packets});
   }
   /// The same after our_quantised_receivers().
   void our_shadows_on_quantised(std::size_t light) {
@@ -190,6 +192,18 @@ class Bench {
       add(name, threads, rays,
           in_turn(settings_.runs, threads, ours, [&] { tiny_->occluded(shadow_[light], occluded_); }),
           "tinybvh single", std::nullopt);
+    choice(name, light);
+  }
+
+  /// What a tile's choice between packets and single rays is worth: against either alone, once what single rays need is
+  /// there. Ways that are equal differ by a tenth from run to run.
+  void choice(const std::string& name, std::size_t light) {
+    for (const auto& [way, peer] :
+         {std::pair{PacketUse::always, "packets alone"}, std::pair{PacketUse::never, "single rays alone"}})
+      add(name + ", as chosen", 1, static_cast<double>(shadow_[light].count),
+          in_turn(
+              settings_.runs, 1, [&] { our_shadows(light); }, [&, way = way] { our_shadows(light, way); }),
+          peer, 0.9);
   }
 
   /// The same pass on one thread and on two; wall clock both.
