@@ -135,9 +135,8 @@ std::string shadow_reason(const ShadowWays& shadow, const ImageSize& size) {
     all.rays += light.rays, all.single += light.single;
   if (all.rays == 0) return std::string(shadow.ways.shadow_reason);
   return fmt::format(
-      "{}; {} of them go on one by one, where 16 x 16 receivers meet more leaves than their rays are worth "
-      "or "
-      "floats do not suffice ({} {} of {} rows)",
+      "{}; {} of them go on one by one, where 16 x 16 receivers meet more leaves than their rays are "
+      "worth or floats do not suffice ({} {} of {} rows)",
       shadow.ways.shadow_reason, compare::percent(all.share()),
       shadow.forecast.rows < size.height ? "forecast from" : "counted in", shadow.forecast.rows, size.height);
 }
