@@ -165,6 +165,34 @@ TEST(Packets, RandomTriangles) {
   }
 }
 
+raytrace::ShadowRayCounts counts_of(const Scene& scene, ImageSize size, raytrace::PacketUse packets) {
+  const TestWorld w(scene);
+  const Tracer tracer(w.world(), Accel::bvh);
+  const View view = make_view(scene.camera, size);
+  Image<SurfacePoint> receivers(size);
+  primary_pass(tracer, view, edge_setup_of_eye(tracer, view),
+               {.size = size, .hits = {}, .receivers = &receivers, .quantised = {}});
+  Image<PointVisibility> visibility(size, PointVisibility::lit);
+  return shadow_pass({.tracer = tracer, .size = size, .stored = &receivers, .packets = packets},
+                     scene.lights[0], visibility);
+}
+
+// What is counted as a single ray: of foliage what its tiles give up, of a few large triangles next to nothing.
+TEST(Packets, SingleRaysAreThoseThatTilesGiveUp) {
+  using raytrace::PacketUse;
+  Scene foliage = test::scene_of({test::triangle_soup(20000, 1.0, 0.03, 7)});
+  look(foliage, {0.3, 0.4, 3.0}, {0, 0, 0});
+  foliage.lights = {test::sun({-0.3, -1.0, -0.2})};
+  Scene large = foliage;
+  large.meshes = {test::triangle_soup(30, 1.0, 1.0, 7)};
+  const auto chosen = counts_of(foliage, {101, 67}, PacketUse::where_cheaper);
+  EXPECT_GT(chosen.single, chosen.cast / 2);
+  EXPECT_LT(counts_of(foliage, {101, 67}, PacketUse::always).single, chosen.cast / 10);
+  const auto few = counts_of(large, {640, 400}, PacketUse::where_cheaper);
+  EXPECT_GT(few.cast, 10000u);
+  EXPECT_LT(few.single, few.cast / 1000);
+}
+
 // Foliage: neighbouring pixels see triangles far apart, and between them and the lights lie more than a packet is worth.
 TEST(Packets, ScatteredReceiversGoOnOneByOne) {
   Scene scene = test::scene_of({test::triangle_soup(20000, 1.0, 0.03, 7)});
