@@ -133,8 +133,6 @@ class Bench {
     our_shadows(light, {.tracer = tracer_,
                         .size = settings_.size,
                         .stored = &frame_.receiver,
-                        .view = nullptr,
-                        .hits = {},
                         .quantised = {tiles_.data(), tiles_.size()},
                         .packets = packets});
   }
