@@ -298,17 +298,18 @@ Ray Tracer::shadow_ray(const SurfacePoint& from, const Vec3& target) const {
   return {origin, offset / distance, {0.0, distance - error}};
 }
 
-PointVisibility Tracer::centre_visibility(const SurfacePoint& from, const Light& light) const {
+PointVisibility Tracer::centre_visibility(const SurfacePoint& from, const Light& light,
+                                          LastBlocker* last) const {
   const Ray ray = shadow_ray(from, light);
   switch (precision()) {
     case Precision::fast:
       return occluded(ray) ? PointVisibility::shadowed : PointVisibility::lit;
     case Precision::exact:
-      return certified_visibility(impl_->structures, from, ray, light);
+      return certified_visibility(impl_->structures, from, ray, light, nullptr, last);
     case Precision::robust:
       break;
   }
-  return point_visibility(impl_->structures, from, ray);
+  return point_visibility(impl_->structures, from, ray, nullptr, last);
 }
 
 std::optional<Hit> Tracer::closest_seen_among(const Ray& ray, std::span<const std::uint32_t> leaves) const {

@@ -17,6 +17,7 @@
 namespace gnomon::raytrace {
 
 struct Structures;
+struct LastBlocker;  // raytrace/bvh/wide_traverse.h
 
 struct Hit {
   double t = 0.0;
@@ -114,8 +115,9 @@ class Tracer {
 
   /// Exact visibility of the light's centre, with the error bound's ambiguity made visible. Any unmasked surface
   /// occludes, glass too. The point's own triangle or plane never does; its own sphere only when seen from
-  /// within.
-  PointVisibility centre_visibility(const SurfacePoint& from, const Light& light) const;
+  /// within. `last`: what is known from the ray before, to be kept for the next one; with this tracer's rays alone.
+  PointVisibility centre_visibility(const SurfacePoint& from, const Light& light,
+                                    LastBlocker* last = nullptr) const;
   /// The same when every triangle or sphere that the ray does not surely miss is one of these positions in
   /// leaf order (Structures::bvh); not for Precision::fast.
   std::optional<Hit> closest_seen_among(const Ray& ray, std::span<const std::uint32_t> leaves) const;

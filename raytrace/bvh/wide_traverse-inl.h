@@ -113,6 +113,10 @@ HWY_INLINE WideTraversal traverse(const WideTree& tree, WideRay& ray, const Coun
 /// Where a tree's leaves are in the world's leaf order, and its triangles among the world's.
 struct Place {
   std::uint32_t first_leaf = 0, first_triangle = 0;
+  const WideInstance* instance = nullptr;  ///< null: those of no instance
+  Place() = default;
+  explicit Place(const WideInstance& of)
+      : first_leaf(of.first_leaf), first_triangle(of.first_triangle), instance(&of) {}
 };
 
 /// A ray's numbers in the space of an instance's mesh.
@@ -158,6 +162,18 @@ class PlacedNumbers {
   alignas(32) double origin_[4], direction_[4];
 };
 
+/// A ray in the space of an instance's mesh; `error`: as error_in_world() says, `frame_t`: what prepare returned. False: floats
+/// do not suffice there.
+HWY_INLINE bool place_ray(const WideInstance& instance, const Ray& given, const TraversalLimits& limits,
+                          double error, double frame_t, const WideRay& ray, WideRay& placed) {
+  if (!has_bounds(instance, error)) return false;
+  PlacedNumbers numbers(instance, numbers_of(given));
+  const TraversalLimits here{.t_above = ray.t_max, .beyond = limits.beyond, .frame_t = frame_t};
+  return prepare(*instance.mesh, numbers.numbers(), here, placed) > 0.0 ||
+         (numbers.move_near(*instance.mesh) &&
+          prepare(*instance.mesh, numbers.numbers(), here, placed) > 0.0);
+}
+
 /// The same through a tree with instances; `ray`: what prepare made of `given`, `frame_t`: what it returned. Verb:
 /// leaf(tree, leaf, ray, place) for every leaf of a mesh or of what is flattened, plainly(position in leaf order, ray) for
 /// every leaf primitive of an instance for which floats do not suffice; both return true to end.
@@ -169,18 +185,11 @@ HWY_NOINLINE WideTraversal traverse_instances(const WideTree& tree, const Ray& g
   const auto enter = [&](std::uint32_t number) {
     const WideInstance& instance = tree.instances[number];
     WideRay placed;
-    const auto is_prepared = [&] {
-      PlacedNumbers numbers(instance, numbers_of(given));
-      const TraversalLimits here{.t_above = ray.t_max, .beyond = limits.beyond, .frame_t = frame_t};
-      return prepare(*instance.mesh, numbers.numbers(), here, placed) > 0.0 ||
-             (numbers.move_near(*instance.mesh) &&
-              prepare(*instance.mesh, numbers.numbers(), here, placed) > 0.0);
-    };
-    if (!has_bounds(instance, error) || !is_prepared()) {
+    if (!place_ray(instance, given, limits, error, frame_t, ray, placed)) {
       const auto visit = [&](std::uint32_t leaf) { return verb.plainly(leaf, ray); };
       return visit_plainly(tree, number, given, limits, ray, visit, counts.work());
     }
-    const Place place{instance.first_leaf, instance.first_triangle};
+    const Place place(instance);
     const auto traversed = traverse<WideLeaf>(*instance.mesh, placed, counts, [&](const WideLeaf& leaf) {
       return verb.leaf(*instance.mesh, leaf, placed, place);
     });

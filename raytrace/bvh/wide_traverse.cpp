@@ -52,7 +52,7 @@ struct Closest {
   LeafCandidates& found;
 
   HWY_INLINE bool leaf(const WideTree& tree, const typename Test::Leaf& leaf, WideRay& ray,
-                       Place place) const {
+                       const Place& place) const {
     const std::uint32_t first = leaf.triangles.first();
     tree.origin->primitives.prefetch_leaf(first, leaf.triangles.last() + 1);
     return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
@@ -71,7 +71,7 @@ struct Visit {
   using Test = AnyTest;
   const CandidateVisitor& visit;
 
-  HWY_INLINE bool leaf(const WideTree&, const typename Test::Leaf& leaf, WideRay& ray, Place place) const {
+  HWY_INLINE bool leaf(const WideTree&, const typename Test::Leaf& leaf, WideRay& ray, const Place& place) const {
     const std::uint32_t first = place.first_leaf + leaf.triangles.first();
     return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
       return (sure_hits_end && is_surely_hit(i, test, ray)) || visit(first + i, ray);
@@ -90,10 +90,32 @@ struct KeepAmbiguous {
   const Bvh& world;
   std::uint32_t skip;  // another triangle's number wraps to one that an instance's mesh does not have
   LeafCandidates& found;
+  LastBlocker& last;
   bool& full;
 
   HWY_INLINE bool leaf(const WideTree& tree, const typename Test::Leaf& leaf, WideRay& ray,
-                       Place place) const {
+                       const Place& place) const {
+    return candidates(tree, leaf, ray, place, [&](unsigned i, const Test& test) {
+      if (!is_surely_hit(i, test, ray))
+        return full = !keep(found, place.first_leaf + leaf.triangles.first() + i);
+      last = {&leaf, place.instance};
+      return true;
+    });
+  }
+  /// Whether a triangle of the leaf is surely hit.
+  bool is_blocked(const WideTree& tree, const typename Test::Leaf& leaf, const WideRay& ray,
+                  const Place& place) const {
+    return candidates(tree, leaf, ray, place,
+                      [&](unsigned i, const Test& test) { return is_surely_hit(i, test, ray); });
+  }
+  bool plainly(std::uint32_t leaf, WideRay&) const {
+    return world.id_at(leaf) != skip && (full = !keep(found, leaf));
+  }
+
+ private:
+  template <class Candidate>
+  HWY_INLINE bool candidates(const WideTree& tree, const typename Test::Leaf& leaf, const WideRay& ray,
+                             const Place& place, const Candidate& candidate) const {
     const std::uint32_t first = leaf.triangles.first();
     const auto others = [&](unsigned candidates) {
       for (unsigned left = candidates; left != 0; left &= left - 1)
@@ -102,26 +124,27 @@ struct KeepAmbiguous {
           candidates &= ~(left & -left);
       return candidates;
     };
-    const auto keep_ambiguous = [&](unsigned i, const Test& test) {
-      return is_surely_hit(i, test, ray) || (full = !keep(found, place.first_leaf + first + i));
-    };
-    return each_candidate<Test>(leaf, ray, keep_ambiguous, others);
-  }
-  bool plainly(std::uint32_t leaf, WideRay&) const {
-    return world.id_at(leaf) != skip && (full = !keep(found, leaf));
+    return each_candidate<Test>(leaf, ray, candidate, others);
   }
 };
 
+/// `ray`, `frame_t`: what prepare made of `given`, and returned.
 template <class Verb, class Counts>
-HWY_INLINE WideTraversal run(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
-                             const Verb& verb, const Counts& counts, WideRay& ray) {
-  const double frame_t = prepare(tree, numbers_of(given), limits, ray);
-  if (!(frame_t > 0.0)) return WideTraversal::refused;
+HWY_INLINE WideTraversal run_prepared(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
+                                      double frame_t, const Verb& verb, const Counts& counts, WideRay& ray) {
   if constexpr (std::is_same_v<typename Verb::Test, LeafTest>)
     if (!tree.instances.empty()) [[unlikely]]
       return traverse_instances(tree, given, limits, frame_t, ray, verb, counts);
   return traverse<typename Verb::Test::Leaf>(
       tree, ray, counts, [&](const auto& leaf) { return verb.leaf(tree, leaf, ray, Place{}); });
+}
+
+template <class Verb, class Counts>
+HWY_INLINE WideTraversal run(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
+                             const Verb& verb, const Counts& counts, WideRay& ray) {
+  const double frame_t = prepare(tree, numbers_of(given), limits, ray);
+  return frame_t > 0.0 ? run_prepared(tree, given, limits, frame_t, verb, counts, ray)
+                       : WideTraversal::refused;
 }
 
 template <template <class> class Verb, class Counts, class... With>
@@ -169,12 +192,27 @@ WideTraversal ambiguous_counted(const WideTree& tree, const Ray& ray, CandidateV
   return by_test<VisitAmbiguous>(tree, ray, {}, CountTests{work}, ready, visit);
 }
 
-WideTraversal collect_kernel(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                             std::uint32_t skip, LeafCandidates& found) {
+/// As run_prepared().
+template <class Verb>
+HWY_INLINE bool is_blocked_again(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
+                                 double frame_t, const Verb& verb, const WideRay& ray) {
+  const auto& [leaf, instance] = verb.last;
+  if (leaf == nullptr) return false;
+  if (instance == nullptr) return verb.is_blocked(tree, *leaf, ray, Place{});
+  WideRay placed;
+  return place_ray(*instance, given, limits, error_in_world(given, limits), frame_t, ray, placed) &&
+         verb.is_blocked(*instance->mesh, *leaf, placed, Place(*instance));
+}
+
+WideTraversal collect_kernel(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
+                             std::uint32_t skip, LeafCandidates& found, LastBlocker& last) {
+  WideRay ray;
+  const double frame_t = prepare(tree, numbers_of(given), limits, ray);
+  if (!(frame_t > 0.0)) return WideTraversal::refused;
   bool full = false;
-  WideRay ready;
-  const KeepAmbiguous<LeafTest> verb{*tree.origin, skip, found, full};
-  const auto traversed = run(tree, ray, limits, verb, NoCounts{}, ready);
+  const KeepAmbiguous<LeafTest> verb{*tree.origin, skip, found, last, full};
+  if (is_blocked_again(tree, given, limits, frame_t, verb, ray)) return WideTraversal::ended;
+  const auto traversed = run_prepared(tree, given, limits, frame_t, verb, NoCounts{}, ray);
   return full ? WideTraversal::refused : traversed;
 }
 
@@ -222,8 +260,9 @@ WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVis
                          : GNOMON_KERNEL(ambiguous_kernel)(tree, ray, visit);
 }
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                                   std::uint32_t skip, LeafCandidates& found) {
-  return GNOMON_KERNEL(collect_kernel)(tree, ray, limits, skip, found);
+                                   std::uint32_t skip, LeafCandidates& found, LastBlocker* last) {
+  LastBlocker none;
+  return GNOMON_KERNEL(collect_kernel)(tree, ray, limits, skip, found, last != nullptr ? *last : none);
 }
 
 #undef GNOMON_KERNEL

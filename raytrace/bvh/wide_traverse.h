@@ -45,9 +45,16 @@ WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const Trave
 WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
                               WorkCounts* work = nullptr);
 
+/// The leaf that blocked the last ray: tried first, for it often blocks the next one, too (Pearce and Jevans 1991, "Exploiting
+/// shadow coherence in ray tracing"). Of one tree.
+struct LastBlocker {
+  const WideLeaf* leaf = nullptr;          ///< null: none yet
+  const WideInstance* instance = nullptr;  ///< null: the leaf is in none
+};
+
 /// All that the ray may intersect, but for the triangle `skip` (a primitive's id); ended: one is surely hit.
-/// `refused` also where there would be too many.
+/// `refused` also where there would be too many. `last`: null, or updated.
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                                   std::uint32_t skip, LeafCandidates& found);
+                                   std::uint32_t skip, LeafCandidates& found, LastBlocker* last = nullptr);
 
 }  // namespace gnomon::raytrace

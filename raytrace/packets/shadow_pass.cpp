@@ -3,6 +3,7 @@
 #include <cstring>
 #include <optional>
 
+#include "raytrace/bvh/wide_traverse.h"
 #include "raytrace/packets/light_setup.h"
 #include "raytrace/packets/places.h"
 #include "raytrace/packets/prepare.h"
@@ -69,6 +70,7 @@ class ShadowPass {
   struct Scratch {
     HugeArray<Tile> tiles{most_shadow_tiles};
     HugeArray<SurfacePoint> points{tile_rays};
+    LastBlocker blocker;  ///< of a single ray
     ShadowRayCounts rays;
   };
 
@@ -237,13 +239,14 @@ class ShadowPass {
       const bool in_list = listed && (tile.lanes.apart[lane / packet_rays] & bit_of(lane)) == 0;
       scratch.rays.single += in_list ? 0 : 1;
       visibility_.at(x, y) =
-          in_list ? visibility_among(tile.shadows, point, lane) : full_visibility(frame, point);
+          in_list ? visibility_among(tile.shadows, point, lane) : full_visibility(frame, point, scratch.blocker);
     });
   }
 
-  PointVisibility full_visibility(const LightFrame& frame, const SurfacePoint& point) const {
+  PointVisibility full_visibility(const LightFrame& frame, const SurfacePoint& point,
+                                  LastBlocker& last) const {
     return is_beyond_all(frame, point) ? PointVisibility::lit
-                                       : receivers_.tracer.centre_visibility(point, light_);
+                                       : receivers_.tracer.centre_visibility(point, light_, &last);
   }
 
   /// The receiver lies on the only plane there is, and its ray beyond all that is finite: nothing shadows it.

@@ -162,12 +162,12 @@ class Query {
 /// What the floats of the wide tree know: a sure answer for most rays, and what else may be intersected for
 /// the others. Where masks are, nothing is sure. False: the candidates are not known.
 bool ask_floats(const Structures& s, const WideTree& tree, const SurfacePoint& from, const Ray& ray,
-                bool exact, std::optional<PointVisibility>& answer, LeafCandidates& found) {
+                bool exact, std::optional<PointVisibility>& answer, LeafCandidates& found, LastBlocker* last) {
   if (s.has_masks) return false;
   const Vec3 error = origin_error(from, ray);
   const TraversalLimits limits{.origin_error = max_component(error),
                                .beyond = exact ? beyond_end(error, ray) : 0.0};
-  const WideTraversal traversed = ambiguous_candidates(tree, ray, limits, from.primitive, found);
+  const WideTraversal traversed = ambiguous_candidates(tree, ray, limits, from.primitive, found, last);
   if (traversed == WideTraversal::ended) answer = PointVisibility::shadowed;
   const auto is_left = [&](std::uint32_t plane) {
     return plane == from.primitive ||
@@ -180,13 +180,13 @@ bool ask_floats(const Structures& s, const WideTree& tree, const SurfacePoint& f
 }
 
 PointVisibility ask(const Structures& s, const SurfacePoint& from, const Ray& ray, LeavesAmong among,
-                    const ExactShadow* exact) {
+                    const ExactShadow* exact, LastBlocker* last) {
   const WideTree* tree = among == nullptr ? wide_tree(s) : nullptr;
   LeafCandidates found;
   std::span<const std::uint32_t> some;
   if (tree != nullptr) {
     std::optional<PointVisibility> answer;
-    if (ask_floats(s, *tree, from, ray, exact != nullptr, answer, found))
+    if (ask_floats(s, *tree, from, ray, exact != nullptr, answer, found, last))
       some = {found.leaf.data(), found.count}, among = &some;
     if (answer) return *answer;
   }
@@ -202,14 +202,14 @@ PointVisibility ask(const Structures& s, const SurfacePoint& from, const Ray& ra
 }  // namespace
 
 PointVisibility point_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                                 LeavesAmong among) {
-  return ask(structures, from, ray, among, nullptr);
+                                 LeavesAmong among, LastBlocker* last) {
+  return ask(structures, from, ray, among, nullptr, last);
 }
 
 PointVisibility certified_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                                     const Light& light, LeavesAmong among) {
+                                     const Light& light, LeavesAmong among, LastBlocker* last) {
   const ExactShadow exact(*structures.world, from, light);
-  return ask(structures, from, ray, among, &exact);
+  return ask(structures, from, ray, among, &exact, last);
 }
 
 }  // namespace gnomon::raytrace

@@ -12,12 +12,14 @@ namespace gnomon::raytrace {
 using LeavesAmong = const std::span<const std::uint32_t>*;
 
 /// `ray` is Tracer::shadow_ray of the point. `among`: whatever else is there, but planes, is surely missed.
+/// `last`: as Tracer::centre_visibility has it.
 PointVisibility point_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                                 LeavesAmong among = nullptr);
+                                 LeavesAmong among = nullptr, LastBlocker* last = nullptr);
 
 /// The same without ambiguity: what the bounds leave open is decided by exact predicates (exact_shadow.h
 /// there).
 PointVisibility certified_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
-                                     const Light& light, LeavesAmong among = nullptr);
+                                     const Light& light, LeavesAmong among = nullptr,
+                                     LastBlocker* last = nullptr);
 
 }  // namespace gnomon::raytrace
