@@ -17,7 +17,8 @@
 namespace gnomon::raytrace {
 
 struct Structures;
-struct LastBlocker;  // raytrace/bvh/wide_traverse.h
+struct WideLeaf;
+struct WideInstance;
 
 struct Hit {
   double t = 0.0;
@@ -77,6 +78,13 @@ struct WorkCounts {
   std::uint64_t primitives = 0;  ///< tested: triangles and shapes, infinite planes among them
 };
 
+/// The leaf that blocked the last shadow ray. It is tried first, for it often blocks the next ray, too (Pearce and Jevans 1991,
+/// "Exploiting shadow coherence in ray tracing"), and changes no answer. For the rays of one tracer.
+struct LastBlocker {
+  const WideLeaf* leaf = nullptr;          ///< null: none yet
+  const WideInstance* instance = nullptr;  ///< of which the leaf is; null: of none
+};
+
 class Tracer {
  public:
   /// The world must outlive the tracer.
@@ -115,7 +123,7 @@ class Tracer {
 
   /// Exact visibility of the light's centre, with the error bound's ambiguity made visible. Any unmasked surface
   /// occludes, glass too. The point's own triangle or plane never does; its own sphere only when seen from
-  /// within. `last`: what is known from the ray before, to be kept for the next one; with this tracer's rays alone.
+  /// within. `last`: null, or what is kept from one ray for the next one.
   PointVisibility centre_visibility(const SurfacePoint& from, const Light& light,
                                     LastBlocker* last = nullptr) const;
   /// The same when every triangle or sphere that the ray does not surely miss is one of these positions in

@@ -127,9 +127,12 @@ bool expect_same_rays(const BothWays& w, const std::vector<Ray>& rays, const tes
     if (right && truth) {
       const SurfacePoint point = flat.surface_point(rays[i], *truth);
       right = point.position == kept.surface_point(rays[i], *truth).position;
+      LastBlocker last;  // of the light before, then of this one
       for (const Light& light :
            {test::point_light(middle + Vec3(2.0 * kind.extent)), test::sun(Vec3(0.3, -1.0, 0.2))})
-        right = right && kept.centre_visibility(point, light) == flat.centre_visibility(point, light);
+        for (LastBlocker* from_before : {static_cast<LastBlocker*>(nullptr), &last, &last})
+          right = right &&
+                  kept.centre_visibility(point, light, from_before) == flat.centre_visibility(point, light);
     }
     wrong += right ? 0 : 1;
   });

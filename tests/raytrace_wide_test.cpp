@@ -290,10 +290,12 @@ void expect_same_visibility(Scene scene, std::size_t least_open) {
         const auto hit = brute.closest_hit(rays[i]);
         if (!hit || !std::isfinite(hit->t)) return;
         const SurfacePoint point = brute.surface_point(rays[i], *hit);
+        LastBlocker last;  // of the light before, then of this one
         for (const Light& light : w.scene().lights) {
           const PointVisibility truth = brute.centre_visibility(point, light);
           open += truth == PointVisibility::uncertain ? 1 : 0;
-          wrong += tracer.centre_visibility(point, light) == truth ? 0 : 1;
+          for (LastBlocker* kept : {static_cast<LastBlocker*>(nullptr), &last, &last})
+            wrong += tracer.centre_visibility(point, light, kept) == truth ? 0 : 1;
           wrong += same(tracer.nearest_occluder(point, light), brute.nearest_occluder(point, light)) ? 0 : 1;
         }
       });

@@ -71,7 +71,8 @@ struct Visit {
   using Test = AnyTest;
   const CandidateVisitor& visit;
 
-  HWY_INLINE bool leaf(const WideTree&, const typename Test::Leaf& leaf, WideRay& ray, const Place& place) const {
+  HWY_INLINE bool leaf(const WideTree&, const typename Test::Leaf& leaf, WideRay& ray,
+                       const Place& place) const {
     const std::uint32_t first = place.first_leaf + leaf.triangles.first();
     return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
       return (sure_hits_end && is_surely_hit(i, test, ray)) || visit(first + i, ray);

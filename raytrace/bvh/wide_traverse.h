@@ -12,7 +12,8 @@
 
 namespace gnomon::raytrace {
 
-struct WorkCounts;  // raytrace/tracer.h: given one, a traversal adds what it tests in floats
+struct WorkCounts;   // raytrace/tracer.h: given one, a traversal adds what it tests in floats
+struct LastBlocker;  // raytrace/tracer.h
 
 /// Positions in leaf order, each with a lower bound of its t (-infinity: none is known).
 struct LeafCandidates {
@@ -45,15 +46,8 @@ WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const Trave
 WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
                               WorkCounts* work = nullptr);
 
-/// The leaf that blocked the last ray: tried first, for it often blocks the next one, too (Pearce and Jevans 1991, "Exploiting
-/// shadow coherence in ray tracing"). Of one tree.
-struct LastBlocker {
-  const WideLeaf* leaf = nullptr;          ///< null: none yet
-  const WideInstance* instance = nullptr;  ///< null: the leaf is in none
-};
-
 /// All that the ray may intersect, but for the triangle `skip` (a primitive's id); ended: one is surely hit.
-/// `refused` also where there would be too many. `last`: null, or updated.
+/// `refused` also where there would be too many. `last`: null, or tried first and updated.
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                    std::uint32_t skip, LeafCandidates& found, LastBlocker* last = nullptr);
 

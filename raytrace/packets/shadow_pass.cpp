@@ -3,7 +3,6 @@
 #include <cstring>
 #include <optional>
 
-#include "raytrace/bvh/wide_traverse.h"
 #include "raytrace/packets/light_setup.h"
 #include "raytrace/packets/places.h"
 #include "raytrace/packets/prepare.h"
@@ -238,8 +237,8 @@ class ShadowPass {
           points[static_cast<std::size_t>(tile_pixels * (y - tile.rect.y0) + x - tile.rect.x0)];
       const bool in_list = listed && (tile.lanes.apart[lane / packet_rays] & bit_of(lane)) == 0;
       scratch.rays.single += in_list ? 0 : 1;
-      visibility_.at(x, y) =
-          in_list ? visibility_among(tile.shadows, point, lane) : full_visibility(frame, point, scratch.blocker);
+      visibility_.at(x, y) = in_list ? visibility_among(tile.shadows, point, lane)
+                                     : full_visibility(frame, point, scratch.blocker);
     });
   }
 

@@ -162,7 +162,8 @@ class Query {
 /// What the floats of the wide tree know: a sure answer for most rays, and what else may be intersected for
 /// the others. Where masks are, nothing is sure. False: the candidates are not known.
 bool ask_floats(const Structures& s, const WideTree& tree, const SurfacePoint& from, const Ray& ray,
-                bool exact, std::optional<PointVisibility>& answer, LeafCandidates& found, LastBlocker* last) {
+                bool exact, std::optional<PointVisibility>& answer, LeafCandidates& found,
+                LastBlocker* last) {
   if (s.has_masks) return false;
   const Vec3 error = origin_error(from, ray);
   const TraversalLimits limits{.origin_error = max_component(error),
