@@ -15,20 +15,24 @@ HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
 
+/// In which order children are visited: the nearest first, for a ray that ends where it hits something; or as they come, without
+/// what sorting costs, for one of which any hit will do.
+enum class Order : std::uint8_t { nearest_first, any };
+
 /// Children that the ray may yet intersect, the next one last.
 struct Stack {
   // Deeper ones lie above. Of each depth there are the children of two nodes at most, but for one child; a
   // leaf with too many corners may have been halved thrice; the last store may write sixteen.
   static constexpr std::size_t most = (2 * node_lanes - 1) * (Bvh::max_depth + 4) + node_lanes;
   std::uint32_t child[most];
-  float near[most];
+  float near[most];  ///< in Order::any unused
 };
 
 using Bytes = hn::CappedTag<std::uint8_t, node_lanes>;
 inline constexpr Bytes byte_lanes;
 
 /// A node's children as the ray visits them, or the other way round.
-inline constexpr bool nearest_first = lanes == node_lanes;
+inline constexpr bool sorts_nearest_first = lanes == node_lanes;
 
 /// Where in a node rays of an octant find what they need.
 struct OctantPlaces {
@@ -44,7 +48,7 @@ constexpr OctantPlaces places_of(unsigned octant) {
     places.far_row[a] = row * (2 * a + 3) - places.near_row[a];
   }
   places.order_row = octant < 4 ? octant : 7 - octant;
-  const std::uint8_t turned = (octant < 4) != nearest_first ? node_lanes - 1 : 0;
+  const std::uint8_t turned = (octant < 4) != sorts_nearest_first ? node_lanes - 1 : 0;
   for (std::uint8_t i = 0; i < node_lanes; ++i) places.turn[i] = i ^ turned;
   return places;
 }
@@ -82,8 +86,20 @@ HWY_INLINE void intersect_boxes(const WideNode& node, const SpreadRay& ray, std:
                 hn::Min(at(ray.places.far_row[2], ray.inverse[2], ray.far[2]), t_max));
 }
 
+HWY_INLINE void push_unsorted(const WideNode& node, unsigned bits, Stack& stack, std::size_t& size) {
+  if constexpr (lanes == node_lanes) {
+    std::uint8_t hit_bits[8] = {};
+    std::memcpy(hit_bits, &bits, sizeof bits);
+    hn::StoreU(hn::Compress(hn::Load(ids, node.child), hn::LoadMaskBits(ids, hit_bits)), ids,
+               stack.child + size);
+    size += static_cast<std::size_t>(std::popcount(bits));
+  } else {
+    for (; bits != 0; bits &= bits - 1) stack.child[size++] = node.child[std::countr_zero(bits)];
+  }
+}
+
 /// The children of a node whose boxes the ray may intersect, by bits; where vectors hold a whole node.
-template <bool whole = lanes == node_lanes>
+template <Order order, bool whole = lanes == node_lanes>
 struct IntersectedChildren {
   V near, far;
   unsigned bits;
@@ -92,16 +108,20 @@ struct IntersectedChildren {
     bits = mask_bits(f, hn::Le(near, far));
   }
 
-  /// All onto the stack, the nearest on top.
+  /// All onto the stack, the next one on top.
   HWY_INLINE void push(const WideNode& node, const SpreadRay& ray, Stack& stack, std::size_t& size) const {
-    if (bits != 0) Sorted(*this, node, ray).push(stack, size, 0);
+    if constexpr (order == Order::any)
+      push_unsorted(node, bits, stack, size);
+    else if (bits != 0)
+      Sorted(*this, node, ray).push(stack, size, 0);
   }
-  /// The same, but the nearest into `next`; false: none.
+  /// The same, but the next one into `next`; false: none.
   HWY_INLINE bool take(const WideNode& node, const SpreadRay& ray, Stack& stack, std::size_t& size,
                        std::uint32_t& next) const {
     if (bits == 0) return false;
-    if ((bits & (bits - 1)) == 0) {
+    if (order == Order::any || (bits & (bits - 1)) == 0) {
       next = node.child[std::countr_zero(bits)];
+      push_unsorted(node, bits & (bits - 1), stack, size);
       return true;
     }
     const Sorted sorted(*this, node, ray);
@@ -118,11 +138,11 @@ struct IntersectedChildren {
     std::uint32_t count;
     HWY_INLINE Sorted(const IntersectedChildren& hit, const WideNode& node, const SpreadRay& ray)
         : count(static_cast<std::uint32_t>(std::popcount(hit.bits))) {
-      const auto order = hn::PromoteTo(ids, ray.order(hn::Rebind<std::uint8_t, F>(), node));
-      const auto in_order = [&](V v) { return hn::TableLookupLanes(v, hn::IndicesFromVec(f, order)); };
+      const auto places = hn::PromoteTo(ids, ray.order(hn::Rebind<std::uint8_t, F>(), node));
+      const auto in_order = [&](V v) { return hn::TableLookupLanes(v, hn::IndicesFromVec(f, places)); };
       const V entered = in_order(hit.near);
       const M is_hit = hn::Le(entered, in_order(hit.far));
-      child = hn::Compress(hn::TableLookupLanes(hn::Load(ids, node.child), hn::IndicesFromVec(ids, order)),
+      child = hn::Compress(hn::TableLookupLanes(hn::Load(ids, node.child), hn::IndicesFromVec(ids, places)),
                            hn::RebindMask(ids, is_hit));
       near = hn::Compress(entered, is_hit);
     }
@@ -138,8 +158,8 @@ struct IntersectedChildren {
 };
 
 /// Where they do not.
-template <>
-struct IntersectedChildren<false> {
+template <Order order>
+struct IntersectedChildren<order, false> {
   alignas(64) float near[node_lanes];
   unsigned bits = 0;
   HWY_INLINE IntersectedChildren(const WideNode& node, const SpreadRay& ray, float t_max) {
@@ -152,13 +172,17 @@ struct IntersectedChildren<false> {
   }
 
   HWY_INLINE void push(const WideNode& node, const SpreadRay& ray, Stack& stack, std::size_t& size) const {
-    if (bits != 0) Sorted(*this, node, ray).push(stack, size);
+    if constexpr (order == Order::any)
+      push_unsorted(node, bits, stack, size);
+    else if (bits != 0)
+      Sorted(*this, node, ray).push(stack, size);
   }
   HWY_INLINE bool take(const WideNode& node, const SpreadRay& ray, Stack& stack, std::size_t& size,
                        std::uint32_t& next) const {
     if (bits == 0) return false;
-    if ((bits & (bits - 1)) == 0) {
+    if (order == Order::any || (bits & (bits - 1)) == 0) {
       next = node.child[std::countr_zero(bits)];
+      push_unsorted(node, bits & (bits - 1), stack, size);
       return true;
     }
     Sorted sorted(*this, node, ray);
@@ -177,12 +201,12 @@ struct IntersectedChildren<false> {
     HWY_INLINE Sorted(const IntersectedChildren& intersected, const WideNode& of, const SpreadRay& ray)
         : hit(intersected), node(of) {
       if constexpr (hn::MaxLanes(byte_lanes) == node_lanes) {
-        const auto order = ray.order(byte_lanes, node);
+        const auto places = ray.order(byte_lanes, node);
         std::uint8_t hit_bits[8] = {};
         std::memcpy(hit_bits, &hit.bits, sizeof hit.bits);
         const auto is_hit = hn::VecFromMask(byte_lanes, hn::LoadMaskBits(byte_lanes, hit_bits));
-        left = mask_bits(byte_lanes, hn::MaskFromVec(hn::TableLookupBytes(is_hit, order)));
-        hn::Store(order, byte_lanes, place);
+        left = mask_bits(byte_lanes, hn::MaskFromVec(hn::TableLookupBytes(is_hit, places)));
+        hn::Store(places, byte_lanes, place);
       } else {
         for (std::size_t i = 0; i < node_lanes; ++i) {
           place[i] = node.order[ray.places.order_row][ray.places.turn[i]];
@@ -206,9 +230,10 @@ struct IntersectedChildren<false> {
 
 /// The children of a node, as above, over those of one that comes after it. Together, for a ray that waits
 /// for memory and for one step after the other; and a ray that intersects nothing visits both anyhow.
+template <Order order>
 HWY_INLINE bool take_children_of_two(const WideNode& node, const WideNode& after, const SpreadRay& ray,
                                      float t_max, Stack& stack, std::size_t& size, std::uint32_t& next) {
-  const IntersectedChildren<> hit(node, ray, t_max), hit_after(after, ray, t_max);
+  const IntersectedChildren<order> hit(node, ray, t_max), hit_after(after, ray, t_max);
   hit_after.push(after, ray, stack, size);
   return hit.take(node, ray, stack, size, next);
 }

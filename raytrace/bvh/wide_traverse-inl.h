@@ -61,7 +61,7 @@ struct NoInstances {
 };
 
 /// intersect(leaf) and enter(an instance's number) return true to end the traversal.
-template <class Leaf, class Counts, class Intersect, class Enter = NoInstances>
+template <Order order, class Leaf, class Counts, class Intersect, class Enter = NoInstances>
 HWY_INLINE WideTraversal traverse(const WideTree& tree, WideRay& ray, const Counts& counts,
                                   const Intersect& intersect, const Enter& enter = {}) {
   constexpr bool has_instances = !std::is_same_v<Enter, NoInstances>;
@@ -72,6 +72,7 @@ HWY_INLINE WideTraversal traverse(const WideTree& tree, WideRay& ray, const Coun
   Stack stack;
   std::size_t size = 0;
   std::size_t known = 0;  // on the stack, asked for already
+  const auto comes_too_late = [&](std::size_t i) { return order != Order::any && stack.near[i] > t_max; };
   const auto ask_ahead = [&] {
     if (size > known) prefetch(nodes, leaves, WideChild{stack.child[size - 1]});
     known = size;
@@ -85,18 +86,18 @@ HWY_INLINE WideTraversal traverse(const WideTree& tree, WideRay& ray, const Coun
       counts.leaf(leaves[child.index()].triangles);
       if (intersect(leaves[child.index()])) return WideTraversal::ended;
       t_max = ray.t_max;
-    } else if (size > 0 && !WideChild{stack.child[size - 1]}.is_leaf() && stack.near[size - 1] <= t_max) {
+    } else if (size > 0 && !WideChild{stack.child[size - 1]}.is_leaf() && !comes_too_late(size - 1)) {
       known = 0;
       const WideNode& after = nodes[stack.child[--size]];
       counts.node(nodes[child.index()]), counts.node(after);
-      if (take_children_of_two(nodes[child.index()], after, spread, t_max, stack, size, child.bits)) {
+      if (take_children_of_two<order>(nodes[child.index()], after, spread, t_max, stack, size, child.bits)) {
         ask_ahead();
         continue;
       }
     } else {
       const WideNode& node = nodes[child.index()];
       counts.node(node);
-      if (IntersectedChildren<>(node, spread, t_max).take(node, spread, stack, size, child.bits)) {
+      if (IntersectedChildren<order>(node, spread, t_max).take(node, spread, stack, size, child.bits)) {
         ask_ahead();
         continue;
       }
@@ -104,7 +105,7 @@ HWY_INLINE WideTraversal traverse(const WideTree& tree, WideRay& ray, const Coun
     do {
       if (size == 0) return WideTraversal::done;
       child.bits = stack.child[--size];
-    } while (stack.near[size] > t_max);
+    } while (comes_too_late(size));
     known = 0;
     ask_ahead();
   }
@@ -190,14 +191,14 @@ HWY_NOINLINE WideTraversal traverse_instances(const WideTree& tree, const Ray& g
       return visit_plainly(tree, number, given, limits, ray, visit, counts.work());
     }
     const Place place(instance);
-    const auto traversed = traverse<WideLeaf>(*instance.mesh, placed, counts, [&](const WideLeaf& leaf) {
-      return verb.leaf(*instance.mesh, leaf, placed, place);
-    });
+    const auto traversed = traverse<Verb::order, WideLeaf>(
+        *instance.mesh, placed, counts,
+        [&](const WideLeaf& leaf) { return verb.leaf(*instance.mesh, leaf, placed, place); });
     ray.t_max = std::min(ray.t_max, placed.given_above(placed.t_max));
     return traversed == WideTraversal::ended;
   };
   const auto intersect = [&](const WideLeaf& leaf) { return verb.leaf(tree, leaf, ray, Place{}); };
-  return traverse<WideLeaf>(tree, ray, counts, intersect, enter);
+  return traverse<Verb::order, WideLeaf>(tree, ray, counts, intersect, enter);
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ bool is_surely_hit(unsigned i, const Test& test, const WideRay& ray) {
 template <class AnyTest>
 struct Closest {
   using Test = AnyTest;
+  static constexpr Order order = Order::nearest_first;
   LeafCandidates& found;
 
   HWY_INLINE bool leaf(const WideTree& tree, const typename Test::Leaf& leaf, WideRay& ray,
@@ -69,6 +70,7 @@ struct Closest {
 template <class AnyTest, bool sure_hits_end>
 struct Visit {
   using Test = AnyTest;
+  static constexpr Order order = sure_hits_end ? Order::any : Order::nearest_first;
   const CandidateVisitor& visit;
 
   HWY_INLINE bool leaf(const WideTree&, const typename Test::Leaf& leaf, WideRay& ray,
@@ -88,6 +90,7 @@ using VisitAmbiguous = Visit<AnyTest, true>;
 template <class AnyTest>
 struct KeepAmbiguous {
   using Test = AnyTest;
+  static constexpr Order order = Order::any;
   const Bvh& world;
   std::uint32_t skip;  // another triangle's number wraps to one that an instance's mesh does not have
   LeafCandidates& found;
@@ -136,7 +139,7 @@ HWY_INLINE WideTraversal run_prepared(const WideTree& tree, const Ray& given, co
   if constexpr (std::is_same_v<typename Verb::Test, LeafTest>)
     if (!tree.instances.empty()) [[unlikely]]
       return traverse_instances(tree, given, limits, frame_t, ray, verb, counts);
-  return traverse<typename Verb::Test::Leaf>(
+  return traverse<Verb::order, typename Verb::Test::Leaf>(
       tree, ray, counts, [&](const auto& leaf) { return verb.leaf(tree, leaf, ray, Place{}); });
 }
 
