@@ -86,6 +86,7 @@ HWY_INLINE void intersect_boxes(const WideNode& node, const SpreadRay& ray, std:
                 hn::Min(at(ray.places.far_row[2], ray.inverse[2], ray.far[2]), t_max));
 }
 
+/// Children by bits, as they stand in the node; the last on top.
 HWY_INLINE void push_unsorted(const WideNode& node, unsigned bits, Stack& stack, std::size_t& size) {
   if constexpr (lanes == node_lanes) {
     std::uint8_t hit_bits[8] = {};

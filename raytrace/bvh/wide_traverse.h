@@ -42,7 +42,7 @@ struct TraversalLimits {
 };
 WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                CandidateVisitor visit, WorkCounts* work = nullptr);
-/// The same, but a triangle that is surely hit in range ends it, too, and is not reported.
+/// The same in any order; a triangle that is surely hit in range ends it, too, and is not reported.
 WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
                               WorkCounts* work = nullptr);
 
