@@ -49,6 +49,6 @@ WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVis
 /// All that the ray may intersect, but for the triangle `skip` (a primitive's id); ended: one is surely hit.
 /// `refused` also where there would be too many. `last`: null, or tried first and updated.
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
-                                   std::uint32_t skip, LeafCandidates& found, LastBlocker* last = nullptr);
+                                   std::uint32_t skip, LeafCandidates& found, LastBlocker* last);
 
 }  // namespace gnomon::raytrace
