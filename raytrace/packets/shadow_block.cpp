@@ -98,12 +98,12 @@ class BlockShadows {
     return all_of;
   }
 
-  /// Bits of the tiles that may be touched; none where no packet of theirs is.
+  /// Bits of the tiles of which a ray may be touched.
   unsigned touched_tiles(const LaneBounds& bounds) const {
-    const unsigned tiles = regions_.touched_by(bounds);
+    unsigned tiles = regions_.touched_by(bounds);
     for (unsigned left = tiles; left != 0; left &= left - 1)
-      if (tiles_[std::countr_zero(left)].packets().touched_by(bounds) != 0) return tiles;
-    return 0;
+      if (!tiles_[std::countr_zero(left)].holds_ray(bounds)) tiles &= ~(left & -left);
+    return tiles;
   }
 
   /// A run of leaves that the traversal has come to. It waits until many more are found, so that a tile that meets too many

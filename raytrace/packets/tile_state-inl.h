@@ -241,6 +241,22 @@ class TileState {
     return met;
   }
 
+  /// Whether a ray that is still asked for is within the bounds, and the primitive may be before its end.
+  bool holds_ray(const LaneBounds& b) const {
+    for (unsigned left = packets_.touched_by(b); left != 0; left &= left - 1) {
+      const auto packet = static_cast<std::size_t>(std::countr_zero(left));
+      for (std::size_t k = 0; k < packet_steps; ++k) {
+        const std::size_t at = packet * packet_rays + k * lanes();
+        const V u = hn::Load(f, rays_->u + at), v = hn::Load(f, rays_->v + at);
+        const M across = hn::And(hn::Ge(u, b.u_min), hn::Le(u, b.u_max));
+        const M down = hn::And(hn::Ge(v, b.v_min), hn::Le(v, b.v_max));
+        const M asks = hn::Le(hn::Load(f, far_ + at), b.nearest);
+        if (!hn::AllFalse(f, hn::And(asks, hn::And(across, down)))) return true;
+      }
+    }
+    return false;
+  }
+
   template <bool plane>
   HWY_INLINE bool test_packet(const LaneNumbers& primitive, const Blocker& blocker, std::uint32_t leaf,
                               std::size_t packet) {
