@@ -27,10 +27,11 @@ inline BoxRef box_of(const BvhNode& node, std::uint32_t child) {
   return box;
 }
 
-/// A tree's part of traverse_block; enter(number) for every instance. `space`: NodesThere or NodesPlaced.
-template <class Space, class Limit, class Run, class Enter>
+/// A tree's part of traverse_block: of nodes only those that wanted(box), enter(number) for every instance. `space`:
+/// NodesThere or NodesPlaced.
+template <class Space, class Limit, class Wanted, class Run, class Enter>
 void traverse_tree_by_block(const Bvh& tree, const Space& space, const Frustum& frustum, const Limit& limit,
-                            const Run& run, const Enter& enter) {
+                            const Wanted& wanted, const Run& run, const Enter& enter) {
   struct Entry {
     const BvhNode* parent;
     std::uint32_t child;
@@ -67,7 +68,7 @@ void traverse_tree_by_block(const Bvh& tree, const Space& space, const Frustum& 
       const LeafRange below =
           child.is_leaf() ? LeafRange{child.first(), child.count()} : tree.below[child.index()];
       if (below.count > run_size) {
-        nodes[count++] = child.index();
+        if (wanted(box_of(space.at(*entry.parent, scratch), entry.child))) nodes[count++] = child.index();
       } else if (child.is_instance()) {
         enter(child.instance());
       } else if (below.count > 0) {
@@ -77,13 +78,19 @@ void traverse_tree_by_block(const Bvh& tree, const Space& space, const Frustum& 
   }
 }
 
+inline bool want_every_box(const BoxRef&) {
+  return true;
+}
+
 /// run(box, leaves) for every run that the frustum touches at a priority of at least limit(). Nearest first, but
-/// several nodes at a time: memory takes longer to bring a node than its test takes.
-template <class Limit, class Run>
-void traverse_block(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const Run& run) {
-  traverse_tree_by_block(bvh, NodesThere{}, frustum, limit, run, [&](std::uint32_t number) {
+/// several nodes at a time: memory takes longer to bring a node than its test takes. Below a kept instance only the nodes
+/// that wanted(box): to place their children costs more than to ask.
+template <class Limit, class Wanted, class Run>
+void traverse_block(const Bvh& bvh, const Frustum& frustum, const Limit& limit, const Wanted& wanted,
+                    const Run& run) {
+  traverse_tree_by_block(bvh, NodesThere{}, frustum, limit, want_every_box, run, [&](std::uint32_t number) {
     const BvhInstance& instance = bvh.instances[number];
-    traverse_tree_by_block(bvh.trees[instance.tree], NodesPlaced{instance}, frustum, limit, run,
+    traverse_tree_by_block(bvh.trees[instance.tree], NodesPlaced{instance}, frustum, limit, wanted, run,
                            [](std::uint32_t) {});
   });
 }

@@ -67,7 +67,7 @@ class BlockShadows {
     if (far_min_ < inf) {
       const Frustum frustum(s_.bvh, setup_, whole());
       traverse_block(
-          s_.bvh, frustum, [&] { return limit_; },
+          s_.bvh, frustum, [&] { return limit_; }, want_every_box,
           [&](const BoxRef& box, LeafRange leaves) { find(projection_.of(box), leaves); });
       test_found();
       while (pending_.count() > 0) flush();

@@ -47,7 +47,7 @@ class BlockClosest {
     const Frustum frustum(s_.bvh, setup_, intervals);
     update_limit();
     traverse_block(
-        s_.bvh, frustum, [&] { return limit_; },
+        s_.bvh, frustum, [&] { return limit_; }, [&](const BoxRef& box) { return !is_hidden(box); },
         [&](const BoxRef& box, LeafRange leaves) {
           if (!is_hidden(box)) put(leaves);
         });
