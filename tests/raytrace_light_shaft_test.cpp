@@ -5,12 +5,14 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
+#include <string_view>
 
 #include "every_target.h"
 #include "raytrace/shading/light_samples.h"
 #include "raytrace/shading/light_shaft.h"
 #include "raytrace/single_rays.h"
 #include "raytrace_support.h"
+#include "tests/support/placements.h"
 #include "tests/support/places.h"
 
 namespace gnomon {
@@ -219,6 +221,21 @@ TEST(LightShaft, SharesAreThoseOfAllRays) {
     const bool clear = surely_sees_whole_light(tracer, pair.from, pair.light);
     EXPECT_EQ(with.rays, clear ? std::uint64_t{0} : without.rays);
     EXPECT_TRUE(!clear || without.rays == std::uint64_t{samples});
+  }
+}
+
+// Instances' meshes are looked at in their own space, the truth is found in the world's. What is a millionth as thick as it is
+// wide is left to rays: there rounding is as large as what floats have to spare.
+TEST(LightShaft, KeptInstances) {
+  for (const test::Kind& kind : test::kinds) {
+    SCOPED_TRACE(kind.name);
+    Random random(18);
+    std::vector<std::pair<std::uint32_t, Mat4>> placed;
+    for (int i = 0; i < 40; ++i)
+      placed.emplace_back(i % 2, test::moved(random.in_box(kind.extent), kind.linear(random)));
+    const Scene scene = test::instances_of({test::ball(), test::triangle_soup(30, 0.8, 0.5, 5)}, placed);
+    const bool is_paper = std::string_view(kind.name) == "thin as paper";
+    expect_clear(make_world(scene, InstanceChoice::keep), 4000, is_paper ? 0.0 : 0.35, 19);
   }
 }
 

@@ -53,8 +53,8 @@ void put_wide_instances(const World& world, WideTree& tree) {
   }
 }
 
-double error_in_world(const Ray& ray, const TraversalLimits& limits) {
-  return limits.origin_error + world_rounding * max_component(glm::abs(ray.origin));
+double error_in_world(const Vec3& origin, double origin_error) {
+  return origin_error + world_rounding * max_component(glm::abs(origin));
 }
 
 bool visit_plainly(const WideTree& tree, std::uint32_t instance, const Ray& ray,

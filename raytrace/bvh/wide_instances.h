@@ -24,14 +24,18 @@ namespace gnomon::raytrace {
 /// Fills the tree's instances from its origin's, if that has any.
 void put_wide_instances(const World& world, WideTree& tree);
 
-/// How far off the ray's origin may be for the doubles of the world, in the maximum norm: e' + 2^-46 |o|.
-double error_in_world(const Ray& ray, const TraversalLimits& limits);
+/// How far off a ray's origin, which is given to within `origin_error`, may be for the doubles of the world, in the maximum
+/// norm: e' + 2^-46 |o|.
+double error_in_world(const Vec3& origin, double origin_error);
+
+/// Parts of a mesh's `reach` by which a ray's origin may be off in its space: bounds of boxes and triangles have the first
+/// to spare, those of a shaft's boxes (raytrace/bvh/wide_shaft.h) the second.
+constexpr double ray_to_spare = 0x1p-35, shaft_to_spare = 0x1p-22;
 
 /// Whether floats suffice for a ray of such an error.
-inline bool has_bounds(const WideInstance& instance, double error) {
-  constexpr double most_error = 0x1p-35;
+inline bool has_bounds(const WideInstance& instance, double error, double to_spare = ray_to_spare) {
   return instance.mesh != nullptr && instance.inverse_norm * error + instance.error <=
-                                         most_error * static_cast<double>(instance.mesh->reach);
+                                         to_spare * static_cast<double>(instance.mesh->reach);
 }
 
 /// All leaves of an instance whose plain boxes the ray may intersect before `limited` ends; visit(leaf) returns true to

@@ -3,6 +3,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include "raytrace/bvh/wide_instances.h"
 #include "raytrace/bvh/wide_leaf-inl.h"
 #include "raytrace/bvh/wide_shaft.h"
 
@@ -24,13 +25,13 @@ struct SpreadShaft {
 bool spread(const WideTree& tree, const Shaft& shaft, SpreadShaft& to) {
   const double size = std::max(max_component(glm::abs(shaft.low)), max_component(glm::abs(shaft.high)));
   const float r = tree.reach;
-  if (!(size >= 0x1p-60 && size <= 0x1p60) || !all_finite(shaft.origin)) return false;
+  if (!(size >= 0x1p-60 && size <= 0x1p60)) return false;
   constexpr float narrowest = 0x1p-40f;
   for (std::size_t row = 0; row < 6; ++row) {
     const int a = static_cast<int>(row % 3);
     const bool lower = row < 3;  // a lower plane
     const double o = shaft.origin[a] - tree.center[row % 3];
-    if (!(std::abs(o) <= 64.0 * static_cast<double>(r))) return false;
+    if (!(std::abs(o) <= 0x1p60)) return false;
     const auto origin = static_cast<float>(o);
     const auto widest =
         static_cast<float>((lower ? shaft.high[a] : shaft.low[a]) / size) + (lower ? 0x1p-20f : -0x1p-20f);
@@ -63,7 +64,17 @@ HWY_INLINE unsigned intersected_children(const WideNode& node, const SpreadShaft
   return hit;
 }
 
-bool shaft_kernel(const WideTree& tree, const Shaft& given, ShaftLeaves& found) {
+/// The shaft in the space of an instance's mesh, or one around it. With that to spare the matrix and its inverse stretch by at
+/// most 2^18 together, so that directions are right to 2^-30 of their size; spread() widens them by 2^-20.
+Shaft placed(const WideInstance& instance, const Shaft& shaft) {
+  const Mat3& m = instance.object_from_world;
+  const Mat3 sizes(glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2]));
+  const Vec3 center = m * (0.5 * (shaft.low + shaft.high)), half = sizes * (0.5 * (shaft.high - shaft.low));
+  return {m * (shaft.origin - instance.translation), center - half, center + half, shaft.endless};
+}
+
+/// Of a tree whose first leaf primitive is `first` to who asks.
+bool find_in_tree(const WideTree& tree, std::uint32_t first, const Shaft& given, ShaftLeaves& found) {
   SpreadShaft shaft;
   if (!spread(tree, given, shaft)) return false;
   std::array<std::uint32_t, (node_lanes - 1) * (Bvh::max_depth + 4) + node_lanes> stack;
@@ -75,13 +86,22 @@ bool shaft_kernel(const WideTree& tree, const Shaft& given, ShaftLeaves& found) 
       const WideChild child{node.child[std::countr_zero(hit)]};
       if (!child.is_leaf()) {
         stack[size++] = child.index();
-        continue;
+      } else if (child.is_instance()) {
+        const WideInstance& instance = tree.instances[child.index()];
+        if (!has_bounds(instance, error_in_world(given.origin, 0.0), shaft_to_spare) ||
+            !find_in_tree(*instance.mesh, instance.first_leaf, placed(instance, given), found))
+          return false;
+      } else {
+        const LeafTriangles& leaf = tree.leaves[child.index()].triangles;
+        if (!found.add({first + leaf.first(), leaf.last() + 1})) return false;
       }
-      const LeafTriangles& leaf = tree.leaves[child.index()].triangles;
-      if (!found.add({leaf.first(), leaf.last() + 1})) return false;
     }
   }
   return true;
+}
+
+bool shaft_kernel(const WideTree& tree, const Shaft& shaft, ShaftLeaves& found) {
+  return find_in_tree(tree, 0, shaft, found);
 }
 
 }  // namespace
@@ -93,7 +113,7 @@ namespace gnomon::raytrace {
 HWY_EXPORT(shaft_kernel);
 
 bool leaves_in_shaft(const WideTree& tree, const Shaft& shaft, ShaftLeaves& found) {
-  return !tree.plain && tree.instances.empty() && HWY_DYNAMIC_DISPATCH(shaft_kernel)(tree, shaft, found);
+  return !tree.plain && HWY_DYNAMIC_DISPATCH(shaft_kernel)(tree, shaft, found);
 }
 
 }  // namespace gnomon::raytrace

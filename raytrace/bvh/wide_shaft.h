@@ -15,8 +15,8 @@ struct Shaft {
   bool endless = false;
 };
 
-/// Whose boxes the shaft may intersect; no other primitive of the tree lies in it, not by 2^-21 of its size
-/// and of the distance from the tree's centre.
+/// Whose boxes the shaft may intersect; no other primitive of the tree lies in it, not by 2^-22 of the tree's size and of
+/// the origin's distance from its centre: of a kept instance the mesh's, in the mesh's space.
 class ShaftLeaves {
  public:
   static constexpr std::size_t most = 24;
@@ -33,7 +33,7 @@ class ShaftLeaves {
   std::size_t count_ = 0;
 };
 
-/// False: not found, for there are too many, or the shaft is out of the floats' range.
+/// False: not found, for there are too many, or the shaft is out of the floats' range, the world's or an instance's.
 bool leaves_in_shaft(const WideTree& tree, const Shaft& shaft, ShaftLeaves& found);
 
 }  // namespace gnomon::raytrace

@@ -182,7 +182,7 @@ template <class Verb, class Counts>
 HWY_NOINLINE WideTraversal traverse_instances(const WideTree& tree, const Ray& given,
                                               const TraversalLimits& limits, double frame_t, WideRay& ray,
                                               const Verb& verb, const Counts& counts) {
-  const double error = error_in_world(given, limits);
+  const double error = error_in_world(given.origin, limits.origin_error);
   const auto enter = [&](std::uint32_t number) {
     const WideInstance& instance = tree.instances[number];
     WideRay placed;

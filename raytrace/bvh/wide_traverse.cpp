@@ -204,7 +204,8 @@ HWY_INLINE bool is_blocked_again(const WideTree& tree, const Ray& given, const T
   if (leaf == nullptr) return false;
   if (instance == nullptr) return verb.is_blocked(tree, *leaf, ray, Place{});
   WideRay placed;
-  return place_ray(*instance, given, limits, error_in_world(given, limits), frame_t, ray, placed) &&
+  return place_ray(*instance, given, limits, error_in_world(given.origin, limits.origin_error), frame_t, ray,
+                   placed) &&
          verb.is_blocked(*instance->mesh, *leaf, placed, Place(*instance));
 }
 

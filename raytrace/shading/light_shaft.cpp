@@ -164,7 +164,7 @@ bool spares_leaf(const Structures& s, const LightShaft& shaft, std::uint32_t lea
   const std::uint32_t id = s.bvh.id_at(leaf);
   const bool is_source = id == from.primitive;
   if (!s.has_shapes || s.world->is_triangle(id))
-    return spares_triangle(shaft, s.bvh.primitives[leaf], is_source);
+    return spares_triangle(shaft, s.bvh.primitive_at(leaf), is_source);
   const auto* sphere = std::get_if<Sphere>(&s.world->shape(id).geometry);
   return sphere != nullptr && spares_sphere(shaft, *sphere, from, is_source);
 }
