@@ -8,6 +8,7 @@
 #include "raytrace/bvh/traverse.h"
 #include "raytrace/bvh/wide_tree.h"
 #include "raytrace/precision/facing.h"
+#include "raytrace/shapes/mask_cells.h"
 #include "raytrace/shapes/solid.h"
 #include "raytrace/shapes/surface_uv.h"
 #include "raytrace/tracer.h"
@@ -29,8 +30,9 @@ struct Structures {
   Precision precision = Precision::robust;
   std::vector<FastPrimitive> fast;  ///< in leaf order, for Precision::fast alone
   bool has_masks = false;
-  bool hides_backs = false;  ///< some triangle's back is not seen
-  bool has_shapes = false;   ///< spheres or solids among the leaves
+  std::vector<MaskCells> masks;  ///< by material; none where no material has one
+  bool hides_backs = false;      ///< some triangle's back is not seen
+  bool has_shapes = false;       ///< spheres or solids among the leaves
 };
 
 /// traverse() through whichever structure there is.
@@ -86,19 +88,21 @@ struct RobustArithmetic {
 inline bool passes_alpha_test(const Structures& s, RayFrame ray, Hit& hit) {
   const World& world = *s.world;
   if (!world.is_masked(hit.primitive)) return true;
-  const Material& material = world.scene->materials[world.material_of(hit.primitive)];
+  const std::uint32_t number = world.material_of(hit.primitive);
+  const Material& material = world.scene->materials[number];
+  const MaskCells* cells = s.masks.empty() ? nullptr : &s.masks[number];
   const auto position = [&] {
     return Vec3(ray.origin[0], ray.origin[1], ray.origin[2]) +
            hit.t * Vec3(ray.direction[0], ray.direction[1], ray.direction[2]);
   };
-  if (!is_masked_out(world, material, hit.primitive, hit.barycentric, position())) return true;
+  if (!is_masked_out(world, material, cells, hit.primitive, hit.barycentric, position())) return true;
   if (world.is_triangle(hit.primitive)) return false;
   const ShapeGeometry& geometry = world.shape(hit.primitive).geometry;
   if (is_solid(geometry)) {
     for (const double t : solid_crossings(ray, geometry)) {
       if (!(t > hit.t && t < ray.t.max)) continue;
       hit.t = t;
-      if (!is_masked_out(world, material, hit.primitive, hit.barycentric, position())) return true;
+      if (!is_masked_out(world, material, cells, hit.primitive, hit.barycentric, position())) return true;
     }
     return false;
   }
@@ -107,7 +111,7 @@ inline bool passes_alpha_test(const Structures& s, RayFrame ray, Hit& hit) {
   if (sphere == nullptr || !sphere_roots(ray, sphere->center, sphere->radius, roots)) return false;
   if (!(roots.far > hit.t && roots.far < ray.t.max)) return false;
   hit.t = roots.far;
-  return !is_masked_out(world, material, hit.primitive, hit.barycentric, position());
+  return !is_masked_out(world, material, cells, hit.primitive, hit.barycentric, position());
 }
 
 /// Whether it is a triangle whose back is not seen.

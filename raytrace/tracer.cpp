@@ -63,6 +63,7 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
     for (std::uint32_t i = 0; i < s.bvh.ids.size(); ++i)
       s.fast.push_back(fast_primitive(leaf_at(s, i), world.is_triangle(s.bvh.ids[i])));
   s.has_masks = any_material(world, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; });
+  if (s.has_masks) s.masks = mask_cells(*world.scene);
   s.hides_backs = any_triangle_material(world, [](const Material& m) { return !shows_back(m); });
   return s;
 }
@@ -72,6 +73,11 @@ std::uint64_t bytes_of(const Bvh& bvh) {
                         bvh.primitives.bytes() + bvh.ids.size() * sizeof(std::uint32_t) +
                         bvh.instances.size() * sizeof(BvhInstance);
   for (const Bvh& tree : bvh.trees) bytes += bytes_of(tree);
+  return bytes;
+}
+std::uint64_t bytes_of(const std::vector<MaskCells>& masks) {
+  std::uint64_t bytes = 0;
+  for (const MaskCells& cells : masks) bytes += cells.bytes();
   return bytes;
 }
 std::uint64_t nodes_of(const Bvh& bvh) {
@@ -191,7 +197,9 @@ Tracer::Tracer(const World& world, Accel accel, Precision precision) : impl_(std
   const auto& other = impl_->structures.structure;
   const StructureSize size = other != nullptr ? size_of(*other) : StructureSize{};
   impl_->stats = {.build_ms = watch.elapsed_ms(),
-                  .bytes = bytes_of(bvh) + size.bytes + impl_->structures.fast.size() * sizeof(FastPrimitive),
+                  .bytes = bytes_of(bvh) + size.bytes +
+                           impl_->structures.fast.size() * sizeof(FastPrimitive) +
+                           bytes_of(impl_->structures.masks),
                   .nodes = nodes_of(bvh) + size.nodes,
                   .dropped = bvh.dropped};
 }

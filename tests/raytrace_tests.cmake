@@ -10,7 +10,7 @@ gnomon_test(raytrace_solids_test
   LIBS raytrace_support TBB::tbb)
 
 gnomon_test(raytrace_packet_test
-  SOURCES raytrace_packet_test.cpp raytrace_packet_parts_test.cpp raytrace_edge_setup_test.cpp
+  SOURCES raytrace_packet_test.cpp raytrace_packet_masks_test.cpp raytrace_packet_parts_test.cpp raytrace_edge_setup_test.cpp
   LIBS raytrace_support TBB::tbb hwy::hwy)
 
 gnomon_test(raytrace_wide_test

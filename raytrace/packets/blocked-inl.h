@@ -12,7 +12,7 @@
 
 #include <hwy/highway.h>
 
-#include "raytrace/packets/lanes-inl.h"
+#include "raytrace/packets/mask_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
@@ -21,6 +21,7 @@ namespace gnomon::raytrace::HWY_NAMESPACE {
 struct Blocker {
   std::uint32_t not_from;  ///< rays that leave this primitive are not blocked
   bool may_be_sure;
+  const TriangleMask* mask = nullptr;  ///< if any is known
 };
 
 /// A vector of rays from `at` on; those whose `far`, the receivers' reciprocal depth or depth along the light, is infinite

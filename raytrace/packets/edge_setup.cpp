@@ -4,6 +4,7 @@
 #include <array>
 
 #include "raytrace/packets/edge_setup_rows.h"
+#include "raytrace/packets/triangle_mask.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -110,7 +111,7 @@ EdgeSetup edge_setup_along(const Structures& s, const Vec3& to_light) {
 }
 
 unsigned set_up_leaves(const Structures& s, const EdgeSetupPass& pass, std::span<const std::uint32_t> leaves,
-                       EdgeSetupRows& rows) {
+                       EdgeSetupRows& rows, TriangleMask* masks) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   std::array<PlacedCorners, EdgeSetupRows::together> placed;
   std::array<CornerPointers, EdgeSetupRows::together> triangles;
@@ -121,13 +122,15 @@ unsigned set_up_leaves(const Structures& s, const EdgeSetupPass& pass, std::span
   unsigned never = 0;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const std::uint32_t id = s.bvh.id_at(leaves[i]);
+    masks[i].cells = nullptr;
     if (!s.world->is_triangle(id)) {
       const float void_rows[EdgeSetupRows::count] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
                                                      0.0f, 0.0f, 0.0f, 0.0f, inf,  inf,  -inf};
       for (std::size_t k = 0; k < EdgeSetupRows::count; ++k) rows.out[k][i] = void_rows[k];
       never |= 1u << i;
     } else if (s.has_masks && s.world->is_masked(id)) {
-      never |= 1u << i;
+      masks[i] = triangle_mask(s, pass, id, triangles[i]);
+      never |= static_cast<unsigned>(masks[i].cells == nullptr) << i;
     }
   }
   return never;

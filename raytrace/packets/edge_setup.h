@@ -26,7 +26,7 @@ struct alignas(64) PrimitiveEdges {
 };
 static_assert(sizeof(PrimitiveEdges) == 64);
 
-/// The primitives' float numbers are void: its rays go to the double kernels (spheres, alpha masks, ...).
+/// The primitives' float numbers are void: its rays go to the double kernels (spheres, masked planes, ...).
 inline constexpr std::uint32_t never_sure = 0x80000000u;
 
 struct EdgeSetup {

@@ -31,10 +31,12 @@ struct EdgeSetupPass {
 
 EdgeSetupPass edge_setup_pass(const Structures& structures, const EdgeSetup& setup);
 
+struct TriangleMask;
+
 /// Up to eight leaves by their numbers, of which those that are no triangles are void. Bit i: the i-th is never
-/// sure.
+/// sure. `masks`: as many, where to put what is known of the masked triangles' masks.
 unsigned set_up_leaves(const Structures& structures, const EdgeSetupPass& pass,
-                       std::span<const std::uint32_t> leaves, EdgeSetupRows& rows);
+                       std::span<const std::uint32_t> leaves, EdgeSetupRows& rows, TriangleMask* masks);
 
 void set_up_eight_triangles(std::span<const CornerPointers, EdgeSetupRows::together> triangles,
                             const EdgeSetupPass& pass, EdgeSetupRows& rows);

@@ -28,7 +28,7 @@ SurfacePoint receiver_of(const Tracer& tracer, const View& view, int x, int y, s
                          const Candidates& candidates = {}) {
   if (leaf == nothing_hit) return {};
   const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
-  // A masked or curved primitive is never a sure hit, so what is found are triangles and planes.
+  // A curved primitive or a masked plane is never a sure hit, so what is found are triangles and planes.
   std::optional<Hit> hit = leaf == ambiguous_hit ? std::nullopt : hit_at(tracer.structures(), ray, leaf);
   if (!hit)
     hit = candidates.known ? tracer.closest_seen_among(ray, candidates.leaves) : tracer.closest_seen(ray);

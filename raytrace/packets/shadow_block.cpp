@@ -49,7 +49,7 @@ class BlockShadows {
     for (std::size_t t = 0; t < most_shadow_tiles; ++t) {
       for (Packets& part : regions_.part) Extent{}.store(part, t), part.far_min[t] = inf;
       if (t >= count_) continue;
-      tiles_[t].start(tiles[t]);
+      tiles_[t].start(tiles[t], s.has_masks);
       tiles_[t].enter(regions_, t);
       misses_left_ += misses_a_ray * tiles_[t].rays();
     }
@@ -211,10 +211,11 @@ class BlockShadows {
     for (std::size_t first = 0; first < ready_; first += batch) {
       const std::size_t count = std::min(ready_ - first, batch);
       EdgeSetupRows& rows = rows_[first / batch];
-      const unsigned never = set_up_leaves(s_, pass_, {ready_leaves_ + first, count}, rows);
+      TriangleMask* masks = masks_ + first;
+      const unsigned never = set_up_leaves(s_, pass_, {ready_leaves_ + first, count}, rows, masks);
       for (std::size_t i = 0; i < count; ++i)
         blockers_[first + i] = {rows.edge_error()[i] < inf ? s_.bvh.id_at(ready_leaves_[first + i]) : no_id,
-                                (never >> i & 1) == 0};
+                                (never >> i & 1) == 0, masks[i].cells != nullptr ? masks + i : nullptr};
     }
     unsigned changed = 0;
     for (std::size_t k = 0; k < pair_end_; ++k) changed |= test(pairs_[k]);
@@ -284,6 +285,7 @@ class BlockShadows {
   std::uint16_t pairs_[most_ready * most_shadow_tiles * tile_packets + 8];
   EdgeSetupRows rows_[most_ready / batch];
   Blocker blockers_[most_ready];
+  TriangleMask masks_[most_ready];
   PendingLeaves pending_;
 };
 

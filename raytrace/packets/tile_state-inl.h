@@ -128,11 +128,12 @@ inline bool worth_splitting(const Extent& whole, const Extent& a, const Extent& 
 /// One tile's rays: what is still asked, and what is known.
 ///
 /// A leaf costs a tile 30 to 50 ns, whatever the scene, and a kept instance's leaf, whose corners are brought into the world
-/// first, some 130; a single ray costs 0.3 to 0.6 us through the wide tree. So a tile may meet a number of leaves for each of
-/// its rays; the rays of a tile that meets more go on one by one.
+/// first, some 130; a single ray costs 0.3 to 0.6 us through the wide tree, and 2 to 4 us where that must ask for alpha masks.
+/// So a tile may meet a number of leaves for each of its rays; the rays of a tile that meets more go on one by one.
 class TileState {
  public:
-  void start(const ShadowTileRays& tile) {
+  /// `masks`: whether the world has any.
+  void start(const ShadowTileRays& tile, bool masks) {
     rays_ = tile.rays, out_ = tile.shadows;
     out_->shadowed.fill(0), out_->ambiguous.fill(0), out_->ambiguous_count = 0;
     packets_.split = false;
@@ -145,7 +146,7 @@ class TileState {
     }
     find_extents();
     for (std::size_t p = 0; p < tile_packets; ++p) update(p);
-    leaves_left_ = std::int64_t{rays()} * most_leaves;
+    leaves_left_ = std::int64_t{rays()} * (masks ? most_leaves_of_masked : most_leaves);
   }
 
   /// The number of them, decided or not.
@@ -272,8 +273,9 @@ class TileState {
   }
 
  private:
-  static constexpr int most_leaves = 32;  ///< for a ray; the comment of the class
-  static constexpr int placed_price = 4;  ///< of an instance's leaf, in others
+  static constexpr int most_leaves = 32,
+                       most_leaves_of_masked = 128;  ///< for a ray; the comment of the class
+  static constexpr int placed_price = 4;             ///< of an instance's leaf, in others
 
   template <bool plane>
   HWY_INLINE BlockedRays<plane> blocked(const LaneNumbers& primitive, const Blocker& blocker,
@@ -287,8 +289,14 @@ class TileState {
     for (std::size_t k = 0; k < packet_steps; ++k) {
       const std::size_t first = k * lanes(), at = packet * packet_rays + first;
       const BlockedRays<plane> rays = blocked<plane>(primitive, blocker, packet, k);
-      const M surely = blocker.may_be_sure ? rays.surely(primitive) : hn::Lt(all(inf), all(inf));
-      const unsigned bits = bits_of(surely), open = bits_of(rays.perhaps) & ~bits;
+      M surely = blocker.may_be_sure ? rays.surely(primitive) : hn::Lt(all(inf), all(inf));
+      unsigned bits = bits_of(surely), open = bits_of(rays.perhaps) & ~bits;
+      if (blocker.mask != nullptr && bits != 0) [[unlikely]] {
+        const V u = hn::Load(f, rays_->u + at), v = hn::Load(f, rays_->v + at);
+        const MaskBits mask = look_up(*blocker.mask, u, v, bits);
+        open |= bits & ~(mask.opaque | mask.holes), bits = mask.opaque;
+        surely = mask_of(bits);
+      }
       out_->ambiguous[packet] |= static_cast<std::uint16_t>(open << first);
       if (!plane) out_->note(leaf, at, open);
       hn::Store(hn::IfThenElse(surely, all(inf), rays.far), f, far_ + at);

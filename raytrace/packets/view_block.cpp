@@ -7,6 +7,7 @@
 
 #include "raytrace/packets/block_plane-inl.h"
 #include "raytrace/packets/edge_setup_rows.h"
+#include "raytrace/packets/mask_lanes-inl.h"
 #include "raytrace/packets/packet_grid.h"
 #include "raytrace/packets/pending_leaves-inl.h"
 #include "raytrace/packets/view_block.h"
@@ -37,7 +38,7 @@ class BlockClosest {
     for (std::uint32_t k = 0; k < setup_.planes.size(); ++k) {
       rows_[0].set(0, setup_.planes[k]);
       const LaneNumbers numbers(rows_[0], 0);
-      test_all<true>(numbers, first_plane + k, (setup_.planes[k].id & never_sure) == 0, packets_);
+      test_all<true>(numbers, {first_plane + k, (setup_.planes[k].id & never_sure) == 0}, packets_);
     }
     Packets intervals;
     for (std::size_t p = 0; p < tile_packets; ++p) {
@@ -138,7 +139,7 @@ class BlockClosest {
       std::uint32_t leaves[8];
       const std::size_t together = std::min<std::size_t>(8, count - first);
       for (std::size_t i = 0; i < together; ++i) leaves[i] = asked_[first + i].leaf;
-      never[first / 8] = set_up_leaves(s_, pass_, {leaves, together}, rows_[first / 8]);
+      never[first / 8] = set_up_leaves(s_, pass_, {leaves, together}, rows_[first / 8], masks_ + first);
       if (s_.hides_backs) backs[first / 8] = leave_out_backs({leaves, together}, never[first / 8]);
     }
     rank_falling(nearest, count, rank);
@@ -147,9 +148,9 @@ class BlockClosest {
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t at = order[k], b = at / 8, i = at % 8;
       if ((backs[b] >> i & 1) != 0) continue;
-      const LaneNumbers numbers(rows_[b], i);
-      taken |=
-          test_packets(numbers, asked_[at].leaf, (never[b] >> i & 1) == 0, nearest[at], asked_[at].covered);
+      const Tested tested{asked_[at].leaf, (never[b] >> i & 1) == 0,
+                          masks_[at].cells != nullptr ? masks_ + at : nullptr};
+      taken |= test_packets(LaneNumbers(rows_[b], i), tested, nearest[at], asked_[at].covered);
     }
     if (taken) update_limit();
   }
@@ -210,25 +211,32 @@ class BlockClosest {
     return backs;
   }
 
-  bool test_packets(const LaneNumbers& numbers, std::uint32_t leaf, bool may_be_sure, float nearest,
+  /// A primitive besides its numbers.
+  struct Tested {
+    std::uint32_t leaf;
+    bool may_be_sure;
+    const TriangleMask* mask = nullptr;  ///< if any is known
+  };
+
+  bool test_packets(const LaneNumbers& numbers, const Tested& tested, float nearest,
                     const PacketRect& covered) {
     bool taken = false;
     for (int y = covered.y0; y <= covered.y1; ++y)
       for (unsigned left = asking(nearest, covered, y); left != 0; left &= left - 1)
-        taken |= test<false>(numbers, leaf, may_be_sure, static_cast<std::size_t>(std::countr_zero(left)),
+        taken |= test<false>(numbers, tested, static_cast<std::size_t>(std::countr_zero(left)),
                              static_cast<std::size_t>(y - packets_.y0));
     return taken;
   }
   template <bool plane>
-  void test_all(const LaneNumbers& numbers, std::uint32_t leaf, bool may_be_sure, const PacketRect& covered) {
+  void test_all(const LaneNumbers& numbers, const Tested& tested, const PacketRect& covered) {
     for (int y = covered.y0; y <= covered.y1; ++y)
       for (int x = covered.x0; x <= covered.x1; ++x)
-        test<plane>(numbers, leaf, may_be_sure, static_cast<std::size_t>(x - packets_.x0),
+        test<plane>(numbers, tested, static_cast<std::size_t>(x - packets_.x0),
                     static_cast<std::size_t>(y - packets_.y0));
   }
 
   template <bool plane>
-  bool test(const LaneNumbers& p, std::uint32_t leaf, bool may_be_sure, std::size_t column, std::size_t row) {
+  bool test(const LaneNumbers& p, const Tested& tested, std::size_t column, std::size_t row) {
     const std::size_t packet = packet_at(column, row);
     bool taken = false;
     for (std::size_t i = 0; i < packet_rays; i += lanes()) {
@@ -238,10 +246,15 @@ class BlockClosest {
       const V reciprocal_depth = p.reciprocal_depth(u, v), low = hn::Load(f, low_ + at);
       const M known = hn::Gt(reciprocal_depth, p.depth_floor());
       const M behind = hn::And(hn::Lt(reciprocal_depth, hn::Sub(low, p.depth_error())), known);
-      const M candidate = hn::AndNot(behind, hn::Ge(edge, hn::Neg(p.edge_error())));
+      M candidate = hn::AndNot(behind, hn::Ge(edge, hn::Neg(p.edge_error())));
       if (hn::AllFalse(f, candidate)) continue;
       M sure = hn::And(candidate, hn::And(hn::Gt(edge, p.edge_error()), known));
-      if (!may_be_sure) sure = hn::Lt(low, low);
+      if (!tested.may_be_sure) sure = hn::Lt(low, low);
+      if (!plane && tested.mask != nullptr) [[unlikely]] {
+        const MaskBits mask = look_up(*tested.mask, u, v, bits_of(sure));
+        candidate = hn::AndNot(mask_of(mask.holes), candidate), sure = mask_of(mask.opaque);
+        if (hn::AllFalse(f, candidate)) continue;
+      }
       const V high = hn::Load(f, high_ + at), new_low = hn::Sub(reciprocal_depth, p.depth_error());
       const V new_high = hn::IfThenElse(known, hn::Add(reciprocal_depth, p.depth_error()), all(inf));
       const M take = hn::And(sure, hn::Gt(new_low, low));
@@ -252,14 +265,14 @@ class BlockClosest {
         const V nearest = hn::Load(f, rival_ + at);
         hn::Store(hn::IfThenElse(rival, hn::Max(nearest, hn::IfThenElse(take, high, new_high)), nearest), f,
                   rival_ + at);
-        note(leaf, at, bits_of(rival), bits_of(take));
+        note(tested.leaf, at, bits_of(rival), bits_of(take));
       }
       if (hn::AllFalse(f, take)) continue;
       taken = true;
       hn::Store(hn::IfThenElse(take, new_low, low), f, low_ + at);
       hn::Store(hn::IfThenElse(take, new_high, high), f, high_ + at);
       const auto old = hn::Load(ids, leaf_at(at));
-      hn::Store(hn::IfThenElse(hn::RebindMask(ids, take), hn::Set(ids, leaf), old), ids, leaf_at(at));
+      hn::Store(hn::IfThenElse(hn::RebindMask(ids, take), hn::Set(ids, tested.leaf), old), ids, leaf_at(at));
     }
     if (taken) {
       float& asked = nearest_asked_[row][column];
@@ -318,6 +331,7 @@ class BlockClosest {
   PendingLeaves pending_;
   EdgeSetupRows rows_[batch / 8];
   Asked asked_[batch];
+  TriangleMask masks_[batch];
   alignas(64) float nearest_asked_[block_side]
                                   [block_side];  ///< of packets; what is nowhere nearer is of no interest
   alignas(64) float low_[block_rays], high_[block_rays], rival_[block_rays];
