@@ -43,7 +43,7 @@ void choose_receivers(const Tracer& tracer, std::span<const std::uint32_t> light
   };
   because(options.records || !options.picture, "the frame hands them on");
   because(plan.primary != PrimaryWay::blocks, "single rays find them but once");
-  because(s.has_masks || s.has_shapes, "floats are not sure of the edges of masks nor of curved shapes");
+  because(s.has_shapes, "floats are not sure of curved shapes");
   for (const std::uint32_t i : lights) {
     const Light& light = s.world->scene->lights[i];
     because(has_size(light), "a light with size reads them for every sample");

@@ -133,6 +133,21 @@ TEST(PacketMasks, TexelsThatFloatsCannotTellApart) {
   for (const double uv_scale : {1e3, 1e4, 1e5, 1e7}) check(masked_soup(300, 1.5, uv_scale, 7), {101, 67});
 }
 
+// Where only the picture is wanted its receivers are found again instead of stored: on masked triangles, too.
+TEST(PacketMasks, ThePictureAloneIsThatOfTheFrame) {
+  Scene scene = masked_soup(1500, 0.3, 0.1, 8);
+  const TestWorld w(scene);
+  const Tracer tracer(w.world(), Accel::bvh);
+  const std::array<std::uint32_t, 2> lights{0, 1};
+  raytrace::RaytraceOptions options;
+  options.size = {203, 131};
+  const auto whole = trace_frame(tracer, plan_effects(scene), scene.camera, lights, options);
+  options.records = false;
+  const auto alone = trace_frame(tracer, plan_effects(scene), scene.camera, lights, options);
+  EXPECT_EQ(alone.color.data, whole.color.data);
+  EXPECT_TRUE(alone.receiver.data.empty());
+}
+
 // Leaves whose masks have many texels a pixel, in front of one another: few rays are left to the double kernels.
 TEST(PacketMasks, FewRaysAreLeft) {
   constexpr ImageSize size{320, 200};
