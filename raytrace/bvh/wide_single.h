@@ -84,7 +84,9 @@ template <bool masks, class Arithmetic>
 class Blockers {
  public:
   Blockers(const Structures& s, const Ray& ray) : s_(s), ray_(ray) {}
-  bool leaf(std::uint32_t leaf) {
+  /// `surely`: the floats know that the ray hits it.
+  bool leaf(std::uint32_t leaf, bool surely) {
+    if (surely && !(masks && s_.world->is_masked(s_.bvh.id_at(leaf)))) return true;
     return is_ready() && arithmetic_->leaf(s_, frame_, leaf, hit_) && is_opaque_there();
   }
   bool plane(std::uint32_t plane) {
@@ -116,9 +118,8 @@ WideAnswer any_wide(const Structures& s, const WideTree& tree, const Ray& ray, W
     if (work != nullptr) ++work->primitives;
     if (blockers.plane(plane)) return WideAnswer::hit;
   }
-  const auto visit = [&](std::uint32_t leaf, WideRay&) { return blockers.leaf(leaf); };
-  const WideTraversal traversed =
-      masks ? visit_candidates(tree, ray, {}, visit, work) : visit_ambiguous(tree, ray, visit, work);
+  const auto visit = [&](std::uint32_t leaf, bool surely) { return blockers.leaf(leaf, surely); };
+  const WideTraversal traversed = visit_blockers(tree, ray, visit, work);
   return traversed == WideTraversal::refused ? WideAnswer::refused
                                              : hit_or_nothing(traversed == WideTraversal::ended);
 }

@@ -67,25 +67,35 @@ struct Closest {
   bool plainly(std::uint32_t leaf, WideRay&) const { return !keep(found, leaf); }
 };
 
-template <class AnyTest, bool sure_hits_end>
-struct Visit {
+template <class AnyTest>
+struct VisitAll {
   using Test = AnyTest;
-  static constexpr Order order = sure_hits_end ? Order::any : Order::nearest_first;
+  static constexpr Order order = Order::nearest_first;
   const CandidateVisitor& visit;
 
   HWY_INLINE bool leaf(const WideTree&, const typename Test::Leaf& leaf, WideRay& ray,
                        const Place& place) const {
     const std::uint32_t first = place.first_leaf + leaf.triangles.first();
-    return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
-      return (sure_hits_end && is_surely_hit(i, test, ray)) || visit(first + i, ray);
-    });
+    return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test&) { return visit(first + i, ray); });
   }
   bool plainly(std::uint32_t leaf, WideRay& ray) const { return visit(leaf, ray); }
 };
+
 template <class AnyTest>
-using VisitAll = Visit<AnyTest, false>;
-template <class AnyTest>
-using VisitAmbiguous = Visit<AnyTest, true>;
+struct VisitBlockers {
+  using Test = AnyTest;
+  static constexpr Order order = Order::any;
+  const BlockerVisitor& visit;
+
+  HWY_INLINE bool leaf(const WideTree&, const typename Test::Leaf& leaf, WideRay& ray,
+                       const Place& place) const {
+    const std::uint32_t first = place.first_leaf + leaf.triangles.first();
+    return each_candidate<Test>(leaf, ray, [&](unsigned i, const Test& test) {
+      return visit(first + i, is_surely_hit(i, test, ray));
+    });
+  }
+  bool plainly(std::uint32_t leaf, WideRay&) const { return visit(leaf, false); }
+};
 
 template <class AnyTest>
 struct KeepAmbiguous {
@@ -186,14 +196,13 @@ WideTraversal visit_counted(const WideTree& tree, const Ray& ray, const Traversa
   return by_test<VisitAll>(tree, ray, limits, CountTests{work}, ready, visit);
 }
 
-WideTraversal ambiguous_kernel(const WideTree& tree, const Ray& ray, CandidateVisitor visit) {
+WideTraversal blockers_kernel(const WideTree& tree, const Ray& ray, BlockerVisitor visit) {
   WideRay ready;
-  return by_test<VisitAmbiguous>(tree, ray, {}, NoCounts{}, ready, visit);
+  return by_test<VisitBlockers>(tree, ray, {}, NoCounts{}, ready, visit);
 }
-WideTraversal ambiguous_counted(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
-                                WorkCounts& work) {
+WideTraversal blockers_counted(const WideTree& tree, const Ray& ray, BlockerVisitor visit, WorkCounts& work) {
   WideRay ready;
-  return by_test<VisitAmbiguous>(tree, ray, {}, CountTests{work}, ready, visit);
+  return by_test<VisitBlockers>(tree, ray, {}, CountTests{work}, ready, visit);
 }
 
 /// As run_prepared().
@@ -231,8 +240,8 @@ HWY_EXPORT(closest_kernel);
 HWY_EXPORT(closest_counted);
 HWY_EXPORT(visit_kernel);
 HWY_EXPORT(visit_counted);
-HWY_EXPORT(ambiguous_kernel);
-HWY_EXPORT(ambiguous_counted);
+HWY_EXPORT(blockers_kernel);
+HWY_EXPORT(blockers_counted);
 HWY_EXPORT(collect_kernel);
 
 namespace {
@@ -259,10 +268,9 @@ WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const Trave
   return work != nullptr ? GNOMON_KERNEL(visit_counted)(tree, ray, limits, visit, *work)
                          : GNOMON_KERNEL(visit_kernel)(tree, ray, limits, visit);
 }
-WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
-                              WorkCounts* work) {
-  return work != nullptr ? GNOMON_KERNEL(ambiguous_counted)(tree, ray, visit, *work)
-                         : GNOMON_KERNEL(ambiguous_kernel)(tree, ray, visit);
+WideTraversal visit_blockers(const WideTree& tree, const Ray& ray, BlockerVisitor visit, WorkCounts* work) {
+  return work != nullptr ? GNOMON_KERNEL(blockers_counted)(tree, ray, visit, *work)
+                         : GNOMON_KERNEL(blockers_kernel)(tree, ray, visit);
 }
 WideTraversal ambiguous_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                    std::uint32_t skip, LeafCandidates& found, LastBlocker* last) {

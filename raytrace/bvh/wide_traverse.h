@@ -42,9 +42,10 @@ struct TraversalLimits {
 };
 WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                CandidateVisitor visit, WorkCounts* work = nullptr);
-/// The same in any order; a triangle that is surely hit in range ends it, too, and is not reported.
-WideTraversal visit_ambiguous(const WideTree& tree, const Ray& ray, CandidateVisitor visit,
-                              WorkCounts* work = nullptr);
+/// The same in any order; `surely`: it is a triangle, which is hit in range.
+using BlockerVisitor = FunctionRef<bool(std::uint32_t leaf, bool surely)>;
+WideTraversal visit_blockers(const WideTree& tree, const Ray& ray, BlockerVisitor visit,
+                             WorkCounts* work = nullptr);
 
 /// All that the ray may intersect, but for the triangle `skip` (a primitive's id); ended: one is surely hit.
 /// `refused` also where there would be too many. `last`: null, or tried first and updated.
