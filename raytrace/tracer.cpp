@@ -333,6 +333,12 @@ std::optional<Hit> Tracer::closest_seen_among(const Ray& ray, std::span<const st
   });
 }
 
+bool Tracer::occluded_among(const Ray& ray, std::span<const std::uint32_t> leaves) const {
+  const Structures& s = impl_->structures;
+  return specialise(
+      s, [&]<bool masks, class Arithmetic>() { return any_among<masks, Arithmetic>(s, ray, leaves); });
+}
+
 PointVisibility Tracer::centre_visibility_among(const SurfacePoint& from, const Light& light,
                                                 std::span<const std::uint32_t> leaves) const {
   const Ray ray = shadow_ray(from, light);

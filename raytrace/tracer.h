@@ -129,6 +129,8 @@ class Tracer {
   /// The same when every triangle or sphere that the ray does not surely miss is one of these positions in
   /// leaf order (Structures::bvh); not for Precision::fast.
   std::optional<Hit> closest_seen_among(const Ray& ray, std::span<const std::uint32_t> leaves) const;
+  /// occluded() where all but planes that the ray may intersect is among these.
+  bool occluded_among(const Ray& ray, std::span<const std::uint32_t> leaves) const;
   PointVisibility centre_visibility_among(const SurfacePoint& from, const Light& light,
                                           std::span<const std::uint32_t> leaves) const;
 

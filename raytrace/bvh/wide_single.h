@@ -111,6 +111,15 @@ class Blockers {
   Hit hit_;
 };
 
+/// The leaves and the planes one by one.
+template <bool masks, class Arithmetic>
+bool any_among(const Structures& s, const Ray& ray, std::span<const std::uint32_t> leaves) {
+  Blockers<masks, Arithmetic> blockers(s, ray);
+  return std::any_of(leaves.begin(), leaves.end(),
+                     [&](std::uint32_t i) { return blockers.leaf(i, false); }) ||
+         std::any_of(s.planes.begin(), s.planes.end(), [&](std::uint32_t id) { return blockers.plane(id); });
+}
+
 template <bool masks, class Arithmetic>
 WideAnswer any_wide(const Structures& s, const WideTree& tree, const Ray& ray, WorkCounts* work = nullptr) {
   Blockers<masks, Arithmetic> blockers(s, ray);

@@ -122,7 +122,8 @@ double stratified_standard_error(std::span<const std::uint8_t> samples) {
 
 SampledVisibility light_visibility(const Tracer& tracer, const SurfacePoint& from, const Light& light,
                                    int samples, std::uint64_t key) {
-  if (samples >= least_shaft_rays && surely_sees_whole_light(tracer, from, light)) return {1.0, 0.0, 0};
+  const LightBlockers blockers = find_light_blockers(tracer, from, light, samples);
+  if (blockers.none()) return {1.0, 0.0, 0};
   const LightSamples rays(tracer, from, light, samples, key);
   SampledVisibility seen;
   int lit = 0;
@@ -132,7 +133,7 @@ SampledVisibility light_visibility(const Tracer& tracer, const SurfacePoint& fro
     const std::optional<Ray> ray = rays[i];
     if (!ray) continue;
     ++seen.rays;
-    if (tracer.occluded(*ray)) continue;
+    if (blockers.block(tracer, *ray)) continue;
     arrived[static_cast<std::size_t>(i)] = 1;
     ++lit;
   }

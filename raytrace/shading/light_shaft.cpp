@@ -182,19 +182,30 @@ void prepare_light_shafts(const Tracer& tracer, int rays) {
   if (rays >= least_shaft_rays) prepare_single_rays(tracer);
 }
 
-bool surely_sees_whole_light(const Tracer& tracer, const SurfacePoint& from, const Light& light) {
-  const Structures& s = tracer.structures();
-  if (s.precision == Precision::fast) return false;  // its rays start where they may intersect anything
-  const WideTree* tree = wide_tree(s);
-  if (tree == nullptr) return false;
-  const LightShaft shaft(from, light);
-  if (!shaft.is_above_horizon() || !spares_planes(s, shaft, from.primitive)) return false;
-  ShaftLeaves leaves;
-  if (!leaves_in_shaft(*tree, shaft.shaft(), leaves)) return false;
-  for (const LeafRange& range : leaves.ranges())
-    for (std::uint32_t i = 0; i < range.count; ++i)
-      if (!spares_leaf(s, shaft, range.first + i, from)) return false;
+bool LightBlockers::add(std::uint32_t leaf, bool placed) {
+  price_ += placed ? placed_price : 1;
+  if (price_ > most) return false;
+  leaf_[count_++] = leaf;
   return true;
+}
+
+LightBlockers find_light_blockers(const Tracer& tracer, const SurfacePoint& from, const Light& light,
+                                  int rays) {
+  const Structures& s = tracer.structures();
+  if (rays < least_shaft_rays) return {};
+  if (s.precision == Precision::fast) return {};  // its rays start where they may intersect anything
+  const WideTree* tree = wide_tree(s);
+  if (tree == nullptr) return {};
+  const LightShaft shaft(from, light);
+  if (!shaft.is_above_horizon()) return {};
+  ShaftLeaves leaves;
+  if (!leaves_in_shaft(*tree, shaft.shaft(), leaves)) return {};
+  LightBlockers blockers;
+  for (const LeafRange& range : leaves.ranges())
+    for (std::uint32_t leaf = range.first; leaf < range.first + range.count; ++leaf)
+      if (!spares_leaf(s, shaft, leaf, from) && !blockers.add(leaf, leaf >= s.bvh.ids.size())) return {};
+  blockers.known_ = true, blockers.planes_ = !spares_planes(s, shaft, from.primitive);
+  return blockers;
 }
 
 }  // namespace gnomon::raytrace

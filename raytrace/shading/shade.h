@@ -176,8 +176,8 @@ class Shader {
     const int count = shared(samples_of(light, options_), path);
     const std::uint64_t key = sample_key(sample_key(pixel_key_, light_index), ++points_sampled_);
     counts_.soft_shadow_asked += static_cast<std::uint64_t>(count);
-    if (is_in_vacuum(path) && count >= least_shaft_rays && surely_sees_whole_light(tracer_, point, light))
-      return Vec3f(1.0f);
+    const auto blockers = find_light_blockers(tracer_, point, light, is_in_vacuum(path) ? count : 0);
+    if (blockers.none()) return Vec3f(1.0f);
     const LightSamples samples(tracer_, point, light, count, key);
     Vec3f sum(0.0f);
     for (int i = 0; i < count; ++i) {
@@ -187,7 +187,7 @@ class Shader {
         sum += through_glass(*ray, path.inside, counts_.soft_shadow);
       } else {
         ++counts_.soft_shadow;
-        sum += Vec3f(tracer_.occluded(*ray) ? 0.0f : 1.0f);
+        sum += Vec3f(blockers.block(tracer_, *ray) ? 0.0f : 1.0f);
       }
     }
     return sum / static_cast<float>(count);
