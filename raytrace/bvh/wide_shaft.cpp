@@ -64,8 +64,9 @@ HWY_INLINE unsigned intersected_children(const WideNode& node, const SpreadShaft
   return hit;
 }
 
-/// The shaft in the space of an instance's mesh, or one around it. With that to spare the matrix and its inverse stretch by at
-/// most 2^18 together, so that directions are right to 2^-30 of their size; spread() widens them by 2^-20.
+/// The shaft in the space of an instance's mesh, or one around it. Where has_bounds() holds for shaft_to_spare, the norms of the
+/// matrix and its inverse multiply to at most 2^18, so that directions are right to 2^-30 of their size; spread() widens them
+/// by 2^-20.
 Shaft placed(const WideInstance& instance, const Shaft& shaft) {
   const Mat3& m = instance.object_from_world;
   const Mat3 sizes(glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2]));
