@@ -3,15 +3,17 @@
 #include <atomic>
 
 #include "scene/parallel.h"
+#include "scene/ranges.h"
 
 namespace gnomon::compare {
 namespace {
 
 // Union and find with path halving (Tarjan and van Leeuwen 1984), by several threads at a time: what is no root never
 // becomes one again, and every parent is lower than its child, so that the lowest vertex stands for all.
+using Parents = raytrace::HugeArray<std::uint32_t>;
 using Parent = std::atomic_ref<std::uint32_t>;
 
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+std::uint32_t root_of(Parents& parent, std::uint32_t v) {
   for (;;) {
     const std::uint32_t up = Parent(parent[v]).load(std::memory_order_relaxed);
     if (up == v) return v;
@@ -21,7 +23,7 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
   }
 }
 
-void join(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) {
+void join(Parents& parent, std::uint32_t a, std::uint32_t b) {
   for (;;) {
     a = root_of(parent, a), b = root_of(parent, b);
     if (a == b) return;
@@ -31,19 +33,44 @@ void join(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) 
   }
 }
 
+/// Some parts' vertices or triangles.
+class Numbers {
+ public:
+  void add(std::uint32_t first, std::uint32_t count) {
+    firsts_.push_back(first);
+    begins_.push_back(begins_.back() + count);
+  }
+  template <class Work>
+  void for_each(const Work& work) const {
+    const Ranges ranges(begins_);
+    parallel_for(ranges.size(), 8192, [&](std::uint32_t i) {
+      const std::uint32_t range = ranges.of(i);
+      work(firsts_[range] + (i - ranges.begin_of(range)));
+    });
+  }
+
+ private:
+  std::vector<std::uint32_t> firsts_, begins_{0};
+};
+
 }  // namespace
 
 void Surfaces::connect() const {
-  parent_.resize(world_.vertex_count());
-  const auto for_each = [](std::size_t count, const auto& work) {
-    parallel_for(static_cast<std::uint32_t>(count), 8192, work);
-  };
-  for_each(parent_.size(), [&](std::uint32_t v) { parent_[v] = v; });
-  for_each(world_.triangle_count(), [&](std::uint32_t t) {
-    join(parent_, topology_.welded(t, 0), topology_.welded(t, 1));
-    join(parent_, topology_.welded(t, 0), topology_.welded(t, 2));
+  Numbers vertices, triangles;
+  for (const WorldPart& part : world_.parts) {
+    if (part.triangle_count() == 0 || topology_.shared(part.first_triangle) != part.first_triangle) continue;
+    vertices.add(part.first_vertex, part.vertex_count());
+    triangles.add(part.first_triangle, part.triangle_count());
+  }
+  parent_ = raytrace::HugeArray<std::uint32_t>(world_.vertex_count());
+  vertices.for_each([&](std::uint32_t v) { parent_[v] = v; });
+  triangles.for_each([&](std::uint32_t t) {
+    const std::uint32_t corner = topology_.welded(t, 0);
+    join(parent_, corner, topology_.welded(t, 1));
+    join(parent_, corner, topology_.welded(t, 2));
   });
-  for (std::uint32_t v = 0; v < parent_.size(); ++v) parent_[v] = parent_[parent_[v]];  // parents are lower
+  vertices.for_each(
+      [&](std::uint32_t v) { Parent(parent_[v]).store(root_of(parent_, v), std::memory_order_relaxed); });
 }
 
 void Surfaces::prepare() const {
@@ -55,7 +82,9 @@ bool Surfaces::same(std::uint32_t a, std::uint32_t b) const {
   if (a == b) return true;
   if (!world_.is_triangle(a) || !world_.is_triangle(b)) return false;
   prepare();
-  return parent_[topology_.welded(a, 0)] == parent_[topology_.welded(b, 0)];
+  const std::uint32_t shared_a = topology_.shared(a), shared_b = topology_.shared(b);
+  const bool of_one_instance = a - shared_a == b - shared_b;  // 0 of what shares nothing
+  return of_one_instance && parent_[topology_.welded(shared_a, 0)] == parent_[topology_.welded(shared_b, 0)];
 }
 
 bool on_smooth_surface(const raytrace::SurfacePoint& a, const raytrace::SurfacePoint& b, const World& world) {

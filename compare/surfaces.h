@@ -3,9 +3,9 @@
 #pragma once
 
 #include <mutex>
-#include <vector>
 
 #include "raytrace/frame.h"
+#include "raytrace/huge_array.h"
 #include "raytrace/sheets.h"
 
 namespace gnomon::compare {
@@ -23,7 +23,9 @@ class Surfaces {
   const World& world_;
   const raytrace::Topology& topology_;
   mutable std::once_flag once_;
-  mutable std::vector<std::uint32_t> parent_;  ///< by welded vertex; its own where it stands for its surface
+  /// Of each welded vertex the lowest of its surface. Of instances that share their mesh's numbers
+  /// (Topology::shared), those of the first alone.
+  mutable raytrace::HugeArray<std::uint32_t> parent_;
 };
 
 /// Whether two neighbouring pixels see one smooth surface: the same shape, or triangles whose normals differ by 25

@@ -51,6 +51,12 @@ class Topology {
     const auto& vertices = part.triangles[triangle - part.first_triangle];
     return welded_[part.at.welded + vertices[static_cast<std::size_t>(stored)]] + part.add_vertex;
   }
+  /// The triangle of which this one is an instance: in the first of the parts that share their mesh's numbers; itself
+  /// where its part shares none.
+  std::uint32_t shared(std::uint32_t triangle) const {
+    const Part& part = parts_[triangles_.of(triangle)];
+    return triangle - part.first_triangle + part.shared_triangle;
+  }
 
  private:
   /// Where a part's numbers begin.
@@ -62,6 +68,7 @@ class Topology {
     const std::array<std::uint32_t, 3>* triangles = nullptr;
     Place at;
     std::uint32_t first_triangle = 0, add_triangle = 0, add_vertex = 0;
+    std::uint32_t shared_triangle = 0;  ///< the first one of the first part with the same numbers
     bool turned = false;
   };
   /// Appends the numbers of these parts, one after the other.

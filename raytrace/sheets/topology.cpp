@@ -202,7 +202,7 @@ Topology::Topology(const World& world) : triangles_(world.triangle_ranges), part
     part.triangles = world.parts[i].mesh->triangles.data(), part.turned = world.parts[i].turned;
     part.first_triangle = world.parts[i].first_triangle;
     if (together[i] == 0) continue;
-    part.at = place;
+    part.at = place, part.shared_triangle = part.first_triangle;
     place.across += 3 * std::size_t{world.parts[i].triangle_count()};
     place.welded += world.parts[i].vertex_count();
   }
@@ -232,10 +232,13 @@ std::vector<char> Topology::share_meshes(const World& world) {
     welded[m].assign(welded_.begin() + static_cast<std::ptrdiff_t>(places[m].welded), welded_.end());
   }
   const std::vector<char> together = touching_parts(world, welded);
+  std::vector<std::uint32_t> first(places.size(), no_id);
   for (std::size_t i = 0; i < world.parts.size(); ++i) {
     const WorldPart& part = world.parts[i];
     if (together[i] != 0) continue;
-    parts_[i].at = places[static_cast<std::size_t>(part.mesh - meshes)];
+    const auto m = static_cast<std::size_t>(part.mesh - meshes);
+    first[m] = std::min(first[m], part.first_triangle);
+    parts_[i].at = places[m], parts_[i].shared_triangle = first[m];
     parts_[i].add_triangle = part.first_triangle, parts_[i].add_vertex = part.first_vertex;
   }
   return together;
