@@ -61,6 +61,7 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
     time_run(kept.receivers_ms,
              [&] { silhouette_ = finder_->find(request.camera, first_row_, primitive, receivers_).traced; });
     if (!(decision_.size == primitive.size)) decision_ = Image<Decision>(primitive.size);
+    const double refined_before = kept.cache->sheets.stats().refine_ms;
     time_run(kept.shadow, [&] {
       counts_ = trace_hard_shadows(*tracer_, *kept.cache, receivers_, centre_, &decision_);
       if (kept.soft) {
@@ -73,6 +74,7 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
       for (std::size_t i = 0; i < centre_.data.size(); ++i)
         visibility.data[i] = centre_.data[i] == PointVisibility::shadowed ? 0.0f : 1.0f;
     });
+    charge_to_build(kept, kept.cache->sheets.stats().refine_ms - refined_before);
     return {};
   }
 
@@ -90,6 +92,7 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
       costs.all_rays = counts_.asked * static_cast<std::uint64_t>(samples_of(request));
       costs.bytes += kept.soft->bytes();
     }
+    costs.build_later_ms = kept.cache->sheets.stats().refine_ms;
     costs.build = kept.build, costs.receivers_ms = kept.receivers_ms, costs.shadow = kept.shadow;
     if (!counted) return costs;
     costs.decision = Image<std::uint8_t>(decision_.size);
@@ -106,6 +109,12 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
     std::optional<SoftLight> soft;  // of a light with size
     Times build, receivers_ms, shadow;
   };
+
+  // Sheets that a frame has looked at closely stay so while the light stands still.
+  static void charge_to_build(Kept& kept, double refined_ms) {
+    kept.shadow.runs.back() -= refined_ms;
+    for (double& run : kept.build.runs) run += refined_ms;
+  }
 
   void start() {
     if (tracer_) return;

@@ -31,8 +31,10 @@ struct ExternalCosts {
   std::uint64_t all_rays = 0;    ///< that pure ray tracing asks for: every sample of every receiver
   std::uint64_t silhouette = 0;  ///< pixels whose ray misses the primitive that the rasterizer shows there
   std::uint64_t bytes = 0;       ///< held for the light
-  Times build;                   ///< ms, of what is kept while light and world stand still
-  Times receivers_ms, shadow;    ///< ms, of each frame: the receivers; their visibility
+  /// ms, of what is kept while light and world stand still, with what the first frames that ask for it add; and that part.
+  Times build;
+  double build_later_ms = 0.0;
+  Times receivers_ms, shadow;  ///< ms, of each frame: the receivers; their visibility
   /// Who decided each pixel: 0 surely shadowed, 1 surely lit, 2 traced, 3 not asked.
   Image<std::uint8_t> decision;
   /// Triangles tested for the rays cast, and for all rays, by a walk that counts; 0: not counted.

@@ -56,7 +56,8 @@ class GlRenderer final : public Renderer {
   Expected<LightView> fit(Job& job, const Light& light, const MapOptions& map);
   Expected<void> time_and_draw_map(Job& job, const MapJob& map, LightRecord* record);
   Expected<void> prepare_external(Job& job, const VisibilityRequest& request, LightRecord* record);
-  Expected<void> see(const Job& job, const VisibilityRequest* request);
+  /// Whether what the camera sees need not be drawn again.
+  bool shows(const Job& job) const;
   Expected<void> find_external(const VisibilityRequest* request);
   Expected<void> shade(Job& job, const MapJob& map_job, const VisibilityRequest& request,
                        LightRecord* record);
@@ -71,6 +72,9 @@ class GlRenderer final : public Renderer {
                            const Pass& warm_up, const Pass& pass);
   Expected<void> time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
                               LightRecord& record);
+  /// camera: what it sees will be drawn by the runs, too.
+  Expected<void> warm_up_shading(const Job& job, bool camera, const VisibilityRequest* asked,
+                                 std::initializer_list<ShadePermutation> permutations);
   Expected<void> read_shading(Job& job, const MapJob& map_job, LightRecord& record);
   /// The map of the last frame with records, as long as the device holds it.
   struct KeptMap {

@@ -286,7 +286,7 @@ Expected<void> IzbPass::insert(const MapJob& job) {
 
 Expected<void> IzbPass::block(const MapJob& job) {
   const Gl& gl = *gl_;
-  const World& world = job.world.world();
+  const std::uint32_t count = std::min(job.world.world().triangle_count(), job.world.most_triangles());
   const auto triangles = program(Stage::triangles, job.light.type);
   if (!triangles) return fail(triangles.error());
   gl->NamedFramebufferParameteri(no_target_.id(), GL_FRAMEBUFFER_DEFAULT_WIDTH, job.view.size);
@@ -296,7 +296,7 @@ Expected<void> IzbPass::block(const MapJob& job) {
   for (int face = 0; face < job.view.face_count; ++face) {
     (*triangles)->use();
     gl->ProgramUniform1i((*triangles)->id(), shaders::face_uniform, face);
-    gl->DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * world.triangle_count()));
+    gl->DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * count));
     if (auto ok = block_shapes(job, face); !ok) return ok;
   }
   return {};

@@ -101,8 +101,9 @@ MapOptions without_bias(MapOptions map) {
 }
 
 // Who asks for times alone gets new ones.
-bool may_take_map(const RasterOptions& options) {
-  return hands_on_map(options) || (!options.analysis && options.runs == 0);
+bool may_take_map(const RasterOptions& options, const RasterOptions& kept) {
+  const bool times_alone = !options.analysis && options.runs > 0;
+  return !times_alone && (hands_on_map(kept) || !hands_on_map(options));
 }
 
 // Where the camera is no part of the map, and one light has the maps for itself.
@@ -114,7 +115,7 @@ bool outlasts_frame(Technique technique, std::size_t lights) {
 
 bool GlRenderer::take_kept_map(const Job& job, const Light& light, LightRecord& record) const {
   const RasterOptions& options = job.options;
-  if (!kept_map_ || !may_take_map(options)) return false;
+  if (!kept_map_ || !may_take_map(options, kept_map_->options)) return false;
   const KeptMap& kept = *kept_map_;
   if (kept.options.map != without_bias(options.map) || kept.light != light) return false;
   if (kept.reference != buffers_.reference()) return false;  // its depths were rounded from another point
@@ -131,7 +132,7 @@ bool GlRenderer::take_kept_map(const Job& job, const Light& light, LightRecord& 
 
 void GlRenderer::keep_map(const Job& job, const Light& light, const LightRecord& record) {
   // A frame whose map was kept would not tell which of the user's shaders drew it.
-  if (!gl_->shader_folder().replaced().empty() || !hands_on_map(job.options)) return;
+  if (!gl_->shader_folder().replaced().empty() || !job.options.analysis) return;
   if (!outlasts_frame(job.options.map.technique, world_->scene->lights.size())) return;
   kept_map_ =
       KeptMap{job.options, light, buffers_.reference(), record.map, record.map_pass, record.first_map_ms};

@@ -71,8 +71,9 @@ Expected<void> GlRenderer::prepare_external(Job& job, const VisibilityRequest& r
   if (auto ok = external_.check(); !ok) return ok;
   job.frame.map_texels += texels_of(request.map);
   if (record != nullptr && !job.goes_on) {
+    const Pass warm_up = [&] { return external_.prepare(request, false); };
     const Pass pass = [&] { return external_.prepare(request, true); };
-    if (auto ok = time_pass("sheet runs", job.options, record->map_pass, pass, pass); !ok) return ok;
+    if (auto ok = time_pass("sheet runs", job.options, record->map_pass, warm_up, pass); !ok) return ok;
   }
   const TimedStage stage("sheets");
   return external_.prepare(request, false);
@@ -137,7 +138,8 @@ Expected<void> GlRenderer::draw_map(const MapJob& map, bool for_records) {
 }
 
 Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightRecord* record) {
-  if (technique_pass_ != nullptr && technique_pass_->replaces_map() && !job.visibility_drawn) {
+  const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
+  if (replaced && !job.visibility_drawn && !shows(job)) {
     if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
     job.visibility_drawn = true;
   }
@@ -160,21 +162,17 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
   }
   const bool for_records = record != nullptr && hands_on_map(job.options);
   const bool drawn = record != nullptr && !job.goes_on && !record->map_pass.runs.empty();
-  if (!drawn || draws_map_for_records(map.options.technique)) {
+  if (!drawn || (for_records && draws_map_for_records(map.options.technique))) {
     const TimedStage drawing("map");
-    if (auto ok = draw_map(map, for_records); !ok) return ok;
+    if (auto ok = drawn ? map_pass_.draw(buffers_, map.view, map.options.cull) : draw_map(map, for_records);
+        !ok)
+      return ok;
     (*gl_)->Finish();
   }
   const ReadBack reading(job.frame);
   if (for_records) map_pass_.read(record->map);
   if (for_records && technique_pass_ != nullptr) technique_pass_->read(record->map);
   return gl_->check("drawing the shadow map");
-}
-
-/// What the camera sees and, with a request, how much of the light that gets.
-Expected<void> GlRenderer::see(const Job& job, const VisibilityRequest* request) {
-  if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
-  return find_external(request);
 }
 
 Expected<void> GlRenderer::find_external(const VisibilityRequest* request) {
@@ -184,42 +182,68 @@ Expected<void> GlRenderer::find_external(const VisibilityRequest* request) {
   return {};
 }
 
+// A frame that draws nothing would not tell which of the user's shaders drew it.
+bool GlRenderer::shows(const Job& job) const {
+  return gl_->shader_folder().replaced().empty() && shading_.shows(buffers_, job.view);
+}
+
+Expected<void> GlRenderer::warm_up_shading(const Job& job, bool camera, const VisibilityRequest* asked,
+                                           std::initializer_list<ShadePermutation> permutations) {
+  if (job.goes_on) return {};
+  if (asked != nullptr) {
+    if (!shows(job))
+      if (auto seen = shading_.draw_visibility(buffers_, job.view); !seen) return seen;
+    if (auto found = find_external(asked); !found) return found;
+  }
+  for (const ShadePermutation& permutation : permutations) {
+    if (last_timed_ == permutation) continue;
+    const bool with_camera = camera && asked == nullptr;
+    if (auto ok = shading_.warm_up(buffers_, job.view, permutation, !job.first_light, with_camera); !ok)
+      return ok;
+  }
+  return {};
+}
+
 /// Each run draws what the camera sees, its shadows, and where RasterOptions::shadow_cost asks for it the same
-/// picture once more without them, so that both have the same moments of the machine.
+/// picture once more without them, so that both have the same moments of the machine. What the camera sees is the same
+/// for all lights, maps and techniques: once it was timed often enough, its median stands for it.
 Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
                                         LightRecord& record) {
+  const RasterOptions& options = job.options;
   const ShadePermutation timed = shade_permutation(map_job.light, map_job.options, job.first_light, false);
   const ShadePermutation plain = unshadowed(timed);
-  const bool apart = job.options.shadow_cost;
+  Times& camera = shading_.times(buffers_, job.view);
+  const bool enough = !times_again(camera, std::max(options.runs, usual_runs), options.enough_ms);
+  const bool sees = !job.goes_on && !(enough && shows(job));
   const Pass pass = [&]() -> Expected<void> {
+    double seen_ms = job.goes_on ? 0.0 : camera.median();
+    if (sees) {
+      const Stopwatch watch;
+      if (auto seen = shading_.draw_visibility(buffers_, job.view); !seen) return seen;
+      (*gl_)->Finish();
+      seen_ms = watch.elapsed_ms();
+      camera.runs.push_back(seen_ms);
+    }
     const Stopwatch shadowed;
-    if (!job.goes_on)
-      if (auto seen = see(job, nullptr); !seen) return seen;
-    job.visibility_drawn = true;
-    if (apart) (*gl_)->Finish();
-    const double seen_ms = shadowed.elapsed_ms();
     if (auto found = find_external(asked); !found) return found;
     if (auto drawn = shading_.draw_light(buffers_, timed, !job.first_light); !drawn) return drawn;
     (*gl_)->Finish();
-    record.shade_pass.runs.push_back(shadowed.elapsed_ms());
-    if (!apart) return {};
+    record.shade_pass.runs.push_back(seen_ms + shadowed.elapsed_ms());
+    if (!options.shadow_cost) return {};
     const Stopwatch without;
     if (auto drawn = shading_.draw_light(buffers_, plain, !job.first_light); !drawn) return drawn;
     (*gl_)->Finish();
     record.unshadowed_pass.runs.push_back(seen_ms + without.elapsed_ms());
     return {};
   };
-  const Pass warm_up = [&]() -> Expected<void> {
-    if (job.goes_on) return {};
-    if (apart)
-      if (auto ok = shading_.warm_up(buffers_, job.view, plain, !job.first_light); !ok) return ok;
-    if (last_timed_ == timed) return {};
-    if (asked == nullptr) return shading_.warm_up(buffers_, job.view, timed, !job.first_light);
-    if (auto seen = see(job, asked); !seen) return seen;
-    return shading_.draw_light(buffers_, timed, !job.first_light);
+  const Pass warm_up = [&] {
+    return options.shadow_cost ? warm_up_shading(job, sees, asked, {plain, timed})
+                               : warm_up_shading(job, sees, asked, {timed});
   };
-  if (auto ok = repeat("shading runs", job.options, record.shade_pass, warm_up, pass); !ok) return ok;
-  if (job.options.runs > 0) last_timed_ = timed;
+  if (auto ok = repeat("shading runs", options, record.shade_pass, warm_up, pass); !ok) return ok;
+  if (options.runs == 0) return {};
+  last_timed_ = timed;
+  job.visibility_drawn = job.visibility_drawn || sees;
   return {};
 }
 
@@ -232,10 +256,8 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
   if (technique_pass_ != nullptr) technique_pass_->bind_for_lookup();
   if (record != nullptr)
     if (auto ok = time_shading(job, map_job, asked, *record); !ok) return ok;
-  // A frame that draws nothing would not tell which of the user's shaders drew it.
-  const bool stands = gl_->shader_folder().replaced().empty() && shading_.shows(buffers_, job.view);
-  if (!job.visibility_drawn && !stands)
-    if (auto ok = see(job, nullptr); !ok) return ok;
+  if (!job.visibility_drawn && !shows(job))
+    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
   job.visibility_drawn = true;
   if (asked != nullptr && (record == nullptr || job.options.runs == 0)) {
     if (auto ok = find_external(asked); !ok) return ok;
@@ -249,6 +271,7 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
     if (auto ok = read_shading(job, map_job, *record); !ok) return ok;
   if (asked != nullptr && record != nullptr) {
     record->external = external_.costs(request, records);
+    for (double& run : record->map_pass.runs) run += record->external->build_later_ms;
     job.frame.map_bytes = std::max(job.frame.map_bytes, record->external->bytes);
   }
   job.first_light = false;

@@ -148,6 +148,12 @@ bool ShadingPass::shows(const WorldBuffers& world, const View& view) const {
   return seen_ == seen_by(world, view);
 }
 
+Times& ShadingPass::times(const WorldBuffers& world, const View& view) {
+  const Seen seen = seen_by(world, view);
+  if (timed_ != seen) timed_ = seen, times_ = {};
+  return times_;
+}
+
 Expected<void> ShadingPass::draw_shapes(const WorldBuffers& buffers, const View& view) {
   const Projection projection{view.eye, axes(view.right, view.up, view.forward),
                               Vec2(view.tan_half_x, view.tan_half_y), true,
@@ -188,10 +194,11 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
 }
 
 Expected<void> ShadingPass::warm_up(WorldBuffers& world, const View& view,
-                                    const ShadePermutation& permutation, bool trial) {
+                                    const ShadePermutation& permutation, bool trial, bool camera) {
   const FewTriangles few(world);
   in_corner_ = true;
-  Expected<void> done = draw_visibility(world, view);
+  Expected<void> done;
+  if (camera) done = draw_visibility(world, view);
   if (done) done = draw_light(world, permutation, trial);
   in_corner_ = false;
   return done;

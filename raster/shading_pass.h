@@ -22,10 +22,13 @@ class ShadingPass {
   bool shows(const WorldBuffers& world, const View& view) const;
   /// Adds a light to the picture, or with `trial`, to an image that nobody reads (for timing).
   Expected<void> draw_light(const WorldBuffers& world, const ShadePermutation& permutation, bool trial);
-  /// Both, into a corner of the images: whatever the device compiles or sets up at the first use is then
-  /// there, without the time of a whole picture or of all triangles. Leaves the visibility buffer to be filled again.
+  /// Draws the light into a corner of the images: whatever the device compiles or sets up at the first use is then
+  /// there, without the time of a whole picture. `camera`: the visibility buffer, too, of a few triangles, which leaves it
+  /// to be filled again.
   Expected<void> warm_up(WorldBuffers& world, const View& view, const ShadePermutation& permutation,
-                         bool trial);
+                         bool trial, bool camera);
+  /// What draw_visibility() took for this view, by those who timed it.
+  Times& times(const WorldBuffers& world, const View& view);
 
   void bind_visibility() const;
   /// Of what is shaded.
@@ -56,10 +59,12 @@ class ShadingPass {
   Gl* gl_;
   ProgramCache* programs_;
   Buffer camera_block_;
-  std::optional<Seen> seen_;  ///< of the whole visibility buffer
-  ImageSize size_;            ///< of the picture
-  PictureRows rows_;          ///< that are shaded
-  bool in_corner_ = false;    ///< only a part of the images is drawn to
+  std::optional<Seen> seen_;   ///< of the whole visibility buffer
+  std::optional<Seen> timed_;  ///< what times_ are of
+  Times times_;
+  ImageSize size_;          ///< of the picture
+  PictureRows rows_;        ///< that are shaded
+  bool in_corner_ = false;  ///< only a part of the images is drawn to
   Texture2D visibility_, solid_distance_, depth_, color_, record_, flags_, drawn_visibility_, trial_color_;
   Framebuffer visibility_target_, color_target_, record_target_, trial_target_;
 };

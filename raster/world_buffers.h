@@ -55,6 +55,7 @@ class WorldBuffers {
   const World& world() const { return *world_; }
   /// Binds what the shaders read, and the vertex array of flattened triangles.
   void bind() const;
+  std::uint32_t most_triangles() const { return most_; }
   /// Draws every triangle with the program of its kind; all get the matrix. Blocks that it surely shows nothing of are left
   /// out; depths must be clamped (GL_DEPTH_CLAMP). `culls`: single-sided triangles are not drawn
   /// where their back is seen (GL_CULL_FACE is off before and after); else the caller's state holds for all. A front is

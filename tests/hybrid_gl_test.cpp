@@ -78,6 +78,24 @@ TEST(HybridTechnique, KeepsItsSheetsWhileTheLightStandsStill) {
   EXPECT_LT(rays, all_rays / 2);
 }
 
+// Sheets that the first frame looks at closely are made for the light as much as the rest of them.
+TEST(HybridTechnique, TimesOfTheMapHoldWhatTheFirstFrameAdds) {
+  const auto world = open("fence");
+  ASSERT_NE(world, nullptr);
+  raster::RasterOptions options = hybrid_options(256).raster;
+  options.runs = 3;
+  const std::vector<std::uint32_t> lights{0};
+  const auto frame = world->renderer->render(options, lights);
+  ASSERT_TRUE(frame);
+  const raster::ExternalCosts& external = *frame->lights[0].external;
+  EXPECT_GT(external.build_later_ms, 0.0);
+  const std::vector<double>&map = frame->lights[0].map_pass.runs, &build = external.build.runs;
+  ASSERT_EQ(map.size(), 3u);
+  ASSERT_EQ(build.size(), 4u);  // and the one before
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_GE(map[i], build[i + 1]) << "a pass holds what it makes";
+  EXPECT_GE(external.shadow.least(), 0.0);
+}
+
 TEST(HybridTechnique, SaysWhenNobodyWorksItOut) {
   auto scene = load_scene("floating-box");
   ASSERT_TRUE(scene);
