@@ -58,7 +58,8 @@ class Numbers {
 void Surfaces::connect() const {
   Numbers vertices, triangles;
   for (const WorldPart& part : world_.parts) {
-    if (part.triangle_count() == 0 || topology_.shared(part.first_triangle) != part.first_triangle) continue;
+    const bool empty = part.triangle_count() == 0;  // and may yet hold the lowest vertex at a place
+    if (!empty && topology_.shared(part.first_triangle) != part.first_triangle) continue;
     vertices.add(part.first_vertex, part.vertex_count());
     triangles.add(part.first_triangle, part.triangle_count());
   }

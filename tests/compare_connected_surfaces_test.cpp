@@ -91,5 +91,15 @@ TEST(ConnectedSurfaces, HangTogetherByOneCorner) {
     }
 }
 
+// The lowest vertex at a corner's place may be one of a mesh that has no triangles.
+TEST(ConnectedSurfaces, OfVerticesThatNoTriangleUses) {
+  Mesh vertices;
+  const Mesh ball = test::ball();
+  vertices.positions = ball.positions;
+  const std::uint64_t n = ball.triangles.size();
+  for (int i = 0; i < 20; ++i)  // memory that is used again holds other numbers
+    expect_both_ways(test::instances_of({vertices, ball}, {{0, Mat4(1.0)}, {1, Mat4(1.0)}}), n * (n - 1));
+}
+
 }  // namespace
 }  // namespace gnomon
