@@ -146,11 +146,11 @@ struct RasterOptions {
   MapOptions map;
   /// Timed repetitions of each pass, at most, after a warm-up, which shades a corner of the picture, and nothing where
   /// the frame before was shaded by the same program; 0: render once, untimed. What the camera sees is the same for all
-  /// lights, maps and techniques: once a view's was timed so often, and usual_runs times, its median goes into further
-  /// times of shading. A frame with records takes the map of the one before it with records where that is the same, and
-  /// its bits are: bias, size and camera may differ, the point that depths are rounded from may not; and where the map is
-  /// to be handed on, it was then, too. With the map it takes the map pass's times. A picture alone that is not timed takes
-  /// the map as well.
+  /// lights, maps and techniques: it is timed `runs` times for a view, and at least usual_runs times; from then on its
+  /// median is part of each time of shading. A frame with records takes the map of the last frame with records where it has
+  /// the same bits: bias, size and camera may differ, but not the point that depths are rounded from. A frame that hands its
+  /// map on takes only one that was handed on. With the map it takes the map pass's times. A picture alone that is not
+  /// timed takes the map as well.
   int runs = usual_runs;
   double enough_ms = never_enough_ms;  ///< no further run of a pass once those made took so long together
   /// Time the shading without shadows, too (LightRecord::unshadowed_pass): as many runs again.
