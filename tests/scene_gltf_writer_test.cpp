@@ -208,6 +208,17 @@ TEST(GltfWriter, MeshesFarFromTheirOriginKeepTheirDigits) {
     EXPECT_LT(glm::distance(before.position(i), after.position(i)), 3e-8);
 }
 
+// A reader that keeps a node's place in floats must draw the mesh where it is: the place is a float's value.
+TEST(GltfWriter, MeshesFarFromTheirOriginArePlacedByFloats) {
+  Scene scene = small();
+  for (Vec3& p : scene.meshes[0].positions) p += Vec3(1000.1, 1000.2, 0.25);
+  const Json place = json_of(scene)["nodes"][0]["matrix"];
+  for (const std::size_t i : {12u, 13u, 14u}) {
+    volatile auto as_float = place[i].get<float>();
+    EXPECT_EQ(place[i].get<double>(), static_cast<double>(as_float)) << i;
+  }
+}
+
 /// By its corners' order.
 Vec3 normal_of_first(const World& world) {
   const auto t = world.triangle(0);
