@@ -147,16 +147,6 @@ TEST(Hits, Case3DegenerateTrianglesAreNeverHit) {
   }
 }
 
-TEST(Hits, Case4CoplanarRayMisses) {
-  const TestWorld w(test::scene_of({test::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}));
-  for (const Accel accel : {Accel::bvh, Accel::brute}) {
-    const Tracer tracer(w.world(), accel);
-    EXPECT_FALSE(tracer.closest_hit({{-1.0, 0.5, 0.0}, {1.0, 0.0, 0.0}}));
-    EXPECT_FALSE(tracer.occluded({{-1.0, -1.0, 0.0}, {1.0, 1.0, 0.0}}));
-    EXPECT_TRUE(tracer.occluded({{0.5, 0.5, -1.0}, {0.0, 0.0, 1.0}}));
-  }
-}
-
 TEST(Hits, Case8DirectionLengthDoesNotMatter) {
   const TestWorld w(mixed_scene());
   const Tracer tracer(w.world(), Accel::bvh);

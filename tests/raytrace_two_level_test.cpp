@@ -53,19 +53,28 @@ TwoLevel structure_of(const World& world) {
   return std::get<TwoLevel>(build_structure(world, Accel::two_level));
 }
 
+void expect_agreement_with_brute_force(const Kind& kind, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<std::pair<std::uint32_t, Mat4>> placed;
+  for (int i = 0; i < 40; ++i)
+    placed.emplace_back(i % 2, moved(random.in_box(kind.extent), kind.linear(random)));
+  const TestWorld w(instances_of({ball(), test::triangle_soup(30, 0.8, 0.5, 5)}, placed));
+  const Tracer tracer(w.world(), Accel::two_level);
+  EXPECT_EQ(structure_of(tracer.world()).placements.size(), 40u);
+  EXPECT_EQ(structure_of(tracer.world()).trees.size(), 2u);
+  const Compared c =
+      compare(w.world(), tracer, aimed_rays(w.world(), 6000, kind.extent, Vec3(0.0), seed + 1));
+  EXPECT_EQ(c.wrong, 0u);
+  EXPECT_GT(c.hits, 2500u);
+}
+
+// Seeds 34 and 50 have rays along edges that rounding once let hit the triangle at a place that is not its own.
 TEST(TwoLevel, AgreesWithBruteForceForEveryKindOfTransform) {
-  for (const Kind& kind : kinds) {
-    Random random(11);
-    std::vector<std::pair<std::uint32_t, Mat4>> placed;
-    for (int i = 0; i < 40; ++i)
-      placed.emplace_back(i % 2, moved(random.in_box(kind.extent), kind.linear(random)));
-    const TestWorld w(instances_of({ball(), test::triangle_soup(30, 0.8, 0.5, 5)}, placed));
-    const Tracer tracer(w.world(), Accel::two_level);
-    EXPECT_EQ(structure_of(tracer.world()).placements.size(), 40u) << kind.name;
-    EXPECT_EQ(structure_of(tracer.world()).trees.size(), 2u) << kind.name;
-    const Compared c = compare(w.world(), tracer, aimed_rays(w.world(), 6000, kind.extent, Vec3(0.0), 12));
-    EXPECT_EQ(c.wrong, 0u) << kind.name;
-    EXPECT_GT(c.hits, 2500u) << kind.name;
+  for (const std::uint64_t seed : {11u, 34u, 50u}) {
+    for (const Kind& kind : kinds) {
+      SCOPED_TRACE(testing::Message() << kind.name << ", seed " << seed);
+      expect_agreement_with_brute_force(kind, seed);
+    }
   }
 }
 
@@ -238,7 +247,8 @@ TEST(TwoLevel, MemoryIsThatOfOneMesh) {
   EXPECT_EQ(structure.trees.size(), 1u);
   EXPECT_TRUE(structure.leaves.primitives.empty());
   // Four bytes a triangle for its id, and fewer than three hundred an instance.
-  EXPECT_LT(two.stats().bytes, mesh.stats().bytes + 4 * w.world().triangle_count() + 300 * placed.size());
+  EXPECT_LT(two.stats().bytes,
+            mesh.stats().bytes + std::uint64_t{4} * w.world().triangle_count() + 300 * placed.size());
 }
 
 TEST(TwoLevel, SameForAnyNumberOfThreads) {

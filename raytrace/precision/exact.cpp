@@ -30,6 +30,36 @@ Vec3 vector_of(const std::array<double, 3>& v) {
   return {v[0], v[1], v[2]};
 }
 
+/// Where a line in a triangle's plane, but for rounding, passes over the triangle; nothing: beside it. Both are looked at
+/// along the axis that is the nearest to the normal. A corner within rounding of the line lies on it.
+std::optional<Interval> stretch_along(const Vec3& origin, const Vec3& direction,
+                                      const std::array<Vec3, 3>& corners) {
+  const Vec3 n = glm::abs(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const int z = n.x >= n.y ? (n.x >= n.z ? 0 : 2) : (n.y >= n.z ? 1 : 2), x = (z + 1) % 3, y = (z + 2) % 3;
+  const Vec2 d(direction[x], direction[y]);
+  std::array<double, 3> t, side;
+  Interval out{infinity, -infinity};
+  const auto add = [&](double at) { out = {std::min(out.min, at), std::max(out.max, at)}; };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 c(corners[i][x] - origin[x], corners[i][y] - origin[y]);
+    t[i] = glm::dot(c, d) / glm::dot(d, d), side[i] = d.x * c.y - d.y * c.x;
+    if (std::abs(side[i]) <= 0x1p-46 * (std::abs(c.x) + std::abs(c.y))) side[i] = 0.0, add(t[i]);
+  }
+  for (std::size_t i = 0, k = 2; i < 3; k = i++)
+    if (side[i] * side[k] < 0.0) add(t[i] + (t[k] - t[i]) * (side[i] / (side[i] - side[k])));
+  if (!(out.min <= out.max)) return std::nullopt;
+  return out;
+}
+
+/// An edge is within rounding of a corner's distance, as where one corner lies at 1e30: no side of the triangle says where
+/// a ray passes it.
+bool is_needle(const std::array<Vec3, 3>& c) {
+  const std::array<double, 3> edge{glm::distance(c[0], c[1]), glm::distance(c[1], c[2]),
+                                   glm::distance(c[2], c[0])};
+  const auto [least, most] = std::minmax({edge[0], edge[1], edge[2]});
+  return least < 0x1p-40 * most;
+}
+
 }  // namespace
 
 int side_of_edge(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b) {
@@ -58,9 +88,18 @@ int compare_t(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 
 }
 
 bool starts_before(const RayFrame& ray, const LeafPrimitive& triangle) {
-  const Vec3 origin(ray.origin[0], ray.origin[1], ray.origin[2]);
-  const Vec3 direction(ray.direction[0], ray.direction[1], ray.direction[2]);
-  return compare_t(origin, direction, {triangle.corner(0), triangle.corner(1), triangle.corner(2)}, 0.0) > 0;
+  return compare_t(vector_of(ray.origin), vector_of(ray.direction), corners_of(triangle), 0.0) > 0;
+}
+
+bool finish_edge_on(const RayFrame& ray, const LeafPrimitive& triangle, TriangleHit& hit) {
+  const Vec3 origin = vector_of(ray.origin), direction = vector_of(ray.direction);
+  const std::array<Vec3, 3> corners = corners_of(triangle);
+  if (is_needle(corners)) return true;
+  const PlaneIntersection m = intersection_with_plane(origin, direction, corners);
+  if (m.slope.sign() == 0) return false;
+  const std::optional<Interval> along = stretch_along(origin, direction, corners);
+  if (along) hit.t = std::clamp(quotient(m.height, m.slope), along->min, along->max);
+  return along.has_value();
 }
 
 int compare_order(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& a,

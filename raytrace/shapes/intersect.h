@@ -155,14 +155,31 @@ inline bool finish_triangle(const RayFrame& ray, const LeafPrimitive& triangle, 
 /// Whether the ray, which intersects the triangle's plane, does so after its origin: exact (precision/exact.cpp).
 [[gnu::cold]] bool starts_before(const RayFrame& ray, const LeafPrimitive& triangle);
 
+/// The t of a triangle that is as good as edge-on: where the ray intersects the plane, exact, moved to where it passes over
+/// the triangle. False where the ray lies in the plane, or beside the triangle (precision/exact.cpp).
+[[gnu::cold]] bool finish_edge_on(const RayFrame& ray, const LeafPrimitive& triangle, TriangleHit& hit);
+
+/// Whether the edge functions' sum may be little more than the rounding of a sheared triangle that reaches so far along
+/// the ray. A sheared coordinate has six roundings of at most width + depth, so that the sum is known to 2^-46 of
+/// width (width + depth), the width being that of the coordinates' largest; at some ten times that the weights are known
+/// to a tenth.
+inline bool is_edge_on(const ShearedTriangle& s, double depth) {
+  const double across = std::abs(s.x[0]) + std::abs(s.x[1]) + std::abs(s.x[2]);
+  const double up = std::abs(s.y[0]) + std::abs(s.y[1]) + std::abs(s.y[2]), width = across + up;
+  return std::abs(s.u + s.v + s.w) < 0x1p-43 * width * (width + depth);
+}
+
 /// An origin in the triangle's own plane is no hit, though the rounded t may be above 0 by some roundings of the corners'
 /// distances, such as that of an eye that is level with a floor.
 inline bool intersect_triangle(const RayFrame& ray, const LeafPrimitive& triangle, TriangleHit& hit) {
   const ShearedTriangle s = shear(ray, triangle);
   if ((s.u < 0.0 || s.v < 0.0 || s.w < 0.0) && (s.u > 0.0 || s.v > 0.0 || s.w > 0.0)) return false;
-  if (!finish_triangle(ray, triangle, s, hit) || !(hit.t > ray.t.min && hit.t < ray.t.max)) return false;
-  const double reach =
-      std::max({std::abs(s.z[0]), std::abs(s.z[1]), std::abs(s.z[2])}) * std::abs(ray.shear_z);
+  if (!finish_triangle(ray, triangle, s, hit)) return false;
+  const double depth = std::max({std::abs(s.z[0]), std::abs(s.z[1]), std::abs(s.z[2])});
+  if (is_edge_on(s, depth) && !finish_edge_on(ray, triangle, hit)) [[unlikely]]
+    return false;
+  if (!(hit.t > ray.t.min && hit.t < ray.t.max)) return false;
+  const double reach = depth * std::abs(ray.shear_z);
   const bool is_rounding = ray.t.min == 0.0 && hit.t < 0x1p-49 * reach;
   return !is_rounding || starts_before(ray, triangle);
 }
