@@ -193,6 +193,8 @@ Tracer::Tracer(const World& world, Accel accel, Precision precision) : impl_(std
   const TimedStage stage("build");
   const Stopwatch watch;
   impl_->structures = make_structures(world, accel, precision);
+  // The textbook's hits may lie outside the boxes, so that the tree decides with them: all rays go through the same one.
+  if (precision == Precision::fast) prepare_single_rays(*this);
   const Bvh& bvh = impl_->structures.bvh;
   const auto& other = impl_->structures.structure;
   const StructureSize size = other != nullptr ? size_of(*other) : StructureSize{};

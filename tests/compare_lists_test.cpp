@@ -40,7 +40,10 @@ void expect_standard_order() {
     EXPECT_EQ(floats, expected) << count;
 
     std::vector<std::uint64_t> numbers(count);
-    for (auto& n : numbers) n = std::uint64_t{random()} << (random() % 33) | (random() & 1);
+    for (auto& n : numbers) {
+      n = std::uint64_t{random()} << (random() % 33);
+      n |= random() & 1;
+    }
     std::vector<std::uint64_t> ascending = numbers;
     std::sort(ascending.begin(), ascending.end());
     sort_numbers(std::span(numbers));
@@ -82,7 +85,7 @@ raster::LightRecord random_lookups(ImageSize size, int map_size, std::mt19937& r
   record.texel_uv = Image<Vec2f>(size), record.face = Image<std::uint8_t>(size);
   std::uniform_real_distribution<float> place(-1.0f, static_cast<float>(map_size) + 1.0f);
   for (std::size_t i = 0; i < size.pixels(); ++i) {
-    record.texel_uv.data[i] = Vec2f(place(random), place(random));
+    record.texel_uv.data[i] = Vec2f{place(random), place(random)};
     record.face.data[i] = static_cast<std::uint8_t>(random() % 6);
   }
   return record;

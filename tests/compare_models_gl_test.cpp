@@ -154,8 +154,8 @@ bool explained_by_rounding(const EmbreeTruth& embree, const Vec3& from, const Ve
   std::mt19937 random(7);
   std::uniform_real_distribution<double> jitter(-1.0, 1.0);
   for (int i = 0; i < 256; ++i) {
-    const Vec3 moved = from + 2e-6 * scale * Vec3(jitter(random), jitter(random), jitter(random));
-    const Vec3 turned = direction + 5e-7 * Vec3(jitter(random), jitter(random), jitter(random));
+    const Vec3 moved = from + 2e-6 * scale * Vec3{jitter(random), jitter(random), jitter(random)};
+    const Vec3 turned = direction + 5e-7 * Vec3{jitter(random), jitter(random), jitter(random)};
     if (embree.shadowed(moved, turned, distance, own) == ours) return true;
   }
   return false;

@@ -23,7 +23,9 @@ using raytrace::Precision;
 constexpr double least_subnormal = 4.9406564584124654e-324;
 
 Vec3 whole(Random& r, int reach) {
-  return Vec3(r.integer(-reach, reach), r.integer(-reach, reach), r.integer(-reach, reach));
+  Vec3 v;
+  for (int a = 0; a < 3; ++a) v[a] = r.integer(-reach, reach);
+  return v;
 }
 
 /// A point of the first edge, a corner or a point inside, as a sum of quarters: exact for whole numbers.
@@ -42,11 +44,16 @@ void aim_at(AimedTriangle& t, const Vec3& aim) {
     if (std::abs(t.direction[a]) < 1e-290 * largest) t.direction[a] = 0.0;
 }
 
+Vec3 near_quarter_point(Random& r, const std::array<Vec3, 3>& c) {
+  const Vec3 point = quarter_point(r, c);
+  return r.nudged(point, r.coin() ? 0 : 1);
+}
+
 AimedTriangle corners_and_edges(Random& r) {
   AimedTriangle t;
   for (Vec3& corner : t.corners) corner = 4.0 * whole(r, 8);
   t.origin = whole(r, 50);
-  aim_at(t, r.nudged(quarter_point(r, t.corners), r.coin() ? 0 : 1));
+  aim_at(t, near_quarter_point(r, t.corners));
   return t;
 }
 
@@ -54,10 +61,10 @@ AimedTriangle coplanar(Random& r) {
   AimedTriangle t;
   for (Vec3& corner : t.corners) corner = 4.0 * whole(r, 8);
   const Vec3 u = t.corners[1] - t.corners[0], v = t.corners[2] - t.corners[0];
-  t.origin =
-      t.corners[0] + static_cast<double>(r.integer(-3, 3)) * u + static_cast<double>(r.integer(-3, 3)) * v;
+  const double along_u = r.integer(-3, 3), along_v = r.integer(-3, 3);
+  t.origin = t.corners[0] + along_u * u + along_v * v;
   if (r.coin()) t.origin = r.nudged(t.origin, 1);
-  aim_at(t, r.nudged(quarter_point(r, t.corners), r.coin() ? 0 : 1));
+  aim_at(t, near_quarter_point(r, t.corners));
   return t;
 }
 
@@ -105,11 +112,13 @@ AimedTriangle any_of(Random& r) {
 
 /// Down to where every product, and at last every difference, is subnormal.
 AimedTriangle tiny(Random& r) {
-  return scaled(any_of(r), -r.integer(100, 1060));
+  const AimedTriangle t = any_of(r);
+  return scaled(t, -r.integer(100, 1060));
 }
 
 AimedTriangle huge(Random& r) {
-  return scaled(any_of(r), r.integer(100, 330));
+  const AimedTriangle t = any_of(r);
+  return scaled(t, r.integer(100, 330));
 }
 
 /// Of ordinary size, but for zeros that are not quite: a few of the least subnormal numbers.

@@ -19,7 +19,7 @@ Mesh with_uvs(Mesh mesh, std::uint64_t seed) {
   test::Random random(seed);
   mesh.uvs.clear();
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    mesh.uvs.emplace_back(random.uniform(0.0, 4.0), random.uniform(0.0, 4.0));
+    mesh.uvs.emplace_back(Vec2{random.uniform(0.0, 4.0), random.uniform(0.0, 4.0)});
   return mesh;
 }
 

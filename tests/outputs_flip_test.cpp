@@ -132,7 +132,7 @@ TEST(Flip, EqualsTheDirectImplementationOnNoise) {
   ColorImage a(ImageSize{37, 29}), b(a.size);
   for (std::size_t i = 0; i < a.data.size(); ++i) {
     a.data[i] = {value(random), value(random), value(random)};
-    b.data[i] = i % 3 == 0 ? a.data[i] : Vec3f(value(random), value(random), value(random));
+    b.data[i] = i % 3 == 0 ? a.data[i] : Vec3f{value(random), value(random), value(random)};
   }
   expect_same_as_direct(a, b, flip_pixels_per_degree);
   expect_same_as_direct(a, b, 30.0);

@@ -22,7 +22,8 @@ bool is_shown(const Mat4& matrix, const Vec3& relative) {
 }
 
 Mat4 seen_from(Random& random, bool perspective) {
-  const Mat4 view = glm::lookAt(random.in_box(2.0), random.in_box(2.0), random.in_box(1.0));
+  const Vec3 eye = random.in_box(2.0), target = random.in_box(2.0);
+  const Mat4 view = glm::lookAt(eye, target, random.in_box(1.0));
   const double width = random.uniform(0.3, 2.0);
   return (perspective ? glm::perspective(width, 1.5, 0.1, 50.0) : glm::ortho(-width, width, -0.5, 0.7)) *
          view;

@@ -52,7 +52,7 @@ TEST(ShapeBounds, HoldSpheresBeforeBesideBehindAndAround) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-6.0, 6.0), radius(0.05, 3.0);
   for (int i = 0; i < 60; ++i) {
-    const Shape ball{"ball", Sphere{Vec3(place(random), place(random), place(random)), radius(random)}, 0};
+    const Shape ball{"ball", Sphere{Vec3{place(random), place(random), place(random)}, radius(random)}, 0};
     Projection p = camera_projection();
     expect_tight(p, ball, false);
     p.perspective = false;
@@ -71,9 +71,9 @@ TEST(ShapeBounds, EndAPlaneAtItsHorizon) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (int i = 0; i < 30; ++i) {
-    const Vec3 normal = glm::normalize(Vec3(any(random), any(random), any(random)));
+    const Vec3 normal = glm::normalize(Vec3{any(random), any(random), any(random)});
     expect_tight(camera_projection(),
-                 {"plane", Plane{Vec3(any(random), any(random), any(random)), normal}, 0}, false);
+                 {"plane", Plane{Vec3{any(random), any(random), any(random)}, normal}, 0}, false);
   }
 }
 

@@ -72,7 +72,7 @@ std::vector<Ray> random_rays(int count, double extent, std::uint64_t seed) {
   Random random(seed);
   std::vector<Ray> rays;
   for (int i = 0; i < count; ++i) {
-    Ray ray{random.in_box(extent), random.direction() * random.uniform(0.1, 10.0)};
+    Ray ray{random.in_box(extent), test::some_direction(random, {0.1, 10.0})};
     if (i % 4 == 1) ray.t.max = random.uniform(0.0, 0.3);
     if (i % 4 == 2) ray.t.min = random.uniform(0.0, 0.3);
     rays.push_back(ray);
@@ -113,7 +113,7 @@ Scene mixed_scene() {
                            test::uv_sphere(Vec3(1, 0, 0), 1.0, 8, 12, 0.05, 4)};
   std::vector<Shape> shapes{test::plane(Vec3(0, -4, 0), Vec3(0, 1, 0))};
   Random random(2);
-  for (int i = 0; i < 30; ++i) shapes.push_back(test::sphere(random.in_box(4.0), random.uniform(0.05, 0.8)));
+  for (int i = 0; i < 30; ++i) shapes.push_back(test::some_sphere(random, 4.0, {0.05, 0.8}));
   return test::scene_of(std::move(meshes), std::move(shapes));
 }
 
@@ -146,7 +146,7 @@ TEST(Accel, Case17And18RaysInWallsAndThroughCornersOfCells) {
   Rivals rivals(w.world());
   Random random(7);
   std::vector<Ray> rays;
-  const auto lattice = [&] { return Vec3(random.below(7), random.below(7), random.below(7)); };
+  const auto lattice = [&] { return Vec3{random.below(7), random.below(7), random.below(7)}; };
   for (int i = 0; i < 20000; ++i) {
     const Vec3 a = lattice(), b = lattice();
     const Vec3 outside = a + 12.0 * random.direction();
@@ -218,8 +218,12 @@ TEST(Accel, PlanesOfTheBspTree) {
   for (int i = 0; i < 20000; ++i) {  // within a triangle's own plane, through an edge's end, across an edge
     const auto [p, q, r] = w.world().corners(random.below(w.world().triangle_count()));
     const Vec3 u = q - p, v = r - p;
-    const Vec3 from = p + random.uniform(-6.0, 6.0) * u + random.uniform(-6.0, 6.0) * v;
-    rays.push_back({from, random.uniform(-1.0, 1.0) * u + random.uniform(-1.0, 1.0) * v});
+    const auto somewhere = [&](double reach) {
+      const double along_u = random.uniform(-reach, reach);
+      return along_u * u + random.uniform(-reach, reach) * v;
+    };
+    const Vec3 from = p + somewhere(6.0);
+    rays.push_back({from, somewhere(1.0)});
   }
   EXPECT_EQ(rivals.disagreements(rays), 0u);
   EXPECT_GT(rivals.hits(), 1000u);

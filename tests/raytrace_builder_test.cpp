@@ -243,8 +243,7 @@ TEST(Builder, LeavesWorkThatWasGivenUp) {
 TEST(Builder, ShapesAmongTriangles) {
   std::vector<Shape> shapes;
   Random random(30);
-  for (int i = 0; i < 600; ++i)
-    shapes.push_back(test::sphere(random.in_box(1.0), random.uniform(0.001, 0.3)));
+  for (int i = 0; i < 600; ++i) shapes.push_back(test::some_sphere(random, 1.0, {0.001, 0.3}));
   expect_built_well(test::scene_of({test::triangle_soup(900, 1.0, 0.2, 31)}, std::move(shapes)), 200, 2.0);
 }
 

@@ -118,7 +118,8 @@ Places place_in(const LightPlane& plane, int column, int row, Random& random) {
   double u = plane.u_line(column), v = plane.v_line(row);
   if (kind == 1 || kind == 3) u += random.uniform(0.0, 1.0) * plane.u_width();
   if (kind == 2 || kind == 3) v += random.uniform(0.0, 1.0) * plane.v_width();
-  return {u + whisker(random, plane.u_width()), v + whisker(random, plane.v_width())};
+  u += whisker(random, plane.u_width());
+  return {u, v + whisker(random, plane.v_width())};
 }
 
 /// Tiles of receivers on the floor, each tile a square of it, its corners among them.
@@ -152,9 +153,9 @@ struct Receivers {
   /// Of a random cell's; the next try when it is not in the tile's square.
   static SurfacePoint receiver(const LightPlane& plane, const Vec2& lo, const Vec2& hi, Random& random) {
     for (int tries = 0; tries < 4000; ++tries) {
-      const Places p =
-          place_in(plane, static_cast<int>(random.below(static_cast<std::uint32_t>(plane.columns()))),
-                   static_cast<int>(random.below(static_cast<std::uint32_t>(plane.rows()))), random);
+      const auto column = random.below(static_cast<std::uint32_t>(plane.columns())),
+                 row = random.below(static_cast<std::uint32_t>(plane.rows()));
+      const Places p = place_in(plane, static_cast<int>(column), static_cast<int>(row), random);
       const Vec3 foot = plane.at_height(p.u, p.v, 0.0);
       if (foot.x > lo.x && foot.x < hi.x && foot.z > lo.y && foot.z < hi.y)
         return floor_point(foot.x, foot.z);
@@ -182,6 +183,11 @@ class Occluders {
     return setting_.ceiling * (random_.below(8) == 0 ? 1e-3 : random_.uniform(0.02, 0.95));
   }
   Vec3 at(double u, double v, double h) const { return plane_.at_height(u, v, h); }
+  /// On these lines, but for a whisker.
+  Vec3 near(double u, double v, double h) {
+    const double near_u = u + whisker(random_, plane_.u_width());
+    return at(near_u, v + whisker(random_, plane_.v_width()), h);
+  }
   void put(const Vec3& a, const Vec3& b, const Vec3& c) {
     const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
     mesh_.positions.insert(mesh_.positions.end(), {a, b, c});
@@ -191,42 +197,48 @@ class Occluders {
   void add(int kind, bool through) {
     const int i = column(), j = row(), reach = 1 + static_cast<int>(random_.below(3));
     const double u = plane_.u_line(i), v = plane_.v_line(j), du = plane_.u_width(), dv = plane_.v_width();
-    const auto near = [&](double value, double width) { return value + whisker(random_, width); };
-    const auto some = [&] { return static_cast<double>(random_.below(7)) - 3.0; };
+    const auto some = [&](double width) { return width * (static_cast<double>(random_.below(7)) - 3.0); };
     switch (kind) {
-      case 0:  // corners on crossings
-        return put(at(near(u, du), near(v, dv), height(false)),
-                   at(near(u + some() * du, du), near(v + some() * dv, dv), height(false)),
-                   at(near(u + some() * du, du), near(v + some() * dv, dv), height(false)));
+      case 0: {  // corners on crossings
+        const auto crossing = [&] {
+          const double a = some(du), b = some(dv);
+          return near(u + a, v + b, height(false));
+        };
+        const Vec3 first = near(u, v, height(false)), second = crossing();
+        return put(first, second, crossing());
+      }
       case 1: {  // touches a crossing with a corner, the rest in one quadrant
-        const double su = random_.below(2) == 0 ? -1.0 : 1.0, sv = random_.below(2) == 0 ? -1.0 : 1.0;
-        return put(at(near(u, du), near(v, dv), height(false)),
-                   at(u + su * du * random_.uniform(0.1, 2.0), v + sv * dv * random_.uniform(0.1, 2.0),
-                      height(false)),
-                   at(u + su * du * random_.uniform(0.1, 2.0), v + sv * dv * random_.uniform(0.1, 2.0),
-                      height(false)));
+        const double su = random_.below(2) == 0 ? -du : du, sv = random_.below(2) == 0 ? -dv : dv;
+        const auto in_quadrant = [&] {
+          const double a = su * random_.uniform(0.1, 2.0), b = sv * random_.uniform(0.1, 2.0);
+          return at(u + a, v + b, height(false));
+        };
+        const Vec3 first = near(u, v, height(false)), second = in_quadrant();
+        return put(first, second, in_quadrant());
       }
       case 2: {  // an edge through a crossing, aslant, the rest on one side
         const double a = random_.uniform(0.5, 2.5) * du, b = random_.uniform(0.5, 2.5) * dv;
         const double h = height(false);
-        const double su = near(0.0, du), sv = near(0.0, dv);
+        const double su = whisker(random_, du), sv = whisker(random_, dv);
         return put(at(u + a + su, v - b + sv, h), at(u - a + su, v + b + sv, h),
                    at(u + reach * a, v + reach * b, h));
       }
       case 3: {  // an edge along a line
-        const double h = height(false), uu = near(u, du);
-        return put(at(uu, v, h), at(uu, v + reach * dv, height(false)),
-                   at(u + random_.uniform(-2.0, 2.0) * du, v + random_.uniform(-1.0, 2.0) * dv, h));
+        const double h = height(false), uu = u + whisker(random_, du);
+        const Vec3 second = at(uu, v + reach * dv, height(false));
+        const double a = random_.uniform(-2.0, 2.0) * du, b = random_.uniform(-1.0, 2.0) * dv;
+        return put(at(uu, v, h), second, at(u + a, v + b, h));
       }
       case 4: {  // sliver
-        const double h = height(false), s = random_.uniform(0.0, 1.0), a = some() * du, b = some() * dv;
-        return put(at(near(u, du), near(v, dv), h), at(u + a, v + b, h),
-                   at(near(u + s * a, du), near(v + s * b, dv), h));
+        const double h = height(false), s = random_.uniform(0.0, 1.0), a = some(du), b = some(dv);
+        const Vec3 first = near(u, v, h);
+        return put(first, at(u + a, v + b, h), near(u + s * a, v + s * b, h));
       }
-      default:  // through the light's plane (only few: they hide much), or just large
-        return put(at(near(u, du), near(v, dv), height(through)),
-                   at(u + some() * du, v + 0.5 * some() * dv, height(through)),
-                   at(near(u + 0.5 * some() * du, du), near(v, dv), height(false)));
+      default: {  // through the light's plane (only few: they hide much), or just large
+        const double a = some(du), b = 0.5 * some(dv), c = 0.5 * some(du);
+        const Vec3 first = near(u, v, height(through)), second = at(u + a, v + b, height(through));
+        return put(first, second, near(u + c, v, height(false)));
+      }
     }
   }
 
@@ -280,27 +292,29 @@ std::array<std::uint64_t, 3> counts_of(const Image<PointVisibility>& visibility)
   return counts;
 }
 
-void check(const Setting& setting, int triangles, std::uint64_t seed) {
+/// False, and nothing is checked, where nearly all is lit or nearly all is dark: large triangles can hide everything.
+bool check(const Setting& setting, int triangles, std::uint64_t seed) {
   SCOPED_TRACE(setting.name);
   const LightPlane plane = plane_of(setting);
   const TestWorld w(scene_with(setting, Occluders(plane, setting, seed).make(triangles)));
   const Tracer tracer(w.world(), Accel::bvh);
   const Receivers receivers(&plane, seed + 1000);
   const Image<PointVisibility> truth = one_by_one(Tracer(w.world(), Accel::brute), setting.light, receivers);
+  const auto counts = counts_of(truth);
+  const auto few = [&](PointVisibility v) {
+    return counts[static_cast<std::size_t>(v)] <= truth.data.size() / 100;
+  };
+  if (few(PointVisibility::shadowed) || few(PointVisibility::lit)) return false;
   // Single rays do not know of blocks, but have hierarchies to leave something out.
   for (const Accel accel : {Accel::bvh, Accel::two_level})
     EXPECT_EQ(one_by_one(Tracer(w.world(), accel), setting.light, receivers).data, truth.data);
-  const auto counts = counts_of(truth);
-  const std::uint64_t all = truth.data.size();
-  // Neither all lit nor all dark: large triangles can hide everything, so the seed is chosen.
-  EXPECT_GT(counts[static_cast<std::size_t>(PointVisibility::shadowed)], all / 100);
-  EXPECT_GT(counts[static_cast<std::size_t>(PointVisibility::lit)], all / 100);
   test::for_each_target([&] {
     const Image<PointVisibility> found = by_blocks(tracer, setting.light, receivers);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < found.data.size(); ++i) wrong += found.data[i] == truth.data[i] ? 0 : 1;
     EXPECT_EQ(wrong, 0u) << packet_target();
   });
+  return true;
 }
 
 std::vector<Setting> settings() {
@@ -317,7 +331,11 @@ std::vector<Setting> settings() {
 TEST(ShadowBlocks, VerdictsOnTheLinesAreThoseOfBruteForce) {
   std::uint64_t seed = 61;
   for (const Setting& setting : settings())
-    for (const int triangles : {60, 500, 3000}) check(setting, triangles, ++seed);
+    for (const int triangles : {60, 500, 3000}) {
+      int tries = 1;
+      while (!check(setting, triangles, ++seed) && tries < 20) ++tries;
+      EXPECT_LT(tries, 20) << setting.name << ' ' << triangles;
+    }
 }
 
 }  // namespace

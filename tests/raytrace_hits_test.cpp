@@ -23,7 +23,7 @@ Scene mixed_scene() {
   std::vector<Mesh> meshes{test::triangle_soup(300, 4.0, 1.0, 1)};
   std::vector<Shape> shapes;
   Random random(2);
-  for (int i = 0; i < 20; ++i) shapes.push_back(test::sphere(random.in_box(4.0), random.uniform(0.05, 0.8)));
+  for (int i = 0; i < 20; ++i) shapes.push_back(test::some_sphere(random, 4.0, {0.05, 0.8}));
   return test::scene_of(std::move(meshes), std::move(shapes));
 }
 
@@ -33,7 +33,7 @@ TEST(Hits, AgreeWithAnIndependentPredicateAndBruteForce) {
   Random random(3);
   int vouched = 0, hits = 0;
   for (int i = 0; i < 3000; ++i) {
-    const Ray ray{random.in_box(4.0), random.direction() * random.uniform(0.1, 10.0)};
+    const Ray ray{random.in_box(4.0), test::some_direction(random, {0.1, 10.0})};
     const std::optional<Hit> hit = bvh.closest_hit(ray);
     ASSERT_TRUE(same(hit, brute.closest_hit(ray))) << i;
     ASSERT_EQ(hit.has_value(), bvh.occluded(ray)) << i;
@@ -66,7 +66,8 @@ TEST(Hits, AdversarialRaysSeeTheSameInEveryStructure) {
     if (i % 4 == 2) aim = (a + b + c) / 3.0;
     aim = random.nudged(aim, 4);
     // From far away the slabs' arithmetic in float is at its worst.
-    Ray ray{random.in_box(6.0) * std::pow(10.0, random.uniform(0.0, 4.0)), {}};
+    const double scale = random.power_of_ten(0.0, 4.0);
+    Ray ray{scale * random.in_box(6.0), {}};
     ray.direction = aim - ray.origin;
     if (i % 4 == 3) {  // along an axis, through a corner
       ray.direction = axes[random.below(6)];
@@ -110,7 +111,7 @@ TEST(Hits, Case2SliverHitLiesInsideTheTriangle) {
   const double tilt = 0.5 * pi / 180.0;
   int hits = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Vec3 target(random.uniform(0.0, 1e6), random.uniform(0.0, 0.2), 0.0);
+    const Vec3 target{random.uniform(0.0, 1e6), random.uniform(0.0, 0.2), 0.0};
     const double turn = random.uniform(0.0, 2.0 * pi);
     const Vec3 d(std::cos(tilt) * std::cos(turn), std::cos(tilt) * std::sin(turn), -std::sin(tilt));
     const Ray ray{target - 1e3 * d, d};
@@ -195,7 +196,8 @@ TEST(Hits, Case11RayAtThePointOfAPointBoxMeetsIt) {
     const Vec3 point = Vec3(Vec3f(random.in_box(1.0)));
     for (std::size_t a = 0; a < 6; ++a)
       for (float& bound : node.bounds[a]) bound = static_cast<float>(point[static_cast<int>(a % 3)]);
-    const Vec3 origin = point + random.direction() * std::pow(10.0, random.uniform(-3.0, 0.5));
+    const double away = random.power_of_ten(-3.0, 0.5);
+    const Vec3 origin = point + away * random.direction();
     const auto frame = raytrace::make_ray_frame({origin, point - origin});
     alignas(16) std::array<float, 4> t_near;
     const raytrace::BoxRay ray(*frame, Vec3(0.0));
@@ -248,7 +250,7 @@ TEST(Hits, Case13GrowingTrianglesStayWithinTheDepthLimit) {
   const Tracer bvh(w.world(), Accel::bvh), brute(w.world(), Accel::brute);
   Random random(10);
   for (int i = 0; i < 2000; ++i) {
-    const Ray ray{Vec3(-1.0, 0.0, 0.0), Vec3(1.0, random.uniform(0.0, 0.7), random.uniform(0.0, 0.7))};
+    const Ray ray{Vec3(-1.0, 0.0, 0.0), Vec3{1.0, random.uniform(0.0, 0.7), random.uniform(0.0, 0.7)}};
     ASSERT_TRUE(same(bvh.closest_hit(ray), brute.closest_hit(ray)));
   }
 }

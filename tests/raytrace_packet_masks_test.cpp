@@ -54,11 +54,11 @@ TEST(MaskCells, HoldForLookupsUpToATexelAround) {
     const MaskCells cells(scene, material);
     ASSERT_EQ(cells.size().width, size.width);
     for (int i = 0; i < 2000; ++i) {
-      const Vec2 place(random.uniform(-1.5 * size.width, 2.5 * size.width),
-                       random.uniform(-1.5 * size.height, 2.5 * size.height));
+      const Vec2 place{random.uniform(-1.5 * size.width, 2.5 * size.width),
+                       random.uniform(-1.5 * size.height, 2.5 * size.height)};
       const MaskKind kind =
           cells.at(static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y)));
-      const Vec2 near = place + Vec2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+      const Vec2 near = place + Vec2{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
       const Vec2 uv = (near + 0.5) / Vec2(size.width, size.height);
       const bool hole = material.alpha * sample_texture(texture, uv).a < material.alpha_cutoff;
       ASSERT_FALSE(kind == MaskKind::opaque && hole) << "texel " << near.x << ' ' << near.y;
@@ -91,7 +91,7 @@ Scene masked_soup(int count, double size, double uv_scale, std::uint64_t seed) {
   Random random(seed);
   Mesh mesh = test::triangle_soup(count, 1.0, size, seed);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    mesh.uvs.emplace_back(uv_scale * random.uniform(-1.0, 1.0), uv_scale * random.uniform(-1.0, 1.0));
+    mesh.uvs.emplace_back(uv_scale * Vec2{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)});
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     mesh.colors.emplace_back(1.0f, 1.0f, 1.0f, i / 3 % 7 == 0 ? random.uniform(0.3, 1.0) : 1.0);
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) mesh.triangle_materials.push_back(i % 6);

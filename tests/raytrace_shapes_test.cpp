@@ -22,7 +22,7 @@ TEST(Shapes, Case5SphereIsRightAtEveryDistance) {
     int wrong = 0, vouched = 0;
     for (int i = 0; i < 3000; ++i) {
       const Vec3 origin = distance * random.direction();
-      const Ray ray{origin, random.direction() * random.uniform(0.9, 1.1) - origin};
+      const Ray ray{origin, test::some_direction(random, {0.9, 1.1}) - origin};
       const test::OracleHit truth = test::oracle_closest(w.world(), ray);
       const std::optional<Hit> hit = tracer.closest_hit(ray);
       // What a rounding of the ray's own numbers could turn is no error: an impact parameter within 1e-14

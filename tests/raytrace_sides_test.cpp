@@ -63,8 +63,8 @@ std::vector<Ray> rays_through(double extent, std::uint64_t seed, int count) {
   Random random(seed);
   std::vector<Ray> rays;
   const auto place = [&] {
-    return Vec3(random.uniform(-extent, extent), random.uniform(-extent, extent),
-                random.uniform(-extent, extent));
+    return Vec3{random.uniform(-extent, extent), random.uniform(-extent, extent),
+                random.uniform(-extent, extent)};
   };
   for (int i = 0; i < count; ++i) {
     const Vec3 from = 2.0 * place();
@@ -163,7 +163,7 @@ TEST(Sides, TheFacingOfAnEyeIsThatOfEveryRayFromIt) {
   std::size_t doubtful = 0, wrong = 0;
   for (std::uint32_t i = 0; i < w.world().triangle_count(); ++i) {
     const auto corners = w.world().corners(i);
-    const Vec3 eye(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
+    const Vec3 eye{random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0)};
     const std::array<double, 9> v{corners[0].x, corners[0].y, corners[0].z, corners[1].x, corners[1].y,
                                   corners[1].z, corners[2].x, corners[2].y, corners[2].z};
     const Facing facing = facing_of(v.data(), eye);

@@ -57,7 +57,7 @@ void expect_agreement_with_brute_force(const Kind& kind, std::uint64_t seed) {
   Random random(seed);
   std::vector<std::pair<std::uint32_t, Mat4>> placed;
   for (int i = 0; i < 40; ++i)
-    placed.emplace_back(i % 2, moved(random.in_box(kind.extent), kind.linear(random)));
+    placed.emplace_back(i % 2, moved_into_box(kind.linear(random), kind.extent, random));
   const TestWorld w(instances_of({ball(), test::triangle_soup(30, 0.8, 0.5, 5)}, placed));
   const Tracer tracer(w.world(), Accel::two_level);
   EXPECT_EQ(structure_of(tracer.world()).placements.size(), 40u);
@@ -87,7 +87,7 @@ TEST(TwoLevel, FarFromTheOrigin) {
     std::vector<std::pair<std::uint32_t, Mat4>> placed;
     for (int i = 0; i < 20; ++i)
       placed.emplace_back(0,
-                          moved(middle + random.in_box(4.0 * size), sheared(random) * scaling(Vec3(size))));
+                          moved_into_box(sheared(random) * scaling(Vec3(size)), 4.0 * size, random, middle));
     const TestWorld w(instances_of({ball()}, placed));
     const Tracer tracer(w.world(), Accel::two_level);
     for (const double from : {4.0 * size, 100.0}) {
@@ -107,7 +107,7 @@ TEST(TwoLevel, MeshFarFromItsOwnOrigin) {
   std::vector<std::pair<std::uint32_t, Mat4>> placed;
   for (int i = 0; i < 20; ++i)
     placed.emplace_back(
-        0, moved(random.in_box(3.0), turned(random) * scaling(Vec3(1e3)) * moved(-away, Mat4(1.0))));
+        0, moved_into_box(turned(random) * scaling(Vec3(1e3)) * moved(-away, Mat4(1.0)), 3.0, random));
   const TestWorld w(instances_of({mesh}, placed));
   const Tracer tracer(w.world(), Accel::two_level);
   EXPECT_EQ(structure_of(tracer.world()).placements.size(), 20u);
@@ -183,7 +183,8 @@ TEST(TwoLevel, EqualInstancesAtOnePlaceGiveTheLowestId) {
 TEST(TwoLevel, PicturesAndVerdictsAreThoseOfBruteForce) {
   Random random(71);
   std::vector<std::pair<std::uint32_t, Mat4>> placed;
-  for (int i = 0; i < 25; ++i) placed.emplace_back(0, moved(random.in_box(4.0), kinds[i % 4].linear(random)));
+  for (int i = 0; i < 25; ++i)
+    placed.emplace_back(0, moved_into_box(kinds[i % 4].linear(random), 4.0, random));
   Mesh mesh = ball();
   for (const Vec3& p : mesh.positions) mesh.uvs.emplace_back(Vec2f(Vec2(p.x, p.y)));
   Scene scene = instances_of({mesh}, placed);
@@ -239,7 +240,7 @@ TEST(TwoLevel, BuiltInScenes) {
 TEST(TwoLevel, MemoryIsThatOfOneMesh) {
   std::vector<std::pair<std::uint32_t, Mat4>> placed;
   Random random(81);
-  for (int i = 0; i < 400; ++i) placed.emplace_back(0, moved(random.in_box(40.0), turned(random)));
+  for (int i = 0; i < 400; ++i) placed.emplace_back(0, moved_into_box(turned(random), 40.0, random));
   const Mesh ball = test::uv_sphere(Vec3(0.0), 1.0, 16, 24, 0.1, 3);
   const TestWorld w(instances_of({ball}, placed)), one(test::scene_of({ball}));
   const Tracer two(w.world(), Accel::two_level), mesh(one.world(), Accel::bvh);
@@ -254,7 +255,7 @@ TEST(TwoLevel, MemoryIsThatOfOneMesh) {
 TEST(TwoLevel, SameForAnyNumberOfThreads) {
   std::vector<std::pair<std::uint32_t, Mat4>> placed;
   Random random(91);
-  for (int i = 0; i < 60; ++i) placed.emplace_back(i % 3, moved(random.in_box(20.0), sheared(random)));
+  for (int i = 0; i < 60; ++i) placed.emplace_back(i % 3, moved_into_box(sheared(random), 20.0, random));
   const TestWorld w(instances_of(
       {ball(), test::triangle_soup(9000, 2.0, 0.1, 92), test::triangle_soup(5, 1.0, 1.0, 93)}, placed));
   const auto build = [&](std::size_t threads) {
@@ -301,8 +302,8 @@ TEST(TwoLevel, ThePlacedRayPassesItsCornersWithinItsBound) {
     Aabb box;
     for (const Vec3& p : {corner, random.in_box(1.0) + shift, random.in_box(1.0) + shift}) box.grow(p);
     const MeshSpace space(box);
-    const Mat4 matrix = moved(random.in_box(std::exp(random.uniform(-20.0, 20.0))),
-                              kinds[static_cast<std::size_t>(i) % 4].linear(random) * scaling(Vec3(scale)));
+    const Mat4 linear = kinds[static_cast<std::size_t>(i) % 4].linear(random) * scaling(Vec3(scale));
+    const Mat4 matrix = moved_into_box(linear, std::exp(random.uniform(-20.0, 20.0)), random);
     const auto placement = place(space, matrix);
     if (!placement) continue;
     // The world's corner, rounded as the world has it, and a ray to it that starts where the sum is exact.

@@ -163,7 +163,7 @@ TEST(PointVisibility, Case23LightAtAVertexIsLit) {
     const Tracer tracer(w.world(), accel);
     Random random(33);
     for (int i = 0; i < 300; ++i) {
-      const Vec3 foot(random.uniform(1.5, 4.0), 0.0, random.uniform(1.5, 4.0));
+      const Vec3 foot{random.uniform(1.5, 4.0), 0.0, random.uniform(1.5, 4.0)};
       const SurfacePoint p = test::seen(tracer, foot + Vec3(0, 0.5, 0), foot);
       ASSERT_EQ(tracer.centre_visibility(p, test::point_light({1, 2, 1})), PointVisibility::lit);
     }
@@ -178,7 +178,7 @@ TEST(PointVisibility, Case25LightInsideAClosedMeshReachesNothingOutside) {
   const Light light = test::point_light({0.1, 2.1, -0.2});
   Random random(35);
   for (int i = 0; i < 20000; ++i) {
-    Vec3 foot(random.uniform(-5.0, 5.0), 0.0, random.uniform(-5.0, 5.0));
+    Vec3 foot{random.uniform(-5.0, 5.0), 0.0, random.uniform(-5.0, 5.0)};
     if (i % 2 == 0) {  // straight below a vertex, seen from the light
       const Vec3 d = w.world().position(random.below(w.world().vertex_count())) - light.position;
       if (d.y < -0.05) foot = light.position - d * (light.position.y / d.y), foot.y = 0.0;
@@ -195,7 +195,8 @@ TEST(PointVisibility, Case26CoplanarDuplicatesDoNotShadowEachOther) {
   const Tracer tracer(w.world(), Accel::bvh);
   Random random(36);
   for (int i = 0; i < 2000; ++i) {
-    const Vec3 target = corner + random.uniform(0.25, 0.65) * a + random.uniform(0.05, 0.45) * b;
+    const double u = random.uniform(0.25, 0.65), v = random.uniform(0.05, 0.45);
+    const Vec3 target = corner + u * a + v * b;
     const SurfacePoint p = test::seen(tracer, target + Vec3(0, 3, 0), target);
     ASSERT_EQ(tracer.centre_visibility(p, test::point_light({random.uniform(-3, 3), 4, 0})),
               PointVisibility::lit)

@@ -73,7 +73,8 @@ std::vector<Ray> hard_rays(const World& world, int count, double reach, std::uin
     const auto [p, q, r] = world.corners(random.below(world.triangle_count()));
     const Vec3 corner = some_corner(world, random), from = middle + random.in_box(reach);
     const Vec3 on_edge = p + random.uniform(0.0, 1.0) * (q - p);
-    const Vec3 inside = p + random.uniform(0.0, 0.5) * (q - p) + random.uniform(0.0, 0.5) * (r - p);
+    const double u = random.uniform(0.0, 0.5), v = random.uniform(0.0, 0.5);
+    const Vec3 inside = p + u * (q - p) + v * (r - p);
     const Vec3 axis = axis_of(random);
     Ray ray;
     switch (i % 10) {
@@ -242,7 +243,7 @@ TEST(Wide, LatticeOfBoxesWhosePlanesCoincide) {
   auto rays = hard_rays(w.world(), 10000, 8.0, 10);
   Random random(11);
   for (int i = 0; i < 10000; ++i) {  // in walls, through many corners
-    const Vec3 a(random.below(7), random.below(7), random.below(7)), b(random.below(7), random.below(7), 3);
+    const Vec3 a{random.below(7), random.below(7), random.below(7)}, b{random.below(7), random.below(7), 3};
     rays.push_back({a - 3.0 * (b - a), b - a, {0.0, 10.0}});
   }
   expect_same(w.world(), rays, 9000);
@@ -255,7 +256,7 @@ Scene mixed_scene() {
                             test::plane(Vec3(0, 9, 0), Vec3(0, 1, 0))};
   Random random(12);
   for (int i = 0; i < 40; ++i)
-    shapes.push_back(test::sphere(random.in_box(3.0), random.uniform(0.05, 0.6), i % 3 == 0 ? 1 : 0));
+    shapes.push_back(test::some_sphere(random, 3.0, {0.05, 0.6}, i % 3 == 0 ? 1 : 0));
   Scene scene = test::scene_of(
       {test::triangle_soup(400, 3.0, 1.0, 13), test::triangle_soup(200, 3.0, 1.0, 21)}, std::move(shapes));
   scene.materials.resize(2);
@@ -340,7 +341,6 @@ TEST(Wide, TextbooksTest) {
     const TestWorld w(std::move(scene));
     const Tracer fast(w.world(), Accel::bvh, Precision::fast), robust(w.world(), Accel::bvh);
     const auto rays = hard_rays(w.world(), 20000, 2.0, 28);
-    prepare_single_rays(fast);
     for_each_target([&] {
       std::size_t differ = 0, wrong = 0;
       for (const Ray& ray : rays) {

@@ -39,6 +39,32 @@ TEST(Wide, IsMadeLaterWhereItWasGivenUp) {
   EXPECT_GT(wide.bytes(), 0u);
 }
 
+/// At 1e7 the textbook's floats hit triangles outside their boxes, and either tree finds others of these hits.
+TEST(Wide, TextbooksTestIsTheSameWhateverRaysCameBefore) {
+  const Vec3 place(1e7, -3e6, 2e7);
+  Mesh mesh = test::triangle_soup(2000, 20.0, 6.0, 27);
+  for (Vec3& p : mesh.positions) p += place;
+  const TestWorld w(test::scene_of({mesh}));
+  const Tracer tracer(w.world(), Accel::bvh, Precision::fast);
+  test::Random random(28);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 from = place + random.in_box(60.0);
+    rays.push_back({from, w.world().position(random.below(w.world().vertex_count())) - from});
+  }
+  const auto hits = [&] {
+    std::vector<std::optional<Hit>> found;
+    for (const Ray& ray : rays) found.push_back(tracer.closest_hit(ray));
+    return found;
+  };
+  const auto first = hits(), second = hits();
+  std::size_t differ = 0, met = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    differ += test::same(first[i], second[i]) ? 0 : 1, met += first[i] ? 1 : 0;
+  EXPECT_EQ(differ, 0u);
+  EXPECT_GT(met, 5000u);
+}
+
 TEST(Wide, PlanesAreCountedAsInAnyOtherStructure) {
   const TestWorld w(test::scene_of({test::quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0})},
                                    {test::plane({0, -3, 0}, {0, 1, 0}), test::plane({0, -4, 0}, {0, 1, 0})}));

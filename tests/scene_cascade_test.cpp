@@ -58,8 +58,8 @@ TEST_P(Shapes, ClipMatrixAndStoredDepthAgree) {
   for (int i = 0; i < 20000; ++i) {
     const int face = static_cast<int>(random.between(0, view.face_count));
     const LightFace& f = view.face(face);
-    const Vec3 p = texel_ray(view, face, random.between(0, 256), random.between(0, 256))
-                       .at(random.between(f.near_depth, f.far_depth));
+    const double u = random.between(0, 256), v = random.between(0, 256);
+    const Vec3 p = texel_ray(view, face, u, v).at(random.between(f.near_depth, f.far_depth));
     const TexelCoordinate t = project_to_face(view, face, p);
     const Vec4 clip = light_clip_from_relative(view, face, reference) * Vec4(p - reference, 1.0);
     ASSERT_GT(clip.w, 0.0);
@@ -97,7 +97,7 @@ TEST_P(Shapes, NothingThatTheCameraSeesIsCutOff) {
   Random random(7);
   int seen = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Vec3 p(random.between(-20, 20), 0.0, random.between(-20, 20));
+    const Vec3 p{random.between(-20, 20), 0.0, random.between(-20, 20)};
     const Vec3 pixel = project_to_pixels(eye, p);
     if (!(pixel.z > 0 && pixel.x >= 0 && pixel.y >= 0 && pixel.x < 160 && pixel.y < 100)) continue;
     ++seen;

@@ -16,13 +16,15 @@ std::string random_state(std::mt19937& random) {
     return from + (to - from) * double(random()) / double(std::mt19937::max());
   };
   constexpr std::array techniques{"hard", "pcf", "vsm", "second-depth", "csm", "hybrid"};
+  const std::size_t technique = random() % techniques.size();
+  const int map_size = 64 << random() % 4;
+  const double bias = number(0.0, 3.0), slope = number(0.0, 2.0), azimuth = number(-180.0, 180.0),
+               elevation = number(20.0, 80.0), around = number(-180.0, 180.0), up = number(10.0, 60.0);
   return fmt::format(
       "set technique {}\nset map-size {}\nset bias {:.3f}texel\nset slope-bias {:.2f}\nset light-azimuth "
       "{:.1f}\n"
       "set light-elevation {:.1f}\nset camera-orbit {:.1f} {:.1f}\nset camera-target {:.2f} 0.5 0\n",
-      techniques[random() % techniques.size()], 64 << random() % 4, number(0.0, 3.0), number(0.0, 2.0),
-      number(-180.0, 180.0), number(20.0, 80.0), number(-180.0, 180.0), number(10.0, 60.0),
-      number(-0.5, 0.5));
+      techniques[technique], map_size, bias, slope, azimuth, elevation, around, up, number(-0.5, 0.5));
 }
 
 TEST_F(ViewLab, LabelsOnTheScreenAreThoseOfThePrintedCommand) {

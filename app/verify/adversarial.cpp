@@ -8,7 +8,10 @@ namespace {
 
 Vec3 any_size(Random& r) {
   Vec3 v;
-  for (int a = 0; a < 3; ++a) v[a] = (r.coin() ? 1.0 : -1.0) * r.power_of_ten(-8.0, 8.0);
+  for (int a = 0; a < 3; ++a) {
+    const double sign = r.coin() ? 1.0 : -1.0;
+    v[a] = sign * r.power_of_ten(-8.0, 8.0);
+  }
   if (r.below(8) == 0) v[r.integer(0, 2)] = r.coin() ? 0.0 : -0.0;
   return v;
 }
@@ -46,7 +49,8 @@ AimedTriangle aimed_triangle(Random& r) {
       break;
   }
   aim = r.nudged(aim, 4);
-  t.origin = r.coin() ? any_size(r) : aim + r.direction() * r.power_of_ten(-4.0, 4.0);
+  const Vec3 away = r.direction();
+  t.origin = r.coin() ? any_size(r) : aim + away * r.power_of_ten(-4.0, 4.0);
   t.direction = aim - t.origin;
   // Kernels scale a direction by a power of two, which subnormal components do not survive whole.
   for (int a = 0; a < 3; ++a)

@@ -92,7 +92,8 @@ void slab_faces(Run& run) {
 
 void slab_corners(Run& run) {
   const auto aimed = [&](const Vec3& point, const Vec3& min, const Vec3& max, Random& r, Tally& tally) {
-    const Vec3 origin = point + r.direction() * r.power_of_ten(-3.0, 0.5);
+    const Vec3 away = r.direction();
+    const Vec3 origin = point + away * r.power_of_ten(-3.0, 0.5);
     tally.check(meets(run, {origin, point - origin}, min, max));
   };
   run.sample("points", run.rays(0.5), [&](Random& r, Tally& tally) {

@@ -58,7 +58,8 @@ void critical_angle(Run& run) {
       "any angle", run.rays(0.1),
       [&](Random& r, Tally& tally) {
         const double ior = r.uniform(1.0, 3.0);
-        boundary(run, std::acos(r.uniform(0.0, 1.0)), r.coin() ? ior : 1.0 / ior, r, tally);
+        const double angle = std::acos(r.uniform(0.0, 1.0));
+        boundary(run, angle, r.coin() ? ior : 1.0 / ior, r, tally);
       },
       unit, ulps);
   run.sample(
@@ -72,7 +73,8 @@ void critical_angle(Run& run) {
       "90 degrees - 1e-6 to 0", run.rays(0.1),
       [&](Random& r, Tally& tally) {
         const double ior = r.uniform(1.05, 3.0);
-        boundary(run, pi / 2 - r.power_of_ten(-17.0, -6.0), r.coin() ? ior : 1.0 / ior, r, tally);
+        const double angle = pi / 2 - r.power_of_ten(-17.0, -6.0);
+        boundary(run, angle, r.coin() ? ior : 1.0 / ior, r, tally);
       },
       unit, ulps);
 }

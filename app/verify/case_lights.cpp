@@ -18,7 +18,7 @@ void light_in_plane(Run& run) {
   const SmallWorld w(quad({-8, 0, -8}, {0, 0, 16}, {16, 0, 0}));
   const Tracer bvh = run.tracer(w.world()), brute = run.tracer(w.world(), Accel::brute);
   run.sample("unlit", run.rays(0.3), [&](Random& r, Tally& tally) {
-    const Vec3 foot(r.uniform(-8.0, 8.0), 0.0, r.uniform(-8.0, 8.0));
+    const Vec3 foot{r.uniform(-8.0, 8.0), 0.0, r.uniform(-8.0, 8.0)};
     for (const Tracer* tracer : {&bvh, &brute}) {
       const SurfacePoint p = seen(*tracer, foot + Vec3(0.0, 1.0, 0.0), foot);
       const Light lamp = point_light({r.uniform(-20.0, 20.0), p.position.y, r.uniform(-20.0, 20.0)});
@@ -36,7 +36,7 @@ void light_at_vertex(Run& run) {
   const Light light = point_light({1.0, 2.0, 1.0});
   const Tracer bvh = run.tracer(w.world()), brute = run.tracer(w.world(), Accel::brute);
   run.sample("lit", run.rays(0.1), [&](Random& r, Tally& tally) {
-    const Vec3 foot(r.uniform(1.5, 4.0), 0.0, r.uniform(1.5, 4.0));
+    const Vec3 foot{r.uniform(1.5, 4.0), 0.0, r.uniform(1.5, 4.0)};
     for (const Tracer* tracer : {&bvh, &brute}) {
       const SurfacePoint p = seen(*tracer, foot + Vec3(0.0, 0.5, 0.0), foot);
       tally.check(tracer->centre_visibility(p, light) == PointVisibility::lit);
@@ -50,7 +50,7 @@ void occluder_at_end(Run& run) {
   run.sample("inside or out", run.rays(), [&](Random& r, Tally& tally) {
     // Heights are multiples of 1/1024, so that t is exact.
     const double height = r.integer(1, 1 << 20) / 1024.0;
-    const Vec3 origin(r.uniform(-60.0, 60.0), r.uniform(-60.0, 60.0), height);
+    const Vec3 origin{r.uniform(-60.0, 60.0), r.uniform(-60.0, 60.0), height};
     const bool second = r.coin();
     const double t = second ? height + 4.0 : height, below = std::nextafter(t, 0.0),
                  above = std::nextafter(t, infinity);
@@ -82,7 +82,8 @@ void coplanar_duplicates(Run& run) {
     tally.check(hit->primitive < 2 && again->primitive < 2 && (swapped || std::abs(s - t) < 1e-9));
   });
   run.sample("twins lit", run.rays(0.1), [&](Random& r, Tally& tally) {
-    const Vec3 target = corner + r.uniform(0.05, 0.95) * a + r.uniform(0.05, 0.95) * b;
+    const double u = r.uniform(0.05, 0.95), v = r.uniform(0.05, 0.95);
+    const Vec3 target = corner + u * a + v * b;
     const SurfacePoint p = seen(tracer, target + Vec3(0.0, 3.0, 0.0), target);
     tally.check(tracer.centre_visibility(p, point_light({r.uniform(-3.0, 3.0), 4.0, 0.0})) ==
                 PointVisibility::lit);
@@ -102,7 +103,7 @@ void contact_gap(Run& run) {
         [&](Random& r, Tally& tally) {
           const double z = r.uniform(-0.9, 0.9);
           const auto shadowed = [&](double x) {
-            const Vec3 foot(x, 0.0, z);
+            const Vec3 foot{x, 0.0, z};
             return tracer.centre_visibility(seen(tracer, foot + Vec3(0.0, eye_height, 0.0), foot), light) ==
                    PointVisibility::shadowed;
           };
@@ -123,7 +124,8 @@ void smooth_normals(Run& run) {
   const SmallWorld w(mesh);
   const Tracer tracer = run.tracer(w.world());
   run.sample("lit as the facet faces", run.rays(0.3), [&](Random& r, Tally& tally) {
-    const SurfacePoint p = seen(tracer, 3.0 * r.direction(), 0.5 * r.direction());
+    const Vec3 eye = 3.0 * r.direction(), target = 0.5 * r.direction();
+    const SurfacePoint p = seen(tracer, eye, target);
     if (p.primitive == no_id) return;
     const Light light = point_light(5.0 * r.direction());
     const auto corners = w.world().corners(p.primitive);

@@ -65,8 +65,8 @@ void behind_light(Run& run) {
   const LightFace& face = view->face(0);
   run.sample("points behind a warp's eye", run.rays(0.1), [&](Random& random, Tally& tally) {
     const double up = face.center.y - (1.0 / face.warp) * (1.0 + random.power_of_ten(-6, 3));
-    const Vec3 p = view->origin + random.uniform(-100, 100) * face.right + up * face.up +
-                   random.uniform(-100, 100) * face.forward;
+    const double right = random.uniform(-100, 100), forward = random.uniform(-100, 100);
+    const Vec3 p = view->origin + right * face.right + up * face.up + forward * face.forward;
     tally.check(!project_to_face(*view, 0, p).inside);
   });
 }
@@ -153,7 +153,7 @@ namespace {
 
 /// Directions on the cube's diagonals and edges, whose largest components tie.
 Vec3 tied_direction(Random& random) {
-  Vec3 d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  Vec3 d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
   const int kept = random.integer(0, 2);
   for (int a = 0; a < 3; ++a)
     if (a != kept || random.coin()) d[a] = random.coin() ? 1.0 : -1.0;

@@ -65,7 +65,8 @@ void shared_tree(Run& run, const std::string& name, Scene scene, const Vec3& way
   const raytrace::Tracer brute = run.tracer(w.world(), raytrace::Accel::brute);
   run.sample(name, run.rays(0.1), [&](Random& r, Tally& tally) {
     const Vec3 corner = w.world().position(r.below(w.world().vertex_count()));
-    const Vec3 from = corner + r.power_of_ten(-2.0, 3.0) * radius * r.direction();
+    const double distance = r.power_of_ten(-2.0, 3.0) * radius;
+    const Vec3 from = corner + distance * r.direction();
     const Ray ray{from, r.nudged(corner, 2) - from};
     const auto hit = brute.closest_hit(ray);
     bool right = same(tracer.closest_hit(ray), hit) && tracer.occluded(ray) == hit.has_value();

@@ -13,15 +13,25 @@ namespace {
 
 std::vector<Shape> spheres(int count, Random& random) {
   std::vector<Shape> shapes;
-  for (int i = 0; i < count; ++i) shapes.push_back(sphere(random.in_box(4.0), random.uniform(0.05, 0.8)));
+  for (int i = 0; i < count; ++i) {
+    const Vec3 center = random.in_box(4.0);
+    shapes.push_back(sphere(center, random.uniform(0.05, 0.8)));
+  }
   return shapes;
+}
+
+/// Of either sign; 0 once in 16 times.
+double slope_or_height(Random& r, double least_power, double most_power) {
+  const double sign = r.coin() ? 1.0 : -1.0;
+  return sign * (r.below(16) == 0 ? 0.0 : r.power_of_ten(least_power, most_power));
 }
 
 }  // namespace
 
 void direction_length(Run& run) {
   Random random(run.seed());
-  const SmallWorld w({soup(300, 4.0, 1.0, random)}, spheres(20, random));
+  const Mesh triangles = soup(300, 4.0, 1.0, random);
+  const SmallWorld w({triangles}, spheres(20, random));
   const raytrace::Tracer tracer = run.tracer(w.world());
   run.sample("powers of two", run.rays(0.3), [&](Random& r, Tally& tally) {
     const Vec3 origin = r.in_box(6.0), d = r.direction();
@@ -63,9 +73,7 @@ void steep_plane(Run& run) {
   run.sample(
       "slopes 1e-320 to 1", run.rays(0.3),
       [&](Random& r, Tally& tally) {
-        const double slope = (r.coin() ? 1.0 : -1.0) * (r.below(16) == 0 ? 0.0 : r.power_of_ten(-320.0, 0.0));
-        const double height =
-            (r.coin() ? 1.0 : -1.0) * (r.below(16) == 0 ? 0.0 : r.power_of_ten(-3.0, 300.0));
+        const double slope = slope_or_height(r, -320.0, 0.0), height = slope_or_height(r, -3.0, 300.0);
         const auto hit = tracer.closest_hit({{0.0, height, 0.0}, {1.0, slope, 0.0}});
         if (!hit) {
           const Quad t = slope == 0.0 ? Quad(0) : -Quad(height) / Quad(slope);
@@ -82,7 +90,8 @@ void steep_plane(Run& run) {
 
 void invalid_rays(Run& run) {
   Random random(run.seed());
-  const SmallWorld w({soup(300, 4.0, 1.0, random)}, spheres(20, random));
+  const Mesh triangles = soup(300, 4.0, 1.0, random);
+  const SmallWorld w({triangles}, spheres(20, random));
   const raytrace::Tracer tracer = run.tracer(w.world());
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   run.sample("work done", run.rays(0.1), [&](Random& r, Tally& tally) {

@@ -46,7 +46,7 @@ void light_inside(Run& run) {
   const World& world = w.world();
   run.sample("lit outside", run.rays(0.3), [&](Random& r, Tally& tally) {
     const Light light = point_light(center + r.in_box(0.3));
-    Vec3 foot(r.uniform(-5.0, 5.0), 0.0, r.uniform(-5.0, 5.0));
+    Vec3 foot{r.uniform(-5.0, 5.0), 0.0, r.uniform(-5.0, 5.0)};
     // Mostly straight behind a corner, seen from the light.
     const Vec3 d = world.position(r.below(world.vertex_count())) - light.position;
     if (d.y < -0.05) foot = light.position - d * (light.position.y / d.y), foot.y = 0.0;

@@ -46,7 +46,7 @@ void shrinking_lights(Run& run) {
   Random random(run.seed());
   std::vector<raytrace::SurfacePoint> points(run.rays(5e-4, 20'000));
   for (auto& point : points) {
-    const Vec3 foot(random.uniform(-4.0, 4.0), 0.0, random.uniform(-4.0, 4.0));
+    const Vec3 foot{random.uniform(-4.0, 4.0), 0.0, random.uniform(-4.0, 4.0)};
     point = seen(tracer, foot + Vec3(0.0, 0.5, 0.0), foot);
   }
   for (const Kind& kind : kinds) {

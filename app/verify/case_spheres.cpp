@@ -21,7 +21,8 @@ void distant_sphere(Run& run) {
         fmt::format("distance {:g}", distance), run.rays(1.0 / 7.0, 1'000'000),
         [&](Random& r, Tally& tally) {
           const Vec3 origin = distance * r.direction();
-          const Ray ray{origin, r.direction() * r.uniform(0.9, 1.1) - origin};
+          const Vec3 towards = r.direction();
+          const Ray ray{origin, towards * r.uniform(0.9, 1.1) - origin};
           const QuadRoots truth = line_sphere(ray.origin, ray.direction, Vec3(0.0), 1.0);
           const bool hits = truth.discriminant >= 0;
           if (hits == tracer.closest_hit(ray).has_value()) return tally.check(true);
@@ -75,12 +76,16 @@ void inside_sphere(Run& run) {
   constexpr const char* unit = "roundings of the radius x condition";
   run.sample(
       "inside", run.rays(0.1, 1'000'000),
-      [&](Random& r, Tally& tally) { leave(center + r.uniform(0.0, 1.2) * r.direction(), r, tally); }, unit,
-      16.0);
+      [&](Random& r, Tally& tally) {
+        const double distance = r.uniform(0.0, 1.2);
+        leave(center + distance * r.direction(), r, tally);
+      },
+      unit, 16.0);
   run.sample(
       "just inside", run.rays(0.1, 1'000'000),
       [&](Random& r, Tally& tally) {
-        leave(center + radius * (1.0 - r.power_of_ten(-12.0, -1.0)) * r.direction(), r, tally);
+        const double distance = radius * (1.0 - r.power_of_ten(-12.0, -1.0));
+        leave(center + distance * r.direction(), r, tally);
       },
       unit, 16.0);
 }

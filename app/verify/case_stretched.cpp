@@ -39,10 +39,10 @@ void nearer_sheet(Run& run, const std::string& name, double gap, double turn) {
   const auto octree = run.tracer(s.world.world(), Accel::octree),
              kd = run.tracer(s.world.world(), Accel::kdtree);
   run.sample("the nearer of two sheets, " + name, run.rays(0.1), [&](Random& r, Tally& tally) {
-    const Vec3 target =
-        0.4 * sheet_length * r.uniform(-1.0, 1.0) * s.along + r.uniform(-0.4, 0.4) * s.across + s.gap * s.up;
-    const Vec3 way = r.power_of_ten(0.0, 6.0) * s.up + sheet_length * r.uniform(-1.0, 1.0) * s.along +
-                     r.uniform(-1.0, 1.0) * s.across;
+    const double u = 0.4 * sheet_length * r.uniform(-1.0, 1.0), v = r.uniform(-0.4, 0.4);
+    const Vec3 target = u * s.along + v * s.across + s.gap * s.up;
+    const double height = r.power_of_ten(0.0, 6.0), along = sheet_length * r.uniform(-1.0, 1.0);
+    const Vec3 way = height * s.up + along * s.along + r.uniform(-1.0, 1.0) * s.across;
     const Ray ray{target + way, -way};
     const auto hit = bvh.closest_hit(ray);
     tally.check((!hit || hit->primitive >= 2) && same(hit, brute.closest_hit(ray)) &&
@@ -61,7 +61,8 @@ ClosePair close_pair(Random& r) {
   auto& [one, other] = p.corners;
   const double width = r.power_of_ten(-6.0, 0.0);
   one = {r.in_box(1.0), r.in_box(1.0), {}};
-  one[2] = one[0] + r.uniform(0.0, 1.0) * (one[1] - one[0]) + width * r.in_box(1.0);
+  const double share = r.uniform(0.0, 1.0);
+  one[2] = one[0] + share * (one[1] - one[0]) + width * r.in_box(1.0);
   for (std::size_t i = 0; i < 3; ++i) other[i] = r.nudged(one[i], 1);
   p.origin = r.in_box(10.0);
   const double u = r.uniform(0.2, 0.4), v = r.uniform(0.2, 0.4);

@@ -51,7 +51,7 @@ void equal_centroids(Run& run) {
   const Tracer tracer = run.tracer(w.world());
   // Each ray meets every copy: few of them are many tests.
   run.sample(fmt::format("lowest of {} copies", copies), run.rays(1e-4, 1000), [&](Random& r, Tally& tally) {
-    const Vec3 target(r.uniform(-0.9, 0.3), r.uniform(-0.9, 0.3), 0.0);
+    const Vec3 target{r.uniform(-0.9, 0.3), r.uniform(-0.9, 0.3), 0.0};
     const auto hit = tracer.closest_hit({target + Vec3(0.0, 0.0, 1.0), {0.0, 0.0, -1.0}});
     const auto miss = tracer.closest_hit({target + Vec3(8.0, 8.0, 1.0), {0.0, 0.0, -1.0}});
     tally.check(hit && hit->primitive == 0 && !miss);
@@ -150,7 +150,8 @@ void cell_corners(Run& run) {
     Vec3 corner, d;
     for (int a = 0; a < 3; ++a) corner[a] = r.integer(0, 6), d[a] = r.integer(-2, 2);
     if (d == Vec3(0.0)) d.x = 1.0;
-    agree(all, brute, {r.nudged(corner - 8.0 * d, r.coin() ? 0 : 4), d}, r.below(4) == 0, tally);
+    const Vec3 origin = r.nudged(corner - 8.0 * d, r.coin() ? 0 : 4);
+    agree(all, brute, {origin, d}, r.below(4) == 0, tally);
   });
 }
 

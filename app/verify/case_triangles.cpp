@@ -8,7 +8,9 @@ namespace gnomon::verify {
 namespace {
 
 Vec3 whole_numbers(Random& random, int most) {
-  return Vec3(random.integer(-most, most), random.integer(-most, most), random.integer(-most, most));
+  Vec3 v;
+  for (int a = 0; a < 3; ++a) v[a] = random.integer(-most, most);
+  return v;
 }
 
 }  // namespace
@@ -84,7 +86,8 @@ void coplanar_ray(Run& run) {
   run.sample("the same in every structure", run.rays(0.2), [&](Random& r, Tally& tally) {
     // A point of a triangle and a direction between two others: in its plane but for rounding.
     const auto [a, b, c] = w.world().corners(r.below(w.world().triangle_count()));
-    const Vec3 d = r.uniform(-1.0, 1.0) * (b - a) + r.uniform(-1.0, 1.0) * (c - a);
+    const double u = r.uniform(-1.0, 1.0), v = r.uniform(-1.0, 1.0);
+    const Vec3 d = u * (b - a) + v * (c - a);
     const Ray ray{r.nudged(a - 3.0 * d, 1), r.nudged(d, 1)};
     tally.check(same(bvh.closest_hit(ray), brute.closest_hit(ray)));
   });

@@ -18,7 +18,7 @@ Vec3 place(Random& r) {
 
 Mesh random_box(Random& r) {
   const Vec3 low = place(r);
-  return box(low, low + Vec3(quarter(r, 0.25, 1.0), quarter(r, 0.25, 1.0), quarter(r, 0.25, 1.0)));
+  return box(low, low + Vec3{quarter(r, 0.25, 1.0), quarter(r, 0.25, 1.0), quarter(r, 0.25, 1.0)});
 }
 
 Mesh loose_triangles(Random& r, int count) {
@@ -26,13 +26,23 @@ Mesh loose_triangles(Random& r, int count) {
   for (int i = 0; i < count; ++i) {
     const Vec3 first = place(r);
     const auto corner = [&] {
-      return first + Vec3(quarter(r, -1, 1), quarter(r, -0.25, 1), quarter(r, -1, 1));
+      return first + Vec3{quarter(r, -1, 1), quarter(r, -0.25, 1), quarter(r, -1, 1)};
     };
     const auto n = static_cast<std::uint32_t>(mesh.positions.size());
     for (const Vec3& p : {first, corner(), corner()}) mesh.positions.push_back(p);
     mesh.triangles.push_back({n, n + 1, n + 2});
   }
   return mesh;
+}
+
+Vec3 in_plane(Random& r, const std::array<Vec3, 3>& corners) {
+  const double u = 0.5 * r.integer(-3, 6), v = 0.5 * r.integer(-3, 6);
+  return corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0]);
+}
+
+Shape random_sphere(Random& r) {
+  const Vec3 center = place(r);
+  return sphere(center, quarter(r, 0.25, 1.0));
 }
 
 /// In the plane of a random face, at one of its corners, inside a box or a sphere, or anywhere.
@@ -49,7 +59,7 @@ Vec3 light_place(const Scene& scene, Random& r) {
     case 2:
       return {quarter(r, -3, 3), quarter(r, 2, 5), quarter(r, -3, 3)};
     default:
-      return a + 0.5 * r.integer(-3, 6) * (b - a) + 0.5 * r.integer(-3, 6) * (c - a);
+      return in_plane(r, {a, b, c});
   }
 }
 
@@ -59,12 +69,12 @@ Light random_light(const Scene& scene, Random& r) {
   if (type == 0) {
     const Mesh& m = scene.meshes[r.below(static_cast<std::uint32_t>(scene.meshes.size()))];
     const Vec3 along = m.positions[1] - m.positions[0];  // often in the planes of faces
-    Vec3 direction = r.coin() ? along : Vec3(quarter(r, -1, 1), -1.0, quarter(r, -1, 1));
+    Vec3 direction = r.coin() ? along : Vec3{quarter(r, -1, 1), -1.0, quarter(r, -1, 1)};
     if (direction == Vec3(0.0)) direction = Vec3(0.0, -1.0, 0.0);
     light = sun(direction.y > 0.0 ? -direction : direction);
   } else if (type == 1) {
     light.type = LightType::spot;
-    light.direction = glm::normalize(Vec3(quarter(r, -0.5, 0.5), -1.0, quarter(r, -0.5, 0.5)));
+    light.direction = glm::normalize(Vec3{quarter(r, -0.5, 0.5), -1.0, quarter(r, -0.5, 0.5)});
     light.outer_angle = 0.7;
   }
   return light;
@@ -78,10 +88,10 @@ Scene random_scene(Random& r) {
   meshes.push_back(loose_triangles(r, r.integer(1, 12)));
   std::vector<Shape> shapes{plane(Vec3(0.0), Vec3(0.0, 1.0, 0.0))};
   if (r.below(3) == 0) shapes.push_back(plane({-3.0, 0.0, 0.0}, {1.0, 0.0, 0.0}));
-  for (int i = r.integer(0, 2); i > 0; --i) shapes.push_back(sphere(place(r), quarter(r, 0.25, 1.0)));
+  for (int i = r.integer(0, 2); i > 0; --i) shapes.push_back(random_sphere(r));
   Scene scene = scene_of(std::move(meshes), std::move(shapes));
   scene.lights = {random_light(scene, r)};
-  scene.camera.eye = Vec3(4.0, 2.0, 3.5) + Vec3(quarter(r, 0, 1), quarter(r, 0, 2), quarter(r, 0, 1));
+  scene.camera.eye = Vec3(4.0, 2.0, 3.5) + Vec3{quarter(r, 0, 1), quarter(r, 0, 2), quarter(r, 0, 1)};
   scene.camera.target = {quarter(r, -0.5, 0.5), 0.5, quarter(r, -0.5, 0.5)};
   return scene;
 }

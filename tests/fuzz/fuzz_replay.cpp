@@ -37,10 +37,12 @@ void remove_range(Bytes& bytes, Random& random) {
 }
 void repeat_range(Bytes& bytes, Random& random) {
   const std::size_t from = below(random, bytes.size());
-  bytes.insert(below(random, bytes.size()), bytes.substr(from, 1 + below(random, 64)));
+  const std::size_t to = below(random, bytes.size());
+  bytes.insert(to, bytes.substr(from, 1 + below(random, 64)));
 }
 void insert_fragment(Bytes& bytes, Random& random) {
-  bytes.insert(below(random, bytes.size() + 1), fragments[below(random, std::size(fragments))]);
+  const std::size_t to = below(random, bytes.size() + 1);
+  bytes.insert(to, fragments[below(random, std::size(fragments))]);
 }
 // The number at a random place becomes another one.
 void replace_number(Bytes& bytes, Random& random) {

@@ -20,19 +20,25 @@ inline Scene instances_of(std::vector<Mesh> meshes,
 }
 
 inline Mat4 turned(Random& random) {
-  return glm::rotate(Mat4(1.0), random.uniform(0.0, 2.0 * pi), random.direction());
+  const double angle = random.uniform(0.0, 2.0 * pi);
+  return glm::rotate(Mat4(1.0), angle, random.direction());
 }
 
 /// Any affine map whose columns are neither short nor nearly in a plane.
 inline Mat4 sheared(Random& random) {
   for (;;) {
-    Mat3 m(random.in_box(1.0), random.in_box(1.0), random.in_box(1.0));
+    Mat3 m{random.in_box(1.0), random.in_box(1.0), random.in_box(1.0)};
     if (std::abs(glm::determinant(m)) > 0.1) return Mat4(m);
   }
 }
 
 inline Mat4 moved(const Vec3& by, const Mat4& matrix) {
   return glm::translate(Mat4(1.0), by) * matrix;
+}
+
+/// To a place in the box of that half extent around `middle`.
+inline Mat4 moved_into_box(const Mat4& matrix, double half, Random& random, const Vec3& middle = Vec3(0.0)) {
+  return moved(middle + random.in_box(half), matrix);
 }
 
 inline Mat4 scaling(const Vec3& factors) {
@@ -55,7 +61,8 @@ inline const std::array<Kind, 9> kinds{{
     {"sheared", sheared, 6.0},
     {"non-uniform",
      [](Random& r) {
-       return turned(r) * scaling({2.0, 0.01, 0.3}) * turned(r);
+       const Mat4 first = turned(r) * scaling({2.0, 0.01, 0.3});
+       return first * turned(r);
      },
      6.0},
     {"thin as paper",
@@ -66,7 +73,11 @@ inline const std::array<Kind, 9> kinds{{
     {"tiny", [](Random& r) { return sheared(r) * scaling(Vec3(1e-7)); }, 6e-7},
     {"tiny and far apart", [](Random& r) { return turned(r) * scaling(Vec3(1e-4)); }, 6.0},
     {"huge", [](Random& r) { return sheared(r) * scaling(Vec3(1e7)); }, 6e7},
-    {"of all sizes", [](Random& r) { return turned(r) * scaling(Vec3(std::exp(r.uniform(-9.0, 1.0)))); },
+    {"of all sizes",
+     [](Random& r) {
+       const Mat4 rotation = turned(r);
+       return rotation * scaling(Vec3(std::exp(r.uniform(-9.0, 1.0))));
+     },
      6.0},
 }};
 

@@ -1,9 +1,18 @@
 #include "raytrace_support.h"
 
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 namespace gnomon::test {
+
+std::uint64_t seed_of_environment() {
+  static const std::uint64_t seed = [] {
+    const char* asked = std::getenv("GNOMON_TEST_SEED");
+    return asked == nullptr ? 0 : std::strtoull(asked, nullptr, 10);
+  }();
+  return seed;
+}
 
 Mesh uv_sphere(const Vec3& center, double radius, int rings, int sectors, double jitter, std::uint64_t seed) {
   Random random(seed);
