@@ -65,12 +65,13 @@ def exactness(page):
     page.add('`exact` against rational numbers: pixels of those scenes', asked, wrong, 0, 'the same')
     n = page.times(200)
     done, seconds = page.run([page.test('random_scenes_gl_test'), str(n)])
-    for line in done.stdout.splitlines():
-        found = re.match(r'(\w+) +(\d+) scenes, (\d+) pixels with a certain verdict, (\d+) wrong', line)
-        if found:
-            page.add(f'`{found[1]}` against the ray tracer: pixels of {found[2]} random scenes', int(found[3]), int(found[4]),
-                     seconds, f'`random_scenes_gl_test {n}`')
-            seconds = 0
+    found = re.findall(r'(\w+) +(\d+) scenes, (\d+) pixels surely lit or shadowed, (\d+) wrong', done.stdout)
+    if len(found) != 2:
+        sys.exit(f'random_scenes_gl_test said something else:\n{done.stdout}{done.stderr}')
+    for technique, scenes, pixels, wrong in found:
+        page.add(f'`{technique}` against the ray tracer: pixels of {scenes} random scenes', int(pixels), int(wrong), seconds,
+                 f'`random_scenes_gl_test {n}`')
+        seconds = 0
     n = page.times(1e6)
     done, seconds = page.run([page.test('exact_gmp_test'), str(n)])
     page.add('`exact` against rational numbers: triangles of eight hard kinds', n, 0 if done.returncode == 0 else 'some',

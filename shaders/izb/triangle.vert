@@ -1,5 +1,6 @@
 // Second pass of the irregular z-buffer: the rectangle of whole texels around each triangle, six vertices for each. A
-// triangle that reaches behind a point or spot light covers the whole face unless it lies beside the face's pyramid.
+// triangle that reaches behind a point or spot light covers the whole face unless it lies beside the face's pyramid. One
+// without an area covers nothing: with the light on it, rounding would have it in the way of every receiver.
 #include "shared_constants.h"
 #include "izb/izb.glsl"
 #include "triangles.glsl"
@@ -43,14 +44,22 @@ void texel_rectangle(dvec3 a, dvec3 b, dvec3 c, out dvec2 low, out dvec2 high) {
   high = clamp(floor(0.5LF * (most + 1.0LF) * size + slack) + 1.0LF, dvec2(0.0LF), dvec2(size));
 }
 
+// Twin of scene/world.cpp.
+bool has_surface(dvec3 a, dvec3 b, dvec3 c) {
+  precise dvec3 n = cross(b - a, c - a);
+  precise double size2 = dot(n, n);
+  return size2 > 0.0LF && !isinf(size2);
+}
+
 void main() {
   primitive = uint(gl_VertexID) / 6u;
   TriangleData t = triangle_at(primitive);
   dvec2 low, high;
-  texel_rectangle(local(vertex(t.a)), local(vertex(t.b)), local(vertex(t.c)), low, high);
+  dvec3 a = vertex(t.a), b = vertex(t.b), c = vertex(t.c);
+  texel_rectangle(local(a), local(b), local(c), low, high);
   int corner = gl_VertexID % 6;  // 0 1 2, 2 1 3 of a strip
   bool right = corner == 1 || corner == 4 || corner == 5, top = corner == 2 || corner == 3 || corner == 5;
   dvec2 at = dvec2(right ? high.x : low.x, top ? high.y : low.y);
-  bool empty = low.x >= high.x || low.y >= high.y;
+  bool empty = low.x >= high.x || low.y >= high.y || !has_surface(a, b, c);
   gl_Position = empty ? vec4(0.0, 0.0, 0.0, 1.0) : vec4(vec2(2.0LF * at / double(izb.size.z) - 1.0LF), 0.5, 1.0);
 }
