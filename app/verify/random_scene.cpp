@@ -1,5 +1,7 @@
 #include "app/verify/random_scene.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "app/verify/small_world.h"
 #include "scene/light.h"
 
@@ -80,6 +82,24 @@ Light random_light(const Scene& scene, Random& r) {
   return light;
 }
 
+/// Rotates, scales by 1/1000 to 1000, and moves by up to 10,000 times the scene's size.
+void turn(Scene& scene, Random& r) {
+  const double angle = r.uniform(0.0, 2.0 * pi);
+  const Mat3 rotation(glm::rotate(Mat4(1.0), angle, r.direction()));
+  const double scale = r.power_of_ten(-3.0, 3.0), reach = scale * r.power_of_ten(-1.0, 4.0);
+  const Vec3 by = r.in_box(reach);
+  const auto place = [&](Vec3& p) { p = scale * (rotation * p) + by; };
+  for (Mesh& mesh : scene.meshes)
+    for (Vec3& p : mesh.positions) place(p);
+  for (Shape& shape : scene.shapes) {
+    if (auto* plane = std::get_if<Plane>(&shape.geometry))
+      place(plane->point), plane->normal = rotation * plane->normal;
+    if (auto* sphere = std::get_if<Sphere>(&shape.geometry)) place(sphere->center), sphere->radius *= scale;
+  }
+  for (Light& light : scene.lights) place(light.position), light.direction = rotation * light.direction;
+  place(scene.camera.eye), place(scene.camera.target), scene.camera.up = rotation * scene.camera.up;
+}
+
 }  // namespace
 
 Scene random_scene(Random& r) {
@@ -93,6 +113,7 @@ Scene random_scene(Random& r) {
   scene.lights = {random_light(scene, r)};
   scene.camera.eye = Vec3(4.0, 2.0, 3.5) + Vec3{quarter(r, 0, 1), quarter(r, 0, 2), quarter(r, 0, 1)};
   scene.camera.target = {quarter(r, -0.5, 0.5), 0.5, quarter(r, -0.5, 0.5)};
+  if (r.coin()) turn(scene, r);
   return scene;
 }
 

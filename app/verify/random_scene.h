@@ -1,5 +1,6 @@
 // Small random scenes whose light lies where rounding decides: in the planes of faces, at corners, inside
-// bodies. Every coordinate is a multiple of 1/8, so that what shall lie in a plane does so exactly.
+// bodies. Every coordinate is a multiple of 1/8, so that what shall lie in a plane does so exactly; half of the scenes are then
+// rotated, scaled and moved, so that it does so but for rounding.
 #pragma once
 
 #include "app/verify/random.h"

@@ -10,6 +10,12 @@ double axis(const Vec3& v, std::size_t a) {
   return v[static_cast<int>(a)];
 }
 
+/// Of a point: it is no higher than the tangent plane, but for rounding; a ray that leaves the tangent plane is clearly above
+/// that rounding at this distance.
+struct BelowHorizon {
+  bool below, left;
+};
+
 }  // namespace
 
 AmbiguousRay::AmbiguousRay(const World& world, const SurfacePoint& from, const Ray& ray,
@@ -177,32 +183,38 @@ Intersects AmbiguousRay::intersects_sphere(std::uint32_t id) const {
   return a == Intersects::no && b == Intersects::no ? Intersects::no : Intersects::perhaps;
 }
 
-bool AmbiguousRay::clearly_rises() const {
+double AmbiguousRay::rise() const {
   const Vec3 n = from_.normal, d(ray_.direction[0], ray_.direction[1], ray_.direction[2]);
   // Of a unit normal and of a direction that was made one.
-  const double rise = glm::dot(n, d) - error_gamma(32) * glm::length(d);
-  if (!std::isfinite(ray_.t.max)) return rise > 0.0;
-  return ray_.t.max * rise > 2.0 * glm::dot(glm::abs(n), error_);
+  return glm::dot(n, d) - error_gamma(32) * glm::length(d);
+}
+
+bool AmbiguousRay::clearly_rises() const {
+  if (!std::isfinite(ray_.t.max)) return rise() > 0.0;
+  return ray_.t.max * rise() > 2.0 * glm::dot(glm::abs(from_.normal), error_);
 }
 
 bool AmbiguousRay::below_horizon(std::uint32_t id) const {
   // A light in the tangent plane: which side of it the ray takes is a matter of rounding.
   if (!clearly_rises()) return false;
-  const Vec3 n = from_.normal;
-  const double slack = glm::dot(glm::abs(n), from_.position_error);
-  const auto is_below = [&](const Vec3& p, double radius) {
+  const Vec3 n = from_.normal, along(ray_.direction[0], ray_.direction[1], ray_.direction[2]);
+  const double slack = glm::dot(glm::abs(n), from_.position_error), slope = rise() / glm::length(along);
+  // `reach`: of a sphere or a solid, to all sides of p.
+  const auto is_below = [&](const Vec3& p, double height, double reach) {
     const Vec3 d = p - from_.position;
-    const double bound = error_gamma(8) * (glm::dot(glm::abs(n), glm::abs(d)) + radius) + slack;
-    return glm::dot(n, d) + radius <= bound;
+    const double bound = error_gamma(8) * (glm::dot(glm::abs(n), glm::abs(d)) + height) + slack;
+    return BelowHorizon{glm::dot(n, d) + height <= bound, slope * (glm::length(d) + reach) > 4.0 * bound};
   };
   if (world_.is_triangle(id)) {
     const auto [a, b, c] = world_.corners(id);
-    return is_below(a, 0.0) && is_below(b, 0.0) && is_below(c, 0.0);
+    const BelowHorizon p = is_below(a, 0.0, 0.0), q = is_below(b, 0.0, 0.0), r = is_below(c, 0.0, 0.0);
+    return p.below && q.below && r.below && (p.left || q.left || r.left);
   }
   const ShapeGeometry& geometry = world_.shape(id).geometry;
-  if (is_solid(geometry)) return is_below(solid_center(geometry), reach_along(geometry, n));
+  const auto holds = [](const BelowHorizon& p) { return p.below && p.left; };
+  if (is_solid(geometry)) return holds(is_below(solid_center(geometry), reach_along(geometry, n), 0.0));
   const auto* sphere = std::get_if<Sphere>(&geometry);
-  return sphere != nullptr && is_below(sphere->center, sphere->radius);
+  return sphere != nullptr && holds(is_below(sphere->center, sphere->radius, sphere->radius));
 }
 
 bool AmbiguousRay::beyond_light(std::uint32_t id) const {

@@ -55,7 +55,7 @@ class AmbiguousRay {
 
   /// The ray surely leaves on the upper side of the tangent plane at its point, and nothing at or below that
   /// plane (but for rounding) can be in its way: coplanar neighbours, coplanar duplicates, the far side of a
-  /// convex body.
+  /// convex body. Not what is so near, or along so flat a ray, that the ray stays within that rounding all along it.
   bool below_horizon(std::uint32_t id) const;
   /// Nothing that lies wholly beyond the plane through the light, across the ray, can be in its way. The ray
   /// ends before the light by its own error bound; a body that the light touches from behind is told apart
@@ -63,6 +63,8 @@ class AmbiguousRay {
   bool beyond_light(std::uint32_t id) const;
 
  private:
+  /// At least so much of the direction is along the normal.
+  double rise() const;
   /// The light lies above the tangent plane at the ray's point by more than both are known.
   bool clearly_rises() const;
   struct Interval3 {  // of a ray parameter

@@ -42,7 +42,7 @@ bool sphere_is_hole(ShapeData shape, ShadowRay ray, double t) {
 #endif
 }
 
-// Of the receiver's own sphere only the far side can be in its way, from within (verdict.cpp, meet_sphere).
+// Of the receiver's own sphere only the far side can be in its way, from within (ambiguous_ray.cpp, intersects_sphere).
 bool blocks(Blocker sphere, Receiver64 r, ShadowRay ray) {
   double t_near, t_far;
   if (!sphere_crossings64(ray.origin, ray.direction, sphere.center, sphere.radius, t_near, t_far)) return false;
@@ -63,7 +63,7 @@ struct Blocker {
 
 Blocker blocker() { return Blocker(shape_at(shape_index), double_shape_at(shape_index)); }
 
-// Where the ray first meets it (verdict.cpp, solid_here).
+// Where the ray first meets it (solid_visibility.cpp, intersects_solid).
 bool solid_is_hole(ShapeData shape, ShadowRay ray, double t) {
 #ifdef ALPHA_MASK
   vec3 p = vec3(ray.origin + t * ray.direction - izb.reference.xyz);

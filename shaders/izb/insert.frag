@@ -76,7 +76,7 @@ Receiver64 plane_receiver(uint index, dvec3 direction) {
 }
 
 #ifdef SOLIDS
-// The impostor's crossing, followed along the ray to double precision, then put onto the surface (raytrace/solid.cpp,
+// The impostor's crossing, followed along the ray to double precision, then put onto the surface (raytrace/shapes/solid.cpp,
 // solid_point).
 Receiver64 solid_receiver(uint index, dvec3 direction, double t) {
   ShapeData shape = shape_at(index);
@@ -129,6 +129,8 @@ bool faces_away(Receiver64 r) {
   return !(dot(r.normal, towards) > -error);
 }
 
+// A sun's rays along a plane, but for rounding, are not blocked by it, as in the ray tracer (ambiguous_ray.cpp,
+// intersects_plane).
 bool plane_blocks(uint index, Receiver64 r, ShadowRay ray) {
   DoubleShape plane = double_shape_at(index);
   dvec3 point = plane.center_and_radius.xyz, n = plane.normal.xyz;
@@ -136,6 +138,9 @@ bool plane_blocks(uint index, Receiver64 r, ShadowRay ray) {
   double slope = dot(n, ray.direction);
   dvec3 error = r.error + abs(ray.origin - r.position);
   if (abs(height) <= dot(abs(n), error_gamma(5) * abs(point - ray.origin) + error)) return false;  // it lies on the plane
+#ifdef DIRECTIONAL
+  if (abs(slope) <= error_gamma(8) * dot(abs(n), abs(ray.direction))) return false;
+#endif
   double t = height / slope;
   if (!in_range(ray, t)) return false;
 #ifdef ALPHA_MASK

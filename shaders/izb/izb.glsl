@@ -86,14 +86,14 @@ ShadowRay shadow_ray(Receiver64 r) {
 
 bool in_range(ShadowRay ray, double t) { return t > 0.0LF && t < ray.end; }
 
-// Nothing at or below the receiver's tangent plane, but for rounding, can be in its way (verdict.cpp, below_horizon).
+// Nothing at or below the receiver's tangent plane, but for rounding, can be in its way (ambiguous_ray.cpp, below_horizon).
 bool is_below(Receiver64 r, dvec3 p, double radius) {
   dvec3 d = p - r.position;
   double bound = error_gamma(8) * (dot(abs(r.normal), abs(d)) + radius) + dot(abs(r.normal), r.error);
   return dot(r.normal, d) + radius <= bound;
 }
 
-// Nor anything wholly beyond the light (verdict.cpp, beyond_light).
+// Nor anything wholly beyond the light (ambiguous_ray.cpp, beyond_light).
 bool is_beyond(ShadowRay ray, dvec3 p, double radius) {
 #ifdef DIRECTIONAL
   return false;
