@@ -32,7 +32,7 @@ DoubleShape double_solid(const ShapeGeometry& solid) {
   const ShapeFrame& frame = frame_of(solid);
   const Aabb box = local_box(solid);
   DoubleShape out{};
-  out.center_and_radius = Vec4(frame.origin, 0.0);
+  out.center_and_radius = Vec4(frame.origin, is_convex(solid) ? 1.0 : 0.0);
   out.tangent = Vec4(frame.axes[0], 0.0);
   out.bitangent = Vec4(frame.axes[1], 0.0);
   out.normal = Vec4(frame.axes[2], 0.0);

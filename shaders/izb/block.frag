@@ -85,6 +85,7 @@ bool blocks(Blocker solid, Receiver64 r, ShadowRay ray) {
   if (r.primitive == shape.primitive) {
     dvec3 local = to_solid64(s, r.position - s.center_and_radius.xyz);
     own = dot(solid_normal64(shape, s, local), r.normal) > 0.0LF ? 1 : -1;
+    if (own == 1 && s.center_and_radius.w != 0.0LF) return false;  // nothing convex shadows its own outside
   }
   double t;
   dvec3 origin = to_solid64(s, ray.origin - s.center_and_radius.xyz);

@@ -23,7 +23,7 @@ layout(std140, binding = izb_block) uniform Izb {
 layout(binding = izb_vertices_unit) uniform usamplerBuffer vertex_bits;
 layout(binding = izb_shapes_unit) uniform usamplerBuffer double_shape_bits;
 struct DoubleShape {         // as ShapeData (world.glsl), in the world
-  dvec4 center_and_radius;  // of a sphere; of a plane: a point; of a solid: its origin
+  dvec4 center_and_radius;  // of a sphere; of a plane: a point; of a solid: its origin, and 1 if it is convex
   dvec4 normal;             // of a plane; or a solid's local z axis
   dvec4 tangent;            // of a solid: its local x and y axes
   dvec4 bitangent;
