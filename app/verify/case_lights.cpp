@@ -103,7 +103,7 @@ void contact_gap(Run& run) {
         [&](Random& r, Tally& tally) {
           const double z = r.uniform(-0.9, 0.9);
           const auto shadowed = [&](double x) {
-            const Vec3 foot{x, 0.0, z};
+            const Vec3 foot(x, 0.0, z);
             return tracer.centre_visibility(seen(tracer, foot + Vec3(0.0, eye_height, 0.0), foot), light) ==
                    PointVisibility::shadowed;
           };
