@@ -19,7 +19,7 @@ struct Tried {
 };
 
 bool try_scene(const Scene& scene, ImageSize size, const std::string& name, std::array<Tried, 2>& tried) {
-  const World world = make_world(scene);
+  const World world = make_world(scene, InstanceChoice::flatten);  // izb takes no kept instances
   raytrace::RaytraceOptions rays;
   rays.picture = false, rays.size = size;
   const std::array<std::uint32_t, 1> first{0};

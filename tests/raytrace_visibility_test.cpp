@@ -9,6 +9,7 @@ namespace {
 
 using raytrace::Accel;
 using raytrace::PointVisibility;
+using raytrace::Precision;
 using raytrace::SurfacePoint;
 using raytrace::Tracer;
 using test::Random;
@@ -201,6 +202,25 @@ TEST(PointVisibility, Case26CoplanarDuplicatesDoNotShadowEachOther) {
     ASSERT_EQ(tracer.centre_visibility(p, test::point_light({random.uniform(-3, 3), 4, 0})),
               PointVisibility::lit)
         << i;
+  }
+}
+
+TEST(PointVisibility, Case26CopiesOfASphereDoNotShadowEachOther) {
+  const Shape ball = test::sphere({0.3, 0.1, -0.7}, 0.9);
+  const TestWorld w(test::scene_of({}, {ball, ball}));
+  const Light light = test::point_light({1.0, 4.0, 2.0});
+  for (const Precision precision : {Precision::robust, Precision::exact}) {
+    const Tracer tracer(w.world(), Accel::bvh, precision);
+    Random random(37);
+    int lit = 0;
+    for (int i = 0; i < 500; ++i) {
+      const SurfacePoint p =
+          test::seen(tracer, {2.0, 4.0, 3.0}, std::get<Sphere>(ball.geometry).center + random.in_box(0.5));
+      if (light_cannot_reach(light, p.position, p.normal)) continue;
+      EXPECT_EQ(tracer.centre_visibility(p, light), PointVisibility::lit) << i;
+      ++lit;
+    }
+    EXPECT_GT(lit, 300);
   }
 }
 

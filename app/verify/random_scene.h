@@ -13,6 +13,9 @@ namespace gnomon::verify {
 /// Boxes, loose triangles, spheres, one or two planes, a camera and one light without size.
 Scene random_scene(Random& random);
 
+/// With its instances kept, if a mesh stands more than once.
+World world_of(const Scene& scene);
+
 struct Agreement {
   std::uint64_t asked =
       0;  ///< pixels that show the same primitive, face the light and are surely lit or surely shadowed

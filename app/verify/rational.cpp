@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "scene/solid.h"
+
 namespace gnomon::verify {
 
 namespace {
@@ -144,19 +146,21 @@ std::optional<bool> rationally_shadowed(const World& world, const raytrace::Surf
   const Rational3 zero(Vec3(0.0));
   const Rational3 x = own_plane != nullptr ? place_on_plane(*own_plane, point) : exact_place(world, point);
   const Way way{x, ends ? Rational3(light.position) - x : zero - Rational3(light.direction), ends};
+  bool unknown = false;
   for (std::uint32_t id = 0; id < world.primitive_count(); ++id) {
     if (id == point.primitive) continue;
-    if (world.is_triangle(id)) {
-      if (meets(way, world.corners(id))) return true;
+    const auto* shape = world.is_triangle(id) ? nullptr : &world.shape(id).geometry;
+    if (shape != nullptr && is_solid(*shape)) {
+      unknown = true;
       continue;
     }
-    const auto& geometry = world.shape(id).geometry;
-    if (const auto* plane = std::get_if<Plane>(&geometry); plane != nullptr && meets(way, *plane))
-      return true;
-    if (const auto* sphere = std::get_if<Sphere>(&geometry); sphere != nullptr && meets(way, *sphere))
-      return true;
+    const bool met = shape == nullptr      ? meets(way, world.corners(id))
+                     : shape->index() == 0 ? meets(way, std::get<Sphere>(*shape))
+                                           : meets(way, std::get<Plane>(*shape));
+    if (met && !world.is_masked(id)) return true;
+    unknown = unknown || met;
   }
-  return false;
+  return unknown ? std::nullopt : std::optional(false);
 }
 
 }  // namespace gnomon::verify

@@ -174,6 +174,15 @@ inline Bounds hull(const Bounds& a, const Bounds& b) {
   if (b.is_empty()) return a;
   return {std::min(a.lo, b.lo), std::max(a.hi, b.hi), a.sure && b.sure};
 }
+/// A function's values on a stretch as its mean value form bounds them, too, where the bounds of its terms add up
+/// though the terms cancel (Moore, Kearfott and Cloud 2009, "Introduction to Interval Analysis", section 6.3).
+/// `middle`: its values at a place of the stretch; `offset`: of the stretch from there.
+inline Bounds narrowed(const Slope& stretch, const Bounds& middle, const Bounds& offset) {
+  if (!(stretch.value.sure && middle.sure)) return stretch.value;
+  const Bounds mean = middle + stretch.change * offset;
+  return {std::max(stretch.value.lo, mean.lo), std::min(stretch.value.hi, mean.hi), true};
+}
+
 inline Slope minimum(const Slope& a, const Slope& b) {
   if (a.value.hi < b.value.lo) return a;
   if (b.value.hi < a.value.lo) return b;

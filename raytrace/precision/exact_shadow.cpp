@@ -13,7 +13,14 @@ bool ExactShadow::blocks(std::uint32_t id) const {
   const auto& geometry = world_.shape(id).geometry;
   if (const auto* plane = std::get_if<Plane>(&geometry)) return plane_blocks(*plane);
   const auto& sphere = std::get<Sphere>(geometry);
-  return id == from_.primitive ? source_sphere_blocks(sphere) : sphere_blocks(sphere);
+  return is_own(sphere) ? source_sphere_blocks(sphere) : sphere_blocks(sphere);
+}
+
+// The receiver's stored position lies on it but for rounding.
+bool ExactShadow::is_own(const Sphere& sphere) const {
+  if (world_.is_triangle(from_.primitive)) return false;
+  const auto* own = std::get_if<Sphere>(&world_.shape(from_.primitive).geometry);
+  return own != nullptr && own->center == sphere.center && own->radius == sphere.radius;
 }
 
 const ExactShadow::Receiver& ExactShadow::receiver() const {

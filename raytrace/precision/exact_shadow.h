@@ -20,7 +20,7 @@ class ExactShadow {
   /// Triangles, planes and spheres are decided, also for a receiver on a solid (its stored position); a
   /// solid's ambiguities stay.
   bool decides(std::uint32_t id) const;
-  /// `id` is not the receiver's own triangle or plane, and is decided.
+  /// `id` is not the receiver's own triangle or plane, and is decided. A copy of the receiver's own sphere is that sphere.
   bool blocks(std::uint32_t id) const;
 
  private:
@@ -35,6 +35,7 @@ class ExactShadow {
   Dyadic3 to_light() const;
   bool triangle_blocks(std::uint32_t id) const;
   bool plane_blocks(const Plane& plane) const;
+  bool is_own(const Sphere& sphere) const;
   bool sphere_blocks(const Sphere& sphere) const;
   bool source_sphere_blocks(const Sphere& sphere) const;
   /// The sides of a plane through `point` on which receiver and light lie; for a directional light the sign

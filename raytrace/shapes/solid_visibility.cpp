@@ -66,11 +66,13 @@ class March {
       if (a.without_zero() && b.without_zero())
         return a.positive() == b.positive() ? note(a.positive()) : Look::crossed;
       // A root at an end shared with the next stretch: only dividing elsewhere would help.
-      if (is_least || a.width() + b.width() > 0.25 * h.value.width()) return Look::ambiguous;
+      if (is_least || a.width() + b.width() > 0.25 * hull(a, b).width()) return Look::ambiguous;
       return Look::divide;
     }
-    const Bounds here = function(Bounds(at + 0.5 * (end - at))).value;
-    const bool rounding = !here.without_zero() && h.value.width() <= 4.0 * here.width();
+    const double middle = at + 0.5 * (end - at);
+    const Bounds here = function(Bounds(middle)).value, all = narrowed(h, here, stretch - Bounds(middle));
+    if (all.without_zero()) return note(all.positive());
+    const bool rounding = !here.without_zero() && all.width() <= 4.0 * here.width();
     return is_least || rounding ? Look::ambiguous : Look::divide;
   }
 
