@@ -46,8 +46,9 @@ bool try_scene(const Scene& scene, ImageSize size, const std::string& name, std:
 
 /// Scenes that were drawn wrong once.
 bool try_known(std::array<Tried, 2>& tried) {
-  for (const char* name : {"point_box_top", "point_loose_triangle", "spot_box_side",
-                           "spot_boxes_and_triangles", "point_on_line_triangle", "point_on_apex"}) {
+  for (const char* name :
+       {"point_box_top", "point_loose_triangle", "spot_box_side", "spot_boxes_and_triangles",
+        "point_on_line_triangle", "point_on_apex", "point_on_needle"}) {
     const auto scene =
         load_scene(fmt::format("{}/tests/data/coplanar_light/{}.json", test::source_dir(), name));
     if (!scene) return fmt::print(stderr, "{}\n", scene.error().message()), false;

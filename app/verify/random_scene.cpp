@@ -206,9 +206,12 @@ void choose_materials(Scene& scene, Random& r) {
   }
   for (MeshInstance& instance : scene.instances)
     if (r.below(3) == 0) instance.material = 1 + r.below(3);
+  // A triangle of which u or v is the same everywhere shall not lie at a border of texels, or halfway between two: rounding
+  // would say over all of it whether there is a hole.
+  constexpr double aside = 0.05;
   for (Mesh& mesh : scene.meshes)
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-      const double u = quarter(r, -1.0, 2.0), v = quarter(r, -1.0, 2.0);
+      const double u = aside + quarter(r, -1.0, 2.0), v = aside + quarter(r, -1.0, 2.0);
       mesh.uvs.emplace_back(u, v);
     }
 }

@@ -124,11 +124,11 @@ bool triangle_is_hole(TriangleData t, dvec2 weights) {
 
 bool blocks(Blocker caster, Receiver64 r, ShadowRay ray) {
   if (r.primitive == primitive) return false;
-  double at;
-  dvec2 weights;
-  if (!sheared_crossing(ray.origin, ray.direction, caster.a, caster.b, caster.c, false, at, weights) || !in_range(ray, at))
+  Crossing at;
+  if (!sheared_crossing(ray.origin, ray.direction, caster.a, caster.b, caster.c, false, at) || !in_range(ray, at.first) ||
+      !in_range(ray, at.last))
     return false;
-  if (triangle_is_hole(caster.t, weights)) return false;
+  if (triangle_is_hole(caster.t, at.weights)) return false;
   return !(is_below(r, caster.a, 0.0LF) && is_below(r, caster.b, 0.0LF) && is_below(r, caster.c, 0.0LF)) &&
          !(is_beyond(ray, caster.a, 0.0LF) && is_beyond(ray, caster.b, 0.0LF) && is_beyond(ray, caster.c, 0.0LF));
 }

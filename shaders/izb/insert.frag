@@ -30,9 +30,9 @@ dvec3 pixel_direction64(dvec2 window) {
 Receiver64 triangle_receiver(uint id, dvec3 direction) {
   TriangleData triangle = triangle_at(id);
   dvec3 a = vertex(triangle.a), b = vertex(triangle.b), c = vertex(triangle.c);
-  double t;
-  dvec2 w;
-  sheared_crossing(izb.eye.xyz, direction, a, b, c, true, t, w);
+  Crossing at;
+  sheared_crossing(izb.eye.xyz, direction, a, b, c, true, at);
+  dvec2 w = at.weights;
   double first = 1.0LF - w.x - w.y;
   dvec3 pa = first * a, pb = w.x * b, pc = w.y * c;
   Receiver64 r;

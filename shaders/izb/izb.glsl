@@ -114,8 +114,22 @@ int largest_axis(dvec3 d) {
 }
 dvec3 permuted(dvec3 v, int last) { return last == 0 ? v.yzx : last == 1 ? v.zxy : v; }
 
-// Woop, Benthin, Wald 2013. `t` in multiples of the direction; the weights of the second and third corner.
-bool sheared_crossing(dvec3 origin, dvec3 direction, dvec3 a, dvec3 b, dvec3 c, bool anywhere, out double t, out dvec2 weights) {
+// Where a ray crosses a triangle: `t` in multiples of the direction, and `first` and `last` between which it lies whatever was
+// rounded; the weights of the second and third corner.
+struct Crossing {
+  double t, first, last;
+  dvec2 weights;
+};
+
+// The roundings of the three edge functions together (ambiguous_ray.cpp, intersects_triangle).
+double edge_error(dvec2 shear, dvec3 a, dvec3 b, dvec3 c, dvec2 p, dvec2 q, dvec2 r) {
+  dvec3 reach = max(abs(a), max(abs(b), abs(c)));
+  dvec2 error = error_gamma(12) * (reach.xy + abs(shear) * reach.z);
+  return 2.0LF * dot(error.yx, abs(p) + abs(q) + abs(r));
+}
+
+// Woop, Benthin, Wald 2013. `anywhere`: of the triangle's plane.
+bool sheared_crossing(dvec3 origin, dvec3 direction, dvec3 a, dvec3 b, dvec3 c, bool anywhere, out Crossing crossing) {
   int last = largest_axis(direction);
   dvec3 d = permuted(direction, last);
   dvec2 shear = d.xy / d.z;
@@ -126,15 +140,16 @@ bool sheared_crossing(dvec3 origin, dvec3 direction, dvec3 a, dvec3 b, dvec3 c, 
   precise double u = r.x * q.y - r.y * q.x;
   precise double v = p.x * r.y - p.y * r.x;
   precise double w = q.x * p.y - q.y * p.x;
-  t = 0.0LF;
-  weights = dvec2(0.0LF);
+  crossing = Crossing(0.0LF, 0.0LF, 0.0LF, dvec2(0.0LF));
   if (!anywhere && (u < 0.0LF || v < 0.0LF || w < 0.0LF) && (u > 0.0LF || v > 0.0LF || w > 0.0LF)) return false;
   double det = u + v + w;
   if (det == 0.0LF) return false;
   double z = (u * a.z + v * b.z + w * c.z) / det;
   double low = min(a.z, min(b.z, c.z)), high = max(a.z, max(b.z, c.z));
-  t = clamp(z, low, high) / d.z;
-  weights = dvec2(v, w) / det;
+  double error = edge_error(shear, a, b, c, p, q, r), spread = high - low;
+  if (abs(det) > 2.0LF * error) spread = 2.0LF * error / (abs(det) - error) * (high - low) + error_gamma(8) * abs(z);
+  dvec2 ends = dvec2(max(low, z - spread), min(high, z + spread)) / d.z;
+  crossing = Crossing(clamp(z, low, high) / d.z, min(ends.x, ends.y), max(ends.x, ends.y), dvec2(v, w) / det);
   return true;
 }
 
