@@ -19,6 +19,7 @@ import time
 
 DOCS = os.path.dirname(os.path.abspath(__file__))
 PAGE = os.path.join(DOCS, 'reliability.md')
+RANDOM_COMPARE = os.path.join(os.path.dirname(DOCS), 'tests', 'tools', 'random_compare.py')
 BELOW = '\nWhat each hard case is stands in'
 FUZZ_TARGETS = {
     'json': 'scene files', 'gltf': 'glTF and GLB', 'obj': 'OBJ', 'ply': 'PLY', 'world': 'small worlds, all structures',
@@ -103,6 +104,16 @@ def other_seeds(page):
              seconds, f'`GNOMON_TEST_SEED=1` to `{n}`, `{RANDOMISED[0]}` and {len(RANDOMISED) - 1} more')
 
 
+def random_comparisons(page):
+    n = page.times(10)
+    done, seconds = page.run([sys.executable, RANDOM_COMPARE, page.program(), str(n)])
+    found = re.search(r'(\d+) runs, (\d+) failed', done.stdout)
+    if not found:
+        sys.exit(f'random_compare.py said something else:\n{done.stdout}{done.stderr}')
+    page.add('Random scenes and options: sums that are none, other results with other threads, bands or structures', n, int(found[2]),
+             seconds, f'`tests/tools/random_compare.py BUILD/app/gnomon {n}`')
+
+
 def mutated_files(page):
     n = page.times(1500)
     for target, what in FUZZ_TARGETS.items():
@@ -185,7 +196,7 @@ def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
     page = Page(os.path.abspath(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) == 3 else 1.0)
-    for part in (exactness, hard_cases, other_seeds, mutated_files, faults, kills):
+    for part in (exactness, hard_cases, other_seeds, random_comparisons, mutated_files, faults, kills):
         part(page)
     text = text_of(page)
     with open(PAGE, 'w', encoding='utf-8') as out:

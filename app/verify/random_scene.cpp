@@ -221,8 +221,10 @@ void repeat_a_mesh(Scene& scene, Random& r) {
   MeshInstance again = any_of(scene.instances, r);
   Mat4 matrix(0.0);
   const int first = r.integer(0, 2), step = r.integer(1, 2);
-  for (int i = 0; i < 3; ++i)
-    matrix[i][(first + step * i) % 3] = (r.coin() ? 1.0 : -1.0) * std::exp2(r.integer(-1, 1));
+  for (int i = 0; i < 3; ++i) {
+    const double sign = r.coin() ? 1.0 : -1.0;
+    matrix[i][(first + step * i) % 3] = sign * std::exp2(r.integer(-1, 1));
+  }
   matrix[3] = Vec4(place(r), 1.0);
   again.world_from_object = matrix;
   scene.instances.push_back(again);

@@ -1,6 +1,6 @@
-// Small random scenes whose light lies where rounding decides: in the planes of faces, at corners, inside
-// bodies. Every coordinate is a multiple of 1/8, so that what shall lie in a plane does so exactly; half of the scenes are then
-// rotated, scaled and moved, so that it does so but for rounding.
+// Small random scenes whose light lies where rounding decides: in the planes of faces, at corners, at an apex or a rim,
+// inside bodies. What shall lie in an axis-parallel plane does so exactly, its coordinates being multiples of 1/8; half of the
+// scenes are then rotated, scaled and moved, so that it does so but for rounding.
 #pragma once
 
 #include "app/verify/random.h"
@@ -10,7 +10,8 @@
 
 namespace gnomon::verify {
 
-/// Boxes, loose triangles, spheres, one or two planes, a camera and one light without size.
+/// Boxes, loose triangles, some of them nearly without an area, one or two planes, spheres, solids; some meshes stand twice,
+/// have holes, or show their front alone; a camera and one light without size.
 Scene random_scene(Random& random);
 
 /// With its instances kept, if a mesh stands more than once.
