@@ -236,12 +236,13 @@ Error placed(const Error& error, const Invocation& invocation) {
 
 int run_action(const Invocation& invocation) {
   Expected<ExitCode> code = act_and_trace(invocation);
+  // First: a program that this one had started may have failed because the signal reached it, too.
+  if (const int interrupted = interrupt_exit_code(); interrupted != 0) return interrupted;
   if (!code) {
     code.error() = placed(code.error(), invocation);
     print_error(code.error());
     return static_cast<int>(code.error().kind);
   }
-  if (const int interrupted = interrupt_exit_code(); interrupted != 0) return interrupted;
   return code_after_stdout(static_cast<int>(*code));
 }
 

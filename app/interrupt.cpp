@@ -1,5 +1,4 @@
-// Signals are process-wide, and so is this file's state; with each thread's StageLog (scene/stages.h)
-// it is the only such state of the program.
+// Signals are process-wide, and so is this file's state.
 #include "app/interrupt.h"
 
 #include <signal.h>

@@ -5,8 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "app/interrupt.h"
 #include "app/machine.h"
@@ -17,6 +15,7 @@
 #include "compare/output_parts.h"
 #include "compare/report/page.h"
 #include "compare/time_budget.h"
+#include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 #include "scene/freed_memory.h"
 #include "scene/stages.h"
@@ -24,18 +23,10 @@
 namespace gnomon::app {
 namespace {
 
-Expected<std::string> read_back(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file || bytes.empty())
-    return fail(Error{ErrorKind::cannot_write, "cannot read back what was written", path});
-  return bytes;
-}
-
 /// --json hands out the same bytes as the folder's result.json.
 Expected<void> write_json(const ResultOutput& output) {
   if (output.json.empty()) return {};
-  const Expected<std::string> json = read_back(output.folder + "/result.json");
+  const Expected<std::string> json = read_file(output.folder + "/result.json");
   if (!json) return fail(json.error());
   return hand_out_json(output.json, *json);
 }

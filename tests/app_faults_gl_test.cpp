@@ -127,6 +127,18 @@ TEST(Faults, NoSpaceForTemporaryFiles) {
   umount(tmp.c_str());
 }
 
+TEST(Faults, LinksInACircleAndNoFolderForTemporaryFiles) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "suite");
+  fs::create_symlink("capture.json", folder / "suite/capture.json");
+  fs::create_symlink("round", folder / "suite/round");
+  expect_one_line(run_gnomon({"judge", "--suite", folder / "suite"}), 3, "no capture.json in");
+  const Words bands{"compare", "acne-floor", "--size", "1280x720", "--memory", "150M", "--json", "-", "-q"};
+  const ProcessResult compared =
+      run_gnomon(bands, {.folder = folder.path(), .environment = {"TMPDIR=" + (folder / "none")}});
+  EXPECT_EQ(compared.exit_code, 0) << compared.err;
+}
+
 TEST(Faults, AFullDisk) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "disk");

@@ -5,6 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
+
+#include "scene/files/part_file.h"
 #include "scene/files/write_file.h"
 #include "scene_files_support.h"
 
@@ -43,6 +46,20 @@ TEST(WriteFile, KeepsPermissionsAndLinks) {
   struct stat status {};
   ASSERT_EQ(::stat(path.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0640u);
+}
+
+TEST(PartFile, KeepsPermissions) {
+  const TemporaryFolder folder;
+  const std::string path = folder.put("real.exr", "old");
+  ASSERT_EQ(::chmod(path.c_str(), 0600), 0);
+  auto file = PartFile::create(path);
+  ASSERT_TRUE(file);
+  std::ofstream(file->path()) << "new";
+  ASSERT_TRUE(file->publish());
+  EXPECT_EQ(slurp(path), "new");
+  struct stat status {};
+  ASSERT_EQ(::stat(path.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0600u);
 }
 
 TEST(WriteFile, FullDeviceIsAnError) {

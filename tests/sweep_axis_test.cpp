@@ -50,8 +50,9 @@ TEST(Axis, FactorRangesStopAtTheEnd) {
 }
 
 TEST(Axis, RefusesWhatIsNoRange) {
-  for (const char* text : {"", "1,", "1:2", "1:2:3:4", "a:b:3", "0:1:0", "0:1:1", "0:1:2.5", "0:1:x1",
-                           "0:1:x2", "1:0:x2", "1texel:2m:3", "0:1:1000000", "nan:1:3", "0:inf:3"})
+  for (const char* text :
+       {"", "1,", "1:2", "1:2:3:4", "a:b:3", "0:1:0", "0:1:1", "0:1:2.5", "0:1:x1", "0:1:x2", "1:0:x2",
+        "1texel:2m:3", "0:1:1000000", "nan:1:3", "0:inf:3", "+-0.1:0.1:3"})
     EXPECT_NE(refusal(text), "") << text;
   EXPECT_EQ(refusal("0:1:x2"), "the ends of a ×-range (got 0:1:x2, allowed 0 < START <= END)");
   EXPECT_NE(refusal("0,1:2:3", ValueKind::numbers), "");

@@ -1,5 +1,8 @@
 // The folder of a sweep: resumed byte for byte, torn lines cut off, foreign folders refused.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -155,6 +158,29 @@ TEST_F(JournalTest, RemovesWhatWasNotFinishedAndNothingElse) {
   ASSERT_TRUE(discard_sweep(folder));
   EXPECT_TRUE(fs::exists(fs::path(folder) / "cells/cell-me.png"));
   EXPECT_FALSE(fs::exists(fs::path(folder) / "thumbnails") || fs::exists(fs::path(folder) / "sweep.jsonl"));
+}
+
+// Where the file that is to go on cannot be read, nothing of it may be taken for torn.
+TEST_F(JournalTest, WhatCannotBeReadStays) {
+  {
+    auto journal = open();
+    ASSERT_TRUE(journal);
+    ASSERT_TRUE(journal->append(line(0), "{}\n"));
+  }
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  const int next = ::open("/dev/null", O_RDONLY);
+  ASSERT_GE(next, 0);
+  ::close(next);
+  constexpr rlim_t opened = 3;  // lines, times and table
+  const rlimit few{static_cast<rlim_t>(next) + opened, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
+  const auto journal = open();
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+  ASSERT_FALSE(journal);
+  EXPECT_NE(journal.error().message().find("cannot be opened: Too many open files"), std::string::npos)
+      << journal.error().message();
+  EXPECT_EQ(bytes("sweep.jsonl"), line(0));
 }
 
 TEST_F(JournalTest, OneProcessAtATime) {

@@ -38,7 +38,7 @@ std::string bench_json(std::span<const BenchRow> rows, std::string_view target) 
       {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}}}};
   if (!target.empty()) document["target"] = target;
   document["rows"] = std::move(list);
-  return document.dump(2) + "\n";
+  return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gnomon::app

@@ -52,10 +52,11 @@ bool wants_page(const CompareCommand& command) {
   return !command.output.no_report && !only_prints_json(command.output);
 }
 
-/// Where rows of a picture in bands wait: beside the output.
+/// Where rows of a picture in bands wait: beside the output. Empty, the current folder: there is no folder for temporary files.
 std::string folder_of_rows(const CompareCommand& command) {
   const std::filesystem::path folder = command.output.folder;
-  return folder.empty() ? std::filesystem::temp_directory_path().string()
+  std::error_code none;
+  return folder.empty() ? std::filesystem::temp_directory_path(none).string()
                         : std::filesystem::absolute(folder).parent_path().string();
 }
 

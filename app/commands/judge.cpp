@@ -229,12 +229,13 @@ Expected<ExitCode> judge_several(JudgeCommand& command, Console& console) {
 Expected<std::vector<std::string>> captures_below(const std::string& folder) {
   std::error_code error;
   std::vector<std::string> found;
+  std::error_code unknown;  // of links that lead nowhere or in a circle
   const auto add = [&](const std::filesystem::path& file) {
-    if (std::filesystem::is_regular_file(file)) found.push_back(file.string());
+    if (std::filesystem::is_regular_file(file, unknown)) found.push_back(file.string());
   };
   add(std::filesystem::path(folder) / "capture.json");
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (entry.is_directory()) add(entry.path() / "capture.json");
+    if (entry.is_directory(unknown)) add(entry.path() / "capture.json");
   if (error || found.empty())
     return fail(ErrorKind::bad_input, fmt::format("--suite: no capture.json in {} or its folders", folder));
   std::sort(found.begin(), found.end());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <shared_mutex>
@@ -232,10 +233,14 @@ Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& s
   };
   const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
   const std::size_t jobs = options.jobs > 0 ? static_cast<std::size_t>(options.jobs) : processors;
-  std::vector<std::thread> workers;
-  for (std::size_t i = 1; i < std::min(students.size(), jobs); ++i) workers.emplace_back(work);
+  std::vector<std::future<void>> workers;
+  try {
+    while (workers.size() + 1 < std::min(students.size(), jobs))
+      workers.push_back(std::async(std::launch::async, work));
+  } catch (const std::system_error&) {  // no more can be started: those that there are do the work
+  }
   work();
-  for (std::thread& worker : workers) worker.join();
+  for (std::future<void>& worker : workers) worker.get();
   Grades grades{std::move(*own), {}};
   for (auto& result : graded) {
     if (!*result) return fail(result->error());

@@ -84,7 +84,7 @@ std::string class_row(const ClassResult& result, const StudentResult& student) {
 std::string page_name(const StudentResult& student) {
   std::string name;
   for (const char c : student.name) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
     name += plain ? std::string(1, c) : fmt::format("_{:02x}", static_cast<unsigned char>(c));
   }
   return (name == "index" ? "index_" : name) + ".html";

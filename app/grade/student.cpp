@@ -58,8 +58,8 @@ Contents look_into(const fs::path& folder) {
        entry.increment(error)) {
     const fs::path& path = entry->path();
     const std::string name = path.lexically_relative(folder).generic_string();
-    if (entry->is_symlink() && out.link.empty()) out.link = name;
     std::error_code none;
+    if (entry->is_symlink(none) && out.link.empty()) out.link = name;
     if (raster::is_shader(path))
       out.bytes += entry->file_size(none);
     else if (lower_extension(path.string()) == ".glsl" || path.stem().extension() == ".glsl")

@@ -43,7 +43,13 @@ Expected<void> CellPictureWriter::write(const Pictures& p) {
     return {};
   };
   if (p.truth) {
-    const auto added = add({}, *p.truth);
+    Expected<void> added;
+    try {
+      added = add({}, *p.truth);
+    } catch (...) {  // others wait for the name
+      p.truth_name->told.set_exception(std::current_exception());
+      throw;
+    }
     p.truth_name->told.set_value(added ? compare::truth_name(files.back().second) : "");
     if (!added) return added;
     files.back().first = cells + p.truth_name->name.get() + ".png";

@@ -1,14 +1,9 @@
 #include "app/sweep/slurm.h"
 
 #include <fmt/core.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 
 #include "app/shell.h"
+#include "scene/run_program.h"
 
 namespace gnomon::app {
 
@@ -43,27 +38,12 @@ Expected<void> run_slurm_array(const std::string& script_path, const std::string
                                  fmt::format("--array=1-{}", tasks),
                                  "--output=" + log_pattern(folder),
                                  script_path};
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  // sbatch prints the job's number; stdout is for data, so it goes where messages go.
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0)
-    return fail(ErrorKind::graphics, fmt::format("--slurm: cannot start sbatch: {}", std::strerror(failed)));
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR)
-      return fail(ErrorKind::graphics,
-                  fmt::format("--slurm: lost sight of sbatch: {}", std::strerror(errno)));
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  return fail(ErrorKind::graphics,
-              fmt::format("--slurm: the job array failed (sbatch gave {}); logs: {}/slurm-*.log",
-                          WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), folder));
+  const auto code = run_program(std::move(words));
+  if (!code) return fail(ErrorKind::graphics, "--slurm: " + code.error().reason);
+  if (*code == 0) return {};
+  return fail(
+      ErrorKind::graphics,
+      fmt::format("--slurm: the job array failed (sbatch gave {}); logs: {}/slurm-*.log", *code, folder));
 }
 
 }  // namespace gnomon::app

@@ -1,16 +1,13 @@
 #include "compare/shimmer/film_file.h"
 
 #include <fmt/core.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <sstream>
 #include <vector>
+
+#include "scene/run_program.h"
 
 namespace gnomon::compare {
 namespace {
@@ -26,23 +23,15 @@ bool is_installed(const std::string& program) {
 }
 
 Expected<void> run(std::vector<std::string> words, const std::string& file) {
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
   const auto failed = [&file](std::string reason) {
     Error error{ErrorKind::cannot_write, std::move(reason)};
     error.file = file;
     return fail(std::move(error));
   };
-  pid_t child = 0;
-  if (const int status = posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ);
-      status != 0)
-    return failed(fmt::format("{} cannot be started: {}", words[0], std::strerror(status)));
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return failed(fmt::format("{}: {}", words[0], std::strerror(errno)));
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  return failed(fmt::format("{} could not make it", words[0]));
+  const auto code = run_program(std::move(words));
+  if (!code) return failed(code.error().reason);
+  if (*code == 0) return {};
+  return failed(fmt::format("{} could not make it", converter));
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ Expected<void> write_films(const FilmKeeper& films, const std::string& folder, F
       if (const auto written = write_file(base + ".png", *bytes); !written) return written;
       if (format == FilmFormat::apng) continue;
       if (const auto made = convert_to_mp4(base + ".png", base + ".mp4"); !made) return made;
-      std::filesystem::remove(base + ".png");
+      std::error_code none;
+      std::filesystem::remove(base + ".png", none);
     }
   }
   return {};

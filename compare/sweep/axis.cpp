@@ -8,6 +8,8 @@
 #include <cmath>
 #include <optional>
 
+#include "scene/files/read_file.h"
+
 namespace gnomon::compare {
 namespace {
 
@@ -25,14 +27,6 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-std::optional<double> whole_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 // One end of a range: its numbers, and the unit that follows the last one.
 struct RangeEnd {
   std::vector<double> numbers;
@@ -44,6 +38,7 @@ std::optional<RangeEnd> parse_end(std::string_view text, bool compound) {
   std::vector<std::string_view> parts = compound ? split(text, ',') : std::vector{text};
   std::string_view& last = parts.back();
   // "1e3" is a number as a whole; only what is left after the longest number is a unit.
+  if (last.starts_with("+-")) return std::nullopt;
   double value = 0.0;
   const std::string_view digits = last.starts_with('+') ? last.substr(1) : last;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -51,7 +46,7 @@ std::optional<RangeEnd> parse_end(std::string_view text, bool compound) {
   end.unit.assign(stop, digits.data() + digits.size());
   last = digits.substr(0, digits.size() - end.unit.size());
   for (const std::string_view part : parts) {
-    const auto number = whole_number(part);
+    const auto number = parse_decimal(part);
     if (!number) return std::nullopt;
     end.numbers.push_back(*number);
   }
@@ -77,14 +72,14 @@ Expected<void> check_distinct(const Axis& axis) {
 
 // Twelve digits: the third of six steps to 0.1 is 0.05, not 0.05000000000000001.
 double rounded(double value) {
-  return whole_number(fmt::format("{:.12g}", value)).value_or(value);
+  return parse_decimal(fmt::format("{:.12g}", value)).value_or(value);
 }
 
 constexpr std::string_view range_form = "START:END:COUNT or START:END:xFACTOR";
 
 Expected<std::vector<std::string>> linear_values(std::string_view text, const RangeEnd& from,
                                                  const RangeEnd& to, std::string_view count_text) {
-  const auto count = whole_number(count_text);
+  const auto count = parse_decimal(count_text);
   if (!count || *count < 2.0 || *count > double(max_axis_values) || *count != std::floor(*count))
     return wrong("the count of a range", text, fmt::format("2 to {} values", max_axis_values));
   const auto steps = static_cast<std::size_t>(*count) - 1;
@@ -102,7 +97,7 @@ Expected<std::vector<std::string>> linear_values(std::string_view text, const Ra
 
 Expected<std::vector<std::string>> factor_values(std::string_view text, const RangeEnd& from,
                                                  const RangeEnd& to, std::string_view factor_text) {
-  const auto factor = whole_number(factor_text.substr(1));
+  const auto factor = parse_decimal(factor_text.substr(1));
   if (!factor || !(*factor > 1.0)) return wrong("the factor of a range", text, "a number above 1");
   if (from.numbers.size() != 1)
     return wrong("values of several numbers have no ×-range", text, "START:END:COUNT");

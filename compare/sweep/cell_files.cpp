@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -26,11 +24,6 @@ bool has_thumbnail(std::size_t cell, std::size_t cells) {
 
 std::string thumbnail_path(const std::string& folder, std::size_t cell) {
   return fmt::format("{}/thumbnails/{}.png", folder, cell_name(cell));
-}
-
-std::string read_all(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::string cells_folder(const std::string& folder) {

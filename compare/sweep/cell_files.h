@@ -30,9 +30,6 @@ std::string cell_name(std::size_t cell);  ///< "cell-000012"
 /// "truth-1a2b3c4d5e6f": the name of a ray-traced picture.
 std::string truth_name(std::string_view png);
 
-/// All bytes of a file of the folder; none where it cannot be read.
-std::string read_all(const std::string& path);
-
 /// Removes what an interrupted sweep left: files that were not finished, and the pictures of cells that are
 /// not among `finished` (sorted). Files of other names stay. The folder must be this process's (journal.h).
 void remove_strays(const std::string& folder, std::span<const std::size_t> finished);

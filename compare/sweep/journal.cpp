@@ -11,11 +11,10 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "compare/sweep/cell_files.h"
+#include "scene/files/read_file.h"
 #include "scene/files/sha256.h"
 #include "scene/files/write_file.h"
 #include "scene/parallel.h"
@@ -117,7 +116,9 @@ std::string header_json(const SweepHeader& header) {
 
 Expected<SweepHeader> read_header(const std::string& folder) {
   const std::string path = path_in(folder, "sweep.json");
-  const Json json = Json::parse(read_all(path), nullptr, false);
+  const auto bytes = read_file(path);
+  if (!bytes) return fail(bytes.error());
+  const Json json = Json::parse(*bytes, nullptr, false);
   const auto bad = [&path](std::string reason) {
     return fail(Error{ErrorKind::bad_input, std::move(reason), path});
   };
@@ -193,7 +194,8 @@ std::string differences(const std::string& a, const std::string& b) {
 
 Expected<void> check_header(const std::string& folder, const SweepHeader& header) {
   const std::string path = path_in(folder, "sweep.json");
-  if (!std::filesystem::exists(path)) return write_file(path, header_json(header));
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown)) return write_file(path, header_json(header));
   const auto there = read_header(folder);
   if (!there) return fail(there.error());
   if (there->hash != header.hash)
@@ -252,9 +254,11 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
   auto table = File::open(path_in(folder, "sweep.csv"));
   if (!table) return fail(table.error());
 
-  const std::string bytes = read_all((*lines)->path);
-  journal.lines_ = whole_lines(bytes);
-  journal.times_ = whole_lines(read_all((*times)->path));
+  const auto bytes = read_file((*lines)->path), bytes_of_times = read_file((*times)->path);
+  if (!bytes) return fail(bytes.error());
+  if (!bytes_of_times) return fail(bytes_of_times.error());
+  journal.lines_ = whole_lines(*bytes);
+  journal.times_ = whole_lines(*bytes_of_times);
   const auto good = count_good((*lines)->path, journal.lines_, axes);
   if (!good) return fail(good.error());
   // Times are written first: a line without times cannot be, but a surplus of times can.
@@ -262,7 +266,7 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
   if (auto fine = check_times((*times)->path, journal.times_, keep); !fine) return fail(fine.error());
   journal.lines_.resize(keep);
   journal.times_.resize(keep);
-  journal.torn_ = size_of_lines(journal.lines_) != bytes.size();
+  journal.torn_ = size_of_lines(journal.lines_) != bytes->size();
   if (auto cut = (*lines)->cut(size_of_lines(journal.lines_)); !cut) return fail(cut.error());
   if (auto cut = (*times)->cut(size_of_lines(journal.times_)); !cut) return fail(cut.error());
   journal.line_file_ = std::move(*lines);
@@ -303,8 +307,11 @@ Expected<SweepLines> read_sweep(const std::string& folder) {
   auto header = read_header(folder);
   if (!header) return fail(header.error());
   sweep.header = std::move(*header);
-  sweep.lines = whole_lines(read_all(path_in(folder, "sweep.jsonl")));
-  sweep.times = whole_lines(read_all(path_in(folder, "sweep_times.jsonl")));
+  const auto lines = read_file(path_in(folder, "sweep.jsonl")),
+             times = read_file(path_in(folder, "sweep_times.jsonl"));
+  if (!lines) return fail(lines.error());
+  if (!times) return fail(times.error());
+  sweep.lines = whole_lines(*lines), sweep.times = whole_lines(*times);
   std::vector<char> whole(sweep.lines.size(), 0);
   parallel_for(whole.size(), [&](std::size_t i) {
     whole[i] = static_cast<char>(is_sealed(sweep.lines[i]) && !axes_of_line(sweep.lines[i]).empty());

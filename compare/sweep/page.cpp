@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "compare/number_text.h"
@@ -16,6 +14,7 @@
 #include "compare/report/shell.h"
 #include "compare/sweep/cell_files.h"
 #include "compare/sweep/charts.h"
+#include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::compare {
@@ -188,24 +187,35 @@ std::string beside_line(const SweepPageInput& in) {
              : "";
 }
 
-std::map<std::string, std::string> read_truths(const std::string& folder) {
+/// Empty where the file is not there: not every cell has a thumbnail, nor a drawing of its own.
+Expected<std::string> read_if_there(const std::string& path) {
+  std::error_code unknown;
+  return std::filesystem::exists(path, unknown) ? read_file(path) : std::string();
+}
+
+Expected<std::map<std::string, std::string>> read_truths(const std::string& folder) {
   std::map<std::string, std::string> truths;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(cells_folder(folder), error))
     if (const std::string name = entry.path().stem().string();
-        name.starts_with("truth-") && entry.path().extension() == ".png")
-      truths[name] = read_all(entry.path().string());
+        name.starts_with("truth-") && entry.path().extension() == ".png") {
+      auto png = read_file(entry.path().string());
+      if (!png) return fail(png.error());
+      truths[name] = std::move(*png);
+    }
   return truths;
 }
 
-std::map<std::size_t, CellPictures> read_pictures(const std::string& folder,
-                                                  const std::vector<CellSummary>& cells) {
+Expected<std::map<std::size_t, CellPictures>> read_pictures(const std::string& folder,
+                                                            const std::vector<CellSummary>& cells) {
   std::map<std::size_t, CellPictures> pictures;
   for (const CellSummary& cell : cells) {
     const std::string name = cells_folder(folder) + "/" + cell_name(cell.cell);
-    CellPictures found{read_all(thumbnail_path(folder, cell.cell)), read_all(name + ".js"),
-                       read_all(name + ".png")};
-    found.data = std::string(data_in_file(found.data));
+    auto thumbnail = read_if_there(thumbnail_path(folder, cell.cell)), data = read_if_there(name + ".js"),
+         drawing = read_if_there(name + ".png");
+    for (const auto* file : {&thumbnail, &data, &drawing})
+      if (!*file) return fail(file->error());
+    CellPictures found{std::move(*thumbnail), std::string(data_in_file(*data)), std::move(*drawing)};
     if (!found.thumbnail.empty()) pictures[cell.cell] = std::move(found);
   }
   return pictures;
@@ -252,11 +262,13 @@ Expected<WrittenPage> write_sweep_page(const std::string& folder, double report_
   if (!cells) return fail(cells.error());
   WrittenPage written;
   if (cells->empty()) return written;
-  const std::map<std::size_t, CellPictures> pictures = read_pictures(folder, *cells);
-  const std::map<std::string, std::string> truths = read_truths(folder);
+  const auto pictures = read_pictures(folder, *cells);
+  if (!pictures) return fail(pictures.error());
+  const auto truths = read_truths(folder);
+  if (!truths) return fail(truths.error());
   const auto rays = read_ray_points(folder);
   if (!rays) return fail(rays.error());
-  SweepPageInput input{sweep->header, *cells, pictures, truths, *rays, false, limit};
+  SweepPageInput input{sweep->header, *cells, *pictures, *truths, *rays, false, limit};
   written.headline = sweep_headline(*cells, pareto_front(*cells), limit);
   std::string page = sweep_page(input);
   written.page_mb = static_cast<double>(page.size()) / 1e6;

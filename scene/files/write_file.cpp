@@ -168,6 +168,9 @@ std::string PartFile::path() const {
 }
 
 Expected<void> PartFile::publish() {
+  struct stat old {};
+  if (::stat(target_.c_str(), &old) == 0 && ::fchmod(descriptor_, old.st_mode & 07777) != 0)
+    return cannot_write(target_, "cannot keep its permissions", errno);
   if (::fsync(descriptor_) != 0) return cannot_write(target_, "cannot flush it to the disk", errno);
   if (part_.empty()) {  // gets a name first, for a file that is there already can only be renamed over
     const std::string part = temporary_name(target_);
