@@ -1,6 +1,7 @@
 #include "compare/surfaces.h"
 
 #include <atomic>
+#include <cmath>
 
 #include "scene/parallel.h"
 #include "scene/ranges.h"
@@ -91,8 +92,12 @@ bool Surfaces::same(std::uint32_t a, std::uint32_t b) const {
 bool on_smooth_surface(const raytrace::SurfacePoint& a, const raytrace::SurfacePoint& b, const World& world) {
   if (a.primitive == no_id || b.primitive == no_id) return false;
   if (!world.is_triangle(a.primitive) || !world.is_triangle(b.primitive)) return a.primitive == b.primitive;
-  constexpr double least_cosine = 0.9;
-  return glm::dot(a.normal, b.normal) > least_cosine;
+  constexpr double least_cosine = 0.9, slack = 0.02;
+  if (!(glm::dot(a.normal, b.normal) > least_cosine)) return false;
+  // Where two planes meet in an edge, the chord's angles to both sum to the angle between the planes, and so they do on an arc.
+  const Vec3 chord = b.position - a.position;
+  return std::abs(glm::dot(chord, a.normal)) + std::abs(glm::dot(chord, b.normal)) <=
+         glm::length(chord) * (glm::length(a.normal - b.normal) + slack);
 }
 
 }  // namespace gnomon::compare

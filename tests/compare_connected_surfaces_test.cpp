@@ -101,5 +101,34 @@ TEST(ConnectedSurfaces, OfVerticesThatNoTriangleUses) {
     expect_both_ways(test::instances_of({vertices, ball}, {{0, Mat4(1.0)}, {1, Mat4(1.0)}}), n * (n - 1));
 }
 
+/// At an angle from the horizontal, by which the normal leans, too; both in degrees.
+raytrace::SurfacePoint seen(const Vec3& position, double lean, std::uint32_t triangle) {
+  const double angle = lean * pi / 180.0;
+  raytrace::SurfacePoint point;
+  point.position = position, point.normal = {std::sin(angle), std::cos(angle), 0.0};
+  point.primitive = triangle;
+  return point;
+}
+
+TEST(SmoothSurfaces, AreNotATableAndTheFloorBehindIt) {
+  const World world = make_world(test::sunlit_scene({test::box(Vec3(0.0), Vec3(1.0))}, {0, -1, 0}));
+  ASSERT_GE(world.triangle_count(), 2u);
+  const raytrace::SurfacePoint table = seen({0, 1, 0}, 0.0, 0);
+  EXPECT_TRUE(compare::on_smooth_surface(table, seen({1, 1, 0}, 0.0, 1), world));
+  for (const double behind :
+       {0.1, 1.0, 10.0, 40.0})  // the eye looks down at up to 84 and down to 1.4 degrees
+    EXPECT_FALSE(compare::on_smooth_surface(table, seen({behind, 0, 0}, 0.0, 1), world)) << behind;
+  // Two planes that meet in an edge at x = 0 at an angle, seen at any distances from it; and an arc's two ends.
+  for (const double angle : {5.0, 15.0, 25.0})
+    for (const double other : {0.01, 1.0, 100.0}) {
+      const double a = angle * pi / 180.0;
+      const Vec3 down = other * Vec3(std::cos(a), -std::sin(a), 0.0);
+      EXPECT_TRUE(compare::on_smooth_surface(seen({-1, 0, 0}, 0.0, 0), seen(down, angle, 1), world));
+      const Vec3 round(std::sin(a), std::cos(a), 0.0);
+      EXPECT_TRUE(compare::on_smooth_surface(seen({0, 1, 0}, 0.0, 0), seen(round, angle, 1), world));
+    }
+  EXPECT_FALSE(compare::on_smooth_surface(table, seen({1, 1, 0}, 30.0, 1), world));  // a crease
+}
+
 }  // namespace
 }  // namespace gnomon
