@@ -259,6 +259,19 @@ TEST_F(Gltf, SingleSidedMaterialsAreSaid) {
 }
 
 // As for OBJ: said, and the plain factors take its place.
+TEST_F(Gltf, Ktx2IsNoted) {
+  Builder b = simple();
+  folder_.put("wall.ktx2", "\xabKTX 20\xbb\r\n\x1a\n" + std::string(80, '\0'));
+  b.json["images"] = Json::array({{{"uri", "wall.ktx2"}}});
+  b.json["textures"] = Json::array({{{"source", 0}}});
+  b.json["materials"] =
+      Json::array({{{"name", "wall"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}});
+  b.json["meshes"][0]["primitives"][0]["material"] = 0;
+  EXPECT_TRUE(
+      has_note(loaded(b),
+               "Material 'wall': the texture is in KTX 2, which is not decoded; its plain colour is used."));
+}
+
 TEST_F(Gltf, MissingImageFilesAreNoted) {
   Builder b = simple();
   b.json["images"] = Json::array({{{"uri", "nowhere.png"}}});

@@ -24,6 +24,29 @@ TEST_F(Gltf, BinaryAndTextAgree) {
   EXPECT_EQ(binary->meshes[0].positions, loaded(simple()).meshes[0].positions);
 }
 
+// JSON does not tell 3.0 from 3.
+TEST_F(Gltf, WholeNumbersMayHaveAPoint) {
+  Builder b = simple();
+  b.json["nodes"][0] = {{"mesh", 0.0}, {"scale", {1.0, 2.5, 1.0}}};
+  b.json["scenes"][0]["nodes"] = {0.0};
+  b.json["accessors"][0]["count"] = 4.0;
+  b.json["accessors"][0]["componentType"] = 5126.0;
+  const Scene scene = loaded(b);
+  ASSERT_EQ(scene.instances.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].triangles.size(), 2u);
+  EXPECT_EQ(scene.instances[0].world_from_object[1][1], 2.5);
+}
+
+// Of data that an extension brings, or that nothing reads.
+TEST_F(Gltf, BuffersWithoutUriAreNoErrorWhereNothingReadsThem) {
+  Builder b = simple();
+  b.text();
+  b.json["buffers"].push_back({{"byteLength", 64}});
+  EXPECT_TRUE(load(b.json.dump()));
+  b.json["bufferViews"][0]["buffer"] = 1;
+  EXPECT_EQ(error(b.json.dump()), "bufferViews[0]: its buffer has no data");
+}
+
 TEST_F(Gltf, ExternalBufferWithEscapedName) {
   Builder b = simple();
   folder_.put("my data.bin", b.buffer);

@@ -25,6 +25,23 @@ TEST(Ground, IsMadeForABoxWithItsBottomAndWithout) {
   EXPECT_TRUE(gets_ground(std::string(corners) + top_and_sides));
 }
 
+// Where a face in the lowest plane is seen from above, a ground in that plane would flicker with it.
+TEST(Ground, LiesBelowABottomThatIsSeenFromAbove) {
+  const auto lies_below = [](const std::string& obj) {
+    TemporaryFolder folder;
+    folder.put("glass.mtl", "newmtl glass\nd 0.2\nNi 1.5\n");
+    const auto scene = load_scene(folder.put("m.obj", obj));
+    EXPECT_TRUE(scene) << scene.error().message();
+    const bool below = scene && test::has_note(*scene, "just below the model's lowest point");
+    EXPECT_NE(below, scene && test::has_note(*scene, "touching the model's lowest point"));
+    return below;
+  };
+  const std::string bottom = "f 1 2 3 4\n", closed = std::string(corners) + top_and_sides + bottom;
+  EXPECT_FALSE(lies_below(closed));
+  EXPECT_TRUE(lies_below(std::string(corners) + "f 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n" + bottom));
+  EXPECT_TRUE(lies_below("mtllib glass.mtl\nusemtl glass\n" + closed));
+}
+
 TEST(Ground, IsMadeForASheetThatStands) {
   EXPECT_TRUE(gets_ground("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"));
   EXPECT_TRUE(gets_ground("v 0 0 0\nv 1 0 0\nv 1 1 0.01\nv 0 1 0.01\nf 1 2 3 4\n"));

@@ -77,5 +77,15 @@ TEST(Interior, WhatShinesInsideMakesARoom) {
   EXPECT_TRUE(is_inside(scene->camera.eye));
 }
 
+// Nor is a body a room because it glows.
+TEST(Interior, AGlowingBodyIsSeenFromOutside) {
+  const TemporaryFolder folder;
+  folder.put("lamp.mtl", "newmtl lamp\nKd 0 0 0\nKe 4 4 4\n");
+  const auto scene =
+      load_scene(folder.put("cube.obj", "mtllib lamp.mtl\nusemtl lamp\n" + box(low, high, false)));
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_FALSE(is_inside(scene->camera.eye));
+}
+
 }  // namespace
 }  // namespace gnomon

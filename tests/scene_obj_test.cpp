@@ -58,11 +58,12 @@ TEST(Obj, MistakesHaveTheirPlace) {
       {q + "f 1 2 5\n", ":5:7: f: vertex index out of range (got 5, allowed 1 to 4 or -4 to -1)"},
       {q + "f 1 \\\r\n2 \\\n 5\n", ":7:2: f: vertex index out of range (got 5, allowed 1 to 4 or -4 to -1)"},
       {q + "f -5 1 2\n", ":5:3: f: vertex index out of range (got -5, allowed 1 to 4 or -4 to -1)"},
-      {q + "f 1/1 2/1 3/1\n",
-       ":5:5: f: texture coordinate index out of range (got 1, allowed none: the file has none)"},
-      {q + "f 1//1 2 3\n", ":5:6: f: normal index out of range (got 1, allowed none: the file has none)"},
+      {q + "vt 0 0\nf 1/2 2/1 3/1\n",
+       ":6:5: f: texture coordinate index out of range (got 2, allowed 1 to 1 or -1 to -1)"},
+      {q + "vn 0 0 1\nf 1//3 2 3\n", ":6:6: f: normal index out of range (got 3, allowed 1 to 1"},
+      {q + "f /1 2 3\n", ":5:3: f: not an index (got /1, allowed a whole number)"},
       {q + "f 1 2 x\n", ":5:7: f: not an index (got x, allowed a whole number)"},
-      {q + "f 1/1/1/1 2 3\n", ":5:5: f: texture coordinate index out of range"},
+      {q + "f 1/1/1/1 2 3\n", ":5:3: f: too many slashes (got 1/1/1/1, allowed v/vt/vn)"},
       {"v 1,5 0 0\n", ":1:3: not a finite number (got 1,5, allowed for example -1.5e2)"},
       {"v 0 nan 0\n", ":1:5: not a finite number (got nan, allowed for example -1.5e2)"},
       {"v +-1 0 0\n", ":1:3: not a finite number (got +-1"},
@@ -94,8 +95,51 @@ TEST(Obj, LongLines) {
   for (int i = 0; i < 250000; ++i) face += " 1 2";
   const auto refused = load_text(folder, face + "\n");
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().reason, "too many corners (got 500000, allowed 3 to 255)");
+  EXPECT_EQ(refused.error().reason, "too many corners (got 500000, allowed 3 to 4096)");
   EXPECT_EQ(refused.error().line, 5);
+}
+
+// As some programs write faces: with slashes and nothing behind them, or with indices of what the file does not have.
+TEST(Obj, FacesWithHalfIndicesAreRead) {
+  const TemporaryFolder folder;
+  for (const char* face : {"f 1/ 2/ 3/\n", "f 1// 2// 3//\n", "vt 0 0\nf 1/1/ 2/1/ 3/1/\n"}) {
+    const auto scene = load_text(folder, std::string(quad) + face);
+    ASSERT_TRUE(scene) << face << scene.error().message();
+    EXPECT_EQ(make_world(*scene).triangle_count(), 1u);
+  }
+  const auto scene = load_text(folder, std::string(quad) + "f 1/1/1 2/2/2 3/3/3\n");
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_TRUE(test::has_note(*scene, "Faces name normals, of which the file has none"));
+  EXPECT_TRUE(test::has_note(*scene, "Faces name texture coordinates, of which the file has none"));
+}
+
+TEST(Obj, PolygonsMayHaveManyCorners) {
+  const TemporaryFolder folder;
+  std::string disc, face = "f";
+  constexpr int corners = 600;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * pi * i / corners;
+    disc += "v " + std::to_string(std::cos(angle)) + " 0 " + std::to_string(-std::sin(angle)) + "\n";
+    face += " " + std::to_string(i + 1);
+  }
+  const auto scene = load_text(folder, disc + face + "\n");
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(make_world(*scene).triangle_count(), corners - 2u);
+}
+
+TEST(Obj, FullTransparencyIsReadAsOpaque) {
+  const TemporaryFolder folder;
+  folder.put("m.mtl", "newmtl meshlab\nKd 1 0 0\nTr 1.000000\nnewmtl half\nTr 0.5\nnewmtl none\nd 0\n");
+  const auto scene =
+      load_text(folder, "mtllib m.mtl\n" + std::string(quad) +
+                            "usemtl meshlab\nf 1 2 3\nusemtl half\nf 1 2 4\nusemtl none\nf 1 3 4\n");
+  ASSERT_TRUE(scene) << scene.error().message();
+  std::map<std::string, float> transmission;
+  for (const Material& m : scene->materials) transmission[m.name] = m.transmission;
+  EXPECT_EQ(transmission["meshlab"], 0.0f);
+  EXPECT_EQ(transmission["half"], 0.5f);
+  EXPECT_EQ(transmission["none"], 1.0f);
+  EXPECT_TRUE(test::has_note(*scene, "Material 'meshlab': Tr 1 is read as opaque"));
 }
 
 TEST(Obj, WhatIsSkippedIsNoted) {

@@ -242,6 +242,29 @@ TEST(Ply, WrongByteOrderIsNoticed) {
   EXPECT_FALSE(load_scene(folder.put("m.ply", bytes)));
 }
 
+TEST(Ply, StripsOfTrianglesAreRead) {
+  const TemporaryFolder folder;
+  const std::string head =
+      "ply\nformat ascii 1.0\ncomment TextureFile skin.png\nelement vertex 5\nproperty float x\nproperty "
+      "float "
+      "y\nproperty float z\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 2 0\n";
+  const auto scene = load_scene(folder.put("m.ply", head + "10 0 1 2 3 3 4 -1 4 3 2\n"));
+  ASSERT_TRUE(scene) << scene.error().message();
+  // The third, {2, 3, 3}, and the fourth, {3, 3, 4}, have no area; every other one runs the other way round.
+  EXPECT_EQ(scene->meshes[0].triangles,
+            (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {2, 1, 3}, {4, 3, 2}}));
+  EXPECT_TRUE(test::has_note(*scene, "The texture skin.png is not read; the model's plain colour is used."));
+  const auto beyond = load_scene(folder.put("m.ply", head + "4 0 1 2 5\n"));
+  ASSERT_FALSE(beyond);
+  EXPECT_NE(beyond.error().message().find("vertex index out of range (got 5, allowed 0 to 4)"),
+            std::string::npos);
+  const auto negative = load_scene(folder.put("m.ply", head + "4 0 1 2 -2\n"));
+  ASSERT_FALSE(negative);
+  EXPECT_NE(negative.error().message().find("vertex index (got -2, allowed a whole number from 0)"),
+            std::string::npos);
+}
+
 TEST(Ply, OtherElementsAreSkippedWithANote) {
   const TemporaryFolder folder;
   const auto scene = load_scene(folder.put("m.ply",

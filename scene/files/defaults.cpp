@@ -15,6 +15,7 @@
 namespace gnomon {
 namespace {
 
+constexpr double coplanar_share = 1e-6;  // of the diagonal
 constexpr double default_fov = 40.0 * pi / 180.0;
 
 // Upward and downward areas of the scene's triangles, projected to the ground; and how much of the upward
@@ -22,7 +23,8 @@ constexpr double default_fov = 40.0 * pi / 180.0;
 struct Footprint {
   double up = 0.0, down = 0.0, floor = 0.0;  // as seen from above and below
   double area = 0.0;                         // of all triangles
-  bool lowest_faces_up = false;              // a triangle that faces up lies in the lowest plane itself
+  // A triangle that faces up lies in the lowest plane itself; or one that faces down and shows its back.
+  bool lowest_faces_up = false, lowest_shows_back = false;
 };
 
 template <class Visit>
@@ -52,9 +54,8 @@ Sum over_points(const Scene& scene, const Sum& none, const Add& add, const Join&
 }
 
 Footprint footprint(const Scene& scene, const Aabb& bounds) {
-  constexpr double floor_share = 0.1;      // of the height: a floor slab has some thickness
-  constexpr double flat = 0.95;            // |n.y| of a horizontal triangle
-  constexpr double coplanar_share = 1e-6;  // of the diagonal
+  constexpr double floor_share = 0.1;  // of the height: a floor slab has some thickness
+  constexpr double flat = 0.95;        // |n.y| of a horizontal triangle
   const double floor_top = bounds.min.y + floor_share * bounds.extent().y;
   const double lowest = bounds.min.y + coplanar_share * bounds.diagonal();
   const auto add = [&](Footprint& out, const PlacedTriangle& t) {
@@ -62,14 +63,38 @@ Footprint footprint(const Scene& scene, const Aabb& bounds) {
     (n.y > 0.0 ? out.up : out.down) += std::abs(n.y);
     out.area += glm::length(n);
     const double top = std::max({t.a.y, t.b.y, t.c.y});
-    if (n.y <= 0.0 || top > floor_top || n.y < flat * glm::length(n)) return;
-    out.floor += n.y;
-    if (top <= lowest) out.lowest_faces_up = true;
+    if (top > floor_top || std::abs(n.y) < flat * glm::length(n)) return;
+    if (n.y > 0.0) out.floor += n.y;
+    if (top > lowest) return;
+    (n.y > 0.0 ? out.lowest_faces_up : out.lowest_shows_back) |=
+        n.y > 0.0 || shows_back(scene.materials[t.material]);
   };
   return over_placed_triangles(scene, Footprint{}, add, [](Footprint& out, const Footprint& more) {
     out.up += more.up, out.down += more.down, out.floor += more.floor, out.area += more.area;
     out.lowest_faces_up = out.lowest_faces_up || more.lowest_faces_up;
+    out.lowest_shows_back = out.lowest_shows_back || more.lowest_shows_back;
   });
+}
+
+// Whether a back in the lowest plane is seen from above: a body without openings hides its own, unless it is of glass. Bodies
+// of very many triangles take long to look through, and are taken for closed.
+bool shows_lowest_back(const Scene& scene, const Aabb& bounds) {
+  constexpr std::size_t most_triangles = 200'000;
+  const double lowest = bounds.min.y + coplanar_share * bounds.diagonal();
+  std::vector<char> closed(scene.meshes.size(), 0);
+  for (const MeshInstance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    if (closed[instance.mesh] != 0 || mesh.triangles.size() > most_triangles) continue;
+    bool shown = false, through_glass = false;
+    visit_placed(scene, instance, 0, mesh.triangles.size(), [&](const PlacedTriangle& t) {
+      const Material& material = scene.materials[t.material];
+      if (std::max({t.a.y, t.b.y, t.c.y}) > lowest || !shows_back(material)) return;
+      shown = true, through_glass = through_glass || material.transmission > 0.0f;
+    });
+    if (through_glass || (shown && open_edges(mesh.positions, mesh.triangles) > 0)) return true;
+    closed[instance.mesh] = static_cast<char>(shown);
+  }
+  return false;
 }
 
 // A floor covers half of the ground plan near the bottom; an open sheet (a terrain) covers most of it from anywhere, and
@@ -88,7 +113,8 @@ void add_ground(Scene& scene, const Aabb& bounds) {
     return;
   }
   // A visible face in the ground's own plane would fight with it for the same depth.
-  const double drop = areas.lowest_faces_up ? 1e-3 * bounds.diagonal() : 0.0;
+  const bool fights = areas.lowest_faces_up || (areas.lowest_shows_back && shows_lowest_back(scene, bounds));
+  const double drop = fights ? 1e-3 * bounds.diagonal() : 0.0;
   Material material = model_material("ground");
   material.diffuse = Vec3f(0.4f);  // darker than the neutral model, so that this stands out
   const Vec3 center = bounds.center();

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace gnomon {
@@ -38,10 +39,11 @@ Expected<GlbChunks> read_glb(std::string_view bytes, const std::string& file) {
   if (word(bytes, 4) != 2)
     return container_error(file, "version",
                            fmt::format("unknown version (got {}, allowed 2)", word(bytes, 4)));
-  if (word(bytes, 8) != bytes.size())
+  if (word(bytes, 8) > bytes.size())
     return container_error(
         file, "length",
-        fmt::format("not the file's size (got {}, allowed {})", word(bytes, 8), bytes.size()));
+        fmt::format("more than the file has (got {}, allowed up to {})", word(bytes, 8), bytes.size()));
+  bytes = bytes.substr(0, std::max<std::size_t>(word(bytes, 8), header_size + chunk_header_size));
   GlbChunks chunks;
   std::size_t index = 0;
   for (std::size_t at = header_size; at < bytes.size(); ++index) {

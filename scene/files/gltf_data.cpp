@@ -100,14 +100,12 @@ Expected<std::string_view> GltfData::open_buffer(std::size_t index) {
     const auto opened = open_uri(uri, field + ".uri");
     if (!opened) return fail(opened.error());
     bytes = *opened;
-  } else if (meshopt_of(buffer) != nullptr) {
-    return std::string_view();
   } else if (index == 0 && checked_->is_binary) {
     const auto chunks = read_glb(bytes_, checked_->document.file);
     if (!chunks) return fail(chunks.error());
     bytes = chunks->binary.value_or(std::string_view());
-  } else {
-    return error(field, "uri is missing");
+  } else {  // glTF 2.0, 3.6.1.1: an extension may bring its data
+    return std::string_view();
   }
   if (bytes.size() < length)
     return error(field, fmt::format("holds fewer bytes than it says (got {}, allowed {} or more)",

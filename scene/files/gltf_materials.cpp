@@ -149,9 +149,12 @@ class MaterialReader {
     if (metallic <= 0.9) return;
     if (roughness < 0.1)
       m.mirror = fraction((m.specular.x + m.specular.y + m.specular.z) / 3.0f);
-    else if (roughness < 0.6)
-      unused_["Mirrored surroundings of metals with roughness 0.1 or more (their highlights are shown) are"]
-          .insert(m.name);
+    else
+      unused_
+          ["Mirrored surroundings of metals with roughness 0.1 or more (their highlights are shown; where no "
+           "light "
+           "reaches them they are black) are"]
+              .insert(m.name);
   }
 
   Expected<void> map_emission(const tinygltf::Material& from, Material& m) {

@@ -22,17 +22,31 @@ struct Edit {
   std::string_view text;
 };
 
+/// 3.0 becomes 3, which tinygltf insists on where glTF asks for an integer, and which JSON does not tell apart.
+void write_whole(const JsonDocument& document, const JsonValue& value, std::vector<Edit>& edits) {
+  for (const JsonValue& item : value.items) write_whole(document, item, edits);
+  for (const JsonMember& member : value.members) write_whole(document, member.value, edits);
+  if (value.type != JsonValue::Type::number || value.whole) return;
+  const std::string_view written =
+      std::string_view(document.text).substr(value.begin, value.end - value.begin);
+  const std::size_t point = written.find('.');
+  if (point != std::string_view::npos && written.find_first_not_of('0', point + 1) == std::string_view::npos)
+    edits.push_back({value.begin, value.end, written.substr(0, point)});
+}
+
 bool has_no_view(const JsonValue& accessor) {
   return accessor.type == JsonValue::Type::object && accessor.find("bufferView") == nullptr;
 }
 
-/// Those lists are empty, and every accessor has a view: tinygltf insists on that for indices, which Draco
+/// Those lists are empty, whole numbers have no point, and every accessor has a view: tinygltf insists on that for indices, which Draco
 /// brings without one.
 std::string outline(const JsonDocument& document) {
   std::vector<Edit> edits;
-  for (const std::string_view key : read_elsewhere)
-    if (const JsonMember* found = document.root.find(key))
-      edits.push_back({found->value.begin, found->value.end, "[]"});
+  for (const JsonMember& member : document.root.members)
+    if (std::find(read_elsewhere.begin(), read_elsewhere.end(), member.key) != read_elsewhere.end())
+      edits.push_back({member.value.begin, member.value.end, "[]"});
+    else
+      write_whole(document, member.value, edits);
   if (!gltf_list(document.root, "bufferViews").empty())
     for (const JsonValue& accessor : gltf_list(document.root, "accessors"))
       if (has_no_view(accessor))

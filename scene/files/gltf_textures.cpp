@@ -29,6 +29,11 @@ TextureStatistics statistics_of(const Texture& texture) {
   return out;
 }
 
+/// KTX 2.0, section 3.1: what every file begins with.
+bool is_ktx2(std::string_view bytes) {
+  return bytes.starts_with("\xabKTX 20\xbb\r\n\x1a\n");
+}
+
 GltfTextureUse use_of(int index, int set, const tinygltf::Value* transform) {
   GltfTextureUse use{index, set, {}};
   if (transform == nullptr) return use;
@@ -106,7 +111,7 @@ void GltfTextures::list_images(const std::set<int>& textures, bool srgb, std::ve
     for (const int source : sources(model_.textures[static_cast<std::size_t>(index)])) {
       const auto at = static_cast<std::size_t>(source);
       const auto image = at < data_.image_count() ? data_.image(at) : Expected<GltfImage>();
-      if (!image || image->bytes.empty()) continue;
+      if (!image || image->bytes.empty() || is_ktx2(image->bytes)) continue;
       if (known.insert(at).second) out.push_back({*image, srgb, {}, {}});
       break;  // the first that is there
     }
@@ -151,6 +156,10 @@ Expected<std::optional<GltfImage>> GltfTextures::find_image(int index, const std
                         file_, 0, 0, fmt::format("textures[{}].source", index)});
     auto image = data_.image(static_cast<std::size_t>(source));
     if (!image) return fail(image.error());
+    if (is_ktx2(image->bytes)) {
+      why = "is in KTX 2, which is not decoded";
+      continue;
+    }
     if (!image->bytes.empty()) return std::move(*image);
     why = image->uri.empty() ? "is empty" : fmt::format("{} is not there", printable(image->uri, 80));
   }

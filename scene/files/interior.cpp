@@ -18,12 +18,11 @@ class Side {
  public:
   Side(const Aabb& box, int axis, bool high) : box_(box), axis_(axis), high_(high) {}
 
-  /// Counts the triangle, which lies flat across the axis, if it lies in the side.
-  void add(const PlacedTriangle& t) {
-    for (const Vec3& p : {t.a, t.b, t.c})
-      if (depth(p) > near_share) return;
-    draw(t, (t.normal()[axis_] > 0.0) != high_);
+  /// Whether the triangle, which lies flat across the axis, lies in the side.
+  bool holds(const PlacedTriangle& t) const {
+    return depth(t.a) <= near_share && depth(t.b) <= near_share && depth(t.c) <= near_share;
   }
+  void draw(const PlacedTriangle& t) { draw(t, (t.normal()[axis_] > 0.0) != high_); }
   void add(const Side& more) {
     for (std::size_t i = 0; i < cell_.size(); ++i) cell_[i] = static_cast<char>(cell_[i] | more.cell_[i]);
   }
@@ -84,18 +83,30 @@ bool shines_inside(const Scene& scene, const Aabb& box) {
 /// What of the scene is a room's.
 struct Walls {
   std::vector<Side> sides;
-  bool glow = false;
+  bool lamp =
+      false;  ///< something glows inside: what glows on the outside of a body's single-sided faces is none
+  bool dull = false;  ///< some wall does not glow; where all do, the whole is a glowing body
   void add(const Scene& scene, const PlacedTriangle& t) {
     const Vec3 normal = t.normal();
     const double least = flat * glm::length(normal);
-    for (int axis = 0; axis < 3 && least > 0.0; ++axis)
-      if (std::abs(normal[axis]) >= least)
-        for (const int side : {2 * axis, 2 * axis + 1}) sides[static_cast<std::size_t>(side)].add(t);
-    glow = glow || scene.materials[t.material].emission != Vec3f(0.0f);
+    const Material& material = scene.materials[t.material];
+    const bool glows = material.emission != Vec3f(0.0f);
+    bool outside = false;
+    for (int axis = 0; axis < 3 && least > 0.0; ++axis) {
+      if (std::abs(normal[axis]) < least) continue;
+      for (const bool high : {false, true}) {
+        Side& side = sides[static_cast<std::size_t>(2 * axis) + (high ? 1 : 0)];
+        if (!side.holds(t)) continue;
+        side.draw(t);
+        dull = dull || !glows;
+        outside = outside || ((normal[axis] > 0.0) == high && !shows_back(material));
+      }
+    }
+    lamp = lamp || (glows && !outside);
   }
   void join(const Walls& more) {
     for (std::size_t i = 0; i < sides.size(); ++i) sides[i].add(more.sides[i]);
-    glow = glow || more.glow;
+    lamp = lamp || more.lamp, dull = dull || more.dull;
   }
 };
 
@@ -110,7 +121,8 @@ bool is_room(const Scene& scene, const Aabb& box) {
     return std::all_of(walls.sides.begin(), walls.sides.end(),
                        [&](const Side& side) { return (side.*share)() >= closed_share; });
   };
-  return all(&Side::covered) && (all(&Side::covered_inwards) || walls.glow || shines_inside(scene, box));
+  return all(&Side::covered) &&
+         (all(&Side::covered_inwards) || (walls.lamp && walls.dull) || shines_inside(scene, box));
 }
 
 /// The part of the way from one point to another that is free of the triangle, up to 1.

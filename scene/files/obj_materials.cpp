@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "scene/files/formats.h"
+#include "scene/files/mtl_options.h"
 #include "scene/files/obj_textures.h"
 
 namespace gnomon {
@@ -25,10 +26,20 @@ Vec3f clamp_color(Scene& scene, const std::string& name, std::string_view key, c
   return clamped;
 }
 
-void map_transparency(Scene& scene, const tinyobj::material_t& from, Material& m) {
+/// "Tr 1" would let all light through, and the material would not be seen: MeshLab and others write it of what lets none.
+float dissolve_of(Scene& scene, const tinyobj::material_t& from) {
   const auto dissolve = static_cast<float>(std::clamp<tinyobj::real_t>(from.dissolve, 0.0, 1.0));
+  if (dissolve == 1.0f && from.unknown_parameter.contains(std::string(full_transparency)))
+    scene.notes.push_back(fmt::format(
+        "Material '{}': Tr 1 is read as opaque, as some programs write it (d 0 makes it invisible).",
+        from.name));
+  return dissolve;
+}
+
+void map_transparency(Scene& scene, const tinyobj::material_t& from, Material& m) {
   m.ior = from.ior > 0.0 ? static_cast<float>(from.ior) : 1.0f;
   const bool glass = from.illum == 4 || from.illum == 6 || from.illum == 7;
+  const float dissolve = dissolve_of(scene, from);
   if (dissolve < 1.0f)
     m.transmission = 1.0f - dissolve;
   else if (glass)

@@ -178,15 +178,14 @@ class ObjReader {
     if (out_.small_faces++ == 0) out_.first_small_face_line = line_of(whole);
   }
 
-  /// "7", "7/2", "7//3" or "7/2/3".
+  /// "7", "7/2", "7//3" or "7/2/3"; some programs write "7/2/", "7/" and "7//", too.
   ObjCorner corner(std::string_view word) {
     std::array<int, 3> of{-1, -1, -1};
     std::string_view rest = word;
     for (std::size_t kind = vertex; kind <= normal; ++kind) {
       const std::size_t slash = std::min(rest.find('/'), rest.size());
       const std::string_view part = rest.substr(0, slash);
-      const bool may_be_empty = kind == texcoord && slash < rest.size();
-      if (!part.empty() || !may_be_empty)
+      if (!part.empty() || kind == vertex)
         of[kind] = index(part.empty() ? word : part, static_cast<Kind>(kind));
       if (slash == rest.size()) return {of[vertex], of[texcoord], of[normal]};
       rest.remove_prefix(slash + 1);
@@ -205,6 +204,10 @@ class ObjReader {
       return -1;
     }
     const auto total = static_cast<long long>(total_[kind]);
+    if (total == 0 && kind != vertex) {
+      out_.warnings.insert(fmt::format("Faces name {}s, of which the file has none", names[kind]));
+      return -1;
+    }
     const auto before = static_cast<long long>(seen_[kind]);
     if (index >= 1 && index <= total) return static_cast<int>(index - 1);
     if (index <= -1 && index >= -before) return static_cast<int>(before + index);

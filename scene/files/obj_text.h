@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scene/expected.h"
-#include "scene/math.h"
+#include "scene/files/polygon.h"
 
 namespace gnomon {
 
@@ -56,9 +56,6 @@ struct MaterialLibraries {
 /// The text of an OBJ or MTL file: where a backslash ends a line, it and the break become spaces, so that the line goes
 /// on and offsets stay.
 std::string join_continued_lines(std::string_view bytes);
-
-/// To triangulate a polygon takes time with the square of its corners.
-inline constexpr std::size_t max_polygon_corners = 255;
 
 /// Errors: a byte of 0, a coordinate that is not a finite number, an index that is 0 or out of range, a face
 /// of too many corners, and those of the libraries.

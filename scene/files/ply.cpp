@@ -2,6 +2,7 @@
 // coordinates where they have them (v is turned over), colours, and faces of any number of corners.
 #include <fmt/core.h>
 
+#include <array>
 #include <filesystem>
 
 #include "scene/files/formats.h"
@@ -13,8 +14,6 @@
 
 namespace gnomon {
 namespace {
-
-constexpr std::uint64_t max_corners = 4096;
 
 // Reads one number after the other. What goes wrong is kept, with the place of the last number.
 class NumberStream {
@@ -102,6 +101,8 @@ class PlyReader {
         done = read_vertices(element);
       else if (element.name == "face")
         done = read_faces(element);
+      else if (element.name == "tristrips")
+        done = read_strips(element);
       else
         done = skip(element);
       if (!done) return fail(done.error());
@@ -245,24 +246,68 @@ class PlyReader {
     return {};
   }
 
+  Expected<std::uint32_t> corner_of(double value, const PlyElement& element, std::uint64_t index,
+                                    const PlyProperty& property) const {
+    if (!(value >= 0.0) || value > 4294967295.0 || std::trunc(value) != value)
+      return error(fmt::format("vertex index (got {:g}, allowed a whole number from 0)", value),
+                   fmt::format("{}[{}].{}", element.name, index, property.name));
+    return static_cast<std::uint32_t>(value);
+  }
+
   Expected<void> read_corners(const PlyElement& element, std::uint64_t index, const PlyProperty& property) {
     const auto length = list_length(element, index, property);
     if (!length) return fail(length.error());
-    const auto field = [&] { return fmt::format("{}[{}].{}", element.name, index, property.name); };
-    if (*length > max_corners)
-      return error(fmt::format("too many corners (got {}, allowed 3 to {})", *length, max_corners), field());
+    if (*length > max_polygon_corners)
+      return error(fmt::format("too many corners (got {}, allowed 3 to {})", *length, max_polygon_corners),
+                   fmt::format("{}[{}].{}", element.name, index, property.name));
     Face face{corners_.size(), *length, index};
     for (std::uint64_t i = 0; i < *length; ++i) {
       const auto value = number(property.type, element, index, property);
       if (!value) return fail(value.error());
-      if (!(*value >= 0.0) || *value > 4294967295.0 || std::trunc(*value) != *value)
-        return error(fmt::format("vertex index (got {:g}, allowed a whole number from 0)", *value), field());
-      corners_.push_back(static_cast<std::uint32_t>(*value));
+      const auto corner = corner_of(*value, element, index, property);
+      if (!corner) return fail(corner.error());
+      corners_.push_back(*corner);
     }
     if (*length < 3)
       ++small_faces_;
     else
       faces_.push_back(face);
+    return {};
+  }
+
+  /// Strips of triangles, in one list or in several; -1 ends a strip.
+  Expected<void> read_strips(const PlyElement& element) {
+    for (std::uint64_t i = 0; i < element.count; ++i)
+      for (const PlyProperty& property : element.properties) {
+        auto read =
+            is_corner_list(property) ? read_strip(element, i, property) : skip_property(element, i, property);
+        if (!read) return read;
+      }
+    return {};
+  }
+
+  Expected<void> read_strip(const PlyElement& element, std::uint64_t index, const PlyProperty& property) {
+    const auto length = list_length(element, index, property);
+    if (!length) return fail(length.error());
+    std::array<std::uint32_t, 2> before{};
+    std::size_t known = 0;  // corners of this strip
+    for (std::uint64_t i = 0; i < *length; ++i) {
+      const auto value = number(property.type, element, index, property);
+      if (!value) return fail(value.error());
+      if (*value == -1.0) {
+        known = 0;
+        continue;
+      }
+      const auto corner = corner_of(*value, element, index, property);
+      if (!corner) return fail(corner.error());
+      const auto [a, b] = before;
+      if (known++ >= 2 && a != b && b != *corner && a != *corner) {
+        faces_.push_back({corners_.size(), 3, index});
+        // Every other one runs the other way round.
+        corners_.insert(corners_.end(), {known % 2 != 0 ? a : b, known % 2 != 0 ? b : a, *corner});
+      }
+      before = {b, *corner};
+    }
     return {};
   }
 
@@ -297,6 +342,9 @@ class PlyReader {
     if (small_faces_ > 0)
       scene.notes.push_back(
           fmt::format("{} face(s) with fewer than three corners were skipped.", small_faces_));
+    if (!header_.texture.empty())
+      scene.notes.push_back(fmt::format("The texture {} is not read; the model's plain colour is used.",
+                                        printable(header_.texture, 80)));
     loaded_.is_model = true;
     mesh_.name = std::filesystem::path(file_).stem().string();
     scene.materials.push_back(model_material("default", !mesh_.colors.empty()));

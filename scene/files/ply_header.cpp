@@ -62,7 +62,9 @@ class HeaderReader {
         done = read_element();
       else if (word == "property")
         done = read_property();
-      else if (word != "comment" && word != "obj_info" && !word.empty())
+      else if (word == "comment")
+        read_comment();
+      else if (word != "obj_info" && !word.empty())
         return error(
             fmt::format("unknown header line (got \"{}\", allowed format, element, property, comment, "
                         "obj_info, end_header)",
@@ -113,6 +115,10 @@ class HeaderReader {
     if (version != "1.0")
       return error(fmt::format("unknown version (got \"{}\", allowed 1.0)", printable(version)), "format");
     return {};
+  }
+
+  void read_comment() {
+    if (next_word() == "TextureFile") header_.texture = std::string(next_word());
   }
 
   Expected<void> read_element() {

@@ -33,6 +33,7 @@ struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<PlyElement> elements;
   std::size_t data_begin = 0;  ///< the first byte after the header
+  std::string texture;         ///< that a comment names, as MeshLab writes it; empty: none does
 };
 
 /// Counts are checked against the bytes that follow, so that nothing is allocated for data that cannot be
