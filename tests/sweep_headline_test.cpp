@@ -62,6 +62,15 @@ TEST(SweepHeadline, NamesTheBestForErrorForTimeAndForBoth) {
   EXPECT_FALSE(sweep_headline(cells, pareto_front(cells), Threshold{ErrorMeasure::mean, 0.005}).limit_met);
 }
 
+TEST(SweepHeadline, SaysThatTimesWithinTheirSpreadAreEqual) {
+  const std::vector<CellSummary> cells{cell(0, 0.10, 10.0, 1.0, 64), cell(1, 0.05, 10.4, 1.0, 64),
+                                       cell(2, 0.01, 90.0, 1.0, 256)};
+  const std::vector<std::string> lines = sweep_headline(cells, pareto_front(cells), {}).lines();
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_TRUE(lines[1].starts_with("Best for time (none is faster by more than the times' spread): cell 1 "))
+      << lines[1];
+}
+
 TEST(SweepWords, ShortenLongNumbersAndNothingElse) {
   EXPECT_EQ(axis_words("map_size"), "map size");
   EXPECT_EQ(label_words_of("peter_panning"), "peter-panning");

@@ -22,6 +22,13 @@ HeadlineItem item(std::string title, const CellSummary& cell, ErrorMeasure measu
   return {std::move(title), cell.cell, axes_words(cell), std::move(figures)};
 }
 
+// Some other cell may have taken less time, but by no more than such times spread.
+std::string time_title(const std::vector<CellSummary>& cells, std::size_t fastest) {
+  const bool tied = std::any_of(cells.begin(), cells.end(),
+                                [&](const CellSummary& c) { return c.raster_ms < cells[fastest].raster_ms; });
+  return tied ? "Best for time (none is faster by more than the times' spread)" : "Best for time";
+}
+
 // Of what lies on the front the least product of error and time: a step along it that halves the one and
 // doubles the other is neither gain nor loss. Half a pixel stands for no error.
 std::size_t balanced(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
@@ -99,7 +106,7 @@ Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector
     return out;
   }
   out.items.push_back(item("Best for " + error, cells[best], measure));
-  out.items.push_back(item("Best for time", cells[fastest], measure));
+  out.items.push_back(item(time_title(cells, fastest), cells[fastest], measure));
   out.items.push_back(item("Best for both (least product of " + error + " and time)",
                            cells[balanced(cells, front)], measure));
   return out;
