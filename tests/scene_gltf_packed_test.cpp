@@ -119,6 +119,17 @@ TEST_F(Gltf, MeshoptIsUnpacked) {
   EXPECT_EQ(scene->meshes[0].triangles.size(), std::size_t{2} * side * side);
 }
 
+TEST_F(Gltf, MeshoptHasAKhronosNameToo) {
+  std::string packed;
+  Builder b = meshopt_hills(packed);
+  std::string text = with_buffers(b, packed);
+  for (std::size_t at = text.find("EXT_meshopt"); at != std::string::npos; at = text.find("EXT_meshopt", at))
+    text.replace(at, 3, "KHR");
+  const auto scene = load(text);
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_EQ(scene->meshes[0].triangles.size(), std::size_t{2} * side * side);
+}
+
 TEST_F(Gltf, MeshoptFiltersAreUndone) {
   Builder b = simple();
   const std::vector<float> normals{0, 0, 1, 0, 0.6f, 0, 0.8f, 0, 0, 1, 0, 0, -0.6f, 0, -0.8f, 0};

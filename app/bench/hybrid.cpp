@@ -162,7 +162,8 @@ class HybridBench {
         "shadowed {:.2f} %\n"
         "  {:.1f} ms with the sheets kept, {:.1f} ms with the sheets built anew ({:.1f} MiB); ray tracing "
         "{:.1f} ms\n"
-        "  a new light, whose sheets are made from frame {} on by the estimate of costs: {:.1f} ms, {:.2f} % of the rays\n",
+        "  a new light, whose sheets are made from frame {} on by the estimate of costs: {:.1f} ms, {:.2f} % "
+        "of the rays\n",
         input_.scene, light_.name, input_.size.width, input_.size.height, map_size, counts_.rays,
         counts_.asked, percent(counts_.rays, counts_.asked), percent(cast, all),
         percent(counts_.lit, counts_.asked), percent(counts_.shadowed, counts_.asked), times.kept.median(),

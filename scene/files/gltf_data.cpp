@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 
@@ -37,8 +39,17 @@ std::string shown(const std::string& uri) {
   return uri.starts_with("data:") ? "data:..." : printable(uri);
 }
 
+/// Two extensions of one format, but for the newer one's later versions of it, which are refused.
+constexpr std::array<std::string_view, 2> meshopt_names{"EXT_meshopt_compression", "KHR_meshopt_compression"};
+
+std::string_view meshopt_name_of(const JsonValue& object) {
+  const JsonValue* extensions = member(&object, "extensions");
+  const auto found = std::find_if(meshopt_names.begin(), meshopt_names.end(),
+                                  [&](std::string_view name) { return member(extensions, name) != nullptr; });
+  return found == meshopt_names.end() ? std::string_view() : *found;
+}
 const JsonValue* meshopt_of(const JsonValue& object) {
-  return member(member(&object, "extensions"), "EXT_meshopt_compression");
+  return member(member(&object, "extensions"), meshopt_name_of(object));
 }
 
 }  // namespace
@@ -89,7 +100,7 @@ Expected<std::string_view> GltfData::open_uri(const std::string& uri, const std:
   return files_.emplace_back(std::move(*file)).bytes();
 }
 
-/// Empty for one that EXT_meshopt_compression stands in for.
+/// Empty for one whose data an extension brings.
 Expected<std::string_view> GltfData::open_buffer(std::size_t index) {
   const JsonValue& buffer = gltf_list(checked_->document.root, "buffers")[index];
   const std::string field = fmt::format("buffers[{}]", index);
@@ -132,7 +143,9 @@ Expected<void> GltfData::open_views() {
   });
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::string field = fmt::format("bufferViews[{}]", i);
-    if (!unpacked[i]) return error(field + ".extensions.EXT_meshopt_compression", unpacked[i].error().reason);
+    if (!unpacked[i])
+      return error(fmt::format("{}.extensions.{}", field, meshopt_name_of(views[i])),
+                   unpacked[i].error().reason);
     if (meshopt_of(views[i]) != nullptr) {
       const std::vector<char>& kept = decoded_.emplace_back(std::move(*unpacked[i]));
       views_.emplace_back(kept.data(), kept.size());

@@ -1,5 +1,5 @@
 // What stands behind the JSON of a glTF file: the binary chunk of a GLB, files beside it (mapped into memory)
-// and data URIs. Views that EXT_meshopt_compression packs are unpacked.
+// and data URIs. Views that EXT_ or KHR_meshopt_compression packs are unpacked.
 #pragma once
 
 #include <deque>

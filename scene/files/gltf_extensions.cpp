@@ -17,6 +17,7 @@ const std::vector<std::string_view>& supported_extensions() {
                                                    "KHR_texture_basisu",
                                                    "KHR_draco_mesh_compression",
                                                    "EXT_meshopt_compression",
+                                                   "KHR_meshopt_compression",
                                                    "KHR_node_visibility",
                                                    "EXT_mesh_gpu_instancing",
                                                    "EXT_texture_webp",

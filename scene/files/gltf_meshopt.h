@@ -1,4 +1,4 @@
-// EXT_meshopt_compression: bufferViews packed by meshoptimizer.
+// EXT_meshopt_compression and KHR_meshopt_compression: bufferViews packed by meshoptimizer.
 #pragma once
 
 #include <span>
