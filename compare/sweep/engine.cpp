@@ -41,8 +41,8 @@ bool same_map(const raster::RasterFrame& a, const raster::RasterFrame& b, std::s
          a.primitive.data == b.primitive.data;
 }
 
-// Of one light's compared pixels.
-void add_gaps(const LadderInput& in, GapLists& gaps) {
+// Of one light's compared pixels, times `scale`.
+void add_gaps(const LadderInput& in, double scale, GapLists& gaps) {
   const Image<Label> labels = sort_pixels(in);
   for (std::size_t i = 0; i < labels.data.size(); ++i) {
     if (!is_compared(labels.data[i])) continue;
@@ -50,7 +50,7 @@ void add_gaps(const LadderInput& in, GapLists& gaps) {
     if (truth == 0.5f)
       ++gaps.ties;
     else
-      (truth > 0.5f ? gaps.lit : gaps.shadowed).push_back(in.record.gap.data[i]);
+      (truth > 0.5f ? gaps.lit : gaps.shadowed).push_back(static_cast<float>(scale * in.record.gap.data[i]));
   }
 }
 
@@ -255,15 +255,20 @@ std::vector<ErrorFigures> Engine::Impl::figures(ErrorMeasure measure) const {
   return out;
 }
 
-// What the drawing would be wrong by with the bias that its gaps say is best.
-void Engine::Impl::probe_best_bias(ErrorMeasure measure, Probe& probe) {
+// What the drawing would be wrong by with the bias that its gaps say is best, asked for once for all lights: where the
+// constant scales it is a number of texels, and each light has its own.
+void Engine::Impl::probe_best_bias(const raster::MapOptions& map, ErrorMeasure measure, Probe& probe) {
   raster::RasterFrame& frame = comparison.raster;
-  for (std::size_t i = 0; i < frame.lights.size(); ++i) add_gaps(input(frame, i), probe.gaps);
+  const bool scales = raster::scales_bias(map);
+  for (std::size_t i = 0; i < frame.lights.size(); ++i)
+    add_gaps(input(frame, i), scales ? probe.texel_world / frame.lights[i].texel_world : 1.0, probe.gaps);
   sort_numbers(std::span(probe.gaps.lit));
   sort_numbers(std::span(probe.gaps.shadowed));
   probe.best = find_best_bias(probe.gaps);
+  probe.bias_at_best = with_constant(map, probe.best->constant_world, probe.texel_world);
   for (raster::LightRecord& record : frame.lights)
-    rebias(frame.primitive, probe.best->constant_world, record);
+    rebias(frame.primitive,
+           raster::constant_bias_world(probe.bias_at_best, record.rounding, record.map.view, world), record);
   probe.lights_at_best = figures(measure);
 }
 
@@ -293,7 +298,8 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting, ErrorMeasure measure
   }
   probe.custom_shader = frame.custom_shader.has_value();
   probe.reads_bias = !frame.custom_shader || frame.custom_shader->reads_bias;
-  if (biases_follow_from_gaps(frame) && measure != ErrorMeasure::shimmer) probe_best_bias(measure, probe);
+  if (biases_follow_from_gaps(frame) && measure != ErrorMeasure::shimmer)
+    probe_best_bias(setting.raster.map, measure, probe);
   return probe;
 }
 

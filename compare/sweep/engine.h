@@ -37,10 +37,13 @@ struct EngineWork {
 struct Probe {
   std::uint64_t compared = 0;        ///< pixels, all lights together
   std::vector<ErrorFigures> lights;  ///< of each light, as drawn
-  GapLists gaps;                     ///< of all lights together; empty where biases do not follow from gaps
+  /// Of all lights together, as the first light's texel has them where the constant scales; empty where biases do not
+  /// follow from gaps.
+  GapLists gaps;
   /// The constant bias with the fewest wrong pixels, and each light's figures with it; none where biases do
   /// not follow from gaps.
   std::optional<BestBias> best;
+  raster::Bias bias_at_best;  ///< with that constant, in the unit that draws it
   std::vector<ErrorFigures> lights_at_best;
   double bias_world = 0.0;   ///< the constant bias drawn with, of the first light
   double texel_world = 0.0;  ///< the width that biases in texels are taken in, of the first light

@@ -54,7 +54,7 @@ struct Engine::Impl {
   LadderInput input(const raster::RasterFrame& frame, std::size_t i) const;
   /// Of every light of the last drawing.
   std::vector<ErrorFigures> figures(ErrorMeasure measure) const;
-  void probe_best_bias(ErrorMeasure measure, Probe& probe);
+  void probe_best_bias(const raster::MapOptions& map, ErrorMeasure measure, Probe& probe);
   void trace(const Setting& setting);
   Expected<void> draw(const Setting& setting);
   Expected<void> draw_alone(const Setting& setting);

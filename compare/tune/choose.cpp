@@ -21,9 +21,8 @@ std::size_t Tuner::prefer_by_cost(TuneResult& result, std::size_t fastest) const
 Expected<void> Tuner::verify(TuneResult& result) {
   FamilyResult& winner = result.families[result.winner];
   Attempt& attempt = winner.answer ? *winner.answer : winner.closest;
-  const raster::Bias bias = with_constant(winner.family.map, attempt.bias_world, attempt.texel_world);
   auto setting = options_.as_given ? options_.as_given(result.winner, attempt)
-                                   : Expected<Setting>(setting_of(winner.family, attempt.size, bias));
+                                   : Expected<Setting>(setting_of(winner.family, attempt.size, attempt.bias));
   if (!setting) return fail(setting.error());
   setting->raster.runs = 0;
   if (progress_) progress_(winner.family, attempt.size, renders_);

@@ -51,6 +51,7 @@ Expected<void> FullGrid::draw(std::size_t family, int size, const raster::Bias& 
   ++check.cells;
   Attempt attempt;
   attempt.size = size;
+  attempt.bias = probe->best ? probe->bias_at_best : bias;
   attempt.bias_world = probe->best ? probe->best->constant_world : probe->bias_world;
   set_figures(probe->best ? probe->lights_at_best : probe->lights, options_.goal.measure(), attempt);
   attempt.texel_world = probe->texel_world;
@@ -82,9 +83,7 @@ Expected<void> FullGrid::draw_all(const std::vector<raster::Bias>& biases, GridC
 }
 
 Expected<double> FullGrid::time_again(std::size_t family, const Attempt& attempt) {
-  const raster::Bias bias =
-      with_constant(options_.families[family].map, attempt.bias_world, attempt.texel_world);
-  return engine_.time_drawing(setting_of(family, attempt.size, bias));
+  return engine_.time_drawing(setting_of(family, attempt.size, attempt.bias));
 }
 
 // The tuner's answer and the grid's cheapest, drawn in turn: their least times, for what else the machine

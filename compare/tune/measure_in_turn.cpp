@@ -32,8 +32,7 @@ std::size_t Tuner::best_of(const TuneResult& result) const {
 // At its own bias: what is promised from the gaps is what is drawn.
 Expected<void> Tuner::confirm(FamilyResult& result) {
   Attempt& answer = result.attempt();
-  const raster::Bias bias = with_constant(result.family.map, answer.bias_world, answer.texel_world);
-  auto drawn = draw(result.family, answer.size, bias, nullptr);
+  auto drawn = draw(result.family, answer.size, answer.bias, nullptr);
   if (!drawn) return fail(drawn.error());
   answer.error = drawn->error;
   answer.figures = drawn->figures;
@@ -44,8 +43,7 @@ Expected<void> Tuner::confirm(FamilyResult& result) {
 
 Expected<void> Tuner::draw_again(FamilyResult& result) {
   Attempt& answer = result.attempt();
-  const raster::Bias bias = with_constant(result.family.map, answer.bias_world, answer.texel_world);
-  const auto ms = engine_.time_drawing(setting_of(result.family, answer.size, bias));
+  const auto ms = engine_.time_drawing(setting_of(result.family, answer.size, answer.bias));
   if (!ms) return fail(ms.error());
   answer.times.runs.push_back(*ms);
   return {};

@@ -22,12 +22,20 @@ bool reads_bias(const TuneFamily& family, const Attempt& attempt) {
   return compares_depths(family.map.technique) && attempt.reads_bias;
 }
 
+// World units, "0.25 texel", "auto": the constant in the unit that the command asks for it in.
+std::string constant_words(const raster::Bias& bias) {
+  if (bias.unit == raster::BiasUnit::automatic) return "auto";
+  const std::string text = plain_number(bias.constant);
+  if (bias.unit == raster::BiasUnit::world) return text;
+  return text + (std::abs(bias.constant) > 1.0 ? " texels" : " texel");
+}
+
 std::string verdict(const TunePageInput& in) {
   const FamilyResult& winner = in.result.families[in.result.winner];
   const Attempt& a = winner.attempt();
   const std::string answer = fmt::format(
       "{}, {} \u00d7 {} texels{}. Compared as below it gives {}, in {}.", winner.family.name, a.size, a.size,
-      reads_bias(winner.family, a) ? ", bias " + plain_number(a.bias_world) : std::string(),
+      reads_bias(winner.family, a) ? ", bias " + constant_words(a.bias) : std::string(),
       figure_words(a.figures, in.goal.measure()), milliseconds(a.time_ms));
   const std::string wanted = "Wanted: " + goal_text(in.goal) + ". ";
   if (!in.result.feasible) return wanted + "No map that was tried gives that. Nearest comes " + answer;
@@ -76,7 +84,7 @@ class="n">{}</td>{}<td class="n">{}</td><td class="run"><code>{}</code></td></tr
 )",
       winner ? " class=\"front-row\"" : "", escaped(family.family.name),
       winner && in.result.feasible ? " <abbr title=\"the answer\">\u2605</abbr>" : "", escaped(family.why),
-      a.size, reads_bias(family.family, a) ? plain_number(a.bias_world) : "\u2013",
+      a.size, reads_bias(family.family, a) ? constant_words(a.bias) : "\u2013",
       figure_cells(in.goal.measure(), a.figures), milliseconds(a.time_ms), escaped(in.commands[i]));
 }
 

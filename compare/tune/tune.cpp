@@ -63,6 +63,7 @@ Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::
                 "no pixel can be compared: the camera sees no surface that a light could reach");
   Attempt attempt;
   attempt.size = size;
+  attempt.bias = bias;
   attempt.bias_world = probe->bias_world;
   set_figures(probe->lights, options_.goal.measure(), attempt);
   attempt.time_ms = probe->raster_ms;
@@ -77,6 +78,7 @@ Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::
   if (gaps == nullptr || !probe->best) return attempt;
   *gaps = std::move(probe->gaps);
   attempt.best = *probe->best;
+  attempt.bias = probe->bias_at_best;
   set_figures(probe->lights_at_best, options_.goal.measure(), attempt);
   return attempt;
 }
