@@ -171,6 +171,16 @@ TEST(Tune, WhatIsUncertainOrNotKnownIsNotGood) {
   unknown.wrong_fraction = std::numeric_limits<double>::quiet_NaN();
   compare::set_figures({known, unknown}, compare::ErrorMeasure::wrong, attempt);
   EXPECT_FALSE(is_good(error_goal(0.001), attempt));
+  // Of several lights the one with the largest error need not be the one that is uncertain.
+  compare::ErrorFigures wrong = known;
+  wrong.wrong_fraction = 0.01;
+  compare::set_figures({wrong, known}, compare::ErrorMeasure::wrong, attempt);
+  EXPECT_TRUE(is_good(error_goal(0.02), attempt));
+  for (const auto& lights : {std::vector{wrong, doubtful}, std::vector{doubtful, wrong}}) {
+    compare::set_figures(lights, compare::ErrorMeasure::wrong, attempt);
+    EXPECT_EQ(attempt.error, 0.01);
+    EXPECT_FALSE(is_good(error_goal(0.02), attempt));
+  }
 }
 
 // A family that is left because its error levels off is not good enough at the largest size either.

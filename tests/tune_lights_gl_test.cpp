@@ -113,5 +113,33 @@ TEST_F(TuneLights, CommandsGiveTheErrorsPromisedWhereBiasesScale) {
   expect_kept_promises(answer, "wrong_fraction");
 }
 
+// The lamp has the larger error; too many pixels of the bulb are uncertain to say that they are right.
+TEST_F(TuneLights, EveryLightHasToBeCertainEnough) {
+  const Json lights{{{"name", "bulb"},
+                     {"type", "point"},
+                     {"intensity", 20},
+                     {"position", {-1.5, 1.8, 0.3}},
+                     {"sphere", {{"radius", 0.3}}},
+                     {"shadow_samples", 4}},
+                    {{"name", "lamp"}, {"type", "point"}, {"intensity", 20}, {"position", {-0.7, 2.3, 3.0}}}};
+  const std::string scene = scene_under(lights);
+  const Words setting{"--technique", "hard", "--slope-bias", "1", "--map-size", "32", "--max-error"};
+  const auto tune_to = [&](const char* goal) {
+    Words words = setting;
+    words.emplace_back(goal);
+    return tune(scene, words);
+  };
+  const auto [code, answer] = tune_to("2%");
+  EXPECT_EQ(code, 1);
+  EXPECT_FALSE(answer["feasible"]);
+  EXPECT_LE(answer["error"].get<double>(), 0.02);
+  EXPECT_NE(answer["why"].get<std::string>().find("pixels of one light are uncertain"), std::string::npos)
+      << answer["why"];
+  EXPECT_EQ(compare(answer, {"--fail-above", "2%"}).first, 1);
+  const auto [mean_code, by_mean] = tune_to("mean:2%");  // means know the visibility of those pixels
+  EXPECT_EQ(mean_code, 0) << by_mean["why"];
+  EXPECT_EQ(compare(by_mean, {"--fail-above", "mean:2%"}).first, 0);
+}
+
 }  // namespace
 }  // namespace gnomon::test

@@ -71,13 +71,17 @@ std::string floor_text(double floor, ErrorMeasure measure) {
   }
 }
 
-// Pixels that no setting can be judged by.
-std::string doubt(const std::optional<Threshold>& goal, const ErrorFigures& figures) {
-  if (!goal || !too_uncertain(*goal, figures)) return {};
+// Pixels of a light that no setting can be judged by.
+std::string doubt(const std::optional<Threshold>& goal, const std::vector<ErrorFigures>& lights) {
+  if (!goal) return {};
+  const auto light = std::find_if(lights.begin(), lights.end(),
+                                  [&](const ErrorFigures& figures) { return too_uncertain(*goal, figures); });
+  if (light == lights.end()) return {};
   return fmt::format(
-      "; {} of {} pixels are uncertain, more than the goal allows to be wrong (more --samples "
+      "; {} of {} pixels{} are uncertain, more than the goal allows to be wrong (more --samples "
       "of lights with size, or a goal for the mean error, such as mean:1%)",
-      grouped(unknown_pixels(figures, goal->measure)), grouped(figures.compared + figures.uncertain));
+      grouped(unknown_pixels(*light, goal->measure)), grouped(light->compared + light->uncertain),
+      lights.size() > 1 ? " of one light" : "");
 }
 
 }  // namespace
@@ -125,7 +129,7 @@ void Tuner::explain(TuneResult& result) const {
                    just_over_text(result, options_.goal.measure());
     else
       family.why = "comes nearest: " + setting_text(family.closest, options_.goal.measure()) +
-                   doubt(options_.goal.max_error, family.closest.figures) + proof(family, family.closest);
+                   doubt(options_.goal.max_error, family.closest.lights) + proof(family, family.closest);
   }
 }
 

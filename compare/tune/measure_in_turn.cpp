@@ -36,6 +36,7 @@ Expected<void> Tuner::confirm(FamilyResult& result) {
   if (!drawn) return fail(drawn.error());
   answer.error = drawn->error;
   answer.figures = drawn->figures;
+  answer.lights = drawn->lights;
   answer.times.runs = {drawn->time_ms};
   if (options_.cost) answer.cost = drawn->cost;
   return {};

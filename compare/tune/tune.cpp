@@ -84,6 +84,7 @@ Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::
 }
 
 void set_figures(const std::vector<ErrorFigures>& lights, ErrorMeasure measure, Attempt& attempt) {
+  attempt.lights = lights;
   attempt.error = 0.0;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const double error = figure(lights[i], measure);
@@ -93,7 +94,7 @@ void set_figures(const std::vector<ErrorFigures>& lights, ErrorMeasure measure, 
 
 bool is_good(const TuneGoal& goal, const Attempt& a) {
   if (!goal.max_error) return a.cost <= *goal.max_time_ms;
-  return a.error <= goal.max_error->limit && !too_uncertain(*goal.max_error, a.figures);
+  return is_kept(*goal.max_error, a.lights);
 }
 
 // One drawing tells the error of every constant bias, but where a shader of the user's own decides.

@@ -57,13 +57,14 @@ struct TuneOptions {
 /// One drawing, at its best constant bias.
 struct Attempt {
   int size = 0;
-  raster::Bias bias;        ///< as it was tried, and as the attempt's command asks for it
-  double bias_world = 0.0;  ///< its constant, of the first light
-  double error = 0.0;       ///< what TuneGoal::measure() says, of the worst light
-  ErrorFigures figures;     ///< of that light
-  double time_ms = 0.0;     ///< least of `times`, or of the search's one drawing
-  double cost = 0.0;        ///< by TuneOptions::cost
-  Times times;              ///< measured in turn with the others; empty: not among the best
+  raster::Bias bias;                 ///< as it was tried, and as the attempt's command asks for it
+  double bias_world = 0.0;           ///< its constant, of the first light
+  double error = 0.0;                ///< what TuneGoal::measure() says, of the worst light
+  ErrorFigures figures;              ///< of that light
+  std::vector<ErrorFigures> lights;  ///< of all that are compared
+  double time_ms = 0.0;              ///< least of `times`, or of the search's one drawing
+  double cost = 0.0;                 ///< by TuneOptions::cost
+  Times times;                       ///< measured in turn with the others; empty: not among the best
   std::uint64_t map_texels = 0, map_bytes = 0, rays = 0;
   BestBias best;               ///< of all lights; with the proof, where no constant bias is right everywhere
   std::uint64_t compared = 0;  ///< pixels, all lights

@@ -8,9 +8,9 @@
 
 namespace gnomon::compare {
 
-/// The worst light is what a threshold is held against: sets `error` and `figures`.
+/// Sets `lights`, and `error` and `figures` of the worst of them.
 void set_figures(const std::vector<ErrorFigures>& lights, ErrorMeasure measure, Attempt& attempt);
-/// Whether an attempt meets the goal.
+/// Whether an attempt meets the goal: where that is an error, with every light.
 bool is_good(const TuneGoal& goal, const Attempt& attempt);
 
 class Tuner {
