@@ -86,7 +86,7 @@ struct LightRecord {
   /// The gap less every part of the bias but the constant: a hard test shadows iff gap >
   /// float(bias_constant_world). Where BiasRounding::constant_texel_world is not 0 it is given in multiples
   /// of the texel looked up, times that. -infinity where nothing is stored or the lookup falls outside the
-  /// map, and where the bias has no bound; never NaN.
+  /// map, and where the bias has no bound; +infinity where the receiver's plane is not met there; never NaN.
   Image<float> gap;
   /// 1 where the lookup falls beside the map or behind the light, or finds nothing stored for a receiver that
   /// lies outside the map's depth range.

@@ -51,6 +51,33 @@ TEST_F(SweepProgram, WritesResultsWithAxes) {
   EXPECT_EQ(one["costs"], cell["costs"]);
 }
 
+// The schema, and with it the manual, says of each key that compare has and a cell lacks that it is not in sweep.jsonl.
+TEST_F(SweepProgram, WhatCellsLackOfAComparisonIsDocumented) {
+  const Words setting{"courtyard", "--technique", "csm", "--size", "64x48", "--map-size", "64"};
+  Words sweep{"sweep"}, compare{"compare"};
+  for (Words* words : {&sweep, &compare}) words->insert(words->end(), setting.begin(), setting.end());
+  sweep.insert(sweep.end(), {"--bias", "1texel,2texel", "-o", (root / "cells").string()});
+  compare.insert(compare.end(), {"--bias", "1texel", "--json", (root / "one.json").string()});
+  ASSERT_EQ(run(sweep), 0) << said();
+  ASSERT_EQ(run(compare), 0) << said();
+  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/report/result.schema.json");
+  const nlohmann::json schema = nlohmann::json::parse(schema_file);
+  const std::string text = lines("cells");
+  const nlohmann::json cell = nlohmann::json::parse(text.substr(0, text.find('\n')));
+  const nlohmann::json one = nlohmann::json::parse(bytes(root / "one.json"));
+  const auto check = [](const nlohmann::json& whole, const nlohmann::json& part, const nlohmann::json& keys) {
+    int lacking = 0;
+    for (const auto& [key, value] : whole.items()) {
+      if (part.contains(key)) continue;
+      ++lacking;
+      EXPECT_TRUE(keys[key]["description"].get<std::string>().starts_with("not in sweep.jsonl")) << key;
+    }
+    return lacking;
+  };
+  EXPECT_EQ(check(one, cell, schema["properties"]), 2);
+  EXPECT_EQ(check(one["lights"][0], cell["lights"][0], schema["$defs"]["light"]["properties"]), 2);
+}
+
 // Each cell's film is the one that gnomon shimmer makes, and its flips are the error of headline and table.
 TEST_F(SweepProgram, CountsFlipsOfFilms) {
   const Words setting{"thin-wall", "--size", "192x108", "--map-size", "64"};
