@@ -111,14 +111,23 @@ std::string nothing_compared(const PixelCounts& p, LightType light) {
       p.uncertain == 1 ? "is" : "are");
 }
 
-// Of another renderer's picture, in that renderer's own units; no option of Gnomon's own can be set there.
+std::string instead_text(const Advice& advice, std::string_view setting) {
+  return fmt::format("{} {:.4g} instead of {:.4g}", setting, advice.instead, advice.now);
+}
+
+// Of another renderer's picture, in that renderer's own units; no option of Gnomon's own can be set there. First comes
+// the constant alone, and where a normal offset does clearly better that offset and the constant beside it.
 std::string judged_advice(const Judged& judged, const LightComparison& light) {
-  if (judged.advice.empty() || judged.advice[0].instead == judged.advice[0].now) return {};
-  const Advice& first = judged.advice[0];
+  if (judged.advice.empty()) return {};
+  const Advice& last = judged.advice.back();
   const double drawn = light.error.wrong_fraction;
-  if (first.wrong_instead >= drawn || percent(first.wrong_instead) == percent(drawn)) return {};
-  return fmt::format("{} {:.4g} instead of {:.4g} would leave {}.", first.setting, first.instead, first.now,
-                     percent(first.wrong_instead));
+  if (last.wrong_instead >= drawn || percent(last.wrong_instead) == percent(drawn)) return {};
+  std::string settings;
+  if (judged.advice.size() > 1) settings = instead_text(judged.advice[1], judged.advice[1].setting);
+  if (last.instead != last.now)
+    settings += (settings.empty() ? "" : " and ") + instead_text(last, "bias.constant_depth");
+  if (settings.empty()) return {};
+  return fmt::format("{} would leave {}.", settings, percent(last.wrong_instead));
 }
 
 }  // namespace

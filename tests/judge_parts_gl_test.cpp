@@ -3,6 +3,7 @@
 #include "scene/files/image_io.h"
 #include "scene/light.h"
 #include "support/capture_support.h"
+#include "support/other_renderer.h"
 
 namespace gnomon::test {
 namespace {
@@ -12,14 +13,6 @@ using compare::PixelDepth;
 using compare::RowOrder;
 using compare::StoredDepth;
 using raster::Technique;
-
-/// Floor and boxes under one light: "sun", "lamp" (spot) or "bulb" (point).
-Scene scene_under(const std::string& light) {
-  Scene scene = boxes_under_three_lights();
-  std::erase_if(scene.lights, [&](const Light& l) { return l.name != light; });
-  EXPECT_EQ(scene.lights.size(), 1U) << light;
-  return scene;
-}
 
 struct Kind {
   std::string light;
@@ -88,77 +81,6 @@ INSTANTIATE_TEST_SUITE_P(Of, JudgeMaps, testing::ValuesIn(kinds(false)),
                          [](const auto& kind) { return name_of(kind.param); });
 
 // ---- a shadow test of its own ----
-
-/// As engines write it: the place through the layer's matrix, one texel, two stored numbers compared.
-class OtherRenderer {
- public:
-  OtherRenderer(const Capture& capture, const Light& light) : capture_(capture), light_(light) {
-    for (const compare::CapturedLayer& layer : capture.map) texels_.push_back(*read_channels(layer.depth));
-  }
-
-  float visibility(const Vec3& surface, const Vec3& normal) const {
-    const Vec3 place = surface + capture_.bias->normal_offset_world * normal;
-    const auto layer = layer_of(place);
-    if (!layer) return 1.0f;
-    const Vec4 clip = *capture_.map[*layer].clip_from_world * Vec4(place, 1.0);
-    const int n = texels_[*layer].size.width;
-    const auto texel = [&](double ndc) {
-      return std::clamp(static_cast<int>((0.5 * ndc + 0.5) * n), 0, n - 1);
-    };
-    const int x = texel(clip.x / clip.w), y = texel(clip.y / clip.w);
-    const int row = capture_.map[*layer].rows == RowOrder::top_down ? n - 1 - y : y;
-    const double stored = texels_[*layer].channels[0].values[static_cast<std::size_t>(row * n + x)];
-    return is_dark(clip.z / clip.w, glm::length(place - light_.position), stored) ? 0.0f : 1.0f;
-  }
-
- private:
-  bool is_dark(double z, double distance, double stored) const {
-    const double bias = capture_.bias->constant_depth;
-    switch (*capture_.map.front().convention) {
-      case StoredDepth::zero_to_one:
-        return stored < 1.0 && z - stored > bias;
-      case StoredDepth::minus_one_to_one:
-        return stored < 1.0 && 0.5 * z + 0.5 - stored > bias;
-      case StoredDepth::reversed:
-        return stored > 0.0 && stored - z > bias;
-      case StoredDepth::distance:
-        break;
-    }
-    return stored > 0.0 && distance - stored > bias;
-  }
-
-  /// A cube's face that looks at the place, or the first cascade that holds it and its neighbouring texels.
-  std::optional<std::size_t> layer_of(const Vec3& place) const {
-    std::optional<std::size_t> best;
-    double most = 0.0;
-    for (std::size_t i = 0; i < texels_.size(); ++i) {
-      const Vec4 clip = *capture_.map[i].clip_from_world * Vec4(place, 1.0);
-      const bool perspective = light_.type != LightType::directional, cube = texels_.size() == 6;
-      const double margin = i + 1 < texels_.size() ? 1.0 - 2.0 / texels_[i].size.width : 1.0;
-      const double beside = std::max(std::abs(clip.x), std::abs(clip.y)) / clip.w;
-      if (clip.w <= most || (!cube && beside >= margin)) continue;
-      best = i, most = clip.w;
-      if (!perspective) break;
-    }
-    return best;
-  }
-
-  const Capture& capture_;
-  const Light& light_;
-  std::vector<ChannelImage> texels_;
-};
-
-/// The picture that the other renderer draws on the capture's map.
-void draw_again(const Capture& capture, const Compared& drawn) {
-  const OtherRenderer other(capture, drawn.scene->lights[0]);
-  spoil(capture.visibility, [&](ChannelImage& image) {
-    for (Channel& channel : image.channels)
-      for (std::size_t i = 0; channel.name != "A" && i < channel.values.size(); ++i) {
-        const raytrace::SurfacePoint& point = drawn.result.raytraced.receiver.data[i];
-        channel.values[i] = point.primitive == no_id ? 1.0f : other.visibility(point.position, point.normal);
-      }
-  });
-}
 
 class JudgeOtherTests : public testing::TestWithParam<Kind> {};
 

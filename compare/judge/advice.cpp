@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "compare/bias_kinds.h"
 #include "compare/biased_test.h"
 #include "scene/parallel.h"
@@ -9,8 +11,6 @@
 namespace gnomon::compare {
 namespace {
 
-/// Multiples of a texel that are tried as a normal offset.
-constexpr std::array tried_offsets{1.0, 2.0};
 /// An offset is worth changing for when it leaves less than this share of what the constant leaves.
 constexpr double worth = 0.9;
 
@@ -25,6 +25,15 @@ Constant good_constant(const GapLists& gaps, double unit_world, double now) {
   const bool stays = now * unit_world >= range.from && now * unit_world < range.to;
   const double stored = stays ? now : short_number_in(range.from / unit_world, range.to / unit_world);
   return {stored, gaps.wrong_fraction_at(stored * unit_world)};
+}
+
+/// World units, ascending: none, half of the present one, one texel and two. The present one is not among them.
+std::vector<double> offsets_to_try(double now, double texel_world) {
+  std::vector<double> out{0.0, 0.5 * now, texel_world, 2.0 * texel_world};
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  std::erase(out, now);
+  return out;
 }
 
 GapLists gaps_with_offset(const FrameInput& in, const raster::Bias& bias, const LightComparison& light,
@@ -50,9 +59,7 @@ std::vector<Advice> give_advice(const FrameInput& in, const raster::Bias& bias, 
   const Constant best = good_constant(gaps, test.unit_world, now);
   out.push_back({"bias.constant_depth", now, best.stored, unit, wrong_now, best.wrong, best.wrong == 0.0});
   double least = best.wrong;
-  for (const double texels : tried_offsets) {
-    const double offset = texels * record.texel_world;
-    if (offset <= test.normal_offset_world) continue;
+  for (const double offset : offsets_to_try(test.normal_offset_world, record.texel_world)) {
     const GapLists moved = gaps_with_offset(in, bias, light, record, offset);
     const Constant there = good_constant(moved, test.unit_world, now);
     if (!(there.wrong < worth * least)) continue;

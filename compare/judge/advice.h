@@ -8,7 +8,7 @@
 namespace gnomon::compare {
 
 /// The best constant with the renderer's own normal offset, and the best normal offset of a few with the best
-/// constant beside it. Shares are what the hard test with that bias draws wrong.
+/// constant beside it: smaller ones than the present one, none among them, and larger ones. Shares are what the hard test with that bias draws wrong.
 std::vector<Advice> give_advice(const FrameInput& input, const raster::Bias& bias,
                                 const LightComparison& light, const raster::LightRecord& record);
 
