@@ -87,7 +87,6 @@ Cause step_of_label(Label label, const std::array<float, rung_count>& rungs) {
     case Label::missed_feature:
     case Label::false_feature:
     case Label::outside_map:
-    case Label::unexplained:
       return Cause::sampling;
     case Label::blur:
     case Label::custom_shader:

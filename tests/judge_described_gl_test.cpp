@@ -1,5 +1,8 @@
 // What is said of the test that a capture describes: which bias would have been better, and where the map or the test
 // is not that of the picture.
+#include <fmt/ranges.h>
+
+#include "compare/judge/judged.h"
 #include "compare/verdict.h"
 #include "scene/files/image_io.h"
 #include "support/capture_support.h"
@@ -53,6 +56,133 @@ TEST(JudgeAdvice, LowersANormalOffsetThatIsTooLarge) {
   const JudgeOutcome again = picture.judged();
   ASSERT_TRUE(again.result) << reason(again);
   EXPECT_NEAR(again.result->lights[0].error.wrong_fraction, advice[1].wrong_instead, 2e-4);
+}
+
+// ---- the test that was drawn ----
+
+std::string notes_of(const JudgeOutcome& judged) {
+  return judged.result ? fmt::format("{}", fmt::join(judged.result->judged->notes, "\n")) : reason(judged);
+}
+
+std::uint64_t count_of(const JudgeOutcome& judged, compare::Label label) {
+  return judged.result->lights[0].classes[static_cast<std::size_t>(label) - 1];
+}
+
+constexpr compare::CapturedBias enough_bias{.constant_depth = 0.001};
+
+void turn_rows(Capture& capture) {
+  compare::RowOrder& rows = *capture.map[0].rows;
+  rows = rows == compare::RowOrder::top_down ? compare::RowOrder::bottom_up : compare::RowOrder::top_down;
+}
+
+/// That the test described is not the one drawn is said, with this in it, and no reason is given that would be that of
+/// another test. Nor is advice, unless the constant alone is another.
+void expect_other_test(const JudgeOutcome& judged, const std::string& named, bool advice = false) {
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_NE(notes_of(judged).find("is not the one that was drawn"), std::string::npos) << notes_of(judged);
+  EXPECT_NE(notes_of(judged).find(named), std::string::npos) << notes_of(judged);
+  EXPECT_EQ(judged.result->judged->advice.empty(), !advice);
+  EXPECT_LT(double(count_of(judged, compare::Label::precision)),
+            1e-3 * double(judged.result->lights[0].pixels.compared));
+}
+
+TEST(JudgeDescribed, MapReadUpsideDownIsTheRenderersDoing) {
+  OtherPicture picture("upside", enough_bias);
+  turn_rows(picture.capture);
+  picture.draw_with(enough_bias);
+  turn_rows(picture.capture);
+  const JudgeOutcome judged = picture.judged();
+  expect_other_test(judged, "if the renderer reads its map upside down");
+  EXPECT_GT(count_of(judged, compare::Label::unexplained), judged.result->lights[0].error.wrong / 2);
+}
+
+TEST(JudgeDescribed, RowsOfTheOtherOrderAreTheCapturesDoing) {
+  OtherPicture picture("rows", enough_bias);
+  turn_rows(picture.capture);
+  expect_other_test(picture.judged(), "if `rows` of the map is the other one");
+}
+
+TEST(JudgeDescribed, BiasOfTheOtherSignIsNamed) {
+  OtherPicture picture("sign", {.constant_depth = 0.0001});  // the other sign leaves some of it lit
+  picture.capture.bias->constant_depth *= -1.0;
+  expect_other_test(picture.judged(), "if `constant_depth` has the other sign", true);
+  picture.draw_with(*picture.capture.bias);
+  picture.capture.bias->constant_depth *= -1.0;
+  expect_other_test(picture.judged(), "if the renderer applies its bias with the other sign");
+}
+
+TEST(JudgeDescribed, OtherMatricesAndConstantsAreNamed) {
+  OtherPicture picture("matrix", enough_bias);
+  const Capture right = picture.capture;
+  Mat4& matrix = *picture.capture.map[0].clip_from_world;
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 2; ++row) matrix[column][row] = 0.5 * (matrix[column][row] + matrix[column][3]);
+  expect_other_test(picture.judged(),
+                    "if `clip_from_world` holds the scale and shift to texture coordinates");
+  picture.capture = right;
+  picture.capture.map[0].convention = StoredDepth::minus_one_to_one;
+  expect_other_test(picture.judged(), "if the matrix makes depths of 0 to 1");
+  picture.capture = right;
+  picture.capture.bias->constant_depth = 0.2;
+  expect_other_test(picture.judged(), "if `constant_depth` is about", true);
+}
+
+// A normal offset that the capture does not say moves edges by some pixels, and nothing usual explains it.
+TEST(JudgeDescribed, WhatIsNotSaidIsUnexplained) {
+  OtherPicture picture("unsaid", {.constant_depth = 0.001, .normal_offset_world = 0.2});
+  picture.capture.bias->normal_offset_world = 0.0;
+  const JudgeOutcome judged = picture.judged();
+  expect_other_test(judged, "the wrong ones among them are unexplained");
+  EXPECT_GT(count_of(judged, compare::Label::unexplained), 20U);
+}
+
+TEST(JudgeDescribed, RightCapturesAreNotDoubted) {
+  const OtherPicture picture("described", enough_bias);
+  raster::MapOptions soft = hard_map(512, raster::Technique::pcf);
+  soft.filter.radius_texels = 2.5;
+  const Compared filtered = draw_scene(scene_under("sun"), small_picture, soft);
+  Capture capture = self_capture(filtered, folder_for("described-pcf"), {.map = true});
+  capture.filter = compare::CapturedFilter{compare::FilterName::pcf, 2.5};
+  for (const JudgeOutcome& judged : {picture.judged(), judge(capture, *filtered.scene)}) {
+    EXPECT_EQ(notes_of(judged), "");
+    ASSERT_TRUE(judged.result) << reason(judged);
+    EXPECT_FALSE(judged.result->judged->advice.empty());
+    EXPECT_EQ(count_of(judged, compare::Label::unexplained), 0U);
+  }
+}
+
+// ---- what the map holds ----
+
+const std::string other_content = "the map does not hold what the light meets first";
+
+TEST(JudgeDescribed, MapOfOtherGeometryIsNoMatterOfPrecision) {
+  OtherPicture picture("geometry", enough_bias);
+  Scene less = scene_under("sun");
+  less.instances.pop_back();
+  const Compared without = draw_scene(less, small_picture, hard_map(512));
+  picture.capture.map =
+      self_capture(without, folder_for("geometry-less"), {.map = true, .stored = StoredDepth::zero_to_one})
+          .map;
+  picture.draw_with(enough_bias);
+  const JudgeOutcome judged = picture.judged();
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_NE(notes_of(judged).find(other_content), std::string::npos) << notes_of(judged);
+  EXPECT_GT(count_of(judged, compare::Label::unexplained), judged.result->lights[0].error.wrong / 2);
+  // Steep sides of what is missing may be off by as much.
+  EXPECT_LT(count_of(judged, compare::Label::precision), judged.result->lights[0].error.wrong / 10);
+}
+
+TEST(JudgeDescribed, CoarseDepthsAreAMatterOfPrecision) {
+  OtherPicture picture("coarse", enough_bias);
+  spoil(picture.capture.map[0].depth, [](ChannelImage& image) {
+    for (float& v : image.channels[0].values) v = std::round(255.0f * v) / 255.0f;
+  });
+  picture.draw_with(enough_bias);
+  const JudgeOutcome judged = picture.judged();
+  EXPECT_EQ(notes_of(judged), "");
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_GT(count_of(judged, compare::Label::precision), 100U);
+  EXPECT_EQ(count_of(judged, compare::Label::unexplained), 0U);
 }
 
 }  // namespace

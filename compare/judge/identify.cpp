@@ -10,6 +10,7 @@
 #include "compare/labelling.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
+#include "compare/pixel_list.h"
 #include "scene/light.h"
 #include "scene/stages.h"
 
@@ -287,9 +288,16 @@ Expected<void> put_below(Comparison& judged, raster::RasterFrame model, const Id
 }  // namespace
 
 void mark_unexplained(const Image<float>& drawn_by_model, LightComparison& light) {
-  for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
-    const bool differs = std::abs(drawn_by_model.data[i] - light.rungs[6].data[i]) > 0.5f;
-    if (!is_wrong(light.labels.data[i]) || !differs) continue;
+  mark_unexplained(pixels_where(light.labels.data.size(),
+                                [&](std::size_t i) {
+                                  return is_wrong(light.labels.data[i]) &&
+                                         std::abs(drawn_by_model.data[i] - light.rungs[6].data[i]) > 0.5f;
+                                }),
+                   light);
+}
+
+void mark_unexplained(const std::vector<std::uint32_t>& pixels, LightComparison& light) {
+  for (const std::uint32_t i : pixels) {
     light.labels.data[i] = Label::unexplained;
     light.detachment_map.data[i] = std::numeric_limits<float>::quiet_NaN();
   }

@@ -22,5 +22,7 @@ Expected<void> identify(Comparison& judged, raster::Renderer& renderer, const Id
 /// The wrong pixels that a model draws otherwise than the picture get the label `unexplained`, and what is counted by
 /// labels is counted anew.
 void mark_unexplained(const Image<float>& drawn_by_model, LightComparison& light);
+/// The same of given pixels.
+void mark_unexplained(const std::vector<std::uint32_t>& pixels, LightComparison& light);
 
 }  // namespace gnomon::compare

@@ -7,6 +7,7 @@
 #include "compare/judge/advice.h"
 #include "compare/judge/align.h"
 #include "compare/judge/captured_frame.h"
+#include "compare/judge/described_test.h"
 #include "compare/light_comparison.h"
 #include "scene/exposure.h"
 #include "scene/parallel.h"
@@ -92,7 +93,11 @@ void finish(Judging& in, const raytrace::Tracer& tracer, Comparison& out) {
     judged->unit_world = record.captured->unit_world;
     const FrameInput frame{in.capture,      in.pictures,   in.world,     tracer,
                            in.scene.camera, out.raytraced, in.elsewhere, out.exposure};
-    judged->advice = give_advice(frame, out.raster.options.map.bias, light, record);
+    const DescribedTest test = check_described_test(frame, out.raster, light);
+    const auto other = test.is_drawn() ? std::nullopt : find_drawn_test(frame, out.raster, light);
+    for (std::string& note : described_test_notes(test, other)) judged->notes.push_back(std::move(note));
+    if (advice_holds(test, other))
+      judged->advice = give_advice(frame, out.raster.options.map.bias, light, record);
   }
   if (!judged->has_map) forget_texels(light);
   out.judged = std::move(judged);

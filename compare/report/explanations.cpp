@@ -63,11 +63,14 @@ constexpr std::array<LabelText, 5 + class_count> labels{{
      "that of the "
      "hard test with the map, and the rest is the shader's.",
      "Whatever the shader is meant to show."},
-    {"unexplained", "U", "another renderer drew this, and its depth map was not given",
+    {"unexplained", "U",
+     "another renderer drew this, and what the capture says of its map does not explain it",
      "A capture without its depth map shows where the shadow is wrong, not which step of the depth test "
-     "made it so.",
-     "A capture with the map, its matrix and its bias; or `gnomon judge --identify`, which looks for the "
-     "setting that comes nearest."},
+     "made it so. With the map, the test that the capture describes is not the one that was drawn here, or "
+     "the map does not hold what the scene holds here.",
+     "A capture with the map, its matrix and its bias as they were drawn with; or, without a map, `gnomon "
+     "judge "
+     "--identify`, which looks for the setting that comes nearest."},
 }};
 
 constexpr std::array<StepText, cause_count> steps{{
