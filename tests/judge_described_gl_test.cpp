@@ -185,5 +185,40 @@ TEST(JudgeDescribed, CoarseDepthsAreAMatterOfPrecision) {
   EXPECT_EQ(count_of(judged, compare::Label::unexplained), 0U);
 }
 
+// ---- a map that covers a part of the picture ----
+
+/// The middle of the map alone, each texel of it as several.
+void crop_map(Capture& capture, int times) {
+  compare::CapturedLayer& layer = capture.map[0];
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 2; ++row) (*layer.clip_from_world)[column][row] *= times;
+  spoil(layer.depth, [=](ChannelImage& image) {
+    std::vector<float>& texels = image.channels[0].values;
+    const std::vector<float> from = texels;
+    const int n = image.size.width, first = n / 2 - n / (2 * times);
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x)
+        texels[std::size_t(y * n + x)] = from[std::size_t((first + y / times) * n + first + x / times)];
+  });
+}
+
+// Most of the picture is then dark, and what is lit is right: the light does not shine the other way.
+TEST(JudgeDescribed, DarknessBesideTheMapIsNoReversedLight) {
+  OtherPicture picture("cropped", enough_bias);
+  crop_map(picture.capture, 3);
+  picture.capture.bias->constant_depth = 0.02;
+  draw_again(picture.capture, picture.drawn, 0.0f);
+  const JudgeOutcome judged = picture.judged();
+  ASSERT_TRUE(judged.result) << reason(judged);
+  const compare::LightComparison& light = judged.result->lights[0];
+  EXPECT_GT(double(count_of(judged, compare::Label::outside_map)), 0.4 * double(light.pixels.compared));
+  EXPECT_EQ(notes_of(judged), "");
+  picture.capture.map.clear();
+  picture.capture.bias.reset(), picture.capture.filter.reset();
+  const JudgeOutcome without = picture.judged();
+  ASSERT_TRUE(without.result) << reason(without);
+  EXPECT_EQ(without.result->lights[0].error.wrong, light.error.wrong);
+}
+
 }  // namespace
 }  // namespace gnomon::test

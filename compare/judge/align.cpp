@@ -78,7 +78,7 @@ std::optional<Camera> camera_of(const Camera& camera, const View& view) {
 class Aligner {
  public:
   Aligner(const AlignInput& in, Scene& scene, Sight& sight, CapturedPictures& pictures, Judged& judged)
-      : in_(in), scene_(scene), sight_(sight), pictures_(pictures), judged_(judged) {
+      : in_(in), scene_(scene), sight_(sight), pictures_(pictures), judged_(judged), map_(in.map) {
     const Light& light = scene.lights[in.light];
     suspects_ = usual_suspects({scene.camera, in.capture.size, !pictures.position.data.empty(),
                                 !pictures.depth.data.empty(), light.type != LightType::point});
@@ -96,7 +96,8 @@ class Aligner {
   }
 
  private:
-  EvidenceInput input() const { return {in_.tracer, in_.light, pictures_, sight_}; }
+  EvidenceInput input() const { return {in_.tracer, in_.light, pictures_, sight_, map_}; }
+  Evidence shadow_evidence();
   Expected<void> check_geometry();
   Expected<void> check_shadows();
   Expected<void> check_encoding();
@@ -104,7 +105,7 @@ class Aligner {
   void note_resolution();
   Expected<void> accept(const Mended& mended);
   Expected<void> mend(const Mended& mended, const Suspect& suspect);
-  Expected<void> mend_shadows(const Found& found, double before);
+  Expected<void> mend_shadows(const Found& found, double before, bool alone);
   Expected<void> doubt_shadows(double share, bool alone);
 
   const AlignInput& in_;
@@ -112,6 +113,7 @@ class Aligner {
   Sight& sight_;
   CapturedPictures& pictures_;
   Judged& judged_;
+  const LightView* map_;
   std::vector<Suspect> suspects_;
   Samples samples_;
   Aligned out_;
@@ -167,10 +169,12 @@ Expected<void> Aligner::check_geometry() {
                            : ""));
 }
 
-/// Where the light, turned, lights nothing, the picture is as dark as any picture without light.
-Expected<void> Aligner::mend_shadows(const Found& found, double before) {
+/// Where the light, turned, lights nothing, the picture is as dark as any picture without light. One that is lit in
+/// places is no such picture, and judged as it is.
+Expected<void> Aligner::mend_shadows(const Found& found, double before, bool alone) {
   const Mended mended{found.suspect.what, "shadows", before, found.share};
   if (found.lit >= few_samples) return mend(mended, found.suspect);
+  if (found.share < good_shadows) return doubt_shadows(before, alone);
   return capture_error(
       in_.capture, "",
       fmt::format(
@@ -198,15 +202,23 @@ Expected<void> Aligner::doubt_shadows(double share, bool alone) {
   return {};
 }
 
+/// Within the map, where there is one and enough is seen of it.
+Evidence Aligner::shadow_evidence() {
+  const Evidence within = gather(input(), samples_, {});
+  if (map_ == nullptr || (within.lit >= few_samples && within.shadowed >= few_samples)) return within;
+  map_ = nullptr;
+  return gather(input(), samples_, {});
+}
+
 Expected<void> Aligner::check_shadows() {
-  const Evidence now = gather(input(), samples_, {});
+  const Evidence now = shadow_evidence();
   if (!now.visibility || now.lit < few_samples || now.shadowed < few_samples) return {};
   if (*now.visibility >= good_shadows) return {};
   const bool alone = !now.geometry();
   const auto best = best_suspect(input(), samples_, suspects_, false, alone);
   if (best && best->share > no_shadows + least_gain &&
       mends(*now.visibility, best->share, alone ? most_left_alone : most_left))
-    return mend_shadows(*best, *now.visibility);
+    return mend_shadows(*best, *now.visibility, alone);
   return doubt_shadows(*now.visibility, alone);
 }
 

@@ -12,6 +12,8 @@ struct AlignInput {
   std::uint32_t light = 0;
   const raytrace::RayTracedFrame& frame;  ///< traced with the scene's camera
   bool fix = false;
+  /// What the capture's map covers; null: not known. Beside it a renderer draws what it likes.
+  const LightView* map = nullptr;
 };
 
 struct Aligned {

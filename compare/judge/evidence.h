@@ -3,6 +3,7 @@
 
 #include "compare/judge/judged.h"
 #include "compare/judge/suspects.h"
+#include "scene/light_view.h"
 
 namespace gnomon::compare {
 
@@ -11,6 +12,7 @@ struct EvidenceInput {
   std::uint32_t light = 0;
   const CapturedPictures& pictures;
   Sight sight;
+  const LightView* map = nullptr;  ///< shadows are asked of places within it alone; null: everywhere
 };
 
 /// Pixels of the capture, by index: a grid over it, and the borders of what was drawn (by the capture, and by

@@ -25,6 +25,7 @@ struct Judging {
   CapturedPictures pictures;
   Sight sight;
   Image<std::uint8_t> elsewhere;
+  const LightView* map = nullptr;  ///< null: the capture has none
 };
 
 Expected<void> trace_truth(Judging& in, const raytrace::Tracer& tracer, const EffectPlan& plan,
@@ -34,7 +35,7 @@ Expected<void> trace_truth(Judging& in, const raytrace::Tracer& tracer, const Ef
   in.sight.view = make_view(in.scene.camera, in.capture.size);
   out.raytraced = raytrace::trace_frame(tracer, plan, in.scene.camera, {&in.light, 1}, options);
   auto judged = std::make_shared<Judged>(*out.judged);
-  const auto aligned = align({in.capture, tracer, in.light, out.raytraced, in.options.fix}, in.scene,
+  const auto aligned = align({in.capture, tracer, in.light, out.raytraced, in.options.fix, in.map}, in.scene,
                              in.sight, in.pictures, *judged);
   out.judged = judged;
   if (!aligned) return fail(aligned.error());
@@ -148,7 +149,8 @@ Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const W
   report("ray tracing", 0.2);
   const raytrace::Tracer tracer(world, options.accel, options.precision);
   out.precision = options.precision, out.accel_build_ms = tracer.stats().build_ms;
-  Judging judging{capture, scene, world, options, *light, std::move(*pictures), {}, {}};
+  Judging judging{
+      capture, scene, world, options, *light, std::move(*pictures), {}, {}, map ? &map->map.view : nullptr};
   if (const auto traced = trace_truth(judging, tracer, out.plan, out); !traced) return fail(traced.error());
   out.exposure = scene.exposure ? *scene.exposure : auto_exposure(out.raytraced.color);
   report("comparing", 0.6);

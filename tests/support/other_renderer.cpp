@@ -14,14 +14,15 @@ using compare::StoredDepth;
 /// As engines write it: the place through the layer's matrix, one texel, two stored numbers compared.
 class OtherRenderer {
  public:
-  OtherRenderer(const Capture& capture, const Light& light) : capture_(capture), light_(light) {
+  OtherRenderer(const Capture& capture, const Light& light, float outside)
+      : capture_(capture), light_(light), outside_(outside) {
     for (const compare::CapturedLayer& layer : capture.map) texels_.push_back(*read_channels(layer.depth));
   }
 
   float visibility(const Vec3& surface, const Vec3& normal) const {
     const Vec3 place = surface + capture_.bias->normal_offset_world * normal;
     const auto layer = layer_of(place);
-    if (!layer) return 1.0f;
+    if (!layer) return outside_;
     const Vec4 clip = *capture_.map[*layer].clip_from_world * Vec4(place, 1.0);
     const int n = texels_[*layer].size.width;
     const auto texel = [&](double ndc) {
@@ -67,6 +68,7 @@ class OtherRenderer {
 
   const Capture& capture_;
   const Light& light_;
+  float outside_;
   std::vector<ChannelImage> texels_;
 };
 
@@ -79,8 +81,8 @@ Scene scene_under(const std::string& light) {
   return scene;
 }
 
-void draw_again(const Capture& capture, const Compared& drawn) {
-  const OtherRenderer other(capture, drawn.scene->lights[0]);
+void draw_again(const Capture& capture, const Compared& drawn, float outside) {
+  const OtherRenderer other(capture, drawn.scene->lights[0], outside);
   spoil(capture.visibility, [&](ChannelImage& image) {
     for (Channel& channel : image.channels)
       for (std::size_t i = 0; channel.name != "A" && i < channel.values.size(); ++i) {

@@ -9,7 +9,7 @@ namespace gnomon::test {
 Scene scene_under(const std::string& light);
 
 /// Puts in the place of the capture's visibility what the other renderer draws on the capture's map, with the
-/// capture's bias and without a filter.
-void draw_again(const compare::Capture& capture, const Compared& drawn);
+/// capture's bias and without a filter. `outside`: what it draws beside the map.
+void draw_again(const compare::Capture& capture, const Compared& drawn, float outside = 1.0f);
 
 }  // namespace gnomon::test
