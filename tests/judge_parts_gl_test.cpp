@@ -186,6 +186,47 @@ TEST(JudgeRatios, OfTwoPicturesAreTheirLightsVisibility) {
   }
 }
 
+// What was in shadow is then lit where the other picture is black, and no ratio says so.
+TEST(JudgeRatios, OfExchangedPicturesAreNamed) {
+  const Compared drawn = draw_scene(scene_under("sun"), small_picture, hard_map(256));
+  for (const float ambient : {0.0f, 0.05f}) {
+    Capture capture = self_capture(drawn, folder_for("ratio-exchanged"), {.ratio = true});
+    for (const std::string& file : {capture.shadowed, capture.unshadowed})
+      spoil(file, [=](ChannelImage& image) {
+        for (Channel& channel : image.channels)
+          for (float& v : channel.values) v += ambient;
+      });
+    const JudgeOutcome right = judge(capture, *drawn.scene);
+    ASSERT_TRUE(right.result) << reason(right);
+    std::swap(capture.shadowed, capture.unshadowed);
+    EXPECT_NE(reason(judge(capture, *drawn.scene)).find("are exchanged"), std::string::npos);
+    compare::JudgeOptions fixing;
+    fixing.fix = true;
+    const JudgeOutcome mended = judge(capture, *drawn.scene, fixing);
+    ASSERT_TRUE(mended.result) << reason(mended);
+    EXPECT_EQ(mended.result->judged->mended.size(), 1U);
+    EXPECT_EQ(mended.result->lights[0].error.wrong, right.result->lights[0].error.wrong);
+  }
+}
+
+// A path tracer's two pictures differ by noise where nothing is shadowed.
+TEST(JudgeRatios, OfNoiseAreNotExchanged) {
+  const Compared drawn = draw_scene(scene_under("sun"), small_picture, hard_map(256));
+  const Capture capture = self_capture(drawn, folder_for("ratio-noise"), {.ratio = true});
+  std::uint32_t random = 1;
+  for (const std::string& file : {capture.shadowed, capture.unshadowed})
+    spoil(file, [&](ChannelImage& image) {
+      for (Channel& channel : image.channels)
+        for (float& v : channel.values) {
+          random = random * 1664525U + 1013904223U;
+          v *= 0.8f + 0.4f * static_cast<float>(random >> 8) / 16777216.0f;
+        }
+    });
+  const JudgeOutcome judged = judge(capture, *drawn.scene);
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_TRUE(judged.result->judged->mended.empty());
+}
+
 // Eight bits show nothing of a spot's rim, which fades out, and of surfaces that the light grazes.
 TEST(JudgeRatios, OfEightBitsAreNotSuspectedWhereLittleLightArrives) {
   const Compared drawn = draw_scene(scene_under("lamp"), small_picture, hard_map(256));

@@ -16,9 +16,23 @@ constexpr double least_gain = 0.03, most_left = 0.5, most_left_alone = 1.0 / 3.0
 /// Of shadows: above it nobody is suspected; below it nothing can be told from chance.
 constexpr double good_shadows = 0.95, no_shadows = 0.6;
 constexpr std::size_t few_samples = 50;
+/// Pixels of a ratio above 1, and how many times those below it: what single pixels of a path tracer do not make.
+constexpr std::size_t least_brighter = 20;
+constexpr double times_darker = 10.0;
 
 std::string hundredths_of_percent(double share) {
   return fmt::format("{:.2f} %", 100.0 * share);
+}
+
+/// An error without --fix.
+Expected<void> accept_mended(const Capture& capture, bool fix, const Mended& mended, Judged& judged) {
+  if (!fix)
+    return capture_error(capture, "",
+                         fmt::format("{}: {} of the {} agree, with that undone {} (--fix undoes it)",
+                                     mended.what, hundredths_of_percent(mended.before), mended.evidence,
+                                     hundredths_of_percent(mended.after)));
+  judged.mended.push_back(mended);
+  return {};
 }
 
 bool mends(double before, double after, double left = most_left) {
@@ -119,15 +133,8 @@ class Aligner {
   Aligned out_;
 };
 
-/// An error without --fix.
 Expected<void> Aligner::accept(const Mended& mended) {
-  if (!in_.fix)
-    return capture_error(in_.capture, "",
-                         fmt::format("{}: {} of the {} agree, with that undone {} (--fix undoes it)",
-                                     mended.what, hundredths_of_percent(mended.before), mended.evidence,
-                                     hundredths_of_percent(mended.after)));
-  judged_.mended.push_back(mended);
-  return {};
+  return accept_mended(in_.capture, in_.fix, mended, judged_);
 }
 
 Expected<void> Aligner::mend(const Mended& mended, const Suspect& suspect) {
@@ -259,6 +266,29 @@ void Aligner::note_resolution() {
 }
 
 }  // namespace
+
+Expected<void> check_order(const Capture& capture, bool fix, CapturedPictures& pictures, Judged& judged) {
+  const auto brighter = static_cast<double>(pictures.brighter), darker = static_cast<double>(pictures.darker);
+  if (pictures.brighter < least_brighter) return {};
+  if (brighter < times_darker * darker) {
+    judged.notes.push_back(
+        fmt::format("\"shadowed\" is clearly brighter than \"unshadowed\" in {} pixels, which count as lit: "
+                    "other light, or "
+                    "another exposure, in one of the two",
+                    pictures.brighter));
+    return {};
+  }
+  const Mended mended{"\"shadowed\" and \"unshadowed\" are exchanged, or of different light",
+                      "pixels in which they differ", darker / (brighter + darker),
+                      brighter / (brighter + darker)};
+  if (const auto accepted = accept_mended(capture, fix, mended, judged); !accepted) return accepted;
+  Capture other = capture;
+  std::swap(other.shadowed, other.unshadowed);
+  auto read = read_pictures(other);
+  if (!read) return fail(read.error());
+  pictures = std::move(*read);
+  return {};
+}
 
 Expected<Aligned> align(const AlignInput& in, Scene& scene, Sight& sight, CapturedPictures& pictures,
                         Judged& judged) {

@@ -15,6 +15,8 @@ constexpr float range_slack = 1e-3f;
 /// The share of the brightest unshadowed value below which a ratio says nothing: a 16-bit PNG's step is
 /// 1.5e-5, so that the ratio is known within 2 % there.
 constexpr float least_light = 1e-3f;
+/// What noise and eight bits do not make: a quarter of the value and a hundredth of the brightest.
+constexpr float clear_share = 0.25f, clear_light = 0.01f;
 
 tl::unexpected<Error> picture_error(const std::string& file, const std::string& field, std::string reason) {
   Error error{ErrorKind::bad_input, std::move(reason)};
@@ -118,14 +120,31 @@ Expected<ColorImage> read_colour(const Capture& capture, const std::string& file
   return out;
 }
 
+float sum(const Vec3f& colour) {
+  return colour.x + colour.y + colour.z;
+}
+
+float brightest_of(const ColorImage& picture) {
+  float brightest = 0.0f;
+  for (const Vec3f& colour : picture.data) brightest = std::max(brightest, sum(colour));
+  return brightest;
+}
+
+void count_differences(const ColorImage& shadowed, const ColorImage& unshadowed, CapturedPictures& out) {
+  const float least = clear_light * std::max(brightest_of(shadowed), brightest_of(unshadowed));
+  const auto clearly = [&](float a, float b) { return a > (1.0f + clear_share) * b + least; };
+  for (std::size_t i = 0; i < shadowed.data.size(); ++i) {
+    const float with = sum(shadowed.data[i]), without = sum(unshadowed.data[i]);
+    out.brighter += clearly(with, without) ? 1 : 0, out.darker += clearly(without, with) ? 1 : 0;
+  }
+}
+
 Expected<void> read_ratio(const Capture& capture, CapturedPictures& out) {
   auto shadowed = read_colour(capture, capture.shadowed, "shadowed");
   if (!shadowed) return fail(shadowed.error());
   const auto unshadowed = read_colour(capture, capture.unshadowed, "unshadowed");
   if (!unshadowed) return fail(unshadowed.error());
-  const auto sum = [](const Vec3f& c) { return c.x + c.y + c.z; };
-  float brightest = 0.0f;
-  for (const Vec3f& c : unshadowed->data) brightest = std::max(brightest, sum(c));
+  const float brightest = brightest_of(*unshadowed);
   if (!(brightest > 0.0f)) return picture_error(capture.unshadowed, "unshadowed", "is black all over");
   for (std::size_t i = 0; i < out.visibility.data.size(); ++i) {
     const float light = sum(unshadowed->data[i]);
@@ -133,6 +152,7 @@ Expected<void> read_ratio(const Capture& capture, CapturedPictures& out) {
     if (out.reached.data[i] != 0)
       out.visibility.data[i] = std::clamp(sum(shadowed->data[i]) / light, 0.0f, 1.0f);
   }
+  count_differences(*shadowed, *unshadowed, out);
   out.ratio = true;
   out.color = std::move(*shadowed);
   return {};

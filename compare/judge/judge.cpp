@@ -134,6 +134,9 @@ Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const W
   TimedStage reading("read capture");
   auto pictures = read_pictures(capture);
   if (!pictures) return fail(pictures.error());
+  Judged judged = describe_capture(capture);
+  if (const auto order = check_order(capture, options.fix, *pictures, judged); !order)
+    return fail(order.error());
   std::optional<CapturedMap> map;
   if (!capture.map.empty()) {
     auto read = read_map(capture, scene.lights[*light], world);
@@ -143,7 +146,7 @@ Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const W
   reading.end();
   Comparison out;
   out.world = &world;
-  out.judged = std::make_shared<Judged>(describe_capture(capture));
+  out.judged = std::make_shared<Judged>(std::move(judged));
   out.threads = threads_in_use();
   out.plan = plan_effects(scene);
   report("ray tracing", 0.2);
