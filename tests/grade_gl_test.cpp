@@ -181,6 +181,37 @@ TEST_F(Grade, WhatIsDrawnHalfwayCountsByHalf) {
   EXPECT_NEAR(too_dark + too_light, wrong, 0.1) << "each is given to a tenth of a percent";
 }
 
+// With the bias of the shader itself the shadow starts where it does with the same bias as an option; and what such a
+// shader draws wrong may be of any label.
+TEST_F(Grade, ABiasOfTheStudentsOwnIsMeasured) {
+  const std::string options = R"("options": {"size": "240x135", "map-size": "512", "bias": "0.02"})";
+  const std::string runs = R"(, "runs": [{"scene": "thin-wall", )" + options + "}]}";
+  write_rubric(
+      R"("checks": [{"name": "start", "points": 1, "kind": "at_most", "measure": "detachment", "at_most": "0.5texel")" +
+      runs +
+      R"(, {"name": "label", "points": 1, "kind": "at_most", "measure": "peter_panning", "at_most": "0.1%")" +
+      runs + "]");
+  const auto edited = [](const std::string& name, const std::string& from, const std::string& to) {
+    return with_edits(solution(), {name, {{from, to}}, ""});
+  };
+  hand_in("bias", edited("own-bias", "> light.bias.x", "> 20.0 * light.bias.x"));
+  hand_in("beside", edited("beside", "ivec2(floor(place))", "ivec2(floor(place)) + ivec2(1, 0)"));
+  hand_in("right", solution());
+  const ProcessResult graded = gnomon({"grade", "rubric.json", "class", "--json", "-", "-q"});
+  ASSERT_EQ(graded.exit_code, 0) << graded.err;
+  const json students = json::parse(graded.out)["students"];
+  EXPECT_EQ(students[1]["points"], 0) << students[1].dump(2);
+  EXPECT_EQ(students[0]["checks"][0]["points"], 1) << "its edges are off, but it starts at the caster";
+  EXPECT_EQ(students[2]["points"], 2) << students[2].dump(2);
+  EXPECT_NE(students[1]["checks"][1]["reason"].get<std::string>().find("custom_shader"), std::string::npos);
+  const ProcessResult option =
+      gnomon(Words{"compare", "thin-wall", "--size", "240x135", "--map-size", "512", "--bias", "0.4",
+                   "--no-report", "-o", "out", "-q", "--json", "-"});
+  const double texels = json::parse(option.out)["lights"][0]["detachment"]["mean_texels"];
+  const std::string reason = students[1]["checks"][0]["reason"];
+  EXPECT_NEAR(std::stod(reason.substr(reason.find(": ") + 2)), texels, 0.05) << reason;
+}
+
 TEST_F(Grade, NothingThatAShaderDoesReachesTheGrader) {
   // So many pixels that the loop lasts: Mesa ends a loop after 65,536 rounds.
   write_rubric(R"("limits": {"seconds": 5}, "checks": [{"name": "draws", "points": 1, "kind": "draws",

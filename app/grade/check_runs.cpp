@@ -46,7 +46,7 @@ std::string CheckRuns::command(const Run& run) const {
 
 bool CheckRuns::needs_values(const Run& run) const {
   return std::any_of(rubric_->checks.begin(), rubric_->checks.end(), [&](const Check& check) {
-    return check.kind == CheckKind::equals &&
+    return (check.kind == CheckKind::equals || check.measure.name == "detachment") &&
            std::find(check.runs.begin(), check.runs.end(), run) != check.runs.end();
   });
 }
@@ -106,6 +106,13 @@ Expected<const Drawing*> CheckRuns::draw(const Run& run) {
   if (!drawing) return fail(drawing.error());
   made_.push_back({run, std::move(*drawing)});
   return &made_.back().drawing;
+}
+
+Expected<Drawing> CheckRuns::draw_own_with_bias(const Run& run, double bias) const {
+  Run with_bias = run;
+  std::erase_if(with_bias.options, [](const auto& option) { return option.first == "bias"; });
+  with_bias.options.emplace_back("bias", fmt::format("{}", bias));
+  return CheckRuns(*rubric_, "", folder_).make(with_bias, folder_ + "/own", false, false);
 }
 
 Expected<Drawing> CheckRuns::draw_timed(const Run& run) {

@@ -28,6 +28,8 @@ class CheckRuns {
   Expected<const Drawing*> draw(const Run& run);
   /// Once more, with the usual number of timed passes, to be called when nothing else runs.
   Expected<Drawing> draw_timed(const Run& run);
+  /// The program's own shader with this bias in place of the run's, world units.
+  Expected<Drawing> draw_own_with_bias(const Run& run, double bias) const;
   /// "gnomon compare …", which draws it again.
   std::string command(const Run& run) const;
 

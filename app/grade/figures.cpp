@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "compare/bias_curve.h"
 #include "scene/files/image_io.h"
 #include "scene/files/read_file.h"
 
@@ -86,6 +87,19 @@ Expected<TwoErrors> errors_with_ties(const std::string& values) {
   return TwoErrors{too_dark / compared, too_light / compared};
 }
 
+/// Adds one light's compared pixels, by what was drawn.
+Expected<void> add_gaps(const std::string& values, compare::GapLists& gaps) {
+  const auto image = read_channels(values);
+  if (!image) return fail(image.error());
+  const Channel *drawn = image->find("drawn.V"), *gap = image->find("gap.V"), *label = image->find("class.V");
+  if (drawn == nullptr || gap == nullptr || label == nullptr)
+    return fail(Error{ErrorKind::internal, "holds no gaps", values});
+  for (std::size_t i = 0; i < drawn->values.size(); ++i)
+    if (label->values[i] >= 0.0f && drawn->values[i] != 0.5f)
+      (drawn->values[i] > 0.5f ? gaps.lit : gaps.shadowed).push_back(gap->values[i]);
+  return {};
+}
+
 void raise_figure(RunResult& result, std::string_view name, double value) {
   for (std::size_t i = 0; i < measures().size(); ++i)
     if (measures()[i].name == name) result.figures[i] = std::max(result.figures[i], value);
@@ -136,9 +150,19 @@ Expected<void> add_ties(RunResult& result) {
   return {};
 }
 
-double figure_of(const RunResult& result, const Measure& measure) {
+Expected<double> nearest_bias(const RunResult& result) {
+  const std::filesystem::path folder = values_folder(result.folder);
+  compare::GapLists gaps;
+  for (const std::string& name : value_files(folder))
+    if (const auto added = add_gaps(folder / name, gaps); !added) return fail(added.error());
+  std::sort(gaps.lit.begin(), gaps.lit.end());
+  std::sort(gaps.shadowed.begin(), gaps.shadowed.end());
+  return compare::find_best_bias(gaps).constant_world;
+}
+
+double figure_of(const RunResult& result, std::string_view measure) {
   for (std::size_t i = 0; i < measures().size(); ++i)
-    if (measures()[i].name == measure.name) return result.figures[i];
+    if (measures()[i].name == measure) return result.figures[i];
   return 0.0;
 }
 

@@ -31,8 +31,12 @@ Expected<RunResult> read_run_result(const std::string& folder);
 /// them a tie belongs to stands in the values alone (values_folder).
 Expected<void> add_ties(RunResult& result);
 
-/// The figure of that name.
-double figure_of(const RunResult& result, const Measure& measure);
+/// The constant bias with which a test of the program's own would draw most nearly the same, world units
+/// (values_folder).
+Expected<double> nearest_bias(const RunResult& result);
+
+/// The figure of that name, as measures() lists them.
+double figure_of(const RunResult& result, std::string_view measure);
 
 /// Compared pixels whose drawn visibility differs between two runs of the same scene by more than one half of an
 /// 8-bit step, over all lights (values_folder).

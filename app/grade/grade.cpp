@@ -39,13 +39,35 @@ struct Judgement {
 };
 
 Judgement judge_figure(const Check& check, const RunResult& result) {
-  const double value = figure_of(result, check.measure);
-  const bool passed = value <= check.limit;
+  const double value = figure_of(result, check.measure.name);
+  const double unknown = check.measure.may_be_unknown ? figure_of(result, "custom_shader") : 0.0;
+  const bool passed = value + unknown <= check.limit;
   const bool is_label = check.measure.words == "pixels with this label";
   const std::string words =
       is_label ? fmt::format("{} pixels", check.measure.name) : std::string(check.measure.words);
-  return {passed, fmt::format("{}: {} ({} {} allowed)", words, measured(value, check.measure.unit),
+  const std::string more =
+      unknown > 0.0
+          ? fmt::format(", and {} of the shader's own making (custom_shader), which may be that as well",
+                        compare::percent(unknown))
+          : "";
+  return {passed, fmt::format("{}: {}{} ({} {} allowed)", words, measured(value, check.measure.unit), more,
                               passed ? "up to" : "no more than", measured(check.limit, check.measure.unit))};
+}
+
+/// What a shader of one's own lights wrongly is known by no label: its shadows start where the program's own do with the
+/// bias that draws most nearly the same.
+Expected<Judgement> judge_detachment(const Check& check, const RunResult& result, const Run& run,
+                                     const CheckRuns& runs) {
+  if (figure_of(result, "custom_shader") == 0.0) return judge_figure(check, result);
+  const auto bias = nearest_bias(result);
+  if (!bias) return fail(bias.error());
+  const auto nearest = runs.draw_own_with_bias(run, *bias);
+  if (!nearest) return fail(nearest.error());
+  if (!nearest->result)
+    return Judgement{false, fmt::format("{}: not known ({})", check.measure.words, nearest->failure)};
+  Judgement judgement = judge_figure(check, *nearest->result);
+  judgement.reason += fmt::format("; what is drawn is nearest to a bias of {:.3g}", *bias);
+  return judgement;
 }
 
 Expected<Judgement> judge_equality(const Check& check, const RunResult& result, const Run& run, Class& of) {
@@ -83,7 +105,8 @@ Expected<Judgement> judge(const Check& check, const Run& run, const RunResult& r
     case CheckKind::draws:
       return Judgement{true, "it compiles and draws"};
     case CheckKind::at_most:
-      return judge_figure(check, result);
+      return check.measure.name == "detachment" ? judge_detachment(check, result, run, runs)
+                                                : judge_figure(check, result);
     case CheckKind::equals:
       return judge_equality(check, result, run, of);
     case CheckKind::time:

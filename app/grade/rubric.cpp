@@ -189,7 +189,10 @@ const std::vector<Measure>& measures() {
     for (std::size_t i = 1; i <= compare::class_count; ++i) {
       const auto label = static_cast<compare::Label>(i);
       if (label == compare::Label::unexplained) continue;  // of pictures that the program did not draw
-      list.push_back({compare::label_name(label), share, "pixels with this label"});
+      const bool decided_before = label == compare::Label::light_size ||
+                                  label == compare::Label::outside_map ||
+                                  label == compare::Label::custom_shader;
+      list.push_back({compare::label_name(label), share, "pixels with this label", !decided_before});
     }
     return list;
   }();

@@ -30,6 +30,7 @@ struct Measure {
   std::string_view name;
   enum class Unit : std::uint8_t { share, texels } unit;  ///< of the pixels compared; texels of the map
   std::string_view words;                                 ///< "false shadows"
+  bool may_be_unknown = false;  ///< a label that pixels labelled custom_shader may hide
 };
 /// wrong, false_shadow, missed_shadow, mean_error, detachment, edge, and every label.
 const std::vector<Measure>& measures();
