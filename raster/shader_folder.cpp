@@ -106,6 +106,16 @@ std::vector<ReplacedShader> ShaderFolder::used() const {
   return list;
 }
 
+namespace {
+
+std::string why_no_visibility(float v, int x, int y) {
+  const std::string where = fmt::format("at pixel ({}, {}), counted from the top left", x, y);
+  if (v == unwritten_visibility) return fmt::format("writes nothing {}: is there a discard?", where);
+  return fmt::format("technique_visibility() gives no visibility {} (got {}, allowed 0 to 1)", where, v);
+}
+
+}  // namespace
+
 Expected<void> check_visibility(const Image<float>& visibility, const ShaderFolder& folder,
                                 const std::string& technique_file) {
   // A mean of up to 256 tests, each rounded once, leaves [0, 1] by at most 256 * 2^-24.
@@ -114,12 +124,9 @@ Expected<void> check_visibility(const Image<float>& visibility, const ShaderFold
     for (int x = 0; x < visibility.size.width; ++x) {
       const float v = visibility.at(x, y);
       if (v >= -rounding && v <= 1.0f + rounding) continue;
-      return fail(error_in(
-          folder.find(technique_file) != nullptr ? folder.path_of(technique_file) : folder.path(),
-          fmt::format(
-              "technique_visibility() gives no visibility at pixel ({}, {}), counted from the top left "
-              "(got {}, allowed 0 to 1)",
-              x, y, v)));
+      return fail(
+          error_in(folder.find(technique_file) != nullptr ? folder.path_of(technique_file) : folder.path(),
+                   why_no_visibility(v, x, y)));
     }
   }
   return {};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -55,8 +56,11 @@ class ShaderFolder {
   std::set<std::string> used_;
 };
 
+/// What stands in a pixel that no shader has written.
+inline constexpr float unwritten_visibility = std::numeric_limits<float>::lowest();
+
 /// Error (bad input) that names the first pixel where a shader of the folder wrote a visibility outside
-/// [0, 1] or one that is no number.
+/// [0, 1], one that is no number, or none.
 Expected<void> check_visibility(const Image<float>& visibility, const ShaderFolder& folder,
                                 const std::string& technique_file);
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "raster/impostors.h"
+#include "raster/shader_folder.h"
 #include "scene/parallel.h"
 #include "shaders/shared_constants.h"
 
@@ -187,6 +188,10 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
     gl->Enablei(GL_BLEND, shaders::radiance_output);  // lights add up
     gl->BlendEquation(GL_FUNC_ADD);
     gl->BlendFunc(GL_ONE, GL_ONE);
+  }
+  if (permutation.records) {
+    const Vec4f unwritten(unwritten_visibility);
+    gl->ClearNamedFramebufferfv(target.id(), GL_COLOR, shaders::visibility_output, &unwritten.x);
   }
   (*program)->use();
   gl->DrawArrays(GL_TRIANGLES, 0, 3);

@@ -212,6 +212,18 @@ TEST_F(Grade, ABiasOfTheStudentsOwnIsMeasured) {
   EXPECT_NEAR(std::stod(reason.substr(reason.find(": ") + 2)), texels, 0.05) << reason;
 }
 
+// A pixel that is thrown away keeps what was there before, which must not pass for an answer.
+TEST_F(Grade, AShaderThatDiscardsDrawsNothing) {
+  write_rubric(one_check);
+  hand_in("discards", with_edits(solution(), {"discards", {{test_line, "discard;\n  return 1.0"}}, ""}));
+  const ProcessResult graded = gnomon({"grade", "rubric.json", "class", "--json", "-", "-q"});
+  ASSERT_EQ(graded.exit_code, 0) << graded.err;
+  const json student = json::parse(graded.out)["students"][0];
+  EXPECT_EQ(student["points"], 0);
+  EXPECT_NE(student["checks"][0]["reason"].get<std::string>().find("writes nothing"), std::string::npos)
+      << student.dump(2);
+}
+
 TEST_F(Grade, NothingThatAShaderDoesReachesTheGrader) {
   // So many pixels that the loop lasts: Mesa ends a loop after 65,536 rounds.
   write_rubric(R"("limits": {"seconds": 5}, "checks": [{"name": "draws", "points": 1, "kind": "draws",
