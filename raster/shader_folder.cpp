@@ -37,6 +37,14 @@ Error error_in(const std::string& file, std::string reason) {
   return {ErrorKind::bad_input, std::move(reason), file};
 }
 
+/// Empty where it is text. Every other byte of UTF-16 is zero, for a shader's words are ASCII.
+std::string why_no_text(const std::string& bytes) {
+  const auto zeros = static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), '\0'));
+  if (zeros == 0) return {};
+  return 3 * zeros >= bytes.size() ? "is not UTF-8 text, but seems to be UTF-16 (save it as UTF-8)"
+                                   : "is not text (save it as UTF-8)";
+}
+
 }  // namespace
 
 bool is_shader(const fs::path& path) {
@@ -71,9 +79,8 @@ Expected<ShaderFolder> ShaderFolder::read(const std::string& folder) {
     ++shaders;
     const auto bytes = read_file(entry->path().string());
     if (!bytes) return fail(bytes.error());
-    if (bytes->find('\0') != std::string::npos)
-      return fail(
-          error_in(entry->path().string(), "is not UTF-8 text, but seems to be UTF-16 (save it as UTF-8)"));
+    if (const std::string why_not = why_no_text(*bytes); !why_not.empty())
+      return fail(error_in(entry->path().string(), why_not));
     const std::string text(without_byte_order_mark(*bytes));
     texts += text + "\n";
     const std::string name = entry->path().lexically_relative(folder).generic_string();

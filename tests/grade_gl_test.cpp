@@ -224,6 +224,23 @@ TEST_F(Grade, AShaderThatDiscardsDrawsNothing) {
       << student.dump(2);
 }
 
+TEST_F(Grade, WhatIsNoShaderIsSaidPlainly) {
+  write_rubric(one_check);
+  hand_in("binary", std::string("\0\1\2\xff", 4));
+  hand_in("empty", "");
+  hand_in("utf16", std::string("\xff\xfe/\0/\0", 6));
+  const ProcessResult graded = gnomon({"grade", "rubric.json", "class", "--json", "-", "-q"});
+  ASSERT_EQ(graded.exit_code, 0) << graded.err;
+  const json students = json::parse(graded.out)["students"];
+  const std::vector<std::string> reasons = {"technique/hard.glsl: is not text (save it as UTF-8)",
+                                            "technique/hard.glsl is empty",
+                                            "but seems to be UTF-16 (save it as UTF-8)"};
+  for (std::size_t i = 0; i < reasons.size(); ++i) {
+    const std::string reason = students[i]["checks"][0]["reason"];
+    EXPECT_NE(reason.find(reasons[i]), std::string::npos) << reason;
+  }
+}
+
 TEST_F(Grade, NothingThatAShaderDoesReachesTheGrader) {
   // So many pixels that the loop lasts: Mesa ends a loop after 65,536 rounds.
   write_rubric(R"("limits": {"seconds": 5}, "checks": [{"name": "draws", "points": 1, "kind": "draws",

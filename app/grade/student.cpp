@@ -48,6 +48,7 @@ std::string name_of(const fs::path& folder) {
 struct Contents {
   std::string link;          ///< the first one; "": none
   std::string misnamed;      ///< a file like hard.glsl.txt or HARD.GLSL; "": none
+  std::string empty;         ///< a shader without a byte; "": none
   std::uintmax_t bytes = 0;  ///< of its shaders
 };
 
@@ -60,10 +61,13 @@ Contents look_into(const fs::path& folder) {
     const std::string name = path.lexically_relative(folder).generic_string();
     std::error_code none;
     if (entry->is_symlink(none) && out.link.empty()) out.link = name;
-    if (raster::is_shader(path))
-      out.bytes += entry->file_size(none);
-    else if (lower_extension(path.string()) == ".glsl" || path.stem().extension() == ".glsl")
+    if (raster::is_shader(path)) {
+      const std::uintmax_t bytes = entry->file_size(none);
+      out.bytes += bytes;
+      if (bytes == 0) out.empty = name;
+    } else if (lower_extension(path.string()) == ".glsl" || path.stem().extension() == ".glsl") {
       out.misnamed = name;
+    }
   }
   return out;
 }
@@ -99,6 +103,8 @@ std::string refusal(const Student& student, const Rubric& rubric) {
     return fmt::format("holds {} MiB of shaders (allowed 4)", contents.bytes >> 20);
   if (contents.bytes == 0 && !contents.misnamed.empty())
     return fmt::format("nothing was handed in: {} does not end in .glsl", contents.misnamed);
+  if (contents.bytes == 0 && !contents.empty.empty())
+    return fmt::format("nothing was handed in: {} is empty", contents.empty);
   const std::string nothing = fmt::format("nothing was handed in: no {} that differs from the program's own",
                                           fmt::join(rubric.hand_in, " or "));
   if (contents.bytes == 0) return nothing;
