@@ -11,7 +11,7 @@
 namespace gnomon::compare {
 
 /// Least constant bias that leaves no acne on a plane: h_u |dz/du| + h_v |dz/dv| with h half a texel,
-/// measured along the light ray (DESIGN.md section 3). `normal` faces the light; infinity when the plane is
+/// measured along the light ray (docs/design.md, section 3). `normal` faces the light; infinity when the plane is
 /// edge-on over the texel.
 double texel_depth_slope(const LightView& view, const TexelCoordinate& at, const Vec3& position,
                          const Vec3& normal);

@@ -1,4 +1,4 @@
-// Rungs of DESIGN.md section 3. V0 and V1 come from the ray tracer, V6 from the rasterizer; V2 and V3 from
+// Rungs of docs/design.md, section 3. V0 and V1 come from the ray tracer, V6 from the rasterizer; V2 and V3 from
 // the exact ray through the texel's centre, V4 from the stored depth, V5 from the technique's bias in double
 // precision.
 #include "compare/ladder.h"

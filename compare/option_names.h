@@ -12,7 +12,7 @@ namespace gnomon::compare {
 
 std::string_view light_type_name(LightType type);                ///< "directional", "point", "spot"
 using raster::technique_name;                                    ///< "hard", "second-depth"
-std::string_view depth_format_name(raster::DepthFormat format);  ///< "d16", "d24", "d32f"
+std::string_view depth_format_name(raster::DepthFormat format);  ///< "d16", "d24", "d32f", "d32f-reversed"
 std::string_view cull_name(raster::Cull cull);                   ///< "none", "front", "back"
 /// "--slope-bias 1 --bias auto", "--receiver-plane --bias 0.002": what asks for a bias on the command line in place of what
 /// asked for that of `drawn`. The automatic constant is asked for, too, because a scene or a lesson may ask for another.

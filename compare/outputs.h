@@ -51,7 +51,7 @@ inline constexpr double edge_scale_texels = 4.0, detachment_scale_texels = 16.0;
 /// perspective map); cube faces in two rows, +x -x +y above -y +z -z.
 Rgb8Image depth_map_picture(const raster::ShadowMap& map);
 
-/// The EXR channels of DESIGN.md section 6; with several lights the light's name goes before ".exr".
+/// The EXR channels of docs/design.md, section 6; with several lights the light's name goes before ".exr".
 Expected<void> write_aov(const Comparison& comparison, const std::string& path);
 
 /// The whole report page: one file, offline, readable without scripts.

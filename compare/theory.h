@@ -2,7 +2,7 @@
 // how large texels are on the screen.
 //
 // Acne: on a receiver that is as flat as its tangent plane, h_u |dz/du| + h_v |dz/dv| (h half a texel) is the
-// least constant bias without acne (DESIGN.md section 3).
+// least constant bias without acne (docs/design.md, section 3).
 //
 // Aliasing: m is the side of a texel in pixels, as seen on the receiver: above 1 the map is too coarse there
 // (Lloyd, Tuft, Yoon, Manocha 2006, "Warping and Partitioning for Low Error Shadow Maps", section 3: m =

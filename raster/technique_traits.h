@@ -18,7 +18,7 @@ enum class MapContents : std::uint8_t {
   midpoint_depth,  ///< halfway between the two nearest surfaces
   moments,         ///< the depth's moments, filtered
   pixels,          ///< the list of the pixels that look it up
-  sheets           ///< the connected pieces of surface in its column (DESIGN.md section 3)
+  sheets           ///< the connected pieces of surface in its column (docs/design.md, section 3)
 };
 
 /// How the visibility of a pixel comes from the map.

@@ -1,5 +1,5 @@
-// Depth peeling (Everitt 2001): what lies at or before the first layer of a map is left out. `peel_step` is a step of the
-// map's number format, within which two depths are the same.
+// Depth peeling (Everitt 2001): what lies at or before the first layer of a map is left out. `peel_face_and_step` holds the
+// map's face and a step of its number format, within which two depths are the same.
 
 layout(binding = first_layer_unit) uniform sampler2DArray first_layer;
 layout(location = peel_uniform) uniform vec2 peel_face_and_step;

@@ -1,4 +1,4 @@
-// The whole chain against closed forms (DESIGN.md section 3): acne on a tilted plane, the shadow of a sphere
+// The whole chain against closed forms (docs/design.md, section 3): acne on a tilted plane, the shadow of a sphere
 // on a plane, the gap that a bias tears between a wall and its shadow; and the sums that must hold for any
 // scene.
 #include "support/compare_support.h"

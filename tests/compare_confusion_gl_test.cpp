@@ -132,7 +132,7 @@ Case precision() {
           {}};
 }
 
-// DESIGN.md section 3: the shadow starts bias * sin(theta) - width behind the wall.
+// docs/design.md, section 3: the shadow starts bias * sin(theta) - width behind the wall.
 Case peter_panning() {
   constexpr double theta = 0.9, width = 0.05, bias = 0.3;
   Scene scene = sunlit_scene({floor_mesh(4, 4), box_mesh({-width, -0.5, -3}, {0, 1.5, 3})},

@@ -1,5 +1,5 @@
 // Filters in the whole chain: where they stand on the ladder, light bleeding as a share of the filter step,
-// and soft shadows against the rays and the closed form (DESIGN.md section 3).
+// and soft shadows against the rays and the closed form (docs/design.md, section 3).
 #include <fstream>
 #include <nlohmann/json.hpp>
 

@@ -20,7 +20,7 @@ using raytrace::SurfacePoint;
 using raytrace::Tracer;
 using test::TestWorld;
 
-// DESIGN.md section 3: a disc light of radius R at height H, a disc of radius a at height h, the same axis.
+// docs/design.md, section 3: a disc light of radius R at height H, a disc of radius a at height h, the same axis.
 constexpr double R = 0.4, H = 4.0, a = 0.6, h = 1.6;
 constexpr double umbra = (a * H - R * h) / (H - h), penumbra = (a * H + R * h) / (H - h);
 

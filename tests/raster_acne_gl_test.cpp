@@ -1,4 +1,4 @@
-// Acne on a plane has closed forms (DESIGN.md, section 3; docs/lessons): with h half a texel, a = h |dz/du|
+// Acne on a plane has closed forms (docs/design.md, section 3; docs/lessons): with h half a texel, a = h |dz/du|
 // and b = h |dz/dv|, a nearest lookup with constant bias d shadows the fraction P(a U1 + b U2 > d), U uniform
 // on (-1, 1).
 #include <cmath>

@@ -8,7 +8,7 @@
 namespace gnomon::test {
 namespace {
 
-/// DESIGN.md's local shading (shaders/blinn_phong.glsl) with the visibility that was drawn. What mirrors or
+/// docs/design.md's local shading (shaders/blinn_phong.glsl) with the visibility that was drawn. What mirrors or
 /// transmits is drawn as matte grey of one half.
 Vec3 expected_radiance(const Drawn& drawn, std::size_t pixel, const Vec3& position, const Vec3& geometric,
                        const Vec3& shading, const Vec3& to_eye, const Material& material) {

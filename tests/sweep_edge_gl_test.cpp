@@ -1,4 +1,4 @@
-// A straight shadow edge against closed forms (DESIGN.md section 3): the area drawn wrong per unit of edge
+// A straight shadow edge against closed forms (docs/design.md, section 3): the area drawn wrong per unit of edge
 // length is 0.25 texel for an edge along the texels and 0.236 at 45 degrees, and the error falls with the
 // map's size as its inverse.
 //

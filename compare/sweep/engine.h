@@ -1,6 +1,6 @@
 // One comparison after another at different settings, each from what the last one left: scene, hierarchy,
 // camera rays and truth as long as camera and lights stay; the lower rungs and their columns as long as the
-// depth maps stay; and a frame of another constant bias without drawing it at all (DESIGN.md section 3).
+// depth maps stay; and a frame of another constant bias without drawing it at all (docs/design.md, section 3).
 #pragma once
 
 #include <memory>

@@ -27,7 +27,7 @@ Compared run_comparison(Scene scene, const compare::CompareOptions& options,
 compare::CompareOptions test_options(ImageSize size, int map_size, double bias_world = 0.0);
 
 /// P(a U1 + b U2 > bias) for independent U1, U2 uniform on (-1, 1): the acne fraction of a plane whose depth
-/// changes by a and b over half a texel (DESIGN.md section 3).
+/// changes by a and b over half a texel (docs/design.md, section 3).
 double acne_fraction(double a, double b, double bias);
 
 }  // namespace gnomon::test
