@@ -26,10 +26,10 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/shell.h"
-#include "app/suggest.h"
 #include "compare/option_names.h"
 #include "scene/files/write_file.h"
 #include "scene/load.h"
+#include "scene/nearest_name.h"
 #include "scene/one_line.h"
 #include "scene/stages.h"
 

@@ -10,8 +10,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "app/suggest.h"
 #include "app/values.h"
+#include "scene/nearest_name.h"
 
 namespace gnomon::app {
 

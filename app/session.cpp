@@ -11,12 +11,12 @@
 
 #include "app/lesson_scene.h"
 #include "app/machine.h"
-#include "app/suggest.h"
 #include "hybrid/visibility.h"
 #include "raster/shader_folder.h"
 #include "raster/technique_traits.h"
 #include "raytrace/choose_tracer.h"
 #include "scene/load.h"
+#include "scene/nearest_name.h"
 #include "scene/stages.h"
 #include "scene/tessellate.h"
 #include "scene/timing.h"

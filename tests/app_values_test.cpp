@@ -11,8 +11,8 @@
 
 #include "app/help.h"
 #include "app/memory_limit.h"
-#include "app/suggest.h"
 #include "scene/exposure.h"
+#include "scene/nearest_name.h"
 
 namespace gnomon::app {
 namespace {

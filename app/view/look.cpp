@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/suggest.h"
+#include "scene/nearest_name.h"
 
 namespace gnomon::app {
 

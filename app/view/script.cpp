@@ -9,12 +9,12 @@
 
 #include "app/lesson_scene.h"
 #include "app/setting.h"
-#include "app/suggest.h"
 #include "app/values.h"
 #include "app/view/map_option.h"
 #include "app/view/script_keys.h"
 #include "scene/files/read_file.h"
 #include "scene/load.h"
+#include "scene/nearest_name.h"
 
 namespace gnomon::app {
 

@@ -9,28 +9,13 @@
 #include "scene/files/hex_digit.h"
 #include "scene/files/image_io.h"
 #include "scene/files/read_file.h"
+#include "scene/nearest_name.h"
 
 namespace gnomon {
 namespace {
 
 std::string join(const std::string& path, std::string_view key) {
   return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
-}
-
-// Damerau's distance restricted to adjacent swaps (optimal string alignment).
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + change});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-    }
-  }
-  return d[a.size()][b.size()];
 }
 
 std::optional<Vec3f> hex_color(std::string_view text) {
@@ -69,22 +54,8 @@ std::string NumberRange::text() const {
   return std::string(noun);
 }
 
-std::string_view did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates) {
-  constexpr std::size_t longest_word = 64;  // no key is longer, and the distance is quadratic
-  if (word.size() > longest_word) return {};
-  std::string_view best;
-  std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
-  for (const std::string_view candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance >= best_distance) continue;
-    best = candidate;
-    best_distance = distance;
-  }
-  return best;
-}
-
 std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates) {
-  const std::string_view best = did_you_mean(word, candidates);
+  const std::string_view best = nearest_name(word, candidates);
   return best.empty() ? "" : fmt::format("; did you mean \"{}\"?", best);
 }
 

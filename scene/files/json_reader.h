@@ -38,8 +38,6 @@ inline constexpr NumberRange unit_interval{0.0, 1.0};
 inline constexpr NumberRange coordinate_range{-max_coordinate, max_coordinate};
 inline constexpr NumberRange radiance_range{0.0, max_radiance};
 
-/// The closest of `candidates`, if it is close enough to be a slip of the keyboard; empty otherwise.
-std::string_view did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates);
 /// "; did you mean "x"?" or "".
 std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates);
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace gnomon::app {
+namespace gnomon {
 
 /// The known name nearest to `name`, if it is near enough to be a slip: at most a third of its letters
 /// changed (an insertion, deletion, substitution or swap of neighbours counts as one). Empty when none is.
@@ -14,4 +14,4 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 /// "; did you mean NAME?", or nothing.
 std::string did_you_mean(std::string_view name, std::span<const std::string_view> known);
 
-}  // namespace gnomon::app
+}  // namespace gnomon

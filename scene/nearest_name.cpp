@@ -1,10 +1,10 @@
 // Optimal string alignment distance: Damerau 1964, in the three-row form of Hyyrö 2003, section 2.
-#include "app/suggest.h"
+#include "scene/nearest_name.h"
 
 #include <algorithm>
 #include <vector>
 
-namespace gnomon::app {
+namespace gnomon {
 
 namespace {
 
@@ -28,7 +28,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known) {
+  constexpr std::size_t longest_name = 64;  // none is longer, and the distance is quadratic
   std::string_view best;
+  if (name.size() > longest_name) return best;
   std::size_t best_distance = std::max<std::size_t>(name.size() / 3, 1) + 1;
   for (const std::string_view candidate : known) {
     const std::size_t distance = edit_distance(name, candidate);
@@ -42,4 +44,4 @@ std::string did_you_mean(std::string_view name, std::span<const std::string_view
   return nearest.empty() ? std::string() : "; did you mean " + std::string(nearest) + "?";
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon
