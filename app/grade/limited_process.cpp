@@ -13,6 +13,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "scene/files/descriptor.h"
+
 namespace gnomon::app::grade {
 
 namespace {
@@ -21,22 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t longest_message = std::size_t{64} * 1024;  // bytes
 constexpr rlim_t largest_file = rlim_t{512} * 1024 * 1024;       // bytes
-
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return number_; }
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
-
- private:
-  int number_;
-};
 
 void set_limit(decltype(RLIMIT_CPU) which, rlim_t value) {
   const rlimit limit{value, value};
@@ -107,13 +93,13 @@ Expected<Outcome> run_limited(const std::vector<std::string>& words, const Limit
   const pid_t child = fork();
   if (child < 0)
     return fail(ErrorKind::graphics, std::string("cannot start a process: ") + std::strerror(errno));
-  if (child == 0) become(arguments.data(), in.get(), limits);
+  if (child == 0) become(arguments.data(), in.number(), limits);
   in.close();
   const auto end = Clock::now() +
                    std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
   Outcome outcome;
   int status = 0;
-  const bool ended = read_until(out.get(), end, outcome.err) && wait_until(child, end, status);
+  const bool ended = read_until(out.number(), end, outcome.err) && wait_until(child, end, status);
   if (!ended) {
     kill(child, SIGKILL);
     waitpid(child, &status, 0);

@@ -1,5 +1,6 @@
 #include "scene/files/write_file.h"
 
+#include "scene/files/descriptor.h"
 #include "scene/files/part_file.h"
 
 #include <fcntl.h>
@@ -46,24 +47,6 @@ class FileSizeSignalBlock {
 
  private:
   sigset_t set_{}, old_{};
-};
-
-// A file descriptor that closes itself; close() is for those who want to know whether that worked.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-  bool close() {
-    if (number_ < 0) return true;
-    const int number = std::exchange(number_, -1);
-    return ::close(number) == 0;
-  }
-
- private:
-  int number_;
 };
 
 // 0, or the errno of the failing write.
