@@ -1,6 +1,7 @@
 #include "scene/files/base64.h"
 
-#include <algorithm>
+#include <nettle/base64.h>
+
 #include <array>
 #include <cstdint>
 
@@ -19,23 +20,12 @@ constexpr std::array<std::uint8_t, 256> make_values() {
 }  // namespace
 
 std::string base64(std::string_view bytes) {
-  const auto byte = [&bytes](std::size_t i) { return std::uint32_t{static_cast<unsigned char>(bytes[i])}; };
-  std::string out((bytes.size() + 2) / 3 * 4, '=');
-  const auto put = [&](std::size_t o, std::uint32_t group) {
-    out[o] = digits[group >> 18];
-    out[o + 1] = digits[group >> 12 & 63u];
-    out[o + 2] = digits[group >> 6 & 63u];
-    out[o + 3] = digits[group & 63u];
-  };
-  std::size_t i = 0, o = 0;
-  for (; i + 3 <= bytes.size(); i += 3, o += 4) put(o, byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2));
-  const std::size_t rest = bytes.size() - i;
-  if (rest == 0) return out;
-  put(o, byte(i) << 16 | (rest == 2 ? byte(i + 1) << 8 : 0u));
-  std::fill(out.end() - static_cast<std::ptrdiff_t>(3 - rest), out.end(), '=');
+  std::string out(BASE64_ENCODE_RAW_LENGTH(bytes.size()), '\0');
+  base64_encode_raw(out.data(), bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
   return out;
 }
 
+// Nettle's own skips blanks and refuses text without padding, of which there is some.
 std::optional<std::vector<char>> from_base64(std::string_view text) {
   static constexpr std::array<std::uint8_t, 256> values = make_values();
   for (int i = 0; i < 2 && text.ends_with('='); ++i) text.remove_suffix(1);
