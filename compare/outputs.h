@@ -92,10 +92,9 @@ struct OutputFolder {
 /// the time spent here until their text is fixed.
 Expected<WrittenOutputs> write_outputs(const Comparison& comparison, OutputFolder output);
 
-/// The same in two steps, so that the time budget in result.json, which is written last, holds what the other
-/// files took and whatever is done in between. Where no StageLog runs it has none. The folder is in its place
-/// after the second.
-Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, OutputFolder output);
+/// The last of two steps (the first: write_all_but_result() in compare/bands/bands.h), so that the time budget in
+/// result.json holds what the other files took and whatever is done in between. Where no StageLog runs it has none. The
+/// folder is in its place afterwards.
 Expected<void> write_result(WrittenOutputs& written);
 
 }  // namespace gnomon::compare

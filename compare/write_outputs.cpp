@@ -98,10 +98,6 @@ Texts make_texts(const Comparison& comparison, const BandedParts* parts, const P
 
 }  // namespace
 
-Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, OutputFolder output) {
-  return write_all_but_result(comparison, nullptr, std::move(output));
-}
-
 Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, BandedParts* parts,
                                               OutputFolder output) {
   const Stopwatch watch;
@@ -159,7 +155,7 @@ Expected<void> write_result(WrittenOutputs& written) {
 }
 
 Expected<WrittenOutputs> write_outputs(const Comparison& comparison, OutputFolder output) {
-  auto written = write_all_but_result(comparison, std::move(output));
+  auto written = write_all_but_result(comparison, nullptr, std::move(output));
   if (!written) return written;
   if (const auto result = write_result(*written); !result) return fail(result.error());
   return written;

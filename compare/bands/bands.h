@@ -46,7 +46,7 @@ int image_step(const ImageSize& picture);
 /// The comparison with the images of those pixels alone; of a picture that has all.
 Comparison reduced_images(const Comparison& comparison, int step);
 
-/// write_all_but_result() of a comparison that was made in bands; `parts` null: of any other.
+/// write_outputs() but for result.json (write_result()), of a comparison that was made in bands; `parts` null: of any other.
 Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, BandedParts* parts,
                                               OutputFolder output);
 

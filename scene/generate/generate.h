@@ -52,10 +52,6 @@ struct GeneratedModel {
 std::span<const GeneratorInfo> generators();
 std::span<const GeneratorInfo> texture_generators();
 
-/// nullptr when there is none of that kind.
-const GeneratorInfo* find_generator(std::string_view kind);
-const GeneratorInfo* find_texture_generator(std::string_view kind);
-
 /// Checks names, types and ranges. Errors are bad_input with the parameter's name in Error::field, for the
 /// caller to put its own path before; Error::field is "kind" for an unknown kind.
 Expected<GeneratedModel> generate(std::string_view kind, const Parameters& parameters);

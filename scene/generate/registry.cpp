@@ -110,12 +110,6 @@ Expected<Values> complete(const GeneratorInfo& generator, const Parameters& give
   return Values(std::move(all));
 }
 
-const GeneratorInfo* find_info(std::span<const GeneratorInfo> infos, std::string_view kind) {
-  const auto it =
-      std::find_if(infos.begin(), infos.end(), [&](const GeneratorInfo& i) { return i.kind == kind; });
-  return it == infos.end() ? nullptr : &*it;
-}
-
 template <class Result, class Generator>
 Expected<Result> run(const Table<Generator>& table, std::string_view kind, const Parameters& parameters) {
   const Generator* generator = table.find(kind);
@@ -134,14 +128,6 @@ std::span<const GeneratorInfo> generators() {
 }
 std::span<const GeneratorInfo> texture_generators() {
   return texture_table().infos;
-}
-
-const GeneratorInfo* find_generator(std::string_view kind) {
-  return find_info(generators(), kind);
-}
-
-const GeneratorInfo* find_texture_generator(std::string_view kind) {
-  return find_info(texture_generators(), kind);
 }
 
 Expected<GeneratedModel> generate(std::string_view kind, const Parameters& parameters) {
