@@ -54,9 +54,13 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // kilobytes on Linux
 }
 
+double available_memory() {
+  return bytes_of("/proc/meminfo", "MemAvailable");
+}
+
 Expected<void> check_memory(ImageSize size, double bytes_per_pixel, double other_bytes) {
   const double picture = bytes_per_pixel * static_cast<double>(size.pixels());
-  const double available = bytes_of("/proc/meminfo", "MemAvailable");
+  const double available = available_memory();
   if (picture > available)
     return fail(
         ErrorKind::graphics,

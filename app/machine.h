@@ -15,6 +15,9 @@ compare::MachineInfo machine_info();
 /// The most memory that the process has held at a time so far.
 std::uint64_t peak_memory_bytes();
 
+/// What the machine could still give, bytes; infinite where it does not say.
+double available_memory();
+
 /// What an OpenGL context of Mesa takes of the address space besides pictures and maps, bytes (measured: below it
 /// Mesa and LLVM run out of memory, and not always with an error).
 inline constexpr double graphics_bytes = 480e6;

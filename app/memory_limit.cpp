@@ -53,15 +53,6 @@ double free_in_group() {
   return std::isfinite(limit) ? std::max(0.0, limit - number_in(folder + "current")) : infinity;
 }
 
-/// What the machine could still give; infinite where it does not say.
-double free_in_machine() {
-  std::ifstream file("/proc/meminfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("MemAvailable:"))
-      return 1024.0 * std::strtod(line.c_str() + line.find(':') + 1, nullptr);
-  return infinity;
-}
-
 /// The largest whole number of band_step rows, at least that.
 int in_steps(double rows) {
   const double steps = std::floor(rows / band_step);
@@ -104,7 +95,7 @@ void add_memory(CLI::App& command, MemoryLimit& bytes) {
 }
 
 double default_memory() {
-  return std::min(0.5 * std::min(free_in_machine(), free_in_group()), most_by_default);
+  return std::min(0.5 * std::min(available_memory(), free_in_group()), most_by_default);
 }
 
 double PictureBytes::of(const ImageSize& size, int rows) const {
