@@ -1,5 +1,7 @@
 #include "scene/stages.h"
 
+#include "scene/clock.h"
+
 #include <fmt/core.h>
 #include <time.h>
 #include <unistd.h>
@@ -13,12 +15,6 @@ namespace gnomon {
 namespace {
 
 thread_local StageLog* log_of_thread = nullptr;
-
-double clock_ms(clockid_t clock) {
-  timespec time{};
-  ::clock_gettime(clock, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 /// How long ago the process was started, by the kernel's own record: field 22 of /proc/self/stat (proc(5)),
 /// in clock ticks since boot, so that the true start lies up to one tick later. Less than 0: not known.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "compare/number_text.h"
+#include "scene/clock.h"
 
 namespace gnomon::app {
 
@@ -17,12 +18,6 @@ namespace {
 constexpr std::array<std::string_view, frame_part_count> names{"events", "snapshot", "pictures", "font",
                                                                "panels", "drawing",  "swap"};
 constexpr double least_shown_ms = 1.0;
-
-double clock_ms(clockid_t clock) {
-  timespec time{};
-  clock_gettime(clock, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 }  // namespace
 

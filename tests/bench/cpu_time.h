@@ -1,15 +1,9 @@
 // CPU time, which other programs on the machine disturb little.
 #pragma once
 
-#include <ctime>
+#include "scene/clock.h"
 
 namespace gnomon::bench {
-
-inline double clock_ms(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
 
 /// Milliseconds of the process's own, all threads.
 inline double cpu_ms() {
