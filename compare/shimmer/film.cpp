@@ -23,10 +23,6 @@ Rgb8Image painted(const ImageSize& size, const Colour& colour) {
   return out;
 }
 
-std::uint8_t byte_of(float share) {
-  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(share, 0.0f, 1.0f)));
-}
-
 std::uint8_t bits_of(const RungFrame& frame, std::size_t i) {
   unsigned bits = 0;
   for (std::size_t k = 1; k <= 5; ++k) bits |= frame.rungs[k].data[i] > 0.5f ? 1u << (k - 1) : 0u;
@@ -79,7 +75,7 @@ Expected<void> FilmKeeper::add_light(const ShimmerLight& light, FilmOfLight& fil
     return flips.data[i] > 0 ? flip_colour(flips.data[i] - std::size_t{1}) : drawn.data[i];
   }));
   const auto seen = encode_png(painted(base_.size, [&](std::size_t i) {
-    return glm::u8vec3(byte_of(frame.rungs[6].data[i]), byte_of(frame.rungs[0].data[i]), bits_of(frame, i));
+    return glm::u8vec3(to_8_bit(frame.rungs[6].data[i]), to_8_bit(frame.rungs[0].data[i]), bits_of(frame, i));
   }));
   const auto marked =
       encode_png(painted(base_.size, [&](std::size_t i) { return glm::u8vec3(flips.data[i], 0, 0); }));

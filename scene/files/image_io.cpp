@@ -44,10 +44,6 @@ Expected<DecodedImage> decode(const std::string& name, std::string_view bytes) {
   return (*library)->decode(name, bytes, format, max_image_side);
 }
 
-std::uint8_t to_8_bit(float value) {
-  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
-}
-
 Expected<std::vector<std::uint8_t>> floats_as_bytes(const std::string& name, const std::vector<float>& floats,
                                                     std::size_t channels, bool srgb) {
   const auto bad = std::count_if(floats.begin(), floats.end(), [](float v) { return !std::isfinite(v); });

@@ -23,6 +23,10 @@ inline constexpr int max_image_side =
 Expected<Texture> read_texture(const std::string& path, bool srgb);
 Expected<Texture> read_texture_bytes(const std::string& name, std::string_view bytes, bool srgb);
 
+/// [0, 1], clipped, to 0 ... 255, rounded to nearest.
+inline std::uint8_t to_8_bit(float value) {
+  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
+}
 /// Linear [0, 1] to sRGB (IEC 61966-2-1).
 float srgb_from_linear(float linear);
 float linear_from_srgb(float srgb);

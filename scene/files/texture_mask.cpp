@@ -9,10 +9,6 @@
 namespace gnomon {
 namespace {
 
-std::uint8_t byte_of(float value) {
-  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
-}
-
 Texture resized(Texture from, const ImageSize& size) {
   if (from.size == size) return from;
   std::vector<glm::u8vec4> texels;
@@ -20,8 +16,8 @@ Texture resized(Texture from, const ImageSize& size) {
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       const Vec4f value = sample_texture(from, {(x + 0.5) / size.width, (y + 0.5) / size.height});
-      const auto stored = [&](float v) { return byte_of(from.srgb ? srgb_from_linear(v) : v); };
-      texels.emplace_back(stored(value.r), stored(value.g), stored(value.b), byte_of(value.a));
+      const auto stored = [&](float v) { return to_8_bit(from.srgb ? srgb_from_linear(v) : v); };
+      texels.emplace_back(stored(value.r), stored(value.g), stored(value.b), to_8_bit(value.a));
     }
   from.size = size;
   from.texels = std::move(texels);
