@@ -13,6 +13,7 @@
 #include "app/values.h"
 #include "compare/option_names.h"
 #include "raster/technique_traits.h"
+#include "scene/light_type_name.h"
 
 namespace gnomon::app {
 
@@ -169,7 +170,7 @@ std::string_view texel_text(raster::TexelShape shape) {
 std::string lights_text(raster::LightTypeSet lights) {
   std::vector<std::string_view> names;
   for (const LightType type : {LightType::directional, LightType::point, LightType::spot})
-    if (lights.has(type)) names.push_back(compare::light_type_name(type));
+    if (lights.has(type)) names.push_back(light_type_name(type));
   return names.size() == 3 ? "all" : fmt::format("{}", fmt::join(names, ", "));
 }
 

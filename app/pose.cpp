@@ -9,9 +9,6 @@ namespace {
 double radians(double degrees) {
   return degrees * pi / 180.0;
 }
-double degrees(double radians) {
-  return radians * 180.0 / pi;
-}
 
 /// What angles are measured from: azimuth 0 is `zero`, azimuth 90 is `quarter`, elevation 90 is `pole`.
 struct PoleFrame {

@@ -48,6 +48,9 @@ Light resized_light(const Light& light, double size);
 /// to the line to the centre.
 Light posed_light(const Light& given, const Vec3& centre, const LightPose& pose);
 
+inline double degrees(double radians) {
+  return radians * 180.0 / pi;
+}
 /// The same angle in (-180, 180].
 double wrapped_degrees(double degrees);
 

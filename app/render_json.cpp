@@ -1,47 +1,21 @@
 #include "app/render_json.h"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
 #include "app/console.h"
 #include "app/machine.h"
 #include "app/output_path.h"
 #include "compare/option_names.h"
+#include "compare/result_parts.h"
 #include "raster/technique_traits.h"
 #include "scene/files/write_file.h"
+#include "scene/light_type_name.h"
 #include "scene/parallel.h"
 
 namespace gnomon::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json times(const Times& t) {
-  Json runs = Json::array();
-  for (const double run : t.runs) runs.push_back(number(run));
-  return {{"median", t.runs.empty() ? Json(nullptr) : number(t.median())}, {"runs", std::move(runs)}};
-}
-
-Json one_time(double ms) {
-  return times(Times{{ms}});
-}
-
-Json scene_json(const LoadedScene& loaded) {
-  const Scene& scene = *loaded.scene;
-  return {{"path", scene.path},
-          {"sha256", scene.sha256},
-          {"triangles", loaded.world->triangle_count()},
-          {"shapes", loaded.world->shapes.size()},
-          {"name", scene.name},
-          {"notes", scene.notes}};
-}
+using compare::dumped, compare::Json, compare::number, compare::one_time_json, compare::times_json;
 
 Json common(const RenderRecord& record, const char* renderer, const ImageSize& size) {
-  const compare::MachineInfo machine = machine_info();
   return {{"schema", "gnomon/render/1"},
           {"command", record.command_line},
           {"version", compare::program_version()},
@@ -50,18 +24,13 @@ Json common(const RenderRecord& record, const char* renderer, const ImageSize& s
           {"threads", threads_in_use()},
           {"size", {{"width", size.width}, {"height", size.height}}},
           {"exposure", number(record.exposure)},
-          {"scene", scene_json(record.loaded)},
-          {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}}}};
+          {"scene", compare::scene_json(*record.loaded.world)},
+          {"machine", compare::machine_json(machine_info())}};
 }
 
 Json light_json(const Scene& scene, std::uint32_t index) {
   const Light& light = scene.lights[index];
-  return {{"name", light.name}, {"type", compare::light_type_name(light.type)}};
-}
-
-// Names come from files and may hold bytes that are not UTF-8: those are replaced, not refused.
-std::string dumped(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return {{"name", light.name}, {"type", light_type_name(light.type)}};
 }
 
 }  // namespace
@@ -69,25 +38,23 @@ std::string dumped(const Json& json) {
 std::string render_json(const RenderRecord& record, const raster::RasterFrame& frame) {
   Json json = common(record, "shadow mapping", frame.options.size);
   const raster::MapOptions& map = frame.options.map;
-  json["gl"] = {{"backend", frame.context.backend},
-                {"version", frame.context.version},
-                {"renderer", frame.context.renderer}};
-  json["shaders"] = Json::array();
-  for (const raster::ReplacedShader& shader : frame.replaced_shaders)
-    json["shaders"].push_back({{"replaced", shader.name}, {"sha256", shader.sha256}});
+  json["gl"] = compare::context_json(frame.context);
+  json["shaders"] = compare::shaders_json(frame.replaced_shaders);
   json["map"] = {{"technique", raster::technique_name(map.technique)},
                  {"size", map.size},
                  {"depth_format", compare::depth_format_name(map.depth_format)},
                  {"cull", compare::cull_name(map.cull)}};
   json["costs"] = {{"map_texels", frame.map_texels}, {"map_bytes", frame.map_bytes}};
-  json["times_ms"] = {{"load", one_time(record.loaded.load_ms)}, {"total", one_time(record.total_ms)}};
+  json["times_ms"] = {{"load", one_time_json(record.loaded.load_ms)},
+                      {"total", one_time_json(record.total_ms)}};
   json["lights"] = Json::array();
   for (const raster::LightRecord& light : frame.lights) {
     Json entry = light_json(*record.loaded.scene, light.light);
-    entry["times_ms"] = {{"map_pass", times(light.map_pass)}, {"shade_pass", times(light.shade_pass)}};
+    entry["times_ms"] = {{"map_pass", times_json(light.map_pass)},
+                         {"shade_pass", times_json(light.shade_pass)}};
     json["lights"].push_back(std::move(entry));
   }
-  return dumped(json);
+  return dumped(json, 2);
 }
 
 std::string render_json(const RenderRecord& record, const raytrace::Tracer& tracer, std::string_view accel,
@@ -108,22 +75,22 @@ std::string render_json(const RenderRecord& record, const raytrace::Tracer& trac
                    {"glossy_rays", rays.glossy},
                    {"indirect_rays", rays.indirect},
                    {"antialiasing_rays", rays.antialiasing}};
-  json["times_ms"] = {{"load", one_time(record.loaded.load_ms)},
-                      {"accel_build", one_time(stats.build_ms)},
-                      {"primary_rays", times(frame.primary_rays)},
-                      {"picture", one_time(frame.picture_ms)},
-                      {"total", one_time(record.total_ms)}};
+  json["times_ms"] = {{"load", one_time_json(record.loaded.load_ms)},
+                      {"accel_build", one_time_json(stats.build_ms)},
+                      {"primary_rays", times_json(frame.primary_rays)},
+                      {"picture", one_time_json(frame.picture_ms)},
+                      {"total", one_time_json(record.total_ms)}};
   json["lights"] = Json::array();
   for (const raytrace::LightTruth& light : frame.lights) {
     Json entry = light_json(*record.loaded.scene, light.light);
     entry["shadow_rays"] = light.rays;
     entry["soft_shadow_rays"] = light.soft_rays;
     entry["soft_shadow_rays_asked"] = light.soft_rays_asked;
-    entry["times_ms"] = {{"shadow_rays", times(light.shadow_rays)},
-                         {"soft_shadow_rays", times(light.soft_shadow_rays)}};
+    entry["times_ms"] = {{"shadow_rays", times_json(light.shadow_rays)},
+                         {"soft_shadow_rays", times_json(light.soft_shadow_rays)}};
     json["lights"].push_back(std::move(entry));
   }
-  return dumped(json);
+  return dumped(json, 2);
 }
 
 Expected<void> hand_out_json(const std::string& path, const std::string& json) {

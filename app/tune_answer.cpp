@@ -13,6 +13,7 @@
 #include "compare/engine_units_json.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
+#include "compare/result_parts.h"
 #include "compare/text_layout.h"
 #include "scene/one_line.h"
 
@@ -71,13 +72,6 @@ Json just_over_json(const compare::TuneResult& result) {
                     {"map_size", over.attempt.size},
                     {"error", over.attempt.error},
                     {"time_ms", over.attempt.time_ms}});
-  return list;
-}
-
-Json shaders_json(const std::vector<raster::ReplacedShader>& shaders) {
-  Json list = Json::array();
-  for (const raster::ReplacedShader& shader : shaders)
-    list.push_back({{"replaced", shader.name}, {"sha256", shader.sha256}});
   return list;
 }
 
@@ -183,7 +177,7 @@ std::string TuneAnswer::json() const {
   json["just_over_limit"] = just_over_json(result);
   json["renders"] = result.renders;
   json["engine_units"] = units_json(result);
-  json["shaders"] = shaders_json(question.shaders);
+  json["shaders"] = compare::shaders_json(question.shaders);
   json["others"] = Json::array();
   for (const std::size_t i : others()) json["others"].push_back(family_json(*this, i));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -11,6 +11,7 @@
 #include "app/values.h"
 #include "compare/option_names.h"
 #include "raster/technique_traits.h"
+#include "scene/light_type_name.h"
 
 namespace gnomon::app {
 
@@ -138,7 +139,7 @@ std::string technique_limits() {
     for (const raster::TechniqueTraits& traits : raster::all_technique_traits())
       if (traits.lights == raster::LightTypeSet(type)) names.push_back(traits.name);
     text += fmt::format("{}{}{} for {} lights", text.empty() ? "" : ", ", fmt::join(names, " and "), verb,
-                        compare::light_type_name(type));
+                        light_type_name(type));
   }
   return text;
 }

@@ -12,18 +12,6 @@ extern "C" [[gnu::weak]] const char* gnomon_commit();
 
 namespace gnomon::compare {
 
-std::string_view light_type_name(LightType type) {
-  switch (type) {
-    case LightType::directional:
-      return "directional";
-    case LightType::point:
-      return "point";
-    case LightType::spot:
-      return "spot";
-  }
-  return "unknown";
-}
-
 std::string_view depth_format_name(raster::DepthFormat format) {
   switch (format) {
     case raster::DepthFormat::d16:

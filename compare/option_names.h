@@ -10,7 +10,6 @@
 
 namespace gnomon::compare {
 
-std::string_view light_type_name(LightType type);                ///< "directional", "point", "spot"
 using raster::technique_name;                                    ///< "hard", "second-depth"
 std::string_view depth_format_name(raster::DepthFormat format);  ///< "d16", "d24", "d32f", "d32f-reversed"
 std::string_view cull_name(raster::Cull cull);                   ///< "none", "front", "back"

@@ -26,24 +26,6 @@ Json effects_json(const EffectPlan& plan) {
   return json;
 }
 
-Json scene_json(const World& world) {
-  const Scene& scene = *world.scene;
-  return {{"path", scene.path},
-          {"sha256", scene.sha256},
-          {"triangles", world.triangle_count()},
-          {"shapes", world.shapes.size()},
-          {"name", scene.name},
-          {"notes", scene.notes}};
-}
-
-// The user's files that were compiled in place of the program's own.
-Json shaders_json(const std::vector<raster::ReplacedShader>& replaced) {
-  Json json = Json::array();
-  for (const raster::ReplacedShader& shader : replaced)
-    json.push_back({{"replaced", shader.name}, {"sha256", shader.sha256}});
-  return json;
-}
-
 Json costs_json(const Comparison& c) {
   const raytrace::RayCounts& rays = c.raytraced.rays;
   return {{"map_texels", c.raster.map_texels},    {"map_bytes", c.raster.map_bytes},
@@ -135,11 +117,8 @@ Json result_object(const Comparison& c, double report_ms, double total_ms) {
           {"size", {{"width", c.raster.options.size.width}, {"height", c.raster.options.size.height}}},
           {"exposure", number(c.exposure)},
           {"scene", scene_json(*c.world)},
-          {"machine", {{"cpu", c.machine.cpu}, {"cores", c.machine.cores}, {"os", c.machine.os}}},
-          {"gl",
-           {{"backend", c.raster.context.backend},
-            {"version", c.raster.context.version},
-            {"renderer", c.raster.context.renderer}}},
+          {"machine", machine_json(c.machine)},
+          {"gl", context_json(c.raster.context)},
           {"shaders", shaders_json(c.raster.replaced_shaders)},
           {"effects", effects_json(c.plan)},
           {"timing", timing_json(c)},
@@ -186,12 +165,32 @@ Json axes_object(const AxisValues& axes) {
   return json;
 }
 
-// Names come from files and may hold bytes that are not UTF-8: those are replaced, not refused.
-std::string dumped(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}  // namespace
+
+Json scene_json(const World& world) {
+  const Scene& scene = *world.scene;
+  return {{"path", scene.path},
+          {"sha256", scene.sha256},
+          {"triangles", world.triangle_count()},
+          {"shapes", world.shapes.size()},
+          {"name", scene.name},
+          {"notes", scene.notes}};
 }
 
-}  // namespace
+Json machine_json(const MachineInfo& machine) {
+  return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}};
+}
+
+Json context_json(const raster::ContextInfo& context) {
+  return {{"backend", context.backend}, {"version", context.version}, {"renderer", context.renderer}};
+}
+
+Json shaders_json(const std::vector<raster::ReplacedShader>& replaced) {
+  Json json = Json::array();
+  for (const raster::ReplacedShader& shader : replaced)
+    json.push_back({{"replaced", shader.name}, {"sha256", shader.sha256}});
+  return json;
+}
 
 std::string result_json(const Comparison& c, double report_ms, double total_ms) {
   return result_json(c, report_ms, total_ms, nullptr);

@@ -10,13 +10,10 @@
 #include "compare/result_parts.h"
 #include "compare/shadow_cost.h"
 #include "scene/light.h"
+#include "scene/light_type_name.h"
 
 namespace gnomon::compare {
 namespace {
-
-Json vector3(const Vec3& v) {
-  return Json::array({number(v.x), number(v.y), number(v.z)});
-}
 
 Json extent_json(std::monostate) {
   return nullptr;

@@ -27,6 +27,21 @@ inline Json one_time_json(double ms) {
   return times_json(Times{{ms}});
 }
 
+inline Json vector3(const Vec3& v) {
+  return Json::array({number(v.x), number(v.y), number(v.z)});
+}
+
+Json scene_json(const World& world);
+Json machine_json(const MachineInfo& machine);
+Json context_json(const raster::ContextInfo& context);
+/// The user's files that were compiled in place of the program's own.
+Json shaders_json(const std::vector<raster::ReplacedShader>& replaced);
+
+/// Names come from files and may hold bytes that are not UTF-8: those are replaced, not refused.
+inline std::string dumped(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 /// One entry of "lights".
 Json light_block(const Comparison& comparison, const LightComparison& light);
 /// The budget of each cascade by itself, finest first; null of other techniques.

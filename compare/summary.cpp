@@ -14,6 +14,7 @@
 #include "compare/shadow_cost.h"
 #include "compare/text_layout.h"
 #include "compare/verdict.h"
+#include "scene/light_type_name.h"
 #include "scene/one_line.h"
 
 namespace gnomon::compare {

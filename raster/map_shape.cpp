@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "raster/technique_traits.h"
+#include "scene/light_type_name.h"
 #include "scene/size_steps.h"
 
 namespace gnomon::raster {
@@ -28,13 +29,12 @@ std::string techniques_for(LightType type) {
 
 Expected<void> check_light(Technique technique, const Light& light) {
   if (has_map_for(technique, light.type)) return {};
-  constexpr std::string_view types[] = {"directional", "point", "spot"};
   const bool cube = technique == Technique::cube;
   Error error{ErrorKind::usage,
               fmt::format("is made for {} lights alone (got the {} light {}, allowed there {}); --light "
                           "chooses one",
-                          cube ? "point" : "directional", types[static_cast<std::size_t>(light.type)],
-                          light.name, techniques_for(light.type))};
+                          cube ? "point" : "directional", light_type_name(light.type), light.name,
+                          techniques_for(light.type))};
   error.field = fmt::format("technique {}", technique_name(technique));
   return fail(std::move(error));
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/machine.h"
+#include "compare/result_parts.h"
 
 namespace gnomon::app {
 
@@ -18,27 +19,24 @@ std::optional<bool> BenchRow::met() const {
 }
 
 std::string bench_json(std::span<const BenchRow> rows, std::string_view target) {
-  const auto or_null = [](const auto& v) { return v ? nlohmann::ordered_json(*v) : nullptr; };
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  const auto or_null = [](const auto& v) { return v ? compare::Json(*v) : nullptr; };
+  compare::Json list = compare::Json::array();
   for (const BenchRow& row : rows) {
     list.push_back({{"name", row.name},
                     {"scene", row.scene},
                     {"threads", row.threads},
                     {"value", row.value},
                     {"unit", row.unit},
-                    {"peer", row.peer ? nlohmann::ordered_json(row.peer->name) : nullptr},
-                    {"peer_value", row.peer ? nlohmann::ordered_json(row.peer->value) : nullptr},
+                    {"peer", row.peer ? compare::Json(row.peer->name) : nullptr},
+                    {"peer_value", row.peer ? compare::Json(row.peer->value) : nullptr},
                     {"ratio", or_null(row.ratio())},
                     {"goal", or_null(row.goal)},
                     {"met", or_null(row.met())}});
   }
-  const compare::MachineInfo machine = machine_info();
-  nlohmann::ordered_json document{
-      {"schema", "gnomon/bench/1"},
-      {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}}}};
+  compare::Json document{{"schema", "gnomon/bench/1"}, {"machine", compare::machine_json(machine_info())}};
   if (!target.empty()) document["target"] = target;
   document["rows"] = std::move(list);
-  return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return compare::dumped(document, 2);
 }
 
 }  // namespace gnomon::app

@@ -9,11 +9,14 @@
 #include "app/interrupt.h"
 #include "app/lesson_scene.h"
 #include "app/output_path.h"
+#include "app/pose.h"
 #include "app/view/status.h"
+#include "compare/result_parts.h"
 #include "scene/builtin.h"
 #include "scene/files/formats.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
+#include "scene/light_type_name.h"
 
 namespace gnomon::app {
 
@@ -22,18 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-Json vector_json(const Vec3& v) {
-  return Json::array({v.x, v.y, v.z});
-}
-
-double degrees(double radians) {
-  return radians * 180.0 / pi;
-}
-
 Json camera_json(const Camera& camera) {
-  Json json{{"eye", vector_json(camera.eye)},
-            {"target", vector_json(camera.target)},
-            {"up", vector_json(camera.up)},
+  Json json{{"eye", compare::vector3(camera.eye)},
+            {"target", compare::vector3(camera.target)},
+            {"up", compare::vector3(camera.up)},
             {"vertical_fov_degrees", degrees(camera.vertical_fov)}};
   if (camera.samples_per_pixel != 1) json["samples_per_pixel"] = camera.samples_per_pixel;
   return json;
@@ -45,23 +40,22 @@ void add_extent(Json& json, const Light& light) {
   if (const auto* sphere = std::get_if<SphereLight>(&light.extent))
     json["sphere"] = {{"radius", sphere->radius}};
   if (const auto* disc = std::get_if<DiscLight>(&light.extent))
-    json["disc"] = {{"radius", disc->radius}, {"normal", vector_json(disc->normal)}};
+    json["disc"] = {{"radius", disc->radius}, {"normal", compare::vector3(disc->normal)}};
   if (const auto* rectangle = std::get_if<RectangleLight>(&light.extent)) {
     const Vec3 &width = rectangle->half_width, &height = rectangle->half_height;
     json["rectangle"] = {{"width", 2.0 * glm::length(width)},
                          {"height", 2.0 * glm::length(height)},
-                         {"normal", vector_json(glm::cross(width, height))},
-                         {"up", vector_json(height)}};
+                         {"normal", compare::vector3(glm::cross(width, height))},
+                         {"up", compare::vector3(height)}};
   }
   if (light.shadow_samples != Light{}.shadow_samples) json["shadow_samples"] = light.shadow_samples;
 }
 
 Json light_json(const Light& light) {
-  constexpr const char* types[] = {"directional", "point", "spot"};
-  Json json{{"name", light.name}, {"type", types[static_cast<std::size_t>(light.type)]}};
-  if (light.type != LightType::directional) json["position"] = vector_json(light.position);
-  if (light.type != LightType::point) json["direction"] = vector_json(light.direction);
-  json["intensity"] = vector_json(Vec3(light.intensity));
+  Json json{{"name", light.name}, {"type", light_type_name(light.type)}};
+  if (light.type != LightType::directional) json["position"] = compare::vector3(light.position);
+  if (light.type != LightType::point) json["direction"] = compare::vector3(light.direction);
+  json["intensity"] = compare::vector3(Vec3(light.intensity));
   if (light.type == LightType::spot) {
     json["inner_angle_degrees"] = degrees(light.inner_angle);
     json["outer_angle_degrees"] = degrees(light.outer_angle);

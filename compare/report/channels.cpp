@@ -8,10 +8,6 @@
 
 namespace gnomon::compare {
 
-nlohmann::ordered_json vector3(const Vec3& v) {
-  return nlohmann::ordered_json::array({v.x, v.y, v.z});
-}
-
 std::uint32_t integer(double value) {
   constexpr double limit = 2147483647.0;
   return std::isnan(value)

@@ -12,8 +12,6 @@
 
 namespace gnomon::compare {
 
-/// [x, y, z], in full.
-nlohmann::ordered_json vector3(const Vec3& v);
 /// Numbers as the page rounds them.
 std::uint32_t integer(double value);
 /// integer(std::round(value))

@@ -15,6 +15,7 @@
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/report/sections.h"
+#include "compare/result_parts.h"
 #include "compare/sweep/engine.h"
 #include "scene/parallel.h"
 

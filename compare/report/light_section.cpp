@@ -14,6 +14,7 @@
 #include "compare/report/lessons.h"
 #include "compare/report/light_block.h"
 #include "compare/verdict.h"
+#include "scene/light_type_name.h"
 
 namespace gnomon::compare {
 namespace {

@@ -18,6 +18,7 @@
 #include "compare/report/html.h"
 #include "compare/report/light_channels.h"
 #include "compare/report/section_mesh.h"
+#include "compare/result_parts.h"
 #include "compare/shown_materials.h"
 #include "scene/parallel.h"
 

@@ -5,6 +5,7 @@
 #include "compare/option_names.h"
 #include "compare/result_parts.h"
 #include "compare/shimmer/outputs.h"
+#include "scene/light_type_name.h"
 
 namespace gnomon::compare {
 namespace {

@@ -9,6 +9,7 @@
 #include "scene/files/defaults.h"
 #include "scene/files/gltf_extras.h"
 #include "scene/files/gltf_writer_parts.h"
+#include "scene/light_type_name.h"
 
 namespace gnomon {
 namespace gltf_writer {
@@ -64,15 +65,13 @@ void write_camera(File& file, const Scene& scene) {
   file.add("nodes", {{"name", "camera"}, {"camera", camera}, {"matrix", array(matrix)}});
 }
 
-constexpr const char* type_names[] = {"directional", "point", "spot"};
-
 // Lux for a directional light, candela for the others: as our intensities are.
 Json light_json(const Light& light) {
   const Vec3f& rgb = light.intensity;
   const double strength = shortest(std::max({rgb.x, rgb.y, rgb.z}));
   const Vec3 color =
       strength > 0.0 ? Vec3(shortest(rgb.x), shortest(rgb.y), shortest(rgb.z)) / strength : Vec3(1.0);
-  Json out{{"type", type_names[static_cast<std::size_t>(light.type)]},
+  Json out{{"type", light_type_name(light.type)},
            {"name", light.name},
            {"color", array(color)},
            {"intensity", strength}};

@@ -6,11 +6,10 @@
 
 #include "scene/files/json_parts.h"
 #include "scene/files/read_file.h"
+#include "scene/light_type_name.h"
 
 namespace gnomon {
 namespace {
-
-const std::vector<std::string_view> type_names{"directional", "point", "spot"};
 
 // The sun stands at this elevation and azimuth; its light travels the other way.
 Vec3 sun_direction(double elevation, double azimuth) {
@@ -139,7 +138,7 @@ Light read_light(const JsonNode& node) {
   light.intensity = object.color("intensity", Vec3f(1.0f));
   const auto type = object.require("type");
   if (!type) return light;
-  light.type = static_cast<LightType>(type->as_choice(type_names));
+  light.type = static_cast<LightType>(type->as_choice({light_type_names.begin(), light_type_names.end()}));
   if (node.errors().first) return light;
   switch (light.type) {
     case LightType::directional:
@@ -170,8 +169,7 @@ void read_lights(SceneReader& reader, const JsonNode& list) {
     Light light = read_light(node);
     if (reader.failed()) return;
     if (light.name.empty())
-      light.name = fmt::format("{}-{}", type_names[static_cast<std::size_t>(light.type)],
-                               reader.scene.lights.size() + 1);
+      light.name = fmt::format("{}-{}", light_type_name(light.type), reader.scene.lights.size() + 1);
     if (!names.insert(light.name).second)
       return node.error(fmt::format("another light has this name (got \"{}\")", printable(light.name)));
     reader.scene.lights.push_back(std::move(light));
