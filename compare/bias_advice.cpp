@@ -93,42 +93,58 @@ std::string beside_text(const BiasKind& kind, const LightComparison& light) {
   return seen ? " with a constant of " + texels_text(texels) : std::string();
 }
 
-// "A constant bias of 0.5 texel"; one of 0 is none.
+// "A constant bias of 0.5 texel".
 std::string constant_subject(const raster::Bias& bias, const LightComparison& light) {
-  if (bias.constant == 0.0) return "No constant bias";
+  if (bias.unit == raster::BiasUnit::automatic) return "A constant bias of no more than rounding needs";
+  if (bias.constant == 0.0) return "A constant bias of 0";
   if (bias.unit == raster::BiasUnit::texel) return "A constant bias of " + texels_text(bias.constant);
   const double texel = light.bias_texel_world;
   return (is_tiny(texel, bias.constant) ? "A constant bias of less than " : "A constant bias of ") +
          bound_text(texel, bias.constant);
 }
 
-std::string subject(const BiasKind& kind, const LightComparison& light) {
+// Whether the drawing has the slope bias already, and nothing else beside its constant: then only that one changes.
+bool changes_constant_alone(const BiasKind& kind, const raster::Bias& drawn) {
+  return kind.of_slope && kind.bias.slope == drawn.slope &&
+         bias_parts(drawn).size() == (drawn.slope == 0.0 ? 0u : 1u);
+}
+
+std::string subject(const BiasKind& kind, const LightComparison& light, const raster::Bias& drawn) {
+  if (changes_constant_alone(kind, drawn)) return constant_subject(kind.bias, light) + beside_drawn(drawn);
   if (kind.of_slope && kind.bias.slope == 0.0) return "No slope bias";
   if (kind.of_slope) return fmt::format("A slope bias of {}", plain_number(kind.bias.slope));
   if (kind.bias.receiver_plane) return "The receiver's plane" + beside_text(kind, light);
   if (kind.bias.adaptive) return "The adaptive bias" + beside_text(kind, light);
   if (kind.bias.normal_offset_texels != 0.0) return "A normal offset of one texel" + beside_text(kind, light);
-  if (kind.bias.unit == raster::BiasUnit::automatic) return "A constant bias of no more than rounding needs";
   return constant_subject(kind.bias, light);
 }
 
 // Settings that do as well, where there is room beside the one named.
-std::string alike_text(const BiasKind& kind) {
-  if (!kind.of_slope || !(kind.to > 1.2 * kind.bias.slope)) return {};
+std::string alike_text(const BiasKind& kind, const raster::Bias& drawn) {
+  if (!kind.of_slope || changes_constant_alone(kind, drawn) || !(kind.to > 1.2 * kind.bias.slope)) return {};
   return std::isfinite(kind.to)
              ? fmt::format("; anything from {} to {} does about as well", plain_number(kind.from),
                            plain_number(kind.to))
              : fmt::format("; anything from {} on does about as well", plain_number(kind.from));
 }
 
-// Of all kinds the best.
-std::string best_kind(const LightComparison& light, const raster::MapOptions& drawn) {
+// Of all kinds the best; of a slope bias that is not needed and not set, the constant beside it.
+const BiasKind& advised_kind(const LightComparison& light, const raster::Bias& drawn) {
   const BiasKind& best = light.bias_kinds.front();
+  if (!best.of_slope || best.from > 0.0 || drawn.slope != 0.0) return best;
+  for (const BiasKind& kind : light.bias_kinds)
+    if (kind.name == "constant bias" && kind.wrong_fraction <= best.wrong_fraction) return kind;
+  return best;
+}
+
+std::string best_kind(const LightComparison& light, const raster::MapOptions& drawn) {
+  const BiasKind& best = advised_kind(light, drawn.bias);
   if (light.error.wrong == 0) return {};
   if (!is_clearly_better(best.wrong_fraction, light.error.wrong_fraction, light))
     return "No other kind of bias does clearly better.";
-  return fmt::format("{} ({}{}) would leave {}.", subject(best, light), bias_arguments(best.bias, drawn),
-                     alike_text(best), rest_text(best.wrong_fraction, light));
+  return fmt::format("{} ({}{}) would leave {}.", subject(best, light, drawn.bias),
+                     bias_arguments(best.bias, drawn), alike_text(best, drawn.bias),
+                     rest_text(best.wrong_fraction, light));
 }
 
 // Beside the best kind, where a constant comes to clearly less.
@@ -144,7 +160,7 @@ std::string constant_alone(const LightComparison& light) {
 }
 
 std::string constant_part(const LightComparison& light) {
-  const BestBias& best = light.best_bias;
+  const BestBias::Setting best = light.best_bias.advised();
   const double drawn = light.error.wrong_fraction;
   if (is_clearly_better(best.wrong_fraction, drawn, light))
     return fmt::format("A constant bias of {} would leave {}.", bias_text(light, best.constant_world),

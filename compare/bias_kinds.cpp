@@ -18,6 +18,7 @@ namespace gnomon::compare {
 namespace {
 
 constexpr double few_pixels = 1e-5, few_wrong = 0.02;
+constexpr double clearly_smaller = 0.8;  // of the best constant
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 using Kind = KindOfBias;
@@ -113,10 +114,7 @@ raster::MapOptions plain_options(const raster::MapOptions& drawn) {
   return map;
 }
 
-}  // namespace
-
-BiasRange smallest_good_range(const GapLists& gaps) {
-  const BestBias best = find_best_bias(gaps);
+BiasRange good_range_of(const GapLists& gaps, const BestBias& best) {
   const auto count = static_cast<double>(gaps.count());
   const double least = std::round(best.wrong_fraction * count - 0.5 * static_cast<double>(gaps.ties));
   const auto allowed = static_cast<std::uint64_t>(least + std::max(few_pixels * count, few_wrong * least));
@@ -140,6 +138,22 @@ BiasRange smallest_good_range(const GapLists& gaps) {
     start = next;
   }
   return range;
+}
+
+}  // namespace
+
+BiasRange smallest_good_range(const GapLists& gaps) {
+  return good_range_of(gaps, find_best_bias(gaps));
+}
+
+BestBias find_advised_bias(const GapLists& gaps) {
+  BestBias best = find_best_bias(gaps);
+  if (best.feasible) return best;  // then the best is a tenth above the least that is right
+  const BiasRange range = good_range_of(gaps, best);
+  const double smaller = short_number_in(range.from, range.to);
+  if (smaller < clearly_smaller * best.constant_world)
+    best.smaller = {smaller, gaps.wrong_fraction_at(smaller)};
+  return best;
 }
 
 double short_number_in(double from, double to) {

@@ -15,6 +15,8 @@ struct BiasRange {
 };
 /// `gaps` may be those of any setting that lights more pixels the larger it is.
 BiasRange smallest_good_range(const GapLists& gaps);
+/// find_best_bias, with what is clearly smaller and hardly worse.
+BestBias find_advised_bias(const GapLists& gaps);
 
 /// The number with the fewest digits in [from, to), not far above from.
 double short_number_in(double from, double to);

@@ -137,6 +137,15 @@ struct BestBias {
   double needs_less_than = 0.0;
   std::uint64_t lit_pixels_above = 0;       ///< lit pixels with gap >= needs_more_than; 0 when feasible
   std::uint64_t shadowed_pixels_below = 0;  ///< shadowed pixels with gap <= needs_less_than; 0 when feasible
+  struct Setting {
+    double constant_world = 0.0;
+    double wrong_fraction = 0.0;
+  };
+  /// Where the fewest lie far out on a plateau: a clearly smaller constant that is hardly wrong more often
+  /// (smallest_good_range of bias_kinds.h).
+  std::optional<Setting> smaller = std::nullopt;
+  /// What to recommend: the smaller one where there is one.
+  Setting advised() const { return smaller.value_or(Setting{constant_world, wrong_fraction}); }
 };
 
 /// One kind of bias at its smallest setting that is hardly wrong more often than its best (bias_kinds.h), as

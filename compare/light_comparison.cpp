@@ -118,7 +118,7 @@ LightComparison measure_light(const LadderInput& in, std::size_t record, Climb c
   if (!out.bias_curve_withheld.empty()) return out;
   const TimedStage curve("curve");
   const GapLists gaps = sort_gaps(in.record, truth, out.labels);
-  out.best_bias = find_best_bias(gaps);
+  out.best_bias = find_advised_bias(gaps);
   if (options.perceptual) out.bias_kinds = kinds_of_bias(in, truth, out.labels);
   out.bias_curve = draw_bias_curve(gaps, out.bias_texel_world, in.record.bias_constant_world,
                                    out.best_bias.constant_world, options.bias_curve_points);

@@ -107,6 +107,23 @@ TEST(BestBias, TiesCountHalf) {
   EXPECT_EQ(smallest_good_range(gaps).from, 0.3f);
 }
 
+// Hundred pixels are wrong at any of these, and mending one more gains nothing that counts.
+TEST(AdvisedBias, IsNotFarOutOnAPlateau) {
+  GapLists gaps{{0.1f, 0.1f, 0.1f, 0.2f, 50.0f}, {1000.0f}};
+  gaps.shadowed.insert(gaps.shadowed.begin(), 100, -1.0f);
+  const BestBias best = find_advised_bias(gaps);
+  EXPECT_FALSE(best.feasible);
+  EXPECT_FLOAT_EQ(static_cast<float>(best.constant_world), 1.1f * 50.0f) << "the fewest are wrong there";
+  ASSERT_TRUE(best.smaller.has_value());
+  EXPECT_GT(best.smaller->constant_world, 0.1);
+  EXPECT_LT(best.smaller->constant_world, 0.3);
+  EXPECT_DOUBLE_EQ(best.smaller->wrong_fraction, gaps.wrong_fraction_at(best.smaller->constant_world));
+  EXPECT_EQ(best.advised().constant_world, best.smaller->constant_world);
+  const BestBias near = find_advised_bias({{0.1f, 0.2f, 3.0f}, {1.0f, 2.0f, 4.0f}});
+  EXPECT_FALSE(near.smaller.has_value()) << "every smaller one is clearly worse";
+  EXPECT_EQ(near.advised().constant_world, near.constant_world);
+}
+
 TEST(GoodRange, IsTheFirstThatIsHardlyWorse) {
   // 1,000 lit pixels, one of which needs a bias far beyond what the shadows bear.
   GapLists gaps{std::vector<float>(1000, 0.5f), {2.0f, 2.0f}};

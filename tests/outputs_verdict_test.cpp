@@ -122,8 +122,8 @@ TEST(Verdict, LeavesReasonsToItsDetail) {
   const Verdict verdict = verdict_on(c.made->comparison, c.light);
   EXPECT_EQ(
       verdict.headline,
-      "1.6 % of the lit-or-shadowed pixels are wrong, all of them acne. A slope bias of 1 (--slope-bias "
-      "1 --bias auto) would leave 1.0 %.");
+      "1.6 % of the lit-or-shadowed pixels are wrong, all of them acne. A constant bias of no more than "
+      "rounding needs beside the slope bias of 1 (--slope-bias 1 --bias auto) would leave 1.0 %.");
   EXPECT_EQ(
       verdict.detail,
       "100 more (0.1 %) are uncertain: the truth there lies within its own error bound. A constant bias "
@@ -163,7 +163,8 @@ TEST(Verdict, NamesAConstantBesideAKindOfBias) {
       << c.verdict();
 }
 
-TEST(Verdict, CallsAConstantOfZeroNone) {
+// "No constant bias" would have two meanings there: without one, and whichever it is.
+TEST(Verdict, NamesAConstantOfZero) {
   Case c(100000, {4000, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   c.light.best_bias.feasible = true;
   BiasKind constant;
@@ -171,13 +172,50 @@ TEST(Verdict, CallsAConstantOfZeroNone) {
   constant.bias = {.constant = 0.0, .unit = raster::BiasUnit::world};
   constant.wrong_fraction = 0.01;
   c.light.bias_kinds = {constant};
-  EXPECT_NE(c.verdict().find(" No constant bias (--bias 0) would leave 1.0 %."), std::string::npos)
+  EXPECT_NE(c.verdict().find(" A constant bias of 0 (--bias 0) would leave 1.0 %."), std::string::npos)
       << c.verdict();
   c.light.bias_kinds[0].bias.unit = raster::BiasUnit::texel;
-  EXPECT_NE(c.verdict().find(" No constant bias (--bias 0texel) would leave 1.0 %."), std::string::npos)
+  EXPECT_NE(c.verdict().find(" A constant bias of 0 (--bias 0texel) would leave 1.0 %."), std::string::npos)
       << c.verdict();
   c.light.bias_kinds[0].bias = {.constant = 1e-5, .unit = raster::BiasUnit::world};
   EXPECT_NE(c.verdict().find(" A constant bias of less than a hundredth of a texel (--bias 1e-05) would"),
+            std::string::npos)
+      << c.verdict();
+}
+
+// The drawing has the slope bias that would be recommended: only its constant is to change.
+TEST(Verdict, NamesTheConstantWhereTheSlopeBiasIsSetAlready) {
+  Case c(100000, {4000, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.best_bias.feasible = true;
+  raster::Bias& drawn = c.made->comparison.raster.options.map.bias;
+  drawn = {.constant = 0.0, .unit = raster::BiasUnit::world, .slope = 1.0};
+  BiasKind slope, constant;
+  slope.name = "slope bias", slope.of_slope = true, slope.wrong_fraction = 0.01;
+  slope.bias = {.constant = 1.0, .unit = raster::BiasUnit::automatic, .slope = 1.0};
+  slope.from = 0.8, slope.to = infinity;
+  constant.name = "constant bias", constant.wrong_fraction = 0.01;
+  constant.bias = {.constant = 1.0, .unit = raster::BiasUnit::automatic};
+  c.light.bias_kinds = {slope, constant};
+  EXPECT_NE(c.verdict().find(" A constant bias of no more than rounding needs beside the slope bias of 1 "
+                             "(--slope-bias 1 --bias auto) would leave 1.0 %."),
+            std::string::npos)
+      << c.verdict();
+  drawn.normal_offset_texels = 2.0;  // this changes as well
+  EXPECT_NE(c.verdict().find(" A slope bias of 1 ("), std::string::npos) << c.verdict();
+  drawn = {.constant = 0.0, .unit = raster::BiasUnit::world, .slope = 0.5};
+  EXPECT_NE(c.verdict().find("; anything from 0.8 on does about as well)"), std::string::npos) << c.verdict();
+  // Nor is a slope bias recommended that is neither set nor needed.
+  drawn.slope = c.light.bias_kinds[0].from = 0.0;
+  EXPECT_NE(c.verdict().find(" A constant bias of no more than rounding needs (--bias auto) would leave"),
+            std::string::npos)
+      << c.verdict();
+}
+
+TEST(Verdict, NamesTheSmallerConstantOfAPlateau) {
+  Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.best_bias = {0.5, 0.01, true, 0.4, 0.7, 0, 0};
+  c.light.best_bias.smaller = {0.01, 0.0101};
+  EXPECT_NE(c.verdict().find(" A constant bias of 0.01 world units (0.8 texel) would leave 1.0 %."),
             std::string::npos)
       << c.verdict();
 }

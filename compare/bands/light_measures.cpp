@@ -215,7 +215,7 @@ Expected<void> LightMeasures::finish_curve(const LadderInput& in, LightCompariso
   std::vector<Step> steps{[&]() -> Expected<void> {
     const auto gaps = sorted_lists(gaps_, ties_);
     if (!gaps) return fail(gaps.error());
-    out.best_bias = find_best_bias(*gaps);
+    out.best_bias = find_advised_bias(*gaps);
     out.bias_curve = draw_bias_curve(*gaps, out.bias_texel_world, in.record.bias_constant_world,
                                      out.best_bias.constant_world, curve_points_);
     return {};

@@ -32,6 +32,18 @@ std::string ladder_step(const LightBlock& b, std::size_t k) {
             unsigned_number(step.absolute_mean)));
 }
 
+std::string place_in_texels(double bias, double texel) {
+  return texel > 0.0 ? fmt::format(" ({})", texels_text(bias / texel)) : std::string();
+}
+
+// Where the best lies far out on a plateau.
+std::string smaller_bias_words(const BestBias& best, double texel) {
+  if (!best.smaller) return {};
+  return fmt::format(" The smaller {}{} leaves hardly more: {}.", plain_number(best.smaller->constant_world),
+                     place_in_texels(best.smaller->constant_world, texel),
+                     percent(best.smaller->wrong_fraction));
+}
+
 std::string bias_words(const LightBlock& b) {
   const BestBias& best = b.light.best_bias;
   const auto value = [&b](std::string_view key, double v) {
@@ -43,10 +55,11 @@ std::string bias_words(const LightBlock& b) {
   std::string text = fmt::format(
       R"(A hard test shadows a pixel when its gap, the distance to the light minus the stored one{}, is
 larger than the constant bias. Sorting the gaps of one render gives the exact error of every constant bias.
-The best is {}{}, which leaves {} wrong.)",
+The best is {}{}, which leaves {} wrong.{})",
       more ? " and the other parts of the bias" : "", value("constant_world", best.constant_world),
-      texel > 0.0 ? fmt::format(" ({})", texels_text(best.constant_world / texel)) : std::string(),
-      keyed(b.key("best_bias.wrong_fraction"), best.wrong_fraction, percent(best.wrong_fraction)));
+      place_in_texels(best.constant_world, texel),
+      keyed(b.key("best_bias.wrong_fraction"), best.wrong_fraction, percent(best.wrong_fraction)),
+      smaller_bias_words(best, texel));
   if (best.feasible) return text + " Some constant bias makes every compared pixel right.";
   return text + " " + escaped(contradiction(best, texel, drawn));
 }

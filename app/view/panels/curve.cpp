@@ -73,6 +73,13 @@ void mark(const Plot& plot, double bias, ImU32 ink, const char* name, int line) 
   draw.AddText({std::min(foot.x + 3.0f, plot.low.x + plot.size.x - word.x), top}, ink, name);
 }
 
+// "0.128 world units (2 texels): 0.75 % wrong."
+std::string setting_text(const compare::BestBias::Setting& setting, double texel) {
+  return fmt::format("{:.3g} world units ({}): {} wrong.", setting.constant_world,
+                     compare::texels_text(texel > 0.0 ? setting.constant_world / texel : 0.0),
+                     compare::percent(setting.wrong_fraction));
+}
+
 void drag_bias(PanelContext& context, const Plot& plot) {
   if (!ImGui::IsItemActive()) return;
   const double share = (ImGui::GetIO().MousePos.x - plot.low.x) / plot.size.x;
@@ -119,9 +126,8 @@ void curve_panel(PanelContext& context) {
                     plot.most_bias, compare::texels_text(texel > 0.0 ? plot.most_bias / texel : 0.0),
                     context.state.look.theme == Theme::dark ? "white" : "black"));
   const compare::BestBias& best = light.best_bias;
-  wrapped(fmt::format("The best constant bias is {:.3g} ({}): {} wrong.", best.constant_world,
-                      compare::texels_text(texel > 0.0 ? best.constant_world / texel : 0.0),
-                      compare::percent(best.wrong_fraction)));
+  wrapped("The best constant bias is " + setting_text({best.constant_world, best.wrong_fraction}, texel));
+  if (best.smaller) wrapped("Hardly worse is " + setting_text(*best.smaller, texel));
   if (ImGui::Button("Take the best")) {
     raster::MapOptions map = context.state.setup.map;
     map.bias.unit = raster::BiasUnit::world;
