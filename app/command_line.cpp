@@ -267,6 +267,15 @@ Expected<void> finish_settings(const CLI::App& program, Invocation& invocation) 
   return {};
 }
 
+/// "gnomon --help compare" asks what "gnomon compare --help" does.
+const CLI::App* asked_about(const CLI::App& program, int argc, const char* const* argv) {
+  if (argc < 3 || (std::string_view(argv[1]) != "--help" && std::string_view(argv[1]) != "-h"))
+    return nullptr;
+  for (const CLI::App* command : program.get_subcommands({}))
+    if (command->get_name() == argv[2]) return command;
+  return nullptr;
+}
+
 int parse_and_run(int argc, const char* const* argv, bool runs) {
   Invocation invocation{command_line_text(argc, argv), {}, {}, {}, {}};
   const std::unique_ptr<CLI::App> program = make_program(invocation);
@@ -275,6 +284,10 @@ int parse_and_run(int argc, const char* const* argv, bool runs) {
     return static_cast<int>(ErrorKind::usage);
   }
   const std::string first = argv[1];
+  if (const CLI::App* command = asked_about(*program, argc, argv); command != nullptr) {
+    print_data(help_text(*command));
+    return code_after_stdout(0);
+  }
   const std::vector<std::string_view> known = command_names(*program);
   const bool is_command = std::find(known.begin(), known.end(), first) != known.end();
   if (!is_command && !first.starts_with("-")) return unknown_command(*program, first);

@@ -34,7 +34,7 @@ std::uint64_t primitives_of(const Scene& scene) {
 }  // namespace
 
 Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Console& console, int tessellate,
-                           const std::string& camera, bool with_paths) {
+                           const std::string& camera, bool with_paths, bool tessellation_is_asked) {
   const TimedStage stage("load");
   if (startable_threads(1) == 0)
     return fail(ErrorKind::graphics, "not one thread can be started (a limit on processes, ulimit -u)");
@@ -50,7 +50,7 @@ Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Conso
   if (tessellate > 0) {
     const std::size_t exact = scene->shapes.size();
     scene = tessellate_shapes(std::move(*scene), tessellate);
-    if (scene->shapes.size() == exact)
+    if (scene->shapes.size() == exact && tessellation_is_asked)
       console.note("--tessellate has no effect: no shape but planes is exact");
   }
   loaded.scene = std::make_unique<Scene>(std::move(*scene));

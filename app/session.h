@@ -34,7 +34,8 @@ struct LoadedScene {
 /// (scene/tessellate.h); 0: they stay exact. `camera`: LoadOptions::camera. `files` learns what the scene
 /// consists of; ErrorKind::usage when an output is among it.
 Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Console& console,
-                           int tessellate = 0, const std::string& camera = {}, bool with_paths = false);
+                           int tessellate = 0, const std::string& camera = {}, bool with_paths = false,
+                           bool tessellation_is_asked = true);
 
 /// Indices in Scene::lights: all of them, or the one with that name. ErrorKind::usage when there is none.
 Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std::string& name);

@@ -137,6 +137,7 @@ Expected<compare::Threshold> parse_threshold(std::string_view text) {
   const Expected<double> share = parse_share(number);
   if (!share) return wrong("not a limit", text, threshold_range);
   out.limit = *share;
+  out.bare_one = out.limit == 1.0 && !number.ends_with('%');
   return out;
 }
 

@@ -27,7 +27,8 @@ std::string_view measure_name(ErrorMeasure measure);
 
 struct Threshold {
   ErrorMeasure measure = ErrorMeasure::wrong_and_mean;
-  double limit = 0.0;  ///< a share in [0, 1]; of `edge` texels, of `shimmer` flips per receiver and second
+  double limit = 0.0;     ///< a share in [0, 1]; of `edge` texels, of `shimmer` flips per receiver and second
+  bool bare_one = false;  ///< given as "1", which is a share of 100 %, and may be meant as 1 %
   bool operator==(const Threshold&) const = default;
 };
 /// As it is given: "1%", "mean:0.5%", "flip:0.05", "edge:0.5texel", "shimmer:0.1".

@@ -40,6 +40,7 @@ std::string main_reasons(const LightComparison& light) {
 // "4.1 % of the lit-or-shadowed pixels are wrong, mostly acne." Each is wholly wrong, so the share is the mean error.
 std::string yes_or_no_part(const LightComparison& light) {
   const std::uint64_t wrong = light.error.wrong, compared = light.pixels.compared;
+  if (wrong == 0 && compared == 1) return "The one lit-or-shadowed pixel is right.";
   if (wrong == 0) return fmt::format("None of the {} lit-or-shadowed pixels is wrong.", grouped(compared));
   const bool few = light.error.wrong_fraction < few_fraction;
   const std::string share = few ? fmt::format("{} of {}", grouped(wrong), grouped(compared))

@@ -274,6 +274,22 @@ TEST(ExitCodes, ThresholdExceeded) {
   EXPECT_EQ(run_gnomon(acne + Words{"--fail-above", "100%"}, here).exit_code, 0);
 }
 
+// A bare number is a share of 1, so that "1" means 100 %: who means one per cent is told.
+TEST(ExitCodes, ABareOneIsSaidToBeAll) {
+  const TemporaryFolder folder;
+  const ProcessOptions here{.folder = folder.path()};
+  const auto said = [&](const char* limit) {
+    return run_gnomon(Words{"compare", "acne-floor", "--bias", "0"} + small + Words{"--fail-above", limit},
+                      here);
+  };
+  const std::string note = "note: --fail-above 1 is a limit of 100 %";
+  EXPECT_NE(said("1").err.find(note), std::string::npos);
+  EXPECT_EQ(said("1").exit_code, 0);
+  EXPECT_NE(said("wrong:1").err.find(note), std::string::npos);
+  for (const char* limit : {"1%", "100%", "0.5", "edge:1"})
+    EXPECT_EQ(said(limit).err.find("100 %"), std::string::npos) << limit;
+}
+
 // A floor under slats narrower than the filter: grey all over, where it is striped in truth.
 constexpr const char* striped_floor = R"({"schema": "gnomon/scene/1", "name": "stripes",
   "camera": {"eye": [0, 3, 0.01], "target": [0, 0, 0], "up": [0, 0, -1], "vertical_fov_degrees": 30},

@@ -61,6 +61,11 @@ TEST(Usage, OptionsThatCouldHaveNoEffectAreRefused) {
                   "--tessellate: the scenes of --suite are written as they are");
   expect_one_line(run_gnomon({"export", "--suite", folder / "suite", "--camera", "eye=1,1,1"}), 2,
                   "--camera: the scenes of --suite are written as they are");
+  // Where it could, and only where it was given, that is said.
+  const std::string box = folder / "box.glb", effect = "--tessellate has no effect";
+  EXPECT_EQ(run_gnomon({"export", "thin-wall", "-o", box}).err.find(effect), std::string::npos);
+  EXPECT_NE(run_gnomon({"export", "thin-wall", "--tessellate", "8", "-o", box}).err.find(effect),
+            std::string::npos);
   expect_one_line(run_gnomon({"verify", "--rays", "1000.5"}), 2,
                   "--rays: is not a whole number (got 1000.5, allowed ");
 }
@@ -219,6 +224,11 @@ TEST(Help, UnitsAreNamed) {
 TEST(Help, Version) {
   EXPECT_EQ(run_gnomon({"--version"}).out.substr(0, 7), "gnomon ");
   EXPECT_EQ(run_gnomon({"--help"}).exit_code, 0);
+  for (const char* help : {"--help", "-h"}) {
+    const ProcessResult asked = run_gnomon({help, "compare"});
+    EXPECT_EQ(asked.exit_code, 0) << asked.err;
+    EXPECT_EQ(asked.out, run_gnomon({"compare", "--help"}).out);
+  }
 }
 
 TEST(Help, CompletionAndManualNameEveryOption) {

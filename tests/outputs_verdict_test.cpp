@@ -231,6 +231,9 @@ TEST(Verdict, HandlesNoneFewAndNothing) {
   Case none(5000, {});
   none.light.best_bias = {0.01, 0.0, true, -infinity, infinity, 0, 0};
   EXPECT_EQ(none.verdict(), "None of the 5,000 lit-or-shadowed pixels is wrong.");
+  Case single(1, {});
+  single.light.best_bias = none.light.best_bias;
+  EXPECT_EQ(single.verdict(), "The one lit-or-shadowed pixel is right.");
   Case one(1000000, {0, 0, 0, 0, 1, 0, 0, 0, 0, 0});
   one.light.best_bias = {0.02, 0.0, true, 0.01, 0.03, 0, 0};
   EXPECT_EQ(one.verdict(),

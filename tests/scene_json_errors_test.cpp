@@ -316,6 +316,9 @@ TEST(JsonErrors, NamesAndExtensions) {
   std::filesystem::create_directory(folder.file("dir.json"));
   EXPECT_EQ(load_scene(folder.file("dir.json")).error().message(),
             folder.file("dir.json") + ": is a folder, not a file");
+  std::filesystem::create_directory(folder.file("dir"));
+  EXPECT_EQ(load_scene(folder.file("dir")).error().message(),
+            folder.file("dir") + ": is a folder, not a file");
 }
 
 }  // namespace

@@ -63,7 +63,8 @@ Expected<ExitCode> run_export(ExportCommand& command) {
   files.reads(command.scene);
   files.writes("-o", command.file);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
-  auto loaded = load(command.scene, files, console, command.tessellate, command.camera);
+  auto loaded = load(command.scene, files, console, command.tessellate, command.camera, false,
+                     command.is_given("tessellate"));
   if (!loaded) return fail(loaded.error());
   if (const std::string asked = scene_settings_text(scene_of_lesson(command.scene.name)); !asked.empty())
     console.note("glTF has no place for what the scene asks for: give " + asked + " yourself");

@@ -182,7 +182,7 @@ more.</figcaption></figure>
 )",
       picture(b.in, pictures.edges,
               "Bands between drawn and true shadow edges, coloured by their width and side.", ""),
-      swatch(false_shadow_colour, "\u2212"), swatch(missed_shadow_colour, "+"), edge_scale_texels,
+      swatch(false_shadow_colour, "+"), swatch(missed_shadow_colour, "\u2212"), edge_scale_texels,
       picture(b.in, pictures.detachment, "Gaps between casters and their shadows, brighter where wider.", ""),
       detachment_scale_texels);
 }

@@ -100,8 +100,10 @@ Error unknown_name(const std::string& name) {
   std::error_code ignored;
   if (std::filesystem::exists(name, ignored)) {
     Error error{ErrorKind::bad_input,
-                fmt::format("the file's format is told by its extension, and it has none (allowed {})",
-                            known_extensions())};
+                std::filesystem::is_directory(name, ignored)
+                    ? std::string("is a folder, not a file")
+                    : fmt::format("the file's format is told by its extension, and it has none (allowed {})",
+                                  known_extensions())};
     error.file = name;
     return error;
   }
