@@ -156,7 +156,8 @@ class MtlRewriter {
     if (numbers.size() < statement.count)
       fail_at(statement.key, rest,
               fmt::format("too few numbers (got {}, allowed 1 or {})", numbers.size(), statement.count));
-    const bool full = statement.key == "Tr" && parse_decimal(numbers.front()).value_or(0.0) == 1.0;
+    const bool full =
+        statement.key == "Tr" && !numbers.empty() && parse_decimal(numbers.front()).value_or(0.0) == 1.0;
     return fmt::format("{} {}", full ? full_transparency : statement.key, fmt::join(numbers, " "));
   }
 
