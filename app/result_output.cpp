@@ -26,8 +26,9 @@ namespace {
 /// --json hands out the same bytes as the folder's result.json.
 Expected<void> write_json(const ResultOutput& output) {
   if (output.json.empty()) return {};
-  const Expected<std::string> json = read_file(output.folder + "/result.json");
-  if (!json) return fail(json.error());
+  const std::string path = output.folder + "/result.json";
+  const Expected<std::string> json = read_file(path);
+  if (!json) return fail(Error{ErrorKind::cannot_write, "cannot read back what was written", path});
   return hand_out_json(output.json, *json);
 }
 

@@ -273,8 +273,7 @@ Expected<void> check_order(const Capture& capture, bool fix, CapturedPictures& p
   if (brighter < times_darker * darker) {
     judged.notes.push_back(
         fmt::format("\"shadowed\" is clearly brighter than \"unshadowed\" in {} pixels, which count as lit: "
-                    "other light, or "
-                    "another exposure, in one of the two",
+                    "other light, or another exposure, in one of the two",
                     pictures.brighter));
     return {};
   }

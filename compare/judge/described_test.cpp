@@ -221,8 +221,7 @@ std::vector<std::string> described_test_notes(const DescribedTest& test,
   if (!test.is_drawn()) {
     std::string note = fmt::format(
         "the test as described (map, matrix, bias, filter) is not the one that was drawn in {} of {} "
-        "compared pixels: "
-        "the wrong ones among them are unexplained, and {}",
+        "compared pixels: the wrong ones among them are unexplained, and {}",
         grouped(test.not_drawn), grouped(test.compared),
         advice_holds(test, other) ? "advice starts from the bias as described" : "no bias is advised");
     if (other)
@@ -233,8 +232,7 @@ std::vector<std::string> described_test_notes(const DescribedTest& test,
   if (test.other_content >= few_pixels)
     out.push_back(
         fmt::format("in {} wrong pixels the map does not hold what the light meets first in the scene (a "
-                    "caster that is missing from "
-                    "the map, or moved, or in it alone): they are unexplained",
+                    "caster that is missing from the map, or moved, or in it alone): they are unexplained",
                     grouped(test.other_content)));
   return out;
 }
