@@ -6,7 +6,7 @@
 
 #include "app/effect_options.h"
 #include "app/invocation.h"
-#include "app/technique_options.h"
+#include "app/map_options.h"
 
 namespace gnomon::app {
 

@@ -66,10 +66,10 @@ void add_map_parts(CLI::App& app, CaptureOptions& o) {
                                   compare::stored_depth_names, o, [&o](auto v) { o.map_convention = v; });
   add_named<compare::RowOrder>(app, "--map-rows", "which row of the map comes first",
                                compare::row_order_names, o, [&o](auto v) { o.map_rows = v; });
-  add_real(app, "--map-bias", bias_range, "stored depth",
+  add_real(app, "--map-bias", raster::bias_range, "stored depth",
            "constant bias of the test; positive takes shadow away", o,
            [&o](double v) { o.bias_constant = v; });
-  add_real(app, "--map-slope-bias", bias_range, "multiples of the texel's own depth slope",
+  add_real(app, "--map-slope-bias", raster::bias_range, "multiples of the texel's own depth slope",
            "slope bias of the test", o, [&o](double v) { o.bias_slope = v; });
   add_real(app, "--map-normal-offset", {0.0, 1e30}, "world units", "offset along the receiver's normal", o,
            [&o](double v) { o.bias_normal_offset = v; });
@@ -103,7 +103,7 @@ Expected<Mat4> parse_matrix(const std::string& text) {
   std::istringstream words(spaced);
   std::vector<double> numbers;
   for (std::string word; words >> word;) {
-    const auto number = parse_number(word, bias_range);
+    const auto number = parse_number(word, raster::bias_range);
     if (!number) return fail(ErrorKind::usage, "--map-matrix: " + number.error().reason);
     numbers.push_back(*number);
   }

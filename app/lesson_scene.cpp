@@ -10,10 +10,9 @@
 #include <sstream>
 #include <vector>
 
-#include "app/setting.h"
+#include "app/map_options.h"
 #include "app/shimmer_options.h"
 #include "compare/report/lessons.h"
-#include "raster/technique_traits.h"
 #include "scene/files/json_reader.h"
 #include "scene/load.h"
 
@@ -21,8 +20,9 @@ namespace gnomon::app {
 
 namespace {
 
-constexpr std::array<const char*, 5> bias_options{"--bias", "--slope-bias", "--normal-offset",
-                                                  "--receiver-plane", "--adaptive-bias"};
+bool is_of_bias(const raster::MapSetting& setting) {
+  return setting.group == raster::SettingGroup::bias;
+}
 
 struct LessonSetting {
   std::string option;                ///< "--map-size"
@@ -69,8 +69,7 @@ bool finds_map_options(const CLI::App& command) {
 }
 
 bool is_map_setting(const std::string& option) {
-  const std::vector<std::string> names = map_setting_names();
-  return std::find(names.begin(), names.end(), option.substr(2)) != names.end();
+  return raster::find_setting(option.substr(2)) != nullptr;
 }
 
 /// Whether the command makes a film: sweep and tune do only where errors are flips.
@@ -163,21 +162,22 @@ Expected<std::map<std::string, Error>> add_scene_settings(CLI::App& command) {
   const SettingsUse use = use_of_settings(command, [&] { return technique_of_scene(scene_of_lesson(path)); });
   if (use == SettingsUse::left_out || use == SettingsUse::sought) return places;
   const auto asked = scene_settings(scene_of_lesson(path));
-  const bool biased = std::any_of(bias_options.begin(), bias_options.end(),
-                                  [&](const char* name) { return was_given(command, name); });
-  const std::vector<std::string> known = map_setting_names();
+  const auto settings = raster::map_settings();
+  const bool biased = std::any_of(settings.begin(), settings.end(), [&](const raster::MapSetting& setting) {
+    return is_of_bias(setting) && was_given(command, fmt::format("--{}", setting.name));
+  });
   for (const auto& [name, value, line, column] : asked) {
     const std::string option_name = "--" + name;
     Error error{ErrorKind::bad_input, "is no option of the shadow map", path, line, column,
                 "settings." + name};
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
+    const raster::MapSetting* setting = raster::find_setting(name);
+    if (setting == nullptr) {
+      const std::vector<std::string> known = map_setting_names();
       error.reason += suggestion(name, {known.begin(), known.end()});
       return fail(std::move(error));
     }
     CLI::Option* option = command.get_option_no_throw(option_name);
-    const bool of_bias =
-        std::find(bias_options.begin(), bias_options.end(), option_name) != bias_options.end();
-    if (option == nullptr || option->count() > 0 || (biased && of_bias)) continue;
+    if (option == nullptr || option->count() > 0 || (biased && is_of_bias(*setting))) continue;
     try {
       option->add_result(value);
       option->run_callback();

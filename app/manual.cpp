@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "app/help.h"
-#include "app/technique_options.h"
+#include "app/map_options.h"
 #include "app/values.h"
 #include "compare/option_names.h"
 #include "raster/technique_traits.h"
@@ -177,8 +177,9 @@ std::string lights_text(raster::LightTypeSet lights) {
 /// The options that this technique reads and not all of its kind, with their dashes.
 std::string options_text(raster::Technique technique) {
   std::vector<std::string> names;
-  for (const std::string_view option : technique_options())
-    if (technique_reads(option, technique)) names.push_back(fmt::format("`--{}`", option));
+  for (const raster::MapSetting& setting : raster::map_settings())
+    if (setting.read_by != nullptr && raster::reads(raster::traits_of(technique), setting))
+      names.push_back(fmt::format("`--{}`", setting.name));
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
 }
 

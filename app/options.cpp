@@ -3,24 +3,14 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/filter_options.h"
 #include "app/lesson_scene.h"
 #include "app/option_kinds.h"
-#include "app/technique_options.h"
-#include "raster/technique_traits.h"
 #include "scene/tessellate.h"
 
 namespace gnomon::app {
 
 namespace {
 
-constexpr std::pair<std::string_view, raster::DepthFormat> depth_format_choices[] = {
-    {"d16", raster::DepthFormat::d16},
-    {"d24", raster::DepthFormat::d24},
-    {"d32f", raster::DepthFormat::d32f},
-    {"d32f-reversed", raster::DepthFormat::d32f_reversed}};
-constexpr std::pair<std::string_view, raster::Cull> cull_choices[] = {
-    {"none", raster::Cull::none}, {"front", raster::Cull::front}, {"back", raster::Cull::back}};
 constexpr std::pair<std::string_view, raster::Backend> backends[] = {
     {"auto", raster::Backend::automatic},
     {"osmesa", raster::Backend::osmesa},
@@ -44,58 +34,8 @@ constexpr std::pair<std::string_view, raytrace::Precision> precisions[] = {
     {"exact", raytrace::Precision::exact}};
 
 // Ranges that no struct states. Each is far beyond what is useful and short of what overflows a float.
-constexpr int max_map_size = 65536;  // texels; the OpenGL context's own limit is checked when the map is made
-constexpr OptionRange slope_range{-1000.0, 1000.0};
-constexpr OptionRange normal_offset_range{0.0, 1000.0};
 constexpr int max_threads = 1024;
 constexpr int max_runs = 1000;
-
-void add_bias_options(CLI::App& command, raster::Bias& bias) {
-  add_value(
-      command, "--bias", "auto|B|Btexel",
-      describe("constant bias: a receiver is shadowed when the map's depth is nearer than this",
-               fmt::format("world units along the light ray, or texels with the suffix texel, any finite "
-                           "number; auto is what rounding may do, and {} texel; asked for, any bias "
-                           "takes the place of the default's slope bias",
-                           raster::automatic_bias_texels),
-               bias_text(bias)),
-      [&bias](const std::string& text) -> Expected<void> {
-        const Expected<BiasValue> value = parse_bias(text);
-        if (!value) return fail(value.error());
-        bias.constant = value->constant;
-        bias.unit = value->unit;
-        return {};
-      });
-  add_value(
-      command, "--slope-bias", "NUMBER",
-      describe("slope bias; 1 leaves no acne on a plane",
-               fmt::format("multiples of the depth slope over half a texel, {}", range_text(slope_range)),
-               fmt::format("{}, or 0 where another bias is asked for or the technique brings its own",
-                           number_text(bias.slope))),
-      [&bias](const std::string& text) { return assign(bias.slope, parse_number(text, slope_range)); });
-  add_number(command, "--normal-offset", bias.normal_offset_texels, normal_offset_range, "texels",
-             "moves the receiver along its normal, scaled by the sine of the light's angle");
-  command.add_flag("--receiver-plane", bias.receiver_plane,
-                   "compare with the depth of the receiver's plane at the texel's centre [default off]");
-  command.add_flag(
-      "--adaptive-bias", bias.adaptive,
-      "as much bias as the receiver's plane rises up to the texel's centre, and 1e-4 of the scene's "
-      "size; with --bias 0 it stands alone [default off]");
-}
-
-void add_cascade_options(CLI::App& command, CascadeOptions& cascades) {
-  add_integer(command, "--cascades", cascades.count, 1, 6, "", "slices of the view, one map each");
-  add_number(command, "--cascade-lambda", cascades.lambda, {0.0, 1.0}, "share",
-             "how the view's depth is split: 0 evenly, 1 evenly in its logarithm");
-  command.add_flag(
-      "--no-snap", [&cascades](std::int64_t given) { cascades.snap = given <= 0; },
-      "fit each cascade tightly instead of moving it by whole texels; shadows then swim [default off]");
-  command.add_flag("--cascade-fit", cascades.fit_samples,
-                   "fit splits and cascades to the surfaces that the camera sees; implies --no-snap "
-                   "[default off]");
-  add_number(command, "--cascade-blend", cascades.blend, {0.0, 0.5}, "share of a cascade's width",
-             "how far from its border on a cascade is mixed with the next; 0 leaves a seam");
-}
 
 }  // namespace
 
@@ -134,52 +74,6 @@ void add_size(CLI::App& command, ImageSize& size) {
   add_value(command, "--size", "WxH",
             describe("size of the picture", range, fmt::format("{}x{}", size.width, size.height)),
             [&size](const std::string& value) { return assign(size, parse_size(value)); });
-}
-
-void add_map_size(CLI::App& command, int& texels) {
-  add_integer(command, "--map-size", texels, 1, max_map_size, "texels",
-              "side of the shadow map, as far as the graphics context allows");
-}
-
-std::span<const std::pair<std::string_view, raster::DepthFormat>> depth_formats() {
-  return depth_format_choices;
-}
-
-std::span<const std::pair<std::string_view, raster::Cull>> culls() {
-  return cull_choices;
-}
-
-void add_map_options(CLI::App& command, raster::MapOptions& map) {
-  add_map_size(command, map.size);
-  add_choice(command, "--technique", map.technique, all_techniques(), "NAME", "shadow test");
-  add_bias_options(command, map.bias);
-  add_choice(command, "--depth-format", map.depth_format, depth_formats(), "NAME",
-             "number format of the stored depth");
-  add_choice(command, "--cull", map.cull, culls(), "SIDE", "sides of surfaces that the map leaves out");
-  add_filter_options(command, map.filter);
-  add_cascade_options(command, map.cascades);
-  command.add_flag(
-      "--snap", map.snap,
-      "let the map of a directional light stand still between steps, so that edges hold still: sizes by "
-      "steps of a quarter octave, places by whole texels (lispsm: all by steps); costs up to a fifth of "
-      "the resolution along each axis [default off]");
-  name_readers(command);
-}
-
-std::vector<std::string> technique_names() {
-  std::vector<std::string> names;
-  for (const raster::TechniqueTraits& traits : raster::all_technique_traits())
-    names.emplace_back(traits.name);
-  return names;
-}
-
-std::span<const std::pair<std::string_view, raster::Technique>> all_techniques() {
-  static const auto choices = [] {
-    std::vector<std::pair<std::string_view, raster::Technique>> all;
-    for (const auto& traits : raster::all_technique_traits()) all.emplace_back(traits.name, traits.technique);
-    return all;
-  }();
-  return choices;
 }
 
 void add_backend(CLI::App& command, raster::Backend& backend) {
@@ -308,7 +202,7 @@ void add_exposure(CLI::App& command, std::optional<std::optional<double>>& expos
 
 void add_seed(CLI::App& command, std::uint64_t& seed, const char* what) {
   add_value(command, "--seed", "N", describe(what, "0 to 18446744073709551615", std::to_string(seed)),
-            [&seed](const std::string& value) { return assign(seed, parse_seed(value)); });
+            [&seed](const std::string& value) { return assign(seed, parse_unsigned(value)); });
 }
 
 void add_samples(CLI::App& command, int& samples) {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "app/heatmap.h"
+#include "app/map_options.h"
 #include "app/run_files.h"
 #include "compare/compare.h"
-#include "raster/options.h"
 #include "raytrace/frame.h"
 #include "scene/expected.h"
 
@@ -27,15 +27,6 @@ void add_scene(CLI::App& command, SceneArgument& scene);
 void add_size(CLI::App& command, ImageSize& size);
 /// --tessellate; 0: off.
 void add_tessellate(CLI::App& command, int& tessellate);
-void add_map_size(CLI::App& command, int& texels);
-/// --map-size, --technique, the biases, --depth-format, --cull, the filters, the cascades.
-void add_map_options(CLI::App& command, raster::MapOptions& map);
-/// The values of --technique.
-std::vector<std::string> technique_names();
-std::span<const std::pair<std::string_view, raster::Technique>> all_techniques();
-/// The values of --depth-format and of --cull.
-std::span<const std::pair<std::string_view, raster::DepthFormat>> depth_formats();
-std::span<const std::pair<std::string_view, raster::Cull>> culls();
 void add_backend(CLI::App& command, raster::Backend& backend);
 /// " --backend NAME" for what was chosen; nothing for auto.
 std::string backend_argument(raster::Backend backend);

@@ -42,8 +42,8 @@ std::string render_json(const RenderRecord& record, const raster::RasterFrame& f
   json["shaders"] = compare::shaders_json(frame.replaced_shaders);
   json["map"] = {{"technique", raster::technique_name(map.technique)},
                  {"size", map.size},
-                 {"depth_format", compare::depth_format_name(map.depth_format)},
-                 {"cull", compare::cull_name(map.cull)}};
+                 {"depth_format", raster::depth_format_name(map.depth_format)},
+                 {"cull", raster::cull_name(map.cull)}};
   json["costs"] = {{"map_texels", frame.map_texels}, {"map_bytes", frame.map_bytes}};
   json["times_ms"] = {{"load", one_time_json(record.loaded.load_ms)},
                       {"total", one_time_json(record.total_ms)}};

@@ -18,16 +18,6 @@ void add_setting_options(CLI::App& command, SettingOptions& setting) {
   add_samples(command, options.raytrace.shadow_samples);
 }
 
-std::vector<std::string> map_setting_names() {
-  CLI::App command;
-  command.set_help_flag();
-  raster::MapOptions map;
-  add_map_options(command, map);
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options()) names.push_back(option->get_lnames().front());
-  return names;
-}
-
 Expected<compare::Setting> resolve_setting(const SettingOptions& from, const Scene& given,
                                            const World& world) {
   compare::Setting setting;

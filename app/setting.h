@@ -18,10 +18,6 @@ struct SettingOptions {
 /// --size, the map's options, --light, the poses, the ray tracer's options.
 void add_setting_options(CLI::App& command, SettingOptions& setting);
 
-/// The names (without "--") of the options that choose what is drawn with the map alone: a sweep varies them
-/// faster than those that change the truth.
-std::vector<std::string> map_setting_names();
-
 /// What a comparison needs to know. `given` is the scene as it was loaded.
 Expected<compare::Setting> resolve_setting(const SettingOptions& setting, const Scene& given,
                                            const World& world);

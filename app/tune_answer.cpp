@@ -120,7 +120,7 @@ OptionValues answer_values(const OptionValues& fixed, const OptionFamily& family
   values.emplace_back("map-size", std::to_string(attempt.size));
   if (!attempt.reads_bias) return values_read(values);
   if (map.bias.slope != 0.0) values.emplace_back("slope-bias", number_text(map.bias.slope));
-  values.emplace_back("bias", bias_text(attempt.bias));
+  values.emplace_back("bias", raster::bias_text(attempt.bias));
   return values_read(values);
 }
 

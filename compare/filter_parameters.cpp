@@ -1,20 +1,20 @@
 #include "compare/filter_parameters.h"
 
-#include <fmt/core.h>
-
-#include <algorithm>
 #include <cmath>
 
-#include "compare/number_text.h"
-#include "raster/technique_traits.h"
+#include "compare/option_names.h"
 
 namespace gnomon::compare {
 namespace {
 
 using raster::FilterKernel;
-using raster::MapOption;
 using raster::Technique;
-using Parameters = std::vector<std::pair<std::string, double>>;
+
+/// Of a filter what is neither its kind nor how it takes the receiver's depth.
+bool is_parameter(const raster::MapSetting& setting) {
+  return setting.group == raster::SettingGroup::filter && setting.name != "filter-kernel" &&
+         setting.name != "filter-plane";
+}
 
 // The square of texels around the receiver's own, or around the receiver.
 double pcf_reach(const raster::FilterOptions& filter) {
@@ -46,42 +46,11 @@ double filter_reach_texels(const raster::MapOptions& map, double level) {
   return map.filter.blur_radius_texels + side + 0.5 * (side - 1.0);
 }
 
-Parameters filter_parameters(const raster::MapOptions& map) {
-  const raster::FilterOptions& f = map.filter;
-  const struct {
-    MapOption option;
-    const char* name;
-    double value;
-  } all[] = {{MapOption::filter_samples, "samples", double(f.samples)},
-             {MapOption::blocker_samples, "blocker_samples", double(f.blocker_samples)},
-             {MapOption::search_radius, "search_radius_texels", f.search_radius_texels},
-             {MapOption::blur_radius, "blur_radius_texels", double(f.blur_radius_texels)},
-             {MapOption::mipmaps, "mipmaps", f.mipmaps ? 1.0 : 0.0},
-             {MapOption::bleeding_reduction, "bleeding_reduction", f.light_bleeding_reduction},
-             {MapOption::esm_exponent, "exponent", f.esm_exponent},
-             {MapOption::evsm_exponent, "exponent", f.evsm_positive_exponent},
-             {MapOption::evsm_negative_exponent, "negative_exponent", f.evsm_negative_exponent},
-             {MapOption::moment_bias, "moment_bias", f.moment_bias}};
-  Parameters out;
-  for (const auto& [option, name, value] : all)
-    if (raster::reads_option(map, option)) out.emplace_back(name, value);
-  return out;
-}
-
 std::string filter_text(const raster::MapOptions& map) {
   if (filter_kind(map) == "none") return "";
   std::string text(filter_kind(map));
-  if (map.technique == Technique::pcf && map.filter.kernel != FilterKernel::hardware)
-    text += fmt::format(", radius {}", texels_text(map.filter.radius_texels));
-  for (auto [name, value] : filter_parameters(map)) {
-    const bool texels = name.ends_with("_texels");
-    if (texels) name.resize(name.size() - 7);
-    std::replace(name.begin(), name.end(), '_', ' ');
-    if (name == "mipmaps")
-      text += value != 0.0 ? ", mipmaps" : ", no mipmaps";
-    else
-      text += fmt::format(", {} {}", name, texels ? texels_text(value) : plain_number(value));
-  }
+  for (const raster::MapSetting& setting : raster::map_settings())
+    if (is_parameter(setting) && raster::reads(map, setting)) text += ", " + setting_words(setting, map);
   return text;
 }
 

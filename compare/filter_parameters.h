@@ -1,11 +1,8 @@
-// The filter of a technique as files and pages tell it: its kind, how far it reaches, and the parameters in
-// use.
+// The filter of a technique as files and pages tell it: its kind, how far it reaches, and its parameters in words.
 #pragma once
 
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "raster/options.h"
 
@@ -18,9 +15,6 @@ std::string_view filter_kind(const raster::MapOptions& map);
 /// Of pcss, the most. `level`: the mipmap level that is read; a texel of it averages 2^level, rounded up,
 /// texels on a side, and its neighbours are read too.
 double filter_reach_texels(const raster::MapOptions& map, double level = 0.0);
-
-/// The other parameters that the technique reads, by their names in result.json.
-std::vector<std::pair<std::string, double>> filter_parameters(const raster::MapOptions& map);
 
 /// "moments, blur radius 2, ...": one line for a person; empty for none.
 std::string filter_text(const raster::MapOptions& map);

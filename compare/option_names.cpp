@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <string>
+#include <cctype>
 
 #include "compare/number_text.h"
 
@@ -12,57 +12,37 @@ extern "C" [[gnu::weak]] const char* gnomon_commit();
 
 namespace gnomon::compare {
 
-std::string_view depth_format_name(raster::DepthFormat format) {
-  switch (format) {
-    case raster::DepthFormat::d16:
-      return "d16";
-    case raster::DepthFormat::d24:
-      return "d24";
-    case raster::DepthFormat::d32f:
-      return "d32f";
-    case raster::DepthFormat::d32f_reversed:
-      return "d32f-reversed";
-  }
-  return "unknown";
+namespace {
+
+std::string value_words(const raster::MapSetting& setting, const raster::MapOptions& map) {
+  const auto text = [](double value, std::string_view unit) {
+    return unit == "texels" ? texels_text(value) : plain_number(value);
+  };
+  if (const auto* number = std::get_if<raster::NumberSetting>(&setting.kind))
+    return text(number->get(map), number->unit);
+  if (const auto* number = std::get_if<raster::IntegerSetting>(&setting.kind))
+    return text(number->get(map), number->unit);
+  return raster::setting_text(setting, map);
 }
 
-std::string_view cull_name(raster::Cull cull) {
-  switch (cull) {
-    case raster::Cull::none:
-      return "none";
-    case raster::Cull::front:
-      return "front";
-    case raster::Cull::back:
-      return "back";
-  }
-  return "unknown";
-}
+}  // namespace
 
-std::string bias_arguments(const raster::Bias& bias, const raster::MapOptions& drawn) {
-  const bool asked = drawn.bias != raster::default_bias(drawn);  // then what is not needed is set back
-  std::string text;
-  const auto add_number = [&](std::string_view option, double wanted, double before) {
-    if (wanted != 0.0 || (asked && before != 0.0)) text += fmt::format("--{} {} ", option, wanted);
-  };
-  const auto add_flag = [&](std::string_view option, bool wanted, bool before) {
-    if (wanted || (asked && before)) text += fmt::format("--{}{} ", option, wanted ? "" : "=false");
-  };
-  add_number("slope-bias", bias.slope, drawn.bias.slope);
-  add_number("normal-offset", bias.normal_offset_texels, drawn.bias.normal_offset_texels);
-  add_flag("receiver-plane", bias.receiver_plane, drawn.bias.receiver_plane);
-  add_flag("adaptive-bias", bias.adaptive, drawn.bias.adaptive);
-  if (bias.unit == raster::BiasUnit::automatic) return text + "--bias auto";
-  return text +
-         fmt::format("--bias {}{}", bias.constant, bias.unit == raster::BiasUnit::texel ? "texel" : "");
+std::string setting_words(const raster::MapSetting& setting, const raster::MapOptions& map) {
+  std::string words(setting.title);
+  words.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(words.front())));
+  if (const auto* on_off = std::get_if<raster::SwitchSetting>(&setting.kind))
+    return on_off->get(map) ? words : "no " + words;
+  return words + " " + value_words(setting, map);
 }
 
 std::vector<std::string> bias_parts(const raster::Bias& bias) {
+  raster::MapOptions map, none;
+  map.bias = bias, none.bias = raster::Bias{};
   std::vector<std::string> parts;
-  if (bias.slope != 0.0) parts.push_back("slope bias " + plain_number(bias.slope));
-  if (bias.normal_offset_texels != 0.0)
-    parts.push_back("normal offset " + texels_text(bias.normal_offset_texels));
-  if (bias.receiver_plane) parts.emplace_back("receiver plane");
-  if (bias.adaptive) parts.emplace_back("adaptive bias");
+  for (const raster::MapSetting& setting : raster::map_settings())
+    if (setting.group == raster::SettingGroup::bias && setting.name != "bias" &&
+        raster::setting_text(setting, map) != raster::setting_text(setting, none))
+      parts.push_back(setting_words(setting, map));
   return parts;
 }
 

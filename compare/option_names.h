@@ -1,21 +1,21 @@
-// The words of the command line for the rasterizer's and the scene's choices, as files and pages write them.
+// The rasterizer's choices and the program's version in the words of files and pages.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "raster/technique_traits.h"
-#include "scene/scene.h"
+#include "raster/settings.h"
 
 namespace gnomon::compare {
 
-using raster::technique_name;                                    ///< "hard", "second-depth"
-std::string_view depth_format_name(raster::DepthFormat format);  ///< "d16", "d24", "d32f", "d32f-reversed"
-std::string_view cull_name(raster::Cull cull);                   ///< "none", "front", "back"
-/// "--slope-bias 1 --bias auto", "--receiver-plane --bias 0.002": what asks for a bias on the command line in place of what
-/// asked for that of `drawn`. The automatic constant is asked for, too, because a scene or a lesson may ask for another.
-std::string bias_arguments(const raster::Bias& bias, const raster::MapOptions& drawn = {});
+using raster::bias_arguments;
+using raster::cull_name;
+using raster::depth_format_name;
+using raster::technique_name;
+
+/// "slope bias 1", "blur radius 2 texels", "receiver plane", "no mipmaps": one setting and its value.
+std::string setting_words(const raster::MapSetting& setting, const raster::MapOptions& map);
 /// What a bias has beside its constant: "slope bias 1", "normal offset 0.5 texels", "receiver plane", "adaptive bias".
 std::vector<std::string> bias_parts(const raster::Bias& bias);
 /// The same and the sides left out of the map, to go on with after the constant: ", slope bias 1, cull front".

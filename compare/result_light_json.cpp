@@ -41,10 +41,25 @@ Json light_json(const Light& light) {
   return json;
 }
 
+/// The setting by its key, where it has one.
+void add_setting(Json& json, const raster::MapSetting& setting, const raster::MapOptions& map) {
+  if (setting.key.empty()) return;
+  Json& value = json[std::string(setting.key)];
+  if (const auto* n = std::get_if<raster::NumberSetting>(&setting.kind))
+    value = number(n->get(map));
+  else if (const auto* i = std::get_if<raster::IntegerSetting>(&setting.kind))
+    value = i->get(map);
+  else if (const auto* s = std::get_if<raster::SwitchSetting>(&setting.kind))
+    value = s->get(map);
+  else
+    value = raster::setting_text(setting, map);
+}
+
 Json filter_json(const raster::MapOptions& map) {
   Json json{{"kind", filter_kind(map)}, {"radius_texels", filter_reach_texels(map)}};
-  for (const auto& [name, value] : filter_parameters(map)) json[name] = value;
-  if (json.contains("mipmaps")) json["mipmaps"] = json["mipmaps"] != 0.0;
+  for (const raster::MapSetting& setting : raster::map_settings())
+    if (setting.group == raster::SettingGroup::filter && raster::reads(map, setting))
+      add_setting(json, setting, map);
   return json;
 }
 
@@ -81,12 +96,12 @@ Json cascades_json(const raster::MapOptions& map, const LightView& view) {
                      {"near", number(face.near_depth)},
                      {"far", number(face.far_depth)}});
   }
-  return {{"count", map.cascades.count},
-          {"lambda", number(map.cascades.lambda)},
-          {"snap", map.cascades.snap && !map.cascades.fit_samples},
-          {"fit_samples", map.cascades.fit_samples},
-          {"blend", number(map.cascades.blend)},
-          {"faces", std::move(faces)}};
+  Json json = Json::object();
+  for (const raster::MapSetting& setting : raster::map_settings())
+    if (setting.group == raster::SettingGroup::cascades)
+      add_setting(json, setting, raster::effective_options(map));
+  json["faces"] = std::move(faces);
+  return json;
 }
 
 std::string_view bias_unit_name(raster::BiasUnit unit) {
@@ -106,20 +121,24 @@ Json bias_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
   const bool drawn = draws_bias(c);
-  const raster::Bias bias = drawn ? map.bias : raster::Bias{};
+  raster::MapOptions given = map;
+  if (!drawn) given.bias = raster::Bias{};
   const auto if_drawn = [drawn](double value) { return drawn ? number(value) : Json(nullptr); };
-  return {{"constant_world", if_drawn(record.bias_constant_world)},
-          {"constant_texels", if_drawn(record.bias_constant_world / record.texel_world)},
-          {"unit", bias_unit_name(map.bias.unit)},
-          {"texel_world", number(record.texel_world)},
-          {"scales_with_texel", raster::scales_bias(map)},
-          {"slope", number(bias.slope)},
-          {"normal_offset_texels", number(bias.normal_offset_texels)},
-          {"receiver_plane", bias.receiver_plane},
-          {"receiver_plane_slack_world", bias.receiver_plane ? number(record.rounding_world) : Json(nullptr)},
-          {"adaptive", bias.adaptive},
-          {"adaptive_epsilon_world",
-           bias.adaptive ? number(record.rounding.adaptive_epsilon_world) : Json(nullptr)}};
+  Json json{{"constant_world", if_drawn(record.bias_constant_world)},
+            {"constant_texels", if_drawn(record.bias_constant_world / record.texel_world)},
+            {"unit", bias_unit_name(map.bias.unit)},
+            {"texel_world", number(record.texel_world)},
+            {"scales_with_texel", raster::scales_bias(map)}};
+  for (const raster::MapSetting& setting : raster::map_settings()) {
+    if (setting.group != raster::SettingGroup::bias) continue;
+    add_setting(json, setting, given);
+    if (setting.name == "receiver-plane")
+      json["receiver_plane_slack_world"] =
+          given.bias.receiver_plane ? number(record.rounding_world) : Json(nullptr);
+  }
+  json["adaptive_epsilon_world"] =
+      given.bias.adaptive ? number(record.rounding.adaptive_epsilon_world) : Json(nullptr);
+  return json;
 }
 
 // null where the program's own shaders drew.

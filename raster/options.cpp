@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "raster/options_check.h"
-#include "raster/technique_traits.h"
+#include "raster/settings.h"
 
 namespace gnomon::raster {
 namespace {
@@ -14,56 +16,15 @@ Error usage(std::string field, std::string reason) {
   return error;
 }
 
-Expected<void> check_bias(const Bias& bias) {
-  const auto finite = [](std::string field, double value) -> Expected<void> {
-    if (std::isfinite(value)) return {};
-    return fail(usage(std::move(field), fmt::format("must be finite (got {})", value)));
-  };
-  if (auto ok = finite("bias", bias.constant); !ok) return ok;
-  if (auto ok = finite("slope bias", bias.slope); !ok) return ok;
-  if (auto ok = finite("normal offset", bias.normal_offset_texels); !ok) return ok;
-  if (bias.normal_offset_texels < 0.0)
-    return fail(
-        usage("normal offset", fmt::format("must not be negative (got {})", bias.normal_offset_texels)));
-  return {};
-}
-
-Expected<void> check_range(std::string field, double value, double low, double high) {
-  if (value >= low && value <= high) return {};
-  return fail(
-      usage(std::move(field), fmt::format("is out of range (got {}, allowed {} to {})", value, low, high)));
-}
-
-Expected<void> check_filter(const FilterOptions& f) {
-  constexpr double least = 1e-3;  // texels; the kernels of radius 0 are those of `hard`
-  struct Range {
-    const char* field;
-    double value, low, high;
-  };
-  const Range ranges[] = {{"filter radius", f.radius_texels, least, 64.0},
-                          {"filter samples", double(f.samples), 1.0, 1024.0},
-                          {"blocker samples", double(f.blocker_samples), 1.0, 1024.0},
-                          {"search radius", f.search_radius_texels, least, 1024.0},
-                          {"blur radius", double(f.blur_radius_texels), 0.0, 64.0},
-                          {"light bleeding reduction", f.light_bleeding_reduction, 0.0, 0.999},
-                          {"esm exponent", f.esm_exponent, least, 80.0},
-                          {"evsm exponent", f.evsm_positive_exponent, least, 40.0},
-                          {"evsm negative exponent", f.evsm_negative_exponent, least, 40.0},
-                          {"moment bias", f.moment_bias, 0.0, 1.0}};
-  for (const Range& r : ranges)
-    if (auto ok = check_range(r.field, r.value, r.low, r.high); !ok) return ok;
-  return {};
-}
-
-Expected<void> check_cascades(const CascadeOptions& cascades) {
-  if (cascades.count < 1 || cascades.count > 6)
-    return fail(usage("cascades", fmt::format("is out of range (got {}, allowed 1 to 6)", cascades.count)));
-  if (!(cascades.lambda >= 0.0 && cascades.lambda <= 1.0))
-    return fail(
-        usage("cascade lambda", fmt::format("is out of range (got {}, allowed 0 to 1)", cascades.lambda)));
-  if (!(cascades.blend >= 0.0 && cascades.blend <= 0.5))
-    return fail(
-        usage("cascade blend", fmt::format("is out of range (got {}, allowed 0 to 0.5)", cascades.blend)));
+/// The numbers' ranges.
+Expected<void> check_ranges(const MapOptions& options) {
+  for (const MapSetting& setting : map_settings()) {
+    const Expected<void> valid = check_range(setting, options);
+    if (valid) continue;
+    std::string field(setting.name);
+    std::replace(field.begin(), field.end(), '-', ' ');
+    return fail(usage(std::move(field), valid.error().reason));
+  }
   return {};
 }
 
@@ -87,17 +48,16 @@ bool uses_moments(Technique technique) {
 MapOptions effective_options(const MapOptions& options) {
   MapOptions out = options;
   const TechniqueTraits& traits = traits_of(options.technique);
-  const bool filters = traits.reads.has(MapOption::filter_plane);
+  const bool filters = reads_setting(options, "filter-plane");
   out.bias.receiver_plane =
       options.bias.receiver_plane || (filters && options.filter.receiver_plane && !options.bias.adaptive);
   if (traits.contents == MapContents::back_depth) out.cull = Cull::front;
+  if (options.cascades.fit_samples) out.cascades.snap = false;
   return out;
 }
 
 Expected<void> check_map_options(const MapOptions& options) {
-  if (auto ok = check_bias(options.bias); !ok) return ok;
-  if (auto ok = check_filter(options.filter); !ok) return ok;
-  if (auto ok = check_cascades(options.cascades); !ok) return ok;
+  if (auto ok = check_ranges(options); !ok) return ok;
   if (options.technique == Technique::second_depth && options.cull == Cull::back)
     return fail(
         usage("technique second-depth", "leaves out front faces (got --cull back, allowed none, front)"));

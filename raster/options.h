@@ -135,7 +135,7 @@ bool scales_bias(const MapOptions& map);
 bool uses_moments(Technique technique);
 
 /// What a technique really does with the options: FilterOptions::receiver_plane turns Bias::receiver_plane
-/// on, unless the adaptive bias is asked for; second-depth culls front faces.
+/// on, unless the adaptive bias is asked for; second-depth culls front faces; cascades that are fitted to samples do not snap.
 MapOptions effective_options(const MapOptions& options);
 
 /// Error (usage): choices that exclude each other, or a value outside its range.

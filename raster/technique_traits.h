@@ -1,6 +1,7 @@
 // What each technique is: one table, which the shader's choice, the command line, the comparison, the tuner, the
 // viewer, the manual and the report page read. A new technique adds a row here, a case to technique_shader()
-// and, where it draws something of its own, a TechniquePass.
+// and, where it draws something of its own, a TechniquePass; which settings it reads follows from the row
+// (settings.cpp), and what it alone reads is a row there.
 #pragma once
 
 #include <cstdint>
@@ -36,36 +37,6 @@ enum class TexelShape : std::uint8_t {
   warped     ///< follows the camera: a width that grows with the distance to it
 };
 
-/// The options that not every technique reads, by their names on the command line.
-enum class MapOption : std::uint8_t {
-  bias,
-  slope_bias,
-  normal_offset,
-  receiver_plane,
-  adaptive_bias,
-  depth_format,
-  cull,
-  filter_kernel,
-  filter_radius,
-  filter_plane,
-  filter_samples,
-  blocker_samples,
-  search_radius,
-  blur_radius,
-  mipmaps,
-  bleeding_reduction,
-  esm_exponent,
-  evsm_exponent,
-  evsm_negative_exponent,
-  moment_bias,
-  cascades,
-  cascade_lambda,
-  no_snap,
-  cascade_fit,
-  cascade_blend,
-  snap
-};
-
 /// A set of the members of an enumeration of at most 32, a bit for each.
 template <class Enum>
 class EnumSet {
@@ -86,7 +57,6 @@ class EnumSet {
   }
   std::uint32_t bits_ = 0;
 };
-using MapOptionSet = EnumSet<MapOption>;
 using LightTypeSet = EnumSet<LightType>;
 
 struct TechniqueTraits {
@@ -101,7 +71,6 @@ struct TechniqueTraits {
   /// The slope bias where no bias is asked for and the filter has its default plane (default_bias()); without
   /// effect where the test is exact.
   double default_slope_bias;
-  MapOptionSet reads;
 };
 
 /// One row for each technique, in the order of the enumeration.
@@ -111,7 +80,6 @@ const TechniqueTraits& traits_of(Technique technique);
 struct FilterKernelTraits {
   FilterKernel kernel;
   std::string_view name;
-  MapOptionSet unread;  ///< options of pcf that this kernel does not read
 };
 std::span<const FilterKernelTraits> all_filter_kernel_traits();
 const FilterKernelTraits& traits_of(FilterKernel kernel);
@@ -129,8 +97,5 @@ inline bool compares_depths(Technique technique) {
 inline bool follows_camera(Technique technique) {
   return traits_of(technique).texels != TexelShape::of_light;
 }
-
-/// Whether the options' technique, with their filter kernel, reads one of them.
-bool reads_option(const MapOptions& map, MapOption option);
 
 }  // namespace gnomon::raster

@@ -8,17 +8,23 @@
 
 #include "app/command_line.h"
 #include "app/effect_options.h"
+#include "app/map_options.h"
 #include "app/options.h"
 #include "app/setting.h"
 #include "app/sweep/axes.h"
-#include "app/technique_options.h"
-#include "app/view/map_option.h"
 #include "tests/raster_fixture.h"
 
 namespace gnomon::test {
 namespace {
 
 using Words = std::vector<std::string>;
+
+std::vector<std::pair<raster::Technique, std::string>> techniques() {
+  std::vector<std::pair<raster::Technique, std::string>> all;
+  for (const raster::TechniqueTraits& traits : raster::all_technique_traits())
+    all.emplace_back(traits.technique, traits.name);
+  return all;
+}
 
 struct Choice {
   const char* option;
@@ -56,14 +62,11 @@ constexpr Choice choices[] = {{"bias", "3texel"},
                               {"cascade-blend", "0.3"},
                               {"snap", "on"}};
 
-TEST(TechniqueOptions, EveryOptionOfTheTableIsTried) {
-  std::set<std::string_view> tried;
+TEST(TechniqueOptions, EverySettingIsTried) {
+  std::set<std::string_view> tried{"map-size", "technique"};  // which concern every technique
   for (const Choice& choice : choices) tried.insert(choice.option);
-  for (const std::string_view option : app::technique_options())
-    EXPECT_TRUE(tried.contains(option)) << option;
-  // All that the command line knows of the map, but for what concerns every technique.
-  for (const std::string& option : app::map_setting_names())
-    EXPECT_TRUE(tried.contains(option) || option == "map-size" || option == "technique") << option;
+  for (const raster::MapSetting& setting : raster::map_settings())
+    EXPECT_TRUE(tried.contains(setting.name)) << setting.name;
 }
 
 /// Of each pixel what the light leaves and, where the technique tests it, the gap (a finer witness of what is
@@ -108,7 +111,7 @@ raster::MapOptions base_options(raster::Technique technique, const std::string& 
   map.technique = technique;
   map.size = 128;
   map.bias = {0.0, raster::BiasUnit::texel};
-  EXPECT_TRUE(app::set_map_option(map, "filter-kernel", kernel).has_value());
+  EXPECT_TRUE(raster::set_setting("filter-kernel", map, kernel).has_value());
   return map;
 }
 
@@ -119,8 +122,8 @@ void expect_as_the_table_says(Drawings& drawings, const std::string& name, raste
     if (!pcf && choice.kernel != std::string("box")) continue;
     const raster::MapOptions plain = base_options(technique, choice.kernel);
     raster::MapOptions changed = plain;
-    ASSERT_TRUE(app::set_map_option(changed, choice.option, choice.value).has_value()) << choice.option;
-    const bool reads = app::technique_reads(choice.option, plain);
+    ASSERT_TRUE(raster::set_setting(choice.option, changed, choice.value).has_value()) << choice.option;
+    const bool reads = raster::reads_setting(plain, choice.option);
     // Read or not, a clash is refused where the frame is drawn; the table has it under "not read".
     if (!raster::check_map_options(changed)) {
       EXPECT_FALSE(reads) << name << " --" << choice.option;
@@ -137,7 +140,7 @@ void expect_as_the_table_says(Drawings& drawings, const std::string& name, raste
 
 TEST(TechniqueOptions, WhatATechniqueReadsChangesTheDrawingAndNothingElseDoes) {
   Drawings under_sun(LightType::directional), under_lamp(LightType::point);
-  for (const auto& [name, technique] : app::all_techniques()) {
+  for (const auto& [technique, name] : techniques()) {
     if (technique == raster::Technique::hybrid) continue;  // it has no shader of its own: hybrid/
     Drawings& drawings = raster::has_map_for(technique, LightType::directional) ? under_sun : under_lamp;
     expect_as_the_table_says(drawings, std::string(name), technique);
@@ -166,16 +169,16 @@ Words option_words(const Choice& choice) {
 // The scene does not exist, which is found out after the options: exit 3 says that these were accepted.
 TEST(TechniqueOptions, TheCommandLineRefusesWhatIsNotRead) {
   for (const char* command : {"raster", "compare", "view"})
-    for (const auto& [name, technique] : app::all_techniques())
+    for (const auto& [technique, name] : techniques())
       for (const Choice& choice : choices) {
         Words words{command, "no-such-scene.json", "--technique", std::string(name)};
         for (const std::string& word : option_words(choice)) words.push_back(word);
         const bool kernel = technique == raster::Technique::pcf && choice.kernel != std::string("box");
         if (kernel) words.insert(words.end(), {"--filter-kernel", choice.kernel});
         raster::MapOptions map = base_options(technique, kernel ? choice.kernel : "box");
-        ASSERT_TRUE(app::set_map_option(map, choice.option, choice.value).has_value());
+        ASSERT_TRUE(raster::set_setting(choice.option, map, choice.value).has_value());
         const Outcome outcome = run(words);
-        const bool reads = app::technique_reads(choice.option, map);
+        const bool reads = raster::reads_setting(map, choice.option);
         EXPECT_EQ(outcome.code, reads ? 3 : 2) << command << " " << name << " " << choice.option;
         if (reads) continue;
         const std::string text = "--" + std::string(choice.option) + ": belongs to ";

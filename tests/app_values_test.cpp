@@ -38,9 +38,9 @@ TEST(Values, IntegersDoNotWrap) {
   for (const char* text : {"0", "-1", "65537", "2147483648", "99999999999999999999", "1.0", "1e3", ""}) {
     EXPECT_FALSE(parse_integer(text, 1, 65536)) << text;
   }
-  EXPECT_EQ(parse_seed("18446744073709551615").value(), UINT64_MAX);
-  EXPECT_FALSE(parse_seed("18446744073709551616"));
-  EXPECT_FALSE(parse_seed("-1"));
+  EXPECT_EQ(parse_unsigned("18446744073709551615").value(), UINT64_MAX);
+  EXPECT_FALSE(parse_unsigned("18446744073709551616"));
+  EXPECT_FALSE(parse_unsigned("-1"));
 }
 
 TEST(Values, Thresholds) {
@@ -76,16 +76,16 @@ TEST(Values, Sizes) {
 }
 
 TEST(Values, BiasesSayTheirUnit) {
-  EXPECT_EQ(parse_bias("0.02")->constant, 0.02);
-  EXPECT_EQ(parse_bias("0.02")->unit, raster::BiasUnit::world);
+  EXPECT_EQ(raster::parse_bias("0.02")->constant, 0.02);
+  EXPECT_EQ(raster::parse_bias("0.02")->unit, raster::BiasUnit::world);
   for (const char* text : {"0.5texel", "0.5texels"}) {
-    EXPECT_EQ(parse_bias(text)->constant, 0.5);
-    EXPECT_EQ(parse_bias(text)->unit, raster::BiasUnit::texel);
+    EXPECT_EQ(raster::parse_bias(text)->constant, 0.5);
+    EXPECT_EQ(raster::parse_bias(text)->unit, raster::BiasUnit::texel);
   }
-  EXPECT_EQ(parse_bias("-0.1")->constant, -0.1);
+  EXPECT_EQ(raster::parse_bias("-0.1")->constant, -0.1);
   for (const char* text :
        {"", "texel", "nan", "inf", "infinity", "nantexel", "1 texel", "0.5px", "0.5texeltexels", "1e31"}) {
-    EXPECT_FALSE(parse_bias(text)) << text;
+    EXPECT_FALSE(raster::parse_bias(text)) << text;
   }
 }
 

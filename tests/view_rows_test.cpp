@@ -1,13 +1,9 @@
-// The settings panel's rows against the command line's own table, and the window's arithmetic.
-#include "app/view/map_rows.h"
+// The lab's presets and bias in texels, and the window's arithmetic.
+#include "app/view/presets.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "app/technique_options.h"
 #include "app/view/layout.h"
-#include "app/view/map_option.h"
 #include "app/view/projection.h"
 #include "raster/technique_traits.h"
 #include "tests/view_fixture.h"
@@ -15,65 +11,7 @@
 namespace gnomon::app {
 namespace {
 
-TEST(ViewRows, EveryOptionThatATechniqueReadsHasOneRow) {
-  for (const std::string_view option : technique_options()) {
-    const auto rows = map_rows();
-    EXPECT_EQ(
-        std::count_if(rows.begin(), rows.end(), [&](const MapRow& row) { return row.option == option; }), 1)
-        << option;
-  }
-}
-
-TEST(ViewRows, WhatIsShownIsWhatTheTechniqueReads) {
-  for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
-    raster::MapOptions map;
-    map.technique = traits.technique;
-    for (const MapRow& row : map_rows())
-      EXPECT_EQ(is_read(row, map), technique_reads(row.option, map)) << row.option;
-  }
-}
-
-TEST(ViewRows, EveryRowSaysWhatItDoesToBothArtifacts) {
-  for (const MapRow& row : map_rows()) {
-    EXPECT_FALSE(row.what.empty()) << row.option;
-    EXPECT_FALSE(row.acne.empty()) << row.option;
-    EXPECT_FALSE(row.peter_panning.empty()) << row.option;
-  }
-}
-
-TEST(ViewRows, NumbersAreSetWhereTheyAreRead) {
-  for (const MapRow& row : map_rows()) {
-    raster::MapOptions map;
-    if (const auto* number = std::get_if<NumberRow>(&row.kind)) {
-      const double value = 0.5 * (number->from + number->to);
-      number->set(map, value);
-      EXPECT_EQ(number->get(map), value) << row.option;
-    }
-    if (const auto* integer = std::get_if<IntegerRow>(&row.kind)) {
-      integer->set(map, integer->to);
-      EXPECT_EQ(integer->get(map), integer->to) << row.option;
-    }
-    EXPECT_TRUE(raster::check_map_options(map)) << row.option;
-  }
-}
-
-TEST(ViewRows, ChoicesAreTheCommandLines) {
-  for (const MapRow& row : map_rows()) {
-    const auto* choice = std::get_if<ChoiceRow>(&row.kind);
-    if (choice == nullptr) continue;
-    const std::vector<std::string_view> names = choice->names();
-    EXPECT_GE(names.size(), 3u) << row.option;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      raster::MapOptions map, panel;
-      ASSERT_TRUE(set_map_option(map, std::string(row.option), std::string(names[i]))) << names[i];
-      EXPECT_EQ(choice->get(map), i) << names[i];
-      choice->set(panel, i);
-      EXPECT_EQ(choice->get(panel), i) << names[i];
-    }
-  }
-}
-
-TEST(ViewRows, BiasInTexelsKeepsItsUnit) {
+TEST(ViewPresets, BiasInTexelsKeepsItsUnit) {
   raster::Bias bias{.constant = 0.3, .unit = raster::BiasUnit::world};
   EXPECT_DOUBLE_EQ(bias_texels(bias, 0.3, 0.1), 3.0);
   set_bias_texels(bias, 2.0, 0.1);
@@ -85,7 +23,7 @@ TEST(ViewRows, BiasInTexelsKeepsItsUnit) {
   EXPECT_EQ(bias.constant, 2.0);
 }
 
-TEST(ViewRows, PresetsCanBeDrawn) {
+TEST(ViewPresets, PresetsCanBeDrawn) {
   for (const Preset& preset : presets())
     for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
       raster::MapOptions map;
@@ -95,7 +33,7 @@ TEST(ViewRows, PresetsCanBeDrawn) {
     }
 }
 
-TEST(ViewRows, WhatAPresetShowsIsNotWhatAnotherLeft) {
+TEST(ViewPresets, WhatAPresetShowsIsNotWhatAnotherLeft) {
   for (const Preset& before : presets())
     for (const Preset& preset : presets()) {
       const raster::MapOptions alone = preset.apply({}), after = preset.apply(before.apply({}));

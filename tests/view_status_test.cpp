@@ -57,7 +57,7 @@ TEST(ViewStatus, TheTunerIsAskedForThePictureShown) {
 TEST(ViewStatus, AFlagOfTheMapsSettingsIsOn) {
   raster::MapOptions map;
   map.bias.receiver_plane = true;
-  const auto settings = map_settings(map);
+  const auto settings = raster::map_values(map);
   EXPECT_EQ(std::count(settings.begin(), settings.end(),
                        std::pair<std::string, std::string>("receiver-plane", "on")),
             1);

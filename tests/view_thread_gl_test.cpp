@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-#include "app/view/map_rows.h"
+#include "app/view/presets.h"
 #include "raster/shader_folder.h"
 #include "tests/app_process.h"
 #include "tests/view_thread_fixture.h"

@@ -7,7 +7,6 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/render_json.h"
-#include "app/technique_options.h"
 #include "compare/shadow_cost.h"
 #include "scene/files/write_file.h"
 #include "scene/parallel.h"
@@ -103,16 +102,16 @@ Expected<TechniqueTable> bench_techniques(const LoadedScene& loaded, raster::Bac
   if (!renderer) return fail(renderer.error());
   compare::Engine engine(*loaded.scene, *loaded.world, **renderer, false);
   TechniqueTable table{loaded.scene->name, base.size, base.map.size, {}};
-  const auto techniques = all_techniques();
-  for (const auto& [name, technique] : techniques) {
-    progress(std::string(name),
-             static_cast<double>(table.rows.size()) / static_cast<double>(techniques.size()));
+  const auto techniques = raster::all_technique_traits();
+  for (const raster::TechniqueTraits& traits : techniques) {
+    const std::string name(traits.name);
+    progress(name, static_cast<double>(table.rows.size()) / static_cast<double>(techniques.size()));
     compare::Setting setting = setting_for(loaded, base);
-    setting.raster.map.technique = technique;
+    setting.raster.map.technique = traits.technique;
     setting.raster.map.bias = raster::default_bias(setting.raster.map);
     const auto comparison = engine.compare(setting);
     if (comparison) {
-      table.rows.push_back(measure(std::string(name), **comparison));
+      table.rows.push_back(measure(name, **comparison));
       if (table.rows.back().compared == 0)
         return fail(
             ErrorKind::bad_input,

@@ -120,7 +120,7 @@ void add_technique_options(CLI::App& app, TechniqueBench& bench) {
                  "[scenes with commas between; default off]")
       ->delimiter(',')
       ->type_name("SCENE[,SCENE]");
-  add_map_size(app, bench.raster.map.size);
+  add_map_option(app, "map-size", bench.raster.map);
   add_output(app, "-o,--output", bench.page, "FILE.md",
              "the table of --techniques as Markdown [default none]");
 }
@@ -132,7 +132,8 @@ void add_tune_options(CLI::App& app, TuneBench& bench) {
       ->delimiter(',')
       ->type_name("SCENE[,SCENE]");
   const auto reason = [](const std::string& name) {
-    const auto known = parse_choice<raster::Technique>(name, all_techniques());
+    raster::MapOptions map;
+    const auto known = raster::set_setting("technique", map, name);
     return known ? std::string() : known.error().reason;
   };
   app.add_option("--technique", bench.techniques,

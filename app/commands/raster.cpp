@@ -4,13 +4,13 @@
 
 #include "app/effect_options.h"
 #include "app/invocation.h"
+#include "app/map_options.h"
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/picture_bands.h"
 #include "app/picture_command.h"
 #include "app/pose_options.h"
 #include "app/session.h"
-#include "app/technique_options.h"
 #include "raster/bands.h"
 
 namespace gnomon::app {

@@ -42,7 +42,7 @@ std::vector<raster::Bias> bias_axis(const compare::Grid& grid) {
   for (const compare::Axis& axis : grid.axes()) {
     if (axis.name != "bias") continue;
     for (const std::string& text : axis.values)
-      if (const auto value = parse_bias(text)) biases.push_back({value->constant, value->unit});
+      if (const auto value = raster::parse_bias(text)) biases.push_back({value->constant, value->unit});
   }
   return biases;
 }

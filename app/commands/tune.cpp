@@ -69,9 +69,8 @@ Expected<std::vector<int>> choose_sizes(const TuneCommand& command, int limit) {
 Expected<void> check_lists(const TuneCommand& command) {
   const auto grid = command.options.grid(false);
   if (!grid) return fail(grid.error());
-  const std::vector<std::string> allowed = map_setting_names();
   for (const compare::Axis& axis : grid->axes())
-    if (std::find(allowed.begin(), allowed.end(), axis.name) == allowed.end() || axis.name == "bias")
+    if (raster::find_setting(axis.name) == nullptr || axis.name == "bias")
       return fail(ErrorKind::usage,
                   fmt::format("--{}: one value only; the tuner varies the map's options", axis.name));
   if (is_given(command.options.fixed(), *grid, "bias"))

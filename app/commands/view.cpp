@@ -7,10 +7,10 @@
 #include <memory>
 
 #include "app/invocation.h"
+#include "app/map_options.h"
 #include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/strongest_lights.h"
-#include "app/technique_options.h"
 #include "app/values.h"
 
 namespace gnomon::app {

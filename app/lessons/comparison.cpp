@@ -6,10 +6,10 @@
 #include <algorithm>
 
 #include "app/lesson_scene.h"
+#include "app/map_options.h"
 #include "app/options.h"
 #include "app/session.h"
 #include "app/setting.h"
-#include "app/technique_options.h"
 #include "compare/report/charts.h"
 #include "compare/report/page_data.h"
 

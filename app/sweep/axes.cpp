@@ -6,10 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "app/filter_options.h"
 #include "app/options.h"
 #include "app/shell.h"
-#include "app/technique_options.h"
 
 namespace gnomon::app {
 
@@ -70,13 +68,11 @@ std::string sweep_text(const CLI::Option& option) {
 Values values_read(const Values& values) {
   raster::MapOptions map;
   for (const auto& [name, value] : values) {
-    for (const auto& [text, technique] : all_techniques())
-      if (name == "technique" && value == text) map.technique = technique;
-    for (const auto& [text, kernel] : filter_kernels())
-      if (name == "filter-kernel" && value == text) map.filter.kernel = kernel;
+    if (name != "technique" && name != "filter-kernel") continue;
+    [[maybe_unused]] const Expected<void> known = raster::set_setting(name, map, value);
   }
   Values read = values;
-  std::erase_if(read, [&](const auto& entry) { return !technique_reads(entry.first, map); });
+  std::erase_if(read, [&](const auto& entry) { return !raster::reads_setting(map, entry.first); });
   return read;
 }
 
@@ -169,14 +165,17 @@ const std::vector<std::string>* SweepOptions::values_of(std::string_view name) c
 Expected<void> SweepOptions::check_read() const {
   std::vector<raster::Technique> techniques;
   std::vector<raster::FilterKernel> kernels;
-  const auto collect = [](const std::vector<std::string>* values, const auto& known,
-                          const std::vector<std::string>& fallback, auto& out) {
-    const std::vector<std::string>& names = values != nullptr ? *values : fallback;
-    for (const auto& [text, value] : known)
-      if (std::find(names.begin(), names.end(), text) != names.end()) out.push_back(value);
+  const auto collect = [&](const char* option, const std::vector<std::string>& fallback, const auto& rows,
+                           auto value, auto& out) {
+    const std::vector<std::string>* given = values_of(option);
+    const std::vector<std::string>& names = given != nullptr ? *given : fallback;
+    for (const auto& row : rows)
+      if (std::find(names.begin(), names.end(), row.name) != names.end()) out.push_back(row.*value);
   };
-  collect(values_of("technique"), all_techniques(), unnamed_, techniques);
-  collect(values_of("filter-kernel"), filter_kernels(), {"box"}, kernels);
+  collect("technique", unnamed_, raster::all_technique_traits(), &raster::TechniqueTraits::technique,
+          techniques);
+  collect("filter-kernel", {"box"}, raster::all_filter_kernel_traits(), &raster::FilterKernelTraits::kernel,
+          kernels);
   for (const auto& given : given_) {
     if (given->values.empty()) continue;
     if (const auto read = app::check_read(given->name, techniques, kernels); !read) return read;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/setting.h"
+#include "raster/settings.h"
 
 namespace gnomon::app {
 namespace {
@@ -19,10 +19,9 @@ bool shares_drawing(const compare::Grid& grid, std::size_t cell) {
 /// How many cells in a row have one truth: those that differ in options of the map alone.
 std::size_t cells_of_one_truth(const compare::Grid& grid) {
   if (grid.zipped()) return 1;
-  const std::vector<std::string> of_map = map_setting_names();
   std::size_t cells = 1;
   for (std::size_t k = grid.axes().size(); k-- > 0;) {
-    if (std::find(of_map.begin(), of_map.end(), grid.axes()[k].name) == of_map.end()) break;
+    if (raster::find_setting(grid.axes()[k].name) == nullptr) break;
     cells *= grid.axes()[k].values.size();
   }
   return cells;

@@ -128,7 +128,7 @@ Expected<void> write_scene(const std::string& path, const SceneArgument& opened,
   if (json->contains("include")) (*json)["include_lights"] = false;  // they stand here as they are now
   for (const Light& light : meant.lights) (*json)["lights"].push_back(light_json(light));
   (*json)["settings"] = Json::object();
-  for (const auto& [option, value] : map_settings(state.setup.map)) (*json)["settings"][option] = value;
+  for (const auto& [option, value] : raster::map_values(state.setup.map)) (*json)["settings"][option] = value;
   const OutputGuard whole_output;
   if (auto made = make_folder_for(path); !made) return made;
   const std::string text = json->dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

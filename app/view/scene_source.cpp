@@ -4,8 +4,8 @@
 #include <CLI/App.hpp>
 
 #include "app/lesson_scene.h"
+#include "app/map_options.h"
 #include "app/options.h"
-#include "app/technique_options.h"
 
 namespace gnomon::app {
 

@@ -8,9 +8,8 @@
 #include <sstream>
 
 #include "app/lesson_scene.h"
-#include "app/setting.h"
+#include "app/map_options.h"
 #include "app/values.h"
-#include "app/view/map_option.h"
 #include "app/view/script_keys.h"
 #include "scene/files/read_file.h"
 #include "scene/load.h"
@@ -55,7 +54,7 @@ Expected<Step> parse_light(const Words& words, const std::vector<Light>& lights)
 
 Expected<Change> set_map(const std::string& key, const std::string& value) {
   raster::MapOptions scratch;
-  if (const auto set = set_map_option(scratch, key, value); !set) return fail(set.error());
+  if (const auto set = raster::set_setting(key, scratch, value); !set) return fail(set.error());
   return Change{SetMapOption{key, value}};
 }
 
@@ -77,7 +76,7 @@ Expected<Step> parse_set(const Words& words, const std::vector<Light>& lights) {
   }
   if (key == "light") return parse_light(words, lights);
   const ScriptKey* own = find_script_key(key);
-  if (own == nullptr && !is_map_option(key)) return fail(unknown_key(key).error());
+  if (own == nullptr && raster::find_setting(key) == nullptr) return fail(unknown_key(key).error());
   const std::size_t values = own != nullptr ? own->values : 1;
   const auto complete = expect_count(words, 2 + values, own != nullptr ? own->usage : "set KEY VALUE");
   if (!complete) return fail(complete.error());

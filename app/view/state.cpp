@@ -7,8 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "app/options.h"
-#include "app/view/map_option.h"
+#include "raster/settings.h"
 
 namespace gnomon::app {
 
@@ -44,12 +43,10 @@ double clamped(double value, double limit) {
   return std::clamp(value, -limit, limit);
 }
 
-/// Of all that there are, and from the last to the first.
-template <class Enum>
-void go_to_next(Enum& value, std::span<const std::pair<std::string_view, Enum>> all) {
-  std::size_t place = 0;
-  while (all[place].second != value) ++place;
-  value = all[(place + 1) % all.size()].second;
+/// The next of all values of a setting, and after the last one the first.
+void go_to_next_choice(raster::MapOptions& map, std::string_view name) {
+  const auto& choice = std::get<raster::ChoiceSetting>(raster::find_setting(name)->kind);
+  choice.set(map, (choice.get(map) + 1) % choice.names().size());
 }
 
 /// The setup's changes; each is followed by a new revision.
@@ -122,10 +119,10 @@ struct SetupChange {
         static_cast<int>(std::min<std::int64_t>(2 * std::int64_t{s.setup.map.size}, s.max_map_size));
   }
   void operator()(const HalveMap&) const { s.setup.map.size = std::max(1, s.setup.map.size / 2); }
-  void operator()(const NextDepthFormat&) const { go_to_next(s.setup.map.depth_format, depth_formats()); }
-  void operator()(const NextCull&) const { go_to_next(s.setup.map.cull, culls()); }
+  void operator()(const NextDepthFormat&) const { go_to_next_choice(s.setup.map, "depth-format"); }
+  void operator()(const NextCull&) const { go_to_next_choice(s.setup.map, "cull"); }
   void operator()(const SetMapOption& c) const {
-    [[maybe_unused]] const Expected<void> set = set_map_option(s.setup.map, c.name, c.value);
+    [[maybe_unused]] const Expected<void> set = raster::set_setting(c.name, s.setup.map, c.value);
     assert(set && "checked when it was read");
   }
   /// The pixel that is explained stays at its place in the picture.

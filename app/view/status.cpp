@@ -6,14 +6,11 @@
 #include <cmath>
 #include <sstream>
 
-#include "app/filter_options.h"
 #include "app/options.h"
 #include "app/shell.h"
-#include "app/technique_options.h"
 #include "app/values.h"
 #include "compare/number_text.h"
-#include "compare/option_names.h"
-#include "raster/technique_traits.h"
+#include "raster/settings.h"
 
 namespace gnomon::app {
 
@@ -56,37 +53,6 @@ void add_if(Words& words, bool wanted, std::string_view key, const std::string& 
   }
 }
 
-void add_map(Words& words, const raster::MapOptions& map) {
-  const raster::MapOptions plain;
-  add_if(words, true, "--map-size", std::to_string(map.size));
-  add_if(words, map.technique != plain.technique, "--technique",
-         std::string(raster::technique_name(map.technique)));
-  // What is set for another technique stays set, but compare would refuse it.
-  const auto add = [&](bool wanted, std::string_view key, const std::string& value) {
-    add_if(words, wanted && technique_reads(key.substr(2), map), key, value);
-  };
-  const auto flag = [&](bool wanted, std::string_view key) {
-    if (wanted && technique_reads(key.substr(2), map)) words.emplace_back(key);
-  };
-  add(true, "--bias", bias_text(map.bias));
-  add(map.bias.slope != 0.0, "--slope-bias", number_text(map.bias.slope));
-  add(map.bias.normal_offset_texels != plain.bias.normal_offset_texels, "--normal-offset",
-      number_text(map.bias.normal_offset_texels));
-  flag(map.bias.receiver_plane, "--receiver-plane");
-  flag(map.bias.adaptive, "--adaptive-bias");
-  add(map.cascades.count != plain.cascades.count, "--cascades", std::to_string(map.cascades.count));
-  add(map.cascades.lambda != plain.cascades.lambda, "--cascade-lambda", number_text(map.cascades.lambda));
-  flag(!map.cascades.snap, "--no-snap");
-  flag(map.cascades.fit_samples, "--cascade-fit");
-  add(map.cascades.blend != plain.cascades.blend, "--cascade-blend", number_text(map.cascades.blend));
-  flag(map.snap, "--snap");
-  add(map.depth_format != plain.depth_format, "--depth-format",
-      std::string(compare::depth_format_name(map.depth_format)));
-  add(map.cull != plain.cull, "--cull", std::string(compare::cull_name(map.cull)));
-  std::istringstream filters(filter_options_text(map));  // plain words and numbers
-  for (std::string word; filters >> word;) words.push_back(word);
-}
-
 void add_poses(Words& words, const Setup& setup) {
   if (setup.camera) {
     const CameraPose& pose = *setup.camera;
@@ -126,22 +92,6 @@ std::string status_line(const ViewState& state, const Readings& readings, const 
                       state.setup.map.size, bias_words(state.setup.map.bias, readings));
   return text + fmt::format(" | live {} | {}", compare::milliseconds(readings.raster_ms),
                             compared_words(readings.compared));
-}
-
-std::vector<std::pair<std::string, std::string>> map_settings(const raster::MapOptions& map) {
-  Words words;
-  add_map(words, map);
-  std::vector<std::pair<std::string, std::string>> settings;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (!words[i].starts_with("--")) {
-      settings.back().second = words[i];
-      continue;
-    }
-    const std::size_t equals = words[i].find('=');
-    const std::string name = words[i].substr(2, equals == std::string::npos ? equals : equals - 2);
-    settings.emplace_back(name, equals == std::string::npos ? "on" : words[i].substr(equals + 1));
-  }
-  return settings;
 }
 
 std::vector<std::string> backend_words(raster::Backend backend) {
@@ -193,7 +143,8 @@ std::vector<std::string> setting_words(const ViewState& state, const ViewOptions
   add_if(words, !options.camera.empty(), "--camera", options.camera);
   add_if(words, options.tessellate > 0, "--tessellate", std::to_string(options.tessellate));
   add_if(words, true, "--size", size_text(state.setup.size));
-  add_map(words, state.setup.map);
+  const Words of_map = raster::map_arguments(state.setup.map);
+  words.insert(words.end(), of_map.begin(), of_map.end());
   add_truth(words, state, options);
   if (options.exposure)
     add_if(words, true, "--exposure", *options.exposure ? number_text(**options.exposure) : "auto");

@@ -45,8 +45,6 @@ std::vector<std::string> tuning_words(const ViewState& state, const ViewOptions&
 std::vector<std::string> backend_words(raster::Backend backend);
 /// Its part about the camera and the light.
 std::vector<std::string> pose_words(const ViewState& state);
-/// The shadow map's part of it: options without dashes; the value of a flag is "on".
-std::vector<std::pair<std::string, std::string>> map_settings(const raster::MapOptions& map);
 
 /// Lights that were turned but are not the chosen one: the command line has no words for them.
 std::vector<std::string> other_turned_lights(const ViewState& state);

@@ -1,7 +1,7 @@
 # The shadow lab: gnomon view.
 target_sources(gnomon_app PRIVATE
-  view/file_watch.cpp view/film.cpp view/frame_watch.cpp view/input.cpp view/interface.cpp view/job.cpp view/layout.cpp view/look.cpp view/map_option.cpp
-  view/map_pictures.cpp view/map_rows.cpp view/meter.cpp view/pixel_story.cpp view/priority.cpp view/projection.cpp
+  view/file_watch.cpp view/film.cpp view/frame_watch.cpp view/input.cpp view/interface.cpp view/job.cpp view/layout.cpp view/look.cpp
+  view/map_pictures.cpp view/meter.cpp view/pixel_story.cpp view/presets.cpp view/priority.cpp view/projection.cpp
   view/render_thread.cpp view/save_scene.cpp view/scene_source.cpp view/script.cpp view/script_keys.cpp view/state.cpp
   view/status.cpp view/studio.cpp view/style.cpp view/text_wrap.cpp view/view.cpp view/viewer.cpp view/viewer_files.cpp
   view/viewer_input.cpp view/viewer_script.cpp view/window.cpp view/worker.cpp

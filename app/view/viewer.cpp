@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "app/view/map_rows.h"
 #include "app/view/panels/panels.h"
+#include "app/view/presets.h"
 #include "app/view/status.h"
 #include "raster/renderer_name.h"
 #include "scene/one_line.h"

@@ -9,10 +9,10 @@
 
 #include "app/interrupt.h"
 #include "app/output_path.h"
-#include "app/view/map_option.h"
 #include "app/view/save_scene.h"
 #include "app/view/status.h"
 #include "app/view/viewer.h"
+#include "raster/settings.h"
 #include "scene/files/image_io.h"
 #include "scene/one_line.h"
 
@@ -28,10 +28,6 @@ Expected<void> save_image(const Rgb8Image& image, const std::string& path) {
   const OutputGuard whole_output;
   if (auto made = make_folder_for(path); !made) return made;
   return write_png(path, image);
-}
-
-bool is_bias_option(std::string_view name) {
-  return name == "bias" || name == "normal-offset" || name == "receiver-plane" || name == "adaptive-bias";
 }
 
 }  // namespace
@@ -192,11 +188,12 @@ void Viewer::use_answer(const Job& job) {
   bool biased = false, slope = false;
   for (const auto& [name, value] : answer["options"].items()) {
     const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-    if (!is_map_option(name)) continue;
-    if (const auto set = set_map_option(map, name, text); !set) return note(set.error());
+    const raster::MapSetting* setting = raster::find_setting(name);
+    if (setting == nullptr) continue;
+    if (const auto set = raster::set_setting(*setting, map, text); !set) return note(set.error());
     words.push_back(fmt::format("--{} {}", name, text));
     if (name == "slope-bias") slope = true;
-    biased = biased || is_bias_option(name);
+    biased = biased || setting->group == raster::SettingGroup::bias;
   }
   if (!slope) map.bias.slope = biased ? 0.0 : raster::default_bias(map).slope;
   app::carry_out(state_, SetMap{map});

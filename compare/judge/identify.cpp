@@ -259,10 +259,9 @@ Expected<void> Identifier::run() {
 
 std::string options_text(const raster::MapOptions& map) {
   std::string text = fmt::format("--technique {} --map-size {} {}", technique_name(map.technique), map.size,
-                                 bias_arguments(map.bias));
+                                 raster::bias_arguments(map.bias));
   if (map.technique == Technique::pcf) text += fmt::format(" --filter-radius {:g}", map.filter.radius_texels);
-  if (traits_of(map.technique).reads.has(raster::MapOption::filter_plane) && !map.filter.receiver_plane)
-    text += " --filter-plane off";
+  if (raster::reads_setting(map, "filter-plane") && !map.filter.receiver_plane) text += " --filter-plane off";
   return text;
 }
 

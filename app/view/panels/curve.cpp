@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "app/view/map_rows.h"
 #include "app/view/panels/panels.h"
+#include "app/view/presets.h"
 #include "compare/number_text.h"
 #include "compare/palette.h"
 

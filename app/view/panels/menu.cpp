@@ -1,8 +1,8 @@
 // The menu bar: scenes and lessons, views and layouts, settings that show an artifact, files, help.
 #include <imgui/imgui.h>
 
-#include "app/view/map_rows.h"
 #include "app/view/panels/panels.h"
+#include "app/view/presets.h"
 #include "compare/report/lessons.h"
 #include "scene/load.h"
 

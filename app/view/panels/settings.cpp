@@ -2,13 +2,13 @@
 #include <fmt/core.h>
 #include <imgui/imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "app/technique_options.h"
-#include "app/view/map_rows.h"
 #include "app/view/panels/panels.h"
+#include "app/view/presets.h"
 #include "app/view/text_wrap.h"
-#include "raster/technique_traits.h"
+#include "raster/settings.h"
 
 namespace gnomon::app {
 
@@ -19,11 +19,11 @@ struct Note {
   std::string_view what, acne, peter_panning;
   std::string options;
 
-  explicit Note(const MapRow& row)
+  explicit Note(const raster::MapSetting& row)
       : what(row.what),
         acne(row.acne),
         peter_panning(row.peter_panning),
-        options(fmt::format("--{}", row.option)) {}
+        options(fmt::format("--{}", row.name)) {}
   Note(std::string_view does, std::string_view on_acne, std::string_view on_peter_panning,
        const char* options_of)
       : what(does), acne(on_acne), peter_panning(on_peter_panning), options(options_of) {}
@@ -49,7 +49,7 @@ struct Note {
 };
 
 /// The row's name above its control, with the unit at the right; below it in a narrow column.
-void title_of(const MapRow& row, std::string_view unit) {
+void title_of(const raster::MapSetting& row, std::string_view unit) {
   ImGui::TextUnformatted(row.title.data(), row.title.data() + row.title.size());
   Note(row).of_name();
   if (unit.empty()) return;
@@ -70,37 +70,37 @@ bool slider(const Note& note, double& value, double from, double to, bool logari
 }
 
 struct RowControl {
-  const MapRow& row;
+  const raster::MapSetting& row;
   raster::MapOptions& map;
   const PanelContext& context;
 
-  bool operator()(const NumberRow& number) const {
-    title_of(row, number.unit);
+  bool operator()(const raster::NumberSetting& number) const {
+    title_of(row, row.slider_unit.empty() ? number.unit : row.slider_unit);
     double value = number.get(map);
-    if (!slider(Note(row), value, number.from, number.to, number.logarithmic)) return false;
+    if (!slider(Note(row), value, number.slider.min, number.slider.max, number.logarithmic)) return false;
     number.set(map, value);
     return true;
   }
-  bool operator()(const IntegerRow& integer) const {
+  bool operator()(const raster::IntegerSetting& integer) const {
     title_of(row, integer.unit);
     ImGui::SetNextItemWidth(-FLT_MIN);
     int value = integer.get(map);
     if (!integer.powers_of_two) {
-      const bool changed = ImGui::SliderInt("##value", &value, integer.from, integer.to);
+      const bool changed = ImGui::SliderInt("##value", &value, integer.slider_from, integer.slider_to);
       Note(row).of_control();
-      if (changed) integer.set(map, std::clamp(value, integer.from, integer.to));
+      if (changed) integer.set(map, std::clamp(value, integer.slider_from, integer.slider_to));
       return changed;
     }
-    const int limit = context.shown.max_map_size > 0 ? context.shown.max_map_size : integer.to;
+    const int limit = context.shown.max_map_size > 0 ? context.shown.max_map_size : integer.slider_to;
     int power = static_cast<int>(std::lround(std::log2(std::max(1, value))));
     const std::string text = fmt::format("{} x {}", value, value);
-    const int most = static_cast<int>(std::log2(std::min(limit, integer.to)));
+    const int most = static_cast<int>(std::log2(std::min(limit, integer.slider_to)));
     const bool changed = ImGui::SliderInt("##value", &power, 4, most, text.c_str(), ImGuiSliderFlags_NoInput);
     Note(row).of_control();
     if (changed) integer.set(map, 1 << std::clamp(power, 4, most));
     return changed;
   }
-  bool operator()(const SwitchRow& flag) const {
+  bool operator()(const raster::SwitchSetting& flag) const {
     bool on = flag.get(map);
     const std::string label = fmt::format("{}##value", row.title);
     const bool changed = ImGui::Checkbox(label.c_str(), &on);
@@ -108,7 +108,7 @@ struct RowControl {
     if (changed) flag.set(map, on);
     return changed;
   }
-  bool operator()(const ChoiceRow& choice) const {
+  bool operator()(const raster::ChoiceSetting& choice) const {
     title_of(row, {});
     const std::vector<std::string_view> names = choice.names();
     const std::size_t now = choice.get(map);
@@ -130,7 +130,7 @@ struct RowControl {
     return changed;
   }
   /// In texels whatever the unit, and beside the slider what that is in the world.
-  bool operator()(const BiasRow&) const {
+  bool operator()(const raster::ConstantBiasSetting&) const {
     const LivePicture& live = context.shown.live;
     title_of(row, "texels");
     double texels = bias_texels(map.bias, live.bias_world, live.texel_world);
@@ -163,13 +163,20 @@ struct RowControl {
   }
 };
 
-bool group(PanelContext& context, raster::MapOptions& map, RowGroup group, const char* title) {
-  bool any = false, changed = false;
-  for (const MapRow& row : map_rows()) any |= row.group == group && is_read(row, map);
+/// The technique has a control of its own, above the groups.
+bool is_shown(const raster::MapSetting& row, raster::SettingGroup group, const raster::MapOptions& map) {
+  return row.group == group && row.name != "technique" && raster::reads(map, row);
+}
+
+bool group(PanelContext& context, raster::MapOptions& map, raster::SettingGroup group, const char* title) {
+  const auto rows = raster::map_settings();
+  const bool any =
+      std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return is_shown(row, group, map); });
   if (!any || !ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen)) return false;
-  for (const MapRow& row : map_rows()) {
-    if (row.group != group || !is_read(row, map)) continue;
-    ImGui::PushID(row.option.data());
+  bool changed = false;
+  for (const raster::MapSetting& row : rows) {
+    if (!is_shown(row, group, map)) continue;
+    ImGui::PushID(row.name.data());
     changed |= std::visit(RowControl{row, map, context}, row.kind);
     ImGui::PopID();
   }
@@ -182,16 +189,12 @@ void choose(raster::MapOptions& map, raster::Technique technique) {
   map.technique = technique;
   if (raster::uses_moments(technique)) map.bias.receiver_plane = map.bias.adaptive = false;
   if (technique == raster::Technique::second_depth) map.cull = raster::Cull::none;
-  if (!technique_reads("snap", map)) map.snap = false;
+  if (!raster::reads_setting(map, "snap")) map.snap = false;
 }
 
 bool technique(PanelContext& context, raster::MapOptions& map) {
   const LightType type = context.state.given.lights[context.state.setup.light].type;
-  const Note note(
-      "What the map stores and how it is looked up.",
-      "Techniques that compare depths need a bias against it; filters turn it into grey; hybrid and izb "
-      "have none.",
-      "As much as the bias; hybrid and izb have none.", "--technique");
+  const Note note(*raster::find_setting("technique"));
   ImGui::TextUnformatted("Technique");
   note.of_name();
   ImGui::SetNextItemWidth(-FLT_MIN);
@@ -374,10 +377,10 @@ std::uint32_t colour(const glm::u8vec3& c) {
 void settings_panel(PanelContext& context) {
   raster::MapOptions map = context.state.setup.map;
   bool changed = technique(context, map);
-  changed |= group(context, map, RowGroup::map, "Map");
-  changed |= group(context, map, RowGroup::bias, "Bias");
-  changed |= group(context, map, RowGroup::filter, "Filter");
-  changed |= group(context, map, RowGroup::cascades, "Cascades");
+  changed |= group(context, map, raster::SettingGroup::map, "Map");
+  changed |= group(context, map, raster::SettingGroup::bias, "Bias");
+  changed |= group(context, map, raster::SettingGroup::filter, "Filter");
+  changed |= group(context, map, raster::SettingGroup::cascades, "Cascades");
   if (changed && raster::check_map_options(map)) context.ask(Change{SetMap{map}});
   lights(context);
   film(context);
