@@ -11,6 +11,7 @@
 
 #include "app/help.h"
 #include "app/memory_limit.h"
+#include "raster/settings.h"
 #include "scene/exposure.h"
 #include "scene/nearest_name.h"
 

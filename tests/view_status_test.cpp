@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "raster/settings.h"
 #include "tests/view_fixture.h"
 
 namespace gnomon::app {
