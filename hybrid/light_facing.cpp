@@ -48,7 +48,8 @@ WorldBounds world_bounds(const World& world, const LightView& view) {
   const double finite = box.empty() ? 0.0 : max_component(glm::max(glm::abs(box.min), glm::abs(box.max)));
   // Receivers on infinite planes lie farther away than anything finite, others within the bounds.
   const double beyond = has_planes(world) ? 16.0 : 1.0;
-  const double reach = beyond * (finite + origin + (box.empty() ? 1.0 : box.diagonal()));
+  const Interval depths = view.depth_range();
+  const double reach = beyond * (finite + origin + (box.empty() ? depths.max - depths.min : box.diagonal()));
   return {reach, error_gamma(32) * 3.0 * (reach + origin)};
 }
 

@@ -25,10 +25,11 @@ SheetGrid::SheetGrid(const World& world, const LightView& light_view)
     hopeless = hopeless || frame.warp != 0.0;
     face.handedness = glm::dot(glm::cross(frame.right, frame.up), frame.forward) < 0.0 ? -1.0 : 1.0;
   }
-  // U = size / 2 (x / half + w): both parts carry the position's error. Orthographic: w is 1.
+  // U = size / 2 (x / half + w): both parts carry the position's error. Orthographic: w is 1. The sums' own rounding is in
+  // units of U, texels times w.
   grid_error = std::max(view.size, 2 * tile_texels) * (1.0 / half + (perspective ? 1.0 : 0.0)) *
                    bounds.position_error +
-               0x1p-48 * view.size;
+               0x1p-48 * view.size * (perspective ? bounds.reach : 1.0);
   if (perspective)
     near_limit = grid_error / texel_slack;
   else

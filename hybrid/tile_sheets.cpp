@@ -118,7 +118,9 @@ SheetTile TileBuilder::build(int tile_x, int tile_y, std::span<const std::uint32
   if (placed_.empty()) {
     const ColumnBounds all = covers_alone();
     tile.uniform = pack(all.bounds);
-    if (all.decisive || covers_.size() == 1) return tile;
+    const bool alike =
+        std::none_of(covers_.begin(), covers_.end(), [](const Cover& c) { return c.error < inf; });
+    if (all.decisive || covers_.size() == 1 || alike) return tile;
   }
   finish(tile);
   return tile;

@@ -140,10 +140,14 @@ void TileFrame::find_reciprocal_depth(const std::array<ProjectedPoint, 3>& p, co
 }
 
 bool TileFrame::covers_tile(const TileTriangle& t) {
-  if (t.facing == Facing::edge_on) return false;
+  // Edge-on, an edge may cross the tile: no edge is known to pass beside it, and the whole triangle is boundary.
+  const bool edge_on = t.facing == Facing::edge_on;
+  if (edge_on && (!t.clipped || t.reciprocal_depth_error < inf)) return false;
   const float middle = 0.5f * tile_texels;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (!(t.edge[k].at(middle, middle) - middle - static_cast<float>(texel_slack) > t.error[k])) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float least = t.edge[k].at(middle, middle) - middle - static_cast<float>(texel_slack);
+    if (!(least > (edge_on ? -t.error[k] : t.error[k]))) return false;
+  }
   return true;
 }
 

@@ -40,7 +40,8 @@ class TileFrame {
 
   /// False: it surely misses the tile. `corners`: on this face.
   bool set_up(const std::array<ProjectedPoint, 3>& corners, TriangleFacing facing, TileTriangle& out) const;
-  /// The triangle surely covers every texel of the tile, and no edge crosses it.
+  /// The triangle surely covers every texel of the tile, and no edge crosses it; or it may meet every texel, and each knows as
+  /// little of it as the others, as of one that the light touches.
   static bool covers_tile(const TileTriangle& triangle);
 
  private:

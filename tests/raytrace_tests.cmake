@@ -6,7 +6,7 @@ gnomon_test(raytrace_test
   LIBS raytrace_support TBB::tbb)
 
 gnomon_test(raytrace_solids_test
-  SOURCES raytrace_solids_test.cpp raytrace_solid_sheets_test.cpp
+  SOURCES raytrace_solids_test.cpp raytrace_solid_sheets_test.cpp raytrace_twins_test.cpp
   LIBS raytrace_support TBB::tbb)
 
 gnomon_test(raytrace_packet_test

@@ -3,6 +3,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "app/verify/small_world.h"
+#include "app/verify/twin.h"
 #include "scene/light.h"
 #include "scene/solid.h"
 
@@ -247,6 +248,7 @@ Scene random_scene(Random& r) {
   scene.camera.eye = Vec3(4.0, 2.0, 3.5) + Vec3{quarter(r, 0, 1), quarter(r, 0, 2), quarter(r, 0, 1)};
   scene.camera.target = {quarter(r, -0.5, 0.5), 0.5, quarter(r, -0.5, 0.5)};
   if (r.coin()) turn(scene, r);
+  if (r.below(3) == 0) add_twin(scene, r);
   return scene;
 }
 

@@ -11,7 +11,8 @@
 namespace gnomon::verify {
 
 /// Boxes, loose triangles, some of them nearly without an area, one or two planes, spheres, solids; some meshes stand twice,
-/// have holes, or show their front alone; a camera and one light without size.
+/// have holes, or show their front alone; in a third of the scenes one of the shapes stands there once more in another
+/// description (twin.h); a camera and one light without size.
 Scene random_scene(Random& random);
 
 /// With its instances kept, if a mesh stands more than once.

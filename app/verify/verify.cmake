@@ -1,8 +1,9 @@
 # The hard cases stand apart from the command line, so that their tests do too; and so do the small scenes they are made of,
 # which the tests of rays share.
-add_library(gnomon_small_world STATIC verify/random.cpp verify/small_world.cpp)
+add_library(gnomon_small_world STATIC verify/random.cpp verify/small_world.cpp verify/twin.cpp)
 add_library(gnomon::small_world ALIAS gnomon_small_world)
-target_link_libraries(gnomon_small_world PUBLIC gnomon_flags gnomon::raytrace gnomon::scene PRIVATE gnomon_warnings)
+target_link_libraries(gnomon_small_world PUBLIC gnomon_flags gnomon::raytrace gnomon::scene
+  PRIVATE gnomon_warnings fmt::fmt)
 
 add_library(gnomon_verify STATIC
   verify/case_boxes.cpp verify/case_far.cpp verify/case_glass.cpp verify/case_invariance.cpp verify/case_lights.cpp verify/case_nested_glass.cpp verify/case_offsets.cpp

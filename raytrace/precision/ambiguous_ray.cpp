@@ -1,5 +1,7 @@
 #include "raytrace/precision/ambiguous_ray.h"
 
+#include "raytrace/precision/exact_shadow.h"
+
 namespace gnomon::raytrace {
 namespace {
 
@@ -20,7 +22,12 @@ struct BelowHorizon {
 
 AmbiguousRay::AmbiguousRay(const World& world, const SurfacePoint& from, const Ray& ray,
                            const RayFrame& frame, bool decided)
-    : world_(world), from_(from), ray_(frame), decided_(decided), surely_out_(frame.t.max) {
+    : world_(world),
+      from_(from),
+      ray_(frame),
+      decided_(decided),
+      is_known_(is_known_exactly(world, from.primitive)),
+      surely_out_(frame.t.max) {
   error_ = origin_error(from, ray);
   error_x_ = axis(error_, frame.kx) + std::abs(frame.shear_x) * axis(error_, frame.kz);
   error_y_ = axis(error_, frame.ky) + std::abs(frame.shear_y) * axis(error_, frame.kz);
@@ -119,7 +126,7 @@ Intersects AmbiguousRay::intersects_plane(std::uint32_t id) const {
     slope_error += std::abs(n * ray_.direction[a]) * error_gamma(8);
   }
   if (std::abs(height) <= height_error) {
-    if (decided_) return Intersects::perhaps;
+    if (takes_receiver()) return Intersects::perhaps;
     // The point lies on this plane: it is hit at the origin or nowhere, and then it is the same surface.
     return std::abs(slope) <= slope_error || is_same_surface(plane) ? Intersects::no : Intersects::perhaps;
   }
@@ -173,14 +180,22 @@ Intersects AmbiguousRay::intersects_sphere(std::uint32_t id) const {
   const double half_min = half_chord(std::min(sphere.radius, distance + error)) * (1.0 - error_gamma(4));
   const Interval3 near{middle - half_max - t_error, middle - half_min + t_error};
   const Interval3 far{middle + half_min - t_error, middle + half_max + t_error};
-  if (id == from_.primitive) {  // the point is one of the roots; from within, the other one is ahead
-    const bool within = glm::dot(from_.normal, offset) < 0.0;
-    return within ? in_interval(far) : Intersects::no;
-  }
+  const Start start = start_on(id, offset, near, far);
+  if (start == Start::far) return Intersects::no;
+  if (start == Start::near) return in_interval(far);
   const Intersects a = in_interval(near), b = in_interval(far);
   if (distance + error < sphere.radius && (a == Intersects::surely || b == Intersects::surely))
     return Intersects::surely;
   return a == Intersects::no && b == Intersects::no ? Intersects::no : Intersects::perhaps;
+}
+
+AmbiguousRay::Start AmbiguousRay::start_on(std::uint32_t id, const Vec3& offset, const Interval3& near,
+                                           const Interval3& far) const {
+  if (id == from_.primitive) return glm::dot(from_.normal, offset) < 0.0 ? Start::near : Start::far;
+  // On another one, within rounding: of a sphere or a solid alone, for no sphere is the surface that a flat one is.
+  if (is_known_ || !(near.hi < far.lo)) return Start::elsewhere;
+  if (near.lo <= 0.0 && near.hi >= 0.0) return Start::near;
+  return far.lo <= 0.0 && far.hi >= 0.0 ? Start::far : Start::elsewhere;
 }
 
 double AmbiguousRay::rise() const {

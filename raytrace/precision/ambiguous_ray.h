@@ -24,13 +24,16 @@ bool clearly_leaves(const Plane& plane, const Ray& ray, const Vec3& error);
 class AmbiguousRay {
  public:
   /// `decided`: every ambiguity is decided by exact predicates afterwards, so none may be left out for being
-  /// too small to matter.
+  /// too small to matter, but what the receiver alone makes ambiguous: see takes_receiver().
   AmbiguousRay(const World& world, const SurfacePoint& from, const Ray& ray, const RayFrame& frame,
                bool decided);
 
   const RayFrame& frame() const { return ray_; }
   const SurfacePoint& from() const { return from_; }
   const Vec3& error() const { return error_; }  ///< of the origin
+  /// The exact predicates take the receiver as it is given (is_known_exactly). What another one lies on within its bound is
+  /// left out as it is where nothing is decided.
+  bool takes_receiver() const { return decided_ && is_known_; }
   /// In the frame's t: nothing from here on can be in the way.
   double surely_out() const { return surely_out_; }
 
@@ -79,11 +82,14 @@ class AmbiguousRay {
   /// A plane through the point whose normal is the point's own, but for rounding.
   bool is_same_surface(const Plane& plane) const;
   Intersects intersects_sphere(std::uint32_t id) const;
+  /// Which root of a sphere the start of the ray is, if it is one.
+  enum class Start : std::uint8_t { elsewhere, near, far };
+  Start start_on(std::uint32_t id, const Vec3& offset, const Interval3& near, const Interval3& far) const;
 
   const World& world_;
   const SurfacePoint& from_;
   const RayFrame& ray_;
-  bool decided_;
+  bool decided_, is_known_;
   double surely_out_;
   Vec3 error_;
   double error_x_, error_y_, coarse_error_;

@@ -1,6 +1,7 @@
 // Whether a primitive blocks the way from a receiver to a light's centre, decided without rounding. The
 // receiver is the exact point that its record means: on a triangle the mean of the corners with the stored
-// weights, on a plane the foot of the stored position, on a sphere the stored position. The way is the open
+// weights, on a plane the foot of the stored position, on a sphere or a solid the stored position, which is
+// known within its bound alone: what lies there within that bound is left out before (AmbiguousRay). The way is the open
 // segment between the two points (to infinity for a directional light). Surfaces touched only at its ends do
 // not block it.
 #pragma once
@@ -11,6 +12,12 @@
 #include "raytrace/tracer.h"
 
 namespace gnomon::raytrace {
+
+/// Whether a receiver on this primitive is known exactly: on a triangle or a plane. On a sphere or a solid its stored
+/// position is as good as any other within its bound.
+inline bool is_known_exactly(const World& world, std::uint32_t primitive) {
+  return world.is_triangle(primitive) || std::holds_alternative<Plane>(world.shape(primitive).geometry);
+}
 
 class ExactShadow {
  public:

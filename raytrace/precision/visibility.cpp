@@ -84,12 +84,12 @@ class Query {
   template <bool masks>
   bool count(std::uint32_t id, Intersects intersects, int edge, bool positive) {
     if (intersects == Intersects::no) return false;
-    if (intersects == Intersects::perhaps && exact_ != nullptr && exact_->decides(id)) {
-      if (!exact_->blocks(id)) return false;
-      intersects = Intersects::surely;
+    if (intersects == Intersects::perhaps) {
+      const bool decides = exact_ != nullptr && exact_->decides(id);
+      if (!(decides && ambiguous_.takes_receiver()) && ambiguous_.below_horizon(id)) return false;
+      if (decides ? !exact_->blocks(id) : ambiguous_.beyond_light(id)) return false;
+      if (decides) intersects = Intersects::surely;
     }
-    if (intersects == Intersects::perhaps && (ambiguous_.below_horizon(id) || ambiguous_.beyond_light(id)))
-      return false;
     if constexpr (masks) {
       if (!is_opaque_here(id)) return false;
     }

@@ -12,11 +12,13 @@ enum class Place : std::uint8_t { inside, outside, unknown };
 /// prove one. Of an open solid only those crossings of f count that lie within its box.
 class March {
  public:
+  /// `source_sign`: that of the side to which a ray leaves the solid it starts on; else 0.
   March(const AlongRay& f, const Aabb& box, bool closed, int source_sign)
       : f_(f), box_(box), closed_(closed), source_sign_(source_sign), first_cut_(first_cut_axis(*f.solid)) {}
 
-  /// `at_start`: the ray starts at lo, on the solid itself.
-  Intersects run(double lo, double hi, bool at_start) {
+  /// `from_start`: the ray starts at lo.
+  Intersects run(double lo, double hi, bool from_start) {
+    const bool at_start = from_start && (source_sign_ != 0 || !function(Bounds(lo)).value.without_zero());
     constexpr double first_share = 0x1p-2, least_share = 0x1p-48;
     constexpr int most_stretches = 4096;
     const double longest = (hi - lo) * first_share, least = (hi - lo) * least_share;
@@ -60,7 +62,8 @@ class March {
     if (h.value.is_empty()) return Look::done;
     if (h.value.without_zero()) return note(h.value.positive());
     const bool monotone = h.value.sure && h.change.without_zero();
-    if (is_start && monotone && h.change.positive() == (source_sign_ > 0)) return note(source_sign_ > 0);
+    if (is_start && monotone && (source_sign_ == 0 || h.change.positive() == (source_sign_ > 0)))
+      return note(h.change.positive());
     if (monotone && place == Place::inside) {
       const Bounds a = function(Bounds(at)).value, b = function(Bounds(end)).value;
       if (a.without_zero() && b.without_zero())
@@ -118,8 +121,8 @@ Intersects intersects_solid(const RayFrame& ray, double surely_out, const Vec3& 
   if (range.empty() || !(from < to)) return Intersects::no;
 
   int source_sign = 0;
-  const bool at_start = source_normal != nullptr && from == ray.t.min;
-  if (at_start) {
+  const bool from_start = from == ray.t.min;
+  if (from_start && source_normal != nullptr) {
     const bool outside = glm::dot(solid_normal(solid, world), *source_normal) > 0.0;
     if (outside && is_convex(solid)) return Intersects::no;
     source_sign = outside ? 1 : -1;
@@ -127,7 +130,7 @@ Intersects intersects_solid(const RayFrame& ray, double surely_out, const Vec3& 
   const AlongRay f{&solid, local.origin + from * local.direction, local.direction, local_error};
   March march(f, box, is_closed(solid), source_sign);
   const double sure_end = std::min(to, ray.t.max);
-  Intersects intersects = sure_end > from ? march.run(0.0, sure_end - from, at_start) : Intersects::no;
+  Intersects intersects = sure_end > from ? march.run(0.0, sure_end - from, from_start) : Intersects::no;
   if (intersects == Intersects::no && to > sure_end &&
       march.run(std::max(0.0, sure_end - from), to - from, false) != Intersects::no)
     intersects = Intersects::perhaps;

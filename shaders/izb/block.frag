@@ -42,11 +42,14 @@ bool sphere_is_hole(ShapeData shape, ShadowRay ray, double t) {
 #endif
 }
 
-// Of the receiver's own sphere only the far side can be in its way, from within (ambiguous_ray.cpp, intersects_sphere).
+// Of the sphere that the receiver lies on, its own or an equal surface, only the far side can be in its way, from within
+// (ambiguous_ray.cpp, start_on).
 bool blocks(Blocker sphere, Receiver64 r, ShadowRay ray) {
   double t_near, t_far;
   if (!sphere_crossings64(ray.origin, ray.direction, sphere.center, sphere.radius, t_near, t_far)) return false;
-  bool own = r.primitive == sphere.shape.primitive;
+  dvec3 offset = r.position - sphere.center;
+  bool own = r.primitive == sphere.shape.primitive ||
+             abs(sqrt(dot(offset, offset)) - sphere.radius) <= lies_on_within(r, sphere.center, sphere.radius);
   if (own && !(dot(r.normal, ray.origin - sphere.center) < 0.0LF)) return false;
   bool near_counts = !own && in_range(ray, t_near) && !sphere_is_hole(sphere.shape, ray, t_near);
   if (!near_counts && (!in_range(ray, t_far) || sphere_is_hole(sphere.shape, ray, t_far))) return false;
@@ -78,12 +81,23 @@ double reach_along(DoubleShape s, dvec3 direction) {
   return dot(abs(to_solid64(s, direction)), 0.5LF * (s.box_max.xyz - s.box_min.xyz));
 }
 
+// The receiver lies on it, which is its own or the same surface in another description (solid_visibility.cpp).
+bool starts_on(ShapeData shape, DoubleShape s, Receiver64 r, dvec3 local) {
+  if (r.primitive == shape.primitive) return true;
+  double within = lies_on_within(r, s.center_and_radius.xyz, box_diagonal64(s));
+  if (any(lessThan(local, s.box_min.xyz - within)) || any(greaterThan(local, s.box_max.xyz + within))) return false;
+  dvec4 f = solid_gradient64(shape, s, local);
+  double cap, height = f.w / sqrt(dot(f.xyz, f.xyz));
+  int axis = nearest_cap(shape, s, local, f, cap);
+  return axis < 0 ? abs(height) <= within : height <= within && abs(local[axis] - cap) <= within;
+}
+
 bool blocks(Blocker solid, Receiver64 r, ShadowRay ray) {
   ShapeData shape = solid.shape;
   DoubleShape s = solid.s;
   int own = 0;
-  if (r.primitive == shape.primitive) {
-    dvec3 local = to_solid64(s, r.position - s.center_and_radius.xyz);
+  dvec3 local = to_solid64(s, r.position - s.center_and_radius.xyz);
+  if (starts_on(shape, s, r, local)) {
     own = dot(solid_normal64(shape, s, local), r.normal) > 0.0LF ? 1 : -1;
     if (own == 1 && s.center_and_radius.w != 0.0LF) return false;  // nothing convex shadows its own outside
   }

@@ -93,6 +93,12 @@ bool is_below(Receiver64 r, dvec3 p, double radius) {
   return dot(r.normal, d) + radius <= bound;
 }
 
+// How far off a surface of this place and size a receiver may be computed to lie that lies on it.
+double lies_on_within(Receiver64 r, dvec3 place, double size) {
+  dvec3 one = dvec3(1.0LF);
+  return 2.0LF * dot(r.error, one) + error_gamma(16) * (dot(abs(r.position) + abs(place), one) + size);
+}
+
 // Nor anything wholly beyond the light (ambiguous_ray.cpp, beyond_light).
 bool is_beyond(ShadowRay ray, dvec3 p, double radius) {
 #ifdef DIRECTIONAL
