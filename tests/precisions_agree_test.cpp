@@ -57,8 +57,11 @@ bool only_touched_block(const World& world, const raytrace::SurfacePoint& from, 
   bool one_does = false;
   for (std::uint32_t id = 0; id < world.primitive_count(); ++id) {
     if (id == from.primitive || !exact.decides(id) || !exact.blocks(id)) continue;
-    if (touches(light, world, id) || (is_known && lies_on(from.position, world, id)))
+    // What another receiver lies on hides nothing of it in either precision.
+    if (touches(light, world, id))
       one_does = true;
+    else if (lies_on(from.position, world, id))
+      one_does = one_does || is_known;
     else if (!world.is_masked(id))
       return false;
   }
