@@ -271,5 +271,11 @@ TEST(Invariance, PixelsAreThoseOfTheSameSceneInOtherNumbers) {
     for (const LightType type : kinds) expect_alike(type, techniques_for(type, asked != nullptr), seed);
 }
 
+// In a map that is a perspective one the sheets' bounds are lengths, too.
+TEST(Invariance, TheHybridIsAsSureUnderALampInATinySceneAsInALargeOne) {
+  constexpr std::array hybrid{raster::Technique::hybrid};
+  expect_alike(LightType::point, hybrid, 1);
+}
+
 }  // namespace
 }  // namespace gnomon::test
