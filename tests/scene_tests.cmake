@@ -8,3 +8,7 @@ gnomon_test(scene_files_test
 # Scenes written as glTF and read again; the ray tracer says whether their shadows are the same.
 gnomon_test(scene_gltf_writer_test SOURCES scene_gltf_writer_test.cpp
   LIBS gnomon::raytrace gnomon::scene nlohmann_json::nlohmann_json)
+
+# A program of its own: its rename() and others stand before those of the system.
+gnomon_test(scene_output_faults_test SOURCES scene_output_faults_test.cpp
+  LIBS gnomon::scene ${CMAKE_DL_LIBS})
