@@ -12,6 +12,8 @@
 #include <system_error>
 #include <thread>
 
+#include "scene/files/path_status.h"
+
 namespace gnomon::app {
 
 namespace {
@@ -30,9 +32,9 @@ std::list<std::string>& temporary_folders() {
   return folders;
 }
 
+/// As far as that works: nobody is left to be told.
 void remove_folder(const std::string& path) {
-  std::error_code none;
-  if (!path.empty()) std::filesystem::remove_all(path, none);
+  if (!path.empty()) (void)remove_all_of(path);
 }
 
 bool is_ignored(int signal_number) {
@@ -89,6 +91,16 @@ int interrupt_exit_code() {
 }
 
 OutputGuard::OutputGuard() : lock_(output_mutex()) {}
+
+RemovedOnSignal::RemovedOnSignal(const std::string& path) {
+  const OutputGuard guard;
+  place_ = temporary_folders().insert(temporary_folders().end(), path);
+}
+
+RemovedOnSignal::~RemovedOnSignal() {
+  const OutputGuard guard;
+  temporary_folders().erase(place_);
+}
 
 TemporaryFolder::TemporaryFolder(const std::string& name) {
   const OutputGuard guard;

@@ -29,6 +29,18 @@ class OutputGuard {
   std::unique_lock<std::mutex> lock_;
 };
 
+/// A folder that this process has made, and that goes when a signal ends the process before this object's end.
+class RemovedOnSignal {
+ public:
+  explicit RemovedOnSignal(const std::string& path);
+  ~RemovedOnSignal();
+  RemovedOnSignal(const RemovedOnSignal&) = delete;
+  RemovedOnSignal& operator=(const RemovedOnSignal&) = delete;
+
+ private:
+  std::list<std::string>::iterator place_;
+};
+
 /// A new folder for temporary files; it goes with all that is in it, also when a signal ends the process.
 class TemporaryFolder {
  public:

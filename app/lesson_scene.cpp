@@ -14,6 +14,7 @@
 #include "app/shimmer_options.h"
 #include "compare/report/lessons.h"
 #include "scene/files/json_reader.h"
+#include "scene/files/path_status.h"
 #include "scene/load.h"
 
 namespace gnomon::app {
@@ -143,7 +144,7 @@ std::string settings_note(const SceneArgument& scene) {
   std::string note = lesson_note(scene.name);
   const bool of_lesson = !note.empty();
   // The settings of built-in scenes are theirs by design; those of a file may surprise.
-  if (!of_lesson && scene.settings != SettingsUse::none && std::filesystem::is_regular_file(scene.name))
+  if (!of_lesson && scene.settings != SettingsUse::none && file_kind_or_none(scene.name) == FileKind::file)
     note = scene_settings_text(scene.name);
   if (note.empty()) return {};
   if (!of_lesson) note = "the scene asks for " + note;

@@ -1,10 +1,10 @@
 #include "app/options.h"
 
 #include <cmath>
-#include <filesystem>
 
 #include "app/lesson_scene.h"
 #include "app/option_kinds.h"
+#include "scene/files/path_status.h"
 #include "scene/tessellate.h"
 
 namespace gnomon::app {
@@ -94,9 +94,10 @@ void add_shader_dir(CLI::App& command, std::string& folder) {
                      "technique/pcf_box.glsl",
                      "a folder", "none"),
             [&folder](const std::string& text) -> Expected<void> {
-              std::error_code none;  // too long a name is no folder either
-              if (!std::filesystem::is_directory(text, none))
-                return fail(ErrorKind::usage, fmt::format("no such folder (got {})", text));
+              const auto there = is_folder(text, ErrorKind::usage);
+              if (!there)
+                return fail(ErrorKind::usage, fmt::format("{} (got {})", there.error().reason, text));
+              if (!*there) return fail(ErrorKind::usage, fmt::format("no such folder (got {})", text));
               folder = text;
               return {};
             });

@@ -1,13 +1,11 @@
 #include "app/output_path.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
-#include <cerrno>
-#include <cstdlib>
 #include <filesystem>
-#include <system_error>
 
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 
@@ -21,27 +19,25 @@ tl::unexpected<Error> cannot_write(const fs::path& path, const std::string& reas
   return fail(Error{ErrorKind::cannot_write, "cannot write here: " + reason, path.string()});
 }
 
-/// Makes a file in the folder and removes it again: permissions alone do not tell.
-Expected<void> try_to_write_in(const fs::path& folder) {
-  std::string name = (folder / ".gnomon-XXXXXX").string();
-  const int file = mkstemp(name.data());
-  if (file < 0) return cannot_write(folder, std::generic_category().message(errno));
-  close(file);
-  unlink(name.c_str());
-  return {};
+/// Of a place where nothing is.
+bool leads_nowhere(const fs::path& path) {
+  struct stat link = {};
+  return lstat(path.c_str(), &link) == 0;
 }
 
 /// Walks up to what exists already.
 Expected<void> check_folder(fs::path folder) {
-  std::error_code error;
   if (folder.empty()) folder = ".";
-  while (!fs::exists(folder, error) && folder.has_relative_path()) {
-    if (error && error != std::errc::not_a_directory) return cannot_write(folder, error.message());
+  for (;;) {
+    const auto kind = file_kind(folder.string(), ErrorKind::cannot_write);
+    if (!kind) return fail(kind.error());
+    if (*kind == FileKind::folder) return check_takes_files(folder.string());
+    if (*kind != FileKind::none || !folder.has_relative_path())
+      return cannot_write(folder, "it is not a folder");
+    if (leads_nowhere(folder)) return cannot_write(folder, "it is a link that leads nowhere");
     const fs::path parent = folder.parent_path();
     folder = parent.empty() ? fs::path(".") : parent;
   }
-  if (!fs::is_directory(folder, error)) return cannot_write(folder, "it is not a folder");
-  return try_to_write_in(folder);
 }
 
 }  // namespace
@@ -52,8 +48,9 @@ Expected<void> check_output_folder(const std::string& path) {
 
 Expected<void> check_output_file(const std::string& path) {
   if (path.empty() || path == "-") return {};
-  std::error_code error;
-  if (fs::is_directory(path, error)) return cannot_write(path, "it is a folder");
+  const auto folder = is_folder(path, ErrorKind::cannot_write);
+  if (!folder) return fail(folder.error());
+  if (*folder) return cannot_write(path, "it is a folder");
   return check_folder(fs::path(path).lexically_normal().parent_path());
 }
 

@@ -15,6 +15,7 @@
 #include "compare/output_parts.h"
 #include "compare/report/page.h"
 #include "compare/time_budget.h"
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 #include "scene/freed_memory.h"
@@ -118,8 +119,7 @@ void give_back(compare::Comparison& comparison, LoadedScene& loaded) {
 /// A page of an earlier run is left as it is, but not in silence.
 void note_old_report(const std::string& folder, Console& console) {
   const std::string page = folder + "/report.html";
-  std::error_code unknown;
-  if (std::filesystem::exists(page, unknown))
+  if (file_kind_or_none(page) != FileKind::none)
     console.note(page + " is of an earlier run; --no-report leaves it as it is");
 }
 
@@ -166,8 +166,9 @@ Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison&
     summary += compare::time_budget_text(log->budget(), stdout_takes_colour());
   if (!output.quiet && output.json != "-") print_data(summary);
   if (output.no_report) note_old_report(output.folder, console);
+  const std::string& folder = output.shown_folder.empty() ? output.folder : output.shown_folder;
   console.message(fmt::format("{}/{} ({:.1f} s, {:.0f} MB of memory at most)",
-                              output.no_report ? "result: " + output.folder : "report: " + output.folder,
+                              output.no_report ? "result: " + folder : "report: " + folder,
                               output.no_report ? "result.json" : "report.html", total.elapsed_ms() / 1000.0,
                               static_cast<double>(peak_memory_bytes()) / 1e6));
   return code;

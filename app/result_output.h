@@ -15,6 +15,7 @@ namespace gnomon::app {
 
 struct ResultOutput {
   std::string folder, json, aov;
+  std::string shown_folder{};  ///< what messages call the folder; empty: by its path
   std::optional<compare::Threshold> fail_above;
   double report_max_mb = compare::default_report_max_mb;
   bool no_report = false;  ///< no page; all other files as ever

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "tests/app_process.h"
 
@@ -137,6 +138,96 @@ TEST(NoDataLost, AFullDiskLeavesNoPartOfAFolder) {
   expect_one_line(limited("old"), 4, "");
   EXPECT_EQ(read_file(folder / "old/report.html"), page);
   EXPECT_EQ(read_file(folder / "old/result.json"), json);
+}
+
+/// All that lies in a folder, by name.
+std::map<std::string, std::string> all_files(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    files[entry.path().string()] = entry.is_regular_file() ? read_file(entry.path().string()) : "a folder";
+  return files;
+}
+
+/// Two shards of a sweep, and two captures that are right.
+struct InputsOfSets {
+  TemporaryFolder folder;
+  InputsOfSets() {
+    for (const char* part : {"1", "2"})
+      run(Words{"sweep", "acne-floor", "--bias", "0,0.1", "--shard", std::string(part) + "/2", "-o",
+                std::string("shard") + part, "-q"} +
+          small);
+    run({"export", "--suite", "suite", "--size", "64x36", "-q"});
+    for (const char* name : {"a", "b"}) {
+      fs::create_directories(folder / (std::string("captures/") + name));
+      for (const char* file : {"/cube-seams.glb", "/cube-seams.exr"})
+        fs::copy_file(folder / "suite" + file, folder / (std::string("captures/") + name) + file);
+      write_text(folder / (std::string("captures/") + name) + "/capture.json",
+                 R"({"schema": "gnomon/capture/1", "renderer": {"name": "x"}, "size": [64, 36],
+                     "scene": "cube-seams.glb", "visibility": "cube-seams.exr"})");
+    }
+  }
+  void run(const Words& words) const {
+    const ProcessResult result = run_gnomon(words, {.folder = folder.path()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+};
+
+const std::vector<Words> sets = {{"shaders", "-q", "-o"},
+                                 {"export", "-q", "--size", "64x36", "--suite"},
+                                 {"merge", "-q", "shard1", "shard2", "-o"},
+                                 {"judge", "-q", "--suite", "captures", "-o"}};
+
+// The disk is full at some file of many: none of them is there, or all of the older ones.
+TEST(NoDataLost, SetsOfFilesAreThereWholeOrNotAtAll) {
+  const InputsOfSets inputs;
+  const auto limited = [&](const Words& words) {
+    return run_gnomon(words, {.folder = inputs.folder.path(), .file_size_limit = 6000});
+  };
+  for (const Words& words : sets) {
+    const auto before = all_files(inputs.folder.path());
+    expect_one_line(limited(words + Words{"new"}), 4, "");
+    EXPECT_EQ(all_files(inputs.folder.path()), before) << words[0];
+    inputs.run(words + Words{"old-" + words[0]});
+    const auto older = all_files(inputs.folder.path());
+    expect_one_line(limited(words + Words{"old-" + words[0]}), 4, "");
+    EXPECT_EQ(all_files(inputs.folder.path()), older) << words[0];
+  }
+}
+
+TEST(NoDataLost, FilesOfOthersStayInAFolderOfASet) {
+  const InputsOfSets inputs;
+  std::vector<Words> calls = sets;
+  calls.push_back(Words{"sweep", "acne-floor", "-q"} + small + Words{"-o"});
+  for (const Words& words : calls) {
+    const std::string out = "out-" + words[0];
+    for (const char* name :
+         {"movie.mp4.part", "cells/cell-7.png", "cells/download.part", "thumbnails/x.part"}) {
+      fs::create_directories(fs::path(inputs.folder / (out + "/" + name)).parent_path());
+      write_text(inputs.folder / (out + "/" + name), "mine");
+    }
+    for (int run = 0; run < 2; ++run) inputs.run(words + Words{out});
+    for (const char* name :
+         {"movie.mp4.part", "cells/cell-7.png", "cells/download.part", "thumbnails/x.part"})
+      EXPECT_EQ(read_file(inputs.folder / (out + "/" + name)), "mine") << words[0] << " " << name;
+  }
+}
+
+// Said before a long run, and not after it.
+TEST(NoDataLost, AFolderThatCannotBeMadeIsRefusedByEveryCommand) {
+  const InputsOfSets inputs;
+  write_text(inputs.folder / "file", "mine");
+  fs::create_symlink("circle", inputs.folder / "circle");
+  fs::create_symlink("nowhere", inputs.folder / "dangling");
+  std::vector<Words> calls = sets;
+  for (const Words& words :
+       {Words{"compare", "acne-floor"}, Words{"sweep", "acne-floor"}, Words{"lessons"},
+        Words{"shimmer", "acne-floor"}, Words{"tune", "acne-floor", "--max-error", "1%"}})
+    calls.push_back(words + Words{"-q", "-o"});
+  for (const Words& words : calls)
+    for (const char* folder : {"file", "file/below", "circle", "circle/below", "dangling", "/proc/below"})
+      expect_one_line(run_gnomon(words + Words{folder}, {.folder = inputs.folder.path()}), 4, "");
+  EXPECT_EQ(read_file(inputs.folder / "file"), "mine");
+  EXPECT_TRUE(fs::is_symlink(inputs.folder / "dangling"));
 }
 
 TEST(NoDataLost, NamesOfTheLongestLength) {

@@ -234,6 +234,51 @@ TEST(Arrows, NobodyReachesIntoTracers) {
   EXPECT_EQ(reaching_into_tracers({{"hybrid/a.cpp", "tracer" + reach + ".bvh"}}).size(), 1u);
 }
 
+/// Those of std::filesystem that say "no" where nobody could look, or need their error looked at.
+const std::vector<std::string> dropped_errors{"exists(",
+                                              "is_directory(",
+                                              "is_regular_file(",
+                                              "is_empty(",
+                                              "equivalent(",
+                                              "file_size(",
+                                              "status(",
+                                              "remove(",
+                                              "remove_all(",
+                                              "copy_file(",
+                                              "directory_iterator",
+                                              "recursive_directory_iterator"};
+
+/// May ask std::filesystem itself: the file that others ask, and lists that leave out on purpose what cannot be read (an
+/// error is said where the files themselves are read, or there is nobody to be told).
+bool may_ask_about_paths(std::string_view path) {
+  constexpr std::string_view files[] = {"scene/files/path_status.cpp", "app/run_files.cpp",
+                                        "app/view/file_watch.cpp", "raster/shader_folder.cpp"};
+  return path.starts_with("tests/") || path.starts_with("app/grade/") ||
+         std::find(std::begin(files), std::end(files), path) != std::end(files);
+}
+
+/// "file: std::filesystem's exists(": "nothing is there" and "nobody could look" are told apart in one file.
+std::vector<std::string> questions_about_paths(const Files& files) {
+  std::vector<std::string> found;
+  for (const auto& [file, text] : files) {
+    if (!is_cpp(file) || may_ask_about_paths(file)) continue;
+    for (const std::string& question : dropped_errors)
+      for (const char* space : {"fs::", "std::filesystem::"})
+        if (text.find(space + question) != std::string::npos)
+          found.push_back(file + ": " + space + question + ": is for scene/files/path_status.h to ask");
+  }
+  return found;
+}
+
+TEST(Arrows, WhetherSomethingIsThereIsAskedInOneFile) {
+  for (const std::string& line : questions_about_paths(project_files())) ADD_FAILURE() << line;
+  EXPECT_EQ(questions_about_paths({{"app/a.cpp", "if (fs::exists(path, none)) {\n"},
+                                   {"compare/a.cpp", "std::filesystem::remove_all(path);\n"},
+                                   {"scene/a.cpp", "is_there(path);\n"}})
+                .size(),
+            2u);
+}
+
 TEST(Arrows, HoldInTheWholeProject) {
   const Files files = project_files();
   EXPECT_GE(files.size(), 40u) << "the sources were not found";

@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -140,24 +141,93 @@ TEST_F(JournalTest, RefusesAnEditedLine) {
   refused(whole, no_times + "{\"cell\":1}\n", 2);
 }
 
+/// The number of a process that is no more.
+std::string dead_process() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ::waitpid(child, nullptr, 0);
+  return std::to_string(child);
+}
+
 TEST_F(JournalTest, RemovesWhatWasNotFinishedAndNothingElse) {
   {
     auto journal = open();
     ASSERT_TRUE(journal->append(line(0), "{}\n"));
   }
-  const std::vector<std::string> kept = {"cells/cell-000000.js", "cells/truth-12.png", "cells/cell-me.png",
-                                         "thumbnails/cell-000000.png", "mine.txt"};
-  const std::vector<std::string> strays = {"cells/cell-000001.js", "thumbnails/cell-000002.png",
-                                           "cells/cell-000000.js.12-0.part", "sweep.json.12-0.part"};
+  const std::string dead = dead_process(), alive = std::to_string(::getppid());
+  const std::vector<std::string> own = {"cells/cell-000000.js", "cells/truth-0123456789ab.png",
+                                        "thumbnails/cell-000000.png"};
+  // Of other people and other programs, of other runs of this one, and of cells that this sweep does not have.
+  const std::vector<std::string> others = {"mine.txt",
+                                           "movie.mp4.part",
+                                           "movie.mp4." + dead + "-0.part",
+                                           "sweep.json.part",
+                                           "sweep.json." + alive + "-0.part",
+                                           "sweep.json.0" + dead + "-0.part",
+                                           "sweep.json." + dead + "-.part",
+                                           "sweep.json." + dead + "-0x.part",
+                                           "sweep.json.-0.part",
+                                           ".part",
+                                           "cell-000001.png",
+                                           "cells/cell-me.png",
+                                           "cells/cell-7.png",
+                                           "cells/cell-1.js",
+                                           "cells/cell-0000001.js",
+                                           "cells/cell-000001.jpg",
+                                           "cells/cell-000001.old.png",
+                                           "cells/truth-12.png",
+                                           "cells/truth-0123456789aB.png",
+                                           "cells/truth-0123456789ab.jpg",
+                                           "cells/x.png." + dead + "-1.part",
+                                           "thumbnails/download.part",
+                                           "thumbnails/cell-1.png"};
+  const std::vector<std::string> strays = {"cells/cell-000001.js",
+                                           "thumbnails/cell-000002.png",
+                                           "cells/cell-000000.js." + dead + "-0.part",
+                                           "sweep.json." + dead + "-12.part",
+                                           "cells/truth-0123456789ab.png." + dead + "-3.part",
+                                           "thumbnails/probe." + dead + "-3.part"};
   for (const char* name : {"cells", "thumbnails"}) fs::create_directories(fs::path(folder) / name);
-  for (const auto& names : {kept, strays})
+  fs::create_directory(fs::path(folder) / ("cells/cell-000002.png"));  // a folder of that name
+  for (const auto& names : {own, others, strays})
     for (const std::string& name : names) write(name, "x");
   ASSERT_TRUE(open());
-  for (const std::string& name : kept) EXPECT_TRUE(fs::exists(fs::path(folder) / name)) << name;
-  for (const std::string& name : strays) EXPECT_FALSE(fs::exists(fs::path(folder) / name)) << name;
+  const auto exists = [&](const std::string& name) { return fs::exists(fs::path(folder) / name); };
+  for (const auto& names : {own, others})
+    for (const std::string& name : names) EXPECT_TRUE(exists(name)) << name;
+  for (const std::string& name : strays) EXPECT_FALSE(exists(name)) << name;
   ASSERT_TRUE(discard_sweep(folder));
-  EXPECT_TRUE(fs::exists(fs::path(folder) / "cells/cell-me.png"));
-  EXPECT_FALSE(fs::exists(fs::path(folder) / "thumbnails") || fs::exists(fs::path(folder) / "sweep.jsonl"));
+  for (const std::string& name : others) EXPECT_TRUE(exists(name)) << name;
+  for (const std::string& name : own) EXPECT_FALSE(exists(name)) << name;
+  EXPECT_FALSE(exists("sweep.jsonl"));
+  for (const char* name : {"cells", "thumbnails"}) fs::remove_all(fs::path(folder) / name);
+  fs::create_directory(fs::path(folder) / "thumbnails");
+  ASSERT_TRUE(discard_sweep(folder));
+  EXPECT_FALSE(exists("thumbnails"));
+}
+
+// What cannot be looked at is not taken for what is not there.
+TEST_F(JournalTest, AHeaderThatCannotBeReadStays) {
+  ASSERT_TRUE(open());
+  fs::remove(fs::path(folder) / "sweep.json");
+  fs::create_symlink("sweep.json", fs::path(folder) / "sweep.json");
+  EXPECT_FALSE(open());
+  EXPECT_TRUE(fs::is_symlink(fs::path(folder) / "sweep.json"));
+  fs::remove(fs::path(folder) / "sweep.json");
+  ASSERT_TRUE(open());
+  fs::create_symlink("cells", fs::path(folder) / "cells");
+  const auto strays = open();
+  ASSERT_FALSE(strays);
+  EXPECT_EQ(strays.error().kind, ErrorKind::cannot_write);
+}
+
+TEST_F(JournalTest, ASweepAtWorkIsNotDiscarded) {
+  const auto at_work = open();
+  ASSERT_TRUE(at_work);
+  const auto discarded = discard_sweep(folder);
+  ASSERT_FALSE(discarded);
+  EXPECT_EQ(discarded.error().kind, ErrorKind::usage);
+  EXPECT_TRUE(fs::exists(fs::path(folder) / "sweep.json"));
 }
 
 // Where the file that is to go on cannot be read, nothing of it may be taken for torn.

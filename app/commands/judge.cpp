@@ -19,6 +19,8 @@
 #include "compare/judge/page.h"
 #include "compare/judge/several.h"
 #include "compare/report/page.h"
+#include "scene/files/path_status.h"
+#include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 #include "scene/stages.h"
 
@@ -155,10 +157,11 @@ std::vector<NamedCapture> with_names(const std::vector<std::string>& paths) {
   return captures;
 }
 
-/// Its own folder below the common one.
-ResultOutput folder_output(const JudgeCommand& command, const NamedCapture& named) {
+/// Its own folder below the common one, which is still in the making at `place`.
+ResultOutput folder_output(const JudgeCommand& command, const NamedCapture& named, const std::string& place) {
   ResultOutput output = command.output;
-  output.folder += "/" + named.name, output.quiet = true;
+  output.shown_folder = output.folder + "/" + named.name;
+  output.folder = place + "/" + named.name, output.quiet = true;
   return output;
 }
 
@@ -168,32 +171,48 @@ Expected<void> check_folders(const JudgeCommand& command, const std::vector<Name
     const auto capture = capture_of(command, named.path);
     if (!capture) continue;
     RunFiles files = inputs_of(*capture);
-    if (const auto fine = check_outputs(folder_output(command, named), files); !fine) return fine;
+    if (const auto fine = check_outputs(folder_output(command, named, command.output.folder), files); !fine)
+      return fine;
   }
   return {};
 }
 
-Expected<ExitCode> judge_next(JudgeCommand& command, const NamedCapture& named, compare::JudgedSet& set,
+/// What several captures become: pages in the making, and files that these must not replace.
+struct SetInTheMaking {
+  StagedFolder staged;
+  compare::JudgedSet set{};
+  std::vector<std::string> inputs{};
+};
+
+Expected<ExitCode> judge_next(JudgeCommand& command, const NamedCapture& named, SetInTheMaking& making,
                               Console& console) {
   const Stopwatch total;
   const auto capture = capture_of(command, named.path);
   if (!capture) return fail(capture.error());
-  const ResultOutput output = folder_output(command, named);
+  const ResultOutput output = folder_output(command, named, making.staged.path());
   RunFiles files = inputs_of(*capture);
   if (const auto fine = check_outputs(output, files); !fine) return fail(fine.error());
   auto judged = judge_one(command, *capture, files, console);
   if (!judged) return fail(judged.error());
   judged->comparison.total_ms = total.elapsed_ms();
-  set.add(named.name, judged->comparison);
+  making.set.add(named.name, judged->comparison);
+  making.inputs.insert(making.inputs.end(), files.inputs().begin(), files.inputs().end());
   const compare::PageIntroduction introduction = compare::judge_introduction(judged->comparison);
   return write_folder(output, judged->comparison, judged->loaded, files, total, console, &introduction);
 }
 
-/// Where no capture could be judged the folder is not there yet.
-Expected<void> write_set(const compare::JudgedSet& set, const std::string& folder) {
+Expected<void> publish_set(SetInTheMaking& making) {
   const OutputGuard whole_outputs;
-  if (const auto made = make_output_folder(folder); !made) return made;
-  return compare::write_judged_set(set, folder);
+  if (auto written = compare::write_judged_set(making.set, making.staged.path()); !written) return written;
+  if (auto sealed = making.staged.seal(making.inputs); !sealed) return sealed;
+  return making.staged.publish("report.html");
+}
+
+Expected<SetInTheMaking> begin_set(const std::string& folder) {
+  const OutputGuard whole_outputs;
+  auto staged = StagedFolder::open(folder);
+  if (!staged) return fail(staged.error());
+  return SetInTheMaking{std::move(*staged)};
 }
 
 Expected<ExitCode> judge_several(JudgeCommand& command, Console& console) {
@@ -206,20 +225,22 @@ Expected<ExitCode> judge_several(JudgeCommand& command, Console& console) {
   if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
   const std::vector<NamedCapture> captures = with_names(command.captures);
   if (const auto apart = check_folders(command, captures); !apart) return fail(apart.error());
-  compare::JudgedSet set;
+  auto making = begin_set(command.output.folder);
+  if (!making) return fail(making.error());
+  const RemovedOnSignal staged(making->staged.path());
   ExitCode code = ExitCode::done;
   std::optional<Error> refused;
   for (const NamedCapture& named : captures) {
-    const auto judged = judge_next(command, named, set, console);
+    const auto judged = judge_next(command, named, *making, console);
     if (judged && *judged != ExitCode::done) code = *judged;
     if (judged) continue;
     if (judged.error().kind != ErrorKind::bad_input) return fail(judged.error());
     if (refused) console.message(refused->message());
     refused = judged.error();
-    set.add_refused(named.name, refused->message());
+    making->set.add_refused(named.name, refused->message());
   }
-  if (const auto written = write_set(set, command.output.folder); !written) return fail(written.error());
-  if (!command.output.quiet) print_data(compare::judged_table(set));
+  if (const auto published = publish_set(*making); !published) return fail(published.error());
+  if (!command.output.quiet) print_data(compare::judged_table(making->set));
   console.message("report: " + command.output.folder + "/report.html");
   if (refused) return fail(*refused);
   return code;
@@ -227,16 +248,22 @@ Expected<ExitCode> judge_several(JudgeCommand& command, Console& console) {
 
 /// Every capture.json of a folder and of those directly below it, by name.
 Expected<std::vector<std::string>> captures_below(const std::string& folder) {
-  std::error_code error;
   std::vector<std::string> found;
-  std::error_code unknown;  // of links that lead nowhere or in a circle
-  const auto add = [&](const std::filesystem::path& file) {
-    if (std::filesystem::is_regular_file(file, unknown)) found.push_back(file.string());
+  const auto add = [&](const std::filesystem::path& file) -> Expected<void> {
+    const auto plain = is_plain_file(file.string());
+    if (!plain) return fail(plain.error());
+    if (*plain) found.push_back(file.string());
+    return {};
   };
-  add(std::filesystem::path(folder) / "capture.json");
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (entry.is_directory(unknown)) add(entry.path() / "capture.json");
-  if (error || found.empty())
+  if (auto added = add(std::filesystem::path(folder) / "capture.json"); !added) return fail(added.error());
+  const auto names = names_if_there(folder);
+  if (!names) return fail(names.error());
+  for (const std::string& name : *names) {
+    const std::filesystem::path below = std::filesystem::path(folder) / name;
+    if (file_kind_or_none(below.string()) != FileKind::folder) continue;  // a link in a circle is none either
+    if (auto added = add(below / "capture.json"); !added) return fail(added.error());
+  }
+  if (found.empty())
     return fail(ErrorKind::bad_input, fmt::format("--suite: no capture.json in {} or its folders", folder));
   std::sort(found.begin(), found.end());
   return found;

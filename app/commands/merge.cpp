@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 
 #include "app/console.h"
@@ -12,6 +11,7 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "compare/sweep/merge.h"
+#include "scene/files/path_status.h"
 
 namespace gnomon::app {
 
@@ -28,8 +28,9 @@ Expected<ExitCode> run_merge(const MergeCommand& command) {
   Console console(command.quiet);
   if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
   for (const std::string& shard : command.shards) {
-    std::error_code error;
-    if (std::filesystem::equivalent(shard, command.folder, error) && !error)
+    const auto same = are_one_path(shard, command.folder);
+    if (!same) return fail(same.error());
+    if (*same)
       return fail(
           ErrorKind::usage,
           fmt::format("-o: this folder is also a shard, which would be lost (got {})", command.folder));

@@ -11,7 +11,9 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "raster/shader_folder.h"
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
+#include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::app {
@@ -38,8 +40,9 @@ std::string list_of_shaders() {
 Expected<void> check_nothing_is_lost(const ShadersCommand& command) {
   for (const raster::ShaderFile& file : raster::own_shaders()) {
     const std::string path = (std::filesystem::path(command.folder) / file.name).string();
-    std::error_code none;
-    if (!std::filesystem::exists(path, none)) continue;
+    const auto is = is_there(path, ErrorKind::cannot_write);
+    if (!is) return fail(is.error());
+    if (!*is) continue;
     const auto there = read_file(path);
     if (there && *there == file.text) continue;
     return fail(Error{ErrorKind::cannot_write,
@@ -48,21 +51,31 @@ Expected<void> check_nothing_is_lost(const ShadersCommand& command) {
   return {};
 }
 
+constexpr const char* named_shader = "technique/hard.glsl";
+
+Expected<void> write_shaders(const std::string& folder) {
+  const OutputGuard whole_outputs;
+  auto staged = StagedFolder::open(folder);
+  if (!staged) return fail(staged.error());
+  for (const raster::ShaderFile& file : raster::own_shaders()) {
+    const std::string path = (std::filesystem::path(staged->path()) / file.name).string();
+    if (auto made = make_folder_for(path); !made) return made;
+    if (auto written = write_file(path, file.text); !written) return written;
+  }
+  if (auto sealed = staged->seal({}); !sealed) return sealed;
+  return staged->publish(named_shader);
+}
+
 Expected<ExitCode> run_shaders(const ShadersCommand& command) {
   if (command.folder.empty()) {
     print_data(list_of_shaders());
     return ExitCode::done;
   }
   Console console(command.quiet);
+  if (const auto writable = check_output_folder(command.folder); !writable) return fail(writable.error());
   if (const auto safe = check_nothing_is_lost(command); !safe) return fail(safe.error());
-  if (const auto made = make_output_folder(command.folder); !made) return fail(made.error());
-  const OutputGuard whole_outputs;
-  for (const raster::ShaderFile& file : raster::own_shaders()) {
-    const std::string path = (std::filesystem::path(command.folder) / file.name).string();
-    if (const auto made = make_folder_for(path); !made) return fail(made.error());
-    if (const auto written = write_file(path, file.text); !written) return fail(written.error());
-  }
-  console.message(fmt::format("shaders: {}/technique/hard.glsl and {} more", command.folder,
+  if (const auto written = write_shaders(command.folder); !written) return fail(written.error());
+  console.message(fmt::format("shaders: {}/{} and {} more", command.folder, named_shader,
                               raster::own_shaders().size() - 1));
   return ExitCode::done;
 }

@@ -23,6 +23,7 @@
 #include "compare/sweep/page.h"
 #include "compare/sweep/ray_points.h"
 #include "raster/shader_folder.h"
+#include "scene/files/path_status.h"
 #include "scene/files/write_file.h"
 #include "scene/timing.h"
 
@@ -51,7 +52,9 @@ std::vector<raster::Bias> bias_axis(const compare::Grid& grid) {
 Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan, const LoadedScene& loaded,
                                   LightKeeper& keeper, Console& console) {
   if (!command.ray_tracer || command.shard.part != 1) return {};
-  if (std::filesystem::exists(compare::ray_points_path(command.folder))) return {};
+  const auto measured = is_there(compare::ray_points_path(command.folder), ErrorKind::cannot_write);
+  if (!measured) return fail(measured.error());
+  if (*measured) return {};
   auto options = command.options.parse_cell(plan.grid, 0);
   if (!options) return fail(options.error());
   options->options.raytrace.runs = command.runs.value_or(1);  // as the rasterizer's cells

@@ -7,6 +7,7 @@
 #include "app/suite/scenes.h"
 #include "scene/files/gltf_writer.h"
 #include "scene/files/image_io.h"
+#include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 #include "scene/light.h"
 #include "scene/stages.h"
@@ -43,16 +44,21 @@ Expected<void> write_suite(const std::string& folder, ImageSize size, Console& c
   }
   const TimedStage writing("write");
   const OutputGuard whole_outputs;
-  if (const auto made = make_output_folder(folder); !made) return made;
+  auto staged = StagedFolder::open(folder);
+  if (!staged) return fail(staged.error());
   for (std::size_t i = 0; i < suite.size(); ++i) {
-    const std::string path = folder + "/" + suite[i].scene.name;
+    const std::string path = staged->path() + "/" + suite[i].scene.name;
     const auto gltf = write_gltf(suite[i].scene, true);
     if (!gltf) return fail(gltf.error());
     if (const auto written = write_file(path + ".glb", gltf->bytes); !written) return written;
     const std::vector<Channel> channels{{"V", std::move(masks[i].lit)}, {"A", std::move(masks[i].asked)}};
     if (const auto written = write_exr(path + ".exr", size, channels); !written) return written;
   }
-  return write_file(folder + "/README.md", embedded::suite("README.md"));
+  constexpr const char* introduction = "README.md";
+  const std::string path = fmt::format("{}/{}", staged->path(), introduction);
+  if (const auto written = write_file(path, embedded::suite(introduction)); !written) return written;
+  if (const auto sealed = staged->seal({}); !sealed) return sealed;
+  return staged->publish(introduction);
 }
 
 }  // namespace gnomon::app

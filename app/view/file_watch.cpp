@@ -1,5 +1,7 @@
 #include "app/view/file_watch.h"
 
+#include "scene/files/path_status.h"
+
 namespace gnomon::app {
 
 namespace fs = std::filesystem;
@@ -19,16 +21,16 @@ bool FileWatch::changed() {
 
 std::map<std::string, FileWatch::Stamp> FileWatch::look() const {
   std::map<std::string, Stamp> stamps;
-  std::error_code none;
+  std::error_code none;  // what cannot be looked at does not change
   const auto add = [&](const fs::path& path) {
-    if (!fs::is_regular_file(path, none)) return;
+    if (file_kind_or_none(path.string()) != FileKind::file) return;
     const auto time = fs::last_write_time(path, none);
     const auto size = fs::file_size(path, none);
     if (!none) stamps[path.string()] = {time, size};
   };
   for (const std::string& path : paths_) {
     add(path);
-    if (!fs::is_directory(path, none)) continue;
+    if (file_kind_or_none(path) != FileKind::folder) continue;
     for (fs::recursive_directory_iterator it(path, fs::directory_options::skip_permission_denied, none), end;
          it != end; it.increment(none)) {
       if (none) break;

@@ -3,7 +3,8 @@
 #include <imgui/imgui.h>
 
 #include <array>
-#include <filesystem>
+
+#include "scene/files/path_status.h"
 
 namespace gnomon::app {
 
@@ -69,9 +70,8 @@ void apply_style(Theme theme, const TypeSize& type) {
 void load_font(const TypeSize& type) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
-  std::error_code none;
   for (const char* file : fonts)
-    if (std::filesystem::is_regular_file(file, none) &&
+    if (file_kind_or_none(file) == FileKind::file &&
         atlas.AddFontFromFileTTF(file, static_cast<float>(type.font), nullptr, glyphs.data()) != nullptr)
       return;
   ImFontConfig own;

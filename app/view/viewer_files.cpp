@@ -14,6 +14,7 @@
 #include "app/view/viewer.h"
 #include "raster/settings.h"
 #include "scene/files/image_io.h"
+#include "scene/files/path_status.h"
 #include "scene/one_line.h"
 
 namespace gnomon::app {
@@ -74,8 +75,9 @@ void Viewer::save_numbered(const std::string& start, const std::string& extensio
   saving_remark_ = remark;
   for (int number = 1;; ++number) {
     saving_path_ = fmt::format("{}-{:03}{}", start, number, extension);
-    std::error_code ignored;
-    if (!fs::exists(saving_path_, ignored)) break;
+    const auto taken = is_there(saving_path_, ErrorKind::cannot_write);
+    if (!taken) return note(taken.error());
+    if (!*taken) break;
   }
   saving_ =
       std::async(std::launch::async, [save = std::move(save), path = saving_path_] { return save(path); });
@@ -137,9 +139,12 @@ void Viewer::write_report() {
   if (job_) return note("something runs already; Esc stops it");
   const std::string name = fs::path(shown_->scene->argument.name).stem().string();
   std::string folder;
-  std::error_code ignored;
-  for (int number = 1; folder.empty() || fs::exists(folder, ignored); ++number)
+  for (int number = 1;; ++number) {
     folder = fmt::format("{}-report-{:03}", name, number);
+    const auto taken = is_there(folder, ErrorKind::cannot_write);
+    if (!taken) return note(taken.error());
+    if (!*taken) break;
+  }
   auto job = Job::start("writing the report to " + folder,
                         job_words("compare", {"-o", folder, "--quiet"}, setting_words(state_, options_)));
   if (!job) return note(job.error());

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "scene/files/json_reader.h"
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/light_view.h"
 
@@ -138,7 +139,8 @@ Capture CaptureReader::read(const JsonValue& value) {
   if (const auto node = root.require("scene")) {
     out_.scene = file(*node);
     // A name that is no file beside the capture may be that of a built-in scene.
-    if (!std::filesystem::exists(out_.scene) && std::filesystem::path(out_.scene).extension().empty())
+    if (file_kind_or_none(out_.scene) == FileKind::none &&
+        std::filesystem::path(out_.scene).extension().empty())
       out_.scene = text(*node);
   }
   if (const auto node = root.find("camera")) out_.camera = name_or_place(*node);

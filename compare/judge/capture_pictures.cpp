@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <array>
+
+#include "scene/files/path_status.h"
 
 namespace gnomon::compare {
 namespace {
@@ -26,9 +28,9 @@ tl::unexpected<Error> picture_error(const std::string& file, const std::string& 
 
 Expected<ChannelImage> read_picture(const Capture& capture, const std::string& file, const std::string& field,
                                     bool of_pixels) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored))
-    return capture_error(capture, field, fmt::format("no such file (got {})", file));
+  const auto plain = is_plain_file(file);
+  if (!plain) return picture_error(file, field, plain.error().reason);
+  if (!*plain) return capture_error(capture, field, fmt::format("no such file (got {})", file));
   auto picture = read_channels(file);
   if (!picture) return picture;
   if (of_pixels && picture->size != capture.size)

@@ -2,8 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
-
+#include "scene/files/path_status.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 #include "scene/stages.h"
@@ -22,8 +21,7 @@ Expected<void> write_films(const FilmKeeper& films, const std::string& folder, F
       if (const auto written = write_file(base + ".png", *bytes); !written) return written;
       if (format == FilmFormat::apng) continue;
       if (const auto made = convert_to_mp4(base + ".png", base + ".mp4"); !made) return made;
-      std::error_code none;
-      std::filesystem::remove(base + ".png", none);
+      if (const auto gone = remove_path(base + ".png"); !gone) return gone;
     }
   }
   return {};

@@ -5,15 +5,23 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <functional>
 #include <optional>
-#include <vector>
 
 #include "compare/report/packing.h"
 #include "compare/report/shell.h"
 #include "compare/sweep/journal.h"
+#include "scene/files/path_status.h"
 #include "scene/files/sha256.h"
+#include "scene/files/write_file.h"
 
 namespace gnomon::compare {
+namespace {
+
+constexpr std::string_view truth_prefix = "truth-";
+constexpr std::size_t truth_digits = 12;
+
+}  // namespace
 
 bool has_thumbnail(std::size_t cell, std::size_t cells) {
   if (cells <= max_thumbnails) return true;
@@ -35,61 +43,90 @@ std::string cell_name(std::size_t cell) {
 }
 
 std::string truth_name(std::string_view png) {
-  return "truth-" + sha256_hex(png).substr(0, 12);
+  return std::string(truth_prefix) + sha256_hex(png).substr(0, truth_digits);
 }
 
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The cell that "cell-000012.js" belongs to.
-std::optional<std::size_t> cell_of_file(const fs::path& file) {
-  const std::string stem = file.stem().string(), extension = file.extension().string();
-  if (!stem.starts_with("cell-") || (extension != ".js" && extension != ".png")) return std::nullopt;
+/// The cell that "cell-000012.js" belongs to, in the cells' folder or that of the thumbnails; none of a name that the
+/// program would not write.
+std::optional<std::size_t> cell_of_file(std::string_view name) {
+  constexpr std::string_view prefix = "cell-";
+  const std::size_t dot = name.find('.');
+  if (!name.starts_with(prefix) || dot == std::string_view::npos) return std::nullopt;
+  const std::string_view extension = name.substr(dot), stem = name.substr(0, dot);
   std::size_t cell = 0;
-  const auto [end, status] = std::from_chars(stem.data() + 5, stem.data() + stem.size(), cell);
-  if (status != std::errc() || end != stem.data() + stem.size()) return std::nullopt;
+  std::from_chars(stem.data() + prefix.size(), stem.data() + stem.size(), cell);
+  if ((extension != ".js" && extension != ".png") || stem != cell_name(cell)) return std::nullopt;
   return cell;
 }
 
-template <class Unwanted>
-void remove_files(const fs::path& folder, const Unwanted& unwanted) {
-  std::error_code error;
-  std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.is_regular_file(error) && unwanted(entry.path().filename())) found.push_back(entry.path());
-  for (const fs::path& file : found) fs::remove(file, error);
+bool is_truth(std::string_view name) {
+  constexpr std::string_view end = ".png";
+  return name.size() == truth_prefix.size() + truth_digits + end.size() && name.starts_with(truth_prefix) &&
+         name.ends_with(end) &&
+         name.find_first_not_of("0123456789abcdef", truth_prefix.size()) == name.size() - end.size();
 }
 
-bool is_unfinished(const fs::path& name) {
-  return name.extension() == ".part";
+/// What a process that is no more left of a file that a sweep writes.
+bool is_unfinished(std::string_view name) {
+  const std::string of = abandoned_part_of(name);
+  return !of.empty() &&
+         (of == probe_name || cell_of_file(of) || is_truth(of) ||
+          std::find(sweep_file_names.begin(), sweep_file_names.end(), of) != sweep_file_names.end());
+}
+
+/// The folder need not be there.
+Expected<void> remove_files(const std::string& folder,
+                            const std::function<bool(std::string_view)>& unwanted) {
+  const auto names = names_if_there(folder, ErrorKind::cannot_write);
+  if (!names) return fail(names.error());
+  for (const std::string& name : *names) {
+    if (!unwanted(name)) continue;
+    const std::string path = folder + "/" + name;
+    const auto plain = is_plain_file(path, ErrorKind::cannot_write);
+    if (!plain) return fail(plain.error());
+    if (!*plain) continue;
+    if (auto gone = remove_path(path); !gone) return gone;
+  }
+  return {};
 }
 
 }  // namespace
 
-void remove_strays(const std::string& folder, std::span<const std::size_t> finished) {
-  const auto stray = [&](const fs::path& name) {
+Expected<std::vector<std::string>> truths_in(const std::string& folder) {
+  auto names = names_if_there(cells_folder(folder));
+  if (names) std::erase_if(*names, [](const std::string& name) { return !is_truth(name); });
+  return names;
+}
+
+Expected<void> remove_strays(const std::string& folder, std::span<const std::size_t> unfinished) {
+  const auto stray = [&](std::string_view name) {
     const auto cell = cell_of_file(name);
-    return is_unfinished(name) || (cell && !std::binary_search(finished.begin(), finished.end(), *cell));
+    return is_unfinished(name) || (cell && std::binary_search(unfinished.begin(), unfinished.end(), *cell));
   };
-  remove_files(folder, is_unfinished);
+  if (auto gone = remove_files(folder, is_unfinished); !gone) return gone;
   for (const std::string& pictures : {folder + "/thumbnails", cells_folder(folder)})
-    remove_files(pictures, stray);
+    if (auto gone = remove_files(pictures, stray); !gone) return gone;
+  return {};
 }
 
 Expected<void> discard_sweep(const std::string& folder) {
-  std::error_code error;
-  for (const std::string_view name : sweep_file_names) {
-    fs::remove(fs::path(folder) / name, error);
-    if (error) return fail(Error{ErrorKind::cannot_write, "cannot remove: " + error.message(), folder});
-  }
-  const auto ours = [](const fs::path& name) {
-    return is_unfinished(name) || cell_of_file(name) ||
-           (name.string().starts_with("truth-") && name.extension() == ".png");
+  const auto claim = SweepClaim::of(folder);
+  if (!claim) return fail(claim.error());
+  for (const std::string_view name : sweep_file_names)
+    if (auto gone = remove_path((fs::path(folder) / name).string()); !gone) return gone;
+  const auto ours = [](std::string_view name) {
+    return is_unfinished(name) || cell_of_file(name) || is_truth(name);
   };
   for (const std::string& pictures : {folder + "/thumbnails", cells_folder(folder)}) {
-    remove_files(pictures, ours);
-    fs::remove(pictures, error);  // stays where something else lies in it
+    if (auto gone = remove_files(pictures, ours); !gone) return gone;
+    const auto others = names_if_there(pictures, ErrorKind::cannot_write);
+    if (!others) return fail(others.error());
+    if (!others->empty()) continue;
+    if (auto gone = remove_path(pictures); !gone) return gone;
   }
   return {};
 }

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/expected.h"
 #include "scene/image.h"
@@ -30,10 +31,15 @@ std::string cell_name(std::size_t cell);  ///< "cell-000012"
 /// "truth-1a2b3c4d5e6f": the name of a ray-traced picture.
 std::string truth_name(std::string_view png);
 
-/// Removes what an interrupted sweep left: files that were not finished, and the pictures of cells that are
-/// not among `finished` (sorted). Files of other names stay. The folder must be this process's (journal.h).
-void remove_strays(const std::string& folder, std::span<const std::size_t> finished);
-/// Removes all that a sweep writes into the folder. Files of other names stay.
+/// The names of the ray-traced pictures in the folder of a sweep's cells.
+Expected<std::vector<std::string>> truths_in(const std::string& folder);
+
+/// Removes what an interrupted sweep left: what a process that is no more had begun of the sweep's own files, and the
+/// pictures of the cells that are still to be made (`unfinished`, sorted). All other files stay, whatever their names
+/// end in. The folder must be this process's (journal.h).
+Expected<void> remove_strays(const std::string& folder, std::span<const std::size_t> unfinished);
+/// Removes all that a sweep writes into the folder; all other files stay. ErrorKind::usage while another process is at
+/// work there.
 Expected<void> discard_sweep(const std::string& folder);
 
 /// The text of a cell's data file.

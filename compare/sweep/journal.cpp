@@ -10,10 +10,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "compare/sweep/cell_files.h"
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/sha256.h"
 #include "scene/files/write_file.h"
@@ -192,10 +192,10 @@ std::string differences(const std::string& a, const std::string& b) {
   return keys.size() > 3 ? text + ", …" : text;
 }
 
-Expected<void> check_header(const std::string& folder, const SweepHeader& header) {
-  const std::string path = path_in(folder, "sweep.json");
-  std::error_code unknown;
-  if (!std::filesystem::exists(path, unknown)) return write_file(path, header_json(header));
+/// Where a header is; true: it is this sweep's.
+Expected<bool> has_header(const std::string& folder, const SweepHeader& header) {
+  const auto exists = is_there(path_in(folder, "sweep.json"), ErrorKind::cannot_write);
+  if (!exists || !*exists) return exists;
   const auto there = read_header(folder);
   if (!there) return fail(there.error());
   if (there->hash != header.hash)
@@ -205,7 +205,11 @@ Expected<void> check_header(const std::string& folder, const SweepHeader& header
   if (there->shard.part != header.shard.part || there->shard.of != header.shard.of)
     return fail(ErrorKind::usage, fmt::format("{} holds shard {}/{} of this sweep; give another folder",
                                               folder, there->shard.part, there->shard.of));
-  return {};
+  return true;
+}
+
+tl::unexpected<Error> is_claimed(const std::string& folder) {
+  return fail(ErrorKind::usage, folder + ": another process is at work in this folder");
 }
 
 constexpr std::string_view edited =
@@ -236,6 +240,92 @@ Expected<void> check_times(const std::string& path, const std::vector<std::strin
 
 }  // namespace
 
+namespace {
+
+/// The lines and times that are there, without what is torn or surplus.
+struct GoodLines {
+  std::vector<std::string> lines, times;
+  bool torn = false;
+};
+
+Expected<GoodLines> read_lines(const std::string& line_path, const std::string& time_path,
+                               const std::vector<std::string>& axes) {
+  const auto bytes = read_file(line_path), bytes_of_times = read_file(time_path);
+  if (!bytes) return fail(bytes.error());
+  if (!bytes_of_times) return fail(bytes_of_times.error());
+  GoodLines found{whole_lines(*bytes), whole_lines(*bytes_of_times), false};
+  const auto good = count_good(line_path, found.lines, axes);
+  if (!good) return fail(good.error());
+  // Times are written first: a line without times cannot be, but a surplus of times can.
+  const std::size_t keep = std::min(*good, found.times.size());
+  if (auto fine = check_times(time_path, found.times, keep); !fine) return fail(fine.error());
+  found.lines.resize(keep);
+  found.times.resize(keep);
+  found.torn = size_of_lines(found.lines) != bytes->size();
+  return found;
+}
+
+Expected<void> fill_table(const std::string& folder, ResultTable& table, std::span<const std::size_t> cells,
+                          const std::vector<std::string>& lines, const std::vector<std::string>& times) {
+  for (std::size_t i = 0; i < lines.size(); ++i) try {
+      table.add(cells[i], lines[i], times[i]);
+    } catch (const Json::exception&) {
+      return bad_line(
+          path_in(folder, "sweep.jsonl"), i + 1,
+          "a line of another version of the program, which lacks what its table needs (--restart makes "
+          "the sweep anew)");
+    }
+  return {};
+}
+
+std::string all_of_lines(const std::vector<std::string>& lines) {
+  std::string text;
+  text.reserve(size_of_lines(lines));
+  for (const std::string& line : lines) text += line;
+  return text;
+}
+
+}  // namespace
+
+SweepClaim::~SweepClaim() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Expected<SweepClaim> SweepClaim::of(const std::string& folder) {
+  const std::string path = path_in(folder, "sweep.jsonl");
+  SweepClaim claim(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+  if (claim.descriptor_ < 0 && errno != ENOENT && errno != ENOTDIR)
+    return cannot_write(path, "cannot open", errno);
+  if (claim.descriptor_ >= 0 && ::flock(claim.descriptor_, LOCK_EX | LOCK_NB) != 0) return is_claimed(folder);
+  return claim;
+}
+
+Expected<void> check_takes_sweep(const std::string& folder, const SweepHeader& header,
+                                 const std::vector<std::string>& axes) {
+  const auto same = has_header(folder, header);
+  if (!same) return fail(same.error());
+  const std::string lines = path_in(folder, "sweep.jsonl"), times = path_in(folder, "sweep_times.jsonl");
+  for (const std::string* path : {&lines, &times}) {
+    const auto exists = is_there(*path, ErrorKind::cannot_write);
+    if (!exists) return fail(exists.error());
+    if (!*exists) return {};  // killed before the first line
+  }
+  const auto found = read_lines(lines, times, axes);
+  return found ? Expected<void>{} : fail(found.error());
+}
+
+Expected<void> write_sweep(const std::string& folder, const SweepHeader& header,
+                           const std::vector<std::size_t>& cells, const std::vector<std::string>& lines,
+                           const std::vector<std::string>& times) {
+  ResultTable table;
+  if (auto filled = fill_table(folder, table, cells, lines, times); !filled) return filled;
+  for (const auto& [name, text] :
+       {std::pair("sweep.json", header_json(header)), std::pair("sweep.jsonl", all_of_lines(lines)),
+        std::pair("sweep_times.jsonl", all_of_lines(times)), std::pair("sweep.csv", table.text())})
+    if (auto written = write_file(path_in(folder, name), text); !written) return written;
+  return {};
+}
+
 Journal::Journal(Journal&&) noexcept = default;
 Journal& Journal::operator=(Journal&&) noexcept = default;
 Journal::~Journal() = default;
@@ -246,42 +336,32 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
   Journal journal;
   auto lines = File::open(path_in(folder, "sweep.jsonl"));
   if (!lines) return fail(lines.error());
-  if (::flock((*lines)->descriptor, LOCK_EX | LOCK_NB) != 0)
-    return fail(ErrorKind::usage, folder + ": another process is at work in this folder");
-  if (auto same = check_header(folder, header); !same) return fail(same.error());
+  if (::flock((*lines)->descriptor, LOCK_EX | LOCK_NB) != 0) return is_claimed(folder);
+  const auto same = has_header(folder, header);
+  if (!same) return fail(same.error());
+  if (!*same)
+    if (auto written = write_file(path_in(folder, "sweep.json"), header_json(header)); !written)
+      return fail(written.error());
   auto times = File::open(path_in(folder, "sweep_times.jsonl"));
   if (!times) return fail(times.error());
   auto table = File::open(path_in(folder, "sweep.csv"));
   if (!table) return fail(table.error());
 
-  const auto bytes = read_file((*lines)->path), bytes_of_times = read_file((*times)->path);
-  if (!bytes) return fail(bytes.error());
-  if (!bytes_of_times) return fail(bytes_of_times.error());
-  journal.lines_ = whole_lines(*bytes);
-  journal.times_ = whole_lines(*bytes_of_times);
-  const auto good = count_good((*lines)->path, journal.lines_, axes);
-  if (!good) return fail(good.error());
-  // Times are written first: a line without times cannot be, but a surplus of times can.
-  const std::size_t keep = std::min(*good, journal.times_.size());
-  if (auto fine = check_times((*times)->path, journal.times_, keep); !fine) return fail(fine.error());
-  journal.lines_.resize(keep);
-  journal.times_.resize(keep);
-  journal.torn_ = size_of_lines(journal.lines_) != bytes->size();
+  auto found = read_lines((*lines)->path, (*times)->path, axes);
+  if (!found) return fail(found.error());
+  journal.lines_ = std::move(found->lines);
+  journal.times_ = std::move(found->times);
+  journal.torn_ = found->torn;
   if (auto cut = (*lines)->cut(size_of_lines(journal.lines_)); !cut) return fail(cut.error());
   if (auto cut = (*times)->cut(size_of_lines(journal.times_)); !cut) return fail(cut.error());
   journal.line_file_ = std::move(*lines);
   journal.time_file_ = std::move(*times);
   journal.table_file_ = std::move(*table);
   journal.cells_ = std::move(cells);
-  remove_strays(folder, std::span(journal.cells_).first(keep));
-  for (std::size_t i = 0; i < keep; ++i) try {
-      journal.table_.add(journal.cells_[i], journal.lines_[i], journal.times_[i]);
-    } catch (const Json::exception&) {
-      return bad_line(
-          path_in(folder, "sweep.jsonl"), i + 1,
-          "a line of another version of the program, which lacks what its table needs (--restart makes "
-          "the sweep anew)");
-    }
+  const std::span<const std::size_t> all(journal.cells_);
+  if (auto gone = remove_strays(folder, all.subspan(journal.lines_.size())); !gone) return fail(gone.error());
+  if (auto filled = fill_table(folder, journal.table_, all, journal.lines_, journal.times_); !filled)
+    return fail(filled.error());
   if (auto written = journal.write_table(); !written) return fail(written.error());
   return journal;
 }

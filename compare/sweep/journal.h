@@ -15,6 +15,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "compare/result_table.h"
@@ -44,6 +45,31 @@ Expected<SweepHeader> read_header(const std::string& folder);
 
 /// The line that a cell must have: its values by axis, as JSON text of the object "axes".
 using ExpectedAxes = std::vector<std::string>;
+
+/// Nobody else takes up or replaces the sweep of a folder while one lives.
+class SweepClaim {
+ public:
+  /// Where no sweep is, there is nothing to claim. ErrorKind::usage while another process is at work in the folder.
+  static Expected<SweepClaim> of(const std::string& folder);
+  SweepClaim(SweepClaim&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  SweepClaim& operator=(SweepClaim&&) = delete;
+  ~SweepClaim();
+
+ private:
+  explicit SweepClaim(int descriptor) : descriptor_(descriptor) {}
+  int descriptor_;
+};
+
+/// Whether a sweep may be put into the folder: it holds none, or the same one, and no line that is not the sweep's own.
+/// Changes nothing. Errors as of Journal::open().
+Expected<void> check_takes_sweep(const std::string& folder, const SweepHeader& header,
+                                 const std::vector<std::string>& axes);
+
+/// The files of a finished sweep, all but its pictures and its page, as a journal that got all these lines leaves them.
+/// Lines and times are sealed; `cells` as for Journal::open().
+Expected<void> write_sweep(const std::string& folder, const SweepHeader& header,
+                           const std::vector<std::size_t>& cells, const std::vector<std::string>& lines,
+                           const std::vector<std::string>& times);
 
 /// Lines already there, and where new ones go.
 class Journal {

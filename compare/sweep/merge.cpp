@@ -2,19 +2,19 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
 #include <map>
 #include <set>
 
 #include "compare/sweep/cell_files.h"
 #include "compare/sweep/journal.h"
 #include "compare/sweep/page.h"
+#include "scene/files/path_status.h"
+#include "scene/files/read_file.h"
+#include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::compare {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Cell {
   std::string line, times, folder;
@@ -32,23 +32,23 @@ Expected<void> add_shard(const std::string& folder, const SweepLines& shard, Cel
   return {};
 }
 
-Expected<void> copy_existing(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  if (!fs::exists(from, error)) return {};
-  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
-  if (error)
-    return fail(Error{ErrorKind::cannot_write, "cannot copy a picture: " + error.message(), to.string()});
-  return {};
+/// Where nothing is there is nothing to copy: not every cell has pictures.
+Expected<void> copy_if_there(const std::string& from, const std::string& to) {
+  const auto there = is_there(from);
+  if (!there) return fail(there.error());
+  if (!*there) return {};
+  const auto bytes = read_file(from);
+  return bytes ? write_file(to, *bytes) : fail(bytes.error());
 }
 
 /// The ray-traced pictures, whose names tell them apart.
 Expected<void> copy_truths(const std::string& folder, const std::string& target) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(cells_folder(folder), error))
-    if (entry.path().filename().string().starts_with("truth-"))
-      if (auto copied = copy_existing(entry.path(), fs::path(cells_folder(target)) / entry.path().filename());
-          !copied)
-        return copied;
+  const auto names = truths_in(folder);
+  if (!names) return fail(names.error());
+  for (const std::string& name : *names)
+    if (auto copied = copy_if_there(cells_folder(folder) + "/" + name, cells_folder(target) + "/" + name);
+        !copied)
+      return copied;
   return {};
 }
 
@@ -60,27 +60,39 @@ Expected<void> copy_pictures(const Cell& cell, std::size_t index, const std::str
       {from + ".js", to + ".js"},
       {from + ".png", to + ".png"}};
   for (const auto& [source, copy] : files)
-    if (auto copied = copy_existing(source, copy); !copied) return copied;
+    if (auto copied = copy_if_there(source, copy); !copied) return copied;
   return {};
 }
 
-Expected<void> write_whole(const Cells& cells, const SweepHeader& header, const std::string& target) {
-  std::vector<std::string> axes;
-  std::vector<std::size_t> indices;
+/// The cells in the order of the sweep, as a journal takes them.
+struct Lines {
+  std::vector<std::size_t> cells;
+  std::vector<std::string> axes, lines, times;
+};
+
+Lines lines_of(const Cells& cells) {
+  Lines all;
   for (const auto& [index, cell] : cells) {
-    axes.push_back(axes_of_line(cell.line));
-    indices.push_back(index);
+    all.cells.push_back(index);
+    all.axes.push_back(axes_of_line(cell.line));
+    all.lines.push_back(cell.line);
+    all.times.push_back(cell.times);
   }
-  auto journal =
-      Journal::open(target, make_header(header.configuration, header.cells, {}), axes, std::move(indices));
-  if (!journal) return fail(journal.error());
+  return all;
+}
+
+/// All but the page.
+Expected<void> write_whole(const Cells& cells, const Lines& lines, const SweepHeader& header,
+                           const std::vector<std::string>& folders, const std::string& target) {
+  if (auto written = write_sweep(target, header, lines.cells, lines.lines, lines.times); !written)
+    return written;
   for (const std::string& made_for : {target + "/thumbnails", cells_folder(target)})
     if (auto made = make_output_folder(made_for); !made) return made;
-  std::size_t next = 0;
-  for (const auto& [index, cell] : cells) {
+  for (const auto& [index, cell] : cells)
     if (auto copied = copy_pictures(cell, index, target); !copied) return copied;
-    if (next++ < journal->lines().size()) continue;
-    if (auto appended = journal->append(cell.line, cell.times); !appended) return appended;
+  for (const std::string& folder : folders) {
+    if (auto copied = copy_truths(folder, target); !copied) return copied;
+    if (auto copied = copy_if_there(ray_points_path(folder), ray_points_path(target)); !copied) return copied;
   }
   return {};
 }
@@ -105,14 +117,21 @@ Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, cons
   if (cells.size() != header->cells)
     return fail(ErrorKind::usage, fmt::format("{} of {} cells are there: a shard is missing or not finished",
                                               cells.size(), header->cells));
-  if (auto written = write_whole(cells, *header, target); !written) return fail(written.error());
-  for (const std::string& folder : folders) {
-    if (auto copied = copy_truths(folder, target); !copied) return fail(copied.error());
-    if (auto copied = copy_existing(ray_points_path(folder), ray_points_path(target)); !copied)
-      return fail(copied.error());
-  }
-  const auto page = write_sweep_page(target, report_max_mb, limit);
-  if (!page) return fail(page.error());
+  const SweepHeader whole = make_header(header->configuration, header->cells, {});
+  const Lines lines = lines_of(cells);
+  const auto claim = SweepClaim::of(target);
+  if (!claim) return fail(claim.error());
+  if (auto takes = check_takes_sweep(target, whole, lines.axes); !takes) return fail(takes.error());
+  auto staged = StagedFolder::open(target);
+  if (!staged) return fail(staged.error());
+  if (auto written = write_whole(cells, lines, whole, folders, staged->path()); !written)
+    return fail(written.error());
+  const auto page = write_sweep_page(staged->path(), report_max_mb, limit);
+  if (!page)  // of what was written just now
+    return fail(
+        Error{ErrorKind::cannot_write, "cannot be read back: " + page.error().reason, page.error().file});
+  if (auto sealed = staged->seal({}); !sealed) return fail(sealed.error());
+  if (auto there = staged->publish("report.html"); !there) return fail(there.error());
   return MergedSweep{cells.size(), *page, {drawers.begin(), drawers.end()}};
 }
 

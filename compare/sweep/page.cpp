@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "compare/number_text.h"
@@ -14,6 +13,7 @@
 #include "compare/report/shell.h"
 #include "compare/sweep/cell_files.h"
 #include "compare/sweep/charts.h"
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 
@@ -189,20 +189,20 @@ std::string beside_line(const SweepPageInput& in) {
 
 /// Empty where the file is not there: not every cell has a thumbnail, nor a drawing of its own.
 Expected<std::string> read_if_there(const std::string& path) {
-  std::error_code unknown;
-  return std::filesystem::exists(path, unknown) ? read_file(path) : std::string();
+  const auto there = is_there(path);
+  if (!there) return fail(there.error());
+  return *there ? read_file(path) : std::string();
 }
 
 Expected<std::map<std::string, std::string>> read_truths(const std::string& folder) {
   std::map<std::string, std::string> truths;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(cells_folder(folder), error))
-    if (const std::string name = entry.path().stem().string();
-        name.starts_with("truth-") && entry.path().extension() == ".png") {
-      auto png = read_file(entry.path().string());
-      if (!png) return fail(png.error());
-      truths[name] = std::move(*png);
-    }
+  const auto names = truths_in(folder);
+  if (!names) return fail(names.error());
+  for (const std::string& name : *names) {
+    auto png = read_file(cells_folder(folder) + "/" + name);
+    if (!png) return fail(png.error());
+    truths[name.substr(0, name.find('.'))] = std::move(*png);
+  }
   return truths;
 }
 

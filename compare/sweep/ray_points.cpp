@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "scene/files/path_status.h"
+#include "scene/files/read_file.h"
 #include "scene/light.h"
 
 namespace gnomon::compare {
@@ -167,10 +167,13 @@ std::string ray_points_json(const std::vector<RayPoint>& points) {
 
 Expected<std::vector<RayPoint>> read_ray_points(const std::string& folder) {
   std::vector<RayPoint> points;
-  std::ifstream file(ray_points_path(folder));
-  if (!file) return points;
+  const auto there = is_there(ray_points_path(folder));
+  if (!there) return fail(there.error());
+  if (!*there) return points;
+  const auto text = read_file(ray_points_path(folder));
+  if (!text) return fail(text.error());
   try {
-    const Json whole = Json::parse(file);
+    const Json whole = Json::parse(*text);
     for (const Json& json : whole.at("points")) {
       RayPoint& p = points.emplace_back();
       p.name = json.at("name").get<std::string>();

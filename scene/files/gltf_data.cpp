@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <filesystem>
 
 #include "scene/files/base64.h"
 #include "scene/files/gltf_container.h"
 #include "scene/files/gltf_meshopt.h"
 #include "scene/files/hex_digit.h"
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/parallel.h"
 
@@ -177,8 +177,9 @@ Expected<GltfImage> GltfData::image(std::size_t index) {
   } else if (!out.uri.empty()) {
     const auto path = resolve_path(folder_, decode_percent(out.uri), *options_);
     if (!path) return error(field + ".uri", path.error().reason);
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(*path, ignored)) {
+    const auto plain = is_plain_file(*path);
+    if (!plain) return error(field + ".uri", plain.error().reason);
+    if (*plain) {
       auto file = MappedFile::open(*path);
       if (!file) return error(field + ".uri", file.error().reason);
       out.bytes = files_.emplace_back(std::move(*file)).bytes();

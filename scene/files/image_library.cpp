@@ -5,6 +5,8 @@
 
 #include <filesystem>
 
+#include "scene/files/path_status.h"
+
 namespace gnomon {
 namespace {
 
@@ -23,8 +25,10 @@ std::vector<std::string> module_paths() {
 Expected<const ImageLibrary*> load() {
   std::string why;
   for (const std::string& path : module_paths()) {
-    if (std::error_code none; !std::filesystem::exists(path, none)) {
-      why += fmt::format("{}{} is not there", why.empty() ? "" : "; ", path);
+    const auto there = is_there(path);
+    if (!there || !*there) {
+      why += fmt::format("{}{} {}", why.empty() ? "" : "; ", path,
+                         there ? "is not there" : there.error().reason);
       continue;
     }
     void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // for good: it holds the library's own state

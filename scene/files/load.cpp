@@ -14,6 +14,7 @@
 #include "scene/files/formats.h"
 #include "scene/files/json_reader.h"
 #include "scene/files/mapped_file.h"
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/sha256.h"
 #include "scene/files/validate.h"
@@ -97,10 +98,10 @@ std::future<std::string> hash_beside(std::string_view bytes) {
 Error unknown_name(const std::string& name) {
   std::vector<std::string_view> names;
   for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
-  std::error_code ignored;
-  if (std::filesystem::exists(name, ignored)) {
+  // No name of a scene is too long for a file's, but what was given may be.
+  if (const FileKind kind = file_kind_or_none(name); kind != FileKind::none) {
     Error error{ErrorKind::bad_input,
-                std::filesystem::is_directory(name, ignored)
+                kind == FileKind::folder
                     ? std::string("is a folder, not a file")
                     : fmt::format("the file's format is told by its extension, and it has none (allowed {})",
                                   known_extensions())};

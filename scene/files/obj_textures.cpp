@@ -4,8 +4,8 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
-#include <filesystem>
 
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/texture_mask.h"
 #include "scene/parallel.h"
@@ -49,16 +49,6 @@ Texture white() {
   return texture;
 }
 
-bool is_there(const std::string& path) {
-  std::error_code ignored;
-  return std::filesystem::exists(path, ignored);
-}
-
-bool are_one_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return a == b || std::filesystem::equivalent(a, b, ignored);
-}
-
 }  // namespace
 
 void ObjTextures::note(const std::string& material, const std::string& words) {
@@ -79,7 +69,9 @@ Expected<ObjTextures::Files> ObjTextures::find_files(const tinyobj::material_t& 
   if (!from.diffuse_texname.empty()) {
     auto path = find_file(from.diffuse_texname, from.name, "map_Kd");
     if (!path) return fail(path.error());
-    if (is_there(*path))
+    const auto there = is_there(*path);
+    if (!there) return fail(there.error());
+    if (*there)
       files.colours = std::move(*path);
     else
       note(from.name, fmt::format("the texture {} is not there; its plain colour is used", *path));
@@ -87,10 +79,15 @@ Expected<ObjTextures::Files> ObjTextures::find_files(const tinyobj::material_t& 
   if (!from.alpha_texname.empty()) {
     auto path = find_file(from.alpha_texname, from.name, "map_d");
     if (!path) return fail(path.error());
-    if (!is_there(*path))
+    const auto there = is_there(*path);
+    if (!there) return fail(there.error());
+    if (!*there) {
       note(from.name, fmt::format("the mask {} is not there; map_d is not used", *path));
-    else
-      files.mask = are_one_file(*path, files.colours) ? files.colours : std::move(*path);
+    } else {
+      const auto one = are_one_path(*path, files.colours);
+      if (!one) return fail(one.error());
+      files.mask = *one ? files.colours : std::move(*path);
+    }
   }
   const auto& placed = files.colours.empty() ? from.alpha_texopt : from.diffuse_texopt;
   files.clamped = placed.clamp;

@@ -1,4 +1,5 @@
 #include "scene/files/read_file.h"
+#include "scene/files/path_status.h"
 #include "scene/one_line.h"
 
 #include <fmt/core.h>
@@ -26,19 +27,19 @@ tl::unexpected<Error> cannot_read(const std::string& path, std::string reason) {
 }  // namespace
 
 Expected<std::string> read_file(const std::string& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) return cannot_read(path, "no such file");
-  if (fs::is_directory(status)) return cannot_read(path, "is a folder, not a file");
-  if (!fs::is_regular_file(status)) return cannot_read(path, "is not a plain file");
+  const auto kind = file_kind(path);
+  if (!kind) return fail(kind.error());
+  if (*kind == FileKind::none) return cannot_read(path, "no such file");
+  if (*kind == FileKind::folder) return cannot_read(path, "is a folder, not a file");
+  if (*kind != FileKind::file) return cannot_read(path, "is not a plain file");
   std::ifstream file(path, std::ios::binary);
   if (!file) return cannot_read(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
-  const auto size = fs::file_size(path, error);
-  if (error) return cannot_read(path, fmt::format("cannot be read: {}", error.message()));
-  std::string bytes(size, '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (static_cast<std::uintmax_t>(file.gcount()) != size)
-    return cannot_read(path, fmt::format("could be read only up to byte {} of {}", file.gcount(), size));
+  const auto size = size_of_file(path);
+  if (!size) return fail(size.error());
+  std::string bytes(*size, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(*size));
+  if (static_cast<std::uintmax_t>(file.gcount()) != *size)
+    return cannot_read(path, fmt::format("could be read only up to byte {} of {}", file.gcount(), *size));
   return bytes;
 }
 

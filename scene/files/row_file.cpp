@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "scene/files/path_status.h"
+
 namespace gnomon {
 namespace {
 
@@ -24,9 +26,12 @@ tl::unexpected<Error> trouble(const std::string& folder, std::string_view step, 
 
 Expected<RowFile> RowFile::open(const std::string& folder) {
   std::filesystem::path place = std::filesystem::absolute(folder.empty() ? "." : folder);
-  std::error_code unknown;
-  while (!std::filesystem::is_directory(place, unknown) && place.has_relative_path())
+  for (;;) {
+    const auto there = is_folder(place.string(), ErrorKind::cannot_write);
+    if (!there) return fail(there.error());
+    if (*there || !place.has_relative_path()) break;
     place = place.parent_path();
+  }
   RowFile file;
   file.folder_ = place.string();
   file.descriptor_ = ::open(file.folder_.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);

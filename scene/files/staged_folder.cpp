@@ -10,9 +10,15 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <optional>
+#include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "scene/files/descriptor.h"
+#include "scene/files/path_status.h"
+#include "scene/files/publication.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon {
@@ -24,10 +30,18 @@ tl::unexpected<Error> cannot_write(const std::string& path, std::string_view ste
   return fail(Error{ErrorKind::cannot_write, fmt::format("{}: {}", step, why), path});
 }
 
-/// The beginning of every staged folder's name; the process's number and ".part" follow.
-std::string prefix_for(const fs::path& folder, bool exists) {
-  constexpr std::size_t longest = 100;
-  return exists ? ".gnomon." : folder.filename().string().substr(0, longest) + ".";
+/// A staged folder's name is this, the process's number and ".part". One in a folder that is there lies in it, one of a
+/// folder that is not there yet beside it.
+std::string prefix_in_it() {
+  return ".gnomon.";
+}
+std::string prefix_beside(const fs::path& folder) {
+  constexpr std::size_t longest = 100;  // of 255 bytes that a file system takes
+  return folder.filename().string().substr(0, longest) + prefix_in_it();
+}
+
+fs::path parent_of(const fs::path& folder) {
+  return folder.has_parent_path() ? folder.parent_path() : fs::path(".");
 }
 
 enum class Wait : std::uint8_t { no, yes };
@@ -63,55 +77,76 @@ class FolderLock {
   int descriptor_;
 };
 
-void remove_abandoned(const fs::path& parent, const std::string& prefix) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(parent, error)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(prefix) || !name.ends_with(".part") || !entry.is_directory(error)) continue;
-    const std::string middle = name.substr(prefix.size(), name.size() - prefix.size() - 5);
-    if (middle.empty() || middle.find_first_not_of("0123456789") != std::string::npos) continue;
-    const FolderLock lock(entry.path(), Wait::no);
-    if (lock.held()) fs::remove_all(entry.path(), error);
-  }
+bool is_staged_name(std::string_view name, std::string_view prefix) {
+  constexpr std::string_view end = ".part";
+  if (!name.starts_with(prefix) || !name.ends_with(end) || name.size() <= prefix.size() + end.size())
+    return false;
+  const std::string_view number = name.substr(prefix.size(), name.size() - prefix.size() - end.size());
+  return number.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-void flush_folder(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
-Expected<std::vector<std::string>> files_in(const fs::path& folder) {
-  std::vector<std::string> files;
-  std::error_code error;
-  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-    if (!it->is_directory(error)) files.push_back(it->path().lexically_relative(folder).string());
-  if (error) return cannot_write(folder.string(), "cannot list it", error.message());
-  return files;
-}
-
-Expected<void> check_targets(const fs::path& folder, const std::vector<std::string>& files,
-                             std::span<const std::string> inputs) {
-  for (const std::string& file : files) {
-    const fs::path target = folder / file;
-    std::error_code error;
-    if (fs::is_directory(target, error))
-      return cannot_write(target.string(), "cannot write", "it is a folder");
-    for (const std::string& input : inputs)
-      if (is_same_file(target.string(), input))
-        return fail(
-            ErrorKind::usage,
-            fmt::format("-o: this file is also an input, which would be lost (got {})", target.string()));
+/// What a killed process left among the names in `place`: what it replaced goes back into `folder`, and the rest goes.
+Expected<void> clear_abandoned(const fs::path& folder, const fs::path& place, const std::string& prefix) {
+  const auto names = names_if_there(place.string());
+  if (!names)
+    return {};  // who may write into a folder may still not list it; then nothing is known to be abandoned
+  for (const std::string& name : *names) {
+    if (!is_staged_name(name, prefix)) continue;
+    const fs::path staged = place / name;
+    const FolderLock abandoned(staged, Wait::no);
+    if (!abandoned.held()) continue;
+    if (is_unfinished_publication(staged.string())) {
+      const FolderLock others(folder, Wait::yes);
+      if (auto undone = undo_publication(folder.string(), staged.string()); !undone) return undone;
+    }
+    (void)remove_all_of(staged.string());  // another user's may stay: it is in nobody's way
   }
   return {};
 }
 
-Expected<void> move_file(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::create_directories(to.parent_path(), error);
-  if (!error) fs::rename(from, to, error);
-  if (error) return cannot_write(to.string(), "cannot rename the finished file", error.message());
+Expected<void> flush_folder(const std::string& folder) {
+  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor.number() < 0) return cannot_write(folder, "cannot open the folder", std::strerror(errno));
+  if (::fsync(descriptor.number()) == 0 || errno == EINVAL || errno == ENOTSUP)
+    return {};  // not every system can
+  return cannot_write(folder, "cannot flush it to the disk", std::strerror(errno));
+}
+
+using FileId = std::pair<dev_t, ino_t>;
+
+/// None where nothing is there: what is not there cannot be lost.
+Expected<std::optional<FileId>> file_id(const std::string& path) {
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) == 0) return FileId{status.st_dev, status.st_ino};
+  if (errno == ENOENT || errno == ENOTDIR) return std::nullopt;
+  return cannot_write(path, "cannot be looked at", std::strerror(errno));
+}
+
+Expected<std::set<FileId>> file_ids(std::span<const std::string> paths) {
+  std::set<FileId> ids;
+  for (const std::string& path : paths) {
+    const auto id = file_id(path);
+    if (!id) return fail(id.error());
+    if (*id) ids.insert(**id);
+  }
+  return ids;
+}
+
+Expected<void> check_targets(const fs::path& folder, const std::vector<std::string>& files,
+                             std::span<const std::string> inputs) {
+  const auto ids = file_ids(inputs);
+  if (!ids) return fail(ids.error());
+  for (const std::string& file : files) {
+    const std::string target = (folder / file).string();
+    const auto kind = file_kind(target, ErrorKind::cannot_write);
+    if (!kind) return fail(kind.error());
+    if (*kind == FileKind::folder) return cannot_write(target, "cannot write", "it is a folder");
+    const auto id = file_id(target);
+    if (!id) return fail(id.error());
+    if (*id && ids->contains(**id))
+      return fail(ErrorKind::usage,
+                  fmt::format("-o: this file is also an input, which would be lost (got {})", target));
+  }
   return {};
 }
 
@@ -124,58 +159,67 @@ StagedFolder::StagedFolder(StagedFolder&& other) noexcept
     : folder_(std::move(other.folder_)),
       path_(std::exchange(other.path_, {})),
       files_(std::move(other.files_)),
+      published_(other.published_),
       lock_(std::exchange(other.lock_, -1)) {}
 
 StagedFolder::~StagedFolder() {
-  std::error_code error;
-  if (!path_.empty()) fs::remove_all(path_, error);
+  // What could not be put back stays in it for the next run into the folder.
+  if (!path_.empty() && (published_ || !is_unfinished_publication(path_))) (void)remove_all_of(path_);
   if (lock_ >= 0) ::close(lock_);
 }
 
 Expected<StagedFolder> StagedFolder::open(const std::string& folder) {
-  std::error_code error;
   fs::path target = fs::path(folder).lexically_normal();
   if (!target.has_filename() && target.has_relative_path()) target = target.parent_path();
-  const bool exists = fs::exists(target, error);
-  const fs::path parent = exists ? target : target.has_parent_path() ? target.parent_path() : fs::path(".");
-  if (auto made = make_output_folder(parent.string()); !made) return fail(made.error());
-  const std::string prefix = prefix_for(target, exists);
-  remove_abandoned(parent, prefix);
-  const fs::path staged = parent / fmt::format("{}{}.part", prefix, ::getpid());
+  const auto exists = is_there(target.string(), ErrorKind::cannot_write);
+  if (!exists) return fail(exists.error());
+  const fs::path place = *exists ? target : parent_of(target);
+  if (auto made = make_output_folder(place.string()); !made) return fail(made.error());
+  for (const auto& [where, prefix] :
+       {std::pair(parent_of(target), prefix_beside(target)), std::pair(target, prefix_in_it())})
+    if (auto cleared = clear_abandoned(target, where, prefix); !cleared) return fail(cleared.error());
+  const std::string prefix = *exists ? prefix_in_it() : prefix_beside(target);
+  const std::string staged = (place / fmt::format("{}{}.part", prefix, ::getpid())).string();
   // Until it is locked, another process that starts may take the folder for an abandoned one.
   for (;;) {
-    if (!fs::create_directory(staged, error))
-      return cannot_write(staged.string(), "cannot create the folder",
-                          error ? error.message() : std::string("it exists"));
+    if (::mkdir(staged.c_str(), 0777) != 0)
+      return cannot_write(staged, "cannot create the folder", std::strerror(errno));
     FolderLock lock(staged, Wait::yes);
-    if (lock.held() || fs::exists(staged, error))
-      return StagedFolder(target.string(), staged.string(), lock.release());
+    if (lock.held()) return StagedFolder(target.string(), staged, lock.release());
+    const auto unlocked = is_there(staged, ErrorKind::cannot_write);
+    if (!unlocked) return fail(unlocked.error());
+    if (*unlocked) return StagedFolder(target.string(), staged, -1);
   }
 }
 
 Expected<void> StagedFolder::seal(std::span<const std::string> inputs) {
-  auto files = files_in(path_);
+  auto files = files_below(path_, ErrorKind::cannot_write);
   if (!files) return fail(files.error());
   files_ = std::move(*files);
   if (auto fine = check_targets(folder_, files_, inputs); !fine) return fine;
-  flush_folder(path_);
-  return {};
+  return flush_folder(path_);
 }
 
 Expected<void> StagedFolder::publish(const std::string& last) {
-  const fs::path folder(folder_), staged(path_);
   // One rename where nothing, or an empty folder, is in the way.
-  if (staged.parent_path() != folder && ::rename(path_.c_str(), folder_.c_str()) == 0) {
-    path_.clear();
-    return {};
+  if (fs::path(path_).parent_path() != fs::path(folder_)) {
+    if (::rename(path_.c_str(), folder_.c_str()) == 0) {
+      path_.clear();
+      return {};
+    }
+    if (errno != EEXIST && errno != ENOTEMPTY)
+      return cannot_write(folder_, "cannot rename the finished folder", std::strerror(errno));
   }
-  const FolderLock others(folder, Wait::yes);  // that put their files here at the same time
-  std::error_code error;
-  fs::remove(folder / last, error);
-  for (const std::string& file : files_)
-    if (file != last)
-      if (auto moved = move_file(staged / file, folder / file); !moved) return moved;
-  return move_file(staged / last, folder / last);
+  const FolderLock others(folder_, Wait::yes);  // that put their files here at the same time
+  if (auto moved = publish_into(folder_, path_, files_, last); !moved) return moved;
+  published_ = true;
+  auto gone = remove_all_of(path_);
+  if (!gone) gone = remove_all_of(path_);  // a disk that stumbled once
+  if (gone)
+    path_.clear();
+  else
+    gone.error().reason += "; the new files are all in their places";
+  return gone;
 }
 
 }  // namespace gnomon

@@ -1,8 +1,9 @@
 // A folder of outputs that appears whole: its files are written beside it and then renamed. A new folder
 // appears by one rename. Into one that exists its files move one by one, after all of them have reached the
-// disk; the last of them (the page) is taken away first and put back last, so that a folder which has it is
-// never a mixture; processes that come at the same time take turns. What else lies in the folder stays. Nobody
-// waits until the disk has the new names too: after a cut of power the folder is the old one or the new one.
+// disk (scene/files/publication.h): the last of them (the page) is taken away first and put back last, so that a
+// folder which has it is never a mixture; when a step fails, or the process is killed, the older files come back;
+// processes that come at the same time take turns. What else lies in the folder stays. Nobody waits until the disk
+// has the new names too: after a cut of power the folder is the old one or the new one.
 #pragma once
 
 #include <span>
@@ -15,7 +16,7 @@ namespace gnomon {
 
 class StagedFolder {
  public:
-  /// Also removes what a killed process left of a staged folder of the same name.
+  /// Also undoes what a killed process began in that folder, and removes what it left. ErrorKind::cannot_write.
   static Expected<StagedFolder> open(const std::string& folder);
   StagedFolder(StagedFolder&& other) noexcept;
   StagedFolder& operator=(StagedFolder&&) = delete;
@@ -27,13 +28,15 @@ class StagedFolder {
   /// Once every file is there: looks where they will go and waits until the disk has them all. Errors:
   /// ErrorKind::usage when a file would take the place of one of `inputs`, ErrorKind::cannot_write.
   Expected<void> seal(std::span<const std::string> inputs);
-  /// After seal(): the renaming alone. Errors: ErrorKind::cannot_write.
+  /// After seal(): the renaming alone. `last` is the name of the file that shows a whole folder. Errors:
+  /// ErrorKind::cannot_write; the folder is then as it was.
   Expected<void> publish(const std::string& last);
 
  private:
   StagedFolder(std::string folder, std::string path, int lock);
   std::string folder_, path_;
   std::vector<std::string> files_;  ///< names in path_, from seal() on
+  bool published_ = false;          ///< what is left in path_ is of no use
   int lock_ = -1;                   ///< of the staged folder, held while this process lives
 };
 

@@ -2,6 +2,7 @@
 
 #include "scene/files/descriptor.h"
 #include "scene/files/part_file.h"
+#include "scene/files/path_status.h"
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -11,6 +12,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
@@ -68,12 +70,14 @@ Expected<void> write_directly(const std::string& path, std::string_view bytes) {
   return {};
 }
 
+// Of the original name, of 255 bytes that a file system takes.
+constexpr std::size_t longest_kept_name = 100;
+
 /// Beside the path, with so much of its name as a file system takes (255 bytes).
 std::string temporary_name(const std::string& path) {
   static std::atomic<unsigned> counter{0};
-  constexpr std::size_t longest = 100;
   const fs::path file(path);
-  const std::string name = file.filename().string().substr(0, longest);
+  const std::string name = file.filename().string().substr(0, longest_kept_name);
   return (file.parent_path() / fmt::format("{}.{}-{}.part", name, ::getpid(), counter++)).string();
 }
 
@@ -90,19 +94,33 @@ Expected<void> fill_temporary(const std::string& path, const std::string& tempor
   return {};
 }
 
-// A symbolic link stays a link: what it points to is replaced.
-std::string follow_link(const std::string& path) {
-  std::error_code ignored;
-  if (!fs::is_symlink(path, ignored)) return path;
-  const fs::path target = fs::canonical(path, ignored);
-  return target.empty() ? path : target.string();
+// A symbolic link stays a link: what it points to is replaced. One that leads nowhere is replaced itself.
+Expected<std::string> follow_link(const std::string& path) {
+  const auto there = is_there(path, ErrorKind::cannot_write);
+  if (!there) return fail(there.error());
+  if (!*there) return path;
+  std::error_code error;
+  const fs::path target = fs::canonical(path, error);
+  if (error) return cannot_write(path, "cannot follow it", error.value());
+  return target.string();
+}
+
+/// Of decimal digits alone, without a leading zero.
+std::optional<pid_t> process_number(std::string_view text) {
+  pid_t number = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (status != std::errc() || end != text.data() + text.size() || number <= 0 || text.front() == '0')
+    return std::nullopt;
+  return number;
 }
 
 }  // namespace
 
 Expected<void> write_file(const std::string& path, std::string_view bytes) {
   const FileSizeSignalBlock block;
-  const std::string target = follow_link(path);
+  const auto followed = follow_link(path);
+  if (!followed) return fail(followed.error());
+  const std::string& target = *followed;
   struct stat status {};
   std::optional<mode_t> old_mode;
   if (::stat(target.c_str(), &status) == 0) {
@@ -118,9 +136,26 @@ Expected<void> write_file(const std::string& path, std::string_view bytes) {
   return filled;
 }
 
+std::string abandoned_part_of(std::string_view name) {
+  constexpr std::string_view end = ".part";
+  if (!name.ends_with(end)) return {};
+  name.remove_suffix(end.size());
+  const std::size_t dot = name.rfind('.'), dash = name.rfind('-');
+  if (dot == std::string_view::npos || dash == std::string_view::npos || dash < dot ||
+      dot > longest_kept_name)
+    return {};
+  const std::string_view count = name.substr(dash + 1);
+  const auto process = process_number(name.substr(dot + 1, dash - dot - 1));
+  if (!process || count.empty() || count.find_first_not_of("0123456789") != std::string_view::npos) return {};
+  const bool lives = *process != ::getpid() && (::kill(*process, 0) == 0 || errno != ESRCH);
+  return lives ? std::string() : std::string(name.substr(0, dot));
+}
+
 Expected<PartFile> PartFile::create(const std::string& path) {
   PartFile file;
-  file.target_ = follow_link(path);
+  auto target = follow_link(path);
+  if (!target) return fail(target.error());
+  file.target_ = std::move(*target);
   struct stat status {};
   if (::stat(file.target_.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
     return cannot_write(path, "a picture made in bands needs a plain file", EINVAL);
@@ -178,10 +213,10 @@ Expected<void> write_over_end(const std::string& path, std::string_view end) {
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {
+  const auto kind = file_kind(a);
+  if (kind && (*kind == FileKind::folder || *kind == FileKind::other)) return false;
+  if (const auto same = are_one_path(a, b); same && *same) return true;
   std::error_code error;
-  const fs::file_status status = fs::status(a, error);
-  if (fs::exists(status) && !fs::is_regular_file(status)) return false;
-  if (fs::equivalent(a, b, error) && !error) return true;
   const auto whole = [&](const std::string& path) {
     return fs::weakly_canonical(fs::absolute(path, error), error);
   };
@@ -192,12 +227,19 @@ Expected<void> make_output_folder(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) return cannot_write(path, "cannot create the folder", error.value());
-  if (!fs::is_directory(path, error)) return cannot_write(path, "cannot create the folder", ENOTDIR);
-  const std::string probe = temporary_name((fs::path(path) / "probe").string());
+  return check_takes_files(path);
+}
+
+Expected<void> check_takes_files(const std::string& folder) {
+  const auto there = is_folder(folder, ErrorKind::cannot_write);
+  if (!there) return fail(there.error());
+  if (!*there) return cannot_write(folder, "cannot write here", ENOTDIR);
+  const Descriptor nameless(::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600));
+  if (nameless.number() >= 0) return {};
+  const std::string probe = temporary_name((fs::path(folder) / probe_name).string());
   const Descriptor file(::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-  if (file.number() < 0) return cannot_write(path, "cannot create files in the folder", errno);
-  ::unlink(probe.c_str());
-  return {};
+  if (file.number() < 0) return cannot_write(folder, "cannot create files in the folder", errno);
+  return remove_path(probe);
 }
 
 }  // namespace gnomon

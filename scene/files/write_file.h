@@ -14,6 +14,11 @@ namespace gnomon {
 /// signal.
 Expected<void> write_file(const std::string& path, std::string_view bytes);
 
+/// The name of the file that a process of this program was writing when it left a temporary file called `name` (what
+/// write_file() calls it: NAME.PROCESS-COUNT.part, with up to 100 bytes of the file's own name), and is no more. Empty for
+/// every other name, and while the process lives, unless it is this one.
+std::string abandoned_part_of(std::string_view name);
+
 /// Writes over the end of a file that write_file() wrote, in its place and without waiting for the disk: after
 /// a cut of power parts of the old end may stand there. ErrorKind::cannot_write.
 Expected<void> write_over_end(const std::string& path, std::string_view end);
@@ -23,5 +28,11 @@ bool is_same_file(const std::string& a, const std::string& b);
 
 /// Creates the folder (and its parents) and checks that files can be written in it.
 Expected<void> make_output_folder(const std::string& path);
+
+/// Makes a file in the folder, without a name where the file system knows such: permissions alone do not tell. Nothing is
+/// left behind. ErrorKind::cannot_write.
+Expected<void> check_takes_files(const std::string& folder);
+/// The file's name in an output's folder where it must have one, as abandoned_part_of() gives it.
+inline constexpr std::string_view probe_name = "probe";
 
 }  // namespace gnomon
