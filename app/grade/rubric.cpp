@@ -28,8 +28,9 @@ constexpr NumberRange pixels_range{0.0, 1e9, false, false, true};
 const std::vector<std::string_view> kinds = {"draws", "at_most", "equals", "time"};
 
 /// Options that a rubric may not set: the grader decides what is written, and with which shaders.
-const std::vector<std::string_view> kept_options = {"output", "json",  "shader-dir", "aov",       "technique",
-                                                    "quiet",  "trace", "fail-above", "no-report", "threads"};
+const std::vector<std::string_view> kept_options = {"output",    "json",    "shader-dir",     "aov",
+                                                    "technique", "quiet",   "trace",          "fail-above",
+                                                    "no-report", "threads", "timed-as-judged"};
 
 std::vector<std::string_view> measure_names() {
   std::vector<std::string_view> names;
