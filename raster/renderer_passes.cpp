@@ -306,7 +306,8 @@ Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const V
     return options.shadow_cost ? warm_up_shading(job, sees, asked, {plain, timed})
                                : warm_up_shading(job, sees, asked, {timed});
   };
-  if (auto ok = repeat("shading runs", options, record.shade_pass, warm_up, as_judged ? judged : pass); !ok) return ok;
+  if (auto ok = repeat("shading runs", options, record.shade_pass, warm_up, as_judged ? judged : pass); !ok)
+    return ok;
   if (options.runs == 0) return {};
   last_timed_ = timed;
   job.visibility_drawn = job.visibility_drawn || sees;

@@ -19,18 +19,43 @@ std::string repeated(const std::string& text, int times) {
 }
 
 const std::vector<std::string>& hostile_names() {
-  static const std::vector<std::string> names = {
-      "anna", "Anna", "ANNA", "a b", "a_20b", "A_20B", "a/b", "a.b", "index", "Index", "index_", "index_5f",
-      ".", "..", ".hidden", "_2ehidden", "", "\xff\xfe", "\xff", "a\nb", "<b>&\"'", "CON", repeated("x", 255),
-      repeated("x", 254) + "y", repeated("X", 255), repeated("\xd0\x96", 127), repeated("\xe5\xad\xa6", 85),
-      repeated("\xe5\xad\xa6", 84) + "abc", repeated("\xf0\x9f\x8e\x93", 63)};
+  static const std::vector<std::string> names = {"anna",
+                                                 "Anna",
+                                                 "ANNA",
+                                                 "a b",
+                                                 "a_20b",
+                                                 "A_20B",
+                                                 "a/b",
+                                                 "a.b",
+                                                 "index",
+                                                 "Index",
+                                                 "index_",
+                                                 "index_5f",
+                                                 ".",
+                                                 "..",
+                                                 ".hidden",
+                                                 "_2ehidden",
+                                                 "",
+                                                 "\xff\xfe",
+                                                 "\xff",
+                                                 "a\nb",
+                                                 "<b>&\"'",
+                                                 "CON",
+                                                 repeated("x", 255),
+                                                 repeated("x", 254) + "y",
+                                                 repeated("X", 255),
+                                                 repeated("\xd0\x96", 127),
+                                                 repeated("\xe5\xad\xa6", 85),
+                                                 repeated("\xe5\xad\xa6", 84) + "abc",
+                                                 repeated("\xf0\x9f\x8e\x93", 63)};
   return names;
 }
 
 TEST(GradePage, EveryNameHasAPageOfItsOwn) {
   // A folder called like the page of another does not take it.
   std::vector<std::string> names = hostile_names();
-  for (const std::string& page : page_names(hostile_names())) names.push_back(page.substr(0, page.size() - 5));
+  for (const std::string& page : page_names(hostile_names()))
+    names.push_back(page.substr(0, page.size() - 5));
   std::set<std::string> pages{"index.html", "grades.json", "grades.csv"};
   for (std::string page : page_names(names)) {
     EXPECT_LE(page.size(), 96u) << page;
@@ -57,7 +82,8 @@ TEST(GradePage, NoPageRunsWhatAStudentWrote) {
   const std::vector<StudentResult> students{graded, failed};
   for (const std::string& page : {student_page(rubric, graded), student_page(rubric, failed),
                                   class_page({rubric, students, "gnomon grade"})}) {
-    EXPECT_EQ(app_test::policy_of(page).find("script-src 'none'"), app_test::policy_of(page).find("script-src"))
+    EXPECT_EQ(app_test::policy_of(page).find("script-src 'none'"),
+              app_test::policy_of(page).find("script-src"))
         << page;
     EXPECT_NE(app_test::policy_of(page).find("default-src 'none'"), std::string::npos) << page;
     EXPECT_EQ(page.find("<script"), std::string::npos);
@@ -72,9 +98,10 @@ TEST(GradePage, WhoWasNotGradedHasNoPoints) {
   rubric.title = "One";
   rubric.checks.emplace_back();
   rubric.checks[0].points = 2.0;
-  const std::vector<StudentResult> students{
-      {"anna", {CheckResult{2.0, "good", {}, {}, {}}}},
-      {"bert", {CheckResult{0.0, "no", {}, {}, {}}}, Error{ErrorKind::bad_input, "cannot be read", "class/bert"}}};
+  const std::vector<StudentResult> students{{"anna", {CheckResult{2.0, "good", {}, {}, {}}}},
+                                            {"bert",
+                                             {CheckResult{0.0, "no", {}, {}, {}}},
+                                             Error{ErrorKind::bad_input, "cannot be read", "class/bert"}}};
   const ClassResult result{rubric, students, "gnomon grade"};
   EXPECT_EQ(grade_csv(result), "student,points,of,\nanna,2,2,2\nbert,,2,\n");
   EXPECT_NE(grade_json(result).find("\"points\": null"), std::string::npos);

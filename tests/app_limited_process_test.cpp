@@ -13,9 +13,8 @@ namespace {
 
 /// This test program itself as the child: one of the cases below that are disabled otherwise.
 Outcome run_child(const std::string& name, const Limits& limits) {
-  const auto outcome = run_limited({"--gtest_also_run_disabled_tests",
-                                    "--gtest_filter=LimitedProcessChild.DISABLED_" + name},
-                                   limits);
+  const auto outcome = run_limited(
+      {"--gtest_also_run_disabled_tests", "--gtest_filter=LimitedProcessChild.DISABLED_" + name}, limits);
   EXPECT_TRUE(outcome) << outcome.error().message();
   return outcome.value_or(Outcome{});
 }

@@ -17,7 +17,8 @@ int expect_policies(const std::string& folder, const std::string& command) {
     if (file.path().extension() != ".html") continue;
     ++pages;
     const std::string policy = policy_of(read_file(file.path().string()));
-    for (const char* part : {"default-src 'none'", "style-src 'sha256-", "script-src '", "form-action 'none'"})
+    for (const char* part :
+         {"default-src 'none'", "style-src 'sha256-", "script-src '", "form-action 'none'"})
       EXPECT_NE(policy.find(part), std::string::npos) << command << ": " << file.path() << ": " << part;
     EXPECT_EQ(policy.find("unsafe"), std::string::npos) << command << ": " << file.path();
   }
