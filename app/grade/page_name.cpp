@@ -46,7 +46,7 @@ std::vector<std::string> page_names(const std::vector<std::string>& students) {
   for (const std::string& student : students) {
     const auto [plain, is_whole] = plain_name(student);
     const std::string hashed = fmt::format("{}-{}", plain, sha256_hex(student).substr(0, 16));
-    std::string name = is_whole ? plain : hashed;
+    std::string name = is_whole && !plain.empty() ? plain : hashed;
     for (int count = 0; !taken.insert(in_small_letters(name)).second; ++count)
       name = count == 0 ? hashed : fmt::format("{}-{}", hashed, count);
     pages.push_back(name + ".html");
