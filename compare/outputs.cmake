@@ -10,7 +10,7 @@ set(GNOMON_COMPARE_TEXT_SOURCES
   result_light_json.cpp result_table.cpp shadow_cost.cpp summary.cpp text_layout.cpp time_budget.cpp verdict.cpp
   write_outputs.cpp report/annex.cpp report/bias_tables.cpp report/charts.cpp report/explanations.cpp report/html.cpp
   report/hybrid_block.cpp report/lessons.cpp report/light_section.cpp report/overview.cpp report/page.cpp
-  report/page_data.cpp report/pixel_words.cpp report/shadow_cost.cpp report/shell.cpp
+  report/page_data.cpp report/page_head.cpp report/pixel_words.cpp report/shadow_cost.cpp report/shell.cpp
   report/time_budget.cpp)
 list(TRANSFORM GNOMON_COMPARE_OUTPUT_SOURCES PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 list(TRANSFORM GNOMON_COMPARE_TEXT_SOURCES PREPEND "${CMAKE_CURRENT_LIST_DIR}/")

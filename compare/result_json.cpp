@@ -103,6 +103,7 @@ Json timing_json(const Comparison& c) {
   const raytrace::RaytraceOptions& traced = c.raytraced.options;
   return {{"raster", side(drawn.runs, drawn.enough_ms, drawn.runs > 0)},
           {"rays", side(traced.runs, traced.enough_ms, traced.warm_up)},
+          {"as_judged", drawn.timed_as_judged},
           {"software_rasterizer", is_software(c.raster.context)}};
 }
 

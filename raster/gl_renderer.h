@@ -72,6 +72,10 @@ class GlRenderer final : public Renderer {
                            const Pass& warm_up, const Pass& pass);
   Expected<void> time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
                               LightRecord& record);
+  /// Milliseconds of one drawing, the mean of many, each of which is held to the others.
+  Expected<double> time_as_judged(Job& job, const ShadePermutation& judged, const VisibilityRequest* asked);
+  /// Of what was just timed, to be held to the others and to what is kept.
+  void keep_timed_visibility(Job& job) const;
   /// camera: what it sees will be drawn by the runs, too.
   Expected<void> warm_up_shading(const Job& job, bool camera, const VisibilityRequest* asked,
                                  std::initializer_list<ShadePermutation> permutations);
@@ -117,6 +121,9 @@ struct GlRenderer::Job {
   bool goes_on = false;  ///< a picture whose upper rows were made before
   bool visibility_drawn = false;
   bool first_light = true;
+  std::optional<Image<float>>
+      timed_visibility{};         ///< RasterOptions::timed_as_judged: of the light's first timed run
+  bool timed_alike = true;        ///< so far every timed run drew the same
   std::uint32_t light_index = 0;  ///< whose turn it is
   Stopwatch map_started{};        ///< since the memory of the light's map was asked for
 };

@@ -155,6 +155,10 @@ struct RasterOptions {
   double enough_ms = never_enough_ms;  ///< no further run of a pass once those made took so long together
   /// Time the shading without shadows, too (LightRecord::unshadowed_pass): as many runs again.
   bool shadow_cost = false;
+  /// analysis: the very program that draws the records is timed (in software in processor time, that of its threads
+  /// included; a run is the mean of so many drawings as take 100 ms), and every drawing has to give the same visibility,
+  /// so that nothing in a user's shader can tell a timed drawing from one that is judged. Takes longer than shading alone.
+  bool timed_as_judged = false;
   bool analysis = true;  ///< also hand on the per-pixel records and the map (compare needs them)
   /// analysis: hand on the map's depths too (izb and hybrid always do).
   bool map_contents = true;

@@ -1,15 +1,38 @@
 // The timed drawing: maps, shading with and without shadows, and what is read back of them.
 #include <algorithm>
+#include <cstring>
+#include <utility>
 
 #include "raster/gl_renderer.h"
 #include "raster/izb_pass.h"
 #include "raster/map_shape.h"
+#include "raster/renderer_name.h"
 #include "raster/shader_folder.h"
 #include "raster/technique_shader.h"
 #include "raster/technique_traits.h"
 #include "scene/stages.h"
 
 namespace gnomon::raster {
+
+namespace {
+
+/// Of the wall, or of the processor.
+class PassClock {
+ public:
+  explicit PassClock(bool of_processor) : of_processor_(of_processor) {}
+  double elapsed_ms() const { return of_processor_ ? processor_.elapsed_ms() : wall_.elapsed_ms(); }
+
+ private:
+  bool of_processor_;
+  Stopwatch wall_;
+  ProcessorStopwatch processor_;
+};
+
+bool same_bits(const Image<float>& a, const Image<float>& b) {
+  return a.size == b.size && std::memcmp(a.data.data(), b.data.data(), a.data.size() * sizeof(float)) == 0;
+}
+
+}  // namespace
 
 bool draws_map_for_records(Technique technique) {
   return !compares_depths(technique);
@@ -204,17 +227,54 @@ Expected<void> GlRenderer::warm_up_shading(const Job& job, bool camera, const Vi
   return {};
 }
 
+// What the program's own shaders draw is the same every time.
+void GlRenderer::keep_timed_visibility(Job& job) const {
+  if (gl_->shader_folder().replaced().empty()) return;
+  const ReadBack reading(job.frame);
+  Image<float> drawn;
+  shading_.read_drawn_visibility(drawn);
+  if (!job.timed_visibility)
+    job.timed_visibility = std::move(drawn);
+  else if (!same_bits(*job.timed_visibility, drawn))
+    job.timed_alike = false;
+}
+
+// A system may count processor time in steps of 10 ms, many times what a small picture takes.
+Expected<double> GlRenderer::time_as_judged(Job& job, const ShadePermutation& judged,
+                                            const VisibilityRequest* asked) {
+  constexpr double long_enough_ms = 100.0;
+  constexpr int most_drawings = 500;
+  const bool software = draws_in_software(info_.renderer);
+  double sum_ms = 0.0;
+  int drawings = 0;
+  while (sum_ms < long_enough_ms && drawings < most_drawings) {
+    const PassClock clock(software);
+    if (!job.goes_on)
+      if (auto seen = shading_.draw_visibility(buffers_, job.view); !seen) return fail(seen.error());
+    if (auto found = find_external(asked); !found) return fail(found.error());
+    if (auto drawn = shading_.draw_light(buffers_, judged, !job.first_light); !drawn)
+      return fail(drawn.error());
+    (*gl_)->Finish();
+    sum_ms += clock.elapsed_ms();
+    ++drawings;
+    keep_timed_visibility(job);
+  }
+  return sum_ms / drawings;
+}
+
 /// Each run draws what the camera sees, its shadows, and where RasterOptions::shadow_cost asks for it the same
 /// picture once more without them, so that both have the same moments of the machine. What the camera sees is the same
 /// for all lights, maps and techniques: once it was timed often enough, its median stands for it.
 Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
                                         LightRecord& record) {
   const RasterOptions& options = job.options;
-  const ShadePermutation timed = shade_permutation(map_job.light, map_job.options, job.first_light, false);
+  const bool as_judged = options.timed_as_judged && options.analysis;
+  const ShadePermutation timed =
+      shade_permutation(map_job.light, map_job.options, job.first_light, as_judged);
   const ShadePermutation plain = unshadowed(timed);
   Times& camera = shading_.times(buffers_, job.view);
   const bool enough = !times_again(camera, std::max(options.runs, usual_runs), options.enough_ms);
-  const bool sees = !job.goes_on && !(enough && shows(job));
+  const bool sees = !job.goes_on && (as_judged || !(enough && shows(job)));
   const Pass pass = [&]() -> Expected<void> {
     double seen_ms = job.goes_on ? 0.0 : camera.median();
     if (sees) {
@@ -236,11 +296,18 @@ Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const V
     record.unshadowed_pass.runs.push_back(seen_ms + without.elapsed_ms());
     return {};
   };
+  const Pass judged = [&]() -> Expected<void> {
+    const auto ms = time_as_judged(job, timed, asked);
+    if (!ms) return fail(ms.error());
+    record.shade_pass.runs.push_back(*ms);
+    return {};
+  };
   const Pass warm_up = [&] {
     return options.shadow_cost ? warm_up_shading(job, sees, asked, {plain, timed})
                                : warm_up_shading(job, sees, asked, {timed});
   };
-  if (auto ok = repeat("shading runs", options, record.shade_pass, warm_up, pass); !ok) return ok;
+  if (auto ok = repeat("shading runs", options, record.shade_pass, warm_up, as_judged ? judged : pass); !ok)
+    return ok;
   if (options.runs == 0) return {};
   last_timed_ = timed;
   job.visibility_drawn = job.visibility_drawn || sees;
@@ -283,7 +350,11 @@ Expected<void> GlRenderer::read_shading(Job& job, const MapJob& map_job, LightRe
   shading_.read_records(record);
   if (gl_->shader_folder().replaced().empty()) return {};
   const std::string file = technique_file(map_job.options, map_job.light);
-  return check_visibility(record.visibility, gl_->shader_folder(), file);
+  if (auto fine = check_visibility(record.visibility, gl_->shader_folder(), file); !fine) return fine;
+  const std::optional<Image<float>> timed = std::exchange(job.timed_visibility, std::nullopt);
+  const bool alike = std::exchange(job.timed_alike, true);
+  if (!timed || (alike && same_bits(*timed, record.visibility))) return {};
+  return fail(draws_differently(gl_->shader_folder(), file));
 }
 
 std::size_t GlRenderer::most_pixels(const MapOptions& map) const {

@@ -121,7 +121,19 @@ std::string why_no_visibility(float v, int x, int y) {
   return fmt::format("technique_visibility() gives no visibility {} (got {}, allowed 0 to 1)", where, v);
 }
 
+/// To blame for what is drawn.
+std::string drawing_file(const ShaderFolder& folder, const std::string& technique_file) {
+  return folder.find(technique_file) != nullptr ? folder.path_of(technique_file) : folder.path();
+}
+
 }  // namespace
+
+Error draws_differently(const ShaderFolder& folder, const std::string& technique_file) {
+  return error_in(
+      drawing_file(folder, technique_file),
+      "draws differently when it is timed: the same drawing was made several times, and not every "
+      "time alike");
+}
 
 Expected<void> check_visibility(const Image<float>& visibility, const ShaderFolder& folder,
                                 const std::string& technique_file) {
@@ -131,9 +143,7 @@ Expected<void> check_visibility(const Image<float>& visibility, const ShaderFold
     for (int x = 0; x < visibility.size.width; ++x) {
       const float v = visibility.at(x, y);
       if (v >= -rounding && v <= 1.0f + rounding) continue;
-      return fail(
-          error_in(folder.find(technique_file) != nullptr ? folder.path_of(technique_file) : folder.path(),
-                   why_no_visibility(v, x, y)));
+      return fail(error_in(drawing_file(folder, technique_file), why_no_visibility(v, x, y)));
     }
   }
   return {};

@@ -59,6 +59,9 @@ class ShaderFolder {
 /// What stands in a pixel that no shader has written.
 inline constexpr float unwritten_visibility = std::numeric_limits<float>::lowest();
 
+/// The error (bad input) of a shader that draws the same picture otherwise when it is timed.
+Error draws_differently(const ShaderFolder& folder, const std::string& technique_file);
+
 /// Error (bad input) that names the first pixel where a shader of the folder wrote a visibility outside
 /// [0, 1], one that is no number, or none.
 Expected<void> check_visibility(const Image<float>& visibility, const ShaderFolder& folder,

@@ -85,16 +85,21 @@ Expected<void> ShadingPass::prepare_shaded(ImageSize size, bool with_records) {
     record_ = Texture2D(gl, GL_RGBA32F, size);
     flags_ = Texture2D(gl, GL_R8UI, size);
     drawn_visibility_ = Texture2D(gl, GL_RG32F, size);
-    record_target_ = Framebuffer(gl);
-    record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::radiance_output, color_);
-    record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::record_output, record_);
-    record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::flags_output, flags_);
-    record_target_.attach(GL_COLOR_ATTACHMENT0 + shaders::visibility_output, drawn_visibility_);
-    record_target_.draw_to(4);
+    record_target_ = record_target(color_);
   }
   if (auto ok = gl.check("making the image buffers"); !ok) return ok;
   if (auto ok = color_target_.check_complete(); !ok) return ok;
   return with_records ? record_target_.check_complete() : Expected<void>{};
+}
+
+Framebuffer ShadingPass::record_target(const Texture2D& radiance) const {
+  Framebuffer target(*gl_);
+  target.attach(GL_COLOR_ATTACHMENT0 + shaders::radiance_output, radiance);
+  target.attach(GL_COLOR_ATTACHMENT0 + shaders::record_output, record_);
+  target.attach(GL_COLOR_ATTACHMENT0 + shaders::flags_output, flags_);
+  target.attach(GL_COLOR_ATTACHMENT0 + shaders::visibility_output, drawn_visibility_);
+  target.draw_to(4);
+  return target;
 }
 
 Expected<void> ShadingPass::prepare_trial() {
@@ -103,6 +108,7 @@ Expected<void> ShadingPass::prepare_trial() {
   trial_target_ = Framebuffer(*gl_);
   trial_target_.attach(GL_COLOR_ATTACHMENT0, trial_color_);
   trial_target_.draw_to(1);
+  if (record_) trial_record_target_ = record_target(trial_color_);
   return gl_->check("making the timing image");
 }
 
@@ -175,7 +181,8 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
   world.bind();
   camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
   bind_visibility();
-  const Framebuffer& target = trial ? trial_target_ : (permutation.records ? record_target_ : color_target_);
+  const Framebuffer& target = permutation.records ? (trial ? trial_record_target_ : record_target_)
+                                                  : (trial ? trial_target_ : color_target_);
   gl->BindFramebuffer(GL_FRAMEBUFFER, target.id());
   gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
   const ImageSize drawn = drawn_part(size());
@@ -245,14 +252,18 @@ void ShadingPass::read_primitives(Image<std::uint32_t>& out) const {
   visibility_.read_rows(rows_, GL_RED_INTEGER, GL_UNSIGNED_INT, std::as_writable_bytes(std::span(out.data)));
 }
 
+void ShadingPass::read_drawn_visibility(Image<float>& out) const {
+  out = Image<float>(size());
+  drawn_visibility_.read(GL_RED, GL_FLOAT, std::as_writable_bytes(std::span(out.data)));
+}
+
 void ShadingPass::read_records(LightRecord& record) const {
   const ImageSize size = this->size();
   std::vector<Vec4f> values(size.pixels());
   std::vector<std::uint8_t> flags(size.pixels());
   record_.read(GL_RGBA, GL_FLOAT, std::as_writable_bytes(std::span(values)));
   flags_.read(GL_RED_INTEGER, GL_UNSIGNED_BYTE, std::as_writable_bytes(std::span(flags)));
-  record.visibility = Image<float>(size);
-  drawn_visibility_.read(GL_RED, GL_FLOAT, std::as_writable_bytes(std::span(record.visibility.data)));
+  read_drawn_visibility(record.visibility);
   std::vector<float> lookups(size.pixels());
   drawn_visibility_.read(GL_GREEN, GL_FLOAT, std::as_writable_bytes(std::span(lookups)));
   record.lookups = Image<std::uint16_t>(size);

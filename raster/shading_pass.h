@@ -20,7 +20,8 @@ class ShadingPass {
   Expected<void> draw_visibility(const WorldBuffers& world, const View& view);
   /// Whether the visibility buffer holds what draw_visibility() would draw.
   bool shows(const WorldBuffers& world, const View& view) const;
-  /// Adds a light to the picture, or with `trial`, to an image that nobody reads (for timing).
+  /// Adds a light to the picture, or with `trial`, to an image that nobody reads (for timing). What it records goes
+  /// where the next drawing of a light records.
   Expected<void> draw_light(const WorldBuffers& world, const ShadePermutation& permutation, bool trial);
   /// Draws the light into a corner of the images: whatever the device compiles or sets up at the first use is then
   /// there, without the time of a whole picture. `camera`: the visibility buffer, too, of a few triangles, which leaves it
@@ -40,11 +41,15 @@ class ShadingPass {
   void read_primitives(Image<std::uint32_t>& out) const;
   /// What the last light drawn with ShadePermutation::records wrote.
   void read_records(LightRecord& record) const;
+  /// The visibility that it wrote.
+  void read_drawn_visibility(Image<float>& out) const;
 
  private:
   ImageSize drawn_part(ImageSize of) const;
   Expected<void> prepare_seen(ImageSize size);
   Expected<void> prepare_shaded(ImageSize size, bool with_records);
+  /// Where records go, and the light's share of the picture into `radiance`.
+  Framebuffer record_target(const Texture2D& radiance) const;
   Expected<void> prepare_trial();
   Expected<void> draw_shapes(const WorldBuffers& world, const View& view);
 
@@ -66,7 +71,7 @@ class ShadingPass {
   PictureRows rows_;        ///< that are shaded
   bool in_corner_ = false;  ///< only a part of the images is drawn to
   Texture2D visibility_, solid_distance_, depth_, color_, record_, flags_, drawn_visibility_, trial_color_;
-  Framebuffer visibility_target_, color_target_, record_target_, trial_target_;
+  Framebuffer visibility_target_, color_target_, record_target_, trial_target_, trial_record_target_;
 };
 
 }  // namespace gnomon::raster

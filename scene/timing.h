@@ -1,9 +1,10 @@
-// Wall-clock times of repeated passes: every raw run is kept, the median is what is reported.
+// Times of repeated passes: every raw run is kept, the median is what is reported.
 #pragma once
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <ctime>
 #include <vector>
 
 namespace gnomon {
@@ -41,6 +42,21 @@ class Stopwatch {
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Milliseconds of processor time of all of this process's threads since construction: what else the machine does is no
+/// part of it.
+class ProcessorStopwatch {
+ public:
+  double elapsed_ms() const { return now_ms() - start_; }
+
+ private:
+  static double now_ms() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+  }
+  double start_ = now_ms();
 };
 
 /// Runs `pass` once and appends its time.

@@ -61,7 +61,8 @@ TEST(JudgeProgram, NoTwoCapturesShareAName) {
   EXPECT_EQ(judged.exit_code, 3) << judged.err;
   for (const char* name : {"\na  ", "\na-2  ", "\na-2-2  "})
     EXPECT_NE(judged.out.find(name), std::string::npos) << judged.out;
-  EXPECT_TRUE(fs::exists(world.folder / "out/report.html"));
+  EXPECT_NE(policy_of(read_file(world.folder / "out/report.html")).find("default-src 'none'"),
+            std::string::npos);
 }
 
 // What the ray tracer sees of the light is a right picture of the visibility.

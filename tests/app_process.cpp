@@ -167,4 +167,11 @@ void write_text(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
+std::string policy_of(const std::string& page) {
+  const std::string before = "<meta http-equiv=\"Content-Security-Policy\" content=\"";
+  const std::size_t at = page.find(before);
+  if (at == std::string::npos || at > page.find("<style")) return {};
+  return page.substr(at + before.size(), page.find('"', at + before.size()) - at - before.size());
+}
+
 }  // namespace gnomon::app_test

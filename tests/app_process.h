@@ -59,5 +59,7 @@ class TemporaryFolder {
 
 std::string read_file(const std::string& path);
 void write_text(const std::string& path, const std::string& text);
+/// The content-security policy of a page; empty where it has none.
+std::string policy_of(const std::string& page);
 
 }  // namespace gnomon::app_test

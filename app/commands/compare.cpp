@@ -34,6 +34,7 @@ struct CompareCommand : RunOptions {
   SettingOptions setting;
   std::string shader_folder;
   std::optional<int> runs;
+  bool timed_as_judged = false;
   int max_lights = usual_max_lights;
   int tessellate = 0;  ///< sectors; 0: shapes stay exact
   MemoryLimit memory;
@@ -168,7 +169,8 @@ void set_runs(CompareCommand& command) {
   raytrace::RaytraceOptions& rays = command.setting.options.raytrace;
   raster.runs = rays.runs = command.runs.value_or(usual_runs);
   raster.enough_ms = rays.enough_ms = command.runs ? never_enough_ms : usual_enough_ms;
-  raster.shadow_cost = true;
+  raster.timed_as_judged = command.timed_as_judged;
+  raster.shadow_cost = !command.timed_as_judged;  // the drawing without shadows records nothing
   rays.warm_up = true;
 }
 
@@ -220,6 +222,11 @@ void add_options(CLI::App& app, CompareCommand& command) {
                   "{:g} ms together",
                   usual_runs, usual_enough_ms)
           .c_str());
+  app.add_flag(
+      "--timed-as-judged", command.timed_as_judged,
+      "time shading with all that is recorded of it, so that nothing in a shader of --shader-dir tells "
+      "a timed drawing from a judged one; in software in processor time; without shadow cost [default "
+      "off]");
   app.add_flag("--no-report", command.output.no_report,
                "write no report.html and spend no time on it; all other files as ever [default off]");
   add_result_limits(app, command.output);

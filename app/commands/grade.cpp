@@ -6,10 +6,12 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "app/console.h"
 #include "app/grade/kits.h"
 #include "app/grade/page.h"
+#include "app/grade/page_name.h"
 #include "app/grade/results.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
@@ -18,7 +20,7 @@
 #include "app/output_path.h"
 #include "app/render_json.h"
 #include "app/run_files.h"
-#include "scene/files/write_file.h"
+#include "scene/one_line.h"
 
 namespace gnomon::app {
 
@@ -40,7 +42,6 @@ Expected<ExitCode> write_new_kit(const GradeCommand& command, Console& console) 
                 fmt::format("--new: no such rubric of the program's own (got {}, allowed {})", name,
                             fmt::join(grade::kit_names(), ", ")));
   if (!command.students.empty()) return fail(ErrorKind::usage, "--new: takes no students");
-  if (const auto made = make_output_folder(command.kit_folder); !made) return fail(made.error());
   const OutputGuard whole_outputs;
   if (const auto written = grade::write_kit(name, command.kit_folder); !written) return fail(written.error());
   console.message(fmt::format("{}: the steps are in {}/README.md", name, command.kit_folder));
@@ -52,22 +53,37 @@ Expected<grade::Rubric> find_rubric(const GradeCommand& command, const std::stri
     return fail(ErrorKind::usage, fmt::format("a rubric is needed: a file, or one of the program's own ({})",
                                               fmt::join(grade::kit_names(), ", ")));
   if (!grade::is_kit(command.rubric)) return grade::read_rubric(command.rubric);
-  const std::string folder = work_folder + "/.kit";
+  const std::string folder = work_folder + "/kit";
   if (const auto written = grade::write_kit(command.rubric, folder); !written) return fail(written.error());
   return grade::read_rubric(folder + "/rubric.json");
 }
 
+std::vector<std::string> pages_of(const std::vector<grade::Student>& students) {
+  std::vector<std::string> names;
+  for (const grade::Student& student : students) names.push_back(one_line(student.name));
+  if (names.empty())
+    names.emplace_back(grade::own_shader_name);  // a rubric is tried before a class is graded with it
+  return grade::page_names(names);
+}
+
 /// Before anything is drawn; which scenes the rubric names is not known yet.
-Expected<RunFiles> check_grade_files(const GradeCommand& command) {
+Expected<RunFiles> check_grade_files(const GradeCommand& command,
+                                     const std::vector<grade::Student>& students) {
   if (command.json == "-" && command.csv == "-")
     return fail(ErrorKind::usage, "--json and --csv: stdout takes one of the two (got - for both)");
   RunFiles files;
   if (!grade::is_kit(command.rubric)) files.reads(command.rubric);
-  for (const std::string& students : command.students) files.reads_shaders(students);
+  for (const std::string& folder : command.students) files.reads_shaders(folder);
   files.writes("--json", command.json);
   files.writes("--csv", command.csv);
-  files.writes_folder("-o", command.folder, grade::class_file_names);
+  const std::vector<std::string> pages = pages_of(students);
+  std::vector<std::string_view> names(grade::class_file_names.begin(), grade::class_file_names.end());
+  names.insert(names.end(), pages.begin(), pages.end());
+  files.writes_folder("-o", command.folder, names);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
+  if (command.folder.empty()) return files;
+  if (const auto fine = grade::check_pages(command.folder, {names.begin(), names.end()}); !fine)
+    return fail(fine.error());
   return files;
 }
 
@@ -77,27 +93,32 @@ Expected<void> keep_scenes(const grade::Rubric& rubric, RunFiles& files) {
   return files.check();
 }
 
-Expected<void> write_all(const GradeCommand& command, const grade::ClassResult& result, Console& console) {
-  const OutputGuard whole_outputs;
-  if (!command.folder.empty()) {
-    if (const auto made = make_output_folder(command.folder); !made) return made;
-    if (const auto written = grade::write_pages(result, command.folder); !written) return written;
-    console.message(fmt::format("pages: {}/index.html", command.folder));
-  }
-  if (const auto written = hand_out_json(command.json, grade::grade_json(result)); !written) return written;
-  return hand_out_json(command.csv, grade::grade_csv(result));
+Expected<void> write_folder(const GradeCommand& command, const grade::ClassResult& result,
+                            const std::vector<std::string>& inputs, Console& console) {
+  if (command.folder.empty()) return {};
+  if (const auto written = grade::write_pages(result, command.folder, inputs); !written) return written;
+  console.message(fmt::format("pages: {}/index.html", command.folder));
+  return {};
 }
 
-/// The students, or without any the program's own shader: a rubric is tried before a class is graded with it.
+/// Each output comes out whether or not another can be written.
+Expected<void> write_all(const GradeCommand& command, const grade::ClassResult& result,
+                         const std::vector<std::string>& inputs, Console& console) {
+  const OutputGuard whole_outputs;
+  const auto json = hand_out_json(command.json, grade::grade_json(result));
+  const auto csv = hand_out_json(command.csv, grade::grade_csv(result));
+  const auto folder = write_folder(command, result, inputs, console);
+  return !json ? json : !csv ? csv : folder;
+}
+
 Expected<std::vector<grade::StudentResult>> grade_all(const GradeCommand& command,
                                                       const grade::Rubric& rubric,
+                                                      const std::vector<grade::Student>& students,
                                                       const std::string& work_folder, Console& console) {
-  const auto students = grade::find_students(command.students);
-  if (!students) return fail(students.error());
-  auto grades = grade::grade_class(rubric, *students, work_folder,
+  auto grades = grade::grade_class(rubric, students, work_folder,
                                    {command.jobs, [&](double done) { console.progress("grading", done); }});
   if (!grades) return fail(grades.error());
-  if (students->empty()) return std::vector{grades->own};
+  if (students.empty()) return std::vector{grades->own};
   for (std::size_t i = 0; i < rubric.checks.size(); ++i)
     if (grades->own.checks[i].points < rubric.checks[i].points)
       console.note(fmt::format("the program's own shader does not pass \"{}\" ({})", rubric.checks[i].name,
@@ -105,24 +126,41 @@ Expected<std::vector<grade::StudentResult>> grade_all(const GradeCommand& comman
   return std::move(grades->students);
 }
 
+/// Those who have no points because they could not be graded, as one error; the others have theirs.
+Expected<ExitCode> ungraded(const std::vector<grade::StudentResult>& students) {
+  std::optional<Error> first;
+  std::string list;
+  for (const grade::StudentResult& student : students) {
+    if (!student.error) continue;
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", student.name, student.error->message());
+    if (!first) first = student.error;
+  }
+  if (!first) return ExitCode::done;
+  return fail(first->kind,
+              fmt::format("not graded: {}; mend that and grade again, all others have their points", list));
+}
+
 Expected<ExitCode> run_grade(const GradeCommand& command) {
   Console console(command.quiet);
   if (!command.kit_folder.empty()) return write_new_kit(command, console);
-  auto files = check_grade_files(command);
+  const auto students = grade::find_students(command.students);
+  if (!students) return fail(students.error());
+  auto files = check_grade_files(command, *students);
   if (!files) return fail(files.error());
   const TemporaryFolder work("gnomon-grade");
   if (work.path().empty()) return fail(ErrorKind::cannot_write, "no folder for temporary files can be made");
   const auto rubric = find_rubric(command, work.path());
   if (!rubric) return fail(rubric.error());
   if (const auto kept = keep_scenes(*rubric, *files); !kept) return fail(kept.error());
-  const auto students = grade_all(command, *rubric, work.path(), console);
-  if (!students) return fail(students.error());
-  const grade::ClassResult result{*rubric, *students, command.command_line};
+  const auto graded = grade_all(command, *rubric, *students, work.path(), console);
+  if (!graded) return fail(graded.error());
+  const grade::ClassResult result{*rubric, *graded, command.command_line};
   console.clear_progress();
   const bool prints_data = command.json == "-" || command.csv == "-";
   if (!command.quiet && !prints_data) print_data(grade::grade_table(result));
-  if (const auto written = write_all(command, result, console); !written) return fail(written.error());
-  return ExitCode::done;
+  if (const auto written = write_all(command, result, files->inputs(), console); !written)
+    return fail(written.error());
+  return ungraded(*graded);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <csignal>
 #include <filesystem>
 
 #include "app/grade/limited_process.h"
@@ -26,12 +28,42 @@ std::string first_error(const std::string& err) {
 }
 
 std::string failure_words(const Outcome& outcome, const Limits& limits) {
-  if (outcome.end == Outcome::End::timed_out)
-    return fmt::format("drawing did not end within {} s: is there a loop without an end?", limits.seconds);
+  if (outcome.end == Outcome::End::out_of_time)
+    return fmt::format("drawing did not end within {} s of processor time: is there a loop without an end?",
+                       limits.seconds);
+  if (outcome.end == Outcome::End::stalled)
+    return fmt::format("the drawing process did nothing for {} s", limits.idle_seconds);
   if (outcome.end == Outcome::End::killed)
     return fmt::format("the drawing process was ended by signal {}", outcome.code);
   const std::string error = first_error(outcome.err);
   return error.empty() ? fmt::format("the drawing process ended with exit code {}", outcome.code) : error;
+}
+
+/// Ends that somebody else than the shader may have caused: the system, which takes a process's memory for others, or
+/// whoever sends signals (whose exit codes these are). A shader that asks for more than it may have ends with
+/// ErrorKind::graphics as well.
+bool may_be_disturbed(const Outcome& outcome) {
+  constexpr std::array signals{SIGKILL, SIGTERM, SIGINT, SIGHUP, SIGQUIT};
+  const auto is_from_outside = [&](int signal) {
+    return std::find(signals.begin(), signals.end(), signal) != signals.end();
+  };
+  switch (outcome.end) {
+    case Outcome::End::stalled:
+      return true;
+    case Outcome::End::killed:
+      return is_from_outside(outcome.code);
+    case Outcome::End::exited:
+      return outcome.code == static_cast<int>(ErrorKind::graphics) ||
+             outcome.code == static_cast<int>(ErrorKind::internal) || is_from_outside(outcome.code - 128);
+    case Outcome::End::out_of_time:
+      break;
+  }
+  return false;
+}
+
+/// Drawn again with nothing beside it, such an end is the shader's doing where it asked for too much.
+bool is_shaders_fault(const Outcome& outcome) {
+  return outcome.end == Outcome::End::exited && outcome.code == static_cast<int>(ErrorKind::graphics);
 }
 
 }  // namespace
@@ -46,8 +78,9 @@ std::string CheckRuns::command(const Run& run) const {
 
 bool CheckRuns::needs_values(const Run& run) const {
   return std::any_of(rubric_->checks.begin(), rubric_->checks.end(), [&](const Check& check) {
-    return (check.kind == CheckKind::equals || check.measure.name == "detachment") &&
-           std::find(check.runs.begin(), check.runs.end(), run) != check.runs.end();
+    const bool asks = check.kind == CheckKind::equals || check.kind == CheckKind::time ||
+                      check.measure.name == "detachment";
+    return asks && std::find(check.runs.begin(), check.runs.end(), run) != check.runs.end();
   });
 }
 
@@ -58,7 +91,7 @@ bool CheckRuns::needs_sides(const Run& run) const {
   });
 }
 
-Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, bool timed, bool values) const {
+Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, Manner manner) const {
   std::vector<std::string> words = {"compare", run.scene};
   for (const auto& [name, value] : run.options) {
     words.push_back("--" + name);
@@ -68,55 +101,67 @@ Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, boo
   words.insert(words.end(),
                {"--technique", rubric_->technique, "--threads", "1", "-o", folder, "--no-report", "--quiet"});
   if (!shaders_.empty()) words.insert(words.end(), {"--shader-dir", shaders_});
-  if (!timed) words.insert(words.end(), {"--runs", "1"});
-  if (values) words.insert(words.end(), {"--aov", values_folder(folder) + "/values.exr"});
+  if (manner.timed) words.emplace_back("--timed-as-judged");
+  if (!manner.timed) words.insert(words.end(), {"--runs", "1"});
+  if (manner.values) words.insert(words.end(), {"--aov", values_folder(folder) + "/values.exr"});
   const auto outcome = run_limited(words, rubric_->limits);
   if (!outcome) return fail(outcome.error());
-  Drawing drawing;
-  drawing.timed_out = outcome->end == Outcome::End::timed_out;
-  drawing.exit_code = outcome->end == Outcome::End::exited ? outcome->code : -1;
-  if (drawing.exit_code == static_cast<int>(ErrorKind::cannot_write))  // a full disk is no shader's fault
-    return fail(ErrorKind::cannot_write, failure_words(*outcome, rubric_->limits));
-  if (drawing.exit_code != 0) {
-    drawing.failure = failure_words(*outcome, rubric_->limits);
-    return drawing;
+  const std::string failure = failure_words(*outcome, rubric_->limits);
+  if (outcome->end == Outcome::End::exited && outcome->code == 0) {
+    auto result = read_run_result(folder);
+    if (!result) return fail(result.error());
+    return Drawing{std::move(*result), {}};
   }
-  auto result = read_run_result(folder);
-  if (!result) return fail(result.error());
-  drawing.result = std::move(*result);
-  return drawing;
+  if (outcome->end == Outcome::End::exited && outcome->code == static_cast<int>(ErrorKind::cannot_write))
+    return fail(ErrorKind::cannot_write, failure);  // a full disk is no shader's fault
+  const bool disturbed = may_be_disturbed(*outcome);
+  if (disturbed && manner.again && !is_shaders_fault(*outcome))
+    return fail(ErrorKind::graphics, fmt::format("no drawing could be made, twice: {}", failure));
+  return Drawing{{}, failure, outcome->end == Outcome::End::out_of_time, disturbed && !manner.again};
 }
 
-Expected<Drawing> CheckRuns::make_with_ties(const Run& run, const std::string& folder) const {
-  auto drawing = make(run, folder, false, true);
+Expected<Drawing> CheckRuns::make_undisturbed(const Run& run, const std::string& folder,
+                                              Manner manner) const {
+  auto drawing = make(run, folder, manner);
+  if (!drawing || !drawing->disturbed) return drawing;
+  manner.again = true;
+  return make(run, folder, manner);
+}
+
+Expected<Drawing> CheckRuns::make_with_ties(const Run& run, const std::string& folder, bool again) const {
+  auto drawing = make(run, folder, {.values = true, .again = again});
   if (!drawing || !drawing->result) return drawing;
   if (const auto added = add_ties(*drawing->result); !added) return fail(added.error());
   return drawing;
 }
 
 Expected<const Drawing*> CheckRuns::draw(const Run& run) {
-  const auto known =
-      std::find_if(made_.begin(), made_.end(), [&](const Made& made) { return made.run == run; });
-  if (known != made_.end()) return &known->drawing;
-  const std::string folder = fmt::format("{}/{}", folder_, made_.size());
-  auto drawing = make(run, folder, false, needs_values(run));
+  auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& made) { return made.run == run; });
+  const bool again = known != made_.end();
+  if (again && !known->drawing.disturbed) return &known->drawing;
+  if (!again) known = made_.insert(made_.end(), Made{run, {}});
+  const std::string folder = fmt::format("{}/{}", folder_, known - made_.begin());
+  auto drawing = make(run, folder, {.values = needs_values(run), .again = again});
   // Few shaders draw anything halfway, so few are drawn twice.
   if (drawing && drawing->result && drawing->result->ties > 0 && needs_sides(run))
-    drawing = make_with_ties(run, folder);
-  if (!drawing) return fail(drawing.error());
-  made_.push_back({run, std::move(*drawing)});
-  return &made_.back().drawing;
+    drawing = make_with_ties(run, folder, again);
+  if (!drawing) {
+    if (!again) made_.pop_back();
+    return fail(drawing.error());
+  }
+  known->drawing = std::move(*drawing);
+  return &known->drawing;
 }
 
 Expected<Drawing> CheckRuns::draw_own_with_bias(const Run& run, double bias) const {
   Run with_bias = run;
   std::erase_if(with_bias.options, [](const auto& option) { return option.first == "bias"; });
   with_bias.options.emplace_back("bias", fmt::format("{}", bias));
-  return CheckRuns(*rubric_, "", folder_).make(with_bias, folder_ + "/own", false, false);
+  return CheckRuns(*rubric_, "", folder_).make_undisturbed(with_bias, folder_ + "/own", {});
 }
 
 Expected<Drawing> CheckRuns::draw_timed(const Run& run) {
-  return make(run, folder_ + "/timed", true, false);
+  return make_undisturbed(run, folder_ + "/timed", {.timed = true, .values = true});
 }
 
 }  // namespace gnomon::app::grade

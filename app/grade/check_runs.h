@@ -15,8 +15,9 @@ namespace gnomon::app::grade {
 struct Drawing {
   std::optional<RunResult> result;
   std::string failure;  ///< one line
-  bool timed_out = false;
-  int exit_code = 0;
+  bool out_of_time = false;
+  /// Something else than the shader may have ended it: it is worth another try with nothing else drawn.
+  bool disturbed = false;
 };
 
 class CheckRuns {
@@ -24,9 +25,11 @@ class CheckRuns {
   /// `shaders`: the student's folder; empty for the program's own. Drawings lie below `folder`.
   CheckRuns(const Rubric& rubric, std::string shaders, std::string folder);
 
-  /// Error (resources): no process; (cannot_write): no room for the drawing.
+  /// A drawing that was disturbed is handed out as such the first time; drawn again it is an error, or the shader's
+  /// own fault.
+  /// Errors (resources): no process, or nobody can tell what the shader draws; (cannot_write): no room for the drawing.
   Expected<const Drawing*> draw(const Run& run);
-  /// Once more, with the usual number of timed passes, to be called when nothing else runs.
+  /// Once more, timed by the very drawing that is judged, with its values; to be called when nothing else runs.
   Expected<Drawing> draw_timed(const Run& run);
   /// The program's own shader with this bias in place of the run's, world units.
   Expected<Drawing> draw_own_with_bias(const Run& run, double bias) const;
@@ -37,9 +40,16 @@ class CheckRuns {
   bool needs_values(const Run& run) const;
   /// Whether a check asks on which side of the truth the drawing errs.
   bool needs_sides(const Run& run) const;
-  Expected<Drawing> make(const Run& run, const std::string& folder, bool timed, bool values) const;
+  /// How a drawing is made, besides what the run says.
+  struct Manner {
+    bool timed = false, values = false;
+    bool again = false;  ///< after one that was disturbed
+  };
+  Expected<Drawing> make(const Run& run, const std::string& folder, Manner manner) const;
+  /// Again where it was disturbed.
+  Expected<Drawing> make_undisturbed(const Run& run, const std::string& folder, Manner manner) const;
   /// With its values, and with its ties in its figures.
-  Expected<Drawing> make_with_ties(const Run& run, const std::string& folder) const;
+  Expected<Drawing> make_with_ties(const Run& run, const std::string& folder, bool again) const;
 
   struct Made {
     Run run;

@@ -4,18 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "compare/bias_curve.h"
 #include "scene/files/image_io.h"
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon::app::grade {
 
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 /// Null stands where nothing is compared: nothing is off there.
@@ -47,14 +46,12 @@ RunResult figures_in(const json& result, const std::string& folder) {
   return run;
 }
 
-std::vector<std::string> value_files(const std::string& folder) {
-  std::vector<std::string> names;
-  std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("values") && name.ends_with(".exr")) names.push_back(name);
-  }
-  std::sort(names.begin(), names.end());
+Expected<std::vector<std::string>> value_files(const std::string& folder) {
+  auto names = names_in(folder, ErrorKind::internal);
+  if (names)
+    std::erase_if(*names, [](const std::string& name) {
+      return !name.starts_with("values") || !name.ends_with(".exr");
+    });
   return names;
 }
 
@@ -140,9 +137,11 @@ Expected<RunResult> read_run_result(const std::string& folder) {
 }
 
 Expected<void> add_ties(RunResult& result) {
-  const std::filesystem::path folder = values_folder(result.folder);
-  for (const std::string& name : value_files(folder)) {
-    const auto light = errors_with_ties(folder / name);
+  const std::string folder = values_folder(result.folder);
+  const auto names = value_files(folder);
+  if (!names) return fail(names.error());
+  for (const std::string& name : *names) {
+    const auto light = errors_with_ties(folder + "/" + name);
     if (!light) return fail(light.error());
     raise_figure(result, "false_shadow", light->false_shadow);
     raise_figure(result, "missed_shadow", light->missed_shadow);
@@ -151,10 +150,12 @@ Expected<void> add_ties(RunResult& result) {
 }
 
 Expected<double> nearest_bias(const RunResult& result) {
-  const std::filesystem::path folder = values_folder(result.folder);
+  const std::string folder = values_folder(result.folder);
   compare::GapLists gaps;
-  for (const std::string& name : value_files(folder))
-    if (const auto added = add_gaps(folder / name, gaps); !added) return fail(added.error());
+  const auto names = value_files(folder);
+  if (!names) return fail(names.error());
+  for (const std::string& name : *names)
+    if (const auto added = add_gaps(folder + "/" + name, gaps); !added) return fail(added.error());
   std::sort(gaps.lit.begin(), gaps.lit.end());
   std::sort(gaps.shadowed.begin(), gaps.shadowed.end());
   return compare::find_best_bias(gaps).constant_world;
@@ -168,12 +169,14 @@ double figure_of(const RunResult& result, std::string_view measure) {
 
 Expected<std::uint64_t> count_different(const RunResult& a, const RunResult& b) {
   std::uint64_t count = 0;
-  const std::filesystem::path first = values_folder(a.folder), second = values_folder(b.folder);
-  const std::vector<std::string> names = value_files(first);
-  if (names != value_files(second) || names.empty())
+  const std::string first = values_folder(a.folder), second = values_folder(b.folder);
+  const auto names = value_files(first), others = value_files(second);
+  if (!names) return fail(names.error());
+  if (!others) return fail(others.error());
+  if (*names != *others || names->empty())
     return fail(Error{ErrorKind::internal, "holds other lights than the program's own drawing", a.folder});
-  for (const std::string& name : names) {
-    const auto of_light = count_different(first / name, second / name);
+  for (const std::string& name : *names) {
+    const auto of_light = count_different(first + "/" + name, second + "/" + name);
     if (!of_light) return of_light;
     count += *of_light;
   }
@@ -195,16 +198,14 @@ std::vector<compare::Label> labels_of(const RunResult& result) {
   return labels;
 }
 
-std::vector<std::string> pictures_of(const RunResult& result) {
-  std::vector<std::string> names;
-  std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(result.folder, none)) {
-    const std::string name = entry.path().filename().string();
-    if (name.ends_with(".png") &&
-        (name == "raster.png" || name == "raytrace.png" || name.starts_with("labels")))
-      names.push_back(name);
-  }
-  std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+Expected<std::vector<std::string>> pictures_of(const RunResult& result) {
+  auto names = names_in(result.folder, ErrorKind::internal);
+  if (!names) return names;
+  std::erase_if(*names, [](const std::string& name) {
+    return !name.ends_with(".png") ||
+           (name != "raster.png" && name != "raytrace.png" && !name.starts_with("labels"));
+  });
+  std::sort(names->begin(), names->end(), [](const std::string& a, const std::string& b) {
     return std::pair(a.starts_with("labels"), a) < std::pair(b.starts_with("labels"), b);
   });
   return names;

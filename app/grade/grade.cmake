@@ -2,7 +2,7 @@
 target_sources(gnomon_app PRIVATE
   commands/grade.cpp
   grade/check_runs.cpp grade/excerpt.cpp grade/figures.cpp grade/grade.cpp grade/kits.cpp grade/limited_process.cpp
-  grade/page.cpp grade/results.cpp grade/rubric.cpp grade/student.cpp)
+  grade/page.cpp grade/page_name.cpp grade/results.cpp grade/rubric.cpp grade/student.cpp)
 gnomon_embed(gnomon_app grade_page grade/page.css)
 gnomon_embed(gnomon_app grade_kits KEEP_PATHS
   grade/kits/first-shadow-map/README.md grade/kits/first-shadow-map/rubric.json

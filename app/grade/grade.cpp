@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <atomic>
-#include <filesystem>
 #include <future>
 #include <mutex>
-#include <optional>
 #include <shared_mutex>
 #include <thread>
 
 #include "app/grade/check_runs.h"
 #include "app/grade/excerpt.h"
 #include "compare/number_text.h"
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
+#include "scene/one_line.h"
 
 namespace gnomon::app::grade {
 
@@ -54,6 +54,17 @@ Judgement judge_figure(const Check& check, const RunResult& result) {
                               passed ? "up to" : "no more than", measured(check.limit, check.measure.unit))};
 }
 
+/// Draws it again, with nothing drawn beside it, where something else than the shader may have ended it.
+Expected<const Drawing*> draw_undisturbed(CheckRuns& runs, const Run& run, std::shared_mutex& quiet) {
+  auto drawing = [&] {
+    const std::shared_lock beside_others(quiet);
+    return runs.draw(run);
+  }();
+  if (!drawing || !(*drawing)->disturbed) return drawing;
+  const std::unique_lock alone(quiet);
+  return runs.draw(run);
+}
+
 /// What a shader of one's own lights wrongly is known by no label: its shadows start where the program's own do with the
 /// bias that draws most nearly the same.
 Expected<Judgement> judge_detachment(const Check& check, const RunResult& result, const Run& run,
@@ -83,15 +94,24 @@ Expected<Judgement> judge_equality(const Check& check, const RunResult& result, 
                   *different == 1 ? " differs" : "s differ", passed ? "up to" : "no more than", check.limit)};
 }
 
-Expected<Judgement> judge_time(const Check& check, const Run& run, CheckRuns& runs, Class& of) {
+/// `result`: what the other checks judge, drawn by another process.
+Expected<Judgement> judge_time(const Check& check, const RunResult& result, const Run& run, CheckRuns& runs,
+                               Class& of) {
   const std::unique_lock alone(of.quiet);
   const auto theirs = runs.draw_timed(run);
   if (!theirs) return fail(theirs.error());
   if (!theirs->result) return Judgement{false, theirs->failure};
+  const auto different = count_different(result, *theirs->result);
+  if (!different) return fail(different.error());
+  if (*different > 0)
+    return Judgement{false, fmt::format("draws differently when it is timed: {} pixel{}",
+                                        compare::grouped(*different), *different == 1 ? "" : "s")};
   const std::lock_guard lock(of.own_mutex);
   const auto own = of.own.draw_timed(run);
   if (!own) return fail(own.error());
   if (!own->result) return fail(ErrorKind::internal, own->failure);
+  if (!(own->result->shading_ms > 0.0))
+    return fail(ErrorKind::graphics, "the program's own drawing took no time that could be measured");
   const double ratio = theirs->result->shading_ms / own->result->shading_ms;
   const bool passed = ratio <= check.limit;
   return Judgement{passed, fmt::format("{} of shading, {:.2f} times the program's own ({} {} times allowed)",
@@ -110,7 +130,7 @@ Expected<Judgement> judge(const Check& check, const Run& run, const RunResult& r
     case CheckKind::equals:
       return judge_equality(check, result, run, of);
     case CheckKind::time:
-      return judge_time(check, run, runs, of);
+      return judge_time(check, result, run, runs, of);
   }
   return fail(ErrorKind::internal, "unknown kind of check");
 }
@@ -121,12 +141,16 @@ std::string caption_of(const std::string& file) {
   return "where it is wrong, and why";
 }
 
-std::vector<Picture> load_pictures(const RunResult& result) {
+Expected<std::vector<Picture>> load_pictures(const RunResult& result) {
   std::vector<Picture> pictures;
-  for (const std::string& name : pictures_of(result))
-    if (auto png = read_file(result.folder + "/" + name))
-      pictures.push_back({caption_of(name), std::move(*png),
-                          name.starts_with("labels") ? labels_of(result) : std::vector<compare::Label>{}});
+  const auto names = pictures_of(result);
+  if (!names) return fail(names.error());
+  for (const std::string& name : *names) {
+    auto png = read_file(result.folder + "/" + name);
+    if (!png) return fail(png.error());
+    pictures.push_back({caption_of(name), std::move(*png),
+                        name.starts_with("labels") ? labels_of(result) : std::vector<compare::Label>{}});
+  }
   return pictures;
 }
 
@@ -156,20 +180,19 @@ class Grader {
  private:
   Expected<Judgement> try_run(const Check& check, const Run& run, CheckResult& result) {
     if (hangs_) return Judgement{false, "not tried: a drawing before it did not end in time"};
-    const auto drawing = draw(run);
+    const auto drawing = draw_undisturbed(runs_, run, class_.quiet);
     if (!drawing) return fail(drawing.error());
     if (!(*drawing)->result) {
-      hangs_ = (*drawing)->timed_out;
+      hangs_ = (*drawing)->out_of_time;
       result.excerpt = excerpt_at((*drawing)->failure, shaders_);
       return Judgement{false, (*drawing)->failure};
     }
     auto judgement = judge(check, run, *(*drawing)->result, runs_, class_);
-    if (judgement && !judgement->passed) result.pictures = load_pictures(*(*drawing)->result);
+    if (!judgement || judgement->passed) return judgement;
+    auto pictures = load_pictures(*(*drawing)->result);
+    if (!pictures) return fail(pictures.error());
+    result.pictures = std::move(*pictures);
     return judgement;
-  }
-  Expected<const Drawing*> draw(const Run& run) {
-    const std::shared_lock beside_others(class_.quiet);
-    return runs_.draw(run);
   }
 
   Class& class_;
@@ -202,22 +225,35 @@ Expected<StudentResult> grade_checks(Class& of, const std::string& name, const s
   return result;
 }
 
-Expected<StudentResult> grade_student(Class& of, const Student& student) {
-  if (const std::string why_not = refusal(student, of.rubric); !why_not.empty())
-    return StudentResult{student.name, {of.rubric.checks.size(), CheckResult{0.0, why_not, {}, {}, {}}}};
-  const std::string folder = of.work_folder + "/" + student.name;
+/// `name`: plain text, whatever the folder is called.
+Expected<StudentResult> judge_student(Class& of, const Student& student, const std::string& name,
+                                      const std::string& folder) {
+  const auto why_not = refusal(student, of.rubric);
+  if (!why_not) return fail(why_not.error());
+  if (!why_not->empty())
+    return StudentResult{name, {of.rubric.checks.size(), CheckResult{0.0, *why_not, {}, {}, {}}}};
   CheckRuns runs(of.rubric, student.folder, folder);
-  auto result = grade_checks(of, student.name, student.folder, runs);
-  std::error_code none;
-  std::filesystem::remove_all(folder, none);  // a class of drawings would fill the disk
+  auto result = grade_checks(of, name, student.folder, runs);
+  // A class of drawings would fill the disk.
+  if (const auto removed = remove_all_of(folder); !removed && result) return fail(removed.error());
   return result;
+}
+
+/// What goes wrong with one costs the others nothing.
+StudentResult grade_student(Class& of, const Student& student, std::size_t index) {
+  const std::string name = one_line(student.name);
+  auto result = judge_student(of, student, name, fmt::format("{}/{}", of.work_folder, index));
+  if (result) return std::move(*result);
+  return {name,
+          {of.rubric.checks.size(), CheckResult{0.0, result.error().message(), {}, {}, {}}},
+          result.error()};
 }
 
 /// What the program itself cannot draw is the rubric's fault.
 Expected<void> check_drawings(Class& of) {
   for (const Check& check : of.rubric.checks) {
     for (const Run& run : check.runs) {
-      const auto drawing = of.own.draw(run);
+      const auto drawing = draw_undisturbed(of.own, run, of.quiet);
       if (!drawing) return fail(drawing.error());
       if (!(*drawing)->result)
         return fail(ErrorKind::bad_input, fmt::format("check \"{}\": {}: {}", check.name, of.own.command(run),
@@ -237,17 +273,17 @@ double StudentResult::points() const {
 
 Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& students,
                              const std::string& work_folder, const GradeOptions& options) {
-  Class of{rubric, work_folder, CheckRuns(rubric, "", work_folder + "/.own")};
+  Class of{rubric, work_folder, CheckRuns(rubric, "", work_folder + "/own")};
   if (const auto drawn = check_drawings(of); !drawn) return fail(drawn.error());
-  auto own = grade_checks(of, "the program's own shader", "", of.own);
+  auto own = grade_checks(of, std::string(own_shader_name), "", of.own);
   if (!own) return fail(own.error());
-  std::vector<std::optional<Expected<StudentResult>>> graded(students.size());
+  std::vector<StudentResult> graded(students.size());
   std::atomic<std::size_t> next{0};
   std::size_t done = 0;
   std::mutex progress_mutex;
   const auto work = [&] {
     for (std::size_t i = next++; i < students.size(); i = next++) {
-      graded[i] = grade_student(of, students[i]);
+      graded[i] = grade_student(of, students[i], i);
       const std::lock_guard lock(progress_mutex);
       ++done;
       if (options.progress)
@@ -264,12 +300,7 @@ Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& s
   }
   work();
   for (std::future<void>& worker : workers) worker.get();
-  Grades grades{std::move(*own), {}};
-  for (auto& result : graded) {
-    if (!*result) return fail(result->error());
-    grades.students.push_back(std::move(**result));
-  }
-  return grades;
+  return Grades{std::move(*own), std::move(graded)};
 }
 
 }  // namespace gnomon::app::grade

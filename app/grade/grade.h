@@ -3,7 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/grade/rubric.h"
@@ -30,6 +32,8 @@ struct CheckResult {
 struct StudentResult {
   std::string name;
   std::vector<CheckResult> checks;  ///< in the rubric's order
+  /// Why nothing could be judged, which is no fault of the shader's: then there are no points, given or lost.
+  std::optional<Error> error = std::nullopt;
   double points() const;
 };
 
@@ -39,14 +43,18 @@ struct GradeOptions {
   std::function<void(double done)> progress;
 };
 
+/// Who is graded where there are no students.
+inline constexpr std::string_view own_shader_name = "the program's own shader";
+
 struct Grades {
   StudentResult
       own;  ///< the program's own shader, as if it were handed in: whether a rubric asks what is possible
   std::vector<StudentResult> students;  ///< in their order
 };
 
-/// `work_folder` exists and is empty; drawings are made below it. Error (bad input): a scene or an option of the
-/// rubric that the program does not take.
+/// `work_folder` exists; drawings are made below it, in folders called `own` and by numbers. What goes wrong with one
+/// student stands in that student's result. Error (bad input): a scene or an option of the rubric that the program does not
+/// take.
 Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& students,
                              const std::string& work_folder, const GradeOptions& options);
 

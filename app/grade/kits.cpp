@@ -3,11 +3,13 @@
 #include <embedded/grade_kits.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <string_view>
+#include <utility>
 
 #include "app/output_path.h"
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
+#include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::app::grade {
@@ -19,6 +21,16 @@ constexpr std::string_view root = "grade/kits/";
 /// "grade/kits/first-shadow-map/technique/hard.glsl" is student/technique/hard.glsl of a kit.
 std::string place_in_kit(std::string_view name) {
   return (name.ends_with(".glsl") ? "student/" : "") + std::string(name);
+}
+
+/// What is there may be somebody's work.
+Expected<void> check_nothing_differs(const std::string& path, std::string_view bytes) {
+  const auto there = is_there(path, ErrorKind::cannot_write);
+  if (!there) return fail(there.error());
+  if (!*there) return {};
+  if (const auto text = read_file(path); text && *text == bytes) return {};
+  return fail(Error{ErrorKind::cannot_write,
+                    "is there already and differs from the kit's; move it away first", path});
 }
 
 }  // namespace
@@ -40,21 +52,21 @@ bool is_kit(const std::string& name) {
 
 Expected<void> write_kit(const std::string& name, const std::string& folder) {
   const std::string prefix = std::string(root) + name + "/";
-  for (const bool writes : {false, true}) {  // nothing is written before everything is known to be safe
-    for (const embedded::Entry& entry : embedded::grade_kits_entries()) {
-      if (!entry.name.starts_with(prefix)) continue;
-      const std::string path = folder + "/" + place_in_kit(entry.name.substr(prefix.size()));
-      std::error_code none;
-      const bool is_there = std::filesystem::exists(path, none);
-      if (const auto there = read_file(path); is_there && (!there || *there != entry.bytes))
-        return fail(Error{ErrorKind::cannot_write,
-                          "is there already and differs from the kit's; move it away first", path});
-      if (!writes || is_there) continue;
-      if (const auto made = make_folder_for(path); !made) return made;
-      if (const auto written = write_file(path, entry.bytes); !written) return written;
-    }
+  std::vector<std::pair<std::string, std::string_view>> files;
+  for (const embedded::Entry& entry : embedded::grade_kits_entries()) {
+    if (!entry.name.starts_with(prefix)) continue;
+    files.emplace_back(place_in_kit(entry.name.substr(prefix.size())), entry.bytes);
+    if (auto safe = check_nothing_differs(folder + "/" + files.back().first, entry.bytes); !safe) return safe;
   }
-  return {};
+  auto staged = StagedFolder::open(folder);
+  if (!staged) return fail(staged.error());
+  for (const auto& [place, bytes] : files) {
+    const std::string path = staged->path() + "/" + place;
+    if (const auto made = make_folder_for(path); !made) return made;
+    if (const auto written = write_file(path, bytes); !written) return written;
+  }
+  if (const auto sealed = staged->seal({}); !sealed) return sealed;
+  return staged->publish("README.md");
 }
 
 }  // namespace gnomon::app::grade

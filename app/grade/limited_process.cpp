@@ -8,10 +8,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <ctime>
+#include <optional>
 
 #include "scene/files/descriptor.h"
 
@@ -36,8 +39,8 @@ void set_limit(decltype(RLIMIT_CPU) which, rlim_t value) {
   dup2(nothing, STDIN_FILENO);
   dup2(nothing, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
-  // Wall time ends the process (below); this ends it should the caller be stopped. Two threads may compile.
-  set_limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(limits.seconds)) * 4 + 1);
+  // The caller looks at the time more closely (below); this ends the process should the caller be stopped.
+  set_limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(limits.seconds)) + 1);
 #ifndef __SANITIZE_ADDRESS__  // which reserves terabytes of addresses
   set_limit(RLIMIT_AS, static_cast<rlim_t>(limits.memory_mb * 1e6));
 #endif
@@ -47,36 +50,82 @@ void set_limit(decltype(RLIMIT_CPU) which, rlim_t value) {
   _exit(127);
 }
 
-int ms_until(Clock::time_point end) {
-  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-  return left > 0 ? static_cast<int>(left) + 1 : 0;
-}
-
-/// Until the other end is closed, or the time is over: false.
-bool read_until(int from, Clock::time_point end, std::string& text) {
+/// Reads on for a short while. False: the other end is closed.
+bool read_some(int from, int wait_ms, std::string& text) {
   pollfd wait{from, POLLIN, 0};
-  for (;;) {
-    const int left = ms_until(end);
-    if (left == 0) return false;
-    const int ready = poll(&wait, 1, left);
-    if (ready < 0 && errno != EINTR) return true;
-    if (ready <= 0) continue;
-    char buffer[4096];
-    const ssize_t count = read(from, buffer, sizeof buffer);
-    if (count <= 0) return true;
-    const std::size_t room = longest_message - std::min(longest_message, text.size());
-    text.append(buffer, std::min(room, static_cast<std::size_t>(count)));
-  }
+  const int ready = poll(&wait, 1, wait_ms);
+  if (ready < 0) return errno == EINTR;
+  if (ready == 0) return true;
+  char buffer[4096];
+  const ssize_t count = read(from, buffer, sizeof buffer);
+  if (count <= 0) return false;
+  const std::size_t room = longest_message - std::min(longest_message, text.size());
+  text.append(buffer, std::min(room, static_cast<std::size_t>(count)));
+  return true;
 }
 
-/// Its stderr may be closed while it still runs.
-bool wait_until(pid_t child, Clock::time_point end, int& status) {
-  constexpr useconds_t pause = 2000;  // microseconds
-  for (;;) {
-    if (waitpid(child, &status, WNOHANG) != 0) return true;
-    if (ms_until(end) == 0) return false;
-    usleep(pause);
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// What a child that still runs has taken of the processor, and how long it has taken nothing.
+class Meter {
+ public:
+  Meter(pid_t child, const Limits& limits) : limits_(limits) {
+    known_ = clock_getcpuclockid(child, &clock_) == 0;
   }
+
+  /// Why it is to be ended; none: it may go on.
+  std::optional<Outcome::End> look() {
+    timespec now{};
+    if (!known_ || clock_gettime(clock_, &now) != 0) return std::nullopt;  // it has just ended
+    const double used = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+    if (used > limits_.seconds) return Outcome::End::out_of_time;
+    if (used > used_) used_ = used, since_ = Clock::now();
+    const std::chrono::duration<double> idle = Clock::now() - since_;
+    if (idle.count() > limits_.idle_seconds) return Outcome::End::stalled;
+    return std::nullopt;
+  }
+
+ private:
+  const Limits& limits_;
+  clockid_t clock_{};
+  bool known_ = false;
+  double used_ = 0.0;  // seconds
+  Clock::time_point since_ = Clock::now();
+};
+
+/// Until the child ends, or is ended.
+Outcome follow(pid_t child, int from, const Limits& limits) {
+  constexpr int look_ms = 20;
+  Meter meter(child, limits);
+  Outcome outcome;
+  int status = 0;
+  rusage used{};
+  bool open = true;
+  while (wait4(child, &status, WNOHANG, &used) == 0) {
+    if (const auto why = meter.look()) {
+      outcome.end = *why;
+      kill(child, SIGKILL);
+      wait4(child, &status, 0, &used);
+      return outcome;
+    }
+    if (open) open = read_some(from, look_ms, outcome.err);
+    if (!open) usleep(2000);
+  }
+  for (std::size_t read = 0; open && read != outcome.err.size();) {  // what it said last
+    read = outcome.err.size();
+    open = read_some(from, 0, outcome.err);
+  }
+  if (seconds_of(used.ru_utime) + seconds_of(used.ru_stime) > limits.seconds) {
+    outcome.end = Outcome::End::out_of_time;
+  } else if (WIFSIGNALED(status)) {
+    outcome.end = Outcome::End::killed;
+    outcome.code = WTERMSIG(status);
+  } else {
+    outcome.code = WEXITSTATUS(status);
+  }
+  return outcome;
 }
 
 }  // namespace
@@ -95,22 +144,7 @@ Expected<Outcome> run_limited(const std::vector<std::string>& words, const Limit
     return fail(ErrorKind::graphics, std::string("cannot start a process: ") + std::strerror(errno));
   if (child == 0) become(arguments.data(), in.number(), limits);
   in.close();
-  const auto end = Clock::now() +
-                   std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
-  Outcome outcome;
-  int status = 0;
-  const bool ended = read_until(out.number(), end, outcome.err) && wait_until(child, end, status);
-  if (!ended) {
-    kill(child, SIGKILL);
-    waitpid(child, &status, 0);
-    outcome.end = Outcome::End::timed_out;
-  } else if (WIFSIGNALED(status)) {
-    outcome.end = Outcome::End::killed;
-    outcome.code = WTERMSIG(status);
-  } else {
-    outcome.code = WEXITSTATUS(status);
-  }
-  return outcome;
+  return follow(child, out.number(), limits);
 }
 
 }  // namespace gnomon::app::grade

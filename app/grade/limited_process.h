@@ -1,7 +1,8 @@
-// Runs the program itself on what a stranger wrote: in a process of its own, with limits on time and memory,
-// so that nothing there can hang or crash the caller.
+// Runs the program itself on what a stranger wrote: in a process of its own, with limits on processor time and memory, so
+// that nothing there can hang or crash the caller, and nothing that else happens on the machine decides how it ends.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,19 @@
 namespace gnomon::app::grade {
 
 struct Outcome {
-  enum class End : std::uint8_t { exited, timed_out, killed } end = End::exited;
+  enum class End : std::uint8_t {
+    exited,
+    out_of_time,  ///< it took more processor time than it may
+    killed,       ///< by a signal
+    stalled       ///< it took none for so long that it was given up: that is no fault of what it drew
+  };
+  End end = End::exited;
   int code = 0;     ///< exit code, or the signal's number
   std::string err;  ///< what it said on stderr, its first 64 KiB
 };
 
-/// This program with these words. It has no stdin, its stdout is thrown away, and it dies with the caller.
+/// This program with these words. It has no stdin, its stdout is thrown away, and it dies with the caller. The time of all
+/// its threads counts.
 /// Error (resources): the process cannot be started.
 Expected<Outcome> run_limited(const std::vector<std::string>& words, const Limits& limits);
 

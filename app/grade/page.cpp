@@ -3,12 +3,15 @@
 #include <embedded/grade_page.h>
 #include <fmt/core.h>
 
-#include <cctype>
 #include <sstream>
+#include <utility>
 
 #include "compare/outputs.h"
 #include "compare/report/explanations.h"
 #include "compare/report/html.h"
+#include "compare/report/page_head.h"
+#include "scene/files/path_status.h"
+#include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::app::grade {
@@ -19,11 +22,11 @@ using compare::escaped;
 using compare::flowing;
 
 std::string page(const std::string& title, const std::string& body) {
+  const std::string style = fmt::format("\n{}", embedded::grade_page("page.css"));
   return fmt::format(
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-      "content=\"width=device-width, "
-      "initial-scale=1\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-      escaped(title), embedded::grade_page("page.css"), body);
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{}\n<style>{}</style>\n"
+      "</head>\n<body>\n{}</body>\n</html>\n",
+      compare::page_head({title, style}), style, body);
 }
 
 // "[A] acne, [D] peter-panning"
@@ -69,31 +72,31 @@ std::string check_html(const Check& check, const CheckResult& result) {
   return html + "</article>\n";
 }
 
-std::string class_row(const ClassResult& result, const StudentResult& student) {
-  std::string row = fmt::format("<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td>{:g}</td>",
-                                escaped(page_name(student)), escaped(student.name), student.points());
+std::string points_cell(const StudentResult& student, double points, std::string_view style) {
+  if (student.error) return "<td class=\"lost\">not graded</td>";
+  return fmt::format("<td class=\"{}\">{:g}</td>", style, points);
+}
+
+std::string class_row(const ClassResult& result, std::size_t index) {
+  const StudentResult& student = result.students[index];
+  std::string row =
+      fmt::format("<tr><th scope=\"row\"><a href=\"{}\">{}</a></th>{}", escaped(result.pages[index]),
+                  escaped(student.name), points_cell(student, student.points(), ""));
   for (std::size_t i = 0; i < student.checks.size(); ++i)
-    row += fmt::format("<td class=\"{}\">{:g}</td>",
-                       student.checks[i].points < result.rubric.checks[i].points ? "lost" : "full",
-                       student.checks[i].points);
+    row += points_cell(student, student.checks[i].points,
+                       student.checks[i].points < result.rubric.checks[i].points ? "lost" : "full");
   return row + "</tr>\n";
 }
 
 }  // namespace
 
-std::string page_name(const StudentResult& student) {
-  std::string name;
-  for (const char c : student.name) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
-    name += plain ? std::string(1, c) : fmt::format("_{:02x}", static_cast<unsigned char>(c));
-  }
-  return (name == "index" ? "index_" : name) + ".html";
-}
-
 std::string student_page(const Rubric& rubric, const StudentResult& student) {
-  std::string body =
-      fmt::format("<main>\n<h1>{}: {}</h1>\n<p class=\"sum\">{} points</p>\n", escaped(student.name),
-                  escaped(rubric.title), points_text(student.points(), rubric.points()));
+  std::string body = fmt::format(
+      "<main>\n<h1>{}: {}</h1>\n<p class=\"sum\">{}</p>\n", escaped(student.name), escaped(rubric.title),
+      student.error ? "not graded" : points_text(student.points(), rubric.points()) + " points");
+  if (student.error)
+    return page(student.name + ": " + rubric.title,
+                body + fmt::format("<p>{}</p>\n</main>\n", flowing(student.error->message())));
   if (!rubric.text.empty()) body += fmt::format("<p>{}</p>\n", flowing(rubric.text));
   for (std::size_t i = 0; i < student.checks.size(); ++i)
     body += check_html(rubric.checks[i], student.checks[i]);
@@ -111,21 +114,36 @@ std::string class_page(const ClassResult& result) {
     body += fmt::format("<th scope=\"col\">{} <span class=\"quiet\">({:g})</span></th>", escaped(check.name),
                         check.points);
   body += "</tr></thead>\n<tbody>\n";
-  for (const StudentResult& student : result.students) body += class_row(result, student);
+  for (std::size_t i = 0; i < result.students.size(); ++i) body += class_row(result, i);
   body += "</tbody>\n</table>\n</div>\n";
   body +=
       fmt::format("<p class=\"quiet\">Made by <code>{}</code></p>\n</main>\n", escaped(result.command_line));
   return page(result.rubric.title, body);
 }
 
-Expected<void> write_pages(const ClassResult& result, const std::string& folder) {
-  for (const StudentResult& student : result.students)
-    if (auto written = write_file(folder + "/" + page_name(student), student_page(result.rubric, student));
-        !written)
-      return written;
-  if (auto written = write_file(folder + "/grades.json", grade_json(result)); !written) return written;
-  if (auto written = write_file(folder + "/grades.csv", grade_csv(result)); !written) return written;
-  return write_file(folder + "/index.html", class_page(result));
+Expected<void> check_pages(const std::string& folder, const std::vector<std::string>& pages) {
+  for (const std::string& page : pages) {
+    const std::string path = folder + "/" + page;
+    const auto kind = file_kind(path, ErrorKind::cannot_write);
+    if (!kind) return fail(kind.error());
+    if (*kind == FileKind::folder) return fail(Error{ErrorKind::cannot_write, "is a folder", path});
+  }
+  return {};
+}
+
+Expected<void> write_pages(const ClassResult& result, const std::string& folder,
+                           const std::vector<std::string>& inputs) {
+  auto staged = StagedFolder::open(folder);
+  if (!staged) return fail(staged.error());
+  std::vector<std::pair<std::string, std::string>> files = {{"grades.json", grade_json(result)},
+                                                            {"grades.csv", grade_csv(result)},
+                                                            {"index.html", class_page(result)}};
+  for (std::size_t i = 0; i < result.students.size(); ++i)
+    files.emplace_back(result.pages[i], student_page(result.rubric, result.students[i]));
+  for (const auto& [name, text] : files)
+    if (auto written = write_file(staged->path() + "/" + name, text); !written) return written;
+  if (auto sealed = staged->seal(inputs); !sealed) return sealed;
+  return staged->publish("index.html");
 }
 
 }  // namespace gnomon::app::grade

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/grade/results.h"
 #include "scene/expected.h"
@@ -12,12 +13,13 @@ namespace gnomon::app::grade {
 
 std::string student_page(const Rubric& rubric, const StudentResult& student);
 std::string class_page(const ClassResult& result);
-/// The student's page as a file's name, "anna.html".
-std::string page_name(const StudentResult& student);
-
 /// What write_pages() always writes.
 inline constexpr std::array<std::string_view, 3> class_file_names{"index.html", "grades.json", "grades.csv"};
-/// Those, and every student's page.
-Expected<void> write_pages(const ClassResult& result, const std::string& folder);
+/// Before anything is drawn: whether these pages can be put there. ErrorKind::cannot_write.
+Expected<void> check_pages(const std::string& folder, const std::vector<std::string>& pages);
+/// Those, and every student's page: all of them appear, or none. Errors: ErrorKind::usage where one would take the place of
+/// one of `inputs`, ErrorKind::cannot_write.
+Expected<void> write_pages(const ClassResult& result, const std::string& folder,
+                           const std::vector<std::string>& inputs);
 
 }  // namespace gnomon::app::grade

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/grade/page_name.h"
 #include "compare/csv_field.h"
 #include "compare/option_names.h"
 #include "scene/one_line.h"
@@ -13,25 +14,49 @@ namespace gnomon::app::grade {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+Json points_json(const StudentResult& student, double points) {
+  return student.error ? Json(nullptr) : Json(points);
+}
+
+std::string points_field(const StudentResult& student, double points) {
+  return student.error ? std::string() : fmt::format("{:g}", points);
+}
+
+Json student_json(const ClassResult& result, std::size_t index) {
+  const StudentResult& student = result.students[index];
+  Json checks = Json::array();
+  for (std::size_t i = 0; i < student.checks.size(); ++i)
+    checks.push_back({{"name", result.rubric.checks[i].name},
+                      {"points", points_json(student, student.checks[i].points)},
+                      {"of", result.rubric.checks[i].points},
+                      {"reason", student.checks[i].reason},
+                      {"command", student.checks[i].command}});
+  Json json = {{"name", student.name},
+               {"page", result.pages[index]},
+               {"points", points_json(student, student.points())},
+               {"of", result.rubric.points()}};
+  if (student.error) json["error"] = student.error->message();
+  json["checks"] = std::move(checks);
+  return json;
+}
+
+}  // namespace
+
+std::vector<std::string> page_names_of(const std::vector<StudentResult>& students) {
+  std::vector<std::string> names;
+  for (const StudentResult& student : students) names.push_back(student.name);
+  return page_names(names);
+}
+
 std::string points_text(double points, double of) {
   return fmt::format("{:g} of {:g}", points, of);
 }
 
 std::string grade_json(const ClassResult& result) {
   Json students = Json::array();
-  for (const StudentResult& student : result.students) {
-    Json checks = Json::array();
-    for (std::size_t i = 0; i < student.checks.size(); ++i)
-      checks.push_back({{"name", result.rubric.checks[i].name},
-                        {"points", student.checks[i].points},
-                        {"of", result.rubric.checks[i].points},
-                        {"reason", student.checks[i].reason},
-                        {"command", student.checks[i].command}});
-    students.push_back({{"name", student.name},
-                        {"points", student.points()},
-                        {"of", result.rubric.points()},
-                        {"checks", std::move(checks)}});
-  }
+  for (std::size_t i = 0; i < result.students.size(); ++i) students.push_back(student_json(result, i));
   const Json root = {{"schema", "gnomon/grade/1"},
                      {"command", result.command_line},
                      {"version", compare::program_version()},
@@ -47,9 +72,9 @@ std::string grade_csv(const ClassResult& result) {
     text += fmt::format(",{}", compare::csv_field(compare::csv_name(check.name)));
   text += "\n";
   for (const StudentResult& student : result.students) {
-    text += fmt::format("{},{:g},{:g}", compare::csv_field(compare::csv_name(student.name)), student.points(),
-                        result.rubric.points());
-    for (const CheckResult& check : student.checks) text += fmt::format(",{:g}", check.points);
+    text += fmt::format("{},{},{:g}", compare::csv_field(compare::csv_name(student.name)),
+                        points_field(student, student.points()), result.rubric.points());
+    for (const CheckResult& check : student.checks) text += "," + points_field(student, check.points);
     text += "\n";
   }
   return text;
@@ -78,8 +103,12 @@ std::string grade_table(const ClassResult& result) {
   for (const StudentResult& student : result.students) width = std::max(width, one_line(student.name).size());
   std::string text;
   for (const StudentResult& student : result.students) {
-    text += fmt::format("{:<{}}  {}\n", one_line(student.name), width,
-                        points_text(student.points(), result.rubric.points()));
+    const std::string name = one_line(student.name);
+    if (student.error) {
+      text += fmt::format("{:<{}}  not graded: {}\n", name, width, one_line(student.error->message()));
+      continue;
+    }
+    text += fmt::format("{:<{}}  {}\n", name, width, points_text(student.points(), result.rubric.points()));
     text += lost_points(result.rubric, student);
   }
   return text;

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 #include "app/options.h"
@@ -14,6 +13,7 @@
 #include "raster/technique_files.h"
 #include "raster/technique_traits.h"
 #include "scene/files/json_reader.h"
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/load.h"
 
@@ -28,8 +28,9 @@ constexpr NumberRange pixels_range{0.0, 1e9, false, false, true};
 const std::vector<std::string_view> kinds = {"draws", "at_most", "equals", "time"};
 
 /// Options that a rubric may not set: the grader decides what is written, and with which shaders.
-const std::vector<std::string_view> kept_options = {"output", "json",  "shader-dir", "aov",       "technique",
-                                                    "quiet",  "trace", "fail-above", "no-report", "threads"};
+const std::vector<std::string_view> kept_options = {"output",    "json",    "shader-dir",     "aov",
+                                                    "technique", "quiet",   "trace",          "fail-above",
+                                                    "no-report", "threads", "timed-as-judged"};
 
 std::vector<std::string_view> measure_names() {
   std::vector<std::string_view> names;
@@ -62,8 +63,9 @@ std::string scene_path(const JsonNode& node, const std::string& folder) {
     node.error(path.error().reason);
     return {};
   }
-  std::error_code none;
-  if (!std::filesystem::exists(*path, none)) node.error("no such scene: neither a file nor a built-in one");
+  const auto there = is_there(*path);
+  if (!there) node.error(there.error().reason);
+  if (there && !*there) node.error("no such scene: neither a file nor a built-in one");
   return *path;
 }
 

@@ -47,8 +47,10 @@ struct Check {
 };
 
 struct Limits {
-  double seconds = 20.0;      ///< of wall time for each run, > 0
+  double seconds = 20.0;      ///< of processor time for each run, that of all its threads together, > 0
   double memory_mb = 4096.0;  ///< of address space for each run, >= 1024
+  double idle_seconds =
+      120.0;  ///< of wall time without any processor time: then a run is given up. No rubric's to set
 };
 
 struct Rubric {

@@ -2,13 +2,18 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <set>
 
 #include "raster/shader_folder.h"
+#include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
+#include "scene/one_line.h"
 
 namespace gnomon::app::grade {
 
@@ -16,103 +21,158 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 20;
+constexpr std::uint64_t most_bytes = std::uint64_t{4} << 20;
 
-bool holds_shader(const fs::path& folder) {
-  std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
-    if (raster::is_shader(entry.path())) return true;
-  const std::vector<raster::ShaderFile> own = raster::own_shaders();
-  return std::any_of(own.begin(), own.end(),
-                     [&](const raster::ShaderFile& file) { return fs::exists(folder / file.name, none); });
+/// What lies at the path itself, a link not followed.
+Expected<mode_t> mode_of(const std::string& path) {
+  struct stat found {};
+  if (lstat(path.c_str(), &found) == 0) return found.st_mode & S_IFMT;
+  return fail(
+      Error{ErrorKind::bad_input, fmt::format("cannot be looked at: {}", std::strerror(errno)), path});
 }
 
-std::vector<fs::path> folders_in(const fs::path& folder) {
-  std::vector<fs::path> list;
-  std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
-    if (entry.is_directory(none) && !entry.path().filename().string().starts_with('.'))
-      list.push_back(entry.path());
-  std::sort(list.begin(), list.end());
+bool is_link(const std::string& path) {
+  const auto mode = mode_of(path);
+  return mode && *mode == S_IFLNK;
+}
+
+/// "a folder", for what a shader cannot be; empty for a plain file.
+std::string_view kind_words(mode_t mode) {
+  if (mode == S_IFDIR) return "a folder";
+  if (mode == S_IFIFO) return "a pipe";
+  if (mode == S_IFSOCK) return "a socket";
+  return mode == S_IFREG ? "" : "a device";
+}
+
+/// "class/anna/" and "class/anna/." lead to class/anna, a link's end rather than the link.
+std::string place_of(const std::string& folder) {
+  const fs::path plain = fs::path(folder).lexically_normal();
+  return (plain.filename().empty() && plain.has_relative_path() ? plain.parent_path() : plain).string();
+}
+
+Expected<bool> holds_shader(const std::string& folder) {
+  const auto names = names_in(folder);
+  if (!names) return fail(names.error());
+  if (std::any_of(names->begin(), names->end(), [](const auto& name) { return raster::is_shader(name); }))
+    return true;
+  for (const raster::ShaderFile& file : raster::own_shaders()) {
+    const auto there = is_there((fs::path(folder) / file.name).string());
+    if (!there || *there) return there;
+  }
+  return false;
+}
+
+/// Folders, links that may lead to folders, and what nobody can look at; hidden ones left out.
+Expected<std::vector<std::string>> folders_in(const std::string& folder) {
+  const auto names = names_in(folder);
+  if (!names) return fail(names.error());
+  std::vector<std::string> list;
+  for (const std::string& name : *names) {
+    if (name.starts_with('.')) continue;
+    const std::string path = (fs::path(folder) / name).string();
+    const auto kind = file_kind(path);
+    if (!kind || *kind == FileKind::folder || (*kind == FileKind::none && is_link(path)))
+      list.push_back(path);
+  }
   return list;
 }
 
-std::string name_of(const fs::path& folder) {
-  const fs::path plain = folder.lexically_normal();
-  const fs::path name = plain.filename().empty() ? plain.parent_path().filename() : plain.filename();
-  return name == "." || name == ".." || name.empty() ? fs::weakly_canonical(folder).filename().string()
-                                                     : name.string();
+std::string name_of(const std::string& folder) {
+  const std::string name = fs::path(place_of(folder)).filename().string();
+  if (name != "." && name != ".." && !name.empty()) return name;
+  std::error_code error;
+  const fs::path real = fs::canonical(folder, error);
+  return error ? folder : real.filename().string();
+}
+
+/// The students that a path of the command line stands for.
+Expected<std::vector<Student>> students_at(const std::string& path) {
+  const auto kind = file_kind(path);
+  const bool is_lost_link = kind && *kind == FileKind::none && is_link(place_of(path));
+  if (kind && *kind != FileKind::folder && !is_lost_link)
+    return fail(ErrorKind::usage, fmt::format("no such folder (got {})", path));
+  std::vector<Student> students;
+  if (kind && !is_lost_link) {
+    const auto inner = folders_in(path);
+    const auto own = holds_shader(path);
+    if (inner && own && !*own)
+      for (const std::string& folder : *inner) students.push_back({name_of(folder), folder});
+  }
+  if (students.empty()) students.push_back({name_of(path), path});
+  return students;
 }
 
 /// What lies below a student's folder.
 struct Contents {
-  std::string link;          ///< the first one; "": none
-  std::string misnamed;      ///< a file like hard.glsl.txt or HARD.GLSL; "": none
-  std::string empty;         ///< a shader without a byte; "": none
-  std::uintmax_t bytes = 0;  ///< of its shaders
+  std::string link;         ///< the first one; "": none
+  std::string odd;          ///< "technique/hard.glsl is a folder, not a file"; "": nothing of the kind
+  std::string misnamed;     ///< a file like hard.glsl.txt or HARD.GLSL; "": none
+  std::string empty;        ///< a shader without a byte; "": none
+  std::uint64_t bytes = 0;  ///< of its shaders
 };
 
-Contents look_into(const fs::path& folder) {
-  Contents out;
-  std::error_code error;
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    const fs::path& path = entry->path();
-    const std::string name = path.lexically_relative(folder).generic_string();
-    std::error_code none;
-    if (entry->is_symlink(none) && out.link.empty()) out.link = name;
-    if (raster::is_shader(path)) {
-      const std::uintmax_t bytes = entry->file_size(none);
-      out.bytes += bytes;
-      if (bytes == 0) out.empty = name;
-    } else if (lower_extension(path.string()) == ".glsl" || path.stem().extension() == ".glsl") {
-      out.misnamed = name;
-    }
+Expected<void> look_at(const std::string& folder, const std::string& name, Contents& out) {
+  const std::string path = folder + "/" + name;
+  const auto mode = mode_of(path);
+  if (!mode) return fail(mode.error());
+  if (*mode == S_IFLNK) {
+    if (out.link.empty()) out.link = name;
+  } else if (!raster::is_shader(name)) {
+    if (lower_extension(name) == ".glsl" || fs::path(name).stem().extension() == ".glsl") out.misnamed = name;
+  } else if (*mode != S_IFREG) {
+    out.odd = fmt::format("{} is {}, not a file", name, kind_words(*mode));
+  } else {
+    const auto bytes = size_of_file(path);
+    if (!bytes) return fail(bytes.error());
+    out.bytes += *bytes;
+    if (*bytes == 0) out.empty = name;
   }
+  return {};
+}
+
+Expected<Contents> look_into(const std::string& folder) {
+  Contents out;
+  const auto names = files_below(folder);
+  if (!names) return fail(names.error());
+  for (const std::string& name : *names)
+    if (const auto looked = look_at(folder, name, out); !looked) return fail(looked.error());
+  for (const raster::ShaderFile& file : raster::own_shaders())
+    if (const auto mode = mode_of((fs::path(folder) / file.name).string()); mode && *mode == S_IFDIR)
+      out.odd = fmt::format("{} is a folder, not a file", file.name);
   return out;
 }
 
-}  // namespace
-
-Expected<std::vector<Student>> find_students(const std::vector<std::string>& paths) {
-  std::vector<Student> students;
-  for (const std::string& path : paths) {
-    std::error_code none;
-    if (!fs::is_directory(path, none))
-      return fail(ErrorKind::usage, fmt::format("no such folder (got {})", path));
-    const std::vector<fs::path> inner = folders_in(path);
-    if (holds_shader(path) || inner.empty()) {
-      students.push_back({name_of(path), path});
-    } else {
-      for (const fs::path& folder : inner) students.push_back({name_of(folder), folder.string()});
-    }
-  }
-  std::set<std::string> names;
-  for (const Student& student : students)
-    if (!names.insert(student.name).second)
-      return fail(ErrorKind::usage,
-                  fmt::format("two students have one name, that of their folders (got {})", student.name));
-  return students;
-}
-
-std::string refusal(const Student& student, const Rubric& rubric) {
-  const Contents contents = look_into(student.folder);
+/// Why nothing of the files is drawn with, as far as their names and sizes tell.
+std::string refusal_of(const Contents& contents, const std::string& nothing) {
   if (!contents.link.empty())
-    return fmt::format("{} is a link; only files of the folder itself are read", contents.link);
+    return fmt::format("{} is a link; only files of the folder itself are read", one_line(contents.link));
+  if (!contents.odd.empty()) return one_line(contents.odd);
   if (contents.bytes > most_bytes)
     return fmt::format("holds {} MiB of shaders (allowed 4)", contents.bytes >> 20);
-  if (contents.bytes == 0 && !contents.misnamed.empty())
-    return fmt::format("nothing was handed in: {} does not end in .glsl", contents.misnamed);
-  if (contents.bytes == 0 && !contents.empty.empty())
-    return fmt::format("nothing was handed in: {} is empty", contents.empty);
-  const std::string nothing = fmt::format("nothing was handed in: no {} that differs from the program's own",
-                                          fmt::join(rubric.hand_in, " or "));
-  if (contents.bytes == 0) return nothing;
-  const auto folder = raster::ShaderFolder::read(student.folder);
-  if (!folder) return folder.error().message();
+  if (contents.bytes > 0) return {};
+  if (!contents.misnamed.empty())
+    return fmt::format("nothing was handed in: {} does not end in .glsl", one_line(contents.misnamed));
+  if (!contents.empty.empty())
+    return fmt::format("nothing was handed in: {} is empty", one_line(contents.empty));
+  return nothing;
+}
+
+/// A shader that cannot be read is no shader that is wrong.
+Expected<void> read_all(const std::string& folder) {
+  const auto names = files_below(folder);
+  if (!names) return fail(names.error());
+  for (const std::string& name : *names) {
+    if (!raster::is_shader(name)) continue;
+    if (const auto read = read_file(folder + "/" + name); !read) return fail(read.error());
+  }
+  return {};
+}
+
+/// The same as far as the files' contents tell.
+std::string refusal_of(const raster::ShaderFolder& folder, const Rubric& rubric, const std::string& nothing) {
   bool any = false;
   const std::vector<raster::ShaderFile> own = raster::own_shaders();
-  for (const raster::ReplacedShader& file : folder->replaced()) {
+  for (const raster::ReplacedShader& file : folder.replaced()) {
     const bool is_own =
         std::any_of(own.begin(), own.end(), [&](const auto& o) { return o.name == file.name; });
     const bool asked =
@@ -123,6 +183,38 @@ std::string refusal(const Student& student, const Rubric& rubric) {
                          fmt::join(rubric.hand_in, ", "));
   }
   return any ? std::string() : nothing;
+}
+
+}  // namespace
+
+Expected<std::vector<Student>> find_students(const std::vector<std::string>& paths) {
+  std::vector<Student> students;
+  for (const std::string& path : paths) {
+    const auto some = students_at(path);
+    if (!some) return fail(some.error());
+    students.insert(students.end(), some->begin(), some->end());
+  }
+  std::set<std::string> names;
+  for (const Student& student : students)
+    if (!names.insert(student.name).second)
+      return fail(ErrorKind::usage,
+                  fmt::format("two students have one name, that of their folders (got {})", student.name));
+  return students;
+}
+
+Expected<std::string> refusal(const Student& student, const Rubric& rubric) {
+  if (is_link(place_of(student.folder)))
+    return std::string(
+        "the folder is a link; name the folder itself, for a link may lead to another student's");
+  const auto contents = look_into(student.folder);
+  if (!contents) return fail(contents.error());
+  const std::string nothing = fmt::format("nothing was handed in: no {} that differs from the program's own",
+                                          fmt::join(rubric.hand_in, " or "));
+  if (std::string why_not = refusal_of(*contents, nothing); !why_not.empty()) return why_not;
+  if (const auto read = read_all(student.folder); !read) return fail(read.error());
+  const auto folder = raster::ShaderFolder::read(student.folder);
+  if (!folder) return folder.error().message();
+  return refusal_of(*folder, rubric, nothing);
 }
 
 }  // namespace gnomon::app::grade

@@ -5,8 +5,7 @@
 #include <embedded/report.h>
 
 #include "compare/report/html.h"
-#include "scene/files/base64.h"
-#include "scene/files/sha256.h"
+#include "compare/report/page_head.h"
 
 namespace gnomon::compare {
 namespace {
@@ -30,34 +29,6 @@ Template page_template(std::string_view name) {
   return {html.substr(0, head), html.substr(after_head, body - after_head),
           html.substr(body + body_mark.size()), inline_block(html, "<style", "</style>"),
           inline_block(html, "<script", "</script>")};
-}
-
-// A content-security-policy source for one inline block: the base64 of its SHA-256.
-std::string hash_source(std::string_view block) {
-  const std::string hex = sha256_hex(block);
-  std::string digest;
-  for (std::size_t i = 0; i < hex.size(); i += 2)
-    digest += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
-  return "'sha256-" + base64(digest) + "'";
-}
-
-// Nothing may be loaded, sent or run but the page's own style and script and its pictures; and, where it has
-// files beside it, these.
-std::string security_policy(const Template& page, bool beside) {
-  return fmt::format(
-      "default-src 'none'; img-src data:{0}; style-src {1}; script-src {2}{0}; base-uri 'none'; form-action "
-      "'none'",
-      beside ? " 'self'" : "", hash_source(page.style), hash_source(page.script));
-}
-
-std::string head(const PageShell& shell, const Template& page) {
-  return fmt::format(
-      R"(<meta http-equiv="Content-Security-Policy" content="{}">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>{}</title>
-<link rel="icon" href="data:,">)",
-      security_policy(page, shell.beside), escaped(shell.title));
 }
 
 constexpr std::string_view data_file_head = "(globalThis.gnomonFiles=globalThis.gnomonFiles||{})",
@@ -107,7 +78,7 @@ BuiltPage build_page(const PageShell& shell) {
   BuiltPage out;
   out.html.reserve(bytes_of(shell) + embedded::report(shell.built).size() + (std::size_t{1} << 16));
   out.html = built.before_head;
-  out.html.append(head(shell, built)).append(built.after_head);
+  out.html.append(page_head({shell.title, built.style, built.script, shell.beside})).append(built.after_head);
   out.html += fmt::format(R"(<a class="skip" href="#main">{}</a>)", shell.skip);
   out.html += R"(
 <header class="bar-top"><span class="brand">Gnomon</span>
