@@ -15,6 +15,7 @@
 #include "raster/settings.h"
 #include "scene/files/image_io.h"
 #include "scene/one_line.h"
+#include "scene/threads.h"
 
 namespace gnomon::app {
 
@@ -77,8 +78,7 @@ void Viewer::save_numbered(const std::string& start, const std::string& extensio
     std::error_code ignored;
     if (!fs::exists(saving_path_, ignored)) break;
   }
-  saving_ =
-      std::async(std::launch::async, [save = std::move(save), path = saving_path_] { return save(path); });
+  saving_ = in_background([save = std::move(save), path = saving_path_] { return save(path); });
 }
 
 /// "courtyard-labels".
@@ -163,7 +163,7 @@ void Viewer::find_best() {
 }
 
 void Viewer::look_after_job() {
-  if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+  if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout) {
     const Expected<void> saved = saving_.get();
     saved ? note("saved " + saving_path_ + saving_remark_) : note(saved.error());
   }
