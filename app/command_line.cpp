@@ -25,6 +25,7 @@
 #include "app/manual.h"
 #include "app/options.h"
 #include "app/output_path.h"
+#include "app/session.h"
 #include "app/shell.h"
 #include "compare/option_names.h"
 #include "scene/files/write_file.h"
@@ -32,6 +33,7 @@
 #include "scene/nearest_name.h"
 #include "scene/one_line.h"
 #include "scene/stages.h"
+#include "scene/threads.h"
 
 namespace gnomon::app {
 
@@ -217,7 +219,20 @@ Expected<void> write_trace(const std::string& path) {
   return write_file(path, log->trace("gnomon"));
 }
 
+/// What every command that has them takes by one name.
+void take_common_options(const CLI::App& program, Invocation& invocation) {
+  for (const CLI::App* command : program.get_subcommands()) {
+    if (const CLI::Option* threads = command->get_option_no_throw("--threads");
+        threads != nullptr && threads->count() > 0)
+      invocation.threads = threads->as<int>();
+    if (const CLI::Option* quiet = command->get_option_no_throw("--quiet"); quiet != nullptr)
+      invocation.quiet = quiet->count() > 0 && quiet->as<bool>();
+  }
+}
+
 Expected<ExitCode> act_and_trace(const Invocation& invocation) {
+  Console console(invocation.quiet);
+  limit_threads(invocation.threads, console);
   if (StageLog* log = StageLog::current()) log->keep_runs(!invocation.trace.empty());
   Expected<ExitCode> code = invocation.action();
   if (!code) return code;
@@ -277,7 +292,8 @@ const CLI::App* asked_about(const CLI::App& program, int argc, const char* const
 }
 
 int parse_and_run(int argc, const char* const* argv, bool runs) {
-  Invocation invocation{command_line_text(argc, argv), {}, {}, {}, {}};
+  Invocation invocation;
+  invocation.command_line = command_line_text(argc, argv);
   const std::unique_ptr<CLI::App> program = make_program(invocation);
   if (argc < 2) {
     print_error(help_text(*program));
@@ -298,6 +314,7 @@ int parse_and_run(int argc, const char* const* argv, bool runs) {
       return static_cast<int>(finished.error().kind);
     }
     if (!runs) return 0;
+    take_common_options(*program, invocation);
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = program->get_subcommands();
     print_data(help_text(chosen.empty() ? *program : *chosen.front()));
@@ -327,6 +344,11 @@ int run_command_line(int argc, const char* const* argv) {
     print_error(Error{ErrorKind::graphics, fmt::format("the system refuses a resource: {}", error.what())});
     return static_cast<int>(ErrorKind::graphics);
   } catch (const std::exception& error) {
+    if (refused_threads() > 0) {  // oneTBB's exception has no type of its own
+      print_error(Error{ErrorKind::graphics,
+                        fmt::format("not enough threads can be started ({})", thread_limit_words)});
+      return static_cast<int>(ErrorKind::graphics);
+    }
     print_error(Error{ErrorKind::internal, fmt::format("internal error: {}", error.what())});
     return static_cast<int>(ErrorKind::internal);
   }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -13,11 +14,15 @@
 namespace gnomon::app {
 
 void print_data(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  constexpr std::array<std::string_view, 3> styles{"\x1b[0m", "\x1b[1m", "\x1b[2m"};
+  const std::string plain =
+      plain_lines(text, stdout_takes_colour() ? std::span<const std::string_view>(styles)
+                                              : std::span<const std::string_view>());
+  std::fwrite(plain.data(), 1, plain.size(), stdout);
 }
 
 void print_error(const std::string& text) {
-  const std::string line = text.ends_with('\n') ? text : text + "\n";
+  const std::string line = plain_lines(text.ends_with('\n') ? text : text + "\n");
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
@@ -47,7 +52,7 @@ void Console::progress(std::string_view stage, double done) {
   const double share = std::clamp(done, 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(std::lround(share * width));
   const std::string line =
-      fmt::format("[{:<{}}] {:3.0f} % {}", std::string(filled, '#'), width, 100.0 * share, stage);
+      fmt::format("[{:<{}}] {:3.0f} % {}", std::string(filled, '#'), width, 100.0 * share, one_line(stage));
   if (line == line_) return;
   clear_progress();
   line_ = line;

@@ -8,10 +8,11 @@
 
 namespace gnomon::app {
 
-/// Onto stdout, as it is.
+/// Onto stdout: lines of text, or JSON. Control characters that came with names are escaped (plain_lines() in
+/// scene/one_line.h), but for the program's own styles where stdout takes colour.
 void print_data(std::string_view text);
 
-/// One line on stderr; a line break is added where there is none.
+/// Lines on stderr, escaped likewise; a line break is added where there is none.
 void print_error(const std::string& text);
 /// An input's error as file:line:column: reason, any other after the program's name.
 void print_error(const Error& error);

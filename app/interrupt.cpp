@@ -13,6 +13,8 @@
 #include <thread>
 
 #include "scene/files/path_status.h"
+#include "scene/run_program.h"
+#include "scene/threads.h"
 
 namespace gnomon::app {
 
@@ -26,9 +28,13 @@ std::mutex& output_mutex() {
   return mutex;
 }
 
-/// Of the folders that live; the mutex of the outputs guards it.
-std::list<std::string>& temporary_folders() {
-  static std::list<std::string> folders;
+/// The folders that live.
+struct TemporaryFolders {
+  std::mutex mutex;
+  std::list<std::string> paths;
+};
+TemporaryFolders& temporary_folders() {
+  static TemporaryFolders folders;
   return folders;
 }
 
@@ -50,12 +56,9 @@ void wait_and_exit(sigset_t awaited) {
   int signal_number = 0;
   if (sigwait(&awaited, &signal_number) != 0) return;
   received_signal = signal_number;
+  end_programs();  // for which the holder of the outputs may wait
   const std::lock_guard<std::mutex> outputs_are_whole(output_mutex());
-  for (const std::string& folder : temporary_folders()) remove_folder(folder);
-  const std::string_view text =
-      isatty(STDERR_FILENO) == 1 ? "\r\033[Kgnomon: interrupted\n" : "gnomon: interrupted\n";
-  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
-  _exit(exit_code_of(signal_number));
+  end_process(exit_code_of(signal_number), "interrupted");
 }
 
 }  // namespace
@@ -72,6 +75,7 @@ void watch_for_interrupts() {
   if (!any) return;
   pthread_sigmask(SIG_BLOCK, &awaited, nullptr);
   try {
+    const RefusalIsHandled goes_on;
     std::thread(wait_and_exit, awaited).detach();
   } catch (const std::system_error&) {  // no thread can be started: signals end the process where it stands
     pthread_sigmask(SIG_UNBLOCK, &awaited, nullptr);
@@ -90,6 +94,16 @@ int interrupt_exit_code() {
   return signal_number == 0 ? 0 : exit_code_of(signal_number);
 }
 
+void end_process(int exit_code, std::string_view words) {
+  TemporaryFolders& folders = temporary_folders();
+  folders.mutex.lock();  // for good: no other is made any more
+  for (const std::string& folder : folders.paths) remove_folder(folder);
+  std::string line = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
+  line.append("gnomon: ").append(words).append("\n");
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
+  _exit(exit_code);
+}
+
 OutputGuard::OutputGuard() : lock_(output_mutex()) {}
 
 RemovedOnSignal::RemovedOnSignal(const std::string& path) {
@@ -103,17 +117,19 @@ RemovedOnSignal::~RemovedOnSignal() {
 }
 
 TemporaryFolder::TemporaryFolder(const std::string& name) {
-  const OutputGuard guard;
+  TemporaryFolders& folders = temporary_folders();
+  const std::lock_guard lock(folders.mutex);
   std::error_code error;
   std::string path = (std::filesystem::temp_directory_path(error) / (name + "-XXXXXX")).string();
   if (error || mkdtemp(path.data()) == nullptr) path.clear();
-  place_ = temporary_folders().insert(temporary_folders().end(), path);
+  place_ = folders.paths.insert(folders.paths.end(), path);
 }
 
 TemporaryFolder::~TemporaryFolder() {
-  const OutputGuard guard;
+  TemporaryFolders& folders = temporary_folders();
+  const std::lock_guard lock(folders.mutex);
   remove_folder(*place_);
-  temporary_folders().erase(place_);
+  folders.paths.erase(place_);
 }
 
 }  // namespace gnomon::app

@@ -1,11 +1,13 @@
 // SIGINT and SIGTERM end the process at once with 130 or 143, except while outputs are being written: those
-// are finished first, so that what stands in the output folder is always one whole result. Temporary folders are
+// are finished first, so that what stands in the output folder is always one whole result; programs that were started are
+// ended. Temporary folders are
 // removed before the process ends.
 #pragma once
 
 #include <list>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 namespace gnomon::app {
 
@@ -19,6 +21,9 @@ void leave_interrupts_to_the_system();
 
 /// 0: no signal has come. Else 130 or 143, with which the process ends once its outputs are finished.
 int interrupt_exit_code();
+
+/// Ends the process where it stands, with "gnomon: WORDS" on stderr; temporary folders are removed.
+[[noreturn]] void end_process(int exit_code, std::string_view words);
 
 /// While one lives, a signal waits.
 class OutputGuard {

@@ -21,7 +21,9 @@ struct Invocation {
   /// Run when lessons and scenes have given their settings; throws CLI::ParseError.
   std::function<void()> finish;
   std::function<Expected<ExitCode>()> action;
-  std::string trace;  ///< file for the stages of the run; empty: none
+  int threads = 0;     ///< at most so many of the ray tracer and of the rasterizer; 0: one for each processor
+  bool quiet = false;  ///< no messages but errors
+  std::string trace;   ///< file for the stages of the run; empty: none
   /// Where a scene's file set an option ("--bias"), as errors without a reason.
   std::map<std::string, Error> settings;
 };

@@ -5,12 +5,9 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <future>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <thread>
-#include <vector>
 
 namespace gnomon::app {
 
@@ -72,19 +69,6 @@ Expected<void> check_memory(ImageSize size, double bytes_per_pixel, double other
       fmt::format("not enough memory under the limit of this process (ulimit -v): about {:.0f} MB are "
                   "needed, {:.0f} MB are left",
                   (picture + other_bytes) / 1e6, std::max(0.0, available_addresses()) / 1e6));
-}
-
-int startable_threads(int wanted) {
-  std::vector<std::thread> threads;
-  std::promise<void> enough;
-  const std::shared_future<void> end = enough.get_future().share();
-  try {
-    while (static_cast<int>(threads.size()) < wanted) threads.emplace_back([end] { end.wait(); });
-  } catch (const std::system_error&) {  // no more
-  }
-  enough.set_value();
-  for (std::thread& thread : threads) thread.join();
-  return static_cast<int>(threads.size());
 }
 
 }  // namespace gnomon::app

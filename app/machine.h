@@ -26,7 +26,4 @@ inline constexpr double graphics_bytes = 480e6;
 /// or a limit (ulimit -v) has left, which would end the process without a word.
 Expected<void> check_memory(ImageSize size, double bytes_per_pixel, double other_bytes = 0.0);
 
-/// How many more threads the system lets this process start, up to `wanted`: they are started, and ended again.
-int startable_threads(int wanted);
-
 }  // namespace gnomon::app

@@ -4,6 +4,7 @@
 #include "app/command_line.h"
 #include "app/interrupt.h"
 #include "app/large_pages.h"
+#include "app/thread_start.h"
 #include "scene/freed_memory.h"
 #include "scene/stages.h"
 
@@ -14,6 +15,7 @@ int main(int argc, char** argv) {
   // A limit on the size of files is then an error of the write that meets it, and no end of the process where the
   // driver writes its cache of compiled shaders.
   std::signal(SIGXFSZ, SIG_IGN);
+  gnomon::app::end_in_words_without_threads();
   gnomon::app::watch_for_interrupts();
   return gnomon::app::run_command_line(argc, argv);
 }

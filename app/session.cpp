@@ -19,6 +19,7 @@
 #include "scene/nearest_name.h"
 #include "scene/stages.h"
 #include "scene/tessellate.h"
+#include "scene/threads.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
@@ -129,10 +130,6 @@ Expected<void> check_shaders_used(const std::string& shader_folder, const raster
   return {};
 }
 
-struct ThreadLimit::Impl {
-  std::optional<tbb::global_control> control;
-};
-
 namespace {
 
 /// Of the ray tracer, of the rasterizer, and besides: one that writes files, two of Mesa's own.
@@ -142,7 +139,7 @@ int threads_to_start(int threads) {
 
 }  // namespace
 
-ThreadLimit::ThreadLimit(int threads, Console& console) : impl_(std::make_unique<Impl>()) {
+void limit_threads(int threads, Console& console) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int wanted = threads == 0 ? cores : threads, all = threads_to_start(wanted);
   if (const int startable = startable_threads(all); startable < all) {
@@ -151,12 +148,13 @@ ThreadLimit::ThreadLimit(int threads, Console& console) : impl_(std::make_unique
                              startable, threads));
   }
   if (threads == 0) return;
-  impl_->control.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  // For good: when it is taken back, oneTBB starts the threads that were not allowed.
+  static const auto* kept = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                                    static_cast<std::size_t>(threads));
+  static_cast<void>(kept);
   // Mesa's llvmpipe: 0 draws on the calling thread, N > 0 on N others while the caller waits.
   setenv("LP_NUM_THREADS", threads == 1 ? "0" : std::to_string(threads).c_str(), 1);
 }
-
-ThreadLimit::~ThreadLimit() = default;
 
 std::string default_output(const std::string& path_or_name) {
   const std::string name = std::filesystem::path(path_or_name).stem().string();

@@ -54,18 +54,10 @@ Expected<std::unique_ptr<raster::Renderer>> make_renderer(std::unique_ptr<raster
 Expected<void> check_shaders_used(const std::string& shader_folder, const raster::RasterFrame& frame,
                                   const Scene& scene, Console& console);
 
-/// Limits the ray tracer's threads (oneTBB) while it lives and, because it is read when a context is made,
-/// those of Mesa's software rasterizer from here on. 0: all cores. Where the system does not let so many be started
-/// (ulimit -u) it takes fewer, and says so.
-class ThreadLimit {
- public:
-  ThreadLimit(int threads, Console& console);
-  ~ThreadLimit();
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
+/// Limits the ray tracer's threads (oneTBB) and, because it is read when a context is made, those of Mesa's software
+/// rasterizer, for the rest of the process; once. 0: all cores. Where the system does not let so many be started (ulimit
+/// -u) it takes fewer, and says so.
+void limit_threads(int threads, Console& console);
 
 /// out/NAME, NAME being that of the scene without folder and extension.
 std::string default_output(const std::string& path_or_name);

@@ -2,10 +2,13 @@
 
 #include <string_view>
 
+#include "scene/one_line.h"
+
 namespace gnomon::compare {
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+std::string csv_field(const std::string& field) {
+  const std::string text = one_line(field);
+  if (text.find_first_of(",\"") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + '"';

@@ -65,8 +65,9 @@ Json identified_json(const Identified& i) {
 
 // Of a picture that another renderer drew.
 Json judged_json(const Judged& j) {
-  Json settings = Json::object(), mended = Json::array(), advice = Json::array();
-  for (const auto& [key, value] : j.settings) settings[key] = value;
+  Json mended = Json::array(), advice = Json::array();
+  Json::object_t settings;  // appended to: operator[] looks through all there are, and no two have one name
+  for (const auto& [key, value] : j.settings) settings.push_back({key, value});
   for (const Mended& m : j.mended)
     mended.push_back({{"what", m.what},
                       {"evidence", m.evidence},

@@ -28,7 +28,7 @@ class Page {
   explicit Page(bool colour) : colour_(colour) {}
 
   void heading(std::string_view text) {
-    for (const std::string& part : wrapped(text, columns)) text_ += styled("1", part) + '\n';
+    for (const std::string& part : wrapped(one_line(text), columns)) text_ += styled("1", part) + '\n';
   }
   void paragraph(std::string_view text) {
     for (const std::string& part : wrapped(text, columns - 2)) text_ += "  " + part + '\n';
@@ -36,7 +36,7 @@ class Page {
   // A name and its value; longer values go on below the first.
   void field(std::string_view name, std::string_view value) {
     std::string label = right_padded(name, field_column - 2);
-    for (const std::string& part : wrapped(value, columns - field_column)) {
+    for (const std::string& part : wrapped(one_line(value), columns - field_column)) {
       text_ += "  " + styled("2", label) + part + '\n';
       label = std::string(field_column - 2, ' ');
     }
@@ -270,8 +270,8 @@ void add_once(Page& page, const Comparison& c) {
 
 void add_light(Page& page, const Comparison& c, const LightComparison& light) {
   page.blank();
-  page.heading(fmt::format("light '{}' ({})", one_line(light_of(c, light).name),
-                           light_type_name(light_of(c, light).type)));
+  page.heading(
+      fmt::format("light '{}' ({})", light_of(c, light).name, light_type_name(light_of(c, light).type)));
   page.paragraph(verdict_on(c, light).whole());
   page.blank();
   page.field("map", map_line(c, light));
@@ -300,8 +300,8 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
 std::string summary_table(const Comparison& c, bool colour) {
   Page page(colour);
   const ImageSize size = c.raster.options.size;
-  page.heading(fmt::format("{}: {} x {} pixels, {}, {}", one_line(c.world->scene->name), size.width,
-                           size.height, counted(c.world->triangle_count(), "triangle"),
+  page.heading(fmt::format("{}: {} x {} pixels, {}, {}", c.world->scene->name, size.width, size.height,
+                           counted(c.world->triangle_count(), "triangle"),
                            counted(c.world->shapes.size(), "shape")));
   if (c.judged)
     for (const auto& [name, value] : judged_lines(c)) page.field(name, value);

@@ -37,8 +37,9 @@ std::size_t text_width(std::string_view text) {
 
 std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
   std::vector<std::string> lines;
-  while (text_width(text) > width) {
-    const std::size_t limit = prefix_bytes(text, width);
+  // Only as far as a line goes: texts may be long.
+  for (std::size_t limit = prefix_bytes(text, width); limit < text.size();
+       limit = prefix_bytes(text, width)) {
     std::size_t cut = last_break(text, limit);
     const bool at_space = cut != std::string_view::npos && cut > 0;
     if (!at_space) cut = limit;

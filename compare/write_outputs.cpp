@@ -1,7 +1,6 @@
 // The output folder: pictures first, then the table, then the page; result.json last, which tells what all of
 // that took. They are written beside the folder's place and moved there whole (scene/files/staged_folder.h).
 #include <filesystem>
-#include <future>
 #include <optional>
 
 #include "compare/bands/bands.h"
@@ -12,6 +11,7 @@
 #include "compare/report/page_data.h"
 #include "compare/time_budget.h"
 #include "scene/files/write_file.h"
+#include "scene/threads.h"
 
 namespace gnomon::compare {
 namespace {
@@ -111,8 +111,7 @@ Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, Band
   encoding.end();
   if (!pictures) return fail(pictures.error());
   // Waiting for the disk, while the page is made.
-  auto written_pictures =
-      std::async(std::launch::async, [&] { return write_files(folder, picture_files(*pictures)); });
+  auto written_pictures = in_background([&] { return write_files(folder, picture_files(*pictures)); });
 
   TimedStage making(output.page ? "page" : "write");
   Texts texts = make_texts(comparison, parts, *pictures, output, watch);

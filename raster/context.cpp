@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <optional>
 #include <utility>
 
 #include "raster/context_backends.h"
 #include "raster/renderer_name.h"
+#include "scene/threads.h"
 
 namespace gnomon::raster {
 namespace {
@@ -33,7 +35,9 @@ bool draws_in_software(std::string_view renderer) {
                      [&](std::string_view word) { return renderer.find(word) != std::string_view::npos; });
 }
 
-Expected<std::unique_ptr<Context>> create_context(Backend backend) {
+namespace {
+
+Expected<std::unique_ptr<Context>> first_context(Backend backend) {
   if (const auto egl = egl_alone(backend)) {
     auto context = create_egl_context(egl->second);
     return context ? std::move(context)
@@ -50,6 +54,25 @@ Expected<std::unique_ptr<Context>> create_context(Backend backend) {
     tried += fmt::format("; {}: {}", name, context.error().reason);
   }
   return no_context(tried);
+}
+
+/// Mesa's rasterizer draws on the calling thread.
+bool draws_without_threads() {
+  const char* threads = std::getenv("LP_NUM_THREADS");
+  return threads != nullptr && std::string_view(threads) == "0";
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Context>> create_context(Backend backend) {
+  const int refused_before = refused_threads();
+  auto context = first_context(backend);
+  // llvmpipe would wait for ever for one of its threads that is missing.
+  if (context && refused_threads() > refused_before && !draws_without_threads())
+    return fail(ErrorKind::graphics,
+                fmt::format("the graphics driver was refused a thread ({}); --threads 1 needs none of them",
+                            thread_limit_words));
+  return context;
 }
 
 }  // namespace gnomon::raster

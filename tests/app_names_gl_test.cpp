@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "scene/files/image_io.h"
 #include "scene/one_line.h"
 #include "tests/app_process.h"
 
@@ -63,6 +64,54 @@ TEST(Names, OfLightsAreEscapedInSummariesAndErrors) {
   EXPECT_NE(result.out.find(R"(\x1b[31mred\nline)"), std::string::npos) << result.out;
   EXPECT_NE(result.err.find(R"(\x1b[31mred\nline)"), std::string::npos) << result.err;
   expect_one_line(run_gnomon(compare + Words{"--light", "green"}), 2, R"(allowed \x1b[31mred\nline)");
+}
+
+// What turns a line around is written out, and letters of any script stay.
+TEST(Names, CannotTurnTheLineAround) {
+  EXPECT_EQ(one_line("a\u202eb\u2066c\u2028d\u200fe"), R"(a\u202eb\u2066c\u2028d\u200fe)");
+  EXPECT_EQ(one_line("\u05d0\u0628 \u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645"),
+            "\u05d0\u0628 \u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645");
+  EXPECT_EQ(plain_lines("a\n\tb\r\nc\rd\u009be\x1b[1m\x7f"), "a\n\tb\r\nc\\rd\\u009be\\x1b[1m\\u007f");
+}
+
+// Everything that a capture says of itself, on every stream and in every file of text.
+TEST(Names, OfCapturesAndScenesAreEscapedInAllOutputs) {
+  const TemporaryFolder folder;
+  write_text(folder / "lamp.json", R"({
+    "schema": "gnomon/scene/1", "name": "scene\u001b[31m\u202e",
+    "camera": {"eye": [0, 13, 13.5], "target": [0, 0, 0.6], "vertical_fov_degrees": 38},
+    "lights": [{"name": "sun\u001b[31m\u202e\u009b\nline", "type": "directional", "elevation_degrees": 42, "azimuth_degrees": 35}],
+    "materials": [{"name": "grey"}],
+    "meshes": [{"name": "floor", "generate": {"kind": "floor", "size": [24, 20]}}],
+    "instances": [{"mesh": "floor", "material": "grey"}]})");
+  constexpr ImageSize size{64, 36};
+  ASSERT_TRUE(write_exr(folder / "v.exr", size,
+                        std::vector<Channel>{{"V", std::vector<float>(size.pixels(), 1.0f)}}));
+  write_text(folder / "capture.json", R"({
+    "schema": "gnomon/capture/1", "scene": "lamp.json", "size": [64, 36], "visibility": "v.exr",
+    "renderer": {"name": "mine\u001b[31m\u202e\u009b\nline", "version": "\u001b]0;t\u0007\u2066",
+                 "settings": {"a\u001b[5m\u202e": "b\u009b\u001b[31m"}}})");
+  for (const Words& words :
+       {Words{"judge", folder / "capture.json", "-o", folder / "out"},
+        Words{"judge", folder / "capture.json", "--json", "-"},
+        Words{"judge", folder / "capture.json", folder / "capture.json", "-o", folder / "two"},
+        Words{"compare", folder / "lamp.json", "-o", folder / "drawn"} + small}) {
+    const ProcessResult result = run_gnomon(words);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    expect_plain(result.out);
+    expect_plain(result.err);
+  }
+  for (const char* table : {"out/result.csv", "two/judge.csv", "drawn/result.csv"}) {
+    const std::string text = read_file(folder / table);
+    EXPECT_NE(text.find(R"(sun\x1b[31m\u202e\xc2\x9b\nline)"), std::string::npos) << text;
+    EXPECT_EQ(plain_lines(text), text) << table;
+  }
+  for (const char* page : {"out/report.html", "two/report.html", "drawn/report.html"}) {
+    const std::string text = read_file(folder / page);
+    EXPECT_FALSE(text.empty()) << page;
+    for (const char* turns : {"\u202e", "\u2066", "\u009b", "\x1b"})
+      EXPECT_EQ(text.find(turns), std::string::npos) << page;
+  }
 }
 
 TEST(Names, OnTheCommandLineAreEscapedInErrors) {

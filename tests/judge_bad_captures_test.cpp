@@ -69,6 +69,27 @@ compare::CapturedLayer layer(const Mat4& matrix) {
   return out;
 }
 
+/// An EXR with all of its header and none of its pixels.
+std::string header_alone(const std::string& name, ImageSize size) {
+  const std::string path = image(name, size, {"V"});
+  std::filesystem::resize_file(path, 400);
+  return path;
+}
+
+// What a header says is enough to refuse a picture, and all of them are looked at before any is decoded.
+TEST(BadCaptures, AreRefusedByTheirHeaders) {
+  Capture capture = good();
+  capture.visibility = header_alone("header.exr", {32, 18});
+  expect_named(capture, "visibility: is of another size (got 32 x 18, the capture says 64 x 36)");
+  capture.visibility = header_alone("fits.exr", picture);
+  capture.position = header_alone("position.exr", {16, 9});
+  expect_named(capture, "position: is of another size (got 16 x 9, the capture says 64 x 36)");
+  capture.position.clear();
+  capture.map = {layer(Mat4(1.0))};
+  capture.map[0].depth = header_alone("oblong.exr", {8, 4});
+  expect_named(capture, "map[0].depth: is not square (got 8 x 4)");
+}
+
 TEST(BadCaptures, OfPicturesNameThePicture) {
   Capture capture = good();
   capture.visibility = folder() + "/none.exr";

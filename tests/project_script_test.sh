@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # When ./gnomon configures a build: the first time, where the checkout was moved or copied (CMake cannot move a build), and
 # after the presets have changed; and then no more. Ninja is asked where something has changed since, and else is not:
-# that takes longer than starting the program. CMake and Ninja are stand-ins that note what they are asked.
+# that takes longer than starting the program. Who waits for another ./gnomon says so, and asks for a text without waiting.
+# What cannot be written, and words that are missing, end with the README's exit codes. CMake, Ninja and dpkg-query are
+# stand-ins that note what they are asked.
 # usage: project_script_test.sh SOURCE_DIR
 set -euo pipefail
 source=$1
@@ -22,7 +24,17 @@ cat >"$work/bin/ninja" <<'EOF'
 echo "$*" >>"$WORK/built"
 printf '#!/bin/sh\necho "$0"\n' >"$2/app/gnomon" && chmod +x "$2/app/gnomon"
 EOF
-chmod +x "$work/bin/cmake" "$work/bin/ninja"
+cat >"$work/bin/dpkg-query" <<'EOF'
+#!/bin/sh
+case $2 in
+  *Version*) cat "$WORK/installed" ;;
+  *) echo installed ;;
+esac
+EOF
+chmod +x "$work/bin/cmake" "$work/bin/ninja" "$work/bin/dpkg-query"
+printf 'installed %s\n' 'libtbb-dev 1' 'libpng-dev 1' >"$work/installed"
+mkdir "$work/dpkg" && touch -d '1 hour ago' "$work/dpkg/status"
+export DPKG_ADMINDIR=$work/dpkg
 export WORK=$work PATH=$work/bin:$PATH
 unset GNOMON_STRICT
 cp "$source/gnomon" "$source/CMakePresets.json" "$work/first place"
@@ -72,3 +84,60 @@ expect_build yes 'another commit'
 expect_build no 'built since'
 rm "$work/copy/build/release/app/gnomon"
 expect_build yes 'the program is gone'
+
+# Packages: dpkg's status is newer after any change, and only a change of what was built with counts.
+echo 'installed libunrelated-dev 1' >>"$work/installed" && sleep 0.01 && touch "$work/dpkg/status"
+expect_build no 'an unrelated package'
+expect_build no 'an unrelated package, looked at once more'
+sed -i 's/libtbb-dev 1/libtbb-dev 2/' "$work/installed" && touch "$work/dpkg/status"
+expect_build yes 'another version of a package'
+sed -i /libpng-dev/d "$work/installed" && touch "$work/dpkg/status"
+expect_build yes 'a package that is gone'
+expect_build no 'built since'
+
+# expect_end CODE WORDS ARGUMENTS...: in the copy, with nothing on stdout.
+as=()
+expect_end() {
+  local code=$1 words=$2 status=0
+  shift 2
+  "${as[@]}" "$work/copy/gnomon" "$@" >"$work/out" 2>"$work/said" </dev/null || status=$?
+  [[ $status == "$code" && $(<"$work/said") == *"$words"* && ! -s $work/out ]] ||
+    fail "$*: exit $status, not $code with '$words': $(cat "$work/said" "$work/out")"
+}
+expect_end 2 '--preset needs a name' test --preset
+expect_end 2 '--only needs names' test --only
+expect_end 2 'no such preset (got nosuch' build nosuch
+expect_end 2 'no such preset (got ../x' build ../x
+expect_end 2 'no such preset (got nosuch' test --preset nosuch
+
+# Another ./gnomon that builds.
+exec 8>"$work/copy/build/.lock"
+flock 8
+echo $$ >&8
+"$work/copy/gnomon" scenes >/dev/null 2>"$work/said" 8>&- || fail 'a program that is built waits or fails'
+touch "$work/copy/CMakePresets.json" "$work/copy/scene/new.cpp"
+for text in --help --version; do
+  timeout 60 "$work/copy/gnomon" $text >"$work/out" 2>"$work/said" 8>&- || fail "$text waits for another build"
+  [[ -s $work/out && $(<"$work/said") == *'another ./gnomon builds'* ]] || fail "$text: $(cat "$work/said")"
+done
+rm "$work/said"
+"$work/copy/gnomon" scenes >"$work/out" 2>"$work/said" 8>&- &
+waits=$!
+for ((i = 0; i < 600; ++i)); do [[ ! -s $work/said ]] || break; sleep 0.1; done
+[[ $(<"$work/said") == *"waiting for another ./gnomon"*"(process $$)"* ]] || fail "who waits says: $(cat "$work/said")"
+[[ ! -s $work/out ]] || fail 'it did not wait'
+exec 8>&-
+wait $waits || fail "after it had waited: $(cat "$work/said")"
+
+# What cannot be written. A user who may not write can run what is built.
+if ((EUID == 0)) && command -v setpriv >/dev/null; then
+  as=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+  chmod -R a+rX "$work"
+  "${as[@]}" "$work/copy/gnomon" scenes >"$work/out" 2>"$work/said" || fail "as another user: $(cat "$work/said")"
+  touch "$work/copy/scene/newer.cpp"
+  expect_end 4 'its owner' scenes
+  expect_end 4 'cannot write' test
+  as=()
+fi
+rm -rf "$work/copy/build" && touch "$work/copy/build"
+expect_end 4 'cannot write' scenes

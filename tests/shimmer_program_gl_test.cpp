@@ -1,7 +1,9 @@
 // gnomon shimmer seen from outside: its files, its exit codes, and what it says of a wrong call.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -90,6 +92,23 @@ TEST(ShimmerProgram, MakesMp4ThroughFfmpeg) {
   EXPECT_EQ(mp4.substr(4, 4), "ftyp");
   EXPECT_TRUE(read_file(folder / "out/film-0-flips.png").empty());
   EXPECT_NE(read_file(folder / "out/report.html").find("film-0-drawn.mp4"), std::string::npos);
+}
+
+// The ffmpeg of this test sends the signal itself, and ignores any.
+TEST(ShimmerProgram, EndsThoughFfmpegHangs) {
+  for (const auto& [signal, code] : {std::pair{"TERM", 143}, std::pair{"INT", 130}}) {
+    const TemporaryFolder folder;
+    write_text(folder / "ffmpeg", fmt::format("#!/bin/sh\ntrap '' INT TERM\nkill -{} $PPID\nsleep 40\n"
+                                              "echo late >late\n",
+                                              signal));
+    std::filesystem::permissions(folder / "ffmpeg", std::filesystem::perms::owner_all);
+    ProcessOptions options;
+    options.folder = folder.path();
+    options.environment = {"PATH=" + folder.path() + ":/usr/bin:/bin"};
+    const ProcessResult result = run_gnomon(quick + Words{"--film", "mp4", "-o", "out"}, options);
+    EXPECT_EQ(result.exit_code, code) << result.err;
+    EXPECT_EQ(folder.entries(), Words{"ffmpeg"});
+  }
 }
 
 TEST(ShimmerProgram, WrongCallsAreOneLine) {

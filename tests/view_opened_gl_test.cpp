@@ -2,6 +2,11 @@
 // file is lost.
 #include <fmt/format.h>
 
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
 #include "tests/view_lab_fixture.h"
 
 namespace gnomon::app_test {
@@ -73,6 +78,24 @@ TEST_F(ViewLab, ACameraThatSeesNothingIsRefused) {
              ball_over_floor(R"("camera": {"eye": [0, 6, 0], "target": [0, 0, 0], "up": [0, 0, -1]})"));
   expect_one_line(drive("above.json", "quit\n", {"--camera-up", "0,1,0", "--quiet"}), 2,
                   "the camera's pose: camera.");
+}
+
+// The display is one of this test's own, and ends while the window is open.
+TEST_F(ViewLab, ADisplayThatGoesAwayIsSaid) {
+  auto display = std::make_unique<VirtualDisplay>();
+  ProcessOptions options;
+  options.folder = folder_.path();
+  options.environment = {display->variable(), "WAYLAND_DISPLAY="};
+  write_text(folder_ / "script.txt", small_window + "screenshot shown.png\nwait 1000000\n");
+  std::thread ends([&] {
+    for (int i = 0; i < 1200 && !std::filesystem::exists(folder_ / "shown.png"); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    display.reset();
+  });
+  const ProcessResult result = run_gnomon({"view", "floating-box", "--script", "script.txt"}, options);
+  ends.join();
+  EXPECT_EQ(result.exit_code, 5) << result.err;
+  EXPECT_NE(result.err.find("gnomon: the display is gone"), std::string::npos) << result.err;
 }
 
 TEST_F(ViewLab, ASavedSceneCanBeSwept) {

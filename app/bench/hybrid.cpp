@@ -10,6 +10,7 @@
 #include "raytrace/frame.h"
 #include "raytrace/packets/shadow_pass.h"
 #include "raytrace/tiles.h"
+#include "scene/one_line.h"
 #include "scene/parallel.h"
 
 namespace gnomon::app {
@@ -164,8 +165,8 @@ class HybridBench {
         "{:.1f} ms\n"
         "  a new light, whose sheets are made from frame {} on by the estimate of costs: {:.1f} ms, {:.2f} % "
         "of the rays\n",
-        input_.scene, light_.name, input_.size.width, input_.size.height, map_size, counts_.rays,
-        counts_.asked, percent(counts_.rays, counts_.asked), percent(cast, all),
+        one_line(input_.scene), one_line(light_.name), input_.size.width, input_.size.height, map_size,
+        counts_.rays, counts_.asked, percent(counts_.rays, counts_.asked), percent(cast, all),
         percent(counts_.lit, counts_.asked), percent(counts_.shadowed, counts_.asked), times.kept.median(),
         times.anew.median(), static_cast<double>(cache_->bytes()) / 1048576.0, pure,
         cache_->frames_to_pay(receivers_.points.data.size()) + 1, times.by_cost.median(),

@@ -11,6 +11,7 @@
 #include "app/verify/adversarial.h"
 #include "app/verify/rational.h"
 #include "raytrace/frame.h"
+#include "scene/one_line.h"
 #include "scene/parallel.h"
 
 namespace gnomon::app {
@@ -154,8 +155,8 @@ std::string table(const BenchInput& input, std::uint64_t rays, std::span<const M
       "{}: {} primitives, {} x {}, {} threads; wrong of {} aimed rays of each kind, scaled to 1e8\n"
       "{:<10}{:>15}{:>9}{:>12}{:>9}{:>18}{:>13}{:>16}{:>12}\n"
       "{:<10}{:>15}{:>9}{:>12}{:>9}{:>18}{:>13}{:>16}{:>12}\n",
-      input.scene, input.loaded.world->primitive_count(), input.size.width, input.size.height, input.threads,
-      rays, "", "rendered", "shadow", "one by one", "shadow", "triangles wrong", "by rounding",
+      one_line(input.scene), input.loaded.world->primitive_count(), input.size.width, input.size.height,
+      input.threads, rays, "", "rendered", "shadow", "one by one", "shadow", "triangles wrong", "by rounding",
       "shadows wrong", "uncertain", "precision", "primary Mray/s", "Mray/s", "primary", "Mray/s", "per 1e8",
       "per 1e8", "per 1e8", "per 1e8");
   for (const MeasuredPrecision& m : all)

@@ -8,6 +8,7 @@
 #include "app/bench/row.h"
 #include "app/options.h"
 #include "raytrace/single_rays.h"
+#include "scene/one_line.h"
 #include "scene/parallel.h"
 #include "scene/timing.h"
 
@@ -136,7 +137,7 @@ std::string table(const BenchInput& input, const Rays& rays, std::span<const Mea
   std::string text = fmt::format(
       "{}: {} primitives, {} primary rays ({} hit), {} shadow rays; every structure sees the same\n"
       "{:<14}{:>10}{:>9}{:>11}{:>15}{:>18}{:>17}\n",
-      input.scene, input.loaded.world->primitive_count(), rays.primary.size(),
+      one_line(input.scene), input.loaded.world->primitive_count(), rays.primary.size(),
       std::count_if(rays.hits.begin(), rays.hits.end(), [](const auto& h) { return h.has_value(); }),
       rays.shadow.size(), "structure", "build ms", "MiB", "boxes/ray", "triangles/ray", "primary Mrays/s",
       "shadow Mrays/s");

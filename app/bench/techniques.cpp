@@ -9,6 +9,7 @@
 #include "app/render_json.h"
 #include "compare/shadow_cost.h"
 #include "scene/files/write_file.h"
+#include "scene/one_line.h"
 #include "scene/parallel.h"
 
 namespace gnomon::app {
@@ -146,7 +147,7 @@ std::string markdown(std::span<const TechniqueTable> tables, const std::string& 
         "ms.\n\n| technique | wrong | % | "
         "mostly | mean error | map ms | lookups ms | shadows ms | picture ms | Mtexels | lookups a pixel | "
         "MiB |\n|---|---:|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|\n",
-        table.scene, table.size.width, table.size.height, table.map_size, table.rays_ms);
+        one_line(table.scene), table.size.width, table.size.height, table.map_size, table.rays_ms);
     for (const TechniqueRow& row : table.rows) text += markdown_row(row);
   }
   return text;
@@ -156,8 +157,8 @@ std::string text_table(const TechniqueTable& table) {
   std::string text = fmt::format(
       "{}: {}x{} pixels, maps of {} texels; exact shadows take {:.1f} ms\n"
       "{:<13}{:>9}{:>8} {:<14}{:>9}{:>8}{:>9}{:>8}{:>8}\n",
-      table.scene, table.size.width, table.size.height, table.map_size, table.rays_ms, "technique", "wrong",
-      "%", "mostly", "error", "map ms", "lookups", "a pixel", "MiB");
+      one_line(table.scene), table.size.width, table.size.height, table.map_size, table.rays_ms, "technique",
+      "wrong", "%", "mostly", "error", "map ms", "lookups", "a pixel", "MiB");
   for (const TechniqueRow& row : table.rows) {
     text += row.refused.empty()
                 ? fmt::format("{:<13}{:>9}{:>8.3f} {:<14}{:>9.5f}{:>8.1f}{:>9.1f}{:>8}{:>8}\n", row.technique,

@@ -10,6 +10,7 @@
 #include "app/tune_families.h"
 #include "compare/tune/full_grid.h"
 #include "raster/technique_traits.h"
+#include "scene/one_line.h"
 #include "scene/parallel.h"
 
 namespace gnomon::app {
@@ -119,7 +120,7 @@ Expected<void> run_tune_bench(const TuneBench& bench, Console& console) {
     console.clear_progress();
     std::vector<std::string> names;
     for (const compare::FamilyResult& family : check->tuned.families) names.push_back(family.family.name);
-    if (with_table) print_data(table_row(loaded->scene->name, *check, names));
+    if (with_table) print_data(table_row(one_line(loaded->scene->name), *check, names));
     add_rows(loaded->scene->name, *check, rows);
   }
   return hand_out_json(bench.json, bench_json(rows));

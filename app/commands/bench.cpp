@@ -39,7 +39,6 @@ struct BenchCommand {
 
 Expected<ExitCode> run_techniques(const BenchCommand& command) {
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads, console);
   TechniqueBench bench = command.techniques;
   bench.how = command.scene;
   bench.command_line = command.command_line;
@@ -54,7 +53,6 @@ Expected<ExitCode> run_techniques(const BenchCommand& command) {
 
 Expected<ExitCode> run_tune_rows(const BenchCommand& command) {
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads, console);
   TuneBench bench = command.tune;
   bench.how = command.scene;
   bench.size = command.size;
@@ -81,7 +79,6 @@ Expected<ExitCode> run_bench(const BenchCommand& command) {
          .json = command.json,
          .size = command.size_given ? fmt::format("{}x{}", command.size.width, command.size.height) : ""});
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads, console);
   RunFiles files;
   files.reads(command.scene);
   files.writes("--json", command.json);

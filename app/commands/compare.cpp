@@ -177,7 +177,6 @@ void set_runs(CompareCommand& command) {
 Expected<ExitCode> run_compare(CompareCommand& command) {
   const Stopwatch total;
   Console console(command.output.quiet);
-  const ThreadLimit thread_limit(command.threads, console);
   if (command.output.folder.empty() && !only_prints_json(command.output))
     command.output.folder = default_output(command.scene.name);
   set_runs(command);

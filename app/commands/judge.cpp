@@ -271,7 +271,6 @@ Expected<std::vector<std::string>> captures_below(const std::string& folder) {
 
 Expected<ExitCode> run_judge(JudgeCommand& command) {
   Console console(command.output.quiet);
-  const ThreadLimit thread_limit(command.threads, console);
   command.options.raytrace.seed = command.seed;
   if (command.captures.empty() && command.suite.empty() && !command.parts.any)
     return fail(ErrorKind::usage, "judge: needs a capture (a file, or its parts as options)");

@@ -12,6 +12,7 @@
 #include "app/output_path.h"
 #include "compare/sweep/merge.h"
 #include "scene/files/path_status.h"
+#include "scene/one_line.h"
 
 namespace gnomon::app {
 
@@ -45,7 +46,7 @@ Expected<ExitCode> run_merge(const MergeCommand& command) {
                               merged->cells, merged->cells == 1 ? "" : "s", command.shards.size(),
                               command.shards.size() == 1 ? "" : "s"));
   if (!command.quiet)
-    for (const std::string& line : merged->page.headline.lines()) print_data(line + "\n");
+    for (const std::string& line : merged->page.headline.lines()) print_data(one_line(line) + "\n");
   return ExitCode::done;
 }
 

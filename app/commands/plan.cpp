@@ -299,7 +299,6 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
   files.reads(command.scene);
   files.writes("--json", command.json);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
-  const ThreadLimit thread_limit(command.threads, console);
   auto loaded = load(command.scene, files, console, 0, command.camera);
   if (!loaded) return fail(loaded.error());
   apply_picture_samples(command.samples, *loaded->scene);

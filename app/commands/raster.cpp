@@ -60,7 +60,6 @@ Expected<void> draw_whole(const Drawing& in, raster::RasterFrame& frame) {
 Expected<ExitCode> run_raster(RasterCommand& command) {
   const Stopwatch watch;
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads, console);
   auto files = check_files(command, "raster");
   if (!files) return fail(files.error());
   files->reads_shaders(command.shader_folder);

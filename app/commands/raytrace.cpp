@@ -67,7 +67,6 @@ Expected<ExitCode> draw_heatmap(const RaytraceCommand& command, const raytrace::
 Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   const Stopwatch watch;
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads, console);
   auto files = check_files(command, "raytrace");
   if (!files) return fail(files.error());
   if (command.heatmap && !command.json.empty())

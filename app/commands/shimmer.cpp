@@ -132,7 +132,6 @@ ExitCode judge_lights(const ShimmerCommand& command, const compare::Shimmer& fil
 Expected<ExitCode> run_shimmer(ShimmerCommand& command) {
   const Stopwatch total;
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads, console);
   auto files = check_files(command);
   if (!files) return fail(files.error());
   auto loaded = load(command.scene, *files, console, command.tessellate, command.camera, true);

@@ -25,6 +25,7 @@
 #include "raster/shader_folder.h"
 #include "scene/files/path_status.h"
 #include "scene/files/write_file.h"
+#include "scene/one_line.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
@@ -116,7 +117,7 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
 
 ExitCode announce(const SweepCommand& command, const compare::Headline& headline) {
   if (!command.quiet)
-    for (const std::string& line : headline.lines()) print_data(line + "\n");
+    for (const std::string& line : headline.lines()) print_data(one_line(line) + "\n");
   return headline.limit_met ? ExitCode::done : ExitCode::threshold_exceeded;
 }
 
@@ -169,7 +170,6 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   if (const auto fine = files.check(); !fine) return fail(fine.error());
   if (command.slurm_tasks) return run_on_slurm(command);
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads, console);
   auto plan = plan_of(command);
   if (!plan) return fail(plan.error());
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);

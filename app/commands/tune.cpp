@@ -220,7 +220,6 @@ Expected<RunFiles> check_files(const TuneCommand& command) {
 Expected<ExitCode> run_tune(TuneCommand& command) {
   const Stopwatch total;
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads, console);
   if (const auto checked = check_lists(command); !checked) return fail(checked.error());
   if (const auto fine = finish_metric(command.metric, command.goal.max_error); !fine)
     return fail(fine.error());

@@ -97,7 +97,6 @@ bool is_chosen(const VerifyCommand& command, int number) {
 
 Expected<ExitCode> run_verify(const VerifyCommand& command) {
   Console console(command.quiet);
-  const ThreadLimit thread_limit(command.threads, console);
   if (const auto writable = check_output_file(command.json); !writable) return fail(writable.error());
   const bool shows_table = !command.quiet && command.json != "-";
   if (shows_table) print_data(table_head(command.options.show_naive));

@@ -15,6 +15,7 @@
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/one_line.h"
+#include "scene/threads.h"
 
 namespace gnomon::app::grade {
 
@@ -293,11 +294,7 @@ Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& s
   const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
   const std::size_t jobs = options.jobs > 0 ? static_cast<std::size_t>(options.jobs) : processors;
   std::vector<std::future<void>> workers;
-  try {
-    while (workers.size() + 1 < std::min(students.size(), jobs))
-      workers.push_back(std::async(std::launch::async, work));
-  } catch (const std::system_error&) {  // no more can be started: those that there are do the work
-  }
+  while (workers.size() + 1 < std::min(students.size(), jobs)) workers.push_back(in_background(work));
   work();
   for (std::future<void>& worker : workers) worker.get();
   return Grades{std::move(*own), std::move(graded)};

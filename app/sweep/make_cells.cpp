@@ -8,6 +8,7 @@
 #include "app/interrupt.h"
 #include "compare/output_parts.h"
 #include "compare/sweep/cell_files.h"
+#include "scene/threads.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
@@ -75,7 +76,7 @@ class CellQueue {
 
   Expected<void> push(MadeCell cell) {
     if (cell.pictures) {
-      cell.written = std::async(std::launch::async, std::move(cell.pictures));
+      cell.written = in_background(std::move(cell.pictures));
       ++writing_;
     }
     cells_.push_back(std::move(cell));

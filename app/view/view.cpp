@@ -76,7 +76,6 @@ Expected<ViewState> first_state(const ViewOptions& options, const LoadedScene& l
 
 Expected<ExitCode> run_view(const ViewOptions& options) {
   Console console(options.quiet);
-  const ThreadLimit thread_limit(options.threads, console);
   RunFiles files;
   files.reads(options.scene);
   auto loaded = load(options.scene, files, console, options.tessellate, options.camera, true);

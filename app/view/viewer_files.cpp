@@ -16,6 +16,7 @@
 #include "scene/files/image_io.h"
 #include "scene/files/path_status.h"
 #include "scene/one_line.h"
+#include "scene/threads.h"
 
 namespace gnomon::app {
 
@@ -79,8 +80,7 @@ void Viewer::save_numbered(const std::string& start, const std::string& extensio
     if (!taken) return note(taken.error());
     if (!*taken) break;
   }
-  saving_ =
-      std::async(std::launch::async, [save = std::move(save), path = saving_path_] { return save(path); });
+  saving_ = in_background([save = std::move(save), path = saving_path_] { return save(path); });
 }
 
 /// "courtyard-labels".
@@ -168,7 +168,7 @@ void Viewer::find_best() {
 }
 
 void Viewer::look_after_job() {
-  if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+  if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout) {
     const Expected<void> saved = saving_.get();
     saved ? note("saved " + saving_path_ + saving_remark_) : note(saved.error());
   }

@@ -2,9 +2,12 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <cstdlib>
+
+#include "app/interrupt.h"
 
 namespace gnomon::app {
 
@@ -65,6 +68,19 @@ Window& window_of(GLFWwindow* window) {
   return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
+/// Xlib ends the process with exit code 1 where its connection is lost, after a handler that may end it otherwise. GLFW loads
+/// the library; on Wayland there is none.
+void end_in_words_without_display() {
+  using Handler = int (*)(void* display);
+  void* xlib = dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD);
+  if (xlib == nullptr) return;
+  if (const auto set = reinterpret_cast<Handler (*)(Handler)>(dlsym(xlib, "XSetIOErrorHandler")))
+    set([](void*) -> int {
+      const OutputGuard whole_outputs;
+      end_process(static_cast<int>(ErrorKind::graphics), "the display is gone, and the window with it");
+    });
+}
+
 }  // namespace
 
 Window::Library::~Library() {
@@ -74,6 +90,7 @@ Window::Library::~Library() {
 Expected<std::unique_ptr<Window>> Window::open(const std::string& title, ImageSize size) {
   choose_platform();
   if (glfwInit() != GLFW_TRUE) return cannot_open(library_reason());
+  end_in_words_without_display();
   std::unique_ptr<Window> window(new Window(std::make_unique<Library>()));
   ask_for_core_context();
   window->window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);

@@ -26,18 +26,45 @@ tl::unexpected<Error> picture_error(const std::string& file, const std::string& 
   return fail(std::move(error));
 }
 
-Expected<ChannelImage> read_picture(const Capture& capture, const std::string& file, const std::string& field,
-                                    bool of_pixels) {
+/// Of pixels: the picture has the capture's size.
+Expected<ImageSize> checked_size(const Capture& capture, const std::string& file, const std::string& field,
+                                 bool of_pixels) {
   const auto plain = is_plain_file(file);
   if (!plain) return picture_error(file, field, plain.error().reason);
   if (!*plain) return capture_error(capture, field, fmt::format("no such file (got {})", file));
+  const auto size = read_image_size(file);
+  if (size && of_pixels && *size != capture.size)
+    return picture_error(file, field,
+                         fmt::format("is of another size (got {} x {}, the capture says {} x {})",
+                                     size->width, size->height, capture.size.width, capture.size.height));
+  return size;
+}
+
+Expected<void> check_layer_sizes(const Capture& capture) {
+  int side = 0;
+  for (std::size_t i = 0; i < capture.map.size(); ++i) {
+    const std::string field = fmt::format("map[{}].depth", i);
+    const auto size = checked_size(capture, capture.map[i].depth, field, false);
+    if (!size) return fail(size.error());
+    if (size->width != size->height)
+      return capture_error(capture, field,
+                           fmt::format("is not square (got {} x {})", size->width, size->height));
+    if (side != 0 && side != size->width)
+      return capture_error(
+          capture, field,
+          fmt::format("is of another size than the layers before (got {}, they have {})", size->width, side));
+    side = size->width;
+  }
+  return {};
+}
+
+/// Whatever its size was when it was looked at first, a file that has changed since is refused.
+Expected<ChannelImage> read_picture(const Capture& capture, const std::string& file, const std::string& field,
+                                    bool of_pixels) {
+  const auto size = checked_size(capture, file, field, of_pixels);
+  if (!size) return fail(size.error());
   auto picture = read_channels(file);
-  if (!picture) return picture;
-  if (of_pixels && picture->size != capture.size)
-    return picture_error(
-        file, field,
-        fmt::format("is of another size (got {} x {}, the capture says {} x {})", picture->size.width,
-                    picture->size.height, capture.size.width, capture.size.height));
+  if (picture && picture->size != *size) return picture_error(file, field, "has changed while it was read");
   return picture;
 }
 
@@ -228,6 +255,19 @@ Expected<Channel> read_single_channel(const Capture& capture, const std::string&
   if (!picture) return fail(picture.error());
   size = picture->size;
   return single_channel(*picture, file, field, names);
+}
+
+Expected<void> check_picture_sizes(const Capture& capture) {
+  for (const auto& [field, file] :
+       {std::pair{"visibility", &capture.visibility}, std::pair{"shadowed", &capture.shadowed},
+        std::pair{"unshadowed", &capture.unshadowed}, std::pair{"position", &capture.position}}) {
+    if (file->empty()) continue;
+    if (const auto size = checked_size(capture, *file, field, true); !size) return fail(size.error());
+  }
+  if (capture.depth)
+    if (const auto size = checked_size(capture, capture.depth->file, "depth.file", true); !size)
+      return fail(size.error());
+  return check_layer_sizes(capture);
 }
 
 Expected<CapturedPictures> read_pictures(const Capture& capture) {

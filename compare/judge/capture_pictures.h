@@ -26,6 +26,10 @@ struct CapturedPictures {
   bool depth_is_distance = false;
 };
 
+/// By the headers of all pictures and layers that the capture names, before anything is decoded: they are there, pictures have
+/// the capture's size, and layers are square and of one size. Errors (bad input) name picture and field.
+Expected<void> check_picture_sizes(const Capture& capture);
+
 /// Errors (bad input) name picture and field: a file that is missing, of another size, with more channels
 /// than wanted, or with values that are not finite or not in their range.
 Expected<CapturedPictures> read_pictures(const Capture& capture);

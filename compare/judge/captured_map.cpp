@@ -140,11 +140,6 @@ Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored,
   if (!channel) return fail(channel.error());
   const auto wrong = [&](std::string reason) { return capture_error(capture, field, std::move(reason)); };
   raster::ShadowMap& map = out.map;
-  if (size.width != size.height)
-    return wrong(fmt::format("is not square (got {} x {})", size.width, size.height));
-  if (map.view.size != 0 && map.view.size != size.width)
-    return wrong(fmt::format("is of another size than the layers before (got {}, they have {})", size.width,
-                             map.view.size));
   const auto n = static_cast<std::size_t>(size.width);
   map.view.size = size.width;
   map.depth.resize(static_cast<std::size_t>(map.view.face_count) * n * n, 1.0f);

@@ -128,6 +128,7 @@ Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const W
     if (progress) progress(stage, done);
   };
   if (const auto sound = check_capture(capture); !sound) return fail(sound.error());
+  if (const auto sized = check_picture_sizes(capture); !sized) return fail(sized.error());
   const auto light = captured_light(capture, scene);
   if (!light) return fail(light.error());
   report("reading the capture", 0.0);

@@ -11,6 +11,7 @@
 #include "compare/report/sections.h"
 #include "compare/report/shell.h"
 #include "scene/files/write_file.h"
+#include "scene/one_line.h"
 
 namespace gnomon::compare {
 namespace {
@@ -63,9 +64,10 @@ class="n">{}</td><td>{}</td><td class="n">{}</td><td class="n">{}</td><td>{}</td
 }
 
 std::string judged_line(const JudgedRow& row, std::size_t width) {
-  if (!row.refused.empty()) return fmt::format("{:{}}  not judged: {}\n", row.name, width, row.refused);
-  if (row.compared == 0) return fmt::format("{:{}}  {}\n", row.name, width, no_figures);
-  return fmt::format("{:{}}  {:>8}  {:>8}  {:>7.3f}  {:8}  {}\n", row.name, width, percent(row.wrong),
+  const std::string name = one_line(row.name);
+  if (!row.refused.empty()) return fmt::format("{:{}}  not judged: {}\n", name, width, one_line(row.refused));
+  if (row.compared == 0) return fmt::format("{:{}}  {}\n", name, width, no_figures);
+  return fmt::format("{:{}}  {:>8}  {:>8}  {:>7.3f}  {:8}  {}\n", name, width, percent(row.wrong),
                      percent(row.mean_error), row.edge_pixels, row.ladder, row.labels);
 }
 
@@ -126,7 +128,7 @@ void JudgedSet::add_refused(const std::string& name, const std::string& why) {
 
 std::string judged_table(const JudgedSet& set) {
   std::size_t width = 8;
-  for (const JudgedRow& row : set.rows) width = std::max(width, row.name.size());
+  for (const JudgedRow& row : set.rows) width = std::max(width, one_line(row.name).size());
   std::string text = fmt::format("{:{}}  {:>8}  {:>8}  {:>7}  {:8}  {}\n", "capture", width, "wrong", "mean",
                                  "edge px", "ladder", "mostly");
   for (const JudgedRow* row : worst_first(set)) text += judged_line(*row, width);

@@ -8,10 +8,16 @@
 
 #include "compare/number_text.h"
 #include "scene/files/base64.h"
+#include "scene/one_line.h"
 
 namespace gnomon::compare {
 
-std::string escaped(std::string_view text) {
+std::string escaped(std::string_view raw) {
+  // Control characters first: one_line() would show them.
+  std::string text(raw);
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  text = one_line(text);
   std::string out;
   out.reserve(text.size());
   for (const char c : text) switch (c) {
@@ -31,7 +37,7 @@ std::string escaped(std::string_view text) {
         out += "&#39;";
         break;
       default:
-        out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+        out += c;
     }
   return out;
 }
@@ -87,13 +93,14 @@ std::string data_uri(std::string_view mime, std::string_view bytes) {
   return fmt::format("data:{};base64,{}", mime, base64(bytes));
 }
 
-void append_script_safe(std::string& html, std::string_view json) {
+void append_script_safe(std::string& html, std::string_view text) {
+  const std::string json = visible_order(text);
   std::size_t copied = 0;
-  for (std::size_t at = json.find('<'); at != std::string_view::npos; at = json.find('<', copied)) {
-    html.append(json.substr(copied, at - copied)).append("\\u003c");
+  for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', copied)) {
+    html.append(json, copied, at - copied).append("\\u003c");
     copied = at + 1;
   }
-  html.append(json.substr(copied));
+  html.append(json, copied);
 }
 
 std::string keyed(std::string_view key, double value, std::string_view text) {

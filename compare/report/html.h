@@ -10,14 +10,16 @@
 
 namespace gnomon::compare {
 
-/// Text for element content and quoted attributes. Control characters become spaces.
+/// Text for element content and quoted attributes. Control characters of ASCII become spaces; those of Unicode, and what is
+/// not UTF-8, escapes (scene/one_line.h).
 std::string escaped(std::string_view text);
 /// The same, with numbers held together with the word behind them ("4.1 %" and "8 x 8" do not break), and options whole.
 std::string flowing(std::string_view text);
 /// A file's name as a part of a relative address: "shot#1" -> "shot%231".
 std::string url_segment(std::string_view name);
 std::string data_uri(std::string_view mime, std::string_view bytes);
-/// Appends JSON text that may stand inside <script>: no '<' is left in it.
+/// Appends JSON text that may stand inside <script>: no '<' is left in it, and no character in its strings that changes the
+/// order in which they are shown.
 void append_script_safe(std::string& html, std::string_view json);
 
 /// <data value="0.041" data-key="lights.0.error.wrong_fraction">4.1 %</data>; `text` is escaped.

@@ -10,7 +10,8 @@
 namespace gnomon::compare {
 namespace {
 
-Expected<void> write_films(const FilmKeeper& films, const std::string& folder, FilmFormat format) {
+Expected<void> write_films(const FilmKeeper& films, const std::string& folder, FilmFormat format,
+                           double pixels) {
   for (std::size_t i = 0; i < films.lights().size(); ++i) {
     const FilmOfLight& film = films.lights()[i];
     for (const auto& [name, one] : {std::pair("drawn", &film.drawn), std::pair("truth", &film.truth),
@@ -20,7 +21,7 @@ Expected<void> write_films(const FilmKeeper& films, const std::string& folder, F
       const std::string base = fmt::format("{}/film-{}-{}", folder, i, name);
       if (const auto written = write_file(base + ".png", *bytes); !written) return written;
       if (format == FilmFormat::apng) continue;
-      if (const auto made = convert_to_mp4(base + ".png", base + ".mp4"); !made) return made;
+      if (const auto made = convert_to_mp4(base + ".png", base + ".mp4", pixels); !made) return made;
       if (const auto gone = remove_path(base + ".png"); !gone) return gone;
     }
   }
@@ -37,7 +38,10 @@ Expected<double> write_shimmer(const Shimmer& shimmer, const FilmKeeper& films, 
   auto staged = StagedFolder::open(output.folder);
   if (!staged) return fail(staged.error());
   const std::string& folder = staged->path();
-  if (const auto written = write_films(films, folder, output.film); !written) return fail(written.error());
+  const double pixels =
+      double(shimmer.options.time.frames) * double(shimmer.options.compare.raster.size.pixels());
+  if (const auto written = write_films(films, folder, output.film, pixels); !written)
+    return fail(written.error());
   for (const PageFile& file : page->files) {
     if (const auto made = make_output_folder(folder + "/" + file.name.substr(0, file.name.rfind('/'))); !made)
       return fail(made.error());

@@ -209,6 +209,12 @@ const Channel* ChannelImage::find(std::string_view name) const {
   return found == channels.end() ? nullptr : &*found;
 }
 
+Expected<ImageSize> read_image_size(const std::string& path) {
+  const auto library = image_library();
+  if (!library) return fail(library.error());
+  return (*library)->size(path, max_image_side);
+}
+
 Expected<ChannelImage> read_channels(const std::string& path) {
   const auto library = image_library();
   if (!library) return fail(library.error());

@@ -58,5 +58,7 @@ struct ChannelImage {
   const Channel* find(std::string_view name) const;  ///< nullptr when there is none
 };
 Expected<ChannelImage> read_channels(const std::string& path);
+/// What the header of an image file says; nothing is decoded.
+Expected<ImageSize> read_image_size(const std::string& path);
 
 }  // namespace gnomon

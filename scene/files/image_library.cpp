@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "scene/files/path_status.h"
+#include "scene/parallel.h"
+#include "scene/threads.h"
 
 namespace gnomon {
 namespace {
@@ -22,7 +24,25 @@ std::vector<std::string> module_paths() {
   return paths;
 }
 
+/// Libraries that come along start them while they are loaded, and end the process where they are refused (log4cplus).
+constexpr int threads_of_loading = 4;
+
+/// Besides, for OpenEXR.
+int threads_of_reading() {
+  return threads_in_use() > 1 ? threads_in_use() : 0;
+}
+
+Expected<void> check_threads() {
+  const int wanted = threads_of_loading + threads_of_reading(), startable = startable_threads(wanted);
+  if (startable == wanted) return {};
+  return fail(
+      ErrorKind::graphics,
+      fmt::format("the library for image files starts {} threads, and only {} more can be started ({})",
+                  wanted, startable, thread_limit_words));
+}
+
 Expected<const ImageLibrary*> load() {
+  if (const auto startable = check_threads(); !startable) return fail(startable.error());
   std::string why;
   for (const std::string& path : module_paths()) {
     const auto there = is_there(path);
@@ -33,7 +53,8 @@ Expected<const ImageLibrary*> load() {
     }
     void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // for good: it holds the library's own state
     void* symbol = module == nullptr ? nullptr : dlsym(module, "gnomon_image_library");
-    if (symbol != nullptr) return reinterpret_cast<const ImageLibrary* (*)()>(symbol)();
+    if (symbol != nullptr)
+      return reinterpret_cast<const ImageLibrary* (*)(int)>(symbol)(threads_of_reading());
     why += fmt::format("{}{}", why.empty() ? "" : "; ", dlerror());
   }
   return fail(ErrorKind::internal, fmt::format("cannot load the module for image files: {}", why));

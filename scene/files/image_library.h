@@ -47,6 +47,8 @@ class ExrRows {
 class ImageLibrary {
  public:
   virtual ~ImageLibrary() = default;
+  /// What the header of an image file says, of at most max_side pixels a side; nothing is decoded.
+  virtual Expected<ImageSize> size(const std::string& path, int max_side) const = 0;
   /// An image file of at most max_side pixels a side, or one in memory whose format is known ("png", ...).
   virtual Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as) const = 0;
   virtual Expected<DecodedImage> decode(const std::string& name, std::string_view bytes,
@@ -61,7 +63,8 @@ class ImageLibrary {
       std::span<const std::pair<std::string, std::string>> attributes) const = 0;
 };
 
-/// Loads the module the first time. Error: where it was looked for, and why it could not be loaded.
+/// Loads the module the first time. Errors: where it was looked for, and why it could not be loaded; too few threads can be
+/// started for it (graphics).
 Expected<const ImageLibrary*> image_library();
 
 }  // namespace gnomon

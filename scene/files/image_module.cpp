@@ -126,6 +126,12 @@ class OpenExrRows final : public ExrRows {
 
 class OpenImageIo final : public ImageLibrary {
  public:
+  Expected<ImageSize> size(const std::string& path, int max_side) const override {
+    const auto input = OIIO::ImageInput::open(path);
+    if (const auto sound = check_header(path, input.get(), max_side); !sound) return fail(sound.error());
+    return ImageSize{input->spec().width, input->spec().height};
+  }
+
   Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as) const override {
     const OIIO::ImageSpec hints = read_hints();
     const auto input = OIIO::ImageInput::open(path, &hints);
@@ -177,7 +183,10 @@ class OpenImageIo final : public ImageLibrary {
 }  // namespace
 }  // namespace gnomon
 
-extern "C" __attribute__((visibility("default"))) const gnomon::ImageLibrary* gnomon_image_library() {
+extern "C" __attribute__((visibility("default"))) const gnomon::ImageLibrary* gnomon_image_library(
+    int threads) {
+  OIIO::attribute("threads", std::max(1, threads));
+  OIIO::attribute("exr_threads", threads > 0 ? threads : -1);  // -1: OpenEXR works on the calling thread
   static const gnomon::OpenImageIo library;
   return &library;
 }

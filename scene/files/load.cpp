@@ -18,6 +18,7 @@
 #include "scene/files/read_file.h"
 #include "scene/files/sha256.h"
 #include "scene/files/validate.h"
+#include "scene/threads.h"
 
 namespace gnomon {
 namespace {
@@ -91,8 +92,8 @@ Expected<Scene> complete(Expected<LoadedFile> loaded, const std::string& path,
 /// On a thread of its own where that is worth one.
 std::future<std::string> hash_beside(std::string_view bytes) {
   constexpr std::size_t large = std::size_t{1} << 19;
-  return std::async(bytes.size() < large ? std::launch::deferred : std::launch::async | std::launch::deferred,
-                    sha256_hex, bytes);
+  const auto hash = [bytes] { return sha256_hex(bytes); };
+  return bytes.size() < large ? std::async(std::launch::deferred, hash) : in_background(hash);
 }
 
 Error unknown_name(const std::string& name) {

@@ -1,0 +1,39 @@
+// Threads that the system may refuse (a limit on processes, ulimit -u): how many there can be, and work that goes on
+// without one. Loops over all threads are those of scene/parallel.h.
+#pragma once
+
+#include <future>
+#include <utility>
+
+namespace gnomon {
+
+/// How many more threads the system lets this process start, up to `wanted`: they are started, and ended again.
+int startable_threads(int wanted);
+
+/// The words for an error: "`what` needs N more threads, and ...".
+inline constexpr const char* thread_limit_words = "a limit on processes, ulimit -u";
+
+/// While one lives, who starts a thread on this thread has something to do instead where it is refused.
+class RefusalIsHandled {
+ public:
+  RefusalIsHandled();
+  ~RefusalIsHandled();
+  RefusalIsHandled(const RefusalIsHandled&) = delete;
+  RefusalIsHandled& operator=(const RefusalIsHandled&) = delete;
+  /// Whether one lives on the calling thread.
+  static bool here();
+};
+
+/// Threads that were refused to somebody who had nothing else to do. They are counted by the program alone
+/// (app/thread_start.h); where a library is all that is used of Gnomon, 0.
+int refused_threads();
+void count_refused_thread();
+
+/// work() on a thread of its own, or, where none can be started, on the one that asks for its result.
+template <class Work>
+auto in_background(Work work) {
+  const RefusalIsHandled goes_on;
+  return std::async(std::launch::async | std::launch::deferred, std::move(work));
+}
+
+}  // namespace gnomon
