@@ -77,8 +77,10 @@ class GlRenderer final : public Renderer {
   Expected<void> time_camera(Job& job);
   Expected<void> time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
                               LightRecord& record);
-  Expected<void> warm_up_shading(const ShadePermutation& permutation);
-  Expected<void> warm_up_map(const MapJob& map, bool for_records);
+  /// Before what is kept and not timed: where the frame is timed always, else before the first of its kind.
+  Expected<void> warm_up_shading(const Job& job, const ShadePermutation& permutation);
+  Expected<void> warm_up_map(const Job& job, const MapJob& map, bool for_records);
+  Expected<void> draw_visibility(const View& view);
   Expected<void> read_shading(Job& job, const MapJob& map_job, LightRecord& record);
   /// The map of the last frame with records, as long as the device holds it.
   struct KeptMap {
@@ -120,6 +122,7 @@ class GlRenderer final : public Renderer {
   double upload_ms_;
   std::optional<KeptMap> kept_map_;
   /// What was drawn before and is kept, not timed: the driver has it ready.
+  bool warm_camera_ = false;
   std::set<ShadePermutation> warm_shadings_;
   std::set<WarmMap> warm_maps_;
 };

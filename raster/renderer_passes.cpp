@@ -104,7 +104,7 @@ Expected<std::vector<Vec3>> GlRenderer::visible_surfaces(Job& job, const Camera&
   const bool own = !map_camera_;
   const View view = own ? job.view : make_view(camera, job.options.size);
   if (!own) shading_.set_camera(buffers_, view);
-  if (auto ok = shading_.draw_visibility(buffers_, view); !ok) return fail(ok.error());
+  if (auto ok = draw_visibility(view); !ok) return fail(ok.error());
   std::vector<Vec3> visible = shading_.read_positions(*world_, view);
   if (!own) shading_.set_camera(buffers_, job.view);
   job.visibility_drawn = own;
@@ -159,7 +159,7 @@ Expected<void> GlRenderer::draw_map(const MapJob& map, bool for_records) {
 Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightRecord* record) {
   const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
   if (replaced && !job.visibility_drawn && !shows(job)) {
-    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+    if (auto ok = draw_visibility(job.view); !ok) return ok;
     job.visibility_drawn = true;
   }
   const bool timed =
@@ -178,7 +178,7 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
   }
   const bool for_records = record != nullptr && hands_on_map(job.options);
   if (!timed || (for_records && draws_map_for_records(map.options.technique))) {
-    if (auto ok = warm_up_map(map, for_records); !ok) return ok;
+    if (auto ok = warm_up_map(job, map, for_records); !ok) return ok;
     const TimedStage drawing("map");
     if (auto ok = timed ? map_pass_.draw(buffers_, map.view, map.options.cull) : draw_map(map, for_records);
         !ok)
@@ -203,7 +203,14 @@ bool GlRenderer::shows(const Job& job) const {
   return gl_->shader_folder().replaced().empty() && shading_.shows(buffers_, job.view);
 }
 
-Expected<void> GlRenderer::warm_up_map(const MapJob& map, bool for_records) {
+Expected<void> GlRenderer::draw_visibility(const View& view) {
+  const Pass pass = [&] { return shading_.draw_visibility(buffers_, view); };
+  if (!std::exchange(warm_camera_, true))
+    if (auto ok = warm_up(pass); !ok) return ok;
+  return pass();
+}
+
+Expected<void> GlRenderer::warm_up_map(const Job& job, const MapJob& map, bool for_records) {
   const FilterOptions& filter = map.options.filter;
   const WarmMap key{map.options.technique,
                     map.light.type,
@@ -212,12 +219,13 @@ Expected<void> GlRenderer::warm_up_map(const MapJob& map, bool for_records) {
                     filter.blur_radius_texels > 0,
                     filter.mipmaps,
                     for_records};
-  return warm_maps_.insert(key).second ? warm_up([&] { return draw_map(map, for_records); })
+  const bool first = warm_maps_.insert(key).second;
+  return first || job.options.runs > 0 ? warm_up([&] { return draw_map(map, for_records); })
                                        : Expected<void>{};
 }
 
-Expected<void> GlRenderer::warm_up_shading(const ShadePermutation& permutation) {
-  if (!warm_shadings_.insert(permutation).second) return {};
+Expected<void> GlRenderer::warm_up_shading(const Job& job, const ShadePermutation& permutation) {
+  if (!warm_shadings_.insert(permutation).second && job.options.runs == 0) return {};
   return warm_up([&] { return shading_.draw_light(buffers_, permutation, false); });
 }
 
@@ -287,13 +295,13 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
   if (record != nullptr)
     if (auto ok = time_shading(job, map_job, asked, *record); !ok) return ok;
   if (!job.visibility_drawn && !shows(job))
-    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+    if (auto ok = draw_visibility(job.view); !ok) return ok;
   job.visibility_drawn = true;
   if (asked != nullptr && (record == nullptr || job.options.runs == 0)) {
     if (auto ok = find_external(asked); !ok) return ok;
   }
   const ShadePermutation kept = shade_permutation(map_job.light, map, job.first_light, records);
-  if (auto ok = warm_up_shading(kept); !ok) return ok;
+  if (auto ok = warm_up_shading(job, kept); !ok) return ok;
   TimedStage shading(records ? "shading with records" : "shading");
   if (auto ok = shading_.draw_light(buffers_, kept, false); !ok) return ok;
   (*gl_)->Finish();
@@ -324,10 +332,11 @@ std::size_t GlRenderer::most_pixels(const MapOptions& map) const {
 
 Expected<void> GlRenderer::shade_without_light(Job& job) {
   if (!job.goes_on)
-    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+    if (auto ok = draw_visibility(job.view); !ok) return ok;
   ShadePermutation permutation;
   permutation.no_light = true;
   permutation.first_light = true;
+  if (auto ok = warm_up_shading(job, permutation); !ok) return ok;
   if (auto ok = shading_.draw_light(buffers_, permutation, false); !ok) return ok;
   return gl_->check("shading");
 }
