@@ -69,6 +69,28 @@ std::string milliseconds(double ms) {
   return seconds < first_of_four_digits ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.0f} s", seconds);
 }
 
+namespace {
+
+// "4.9 to 8.2 ms", "0 to 30 ms", "900 ms to 1.2 s".
+std::string milliseconds_between(double low, double high) {
+  std::string from = low > 0.0 ? milliseconds(low) : "0", to = milliseconds(high);
+  const std::string unit = to.substr(to.find(' '));
+  if (from.ends_with(unit)) from.resize(from.size() - unit.size());
+  return from + " to " + to;
+}
+
+}  // namespace
+
+std::string milliseconds(const TimeDifference& difference) {
+  if (!difference.timed()) return "not timed";
+  const std::string between = milliseconds_between(difference.low, difference.high);
+  if (!difference.told) return between;
+  const std::string middle = milliseconds(difference.median);
+  return middle == milliseconds(difference.low) && middle == milliseconds(difference.high)
+             ? middle
+             : fmt::format("{} ({})", middle, between);
+}
+
 std::string byte_count(std::uint64_t bytes) {
   constexpr std::array<const char*, 5> units{"bytes", "kB", "MB", "GB", "TB"};
   double value = static_cast<double>(bytes);

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "scene/time_difference.h"
+
 namespace gnomon::compare {
 
 /// 1086177 -> "1,086,177".
@@ -25,6 +27,8 @@ std::string unsigned_number(double value);
 std::string texels_text(double texels);
 /// "12 ms", "0.42 ms", "1.9 s", "3723 s"; "not timed" for a negative value.
 std::string milliseconds(double ms);
+/// "7.1 ms (4.9 to 8.2 ms)"; where the runs do not tell it from nothing, the interval alone: "0 to 30 ms".
+std::string milliseconds(const TimeDifference& difference);
 /// "16.8 MB" (powers of ten).
 std::string byte_count(std::uint64_t bytes);
 

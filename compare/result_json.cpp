@@ -98,7 +98,10 @@ Json judged_json(const Judged& j) {
 // How often passes were timed.
 Json timing_json(const Comparison& c) {
   const auto side = [](int runs, double enough_ms, bool warm_up) {
-    return Json{{"most_runs", runs}, {"enough_ms", number(enough_ms)}, {"warm_up", warm_up}};
+    return Json{{"most_runs", runs},
+                {"enough_ms", number(enough_ms)},
+                {"subtracted_runs", std::min(runs, subtracted_runs)},
+                {"warm_up", warm_up}};
   };
   const raster::RasterOptions& drawn = c.raster.options;
   const raytrace::RaytraceOptions& traced = c.raytraced.options;

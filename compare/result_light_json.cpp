@@ -340,7 +340,7 @@ Json light_times_json(const Comparison& c, const LightComparison& light) {
             {"first_map", drawn.first_map_ms > 0.0 ? one_time_json(drawn.first_map_ms) : times_json({})},
             {"shade_pass", times_json(drawn.shade_pass)},
             {"unshadowed_pass", times_json(drawn.unshadowed_pass)},
-            {"shadow_lookups", times_json(shadow_lookups(drawn))},
+            {"shadow_lookups", difference_json(shadow_lookups(drawn))},
             {"shadow_rays", times_json(truth.shadow_rays)},
             {"light_structure", times_json(truth.light_structure)},
             {"exact_shadows", times_json(truth.exact_times())},

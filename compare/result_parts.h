@@ -6,6 +6,7 @@
 
 #include "compare/by_cascade.h"
 #include "compare/comparison.h"
+#include "scene/time_difference.h"
 
 namespace gnomon::compare {
 
@@ -21,6 +22,14 @@ inline Json times_json(const Times& t) {
   Json runs = Json::array();
   for (const double run : t.runs) runs.push_back(number(run));
   return {{"median", t.runs.empty() ? Json(nullptr) : number(t.median())}, {"runs", std::move(runs)}};
+}
+
+/// {median, low, high, runs[]}; the first three of no runs are null.
+inline Json difference_json(const TimeDifference& d) {
+  const auto known = [&d](double ms) { return d.timed() ? number(ms) : Json(nullptr); };
+  Json json = times_json(d.pairs);
+  json["median"] = known(d.median), json["low"] = known(d.low), json["high"] = known(d.high);
+  return json;
 }
 
 inline Json one_time_json(double ms) {

@@ -5,23 +5,20 @@
 #include "raster/technique_traits.h"
 
 namespace gnomon::compare {
-namespace {
 
-Times difference(const Times& of, const Times& part) {
-  Times out;
-  for (std::size_t i = 0; i < std::min(of.runs.size(), part.runs.size()); ++i)
-    out.runs.push_back(of.runs[i] - part.runs[i]);
-  return out;
+TimeDifference shadow_lookups(const raster::LightRecord& drawn) {
+  return beyond_part(drawn.shade_pass, drawn.unshadowed_pass);
 }
 
-}  // namespace
-
-Times shadow_lookups(const raster::LightRecord& drawn) {
-  return difference(drawn.shade_pass, drawn.unshadowed_pass);
+TimeDifference map_and_lookups(const raster::LightRecord& drawn) {
+  TimeDifference sum = shadow_lookups(drawn);
+  if (sum.timed()) sum += drawn.map_pass.median();
+  return sum;
 }
 
 Times standing_rays(const raytrace::LightTruth& truth) {
-  return truth.is_soft() ? truth.soft_shadow_rays : difference(truth.shadow_rays, truth.light_structure);
+  return truth.is_soft() ? truth.soft_shadow_rays
+                         : beyond_part(truth.shadow_rays, truth.light_structure).pairs;
 }
 
 bool is_software(const raster::ContextInfo& context) {

@@ -3,12 +3,15 @@
 #pragma once
 
 #include "compare/comparison.h"
+#include "scene/time_difference.h"
 
 namespace gnomon::compare {
 
-/// What shading took beyond the same shading without shadows, run by run (ms); below 0 where the difference
-/// is lost in the spread of the times. Empty where RasterOptions::shadow_cost did not ask for it.
-Times shadow_lookups(const raster::LightRecord& drawn);
+/// What shading takes beyond the same shading without shadows. Not timed where RasterOptions::shadow_cost did not ask for
+/// it.
+TimeDifference shadow_lookups(const raster::LightRecord& drawn);
+/// What a frame's shadows take in which something has moved: the map and its lookups.
+TimeDifference map_and_lookups(const raster::LightRecord& drawn);
 /// The exact shadow of a light whose structure stands, run by run (ms): all but LightTruth::light_structure.
 Times standing_rays(const raytrace::LightTruth& truth);
 

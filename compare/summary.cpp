@@ -198,10 +198,10 @@ std::string exact_shadows_line(const raytrace::LightTruth& truth) {
 }
 
 // What is left of the shading when the picture without shadows is taken from it.
-std::string lookups_text(const Times& lookups) {
-  if (lookups.runs.empty()) return "lookups not timed";
-  if (!(lookups.median() > 0.0)) return "lookups too short to be told from the rest of the shading";
-  return median_text(lookups) + " to look it up";
+std::string lookups_text(const TimeDifference& lookups, bool hybrid) {
+  if (!lookups.timed()) return "lookups not timed";
+  return milliseconds(lookups) + (hybrid ? " for the rest" : " to look it up") +
+         (lookups.told ? "" : ", which these runs do not tell from nothing");
 }
 
 // The shadows' part of a frame on both sides, and of one in which nothing that the light sees has moved.
@@ -209,15 +209,13 @@ void add_shadow_cost(Page& page, const Comparison& c, const LightComparison& lig
   const raster::LightRecord& drawn = drawn_record(c, light);
   const raytrace::LightTruth& truth = true_record(c, light);
   if (drawn.unshadowed_pass.runs.empty()) return;
-  const Times lookups = shadow_lookups(drawn);
+  const TimeDifference lookups = shadow_lookups(drawn);
   const bool hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
   page.field("shadows", fmt::format("without the picture: {} for the {}, {}; by rays {}, with nothing made "
                                     "for the light",
                                     median_text(drawn.map_pass), hybrid ? "sheets" : "map",
-                                    hybrid ? median_text(lookups) + " for the rest" : lookups_text(lookups),
-                                    median_text(standing_rays(truth))));
-  page.field("", fmt::format("where light and casters stand still: {} against {}",
-                             lookups.median() > 0.0 ? median_text(lookups) : "next to nothing",
+                                    lookups_text(lookups, hybrid), median_text(standing_rays(truth))));
+  page.field("", fmt::format("where light and casters stand still: {} against {}", milliseconds(lookups),
                              median_text(standing_rays(truth))));
   page.field("picture",
              fmt::format("without shadows: {} to shade it, {} for primary rays",

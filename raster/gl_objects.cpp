@@ -142,6 +142,11 @@ void Framebuffer::draw_to(int count) {
   gl()->NamedFramebufferDrawBuffers(id(), count, all.data());
 }
 
+void Framebuffer::clear_color(int attachment) const {
+  const glm::vec4 zero(0.0f);
+  gl()->ClearNamedFramebufferfv(id(), GL_COLOR, attachment, &zero.x);
+}
+
 Expected<void> Framebuffer::check_complete() const {
   const GLenum status = gl()->CheckNamedFramebufferStatus(id(), GL_DRAW_FRAMEBUFFER);
   if (status == GL_FRAMEBUFFER_COMPLETE) return {};

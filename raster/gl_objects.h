@@ -130,6 +130,9 @@ class Framebuffer : public GlObject<GlKind::framebuffer> {
   /// The color attachments 0 ... count-1 are drawn to.
   void draw_to(int count);
   Expected<void> check_complete() const;
+  /// Fills a colour attachment with zeros. Memory that was asked for is there when it is first written: whoever times
+  /// what is drawn next does this before.
+  void clear_color(int attachment = 0) const;
 };
 
 class VertexArray : public GlObject<GlKind::vertex_array> {

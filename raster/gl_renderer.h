@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 
 #include "raster/bands.h"
 #include "raster/depth_map_pass.h"
@@ -63,22 +64,30 @@ class GlRenderer final : public Renderer {
                        LightRecord* record);
   Expected<void> shade_without_light(Job& job);
   using Pass = std::function<Expected<void>()>;
-  /// The warm-up, then as many runs of `pass` as the options ask for; each adds to `times` itself. `repeats`:
-  /// the stage that all of it is charged to, for only frames that are kept count as made.
-  Expected<void> repeat(std::string_view repeats, const RasterOptions& options, const Times& times,
-                        const Pass& warm_up, const Pass& pass);
+  /// Draws the pass in small, so that whatever the driver makes of its programs for their state is made, and charged
+  /// to a stage of its own.
+  Expected<void> warm_up(const Pass& pass);
+  /// As many runs of `pass`, warm already, as the options ask for, and at least `least` of these; each adds to `times`
+  /// itself. `repeats`: the stage that all of it is charged to, for only frames that are kept count as made.
+  Expected<void> repeat(std::string_view repeats, const RasterOptions& options, const Times& times, int least,
+                        const Pass& pass);
   /// The same with each run timed from an idle device to an idle device.
   Expected<void> time_pass(std::string_view repeats, const RasterOptions& options, Times& times,
-                           const Pass& warm_up, const Pass& pass);
+                           const Pass& pass);
+  Expected<void> time_camera(Job& job);
   Expected<void> time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
                               LightRecord& record);
+  /// The same of RasterOptions::timed_as_judged.
+  Expected<void> time_shading_as_judged(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
+                                        LightRecord& record);
   /// Milliseconds of one drawing, the mean of many, each of which is held to the others.
   Expected<double> time_as_judged(Job& job, const ShadePermutation& judged, const VisibilityRequest* asked);
   /// Of what was just timed, to be held to the others and to what is kept.
   void keep_timed_visibility(Job& job) const;
-  /// camera: what it sees will be drawn by the runs, too.
-  Expected<void> warm_up_shading(const Job& job, bool camera, const VisibilityRequest* asked,
-                                 std::initializer_list<ShadePermutation> permutations);
+  /// Before what is kept and not timed: where the frame is timed always, else before the first of its kind.
+  Expected<void> warm_up_shading(const Job& job, const ShadePermutation& permutation);
+  Expected<void> warm_up_map(const Job& job, const MapJob& map, bool for_records);
+  Expected<void> draw_visibility(const View& view);
   Expected<void> read_shading(Job& job, const MapJob& map_job, LightRecord& record);
   /// The map of the last frame with records, as long as the device holds it.
   struct KeptMap {
@@ -90,6 +99,15 @@ class GlRenderer final : public Renderer {
     double first_map_ms;
   };
   bool take_kept_map(const Job& job, const Light& light, LightRecord& record) const;
+  /// What the programs of a map hang on, and the state that they are used in.
+  struct WarmMap {
+    Technique technique;
+    LightType light;
+    DepthFormat format;
+    Cull cull;
+    bool blur, mipmaps, for_records;
+    auto operator<=>(const WarmMap&) const = default;
+  };
   void keep_map(const Job& job, const Light& light, const LightRecord& record);
   void restore_state() const;
 
@@ -110,7 +128,10 @@ class GlRenderer final : public Renderer {
   std::map<std::uint32_t, LightView> fitted_;  ///< by light, to what the whole of a picture in bands shows
   double upload_ms_;
   std::optional<KeptMap> kept_map_;
-  std::optional<ShadePermutation> last_timed_;  ///< of the shading pass
+  /// What was drawn before and is kept, not timed: the driver has it ready.
+  bool warm_camera_ = false;
+  std::set<ShadePermutation> warm_shadings_;
+  std::set<WarmMap> warm_maps_;
 };
 
 struct GlRenderer::Job {

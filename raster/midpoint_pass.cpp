@@ -19,6 +19,7 @@ Expected<void> MidpointPass::prepare(const MapJob& job) {
     face.attach(GL_COLOR_ATTACHMENT0, middle_, i);
     face.draw_to(1);
     if (auto ok = face.check_complete(); !ok) return ok;
+    face.clear_color();
   }
   faces_ = std::move(faces);
   return {};
@@ -46,6 +47,8 @@ Expected<void> MidpointPass::draw(const MapJob& job) {
   second_.bind(shaders::second_layer_unit);
   gl->Disable(GL_DEPTH_TEST);
   gl->Disable(GL_CULL_FACE);
+  const ImageSize drawn = job.world.drawn_part(middle_.size());
+  gl->Viewport(0, 0, drawn.width, drawn.height);
   for (int face = 0; face < job.view.face_count; ++face) {
     gl->BindFramebuffer(GL_FRAMEBUFFER, faces_[static_cast<std::size_t>(face)].id());
     gl->ProgramUniform1i((*program_of_view)->id(), shaders::face_uniform, face);

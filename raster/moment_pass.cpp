@@ -64,21 +64,23 @@ Expected<void> MomentPass::prepare(const MapJob& job) {
   row_target_ = Framebuffer(gl);
   row_target_.attach(GL_COLOR_ATTACHMENT0, row_means_, 0);
   row_target_.draw_to(1);
+  row_target_.clear_color();
   std::vector<Framebuffer> faces;
   for (int face = 0; face < job.view.face_count; ++face) {
     faces.emplace_back(gl);
     faces.back().attach(GL_COLOR_ATTACHMENT0, moments_, face);
     faces.back().draw_to(1);
     if (auto ok = faces.back().check_complete(); !ok) return ok;
+    faces.back().clear_color();
   }
   faces_ = std::move(faces);
   return gl.check(what);
 }
 
-void MomentPass::set_state(int side) const {
+void MomentPass::set_state(ImageSize drawn) const {
   const Gl& gl = *gl_;
   gl->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  gl->Viewport(0, 0, side, side);
+  gl->Viewport(0, 0, drawn.width, drawn.height);
   gl->Disable(GL_DEPTH_TEST);
   gl->Disable(GL_CULL_FACE);
   gl->Disable(GL_SCISSOR_TEST);
@@ -91,7 +93,7 @@ Expected<void> MomentPass::draw(const MapJob& job) {
   if (!convert) return fail(convert.error());
   const auto blur_program = programs_->fullscreen("blur.frag", {});
   if (!blur_program) return fail(blur_program.error());
-  set_state(moments_.size().width);
+  set_state(job.world.drawn_part(moments_.size()));
   job.world.bind();
   job.map.bind_for_lookup();
   (*convert)->use();

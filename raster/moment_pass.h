@@ -25,7 +25,7 @@ class MomentPass final : public TechniquePass {
 
  private:
   static const int unit;
-  void set_state(int side) const;
+  void set_state(ImageSize drawn) const;
   void blur(const Program& program, int radius);
 
   Gl* gl_;

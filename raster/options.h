@@ -144,8 +144,8 @@ Expected<void> check_map_options(const MapOptions& options);
 struct RasterOptions {
   ImageSize size{1280, 720};
   MapOptions map;
-  /// Timed repetitions of each pass, at most, after a warm-up, which shades a corner of the picture, and nothing where
-  /// the frame before was shaded by the same program; 0: render once, untimed. What the camera sees is the same for all
+  /// Timed repetitions of each pass, at most, after a warm-up, which draws the same with few triangles and into a corner
+  /// of its images; 0: render once, untimed. What the camera sees is the same for all
   /// lights, maps and techniques: it is timed `runs` times for a view, and at least usual_runs times; from then on its
   /// median is part of each time of shading. A frame with records takes the map of the last frame with records where it has
   /// the same bits: bias, size and camera may differ, but not the point that depths are rounded from. A frame that hands its
@@ -153,7 +153,7 @@ struct RasterOptions {
   /// timed takes the map as well.
   int runs = usual_runs;
   double enough_ms = never_enough_ms;  ///< no further run of a pass once those made took so long together
-  /// Time the shading without shadows, too (LightRecord::unshadowed_pass): as many runs again.
+  /// Time the shading without shadows, too (LightRecord::unshadowed_pass), in turn; of each subtracted_runs at least.
   bool shadow_cost = false;
   /// analysis: the very program that draws the records is timed (in software in processor time, that of its threads
   /// included; a run is the mean of so many drawings as take 100 ms), and every drawing has to give the same visibility,

@@ -13,8 +13,10 @@
 #include "scene/stages.h"
 
 namespace gnomon::raster {
-
 namespace {
+
+/// In the time budget, what the driver makes of programs when they are first drawn with.
+constexpr std::string_view translation_stage = "driver translation";
 
 /// Of the wall, or of the processor.
 class PassClock {
@@ -66,20 +68,29 @@ std::uint64_t texels_of(const LightView& view) {
   return static_cast<std::uint64_t>(view.face_count) * side * side;
 }
 
-Expected<void> GlRenderer::repeat(std::string_view repeats, const RasterOptions& options, const Times& times,
-                                  const Pass& warm_up, const Pass& pass) {
-  if (options.runs == 0) return {};
-  const TimedStage stage(repeats, TimedStage::Inner::included);
-  if (auto ok = warm_up(); !ok) return ok;
+// Twice: llvmpipe translates a program once more where earlier draw calls left other samplers in the places that its
+// buffer textures have none for. After one turn those are the pass's own.
+Expected<void> GlRenderer::warm_up(const Pass& pass) {
+  const TimedStage stage(translation_stage);
+  const SmallDrawing little(buffers_);
+  for (int turn = 0; turn < 2; ++turn)
+    if (auto ok = pass(); !ok) return ok;
   (*gl_)->Finish();
-  while (times_again(times, options.runs, options.enough_ms))
+  return {};
+}
+
+Expected<void> GlRenderer::repeat(std::string_view repeats, const RasterOptions& options, const Times& times,
+                                  int least, const Pass& pass) {
+  const TimedStage stage(repeats, TimedStage::Inner::included);
+  (*gl_)->Finish();
+  while (times_again(times, options.runs, options.enough_ms, least))
     if (auto ok = pass(); !ok) return ok;
   return {};
 }
 
 Expected<void> GlRenderer::time_pass(std::string_view repeats, const RasterOptions& options, Times& times,
-                                     const Pass& warm_up, const Pass& pass) {
-  return repeat(repeats, options, times, warm_up, [&] {
+                                     const Pass& pass) {
+  return repeat(repeats, options, times, 1, [&] {
     Expected<void> result;
     time_run(times, [&] {
       result = pass();
@@ -93,10 +104,14 @@ Expected<void> GlRenderer::time_pass(std::string_view repeats, const RasterOptio
 Expected<void> GlRenderer::prepare_external(Job& job, const VisibilityRequest& request, LightRecord* record) {
   if (auto ok = external_.check(); !ok) return ok;
   job.frame.map_texels += texels_of(request.map);
-  if (record != nullptr && !job.goes_on) {
-    const Pass warm_up = [&] { return external_.prepare(request, false); };
+  if (record != nullptr && !job.goes_on && job.options.runs > 0) {
+    constexpr std::string_view stage = "sheet runs";
+    {
+      const TimedStage first(stage, TimedStage::Inner::included);
+      if (auto ok = external_.prepare(request, false); !ok) return ok;
+    }
     const Pass pass = [&] { return external_.prepare(request, true); };
-    if (auto ok = time_pass("sheet runs", job.options, record->map_pass, warm_up, pass); !ok) return ok;
+    if (auto ok = time_pass(stage, job.options, record->map_pass, pass); !ok) return ok;
   }
   const TimedStage stage("sheets");
   return external_.prepare(request, false);
@@ -108,7 +123,7 @@ Expected<std::vector<Vec3>> GlRenderer::visible_surfaces(Job& job, const Camera&
   const bool own = !map_camera_;
   const View view = own ? job.view : make_view(camera, job.options.size);
   if (!own) shading_.set_camera(buffers_, view);
-  if (auto ok = shading_.draw_visibility(buffers_, view); !ok) return fail(ok.error());
+  if (auto ok = draw_visibility(view); !ok) return fail(ok.error());
   std::vector<Vec3> visible = shading_.read_positions(*world_, view);
   if (!own) shading_.set_camera(buffers_, job.view);
   job.visibility_drawn = own;
@@ -163,31 +178,28 @@ Expected<void> GlRenderer::draw_map(const MapJob& map, bool for_records) {
 Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightRecord* record) {
   const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
   if (replaced && !job.visibility_drawn && !shows(job)) {
-    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+    if (auto ok = draw_visibility(job.view); !ok) return ok;
     job.visibility_drawn = true;
   }
-  if (record != nullptr && !job.goes_on && map.options.technique != Technique::hybrid) {
+  const bool timed =
+      record != nullptr && !job.goes_on && job.options.runs > 0 && map.options.technique != Technique::hybrid;
+  if (timed) {
     const Pass pass = [&]() -> Expected<void> {
       if (fits_to_samples(map.options)) {
         if (auto fitted = fit(job, map.light, map.options); !fitted) return fail(fitted.error());
       }
       return draw_map(map, false);
     };
-    const Pass warm_up = [&]() -> Expected<void> {
-      const FewTriangles few(buffers_);
-      auto done = draw_map(map, false);
-      (*gl_)->Finish();
-      record->first_map_ms = job.map_started.elapsed_ms();
-      return done;
-    };
-    if (auto ok = time_pass("map runs", job.options, record->map_pass, warm_up, pass); !ok) return ok;
-    if (!record->map_pass.runs.empty()) record->first_map_ms += record->map_pass.runs.front();
+    if (auto ok = warm_up([&] { return draw_map(map, false); }); !ok) return ok;
+    record->first_map_ms = job.map_started.elapsed_ms();
+    if (auto ok = time_pass("map runs", job.options, record->map_pass, pass); !ok) return ok;
+    record->first_map_ms += record->map_pass.runs.front();
   }
   const bool for_records = record != nullptr && hands_on_map(job.options);
-  const bool drawn = record != nullptr && !job.goes_on && !record->map_pass.runs.empty();
-  if (!drawn || (for_records && draws_map_for_records(map.options.technique))) {
+  if (!timed || (for_records && draws_map_for_records(map.options.technique))) {
+    if (auto ok = warm_up_map(job, map, for_records); !ok) return ok;
     const TimedStage drawing("map");
-    if (auto ok = drawn ? map_pass_.draw(buffers_, map.view, map.options.cull) : draw_map(map, for_records);
+    if (auto ok = timed ? map_pass_.draw(buffers_, map.view, map.options.cull) : draw_map(map, for_records);
         !ok)
       return ok;
     (*gl_)->Finish();
@@ -210,21 +222,30 @@ bool GlRenderer::shows(const Job& job) const {
   return gl_->shader_folder().replaced().empty() && shading_.shows(buffers_, job.view);
 }
 
-Expected<void> GlRenderer::warm_up_shading(const Job& job, bool camera, const VisibilityRequest* asked,
-                                           std::initializer_list<ShadePermutation> permutations) {
-  if (job.goes_on) return {};
-  if (asked != nullptr) {
-    if (!shows(job))
-      if (auto seen = shading_.draw_visibility(buffers_, job.view); !seen) return seen;
-    if (auto found = find_external(asked); !found) return found;
-  }
-  for (const ShadePermutation& permutation : permutations) {
-    if (last_timed_ == permutation) continue;
-    const bool with_camera = camera && asked == nullptr;
-    if (auto ok = shading_.warm_up(buffers_, job.view, permutation, !job.first_light, with_camera); !ok)
-      return ok;
-  }
-  return {};
+Expected<void> GlRenderer::draw_visibility(const View& view) {
+  const Pass pass = [&] { return shading_.draw_visibility(buffers_, view); };
+  if (!std::exchange(warm_camera_, true))
+    if (auto ok = warm_up(pass); !ok) return ok;
+  return pass();
+}
+
+Expected<void> GlRenderer::warm_up_map(const Job& job, const MapJob& map, bool for_records) {
+  const FilterOptions& filter = map.options.filter;
+  const WarmMap key{map.options.technique,
+                    map.light.type,
+                    map.options.depth_format,
+                    map.options.cull,
+                    filter.blur_radius_texels > 0,
+                    filter.mipmaps,
+                    for_records};
+  const bool first = warm_maps_.insert(key).second;
+  return first || job.options.runs > 0 ? warm_up([&] { return draw_map(map, for_records); })
+                                       : Expected<void>{};
+}
+
+Expected<void> GlRenderer::warm_up_shading(const Job& job, const ShadePermutation& permutation) {
+  if (!warm_shadings_.insert(permutation).second && job.options.runs == 0) return {};
+  return warm_up([&] { return shading_.draw_light(buffers_, permutation, false); });
 }
 
 // What the program's own shaders draw is the same every time.
@@ -262,56 +283,82 @@ Expected<double> GlRenderer::time_as_judged(Job& job, const ShadePermutation& ju
   return sum_ms / drawings;
 }
 
-/// Each run draws what the camera sees, its shadows, and where RasterOptions::shadow_cost asks for it the same
-/// picture once more without them, so that both have the same moments of the machine. What the camera sees is the same
-/// for all lights, maps and techniques: once it was timed often enough, its median stands for it.
-Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
-                                        LightRecord& record) {
-  const RasterOptions& options = job.options;
-  const bool as_judged = options.timed_as_judged && options.analysis;
-  const ShadePermutation timed =
-      shade_permutation(map_job.light, map_job.options, job.first_light, as_judged);
-  const ShadePermutation plain = unshadowed(timed);
-  Times& camera = shading_.times(buffers_, job.view);
-  const bool enough = !times_again(camera, std::max(options.runs, usual_runs), options.enough_ms);
-  const bool sees = !job.goes_on && (as_judged || !(enough && shows(job)));
-  const Pass pass = [&]() -> Expected<void> {
-    double seen_ms = job.goes_on ? 0.0 : camera.median();
-    if (sees) {
-      const Stopwatch watch;
+Expected<void> GlRenderer::time_shading_as_judged(Job& job, const MapJob& map_job,
+                                                  const VisibilityRequest* asked, LightRecord& record) {
+  const ShadePermutation judged = shade_permutation(map_job.light, map_job.options, job.first_light, true);
+  const Pass once = [&]() -> Expected<void> {
+    if (!job.goes_on)
       if (auto seen = shading_.draw_visibility(buffers_, job.view); !seen) return seen;
-      (*gl_)->Finish();
-      seen_ms = watch.elapsed_ms();
-      camera.runs.push_back(seen_ms);
-    }
-    const Stopwatch shadowed;
-    if (auto found = find_external(asked); !found) return found;
-    if (auto drawn = shading_.draw_light(buffers_, timed, !job.first_light); !drawn) return drawn;
-    (*gl_)->Finish();
-    record.shade_pass.runs.push_back(seen_ms + shadowed.elapsed_ms());
-    if (!options.shadow_cost) return {};
-    const Stopwatch without;
-    if (auto drawn = shading_.draw_light(buffers_, plain, !job.first_light); !drawn) return drawn;
-    (*gl_)->Finish();
-    record.unshadowed_pass.runs.push_back(seen_ms + without.elapsed_ms());
-    return {};
+    return shading_.draw_light(buffers_, judged, !job.first_light);
   };
-  const Pass judged = [&]() -> Expected<void> {
-    const auto ms = time_as_judged(job, timed, asked);
+  if (auto ok = warm_up(once); !ok) return ok;
+  const Pass pass = [&]() -> Expected<void> {
+    const auto ms = time_as_judged(job, judged, asked);
     if (!ms) return fail(ms.error());
     record.shade_pass.runs.push_back(*ms);
     return {};
   };
-  const Pass warm_up = [&] {
-    return options.shadow_cost ? warm_up_shading(job, sees, asked, {plain, timed})
-                               : warm_up_shading(job, sees, asked, {timed});
-  };
-  if (auto ok = repeat("shading runs", options, record.shade_pass, warm_up, as_judged ? judged : pass); !ok)
-    return ok;
-  if (options.runs == 0) return {};
-  last_timed_ = timed;
-  job.visibility_drawn = job.visibility_drawn || sees;
+  if (auto ok = repeat("shading runs", job.options, record.shade_pass, 1, pass); !ok) return ok;
+  job.visibility_drawn = job.visibility_drawn || !job.goes_on;
   return {};
+}
+
+/// What the camera sees is the same for all lights, maps and techniques: once it was timed often enough, its median
+/// stands for it.
+Expected<void> GlRenderer::time_camera(Job& job) {
+  if (job.goes_on) return {};
+  RasterOptions options = job.options;
+  options.runs = std::max(options.runs, usual_runs);
+  Times& camera = shading_.times(buffers_, job.view);
+  const Pass pass = [&] { return shading_.draw_visibility(buffers_, job.view); };
+  if (times_again(camera, options.runs, options.enough_ms)) {
+    if (auto ok = warm_up(pass); !ok) return ok;
+    if (auto ok = time_pass("shading runs", options, camera, pass); !ok) return ok;
+  }
+  job.visibility_drawn = true;
+  return shows(job) ? Expected<void>{} : pass();
+}
+
+/// Each run draws the light with its shadows, and where RasterOptions::shadow_cost asks for it once more without them, so
+/// that both have the same moments of the machine, and now the one and now the other first.
+Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
+                                        LightRecord& record) {
+  const RasterOptions& options = job.options;
+  if (options.runs == 0) return {};
+  if (options.timed_as_judged && options.analysis)
+    return time_shading_as_judged(job, map_job, asked, record);
+  if (auto ok = time_camera(job); !ok) return ok;
+  const double seen_ms = job.goes_on ? 0.0 : shading_.times(buffers_, job.view).median();
+  const ShadePermutation shadowed = shade_permutation(map_job.light, map_job.options, job.first_light, false);
+  const ShadePermutation plain = unshadowed(shadowed);
+  const auto in_turn = [&](bool plain_first, const auto& draw) -> Expected<void> {
+    for (const bool with_shadows : {!plain_first, plain_first})
+      if (with_shadows || options.shadow_cost)
+        if (auto drawn = draw(with_shadows); !drawn) return drawn;
+    return {};
+  };
+  const auto draw = [&](bool with_shadows) {
+    return shading_.draw_light(buffers_, with_shadows ? shadowed : plain, !job.first_light);
+  };
+  if (auto found = find_external(asked); !found) return found;
+  const Pass both_orders = [&]() -> Expected<void> {
+    if (auto ok = in_turn(false, draw); !ok) return ok;
+    return in_turn(true, draw);
+  };
+  if (auto ok = warm_up(both_orders); !ok) return ok;
+  const Pass pass = [&] {
+    return in_turn(record.shade_pass.runs.size() % 2 != 0, [&](bool with_shadows) -> Expected<void> {
+      const Stopwatch watch;
+      if (with_shadows)
+        if (auto found = find_external(asked); !found) return found;
+      if (auto drawn = draw(with_shadows); !drawn) return drawn;
+      (*gl_)->Finish();
+      (with_shadows ? record.shade_pass : record.unshadowed_pass)
+          .runs.push_back(seen_ms + watch.elapsed_ms());
+      return {};
+    });
+  };
+  return repeat("shading runs", options, record.shade_pass, options.shadow_cost ? subtracted_runs : 1, pass);
 }
 
 Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const VisibilityRequest& request,
@@ -324,12 +371,13 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
   if (record != nullptr)
     if (auto ok = time_shading(job, map_job, asked, *record); !ok) return ok;
   if (!job.visibility_drawn && !shows(job))
-    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+    if (auto ok = draw_visibility(job.view); !ok) return ok;
   job.visibility_drawn = true;
   if (asked != nullptr && (record == nullptr || job.options.runs == 0)) {
     if (auto ok = find_external(asked); !ok) return ok;
   }
   const ShadePermutation kept = shade_permutation(map_job.light, map, job.first_light, records);
+  if (auto ok = warm_up_shading(job, kept); !ok) return ok;
   TimedStage shading(records ? "shading with records" : "shading");
   if (auto ok = shading_.draw_light(buffers_, kept, false); !ok) return ok;
   (*gl_)->Finish();
@@ -364,10 +412,11 @@ std::size_t GlRenderer::most_pixels(const MapOptions& map) const {
 
 Expected<void> GlRenderer::shade_without_light(Job& job) {
   if (!job.goes_on)
-    if (auto ok = shading_.draw_visibility(buffers_, job.view); !ok) return ok;
+    if (auto ok = draw_visibility(job.view); !ok) return ok;
   ShadePermutation permutation;
   permutation.no_light = true;
   permutation.first_light = true;
+  if (auto ok = warm_up_shading(job, permutation); !ok) return ok;
   if (auto ok = shading_.draw_light(buffers_, permutation, false); !ok) return ok;
   return gl_->check("shading");
 }

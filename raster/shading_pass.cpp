@@ -81,6 +81,7 @@ Expected<void> ShadingPass::prepare_shaded(ImageSize size, bool with_records) {
   color_target_ = Framebuffer(gl);
   color_target_.attach(GL_COLOR_ATTACHMENT0, color_);
   color_target_.draw_to(1);
+  color_target_.clear_color();
   if (with_records) {
     record_ = Texture2D(gl, GL_RGBA32F, size);
     flags_ = Texture2D(gl, GL_R8UI, size);
@@ -108,6 +109,7 @@ Expected<void> ShadingPass::prepare_trial() {
   trial_target_ = Framebuffer(*gl_);
   trial_target_.attach(GL_COLOR_ATTACHMENT0, trial_color_);
   trial_target_.draw_to(1);
+  trial_target_.clear_color();
   if (record_) trial_record_target_ = record_target(trial_color_);
   return gl_->check("making the timing image");
 }
@@ -127,7 +129,7 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
   world.bind();
   camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
   gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);  // row 0 of every image is the top
-  const ImageSize drawn = drawn_part(size_);
+  const ImageSize drawn = world.drawn_part(size_);
   gl->Viewport(0, 0, drawn.width, drawn.height);
   gl->Disable(GL_BLEND);
   gl->Disable(GL_SCISSOR_TEST);
@@ -143,7 +145,7 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
   world.draw_triangles(*programs, clip_from_relative(view, world.world(), world.reference()),
                        programs_->features().single_sided);
   if (auto shapes = draw_shapes(world, view); !shapes) return shapes;
-  if (!in_corner_) seen_ = seen_by(world, view);
+  if (!world.draws_little()) seen_ = seen_by(world, view);
   return {};
 }
 
@@ -185,12 +187,16 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
                                                   : (trial ? trial_target_ : color_target_);
   gl->BindFramebuffer(GL_FRAMEBUFFER, target.id());
   gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
-  const ImageSize drawn = drawn_part(size());
+  const ImageSize drawn = world.drawn_part(size());
   gl->Viewport(0, 0, drawn.width, drawn.height);
   gl->Disable(GL_DEPTH_TEST);
   gl->Disable(GL_CULL_FACE);
   gl->Disable(GL_SCISSOR_TEST);
   gl->Disable(GL_BLEND);
+  if (world.draws_little() && !trial && !permutation.first_light) {  // what others added to the picture stays
+    gl->Enable(GL_SCISSOR_TEST);
+    gl->Scissor(0, 0, 0, 0);
+  }
   if (!permutation.first_light) {
     gl->Enablei(GL_BLEND, shaders::radiance_output);  // lights add up
     gl->BlendEquation(GL_FUNC_ADD);
@@ -203,22 +209,6 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
   (*program)->use();
   gl->DrawArrays(GL_TRIANGLES, 0, 3);
   return {};
-}
-
-Expected<void> ShadingPass::warm_up(WorldBuffers& world, const View& view,
-                                    const ShadePermutation& permutation, bool trial, bool camera) {
-  const FewTriangles few(world);
-  in_corner_ = true;
-  Expected<void> done;
-  if (camera) done = draw_visibility(world, view);
-  if (done) done = draw_light(world, permutation, trial);
-  in_corner_ = false;
-  return done;
-}
-
-ImageSize ShadingPass::drawn_part(ImageSize of) const {
-  constexpr int corner = 64;  // pixels
-  return in_corner_ ? ImageSize{std::min(corner, of.width), std::min(corner, of.height)} : of;
 }
 
 void ShadingPass::bind_visibility() const {

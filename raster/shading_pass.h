@@ -16,18 +16,13 @@ class ShadingPass {
   /// (graphics): out of memory.
   Expected<void> prepare(ImageSize size, const PictureRows& rows, bool with_records);
   void set_camera(const WorldBuffers& world, const View& view);
-  /// Fills the visibility buffer.
+  /// Fills the visibility buffer. A SmallDrawing leaves it to be filled again.
   Expected<void> draw_visibility(const WorldBuffers& world, const View& view);
   /// Whether the visibility buffer holds what draw_visibility() would draw.
   bool shows(const WorldBuffers& world, const View& view) const;
   /// Adds a light to the picture, or with `trial`, to an image that nobody reads (for timing). What it records goes
   /// where the next drawing of a light records.
   Expected<void> draw_light(const WorldBuffers& world, const ShadePermutation& permutation, bool trial);
-  /// Draws the light into a corner of the images: whatever the device compiles or sets up at the first use is then
-  /// there, without the time of a whole picture. `camera`: the visibility buffer, too, of a few triangles, which leaves it
-  /// to be filled again.
-  Expected<void> warm_up(WorldBuffers& world, const View& view, const ShadePermutation& permutation,
-                         bool trial, bool camera);
   /// What draw_visibility() took for this view, by those who timed it.
   Times& times(const WorldBuffers& world, const View& view);
 
@@ -45,7 +40,6 @@ class ShadingPass {
   void read_drawn_visibility(Image<float>& out) const;
 
  private:
-  ImageSize drawn_part(ImageSize of) const;
   Expected<void> prepare_seen(ImageSize size);
   Expected<void> prepare_shaded(ImageSize size, bool with_records);
   /// Where records go, and the light's share of the picture into `radiance`.
@@ -67,9 +61,8 @@ class ShadingPass {
   std::optional<Seen> seen_;   ///< of the whole visibility buffer
   std::optional<Seen> timed_;  ///< what times_ are of
   Times times_;
-  ImageSize size_;          ///< of the picture
-  PictureRows rows_;        ///< that are shaded
-  bool in_corner_ = false;  ///< only a part of the images is drawn to
+  ImageSize size_;    ///< of the picture
+  PictureRows rows_;  ///< that are shaded
   Texture2D visibility_, solid_distance_, depth_, color_, record_, flags_, drawn_visibility_, trial_color_;
   Framebuffer visibility_target_, color_target_, record_target_, trial_target_, trial_record_target_;
 };

@@ -145,6 +145,11 @@ double near_distance(const World& world, const Vec3& eye) {
   return reach > 0.0 ? 1e-7 * reach : 1.0;
 }
 
+ImageSize WorldBuffers::drawn_part(ImageSize of) const {
+  constexpr int corner = 64;  // pixels
+  return draws_little() ? ImageSize{std::min(corner, of.width), std::min(corner, of.height)} : of;
+}
+
 WorldBuffers::WorldBuffers(const Gl& gl, const World& world)
     : gl_(&gl),
       world_(&world),

@@ -56,6 +56,9 @@ class WorldBuffers {
   /// Binds what the shaders read, and the vertex array of flattened triangles.
   void bind() const;
   std::uint32_t most_triangles() const { return most_; }
+  /// Whether a SmallDrawing lives: then passes draw into a corner of their images, of drawn_part() of their size.
+  bool draws_little() const { return most_ != all_triangles; }
+  ImageSize drawn_part(ImageSize of) const;
   /// Draws every triangle with the program of its kind; all get the matrix. Blocks that it surely shows nothing of are left
   /// out; depths must be clamped (GL_DEPTH_CLAMP). `culls`: single-sided triangles are not drawn
   /// where their back is seen (GL_CULL_FACE is off before and after); else the caller's state holds for all. A front is
@@ -64,7 +67,8 @@ class WorldBuffers {
                       bool culls = false) const;
 
  private:
-  friend class FewTriangles;
+  friend class SmallDrawing;
+  static constexpr std::uint32_t all_triangles = ~0u;
   WorldBuffers(const Gl& gl, const World& world);
   void upload_fixed(const SceneFeatures& features);
   void attach_textures();
@@ -90,17 +94,17 @@ class WorldBuffers {
       part_texels_;
   std::optional<TexelPages> texels_;
   /// Triangles that are drawn, of opaque ones and of others, flattened and kept, each.
-  std::uint32_t most_ = ~0u;
+  std::uint32_t most_ = all_triangles;
 };
 
-/// While it lives, few triangles are drawn: what a device compiles or sets up at the first use is there then, without
-/// the time of all.
-class FewTriangles {
+/// While it lives, few triangles are drawn, and into a corner of the images: what a device compiles or sets up at the
+/// first use is there then, without the time of all. Programs, targets and state are those of the whole drawing.
+class SmallDrawing {
  public:
-  explicit FewTriangles(WorldBuffers& world) : world_(world) { world_.most_ = 4096; }
-  ~FewTriangles() { world_.most_ = ~0u; }
-  FewTriangles(const FewTriangles&) = delete;
-  FewTriangles& operator=(const FewTriangles&) = delete;
+  explicit SmallDrawing(WorldBuffers& world) : world_(world) { world_.most_ = 4096; }
+  ~SmallDrawing() { world_.most_ = WorldBuffers::all_triangles; }
+  SmallDrawing(const SmallDrawing&) = delete;
+  SmallDrawing& operator=(const SmallDrawing&) = delete;
 
  private:
   WorldBuffers& world_;

@@ -36,6 +36,8 @@ class StageLog {
 
   /// Up to now.
   TimeBudget budget() const;
+  /// The innermost stage that runs now, also where an outer one includes it (TimedStage::Inner::included).
+  std::string_view running() const { return open_.back().stage; }
   /// Whether every single run of a stage is kept, for trace(); off at first.
   void keep_runs(bool keep) { keeps_runs_ = keep; }
   /// The runs as a document in the Trace Event Format (JSON object form, complete events "X", microseconds),

@@ -94,14 +94,18 @@ TEST(Repeats, StopWhereTheRunsMadeTookLongEnough) {
   EXPECT_TRUE(times_again({{10.0, 10.0}}, 3, 25.0));
   EXPECT_FALSE(times_again({{30.0}}, 3, 25.0));
   EXPECT_FALSE(times_again({{1.0, 1.0, 1.0}}, 3, 25.0));
+  EXPECT_TRUE(times_again({{30.0}}, 3, 25.0, 3)) << "what is subtracted is run so often whatever it takes";
+  EXPECT_FALSE(times_again({{30.0}}, 1, 25.0, 3)) << "no more than was asked for";
 }
 
 TEST(ShadowCost, IsWhatIsLeftRunByRun) {
   raster::LightRecord drawn;
   drawn.shade_pass.runs = {10.0, 12.0};
-  EXPECT_TRUE(shadow_lookups(drawn).runs.empty()) << "not timed";
+  EXPECT_FALSE(shadow_lookups(drawn).timed());
   drawn.unshadowed_pass.runs = {8.0, 13.0};
-  EXPECT_EQ(shadow_lookups(drawn).runs, (std::vector<double>{2.0, -1.0}));
+  EXPECT_EQ(shadow_lookups(drawn).pairs.runs, (std::vector<double>{2.0, -1.0}));
+  drawn.map_pass.runs = {4.0};
+  EXPECT_EQ(map_and_lookups(drawn).median, shadow_lookups(drawn).median + 4.0);
   raytrace::LightTruth truth;
   truth.shadow_rays.runs = {9.0};
   truth.light_structure.runs = {4.0};

@@ -12,3 +12,6 @@ gnomon_compile_together(technique_bench)
 gnomon_test(bands_gl_test
   SOURCES bands_gl_test.cpp
   LIBS gnomon::hybrid)
+# What the driver translates, by the stage that runs then: the program stands before LLVM, and so exports a function of it.
+gnomon_test(raster_translation_gl_test SOURCES raster_translation_gl_test.cpp LIBS small_scenes gnomon::hybrid ${CMAKE_DL_LIBS})
+set_target_properties(raster_translation_gl_test PROPERTIES ENABLE_EXPORTS ON)

@@ -14,7 +14,7 @@ CellSummary cell(std::size_t index, double error, double ms, double spread, std:
   out.compared = 1000;
   out.wrong_fraction = out.mean_absolute = error;
   out.lights = {{error, error, 0.0, 0.0, 1000, 0, 0}};
-  out.raster_ms = ms, out.spread_ms = spread, out.runs = 3;
+  out.raster_ms = ms, out.raster.runs = {ms - 0.5 * spread, ms, ms + 0.5 * spread};
   out.map_texels = texels;
   return out;
 }
@@ -31,9 +31,9 @@ TEST(ParetoFront, ATimeInsideTheNoiseIsNotWorthHaving) {
 TEST(ParetoFront, OneRunMayBeOffByAQuarter) {
   std::vector<CellSummary> cells{cell(0, 0.10, 9.0, 0.0, 64), cell(1, 0.05, 10.0, 0.0, 128)};
   EXPECT_EQ(pareto_front(cells), (Indices{0, 1})) << "three runs without any spread";
-  cells[0].runs = cells[1].runs = 1;
+  for (CellSummary& c : cells) c.raster.runs.resize(1);
   EXPECT_EQ(pareto_front(cells), (Indices{1}));
-  cells[0].raster_ms = 7.0;
+  cells[0].raster_ms = 7.0, cells[0].raster.runs = {7.0};
   EXPECT_EQ(pareto_front(cells), (Indices{0, 1}));
 }
 

@@ -48,7 +48,7 @@ TechniqueRow measure(const std::string& technique, const compare::Comparison& co
     for (std::size_t k = 0; k < classes.size(); ++k) classes[k] += light.classes[k];
     const raster::LightRecord& record = comparison.raster.lights[light.record];
     row.map_ms += record.map_pass.median();
-    row.lookup_ms += compare::shadow_lookups(record).median();
+    row.lookups += compare::shadow_lookups(record);
     row.unshadowed_ms += record.unshadowed_pass.median();
     lookups += light.lookups.value_or(0);
   }
@@ -69,7 +69,15 @@ void add_rays(const compare::Comparison& comparison, TechniqueTable& table) {
 }
 
 double shadows_ms(const TechniqueRow& row) {
-  return row.map_ms + std::max(0.0, row.lookup_ms);
+  return row.map_ms + row.lookups.median;
+}
+
+// A column's number, or the interval where the runs do not tell the lookups from nothing.
+std::string lookups_ms_text(const TechniqueRow& row, double besides_ms = 0.0) {
+  TimeDifference sum = row.lookups;
+  if (!sum.timed()) return "–";
+  sum += besides_ms;
+  return sum.told ? fmt::format("{:.1f}", sum.median) : fmt::format("{:.0f} to {:.0f}", sum.low, sum.high);
 }
 
 std::string lookups_text(const TechniqueRow& row) {
@@ -87,11 +95,10 @@ std::string mebibytes(std::uint64_t bytes) {
 std::string markdown_row(const TechniqueRow& row) {
   if (!row.refused.empty())
     return fmt::format("| `{}` | {} | | | | | | | | | | |\n", row.technique, row.refused);
-  return fmt::format(
-      "| `{}` | {} | {:.3f} | {} | {:.5f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.2f} | {} | {} |\n",
-      row.technique, row.wrong, percent(row), row.main_label, row.mean_absolute, row.map_ms, row.lookup_ms,
-      shadows_ms(row), row.unshadowed_ms, static_cast<double>(row.texels) * 1e-6, lookups_text(row),
-      mebibytes(row.bytes));
+  return fmt::format("| `{}` | {} | {:.3f} | {} | {:.5f} | {:.1f} | {} | {} | {:.1f} | {:.2f} | {} | {} |\n",
+                     row.technique, row.wrong, percent(row), row.main_label, row.mean_absolute, row.map_ms,
+                     lookups_ms_text(row), lookups_ms_text(row, row.map_ms), row.unshadowed_ms,
+                     static_cast<double>(row.texels) * 1e-6, lookups_text(row), mebibytes(row.bytes));
 }
 
 }  // namespace
@@ -138,7 +145,8 @@ std::string markdown(std::span<const TechniqueTable> tables, const std::string& 
       "cost: "
       "the map, and what looking it up adds to the same shading without shadows (last of the times, the "
       "picture's own), against the rays. Under a light that stands still the lookups alone remain on the "
-      "map's side. Both sides are timed warm, as often as each other. A "
+      "map's side; where the runs do not tell them from nothing, their interval stands. Both sides are timed "
+      "warm, as often as each other. A "
       "software rasterizer's times are not a GPU's; texels, lookups and bytes hold everywhere.\n",
       command);
   for (const TechniqueTable& table : tables) {
@@ -161,9 +169,9 @@ std::string text_table(const TechniqueTable& table) {
       "wrong", "%", "mostly", "error", "map ms", "lookups", "a pixel", "MiB");
   for (const TechniqueRow& row : table.rows) {
     text += row.refused.empty()
-                ? fmt::format("{:<13}{:>9}{:>8.3f} {:<14}{:>9.5f}{:>8.1f}{:>9.1f}{:>8}{:>8}\n", row.technique,
+                ? fmt::format("{:<13}{:>9}{:>8.3f} {:<14}{:>9.5f}{:>8.1f}{:>9}{:>8}{:>8}\n", row.technique,
                               row.wrong, percent(row), row.main_label, row.mean_absolute, row.map_ms,
-                              row.lookup_ms, lookups_text(row), mebibytes(row.bytes))
+                              lookups_ms_text(row), lookups_text(row), mebibytes(row.bytes))
                 : fmt::format("{:<13} {}\n", row.technique, row.refused);
   }
   return text;

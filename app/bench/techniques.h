@@ -17,7 +17,8 @@ struct TechniqueRow {
   std::uint64_t compared = 0, wrong = 0;
   double mean_absolute = 0.0;  ///< of V6 - V0 over compared pixels
   /// Medians, summed over lights: the map, what looking it up adds to the shading, and the shading without.
-  double map_ms = 0.0, lookup_ms = 0.0, unshadowed_ms = 0.0;
+  double map_ms = 0.0, unshadowed_ms = 0.0;
+  TimeDifference lookups;
   double lookups_per_pixel = 0.0;  ///< 0: none are counted
   std::uint64_t texels = 0, bytes = 0;
   std::string main_label;  ///< of most wrong pixels

@@ -58,7 +58,7 @@ Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan,
   if (*measured) return {};
   auto options = command.options.parse_cell(plan.grid, 0);
   if (!options) return fail(options.error());
-  options->options.raytrace.runs = command.runs.value_or(1);  // as the rasterizer's cells
+  set_runs(command, options->options);
   options->options.raytrace.warm_up = true;
   options->options.raytrace.seed = command.seed;
   Scene given;
@@ -276,7 +276,10 @@ void add_options(CLI::App& app, SweepCommand& command) {
   add_report_max_mb(app, command.report_max_mb);
   add_run_options(app, command);
   add_shader_dir(app, command.shader_folder);
-  add_runs(app, command.runs, "1");
+  add_runs(app, command.runs,
+           fmt::format("{}, of rays no further one once those made took {:g} ms together", usual_runs,
+                       usual_enough_ms)
+               .c_str());
   add_quiet(app, command.quiet);
 }
 

@@ -65,11 +65,16 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
             {"exposure", exposure},
             {"shaders", shaders},
             {"perceptual", command.perceptual},
-            {"runs", command.runs.value_or(1)},
+            {"runs", command.runs.value_or(usual_runs)},
             {"seed", command.seed}};
   if (command.max_lights != usual_max_lights) json["max_lights"] = command.max_lights;
   if (Json film = film_configuration(command.metric); !film.is_null()) json["film"] = std::move(film);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void set_runs(const SweepCommand& command, compare::CompareOptions& options) {
+  options.raster.runs = options.raytrace.runs = command.runs.value_or(usual_runs);
+  options.raytrace.enough_ms = command.runs ? never_enough_ms : usual_enough_ms;
 }
 
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {

@@ -36,6 +36,10 @@ struct SweepCommand : RunOptions {
 /// Everything that the journal's lines hang on, as JSON.
 std::string configuration(const SweepCommand& command, const Plan& plan, const Scene& scene);
 
+/// How often each pass of a cell is timed: three times where nothing else is asked for, since cells are ranked; of rays no
+/// further time once those made took long enough.
+void set_runs(const SweepCommand& command, compare::CompareOptions& options);
+
 /// A cell alone: gnomon compare SCENE …, or gnomon shimmer SCENE … where its errors are flips.
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell);
 

@@ -48,7 +48,7 @@ Expected<MadeCell> make_cell(Workshop& shop, std::size_t index) {
   const std::size_t cell = shop.plan.cells[index];
   auto options = shop.command.options.parse_cell(shop.plan.grid, cell);
   if (!options) return fail(options.error());
-  options->options.raster.runs = options->options.raytrace.runs = shop.command.runs.value_or(1);
+  set_runs(shop.command, options->options);
   options->options.raytrace.seed = shop.command.seed;
   options->options.raster.shadow_cost = true;
   if (const auto taken = take_lights(shop, *options); !taken) return fail(taken.error());

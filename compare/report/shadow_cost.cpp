@@ -14,12 +14,12 @@ namespace {
 struct Side {
   std::string key;  ///< of result.json; empty: a sum of others
   double ms = 0.0;
+  std::string text = milliseconds(ms);
 };
 
 std::string cell(const Side& side) {
-  if (!(side.ms > 0.0)) return "next to nothing";
-  const std::string text = milliseconds(side.ms);
-  return side.key.empty() ? escaped(text) : keyed(side.key + ".median", side.ms, text);
+  if (side.text.empty()) return "nothing";
+  return side.key.empty() ? escaped(side.text) : keyed(side.key + ".median", side.ms, side.text);
 }
 
 std::string row(std::string_view name, std::string_view what, const Side& raster, const Side& rays) {
@@ -34,17 +34,18 @@ std::string rows_of(const Comparison& c, std::size_t i) {
   const raytrace::LightTruth& truth = true_record(c, c.lights[i]);
   if (drawn.unshadowed_pass.runs.empty()) return {};
   const auto key = [i](std::string_view name) { return light_key(i, fmt::format("times_ms.{}", name)); };
-  const double lookups = shadow_lookups(drawn).median();
-  const Side map{key("map_pass"), drawn.map_pass.median()}, looked_up{key("shadow_lookups"), lookups};
-  const Side structure =
-      truth.is_soft() ? Side{} : Side{key("light_structure"), truth.light_structure.median()};
+  const TimeDifference lookups = shadow_lookups(drawn), both = map_and_lookups(drawn);
+  const Side map{key("map_pass"), drawn.map_pass.median()};
+  const Side looked_up{key("shadow_lookups"), lookups.median, milliseconds(lookups)};
+  const double structure_ms = truth.is_soft() ? 0.0 : truth.light_structure.median();
+  const Side structure = structure_ms > 0.0 ? Side{key("light_structure"), structure_ms} : Side{{}, 0.0, {}};
   const Side rays{key("exact_shadows_standing"), standing_rays(truth).median()};
   const std::string name = c.lights.size() > 1 ? escaped(shown_light_name(c, i)) + ": " : std::string();
   const std::string_view map_name = drawn.external ? "the sheets" : "the map";
   return row(name + "what is made for the light",
              fmt::format("{}; rays ask the scene's own hierarchy", map_name), map, structure) +
          row(name + "asking it", "every frame, even where light and casters stand still", looked_up, rays) +
-         row(name + "both", "a frame in which something has moved", {{}, map.ms + std::max(0.0, lookups)},
+         row(name + "both", "a frame in which something has moved", {{}, both.median, milliseconds(both)},
              {key("exact_shadows"), truth.exact_times().median()}) +
          row(name + "the picture without shadows", "shading, or primary rays",
              {key("unshadowed_pass"), drawn.unshadowed_pass.median()},

@@ -15,12 +15,14 @@ namespace {
 
 /// What goes on in a stage, where its name alone does not say it.
 std::string_view stage_words(std::string_view stage) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 19> words{{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 20> words{{
       {"start", "until the command begins"},
       {"rest", "what belongs to no other stage"},
       {"load", "reading and preparing the scene"},
       {"context", "making the OpenGL context"},
       {"upload", "handing the scene to OpenGL"},
+      {"driver translation",
+       "what the driver makes of shaders when it first draws with them, once for a machine"},
       {"map runs", "the depth map, timed, all runs"},
       {"shading runs", "the picture with its shadows, timed, all runs"},
       {"shading with records", "the picture once more, with what each pixel looked up"},

@@ -45,7 +45,8 @@ std::string table_row(const CellSummary& cell, bool on_front, bool perceptual) {
   if (perceptual) out += number_cell(cell.flip, shown(cell.flip)) + number_cell(cell.ssim, shown(cell.ssim));
   out += number_cell(cell.edge_rms_texels, shown(cell.edge_rms_texels));
   out += number_cell(cell.raster_ms, std::isfinite(cell.raster_ms) ? milliseconds(cell.raster_ms) : "\u2013");
-  out += number_cell(cell.shadow_ms, std::isfinite(cell.shadow_ms) ? milliseconds(cell.shadow_ms) : "\u2013");
+  out += cell.shadows.timed() ? number_cell(cell.shadows.median, milliseconds(cell.shadows))
+                              : number_cell(std::numeric_limits<double>::quiet_NaN(), "\u2013");
   out += number_cell(double(cell.map_texels), grouped(cell.map_texels));
   out += number_cell(double(cell.map_bytes), byte_count(cell.map_bytes));
   return out + fmt::format("<td class=\"run\"><code>{}</code></td></tr>\n", escaped(cell.command));
@@ -68,9 +69,8 @@ std::string cell_table(const std::vector<CellSummary>& cells, const std::vector<
       "<section id=\"cells\" aria-labelledby=\"cells-title\"><h2 id=\"cells-title\">Cells</h2>\n<p "
       "class=\"hint\">Each cell is one combination of settings. \u2605: worth "
       "having. Time is that of map and shading; shadows alone are the map "
-      "and what looking it up adds to the same shading without shadows, which is lost in the spread of the "
-      "two "
-      "times where it is small; errors of visibility are between 0 and 1.</p>\n<div "
+      "and what looking it up adds to the same shading without shadows, with the interval that the runs "
+      "leave it; errors of visibility are between 0 and 1.</p>\n<div "
       "class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Table of cells\"><table "
       "class=\"cells\"><thead><tr>";
   for (const std::string& name : columns)

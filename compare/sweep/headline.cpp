@@ -18,7 +18,7 @@ HeadlineItem item(std::string title, const CellSummary& cell, ErrorMeasure measu
   pooled.flips_per_second = cell.flips_per_second;
   std::string figures = figure_words(pooled, measure);
   if (std::isfinite(cell.raster_ms)) figures += ", " + milliseconds(cell.raster_ms);
-  if (cell.shadow_ms > 0.0) figures += fmt::format(", {} of it for shadows", milliseconds(cell.shadow_ms));
+  if (cell.shadows.timed()) figures += fmt::format(", {} of it for shadows", milliseconds(cell.shadows));
   return {std::move(title), cell.cell, axes_words(cell), std::move(figures)};
 }
 

@@ -73,27 +73,35 @@ void finish_means(CellSummary& sum, const Json& classes) {
     if (count.get<std::uint64_t>() > most) most = count.get<std::uint64_t>(), sum.main_label = name;
 }
 
+Times times_of(const Json& times) {
+  return {times.at("runs").get<std::vector<double>>()};
+}
+
+TimeDifference shadows_of(const Json& light) {
+  const Json& lookups = light.at("shadow_lookups");
+  TimeDifference out;
+  if (!lookups.contains("low")) {  // sweeps made before have none
+    out = beyond_part(times_of(light.at("shade_pass")), times_of(light.at("unshadowed_pass")));
+  } else if (out.pairs = times_of(lookups); out.timed()) {
+    out.low = number(lookups.at("low")), out.median = number(lookups.at("median"));
+    out.high = number(lookups.at("high")), out.told = out.low > 0.0;
+  }
+  return out.timed() ? out += number(light.at("map_pass").at("median")) : out;
+}
+
 void add_times(const Json& times, CellSummary& sum) {
   sum.cell = times.at("cell").get<std::size_t>();
   sum.derived = times.at("derived").get<bool>();
   sum.rays_ms = number(times.at("primary_rays").at("median"));
-  double fastest = 0.0, slowest = 0.0;
   for (const Json& light : times.at("lights")) {
     sum.rays_ms += number(light.at("exact_shadows").at("median"));
     sum.exact_shadow_ms += number(light.at("exact_shadows").at("median"));
-    const double lookups = number(light.at("shadow_lookups").at("median"));
-    sum.shadow_ms += number(light.at("map_pass").at("median")) + (lookups < 0.0 ? 0.0 : lookups);
+    sum.shadows += shadows_of(light);
     for (const char* pass : {"map_pass", "shade_pass"}) {
       sum.raster_ms += number(light.at(pass).at("median"));
-      const auto runs = light.at(pass).at("runs").get<std::vector<double>>();
-      if (runs.empty()) continue;
-      sum.runs = static_cast<int>(runs.size());
-      const auto [low, high] = std::minmax_element(runs.begin(), runs.end());
-      fastest += *low;
-      slowest += *high;
+      if (const Times times = times_of(light.at(pass)); !times.runs.empty()) sum.raster.add_part(times);
     }
   }
-  sum.spread_ms = slowest - fastest;
 }
 
 }  // namespace
@@ -138,9 +146,7 @@ std::string error_words(const CellSummary& cell) {
 }
 
 bool clearly_faster(const CellSummary& a, const CellSummary& b) {
-  constexpr double single_run = 0.25;  // of its time: what runs of one setting differ by on a busy machine
-  const auto off = [](const CellSummary& c) { return c.runs > 1 ? c.spread_ms : single_run * c.raster_ms; };
-  return a.raster_ms + std::max(off(a), off(b)) < b.raster_ms;
+  return gnomon::clearly_faster(a.raster, b.raster, false);
 }
 
 namespace {

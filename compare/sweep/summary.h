@@ -11,6 +11,7 @@
 
 #include "compare/comparison.h"
 #include "compare/sweep/journal.h"
+#include "scene/time_difference.h"
 
 namespace gnomon::compare {
 
@@ -35,12 +36,12 @@ struct CellSummary {
   double raster_ms = 0.0;
   /// Median times of camera and shadow rays, all lights: what the truth costs.
   double rays_ms = 0.0;
-  /// What shadows add to the picture, all lights: the map and its lookups (from 0 up), and the exact shadows' rays. NaN
-  /// where sweep_times.jsonl does not have it.
-  double shadow_ms = 0.0, exact_shadow_ms = 0.0;
-  double spread_ms = 0.0;  ///< largest less smallest sum of runs
-  int runs = 0;            ///< of each pass
-  bool derived = false;    ///< the times are those of the drawing that it was made from
+  Times raster;  ///< its runs: the i-th of every map and shading pass together
+  /// What shadows add to the picture, all lights: the map and its lookups, not timed where sweep_times.jsonl does not have
+  /// it, and the exact shadows' rays.
+  TimeDifference shadows;
+  double exact_shadow_ms = 0.0;
+  bool derived = false;  ///< the times are those of the drawing that it was made from
   /// Share of wrong pixels or mean error, whichever is more: of yes-or-no shadows they are equal. With films what they
   /// are about: flips per receiver and second.
   double error() const { return is_filmed() ? flips_per_second : std::max(wrong_fraction, mean_absolute); }
@@ -51,8 +52,7 @@ struct CellSummary {
 /// "1.2 %", or of films "0.012 flips per receiver and second".
 std::string error_words(const CellSummary& cell);
 
-/// a takes less time than b by more than both may be off: the spread of their runs, or a quarter of a single
-/// run's time.
+/// a takes less time than b by more than their runs leave open (time_difference.h).
 bool clearly_faster(const CellSummary& a, const CellSummary& b);
 
 /// From a line of sweep.jsonl and its line of sweep_times.jsonl. Errors are ErrorKind::bad_input.

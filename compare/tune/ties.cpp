@@ -1,15 +1,9 @@
 #include "compare/tune/ties.h"
 
+#include "scene/time_difference.h"
+
 namespace gnomon::compare {
 namespace {
-
-// What one run may be off by: the share of its time that measure_in_turn.cpp allows for the same reason.
-constexpr double single_run = 1.25;
-
-// Half of the runs lie below this.
-double usual_time(const Attempt& a) {
-  return a.times.runs.size() > 1 ? a.times.median() : single_run * a.times.least();
-}
 
 bool costs_less(const Attempt& a, const Attempt& b) {
   const bool no_more = a.map_texels <= b.map_texels && a.map_bytes <= b.map_bytes && a.rays <= b.rays;
@@ -25,7 +19,7 @@ Ties ties_with(std::size_t best, const std::vector<FamilyResult>& families, cons
   for (std::size_t i = 0; i < families.size(); ++i) {
     const std::optional<Attempt>& other = families[i].answer;
     if (i == best || !other || other->times.runs.empty()) continue;
-    if (other->times.least() > usual_time(first)) continue;
+    if (clearly_faster(first.times, other->times, true)) continue;
     if (goal.max_time_ms && other->error != first.error) continue;
     close.push_back(i);
     if (costs_less(*other, *families[ties.chosen].answer)) ties.chosen = i;
@@ -44,7 +38,7 @@ std::vector<JustOver> just_over_limit(std::size_t winner, const std::vector<Fami
   for (std::size_t i = 0; i < families.size(); ++i) {
     const Attempt* best = nullptr;
     for (const Attempt& a : families[i].tried)
-      if (a.cost > limit && a.cost <= single_run * limit && a.error < to_beat &&
+      if (a.cost > limit && a.cost <= (1.0 + single_run_share) * limit && a.error < to_beat &&
           (best == nullptr || a.error < best->error))
         best = &a;
     if (best != nullptr) over.push_back({i, *best});

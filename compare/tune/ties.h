@@ -12,8 +12,7 @@ struct Ties {
 };
 
 /// `best` is the one of `families` that comes first by error and least time, and has an answer whose times
-/// were measured. Another ties with it where its least time is below the time that half of the best one's runs
-/// keep to; where the goal is a time, its error has to be the same as well. Of these the one is chosen that
+/// were measured. Another ties with it where that is not clearly faster (time_difference.h): they are as fast; where the goal is a time, its error has to be the same as well. Of these the one is chosen that
 /// renders no more texels, takes no more bytes and casts no more rays than `best`, and less of something:
 /// that holds on any machine.
 Ties ties_with(std::size_t best, const std::vector<FamilyResult>& families, const TuneGoal& goal);

@@ -1,0 +1,73 @@
+// A difference of two timed passes, and what its runs leave open.
+#include <gtest/gtest.h>
+
+#include "compare/number_text.h"
+#include "scene/time_difference.h"
+
+namespace gnomon {
+namespace {
+
+TEST(TimeDifference, HoldsStudentsIntervalOfThreeRuns) {
+  const TimeDifference d = beyond_part({{54.0, 56.0, 55.0}}, {{50.0, 50.0, 50.0}});
+  EXPECT_EQ(d.median, 5.0);
+  EXPECT_EQ(d.low, 2.0) << "the least of 4, 5 and 6, less what they spread";
+  EXPECT_EQ(d.high, 8.0);
+  EXPECT_TRUE(d.told);
+}
+
+TEST(TimeDifference, IsNeverBelowNothing) {
+  for (const std::vector<double>& part :
+       {std::vector{250.0, 81.0, 80.0}, std::vector{250.0, 251.0, 252.0}, std::vector{85.0, 91.0, 88.0}}) {
+    const TimeDifference d = beyond_part({{88.0, 90.0, 87.0}}, {part});
+    EXPECT_EQ(d.low, 0.0);
+    EXPECT_GE(d.median, 0.0);
+    EXPECT_GE(d.high, -d.pairs.least()) << "what made it less than nothing can make it more";
+    EXPECT_FALSE(d.told);
+  }
+}
+
+TEST(TimeDifference, OneOfFiveRunsMayBeFarOff) {
+  const TimeDifference d = beyond_part({{55.0, 300.0, 56.0, 54.0, 55.5}}, {{50.0, 50.0, 50.0, 50.0, 50.0}});
+  EXPECT_TRUE(d.told);
+  EXPECT_LT(d.high, 10.0);
+}
+
+TEST(TimeDifference, FewRunsAreOffByAQuarter) {
+  EXPECT_FALSE(beyond_part({{60.0}}, {{50.0}}).told);
+  EXPECT_TRUE(beyond_part({{70.0}}, {{50.0}}).told);
+  EXPECT_EQ(beyond_part({{70.0}}, {{50.0}}).high, 32.5);
+  EXPECT_FALSE(beyond_part({}, {{50.0}}).timed());
+}
+
+TEST(TimeDifference, SumsOfSeveralLightsAreToldWhereEachIs) {
+  TimeDifference sum;
+  sum += beyond_part({{54.0, 56.0, 55.0}}, {{50.0, 50.0, 50.0}});
+  EXPECT_TRUE(sum.told);
+  sum += 10.0;
+  EXPECT_EQ(sum.median, 15.0);
+  sum += beyond_part({{50.0, 51.0, 49.0}}, {{50.0, 50.0, 50.0}});
+  EXPECT_FALSE(sum.told);
+  EXPECT_EQ(sum.low, 12.0);
+}
+
+TEST(ClearlyFaster, NeitherIsWhereTheRunsOverlap) {
+  const Times a{{10.0, 11.0, 12.0}}, b{{11.5, 13.0, 12.5}}, c{{14.0, 15.0, 16.0}};
+  EXPECT_FALSE(clearly_faster(a, b, false));
+  EXPECT_FALSE(clearly_faster(b, a, false));
+  EXPECT_TRUE(clearly_faster(a, c, false));
+  EXPECT_FALSE(clearly_faster(c, a, false));
+  EXPECT_FALSE(clearly_faster({}, a, false));
+  EXPECT_TRUE(clearly_faster(a, c, true)) << "by 4 in each turn";
+  EXPECT_FALSE(clearly_faster({{10.0, 11.0, 12.0}}, {{11.0, 16.0, 12.0}}, true)) << "by 0, 1 or 5";
+}
+
+TEST(TimeDifference, IsSaidWithItsIntervalOrAsTheIntervalAlone) {
+  using compare::milliseconds;
+  EXPECT_EQ(milliseconds(beyond_part({{54.0, 56.0, 55.0}}, {{50.0, 50.0, 50.0}})), "5 ms (2 to 8 ms)");
+  EXPECT_EQ(milliseconds(beyond_part({{60.0, 62.0, 64.0}}, {{60.0, 60.0, 60.0}})), "0 to 8 ms");
+  EXPECT_EQ(milliseconds(beyond_part({{55.0, 55.0, 55.0}}, {{50.0, 50.0, 50.0}})), "5 ms");
+  EXPECT_EQ(milliseconds(TimeDifference{}), "not timed");
+}
+
+}  // namespace
+}  // namespace gnomon
