@@ -6,15 +6,11 @@
 #include "scene/expected.h"
 #include "scene/files/gltf_data.h"
 
-namespace tinygltf {
-class Model;
-}
-
 namespace gnomon {
 
 /// Unpacks such primitives and points their accessors to new views of plain data. Where the extension is not
 /// required and a primitive brings its geometry unpacked too, that is taken. Errors (bad_input): data that is
 /// damaged, or that claims more triangles or vertices than so many bytes can hold.
-Expected<void> unpack_draco(tinygltf::Model& model, GltfData& data, const std::string& file);
+Expected<void> unpack_draco(GltfDocument& document, GltfData& data);
 
 }  // namespace gnomon

@@ -1,29 +1,27 @@
 #include "scene/files/gltf_instancing.h"
 
 #include <fmt/core.h>
-#include <tiny_gltf.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
 #include "scene/files/gltf_accessor.h"
+#include "scene/files/gltf_value.h"
 
 namespace gnomon {
 namespace {
 
 /// None where the attribute is not there.
-Expected<std::optional<int>> find(const tinygltf::Model& model, const tinygltf::Value& attributes,
-                                  const std::string& name, int type) {
-  if (!attributes.Has(name)) return std::nullopt;
-  const tinygltf::Value& value = attributes.Get(name);
-  const int index = value.IsInt() ? value.GetNumberAsInt() : -1;
-  if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size())
-    return fail(ErrorKind::bad_input, fmt::format("{}: there is no such accessor", name));
-  const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
+Expected<std::optional<int>> find(const gltf::Model& model, const JsonValue* attributes,
+                                  const std::string& name, gltf::ElementType type) {
+  if (!has(attributes, name)) return std::nullopt;
+  const int index = index_of(attributes, name, model.accessors.size());
+  if (index < 0) return fail(ErrorKind::bad_input, fmt::format("{}: there is no such accessor", name));
+  const gltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
   if (accessor.type != type)
     return fail(ErrorKind::bad_input, fmt::format("{}: the accessor's type does not fit", name));
-  if (accessor.bufferView < 0)
+  if (accessor.view < 0)
     return fail(ErrorKind::bad_input, fmt::format("{}: the accessor has no bufferView", name));
   return index;
 }
@@ -36,13 +34,13 @@ Mat4 rotation(const double* q) {
 
 }  // namespace
 
-Expected<std::vector<Mat4>> gltf_instances(const tinygltf::Model& model, const GltfData& data,
-                                           const tinygltf::Value& extension) {
-  if (!extension.Has("attributes")) return fail(ErrorKind::bad_input, "attributes is missing");
-  const tinygltf::Value& attributes = extension.Get("attributes");
-  const auto translations = find(model, attributes, "TRANSLATION", TINYGLTF_TYPE_VEC3);
-  const auto rotations = find(model, attributes, "ROTATION", TINYGLTF_TYPE_VEC4);
-  const auto scales = find(model, attributes, "SCALE", TINYGLTF_TYPE_VEC3);
+Expected<std::vector<Mat4>> gltf_instances(const gltf::Model& model, const GltfData& data,
+                                           const JsonValue& extension) {
+  if (!has(&extension, "attributes")) return fail(ErrorKind::bad_input, "attributes is missing");
+  const JsonValue* attributes = member(&extension, "attributes");
+  const auto translations = find(model, attributes, "TRANSLATION", gltf::ElementType::vec3);
+  const auto rotations = find(model, attributes, "ROTATION", gltf::ElementType::vec4);
+  const auto scales = find(model, attributes, "SCALE", gltf::ElementType::vec3);
   for (const auto* found : {&translations, &rotations, &scales})
     if (!*found) return fail(found->error());
   std::optional<std::size_t> count;

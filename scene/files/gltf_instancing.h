@@ -7,16 +7,11 @@
 #include "scene/files/gltf_data.h"
 #include "scene/math.h"
 
-namespace tinygltf {
-class Model;
-class Value;
-}  // namespace tinygltf
-
 namespace gnomon {
 
 /// node_from_instance of each; `extension` is the node's object of that name. Attributes that are not there
 /// change nothing. The Error holds the reason alone.
-Expected<std::vector<Mat4>> gltf_instances(const tinygltf::Model& model, const GltfData& data,
-                                           const tinygltf::Value& extension);
+Expected<std::vector<Mat4>> gltf_instances(const gltf::Model& model, const GltfData& data,
+                                           const JsonValue& extension);
 
 }  // namespace gnomon

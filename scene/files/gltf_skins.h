@@ -6,21 +6,17 @@
 #include "scene/files/gltf_data.h"
 #include "scene/math.h"
 
-namespace tinygltf {
-class Model;
-}
-
 namespace gnomon {
 
 /// The node's own transform: its matrix, or translation * rotation * scale.
-Mat4 local_matrix(const tinygltf::Model& model, std::size_t node);
+Mat4 local_matrix(const gltf::Node& node);
 
 /// world_from_node of every node, of all scenes together.
-std::vector<Mat4> node_transforms(const tinygltf::Model& model);
+std::vector<Mat4> node_transforms(const gltf::Model& model);
 
 /// What brings a skinned vertex into the world, by joint: world_from_joint * inverseBindMatrix. A matrix that
 /// is not given is the identity.
-std::vector<Mat4> joint_transforms(const JsonValue& skin, const std::vector<Mat4>& world_from_node,
-                                   const tinygltf::Model& model, const GltfData& data);
+std::vector<Mat4> joint_transforms(const gltf::Skin& skin, const std::vector<Mat4>& world_from_node,
+                                   const gltf::Model& model, const GltfData& data);
 
 }  // namespace gnomon
