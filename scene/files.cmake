@@ -11,12 +11,11 @@ gnomon_untimed(scene
   files/gltf_instancing.cpp files/gltf_materials.cpp files/gltf_paths.cpp files/gltf_parse.cpp files/gltf_parse_nodes.cpp files/gltf_textures.cpp
   files/gltf_writer.cpp files/gltf_writer_materials.cpp files/json_document.cpp files/json_generate.cpp
   files/json_geometry.cpp files/json_lights.cpp files/json_materials.cpp files/json_reader.cpp files/json_repeat.cpp
-  files/json_solids.cpp files/json_scene.cpp files/load.cpp files/mtl_options.cpp files/obj_materials.cpp
+  files/json_solids.cpp files/json_scene.cpp files/load.cpp files/mtl.cpp files/obj_materials.cpp
   files/obj_textures.cpp files/path_keys.cpp files/ply_header.cpp files/staged_folder.cpp files/exr_file.cpp
   files/write_file.cpp
-  LIBRARIES glm::glm tl::expected fmt::fmt nlohmann_json::nlohmann_json tinyobjloader::tinyobjloader_double)
-target_link_libraries(gnomon_scene PRIVATE nlohmann_json::nlohmann_json PNG::PNG libdeflate ${TURBOJPEG_LIBRARY} ${NETTLE_LIBRARY} TBB::tbb ${CMAKE_DL_LIBS}
-  tinyobjloader::tinyobjloader_double)
+  LIBRARIES glm::glm tl::expected fmt::fmt nlohmann_json::nlohmann_json)
+target_link_libraries(gnomon_scene PRIVATE nlohmann_json::nlohmann_json PNG::PNG libdeflate ${TURBOJPEG_LIBRARY} ${NETTLE_LIBRARY} TBB::tbb ${CMAKE_DL_LIBS})
 # Their headers lie where the compiler looks.
 target_link_libraries(gnomon_scene PRIVATE $<LINK_ONLY:draco::draco> $<LINK_ONLY:meshoptimizer::meshoptimizer>)
 

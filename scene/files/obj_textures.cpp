@@ -1,7 +1,6 @@
 #include "scene/files/obj_textures.h"
 
 #include <fmt/core.h>
-#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -19,16 +18,15 @@ std::string with_slashes(std::string name) {
 }
 
 // In v-up terms the lookup is s * v + o; with v' = 1 - v on both sides that is s * v' + (1 - s - o).
-TextureTransform transform_of(const tinyobj::texture_option_t& option) {
+TextureTransform transform_of(const MtlTexture& texture) {
   TextureTransform t;
-  t.scale = {option.scale[0], option.scale[1]};
-  t.offset = {option.origin_offset[0], 1.0 - option.scale[1] - option.origin_offset[1]};
+  t.scale = texture.scale;
+  t.offset = {texture.offset.x, 1.0 - texture.scale.y - texture.offset.y};
   return t;
 }
 
-bool lie_alike(const tinyobj::texture_option_t& a, const tinyobj::texture_option_t& b) {
-  const TextureTransform of_a = transform_of(a), of_b = transform_of(b);
-  return of_a.scale == of_b.scale && of_a.offset == of_b.offset && a.clamp == b.clamp;
+bool lie_alike(const MtlTexture& a, const MtlTexture& b) {
+  return a.scale == b.scale && a.offset == b.offset && a.clamped == b.clamped;
 }
 
 /// A picture of numbers, such as a mask.
@@ -74,26 +72,26 @@ Expected<std::string> ObjTextures::find_file(const std::string& name, const std:
   return fail(std::move(error));
 }
 
-Expected<ObjTextures::Files> ObjTextures::find_files(const tinyobj::material_t& from) {
+Expected<ObjTextures::Files> ObjTextures::find_files(const MtlMaterial& from) {
   Files files;
-  if (!from.diffuse_texname.empty()) {
-    auto path = find_file(from.diffuse_texname, from.name, "map_Kd");
+  if (!from.colours.file.empty()) {
+    auto path = find_file(from.colours.file, from.name, "map_Kd");
     if (!path) return fail(path.error());
     if (is_there(*path))
       files.colours = std::move(*path);
     else
       note(from.name, fmt::format("the texture {} is not there; its plain colour is used", *path));
   }
-  if (!from.alpha_texname.empty()) {
-    auto path = find_file(from.alpha_texname, from.name, "map_d");
+  if (!from.mask.file.empty()) {
+    auto path = find_file(from.mask.file, from.name, "map_d");
     if (!path) return fail(path.error());
     if (!is_there(*path))
       note(from.name, fmt::format("the mask {} is not there; map_d is not used", *path));
     else
       files.mask = are_one_file(*path, files.colours) ? files.colours : std::move(*path);
   }
-  const auto& placed = files.colours.empty() ? from.alpha_texopt : from.diffuse_texopt;
-  files.clamped = placed.clamp;
+  const auto& placed = files.colours.empty() ? from.mask : from.colours;
+  files.clamped = placed.clamped;
   return files;
 }
 
@@ -118,9 +116,9 @@ Expected<ObjTextures::Made> ObjTextures::make(const Files& files) {
   return made;
 }
 
-Expected<void> ObjTextures::read(const std::vector<tinyobj::material_t>& materials) {
+Expected<void> ObjTextures::read(const std::vector<MtlMaterial>& materials) {
   std::vector<Files> wanted;  // once each
-  for (const tinyobj::material_t& from : materials) {
+  for (const MtlMaterial& from : materials) {
     auto files = find_files(from);
     if (!files) return fail(files.error());
     const bool is_new = std::find(wanted.begin(), wanted.end(), *files) == wanted.end();
@@ -137,20 +135,20 @@ Expected<void> ObjTextures::read(const std::vector<tinyobj::material_t>& materia
   return {};
 }
 
-void ObjTextures::give(const tinyobj::material_t& from, std::size_t number, Material& material) {
+void ObjTextures::give(const MtlMaterial& from, std::size_t number, Material& material) {
   const Files& files = files_[number];
   if (files.empty()) return;
   const Known& known = known_.at(files);
   material.diffuse_texture = known.texture;
-  material.texture_transform = transform_of(files.colours.empty() ? from.alpha_texopt : from.diffuse_texopt);
+  material.texture_transform = transform_of(files.colours.empty() ? from.mask : from.colours);
   if (files.mask.empty()) return;
   if (known.mask == Mask::none)
     return note(from.name,
-                fmt::format("map_d is not used: {} has colours and no alpha channel", from.alpha_texname));
+                fmt::format("map_d is not used: {} has colours and no alpha channel", from.mask.file));
   material.alpha_mode = AlphaMode::mask;
   if (known.mask == Mask::grey && !files.has_mask_of_its_own())
-    note(from.name, fmt::format("map_d is the grey of {}, which has no alpha channel", from.alpha_texname));
-  if (!files.colours.empty() && !lie_alike(from.diffuse_texopt, from.alpha_texopt))
+    note(from.name, fmt::format("map_d is the grey of {}, which has no alpha channel", from.mask.file));
+  if (!files.colours.empty() && !lie_alike(from.colours, from.mask))
     note(from.name, "map_d lies as map_Kd does: its own -s, -o and -clamp are not used");
 }
 
