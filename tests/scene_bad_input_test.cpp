@@ -106,7 +106,7 @@ TEST(BadInput, TheDissolveOfAMaterial) {
   EXPECT_EQ(library->notes, std::vector<std::string>{
                                 "The option d -halo is not used: as much is let through at every angle."});
   EXPECT_EQ(library->warnings,
-            std::set<std::string>{"Material 'b c': d counts, and not Tr, which is given, too."});
+            std::set<std::string>{"Material 'b c': Tr is not used, since d is given, too."});
 }
 
 // Wavefront's format: one number is a grey.

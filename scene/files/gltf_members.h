@@ -4,8 +4,6 @@
 
 #include <fmt/core.h>
 
-#include <set>
-
 #include "scene/files/gltf_model.h"
 #include "scene/files/gltf_value.h"
 #include "scene/files/json_reader.h"
@@ -78,8 +76,9 @@ class Members {
 
   int index_of(const JsonNode& node, std::size_t count) const {
     if (count == 0) node.wrong("refers to a list that is empty or missing", "no index");
-    const double value = number_in(node, {0.0, static_cast<double>(count) - 1.0, false, false, true});
-    return static_cast<int>(value);
+    if (failed()) return -1;
+    const double value = node.as_number({0.0, static_cast<double>(count) - 1.0, false, false, true});
+    return failed() ? -1 : static_cast<int>(value);
   }
   /// An index into a list of `count` items.
   int index(const JsonNode& node, std::string_view key, std::size_t count) const {
@@ -99,11 +98,6 @@ class Members {
   }
 
  private:
-  double number_in(const JsonNode& node, const NumberRange& range) const {
-    const double value = failed() ? -1.0 : node.as_number(range);
-    return failed() ? -1.0 : value;
-  }
-
   JsonNode root_;
 };
 

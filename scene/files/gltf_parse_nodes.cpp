@@ -6,16 +6,6 @@
 namespace gnomon::gltf {
 namespace {
 
-std::string_view name_of(ElementType type) {
-  if (type == ElementType::scalar) return "SCALAR";
-  if (type == ElementType::vec2) return "VEC2";
-  if (type == ElementType::vec3) return "VEC3";
-  return type == ElementType::vec4   ? "VEC4"
-         : type == ElementType::mat2 ? "MAT2"
-         : type == ElementType::mat3 ? "MAT3"
-                                     : "MAT4";
-}
-
 /// Reads meshes and what places them.
 class NodeReader {
  public:
@@ -47,42 +37,40 @@ class NodeReader {
   // ---- meshes ----
 
   /// An accessor of one of these types.
-  int accessor(const JsonNode& owner, std::string_view key, std::initializer_list<ElementType> types) const {
+  int accessor(const JsonNode& owner, std::string_view key,
+               const std::vector<std::string_view>& types) const {
     const int index = members_.index(owner, key, model_.accessors.size());
     if (index < 0) return index;
-    const ElementType type = model_.accessors[static_cast<std::size_t>(index)].type;
-    if (std::find(types.begin(), types.end(), type) != types.end()) return index;
-    std::vector<std::string_view> names;
-    for (const ElementType allowed : types) names.push_back(name_of(allowed));
-    owner.child(key)->error(fmt::format("the accessor's type does not fit (got {}, allowed {})",
-                                        name_of(type), list_names(names)));
-    return -1;
+    const std::string type = text_of(&members_.item("accessors", static_cast<std::size_t>(index)), "type");
+    if (std::find(types.begin(), types.end(), type) == types.end())
+      owner.child(key)->error(
+          fmt::format("the accessor's type does not fit (got {}, allowed {})", type, list_names(types)));
+    return index;
   }
 
   Attributes attributes(const JsonNode& node) const {
     Attributes out;
     for (const JsonMember& member : node.value().members)
       out[member.key] = members_.index(node, member.key, model_.accessors.size());
-    accessor(node, "POSITION", {ElementType::vec3}), accessor(node, "NORMAL", {ElementType::vec3});
+    accessor(node, "POSITION", {"VEC3"}), accessor(node, "NORMAL", {"VEC3"});
     return out;
   }
 
   Primitive read_primitive(const JsonNode& node) const {
-    using enum ElementType;
     Primitive out;
     out.mode = static_cast<int>(members_.number(node, "mode", triangles, {0.0, 6.0, false, false, true}));
     out.material = members_.index(node, "material", members_.count("materials"));
-    out.indices = accessor(node, "indices", {scalar});
+    out.indices = accessor(node, "indices", {"SCALAR"});
     const auto own = node.child("attributes");
     if (!own) return node.error("attributes is missing"), out;
     Members::check_object(*own);
     out.attributes = attributes(*own);
-    accessor(*own, "TEXCOORD_0", {vec2}), accessor(*own, "TEXCOORD_1", {vec2});
+    accessor(*own, "TEXCOORD_0", {"VEC2"}), accessor(*own, "TEXCOORD_1", {"VEC2"});
     for (const char set : {'0', '1', '2', '3'}) {
-      accessor(*own, std::string("JOINTS_") + set, {vec4});
-      accessor(*own, std::string("WEIGHTS_") + set, {vec4});
+      accessor(*own, std::string("JOINTS_") + set, {"VEC4"});
+      accessor(*own, std::string("WEIGHTS_") + set, {"VEC4"});
     }
-    accessor(*own, "COLOR_0", {vec3, vec4});
+    accessor(*own, "COLOR_0", {"VEC3", "VEC4"});
     out.extensions = Members::object(node, "extensions");
     members_.each(node, "targets", [&](const JsonNode& n) { out.targets.push_back(attributes(n)); });
     return out;
@@ -100,7 +88,7 @@ class NodeReader {
 
   Skin read_skin(const JsonNode& node) const {
     return {members_.indices(node, "joints", members_.count("nodes")),
-            accessor(node, "inverseBindMatrices", {ElementType::mat4})};
+            accessor(node, "inverseBindMatrices", {"MAT4"})};
   }
 
   // ---- cameras and lights ----

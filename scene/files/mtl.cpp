@@ -35,19 +35,14 @@ constexpr std::array<TextureOption, 14> options{{{"-s", 3, true, false},
                                                  {"-type", 1, false, true},
                                                  {"-colorspace", 1, false, true}}};
 
-/// Statements of maps that are not used, and the names that notes give them.
-constexpr std::array<std::array<std::string_view, 2>, 12> other_maps{{{"map_Ka", "map_Ka"},
-                                                                      {"map_Ks", "map_Ks"},
-                                                                      {"map_Ns", "map_Ns"},
-                                                                      {"map_Ke", "map_Ke"},
-                                                                      {"bump", "bump"},
-                                                                      {"map_bump", "bump"},
-                                                                      {"map_Bump", "bump"},
-                                                                      {"disp", "disp"},
-                                                                      {"map_disp", "disp"},
-                                                                      {"map_Disp", "disp"},
-                                                                      {"refl", "refl"},
-                                                                      {"norm", "norm"}}};
+/// The name that notes give to a map that is not used; empty: the statement is none of those.
+std::string_view other_map(std::string_view key) {
+  if (key == "map_bump" || key == "map_Bump") return "bump";
+  if (key == "map_disp" || key == "map_Disp") return "disp";
+  for (const std::string_view name : {"map_Ka", "map_Ks", "map_Ns", "map_Ke", "bump", "disp", "refl", "norm"})
+    if (key == name) return name;
+  return {};
+}
 
 constexpr std::string_view blanks = " \t";
 
@@ -123,8 +118,8 @@ class MtlReader {
     if (key == "illum") return read_illum(rest, m);
     if (key == "map_Kd") return read_texture(key, rest, m.colours);
     if (key == "map_d") return read_texture(key, rest, m.mask);
-    for (const auto& [statement, name] : other_maps)
-      if (statement == key && !texture(key, rest, nullptr).file.empty()) m.other_maps.emplace(name);
+    if (const std::string_view name = other_map(key); !name.empty())
+      if (!texture(key, rest, nullptr).file.empty()) m.other_maps.emplace(name);
   }
 
   void begin_material(std::string name) {
@@ -170,7 +165,7 @@ class MtlReader {
 
   static void read_illum(std::string_view rest, MtlMaterial& m) {
     const std::string_view word = take_word(rest);
-    m.illum = 0;
+    if (!word.empty()) m.illum = 0;
     std::from_chars(word.data(), word.data() + word.size(), m.illum);
   }
 
@@ -196,7 +191,7 @@ class MtlReader {
 
   void warn_of_both(const MtlMaterial& m) {
     if (has_dissolve_ && has_transparency_)
-      out_.warnings.insert(fmt::format("Material '{}': d counts, and not Tr, which is given, too.", m.name));
+      out_.warnings.insert(fmt::format("Material '{}': Tr is not used, since d is given, too.", m.name));
   }
 
   // ---- textures ----
