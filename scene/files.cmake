@@ -7,7 +7,7 @@ target_sources(gnomon_scene PRIVATE
   files/obj_text.cpp files/ply.cpp files/ply_regular.cpp files/jpeg_decode.cpp files/png_decode.cpp files/polygon.cpp
   files/read_file.cpp files/sha256.cpp files/texture_mask.cpp files/row_file.cpp files/validate.cpp)
 gnomon_untimed(scene
-  files/gltf.cpp files/gltf_extensions.cpp files/gltf_extras.cpp
+  files/gltf.cpp files/gltf_extras.cpp
   files/gltf_instancing.cpp files/gltf_materials.cpp files/gltf_paths.cpp files/gltf_parse.cpp files/gltf_parse_nodes.cpp files/gltf_textures.cpp
   files/gltf_writer.cpp files/gltf_writer_materials.cpp files/json_document.cpp files/json_generate.cpp
   files/json_geometry.cpp files/json_lights.cpp files/json_materials.cpp files/json_reader.cpp files/json_repeat.cpp

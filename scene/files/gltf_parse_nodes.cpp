@@ -9,39 +9,40 @@ namespace {
 /// Reads meshes and what places them.
 class NodeReader {
  public:
-  NodeReader(const Members& members, Model& model)
-      : members_(members), root_(members.root()), model_(model) {}
+  NodeReader(const JsonNode& root, Model& model) : root_(root), model_(model) {}
 
   void run() {
     each("meshes", [&](const JsonNode& n) { model_.meshes.push_back(read_mesh(n)); });
     each("skins", [&](const JsonNode& n) { model_.skins.push_back(read_skin(n)); });
     each("cameras", [&](const JsonNode& n) { model_.cameras.push_back(read_camera(n)); });
     if (const auto owner = light_owner())
-      members_.each(*owner, "lights", [&](const JsonNode& n) { model_.lights.push_back(read_light(n)); });
-    model_.nodes.resize(members_.count("nodes"));
+      gltf::each(*owner, "lights", [&](const JsonNode& n) { model_.lights.push_back(read_light(n)); });
+    model_.nodes.resize(count("nodes"));
     std::size_t at = 0;
     each("nodes", [&](const JsonNode& n) { read_node(n, at++); });
-    each("scenes", [&](const JsonNode& n) {
-      model_.scenes.push_back(members_.indices(n, "nodes", model_.nodes.size()));
-    });
-    model_.default_scene = members_.index(root_, "scene", model_.scenes.size());
-    if (!members_.failed()) check_cycles();
+    each("scenes",
+         [&](const JsonNode& n) { model_.scenes.push_back(indices(n, "nodes", model_.nodes.size())); });
+    model_.default_scene = index(root_, "scene", model_.scenes.size());
+    if (!failed(root_)) check_cycles();
   }
 
  private:
   template <class Visit>
   void each(std::string_view list, const Visit& visit) const {
-    members_.each(root_, list, visit);
+    gltf::each(root_, list, visit);
   }
+
+  std::size_t count(std::string_view list) const { return gltf_list(root_.value(), list).size(); }
 
   // ---- meshes ----
 
   /// An accessor of one of these types.
   int accessor(const JsonNode& owner, std::string_view key,
                const std::vector<std::string_view>& types) const {
-    const int index = members_.index(owner, key, model_.accessors.size());
+    const int index = gltf::index(owner, key, model_.accessors.size());
     if (index < 0) return index;
-    const std::string type = text_of(&members_.item("accessors", static_cast<std::size_t>(index)), "type");
+    const JsonValue& known = gltf_list(root_.value(), "accessors")[static_cast<std::size_t>(index)];
+    const std::string type = text_of(&known, "type");
     if (std::find(types.begin(), types.end(), type) == types.end())
       owner.child(key)->error(
           fmt::format("the accessor's type does not fit (got {}, allowed {})", type, list_names(types)));
@@ -51,19 +52,19 @@ class NodeReader {
   Attributes attributes(const JsonNode& node) const {
     Attributes out;
     for (const JsonMember& member : node.value().members)
-      out[member.key] = members_.index(node, member.key, model_.accessors.size());
+      out[member.key] = index(node, member.key, model_.accessors.size());
     accessor(node, "POSITION", {"VEC3"}), accessor(node, "NORMAL", {"VEC3"});
     return out;
   }
 
   Primitive read_primitive(const JsonNode& node) const {
     Primitive out;
-    out.mode = static_cast<int>(members_.number(node, "mode", triangles, {0.0, 6.0, false, false, true}));
-    out.material = members_.index(node, "material", members_.count("materials"));
+    out.mode = static_cast<int>(number(node, "mode", triangles, {0.0, 6.0, false, false, true}));
+    out.material = index(node, "material", count("materials"));
     out.indices = accessor(node, "indices", {"SCALAR"});
     const auto own = node.child("attributes");
     if (!own) return node.error("attributes is missing"), out;
-    Members::check_object(*own);
+    check_object(*own);
     out.attributes = attributes(*own);
     accessor(*own, "TEXCOORD_0", {"VEC2"}), accessor(*own, "TEXCOORD_1", {"VEC2"});
     for (const char set : {'0', '1', '2', '3'}) {
@@ -71,24 +72,22 @@ class NodeReader {
       accessor(*own, std::string("WEIGHTS_") + set, {"VEC4"});
     }
     accessor(*own, "COLOR_0", {"VEC3", "VEC4"});
-    out.extensions = Members::object(node, "extensions");
-    members_.each(node, "targets", [&](const JsonNode& n) { out.targets.push_back(attributes(n)); });
+    out.extensions = object(node, "extensions");
+    gltf::each(node, "targets", [&](const JsonNode& n) { out.targets.push_back(attributes(n)); });
     return out;
   }
 
   Mesh read_mesh(const JsonNode& node) const {
     Mesh out;
-    out.name = Members::string(node, "name");
+    out.name = string(node, "name");
     if (!node.child("primitives")) return node.error("primitives is missing"), out;
-    members_.each(node, "primitives",
-                  [&](const JsonNode& n) { out.primitives.push_back(read_primitive(n)); });
-    out.weights = Members::numbers(node, "weights", 0);
+    gltf::each(node, "primitives", [&](const JsonNode& n) { out.primitives.push_back(read_primitive(n)); });
+    out.weights = numbers(node, "weights", 0);
     return out;
   }
 
   Skin read_skin(const JsonNode& node) const {
-    return {members_.indices(node, "joints", members_.count("nodes")),
-            accessor(node, "inverseBindMatrices", {"MAT4"})};
+    return {indices(node, "joints", count("nodes")), accessor(node, "inverseBindMatrices", {"MAT4"})};
   }
 
   // ---- cameras and lights ----
@@ -97,18 +96,17 @@ class NodeReader {
     Camera out;
     out.name = text_of(&node.value(), "name");
     if (const auto perspective = node.child("perspective")) {
-      out.vertical_fov = members_.required_number(*perspective, "yfov", 0.5 * pi, {0.0, pi, true, true});
-      members_.required_number(*perspective, "znear", 1.0, positive_number);
+      out.vertical_fov = required_number(*perspective, "yfov", 0.5 * pi, {0.0, pi, true, true});
+      required_number(*perspective, "znear", 1.0, positive_number);
     }
     const auto type = node.child("type");
     if (!type) return node.error("type is missing"), out;
     out.is_perspective = type->as_choice({"perspective", "orthographic"}) == 0;
     const auto own = node.child(type->value().text);
     if (!own) return node.error(fmt::format("{} is missing", printable(type->value().text))), out;
-    Members::check_object(*own);
+    check_object(*own);
     if (!out.is_perspective)
-      for (const std::string_view key : {"xmag", "ymag", "zfar", "znear"})
-        members_.required_number(*own, key, 1.0);
+      for (const std::string_view key : {"xmag", "ymag", "zfar", "znear"}) required_number(*own, key, 1.0);
     return out;
   }
 
@@ -124,11 +122,11 @@ class NodeReader {
     Light out;
     const JsonValue& from = node.value();
     if (!node.child("type")) return node.error("type is missing"), out;
-    out.type = Members::string(node, "type");
+    out.type = string(node, "type");
     const auto spot = node.child("spot");
     if (out.type == "spot" && !spot) node.error("spot is missing");
     if (out.type == "spot" && spot) {
-      Members::check_object(*spot);
+      check_object(*spot);
       out.inner_cone_angle = number_of(&spot->value(), "innerConeAngle", out.inner_cone_angle);
       out.outer_cone_angle = number_of(&spot->value(), "outerConeAngle", out.outer_cone_angle);
     }
@@ -144,24 +142,24 @@ class NodeReader {
 
   void read_node(const JsonNode& node, std::size_t at) const {
     Node& out = model_.nodes[at];
-    out.name = Members::string(node, "name");
-    out.mesh = members_.index(node, "mesh", model_.meshes.size());
-    out.camera = members_.index(node, "camera", model_.cameras.size());
-    out.skin = members_.index(node, "skin", model_.skins.size());
-    out.weights = Members::numbers(node, "weights", 0);
+    out.name = string(node, "name");
+    out.mesh = index(node, "mesh", model_.meshes.size());
+    out.camera = index(node, "camera", model_.cameras.size());
+    out.skin = index(node, "skin", model_.skins.size());
+    out.weights = numbers(node, "weights", 0);
     read_children(node, at);
     read_transform(node, out);
-    out.extensions = Members::object(node, "extensions");
+    out.extensions = object(node, "extensions");
     const auto extensions = node.child("extensions");
     if (!extensions) return;
     if (const auto light = extensions->child("KHR_lights_punctual"))
-      out.light = members_.required_index(*light, "light", model_.lights.size());
+      out.light = required_index(*light, "light", model_.lights.size());
     out.visible = flag_of(extension(out.extensions, "KHR_node_visibility"), "visible", true);
   }
 
   void read_children(const JsonNode& node, std::size_t at) const {
-    model_.nodes[at].children = members_.indices(node, "children", model_.nodes.size());
-    if (members_.failed()) return;
+    model_.nodes[at].children = indices(node, "children", model_.nodes.size());
+    if (failed(root_)) return;
     for (std::size_t i = 0; i < model_.nodes[at].children.size(); ++i) {
       const std::size_t child = model_.nodes[at].children[i];
       int& parent = model_.nodes[child].parent;
@@ -174,10 +172,10 @@ class NodeReader {
   }
 
   static void read_transform(const JsonNode& node, Node& out) {
-    const auto matrix = Members::numbers(node, "matrix", 16);
-    const auto translation = Members::numbers(node, "translation", 3);
-    const auto rotation = Members::numbers(node, "rotation", 4);
-    const auto scale = Members::numbers(node, "scale", 3);
+    const auto matrix = numbers(node, "matrix", 16);
+    const auto translation = numbers(node, "translation", 3);
+    const auto rotation = numbers(node, "rotation", 4);
+    const auto scale = numbers(node, "scale", 3);
     if (!matrix.empty()) {
       Mat4& m = out.matrix.emplace();
       for (std::size_t i = 0; i < matrix.size(); ++i)
@@ -207,7 +205,6 @@ class NodeReader {
           "the node is its own ancestor, or below one (a cycle of children)");
   }
 
-  const Members& members_;
   const JsonNode& root_;
   Model& model_;
 };
@@ -219,8 +216,8 @@ int attribute(const Attributes& attributes, std::string_view name) {
   return found == attributes.end() ? -1 : found->second;
 }
 
-void read_nodes(const Members& members, Model& model) {
-  NodeReader(members, model).run();
+void read_nodes(const JsonNode& root, Model& model) {
+  NodeReader(root, model).run();
 }
 
 }  // namespace gnomon::gltf
