@@ -11,17 +11,15 @@
 #include <set>
 
 #include "scene/files/defaults.h"
-#include "scene/files/flat_mesh.h"
 #include "scene/files/formats.h"
 #include "scene/files/gltf_data.h"
-#include "scene/files/gltf_draco.h"
 #include "scene/files/gltf_extras.h"
-#include "scene/files/gltf_instancing.h"
 #include "scene/files/gltf_materials.h"
 #include "scene/files/gltf_meshes.h"
 #include "scene/files/gltf_model.h"
+#include "scene/files/gltf_packed.h"
 #include "scene/files/gltf_paths.h"
-#include "scene/files/gltf_skins.h"
+#include "scene/files/gltf_transforms.h"
 #include "scene/files/gltf_value.h"
 #include "scene/files/read_file.h"
 #include "scene/files/validate.h"
@@ -34,6 +32,30 @@ Error gltf_error(const std::string& file, std::string field, std::string reason)
 }
 
 // ---- nodes ----
+
+/// Twice its area beside the square of its longest edge: less is a line up to the rounding of the transform.
+constexpr double narrowest_share = 1e-12;
+
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, ac = c - a, bc = c - b;
+  const double longest = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
+  return glm::length(glm::cross(ab, ac)) > narrowest_share * longest;
+}
+
+/// The mesh as a transform without inverse leaves it (a scale of 0 along one axis), in the world: what becomes a line or a
+/// point is left out, normals are the triangles' own.
+Mesh flattened(const Mesh& mesh, const Mat4& world_from_object) {
+  Mesh out = mesh;
+  out.normals.clear(), out.triangles.clear(), out.triangle_materials.clear();
+  for (Vec3& p : out.positions) p = Vec3(world_from_object * Vec4(p, 1.0));
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto [a, b, c] = mesh.triangles[i];
+    if (!has_area(out.positions[a], out.positions[b], out.positions[c])) continue;
+    out.triangles.push_back(mesh.triangles[i]);
+    if (!mesh.triangle_materials.empty()) out.triangle_materials.push_back(mesh.triangle_materials[i]);
+  }
+  return out;
+}
 
 // What is of length one up to rounding stays as it is, so that a file that is written anew says the same.
 Vec3 unit_vector(const Vec3& v) {

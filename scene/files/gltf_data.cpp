@@ -9,9 +9,8 @@
 
 #include "scene/files/base64.h"
 #include "scene/files/gltf_container.h"
-#include "scene/files/gltf_meshopt.h"
+#include "scene/files/gltf_packed.h"
 #include "scene/files/gltf_value.h"
-#include "scene/files/hex_digit.h"
 #include "scene/files/read_file.h"
 #include "scene/parallel.h"
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "scene/files/gltf_accessor.h"
-#include "scene/files/gltf_skins.h"
+#include "scene/files/gltf_transforms.h"
 #include "scene/files/json_reader.h"
 
 namespace gnomon {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/files/image_io.h"
 #include "scene/files/mtl.h"
-#include "scene/files/texture_file.h"
 #include "scene/load.h"
 
 namespace gnomon {
