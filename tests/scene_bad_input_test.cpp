@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "scene/files/image_io.h"
-#include "scene/files/mtl_options.h"
+#include "scene/files/mtl.h"
 #include "scene/load.h"
 #include "tests/scene_files_support.h"
 
@@ -64,44 +64,75 @@ TEST(BadInput, AnExrHasNoDateOfItsMaking) {
   std::filesystem::remove_all(folder);
 }
 
-/// The library as it is read; an error's message.
-std::string read_mtl(const std::string& text, std::vector<std::string>& notes) {
-  const auto plain = plain_mtl(text, "m.mtl", notes);
-  return plain ? *plain : plain.error().message();
+/// What is wrong with the library.
+std::string mtl_error(const std::string& text) {
+  const auto library = parse_mtl(text, "m.mtl");
+  return library ? "nothing" : library.error().message();
 }
 
 TEST(BadInput, OptionsOfTexturesMayBeShort) {
-  std::vector<std::string> notes;
-  EXPECT_EQ(read_mtl("newmtl a\nmap_Kd -s 2 my tex.png\r\nmap_Kd -blendu on -o 0.5 0.25 -clamp on t.png\n"
-                     "map_Kd -mm 0 1 t.png\nKd 1 1 1",
-                     notes),
-            "newmtl a\nmap_Kd -s 2 1 1 my tex.png\nmap_Kd -o 0.5 0.25 0 -clamp on t.png\n"
-            "map_Kd t.png\nKd 1 1 1\n");
-  EXPECT_EQ(notes, std::vector<std::string>{"The option map_Kd -mm of textures is not used."});
+  const auto library = parse_mtl(
+      "newmtl a\nmap_Kd -s 2 my tex.png\r\nnewmtl b\n map_Kd -blendu on -o 0.5 0.25 -clamp on t.png \n"
+      "map_d -clamp off -mm 0 1 m.png\nmap_Bump -bm 1 n.png\nKd 1 1 1",
+      "m.mtl");
+  ASSERT_TRUE(library);
+  ASSERT_EQ(library->materials.size(), 2u);
+  const MtlTexture& a = library->materials[0].colours;
+  EXPECT_EQ(a.file, "my tex.png");
+  EXPECT_EQ(a.scale, Vec2(2.0, 1.0));
+  EXPECT_FALSE(a.clamped);
+  const MtlMaterial& b = library->materials[1];
+  EXPECT_EQ(b.colours.file, "t.png");
+  EXPECT_EQ(b.colours.offset, Vec2(0.5, 0.25));
+  EXPECT_TRUE(b.colours.clamped);
+  EXPECT_EQ(b.mask.file, "m.png");
+  EXPECT_FALSE(b.mask.clamped);
+  EXPECT_EQ(b.other_maps, std::set<std::string>{"bump"});
+  EXPECT_EQ(b.diffuse, Vec3(1.0));
+  EXPECT_EQ(library->notes, std::vector<std::string>{"The option map_d -mm of textures is not used."});
 }
 
-TEST(BadInput, TheHaloOfADissolve) {
-  std::vector<std::string> notes;
-  EXPECT_EQ(read_mtl("newmtl a\n  d -halo 0.5\r\nnewmtl b\nd 0.25\ndisp -halo.png\n", notes),
-            "newmtl a\nd 0.5\nnewmtl b\nd 0.25\ndisp -halo.png\n");
-  EXPECT_EQ(notes, std::vector<std::string>{
-                       "The option d -halo is not used: as much is let through at every angle."});
+TEST(BadInput, TheDissolveOfAMaterial) {
+  const auto library = parse_mtl(
+      "d 0.1\nnewmtl a\n  d -halo 0.5\r\nnewmtl b c \nd 0.25\nTr 0.5\nnewmtl d\nTr .75\nnewmtl\nTr 1\n",
+      "m.mtl");
+  ASSERT_TRUE(library);
+  ASSERT_EQ(library->materials.size(), 3u);  // what has no name is none
+  EXPECT_EQ(library->materials[0].dissolve, 0.5);
+  EXPECT_EQ(library->materials[1].name, "b c");
+  EXPECT_EQ(library->materials[1].dissolve, 0.25);
+  EXPECT_EQ(library->materials[2].dissolve, 0.25);
+  EXPECT_TRUE(library->materials[2].has_full_transparency);
+  EXPECT_EQ(library->notes, std::vector<std::string>{
+                                "The option d -halo is not used: as much is let through at every angle."});
+  EXPECT_EQ(library->warnings,
+            std::set<std::string>{"Material 'b c': Tr is not used, since d is given, too."});
 }
 
-// Wavefront's format: one number is a grey. tinyobjloader reads a word that is no number as 0.
+// Wavefront's format: one number is a grey.
 TEST(BadInput, NumbersOfMaterialsAreNumbers) {
-  std::vector<std::string> notes;
-  EXPECT_EQ(read_mtl("Kd 0.8\rKs .5 5e-1 1 # light\rNs 96\r", notes),
-            "Kd 0.8 0.8 0.8\nKs .5 5e-1 1\nNs 96\n");
-  EXPECT_EQ(read_mtl("newmtl a\nKd 0.1 \\\n 0.2 0.3\n", notes), "newmtl a\nKd 0.1 0.2 0.3\n");
-  EXPECT_TRUE(notes.empty());
-  EXPECT_EQ(read_mtl("Kd spectral red.rfl 1\n", notes), "\n");
-  EXPECT_EQ(notes, std::vector<std::string>{"The option Kd spectral is not used."});
-  EXPECT_EQ(read_mtl("newmtl a\nKd 0,8 0,1 0,1\n", notes),
+  const auto library = parse_mtl(
+      "newmtl a\rKd 0.8\rKs .5 5e-1 1 # light\rNs 96\rnewmtl b\nKd 0.1 \\\n 0.2 0.3\nillum 7 x\nTf 0.3\n"
+      "newmtl c\nKd spectral red.rfl 1\n",
+      "m.mtl");
+  ASSERT_TRUE(library);
+  ASSERT_EQ(library->materials.size(), 3u);
+  const MtlMaterial &a = library->materials[0], &b = library->materials[1];
+  EXPECT_EQ(a.diffuse, Vec3(0.8));
+  EXPECT_EQ(a.specular, Vec3(0.5, 0.5, 1.0));
+  EXPECT_EQ(a.shininess, 96.0);
+  EXPECT_EQ(b.diffuse, Vec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(b.illum, 7);
+  EXPECT_EQ(b.transmittance, Vec3(0.3));
+  EXPECT_EQ(library->materials[2].diffuse, std::nullopt);
+  EXPECT_EQ(library->notes, std::vector<std::string>{"The option Kd spectral is not used."});
+  EXPECT_EQ(mtl_error("newmtl a\nKd 0,8 0,1 0,1\n"),
             "m.mtl:2:4: Kd: not a finite number (got 0,8, allowed for example 0.8)");
-  EXPECT_EQ(read_mtl("Ns nan\n", notes),
-            "m.mtl:1:4: Ns: not a finite number (got nan, allowed for example 0.8)");
-  EXPECT_EQ(read_mtl("Kd 1 1\n", notes), "m.mtl:1:7: Kd: too few numbers (got 2, allowed 1 or 3)");
+  EXPECT_EQ(mtl_error("Ns nan\n"), "m.mtl:1:4: Ns: not a finite number (got nan, allowed for example 0.8)");
+  EXPECT_EQ(mtl_error("Kd 1 1\n"), "m.mtl:1:7: Kd: too few numbers (got 2, allowed 1 or 3)");
+  EXPECT_EQ(mtl_error("Kd 0.1 \\\n x\n"),
+            "m.mtl:2:2: Kd: not a finite number (got x, allowed for example 0.8)");
+  EXPECT_EQ(mtl_error("newmtl a\nTr\n"), "m.mtl:2:3: Tr: too few numbers (got 0, allowed 1)");
 }
 
 const std::string triangle =

@@ -8,7 +8,6 @@
 
 #include "scene/closed_mesh.h"
 #include "scene/files/image_io.h"
-#include "scene/files/interior.h"
 #include "scene/files/placed_triangles.h"
 #include "scene/solid.h"
 

@@ -1,4 +1,4 @@
-// glTF 2.0 and GLB: checked by gltf_check, parsed by tinygltf, brought into the scene model here. One instance for each
+// glTF 2.0 and GLB: read by parse_gltf, brought into the scene model here. One instance for each
 // node with a mesh, or as many as EXT_mesh_gpu_instancing says; lights by KHR_lights_punctual in their own units (lux,
 // candela); the first perspective camera.
 #include <fmt/core.h>
@@ -11,18 +11,16 @@
 #include <set>
 
 #include "scene/files/defaults.h"
-#include "scene/files/flat_mesh.h"
 #include "scene/files/formats.h"
-#include "scene/files/gltf_check.h"
 #include "scene/files/gltf_data.h"
-#include "scene/files/gltf_draco.h"
 #include "scene/files/gltf_extras.h"
-#include "scene/files/gltf_instancing.h"
 #include "scene/files/gltf_materials.h"
 #include "scene/files/gltf_meshes.h"
 #include "scene/files/gltf_model.h"
+#include "scene/files/gltf_packed.h"
 #include "scene/files/gltf_paths.h"
-#include "scene/files/gltf_skins.h"
+#include "scene/files/gltf_transforms.h"
+#include "scene/files/gltf_value.h"
 #include "scene/files/read_file.h"
 #include "scene/files/validate.h"
 
@@ -35,6 +33,30 @@ Error gltf_error(const std::string& file, std::string field, std::string reason)
 
 // ---- nodes ----
 
+/// Twice its area beside the square of its longest edge: less is a line up to the rounding of the transform.
+constexpr double narrowest_share = 1e-12;
+
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, ac = c - a, bc = c - b;
+  const double longest = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
+  return glm::length(glm::cross(ab, ac)) > narrowest_share * longest;
+}
+
+/// The mesh as a transform without inverse leaves it (a scale of 0 along one axis), in the world: what becomes a line or a
+/// point is left out, normals are the triangles' own.
+Mesh flattened(const Mesh& mesh, const Mat4& world_from_object) {
+  Mesh out = mesh;
+  out.normals.clear(), out.triangles.clear(), out.triangle_materials.clear();
+  for (Vec3& p : out.positions) p = Vec3(world_from_object * Vec4(p, 1.0));
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto [a, b, c] = mesh.triangles[i];
+    if (!has_area(out.positions[a], out.positions[b], out.positions[c])) continue;
+    out.triangles.push_back(mesh.triangles[i]);
+    if (!mesh.triangle_materials.empty()) out.triangle_materials.push_back(mesh.triangle_materials[i]);
+  }
+  return out;
+}
+
 // What is of length one up to rounding stays as it is, so that a file that is written anew says the same.
 Vec3 unit_vector(const Vec3& v) {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
@@ -43,21 +65,20 @@ Vec3 unit_vector(const Vec3& v) {
 
 class SceneBuilder {
  public:
-  SceneBuilder(LoadedFile& loaded, const tinygltf::Model& model, const GltfData& data, const JsonValue& root,
-               const GltfExtras& extras, GltfMeshReader& meshes, const std::string& file)
+  SceneBuilder(LoadedFile& loaded, const GltfDocument& document, const GltfData& data,
+               const GltfExtras& extras, GltfMeshReader& meshes)
       : loaded_(loaded),
         scene_(loaded.scene),
-        model_(model),
+        json_(document.json),
+        model_(document.model),
         data_(data),
-        root_(root),
         extras_(extras),
-        meshes_(meshes),
-        file_(file) {}
+        meshes_(meshes) {}
 
   const CarriedNodes& carried() const { return carried_; }
 
   Expected<void> run() {
-    for (const int root : roots())
+    for (const std::size_t root : roots())
       if (const auto visited = visit_from(root); !visited) return visited;
     if (orthographic_) note("An orthographic camera was skipped: only perspective is supported.");
     if (flattened_ > 0)
@@ -65,7 +86,7 @@ class SceneBuilder {
                        flattened_));
     if (ranged_)
       note("The range of lights is not used: their light falls off with the squared distance alone.");
-    if (!gltf_list(root_, "animations").empty())
+    if (!gltf_list(json_.root, "animations").empty())
       note(
           "Animations are not played: everything is shown in the pose that it is stored in. Of cameras and "
           "lights "
@@ -81,50 +102,40 @@ class SceneBuilder {
 
  private:
   struct Visit {
-    int node;
+    std::size_t node;
     Mat4 world_from_parent;
   };
 
   void note(std::string text) { scene_.notes.push_back(std::move(text)); }
 
   // The default scene, or the first, or every node without a parent.
-  std::vector<int> roots() {
+  std::vector<std::size_t> roots() {
     if (!model_.scenes.empty()) {
-      const std::size_t index = model_.defaultScene >= 0 ? static_cast<std::size_t>(model_.defaultScene) : 0;
+      const auto index = static_cast<std::size_t>(std::max(model_.default_scene, 0));
       if (model_.scenes.size() > 1)
         note(fmt::format("Scene {} of {} is shown.", index, model_.scenes.size()));
-      return model_.scenes[index].nodes;
+      return model_.scenes[index];
     }
-    std::set<int> all;
-    for (std::size_t i = 0; i < model_.nodes.size(); ++i) all.insert(static_cast<int>(i));
-    for (const tinygltf::Node& node : model_.nodes)
-      for (const int child : node.children) all.erase(child);
-    return {all.begin(), all.end()};
-  }
-
-  /// KHR_node_visibility: with all that is below it.
-  static bool is_hidden(const tinygltf::Node& node) {
-    const auto found = node.extensions.find("KHR_node_visibility");
-    if (found == node.extensions.end() || !found->second.Has("visible")) return false;
-    const tinygltf::Value& visible = found->second.Get("visible");
-    return visible.IsBool() && !visible.Get<bool>();
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < model_.nodes.size(); ++i)
+      if (model_.nodes[i].parent < 0) out.push_back(i);
+    return out;
   }
 
   // Depth first, in the file's order, with a stack of its own: a long chain of nodes cannot overflow the
   // program's.
-  Expected<void> visit_from(int root) {
+  Expected<void> visit_from(std::size_t root) {
     std::vector<Visit> stack{{root, Mat4(1.0)}};
     while (!stack.empty()) {
       const Visit visit = stack.back();
       stack.pop_back();
-      const auto index = static_cast<std::size_t>(visit.node);
-      const tinygltf::Node& node = model_.nodes[index];
-      if (is_hidden(node)) continue;
-      const Mat4 world = visit.world_from_parent * local_matrix(model_, index);
+      const gltf::Node& node = model_.nodes[visit.node];
+      if (!node.visible) continue;  // KHR_node_visibility: nor is what is below it
+      const Mat4 world = visit.world_from_parent * local_matrix(node);
       if (node.mesh >= 0)
         if (const auto added = add_mesh(node, visit.node, world); !added) return added;
-      if (node.camera >= 0) add_camera(node, index, world);
-      add_light(node, index, world);
+      if (node.camera >= 0) add_camera(node, visit.node, world);
+      add_light(node, visit.node, world);
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
         stack.push_back({*child, world});
     }
@@ -137,15 +148,15 @@ class SceneBuilder {
   };
 
   /// The mesh in the node's pose, read when the first node asks for it; no_id: it has no triangles.
-  Expected<PosedMesh> posed_mesh(const tinygltf::Node& node) {
+  Expected<PosedMesh> posed_mesh(const gltf::Node& node) {
     const auto index = static_cast<std::size_t>(node.mesh);
     GltfPose pose{node.weights.empty() ? model_.meshes[index].weights : node.weights};
     const auto [known, is_new] = our_mesh_.try_emplace({node.mesh, skin_of(node), pose.weights});
     if (!is_new) return known->second;
     if (skin_of(node) >= 0) {
       if (node_transforms_.empty()) node_transforms_ = node_transforms(model_);
-      const JsonValue& skin = gltf_list(root_, "skins")[static_cast<std::size_t>(node.skin)];
-      pose.joints = joint_transforms(skin, node_transforms_, model_, data_);
+      pose.joints = joint_transforms(model_.skins[static_cast<std::size_t>(node.skin)], node_transforms_,
+                                     model_, data_);
     }
     auto read = meshes_.read(index, pose);
     if (!read) return fail(read.error());
@@ -156,24 +167,23 @@ class SceneBuilder {
   }
 
   /// -1 where no primitive of the mesh is bound to it.
-  int skin_of(const tinygltf::Node& node) const {
+  int skin_of(const gltf::Node& node) const {
     const auto& primitives = model_.meshes[static_cast<std::size_t>(node.mesh)].primitives;
-    const bool bound = std::any_of(primitives.begin(), primitives.end(), [](const tinygltf::Primitive& p) {
+    const bool bound = std::any_of(primitives.begin(), primitives.end(), [](const gltf::Primitive& p) {
       return p.attributes.contains("JOINTS_0") && p.attributes.contains("WEIGHTS_0");
     });
     return bound ? node.skin : -1;
   }
 
-  Expected<void> add_mesh(const tinygltf::Node& node, int index, const Mat4& world) {
+  Expected<void> add_mesh(const gltf::Node& node, std::size_t index, const Mat4& world) {
     const auto mesh = posed_mesh(node);
     if (!mesh) return fail(mesh.error());
     if (mesh->mesh == no_id) return {};
     const std::string name = !node.name.empty() ? node.name : fmt::format("node-{}", index);
     if (skin_of(node) >= 0)  // in the world already
       add_instance(name, *mesh, Mat4(1.0));
-    else if (const auto found = node.extensions.find("EXT_mesh_gpu_instancing");
-             found != node.extensions.end())
-      return add_instances(name, *mesh, world, found->second, index);
+    else if (const JsonValue* instancing = extension(node.extensions, "EXT_mesh_gpu_instancing"))
+      return add_instances(name, *mesh, world, *instancing, index);
     else
       add_instance(name, *mesh, world);
     return {};
@@ -199,19 +209,19 @@ class SceneBuilder {
   }
 
   Expected<void> add_instances(const std::string& name, const PosedMesh& mesh, const Mat4& world,
-                               const tinygltf::Value& extension, int node) {
-    const auto places = gltf_instances(model_, data_, extension);
+                               const JsonValue& instancing, std::size_t node) {
+    const auto places = gltf_instances(model_, data_, instancing);
     if (!places)
-      return fail(gltf_error(file_, fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", node),
+      return fail(gltf_error(json_.file, fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", node),
                              places.error().reason));
     for (std::size_t i = 0; i < places->size(); ++i)
       add_instance(fmt::format("{}-{}", name, i), mesh, world * (*places)[i]);
     return {};
   }
 
-  void add_camera(const tinygltf::Node& node, std::size_t index, const Mat4& world) {
-    const tinygltf::Camera& from = model_.cameras[static_cast<std::size_t>(node.camera)];
-    if (from.type != "perspective") {
+  void add_camera(const gltf::Node& node, std::size_t index, const Mat4& world) {
+    const gltf::Camera& from = model_.cameras[static_cast<std::size_t>(node.camera)];
+    if (!from.is_perspective) {
       orthographic_ = true;
       return;
     }
@@ -226,7 +236,7 @@ class SceneBuilder {
     named.camera.eye = Vec3(world[3]);
     named.camera.target = named.camera.eye + unit_vector(forward);
     named.camera.up = unit_vector(up);
-    named.camera.vertical_fov = from.perspective.yfov;
+    named.camera.vertical_fov = from.vertical_fov;
     loaded_.cameras.push_back(std::move(named));
     gltf_cameras_.push_back(static_cast<std::size_t>(node.camera));
     carried_.cameras.push_back(index);
@@ -239,12 +249,10 @@ class SceneBuilder {
     if (ahead > 0.0) camera.target = camera.eye + ahead * forward;
   }
 
-  void add_light(const tinygltf::Node& node, std::size_t at, const Mat4& world) {
-    const auto found = node.extensions.find("KHR_lights_punctual");
-    if (found == node.extensions.end() || !found->second.Has("light")) return;
-    const auto index = static_cast<std::size_t>(found->second.Get("light").GetNumberAsInt());
-    if (index >= model_.lights.size()) return;
-    const tinygltf::Light& from = model_.lights[index];
+  void add_light(const gltf::Node& node, std::size_t at, const Mat4& world) {
+    if (node.light < 0) return;
+    const auto index = static_cast<std::size_t>(node.light);
+    const gltf::Light& from = model_.lights[index];
     Light light;
     if (from.type == "point")
       light.type = LightType::point;
@@ -256,8 +264,7 @@ class SceneBuilder {
     if (!(glm::length(direction) > 0.0)) return note("A light whose node flattens it was skipped.");
     light.direction = unit_vector(direction);
     light.position = Vec3(world[3]);
-    const Vec3 tint = from.color.size() >= 3 ? Vec3(from.color[0], from.color[1], from.color[2]) : Vec3(1.0);
-    light.intensity = Vec3f(tint * from.intensity);
+    light.intensity = Vec3f(from.color * from.intensity);
     if (from.range > 0.0) ranged_ = true;
     if (light.type == LightType::spot) set_cone(light, from);
     light.name = unique_name(!node.name.empty() ? node.name : !from.name.empty() ? from.name : from.type);
@@ -267,24 +274,24 @@ class SceneBuilder {
     scene_.lights.push_back(std::move(light));
   }
 
-  void set_cone(Light& light, const tinygltf::Light& from) {
+  void set_cone(Light& light, const gltf::Light& from) {
     constexpr double widest = 0.5 * pi - 1e-3;  // our spots end before a right angle
-    light.outer_angle = std::clamp(from.spot.outerConeAngle, 1e-3, widest);
-    light.inner_angle = std::max(0.0, from.spot.innerConeAngle);
+    light.outer_angle = std::clamp(from.outer_cone_angle, 1e-3, widest);
+    light.inner_angle = std::max(0.0, from.inner_cone_angle);
     if (light.inner_angle >= light.outer_angle) light.inner_angle = std::max(0.0, light.outer_angle - 1e-4);
-    note_cone(light, from.spot);
+    note_cone(light, from);
   }
 
-  void note_cone(const Light& light, const tinygltf::SpotLight& from) {
+  void note_cone(const Light& light, const gltf::Light& from) {
     const double inner = light.inner_angle * 180.0 / pi, outer = light.outer_angle * 180.0 / pi;
     const auto changed = [](double to, double was) { return to > was ? "widened" : "narrowed"; };
-    if (light.outer_angle != from.outerConeAngle)
+    if (light.outer_angle != from.outer_cone_angle)
       note(fmt::format("The cone of a spot light was {} to half-angles of {:.3f} and {:.3f} degrees.",
-                       changed(light.outer_angle, from.outerConeAngle), inner, outer));
-    else if (light.inner_angle != from.innerConeAngle)
+                       changed(light.outer_angle, from.outer_cone_angle), inner, outer));
+    else if (light.inner_angle != from.inner_cone_angle)
       note(fmt::format(
           "The inner cone of a spot light was {} to a half-angle of {:.3f} degrees, within {:.3f}.",
-          changed(light.inner_angle, from.innerConeAngle), inner, outer));
+          changed(light.inner_angle, from.inner_cone_angle), inner, outer));
   }
 
   std::string unique_name(const std::string& wanted) {
@@ -296,12 +303,11 @@ class SceneBuilder {
 
   LoadedFile& loaded_;
   Scene& scene_;
-  const tinygltf::Model& model_;
+  const JsonDocument& json_;
+  const gltf::Model& model_;
   const GltfData& data_;
-  const JsonValue& root_;
   const GltfExtras& extras_;
   GltfMeshReader& meshes_;
-  const std::string& file_;
   std::vector<Mat4> node_transforms_;                                        // once a skin needs them
   std::map<std::tuple<int, int, std::vector<double>>, PosedMesh> our_mesh_;  // by mesh, skin and weights
   std::vector<std::size_t> gltf_cameras_;                                    // of loaded_.cameras
@@ -313,10 +319,10 @@ class SceneBuilder {
 };
 
 /// Where a primitive's accessor has no data, not even packed, it is all zeros: not without limit.
-std::optional<Error> empty_accessor_defect(const tinygltf::Model& model, const std::string& file) {
+std::optional<Error> empty_accessor_defect(const gltf::Model& model, const std::string& file) {
   constexpr std::size_t most = 16777216;
   for (std::size_t i = 0; i < model.accessors.size(); ++i)
-    if (model.accessors[i].bufferView < 0 && model.accessors[i].count > most)
+    if (model.accessors[i].view < 0 && model.accessors[i].count > most)
       return gltf_error(file, fmt::format("accessors[{}].count", i),
                         fmt::format("no data stands behind these elements (got {}, allowed up to {} without "
                                     "bufferView)",
@@ -324,25 +330,25 @@ std::optional<Error> empty_accessor_defect(const tinygltf::Model& model, const s
   return std::nullopt;
 }
 
-Expected<LoadedFile> build(const tinygltf::Model& model, GltfData& data, CheckedGltf& checked,
-                           const std::string& file, bool with_paths) {
+Expected<LoadedFile> build(GltfDocument& document, GltfData& data, bool with_paths) {
   LoadedFile loaded;
   loaded.is_model = true;
-  loaded.scene.notes = std::move(checked.notes);
-  JsonErrors errors{checked.document};
-  const GltfExtras extras(errors, checked.document.root);
-  const auto sets = add_gltf_materials(loaded.scene, model, data, file);
+  loaded.scene.notes = std::move(document.notes);
+  JsonErrors errors{document.json};
+  const GltfExtras extras(errors, document.json.root);
+  const auto sets = add_gltf_materials(loaded.scene, document.json, data);
   if (!sets) return fail(sets.error());
   for (std::size_t i = 0; i < loaded.scene.materials.size(); ++i)
     extras.read_material(i, loaded.scene.materials[i]);
   const auto default_material = static_cast<std::uint32_t>(loaded.scene.materials.size());
   loaded.scene.materials.push_back(model_material("default"));
   loaded.scene.materials.back().double_sided = false;  // glTF 2.0, section 3.9.6
-  GltfMeshReader meshes(model, data, *sets, default_material, file);
-  SceneBuilder builder(loaded, model, data, checked.document.root, extras, meshes, file);
+  const std::string& file = document.json.file;
+  GltfMeshReader meshes(document.model, data, *sets, default_material, file);
+  SceneBuilder builder(loaded, document, data, extras, meshes);
   if (const auto built = builder.run(); !built) return fail(built.error());
   if (with_paths) {
-    auto paths = read_gltf_paths(model, data, checked, builder.carried(), loaded.scene);
+    auto paths = read_gltf_paths(document, data, builder.carried(), loaded.scene);
     if (!paths) return fail(paths.error());
     loaded.paths = std::move(*paths);
   }
@@ -360,15 +366,13 @@ Expected<LoadedFile> build(const tinygltf::Model& model, GltfData& data, Checked
 
 Expected<LoadedFile> read_gltf(std::string_view bytes, const std::string& file, const std::string& folder,
                                const LoadOptions& options) try {
-  auto checked = check_gltf(bytes, file);
-  if (!checked) return fail(checked.error());
-  auto model = parse_gltf(*checked);
-  if (!model) return fail(model.error());
-  auto data = GltfData::open(*checked, bytes, folder, options);
+  auto document = parse_gltf(bytes, file);
+  if (!document) return fail(document.error());
+  auto data = GltfData::open(*document, bytes, folder, options);
   if (!data) return fail(data.error());
-  if (const auto unpacked = unpack_draco(*model, *data, file); !unpacked) return fail(unpacked.error());
-  if (auto defect = empty_accessor_defect(*model, file)) return fail(std::move(*defect));
-  return build(*model, *data, *checked, file, options.paths != nullptr);
+  if (const auto unpacked = unpack_draco(*document, *data); !unpacked) return fail(unpacked.error());
+  if (auto defect = empty_accessor_defect(document->model, file)) return fail(std::move(*defect));
+  return build(*document, *data, options.paths != nullptr);
 } catch (const std::bad_alloc&) {
   throw;                             // load_scene answers for memory
 } catch (const std::exception& e) {  // the libraries' own, on what the checks forget

@@ -1,7 +1,5 @@
 #include "scene/files/gltf_accessor.h"
 
-#include <tiny_gltf.h>
-
 #include <algorithm>
 #include <cstring>
 
@@ -31,67 +29,57 @@ void convert(const char* bytes, std::size_t stride, std::size_t count, std::size
     }
 }
 
-void convert(int type, const char* bytes, std::size_t stride, std::size_t count, std::size_t components,
-             bool normalized, double* out) {
+void convert(gltf::ComponentType type, const char* bytes, std::size_t stride, std::size_t count,
+             std::size_t components, bool normalized, double* out) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case gltf::signed_byte:
       return convert<std::int8_t>(bytes, stride, count, components, normalized, out);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case gltf::unsigned_byte:
       return convert<std::uint8_t>(bytes, stride, count, components, normalized, out);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case gltf::signed_short:
       return convert<std::int16_t>(bytes, stride, count, components, normalized, out);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case gltf::unsigned_short:
       return convert<std::uint16_t>(bytes, stride, count, components, normalized, out);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case gltf::unsigned_int:
       return convert<std::uint32_t>(bytes, stride, count, components, false, out);
     default:
       return convert<float>(bytes, stride, count, components, false, out);
   }
 }
 
-std::size_t size_of(int type) {
-  return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type)));
-}
-
 }  // namespace
 
-GltfAccessor::GltfAccessor(const tinygltf::Model& model, const GltfData& data, int accessor) {
-  const tinygltf::Accessor& from = model.accessors[static_cast<std::size_t>(accessor)];
+GltfAccessor::GltfAccessor(const gltf::Model& model, const GltfData& data, int accessor) {
+  const gltf::Accessor& from = model.accessors[static_cast<std::size_t>(accessor)];
   count_ = from.count;
-  components_ =
-      static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(from.type)));
-  component_size_ = size_of(from.componentType);
-  type_ = from.componentType;
+  components_ = gltf::components_of(from.type);
+  type_ = from.component;
   normalized_ = from.normalized;
-  if (from.bufferView >= 0) {
-    const auto view = static_cast<std::size_t>(from.bufferView);
-    plain_ = elements(data.view(view), from.byteOffset, model.bufferViews[view].byteStride);
+  if (from.view >= 0) {
+    const auto view = static_cast<std::size_t>(from.view);
+    plain_ = elements(data.view(view), from.offset, data.stride(view));
   }
-  if (from.sparse.isSparse) read_sparse(model, data, accessor);
+  if (from.sparse) read_sparse(*from.sparse, data);
 }
 
 GltfAccessor::Elements GltfAccessor::elements(std::string_view view, std::size_t offset,
                                               std::size_t stride) const {
-  const std::size_t size = component_size_ * components_;
+  const std::size_t size = gltf::bytes_of(type_) * components_;
   Elements out{view.data() + std::min(offset, view.size()), std::max(stride, size), 0};
   if (view.size() >= size && view.size() - size >= offset)
     out.count = (view.size() - size - offset) / out.stride + 1;
   return out;
 }
 
-void GltfAccessor::read_sparse(const tinygltf::Model& model, const GltfData& data, int accessor) {
-  const auto& sparse = model.accessors[static_cast<std::size_t>(accessor)].sparse;
-  sparse_ = elements(data.view(static_cast<std::size_t>(sparse.values.bufferView)),
-                     static_cast<std::size_t>(sparse.values.byteOffset), 0);
-  const std::string_view view = data.view(static_cast<std::size_t>(sparse.indices.bufferView));
-  const auto offset = static_cast<std::size_t>(sparse.indices.byteOffset);
-  const std::size_t size = size_of(sparse.indices.componentType);
+void GltfAccessor::read_sparse(const gltf::Sparse& sparse, const GltfData& data) {
+  sparse_ = elements(data.view(sparse.values.view), sparse.values.offset, 0);
+  const std::string_view view = data.view(sparse.indices.view);
+  const std::size_t offset = sparse.indices.offset, size = gltf::bytes_of(sparse.index_type);
   if (view.size() < offset) return;
-  const std::size_t count =
-      std::min({static_cast<std::size_t>(sparse.count), sparse_.count, (view.size() - offset) / size});
+  const std::size_t count = std::min({sparse.count, sparse_.count, (view.size() - offset) / size});
   for (std::size_t i = 0; i < count; ++i) {
     double target = 0.0;
-    convert(sparse.indices.componentType, view.data() + offset + i * size, size, 1, 1, false, &target);
+    convert(sparse.index_type, view.data() + offset + i * size, size, 1, 1, false, &target);
     if (target < static_cast<double>(count_))
       replaced_.emplace_back(static_cast<std::uint32_t>(target), static_cast<std::uint32_t>(i));
   }

@@ -8,21 +8,18 @@
 #include <utility>
 #include <vector>
 
+#include "scene/files/gltf_model.h"
 #include "scene/math.h"
 #include "scene/parallel.h"
-
-namespace tinygltf {
-class Model;
-}
 
 namespace gnomon {
 
 class GltfData;
 
-/// An accessor of a file that has passed check_gltf. Elements that no data stands behind are zero.
+/// An accessor of a file that parse_gltf has read. Elements that no data stands behind are zero.
 class GltfAccessor {
  public:
-  GltfAccessor(const tinygltf::Model& model, const GltfData& data, int accessor);
+  GltfAccessor(const gltf::Model& model, const GltfData& data, int accessor);
 
   std::size_t count() const { return count_; }
   std::size_t components() const { return components_; }
@@ -52,10 +49,10 @@ class GltfAccessor {
   };
   Elements elements(std::string_view view, std::size_t offset, std::size_t stride) const;
   void decode(const Elements& from, std::size_t first, std::size_t last, double* out) const;
-  void read_sparse(const tinygltf::Model& model, const GltfData& data, int accessor);
+  void read_sparse(const gltf::Sparse& sparse, const GltfData& data);
 
-  std::size_t count_ = 0, components_ = 0, component_size_ = 0;
-  int type_ = 0;
+  std::size_t count_ = 0, components_ = 0;
+  gltf::ComponentType type_ = gltf::float_32;
   bool normalized_ = false;
   Elements plain_, sparse_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>>

@@ -8,8 +8,8 @@
 
 #include "scene/files/base64.h"
 #include "scene/files/gltf_container.h"
-#include "scene/files/gltf_meshopt.h"
-#include "scene/files/hex_digit.h"
+#include "scene/files/gltf_packed.h"
+#include "scene/files/gltf_value.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/parallel.h"
@@ -27,11 +27,6 @@ std::string decode_percent(std::string_view uri) {
     if (low >= 0) i += 2;
   }
   return out;
-}
-
-std::string text_of(const JsonValue* object, std::string_view key) {
-  const JsonValue* value = member(object, key);
-  return value != nullptr && value->type == JsonValue::Type::string ? value->text : std::string();
 }
 
 /// Data URIs' contents are not for messages.
@@ -54,34 +49,17 @@ const JsonValue* meshopt_of(const JsonValue& object) {
 
 }  // namespace
 
-const std::vector<JsonValue>& gltf_list(const JsonValue& root, std::string_view key) {
-  static const std::vector<JsonValue> none;
-  const JsonMember* found = root.find(key);
-  return found == nullptr ? none : found->value.items;
-}
-
-const JsonValue* member(const JsonValue* object, std::string_view key) {
-  const JsonMember* found = object == nullptr ? nullptr : object->find(key);
-  return found == nullptr ? nullptr : &found->value;
-}
-
-double number_of(const JsonValue* object, std::string_view key, double otherwise) {
-  const JsonValue* value = member(object, key);
-  return value != nullptr && value->type == JsonValue::Type::number ? value->number : otherwise;
-}
-
-Expected<GltfData> GltfData::open(const CheckedGltf& checked, std::string_view bytes,
+Expected<GltfData> GltfData::open(const GltfDocument& document, std::string_view bytes,
                                   const std::string& folder, const LoadOptions& options) {
-  GltfData out(checked, bytes, folder, options);
-  out.images_.resize(gltf_list(checked.document.root, "images").size());
+  GltfData out(document, bytes, folder, options);
+  out.images_.resize(gltf_list(document.json.root, "images").size());
   if (const auto opened = out.open_buffers(); !opened) return fail(opened.error());
   if (const auto opened = out.open_views(); !opened) return fail(opened.error());
   return out;
 }
 
 tl::unexpected<Error> GltfData::error(std::string field, std::string reason) const {
-  return fail(
-      Error{ErrorKind::bad_input, std::move(reason), checked_->document.file, 0, 0, std::move(field)});
+  return fail(Error{ErrorKind::bad_input, std::move(reason), document_->json.file, 0, 0, std::move(field)});
 }
 
 Expected<std::string_view> GltfData::open_uri(const std::string& uri, const std::string& field) {
@@ -102,7 +80,7 @@ Expected<std::string_view> GltfData::open_uri(const std::string& uri, const std:
 
 /// Empty for one whose data an extension brings.
 Expected<std::string_view> GltfData::open_buffer(std::size_t index) {
-  const JsonValue& buffer = gltf_list(checked_->document.root, "buffers")[index];
+  const JsonValue& buffer = gltf_list(document_->json.root, "buffers")[index];
   const std::string field = fmt::format("buffers[{}]", index);
   const auto length = static_cast<std::size_t>(number_of(&buffer, "byteLength", 0.0));
   const std::string uri = text_of(&buffer, "uri");
@@ -111,8 +89,8 @@ Expected<std::string_view> GltfData::open_buffer(std::size_t index) {
     const auto opened = open_uri(uri, field + ".uri");
     if (!opened) return fail(opened.error());
     bytes = *opened;
-  } else if (index == 0 && checked_->is_binary) {
-    const auto chunks = read_glb(bytes_, checked_->document.file);
+  } else if (index == 0 && document_->is_binary) {
+    const auto chunks = read_glb(bytes_, document_->json.file);
     if (!chunks) return fail(chunks.error());
     bytes = chunks->binary.value_or(std::string_view());
   } else {  // glTF 2.0, 3.6.1.1: an extension may bring its data
@@ -125,7 +103,7 @@ Expected<std::string_view> GltfData::open_buffer(std::size_t index) {
 }
 
 Expected<void> GltfData::open_buffers() {
-  const std::size_t count = gltf_list(checked_->document.root, "buffers").size();
+  const std::size_t count = gltf_list(document_->json.root, "buffers").size();
   for (std::size_t i = 0; i < count; ++i) {
     const auto buffer = open_buffer(i);
     if (!buffer) return fail(buffer.error());
@@ -135,7 +113,7 @@ Expected<void> GltfData::open_buffers() {
 }
 
 Expected<void> GltfData::open_views() {
-  const std::vector<JsonValue>& views = gltf_list(checked_->document.root, "bufferViews");
+  const std::vector<JsonValue>& views = gltf_list(document_->json.root, "bufferViews");
   std::vector<Expected<std::vector<char>>> unpacked(views.size());
   parallel_for(views.size(), [&](std::size_t i) {
     if (const JsonValue* packed = meshopt_of(views[i]); packed != nullptr)
@@ -146,16 +124,17 @@ Expected<void> GltfData::open_views() {
     if (!unpacked[i])
       return error(fmt::format("{}.extensions.{}", field, meshopt_name_of(views[i])),
                    unpacked[i].error().reason);
+    const auto stride = static_cast<std::size_t>(number_of(&views[i], "byteStride", 0.0));
     if (meshopt_of(views[i]) != nullptr) {
       const std::vector<char>& kept = decoded_.emplace_back(std::move(*unpacked[i]));
-      views_.emplace_back(kept.data(), kept.size());
+      views_.push_back({std::string_view(kept.data(), kept.size()), stride});
       continue;
     }
     const auto from = static_cast<std::size_t>(number_of(&views[i], "buffer", 0.0));
     const auto length = static_cast<std::size_t>(number_of(&views[i], "byteLength", 0.0));
     const auto offset = static_cast<std::size_t>(number_of(&views[i], "byteOffset", 0.0));
     if (length > 0 && buffers_[from].empty()) return error(field, "its buffer has no data");
-    views_.push_back(length == 0 ? std::string_view() : buffers_[from].substr(offset, length));
+    views_.push_back({length == 0 ? std::string_view() : buffers_[from].substr(offset, length), stride});
   }
   return {};
 }
@@ -163,7 +142,7 @@ Expected<void> GltfData::open_views() {
 Expected<GltfImage> GltfData::image(std::size_t index) {
   std::optional<GltfImage>& known = images_[index];
   if (known) return *known;
-  const JsonValue& image = gltf_list(checked_->document.root, "images")[index];
+  const JsonValue& image = gltf_list(document_->json.root, "images")[index];
   const std::string field = fmt::format("images[{}]", index);
   GltfImage out{index, text_of(&image, "name"), text_of(&image, "uri")};
   const bool inside = out.uri.starts_with("data:");
@@ -191,7 +170,7 @@ Expected<GltfImage> GltfData::image(std::size_t index) {
 
 std::size_t GltfData::add_view(std::vector<char> bytes) {
   const std::vector<char>& kept = decoded_.emplace_back(std::move(bytes));
-  views_.emplace_back(kept.data(), kept.size());
+  views_.push_back({std::string_view(kept.data(), kept.size())});
   return views_.size() - 1;
 }
 

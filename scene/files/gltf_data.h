@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/files/gltf_check.h"
+#include "scene/files/gltf_model.h"
 #include "scene/files/mapped_file.h"
 #include "scene/load.h"
 
@@ -26,11 +26,14 @@ class GltfData {
  public:
   /// `bytes`, the whole file, must outlive the result. Errors (bad_input): a buffer that is missing, shorter
   /// than its byteLength or outside the allowed folders; a packed view that is not sound.
-  static Expected<GltfData> open(const CheckedGltf& checked, std::string_view bytes,
+  static Expected<GltfData> open(const GltfDocument& document, std::string_view bytes,
                                  const std::string& folder, const LoadOptions& options);
 
   /// The bytes of bufferViews[index], all of them.
-  std::string_view view(std::size_t index) const { return views_[index]; }
+  std::string_view view(std::size_t index) const { return views_[index].bytes; }
+  std::size_t view_count() const { return views_.size(); }
+  /// Bytes from one element of the view to the next; 0: they lie close together.
+  std::size_t stride(std::size_t index) const { return views_[index].stride; }
   std::size_t image_count() const { return images_.size(); }
   /// Reads the file the first time. Error: the path is not allowed, or the file cannot be read.
   Expected<GltfImage> image(std::size_t index);
@@ -38,28 +41,28 @@ class GltfData {
   std::size_t add_view(std::vector<char> bytes);
 
  private:
-  GltfData(const CheckedGltf& checked, std::string_view bytes, std::string folder, const LoadOptions& options)
-      : checked_(&checked), bytes_(bytes), folder_(std::move(folder)), options_(&options) {}
+  struct View {
+    std::string_view bytes{};
+    std::size_t stride = 0;
+  };
+  GltfData(const GltfDocument& document, std::string_view bytes, std::string folder,
+           const LoadOptions& options)
+      : document_(&document), bytes_(bytes), folder_(std::move(folder)), options_(&options) {}
   Expected<void> open_buffers();
   Expected<void> open_views();
   Expected<std::string_view> open_buffer(std::size_t index);
   Expected<std::string_view> open_uri(const std::string& uri, const std::string& field);
   tl::unexpected<Error> error(std::string field, std::string reason) const;
 
-  const CheckedGltf* checked_;
+  const GltfDocument* document_;
   std::string_view bytes_;
   std::string folder_;
   const LoadOptions* options_;
   std::deque<MappedFile> files_;           // they stay where they are, for the views
   std::deque<std::vector<char>> decoded_;  // data URIs and unpacked views
-  std::vector<std::string_view> buffers_, views_;
+  std::vector<std::string_view> buffers_;
+  std::vector<View> views_;
   std::vector<std::optional<GltfImage>> images_;
 };
-
-/// The items of a list at the root; empty where there is none.
-const std::vector<JsonValue>& gltf_list(const JsonValue& root, std::string_view key);
-/// A member of an object; nullptr where it is not there.
-const JsonValue* member(const JsonValue* object, std::string_view key);
-double number_of(const JsonValue* object, std::string_view key, double otherwise);
 
 }  // namespace gnomon

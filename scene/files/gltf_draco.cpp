@@ -1,15 +1,16 @@
-#include "scene/files/gltf_draco.h"
+#include "scene/files/gltf_packed.h"
 
 #include <draco/compression/decode.h>
 #include <draco/compression/point_cloud/point_cloud_decoder.h>
 #include <draco/core/varint_decoding.h>
 #include <draco/metadata/metadata_decoder.h>
 #include <fmt/core.h>
-#include <tiny_gltf.h>
 
 #include <cstring>
+#include <limits>
 #include <set>
 
+#include "scene/files/gltf_value.h"
 #include "scene/parallel.h"
 
 namespace gnomon {
@@ -26,7 +27,7 @@ struct Attribute {
 
 /// A primitive, and what comes out of it.
 struct Task {
-  tinygltf::Primitive* primitive = nullptr;
+  gltf::Primitive* primitive = nullptr;
   std::string field, reason{};  ///< for messages; the reason is empty while all is well
   std::string_view packed{};
   std::vector<Attribute> attributes{};
@@ -65,16 +66,16 @@ std::string header_defect(std::string_view packed) {
                      std::uint64_t{first} + second);
 }
 
-double normalizer(const tinygltf::Accessor& accessor) {
+double normalizer(const gltf::Accessor& accessor) {
   if (!accessor.normalized) return 1.0;
-  switch (accessor.componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+  switch (accessor.component) {
+    case gltf::signed_byte:
       return 127.0;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case gltf::unsigned_byte:
       return 255.0;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case gltf::signed_short:
       return 32767.0;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case gltf::unsigned_short:
       return 65535.0;
     default:
       return 1.0;
@@ -96,16 +97,15 @@ std::array<float, 16> value_of(const draco::PointAttribute& from, draco::Attribu
   return out;
 }
 
-void copy_attribute(const draco::Mesh& mesh, const tinygltf::Model& model, Task& task, Attribute& attribute) {
-  const tinygltf::Accessor& accessor = model.accessors[attribute.accessor];
+void copy_attribute(const draco::Mesh& mesh, const gltf::Model& model, Task& task, Attribute& attribute) {
+  const gltf::Accessor& accessor = model.accessors[attribute.accessor];
   const draco::PointAttribute* from = mesh.GetAttributeByUniqueId(attribute.draco_id);
   if (from == nullptr) {
     task.reason =
         fmt::format("the Draco data has no attribute {} for {}", attribute.draco_id, attribute.name);
     return;
   }
-  const auto components =
-      static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
+  const std::size_t components = gltf::components_of(accessor.type);
   const auto divisor = static_cast<float>(normalizer(accessor));
   attribute.values.resize(mesh.num_points() * components * sizeof(float));
   char* out = attribute.values.data();
@@ -129,7 +129,7 @@ void copy_indices(const draco::Mesh& mesh, Task& task) {
     }
 }
 
-void unpack(const tinygltf::Model& model, Task& task) {
+void unpack(const gltf::Model& model, Task& task) {
   task.reason = header_defect(task.packed);
   if (!task.reason.empty()) return;
   draco::DecoderBuffer buffer;
@@ -147,8 +147,8 @@ void unpack(const tinygltf::Model& model, Task& task) {
 
 class Unpacker {
  public:
-  Unpacker(tinygltf::Model& model, GltfData& data, const std::string& file)
-      : model_(model), data_(data), file_(file) {}
+  Unpacker(GltfDocument& document, GltfData& data)
+      : json_(document.json), model_(document.model), data_(data) {}
 
   Expected<void> run() {
     for (std::size_t m = 0; m < model_.meshes.size(); ++m)
@@ -167,89 +167,77 @@ class Unpacker {
 
  private:
   tl::unexpected<Error> error(const std::string& field, std::string reason) const {
-    return fail(Error{ErrorKind::bad_input, std::move(reason), file_, 0, 0,
+    return fail(Error{ErrorKind::bad_input, std::move(reason), json_.file, 0, 0,
                       fmt::format("{}.extensions.{}", field, extension_name)});
   }
 
   bool is_required() const {
-    const auto& required = model_.extensionsRequired;
-    return std::find(required.begin(), required.end(), extension_name) != required.end();
+    const auto& required = gltf_list(json_.root, "extensionsRequired");
+    return std::any_of(required.begin(), required.end(),
+                       [](const JsonValue& name) { return name.text == extension_name; });
   }
 
-  bool brings_it_unpacked(const tinygltf::Primitive& primitive) const {
-    const auto position = primitive.attributes.find("POSITION");
-    return position != primitive.attributes.end() &&
-           model_.accessors[static_cast<std::size_t>(position->second)].bufferView >= 0;
+  bool brings_it_unpacked(const gltf::Primitive& primitive) const {
+    const int position = gltf::attribute(primitive.attributes, "POSITION");
+    return position >= 0 && model_.accessors[static_cast<std::size_t>(position)].view >= 0;
   }
 
-  Expected<void> add_task(tinygltf::Primitive& primitive, const std::string& field) {
-    const auto found = primitive.extensions.find(extension_name);
-    if (found == primitive.extensions.end() || (!is_required() && brings_it_unpacked(primitive))) return {};
-    const tinygltf::Value& extension = found->second;
-    if (!extension.Has("bufferView") || !extension.Has("attributes"))
+  Expected<void> add_task(gltf::Primitive& primitive, const std::string& field) {
+    const JsonValue* packed = extension(primitive.extensions, extension_name);
+    if (packed == nullptr || (!is_required() && brings_it_unpacked(primitive))) return {};
+    if (!has(packed, "bufferView") || !has(packed, "attributes"))
       return error(field, "bufferView or attributes is missing");
-    const tinygltf::Value& view = extension.Get("bufferView");
-    if (!view.IsInt() || view.GetNumberAsInt() < 0 ||
-        static_cast<std::size_t>(view.GetNumberAsInt()) >= model_.bufferViews.size())
-      return error(field, "there is no such bufferView");
+    const int view = index_of(packed, "bufferView", data_.view_count());
+    if (view < 0) return error(field, "there is no such bufferView");
     Task task{&primitive, field};
-    task.packed = data_.view(static_cast<std::size_t>(view.GetNumberAsInt()));
-    const tinygltf::Value& ids = extension.Get("attributes");
-    for (const std::string& name : ids.Keys()) {
-      const auto accessor = primitive.attributes.find(name);
-      const tinygltf::Value& id = ids.Get(name);
-      if (accessor == primitive.attributes.end() || !id.IsInt() || id.GetNumberAsInt() < 0) continue;
-      task.attributes.push_back({name, static_cast<std::size_t>(accessor->second),
-                                 static_cast<std::uint32_t>(id.GetNumberAsInt())});
-    }
+    task.packed = data_.view(static_cast<std::size_t>(view));
+    const JsonValue* ids = member(packed, "attributes");
+    for (const auto& [name, accessor] : primitive.attributes)
+      if (const int id = index_of(ids, name, std::numeric_limits<int>::max()); id >= 0)
+        task.attributes.push_back({name, static_cast<std::size_t>(accessor), static_cast<std::uint32_t>(id)});
     tasks_.push_back(std::move(task));
     return {};
   }
 
   /// The accessor's index: its own, or that of a copy where another primitive has taken it.
-  int place(std::size_t accessor, std::vector<char> bytes, int component_type, std::size_t count) {
+  int place(std::size_t accessor, std::vector<char> bytes, gltf::ComponentType component, std::size_t count) {
     if (!taken_.insert(accessor).second) {
-      const tinygltf::Accessor copy = model_.accessors[accessor];
+      const gltf::Accessor copy = model_.accessors[accessor];
       accessor = model_.accessors.size();
       model_.accessors.push_back(copy);
     }
-    tinygltf::BufferView view;
-    view.byteLength = bytes.size();
-    model_.bufferViews.push_back(view);
-    tinygltf::Accessor& out = model_.accessors[accessor];
-    out.bufferView = static_cast<int>(data_.add_view(std::move(bytes)));
-    out.byteOffset = 0, out.componentType = component_type, out.normalized = false, out.count = count;
-    out.sparse.isSparse = false;
+    gltf::Accessor& out = model_.accessors[accessor];
+    out.view = static_cast<int>(data_.add_view(std::move(bytes)));
+    out.offset = 0, out.component = component, out.normalized = false, out.count = count;
+    out.sparse.reset();
     return static_cast<int>(accessor);
   }
 
   void put(Task& task) {
-    tinygltf::Primitive& primitive = *task.primitive;
+    gltf::Primitive& primitive = *task.primitive;
     for (Attribute& attribute : task.attributes)
-      primitive.attributes[attribute.name] = place(attribute.accessor, std::move(attribute.values),
-                                                   TINYGLTF_COMPONENT_TYPE_FLOAT, task.vertices);
+      primitive.attributes[attribute.name] =
+          place(attribute.accessor, std::move(attribute.values), gltf::float_32, task.vertices);
     if (primitive.indices < 0) {
-      tinygltf::Accessor indices;
-      indices.type = TINYGLTF_TYPE_SCALAR;
       primitive.indices = static_cast<int>(model_.accessors.size());
-      model_.accessors.push_back(indices);
+      model_.accessors.emplace_back();
     }
     primitive.indices = place(static_cast<std::size_t>(primitive.indices), std::move(task.indices),
-                              TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, task.corners);
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;  // strips too are unpacked as triangles
+                              gltf::unsigned_int, task.corners);
+    primitive.mode = gltf::triangles;  // strips too are unpacked as triangles
   }
 
-  tinygltf::Model& model_;
+  const JsonDocument& json_;
+  gltf::Model& model_;
   GltfData& data_;
-  const std::string& file_;
   std::vector<Task> tasks_;
   std::set<std::size_t> taken_;
 };
 
 }  // namespace
 
-Expected<void> unpack_draco(tinygltf::Model& model, GltfData& data, const std::string& file) {
-  return Unpacker(model, data, file).run();
+Expected<void> unpack_draco(GltfDocument& document, GltfData& data) {
+  return Unpacker(document, data).run();
 }
 
 }  // namespace gnomon

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tiny_gltf.h>
 
 #include <map>
 #include <optional>
@@ -24,24 +23,46 @@ float fraction(double v) {
   return static_cast<float>(std::clamp(v, 0.0, 1.0));
 }
 
-const tinygltf::Value* specular_glossiness(const tinygltf::Material& from) {
-  return extension(from.extensions, "KHR_materials_pbrSpecularGlossiness");
+const JsonValue* material_extension(const JsonValue& from, std::string_view name) {
+  return extension(member(&from, "extensions"), name);
 }
 
-GltfTextureUse base_texture(const tinygltf::Material& from) {
-  const tinygltf::Value* gloss = specular_glossiness(from);
-  if (gloss == nullptr) return texture_use(from.pbrMetallicRoughness.baseColorTexture);
-  return texture_use(has(gloss, "diffuseTexture") ? &gloss->Get("diffuseTexture") : nullptr);
+const JsonValue* specular_glossiness(const JsonValue& from) {
+  return material_extension(from, "KHR_materials_pbrSpecularGlossiness");
+}
+
+const JsonValue* metallic_roughness_of(const JsonValue& from) {
+  return member(&from, "pbrMetallicRoughness");
+}
+
+std::vector<double> base_color_of(const JsonValue& from) {
+  return numbers_of(metallic_roughness_of(from), "baseColorFactor", {1.0, 1.0, 1.0, 1.0});
+}
+
+Vec3f emissive_factor_of(const JsonValue& from) {
+  return color(numbers_of(&from, "emissiveFactor", {0.0, 0.0, 0.0}));
+}
+
+GltfTextureUse base_texture(const JsonValue& from) {
+  if (const JsonValue* gloss = specular_glossiness(from)) return texture_use(member(gloss, "diffuseTexture"));
+  return texture_use(member(metallic_roughness_of(from), "baseColorTexture"));
+}
+
+GltfTextureUse metallic_roughness_texture(const JsonValue& from) {
+  return texture_use(member(metallic_roughness_of(from), "metallicRoughnessTexture"));
 }
 
 class MaterialReader {
  public:
-  MaterialReader(Scene& scene, const tinygltf::Model& model, GltfData& data, const std::string& file)
-      : scene_(scene), model_(model), textures_(scene, model, data, unused_, file) {}
+  MaterialReader(Scene& scene, const JsonDocument& json, GltfData& data)
+      : scene_(scene),
+        root_(json.root),
+        materials_(gltf_list(json.root, "materials")),
+        textures_(scene, json, data, unused_) {}
 
   Expected<TexcoordSets> run() {
     decode_textures();
-    for (std::size_t i = 0; i < model_.materials.size(); ++i) {
+    for (std::size_t i = 0; i < materials_.size(); ++i) {
       auto material = read(i);
       if (!material) return fail(material.error());
       scene_.materials.push_back(std::move(*material));
@@ -56,11 +77,11 @@ class MaterialReader {
  private:
   void decode_textures() {
     std::set<int> colours, means;
-    for (const tinygltf::Material& from : model_.materials) {
+    for (const JsonValue& from : materials_) {
       colours.insert(base_texture(from).index);
-      if (color(from.emissiveFactor) != Vec3f(0.0f)) colours.insert(from.emissiveTexture.index);
-      if (specular_glossiness(from) == nullptr)
-        means.insert(from.pbrMetallicRoughness.metallicRoughnessTexture.index);
+      if (emissive_factor_of(from) != Vec3f(0.0f))
+        colours.insert(texture_use(member(&from, "emissiveTexture")).index);
+      if (specular_glossiness(from) == nullptr) means.insert(metallic_roughness_texture(from).index);
     }
     colours.erase(-1), means.erase(-1);
     textures_.decode_ahead(colours, means);
@@ -77,21 +98,21 @@ class MaterialReader {
   }
 
   Expected<Material> read(std::size_t index) {
-    const tinygltf::Material& from = model_.materials[index];
-    const auto& pbr = from.pbrMetallicRoughness;
-    Material m = model_material(from.name.empty() ? fmt::format("material-{}", index + 1) : from.name);
+    const JsonValue& from = materials_[index];
+    const std::string name = text_of(&from, "name");
+    Material m = model_material(name.empty() ? fmt::format("material-{}", index + 1) : name);
     sets_.push_back(0);
-    const tinygltf::Value* gloss = specular_glossiness(from);
+    const JsonValue* gloss = specular_glossiness(from);
     if (const auto read = read_base_texture(base_texture(from), m); !read) return fail(read.error());
     const TextureStatistics base =
         m.diffuse_texture == no_id ? TextureStatistics{} : textures_.statistics(m.diffuse_texture);
-    double roughness = 1.0 - number(gloss, "glossinessFactor", 1.0);
+    double roughness = 1.0 - number_of(gloss, "glossinessFactor", 1.0);
     if (gloss != nullptr) {
       map_specular_glossiness(*gloss, m, roughness);
     } else {
       const auto rough = metallic_roughness(from);
       if (!rough) return fail(rough.error());
-      const Vec3f factor = glm::clamp(color(pbr.baseColorFactor), 0.0f, 1.0f);
+      const Vec3f factor = glm::clamp(color(base_color_of(from)), 0.0f, 1.0f);
       map_surface(m, factor, base.mean, dielectric_specular(from), rough->x, rough->y);
       roughness = rough->y;
     }
@@ -99,8 +120,8 @@ class MaterialReader {
     map_transmission(from, m);
     map_alpha(from, m, base);
     m.roughness = m.mirror > 0.0f || m.transmission > 0.0f ? fraction(roughness) : 0.0f;
-    if (from.extensions.contains("KHR_materials_unlit")) make_unlit(from, m);
-    m.double_sided = from.doubleSided;
+    if (material_extension(from, "KHR_materials_unlit") != nullptr) make_unlit(from, m);
+    m.double_sided = flag_of(&from, "doubleSided", false);
     note_unused(from, m.name);
     return m;
   }
@@ -111,20 +132,20 @@ class MaterialReader {
     return static_cast<float>(std::max(1.0, 2.0 / (a * a) - 2.0));
   }
 
-  void map_specular_glossiness(const tinygltf::Value& gloss, Material& m, double roughness) {
+  void map_specular_glossiness(const JsonValue& gloss, Material& m, double roughness) {
     const auto clamped = [&](const char* key) {
-      return glm::clamp(color(numbers(&gloss, key, {1.0, 1.0, 1.0})), 0.0f, 1.0f);
+      return glm::clamp(color(numbers_of(&gloss, key, {1.0, 1.0, 1.0})), 0.0f, 1.0f);
     };
-    m.diffuse = glm::clamp(color(numbers(&gloss, "diffuseFactor", {1.0, 1.0, 1.0, 1.0})), 0.0f, 1.0f);
+    m.diffuse = glm::clamp(color(numbers_of(&gloss, "diffuseFactor", {1.0, 1.0, 1.0, 1.0})), 0.0f, 1.0f);
     m.specular = clamped("specularFactor");
     m.shininess = shininess_of(roughness);
     if (has(&gloss, "specularGlossinessTexture")) unused_["Specular-glossiness textures are"].insert(m.name);
   }
 
   // KHR_materials_unlit: the base colour as it is, and no light.
-  void make_unlit(const tinygltf::Material& from, Material& m) {
+  void make_unlit(const JsonValue& from, Material& m) {
     m.unlit = true;
-    m.diffuse = glm::clamp(color(from.pbrMetallicRoughness.baseColorFactor), 0.0f, 1.0f);
+    m.diffuse = glm::clamp(color(base_color_of(from)), 0.0f, 1.0f);
     m.specular = m.emission = m.absorption = Vec3f(0.0f);
     m.emission_texture = no_id;
     m.mirror = m.roughness = 0.0f;
@@ -132,12 +153,12 @@ class MaterialReader {
   }
 
   // Of the surface of a dielectric with an index of refraction of 1.5, times KHR_materials_specular.
-  Vec3f dielectric_specular(const tinygltf::Material& from) {
-    const tinygltf::Value* specular = extension(from.extensions, "KHR_materials_specular");
+  Vec3f dielectric_specular(const JsonValue& from) {
+    const JsonValue* specular = material_extension(from, "KHR_materials_specular");
     if (has(specular, "specularTexture") || has(specular, "specularColorTexture"))
-      unused_["Specular textures are"].insert(from.name);
-    const Vec3f tint = color(numbers(specular, "specularColorFactor", {1.0, 1.0, 1.0}));
-    return glm::clamp(0.04f * tint, 0.0f, 1.0f) * fraction(number(specular, "specularFactor", 1.0));
+      unused_["Specular textures are"].insert(text_of(&from, "name"));
+    const Vec3f tint = color(numbers_of(specular, "specularColorFactor", {1.0, 1.0, 1.0}));
+    return glm::clamp(0.04f * tint, 0.0f, 1.0f) * fraction(number_of(specular, "specularFactor", 1.0));
   }
 
   void map_surface(Material& m, const Vec3f& base, const Vec3f& texture_mean, const Vec3f& dielectric,
@@ -157,11 +178,11 @@ class MaterialReader {
               .insert(m.name);
   }
 
-  Expected<void> map_emission(const tinygltf::Material& from, Material& m) {
+  Expected<void> map_emission(const JsonValue& from, Material& m) {
     const double strength =
-        number(extension(from.extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
-    m.emission = color(from.emissiveFactor) * static_cast<float>(strength);
-    const GltfTextureUse use = texture_use(from.emissiveTexture);
+        number_of(material_extension(from, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
+    m.emission = emissive_factor_of(from) * static_cast<float>(strength);
+    const GltfTextureUse use = texture_use(member(&from, "emissiveTexture"));
     if (use.index < 0 || m.emission == Vec3f(0.0f)) return {};
     if (m.diffuse_texture == no_id && use.set >= 0 && use.set <= 1) sets_.back() = use.set;
     if (use.set != sets_.back()) {  // the texture says where it glows; everywhere would be wrong
@@ -184,37 +205,36 @@ class MaterialReader {
     m.thin = true;
   }
 
-  void map_transmission(const tinygltf::Material& from, Material& m) {
-    const tinygltf::Value* transmission = extension(from.extensions, "KHR_materials_transmission");
-    const float factor = fraction(number(transmission, "transmissionFactor", 0.0));
+  void map_transmission(const JsonValue& from, Material& m) {
+    const JsonValue* transmission = material_extension(from, "KHR_materials_transmission");
+    const float factor = fraction(number_of(transmission, "transmissionFactor", 0.0));
     if (factor <= 0.0f) return;
     if (has(transmission, "transmissionTexture")) unused_["Transmission textures are"].insert(m.name);
-    const double ior = std::max(1.0, number(extension(from.extensions, "KHR_materials_ior"), "ior", 1.5));
-    const tinygltf::Value* volume = extension(from.extensions, "KHR_materials_volume");
+    const double ior = std::max(1.0, number_of(material_extension(from, "KHR_materials_ior"), "ior", 1.5));
+    const JsonValue* volume = material_extension(from, "KHR_materials_volume");
     m.mirror = 0.0f;
-    if (!(number(volume, "thicknessFactor", 0.0) > 0.0)) return make_thin_sheet(m, factor, ior);
+    if (!(number_of(volume, "thicknessFactor", 0.0) > 0.0)) return make_thin_sheet(m, factor, ior);
     if (has(volume, "thicknessTexture"))
       unused_["Thickness textures (the geometry's own thickness counts) are"].insert(m.name);
     m.transmission = factor;
     m.ior = static_cast<float>(std::min(ior, 100.0));
-    const double distance = number(volume, "attenuationDistance", infinity);
-    const Vec3f attenuation = color(numbers(volume, "attenuationColor", {1.0, 1.0, 1.0}));
+    const double distance = number_of(volume, "attenuationDistance", infinity);
+    const Vec3f attenuation = color(numbers_of(volume, "attenuationColor", {1.0, 1.0, 1.0}));
     constexpr float darkest = 1e-6f;  // ln(0) is not finite; this is black after one attenuation distance
     if (distance > 0.0 && std::isfinite(distance))
       m.absorption = -glm::log(glm::clamp(attenuation, darkest, 1.0f)) / static_cast<float>(distance);
   }
 
-  void map_alpha(const tinygltf::Material& from, Material& m, const TextureStatistics& base) {
-    m.alpha = fraction(from.pbrMetallicRoughness.baseColorFactor.size() == 4
-                           ? from.pbrMetallicRoughness.baseColorFactor[3]
-                           : 1.0);
-    if (const tinygltf::Value* gloss = extension(from.extensions, "KHR_materials_pbrSpecularGlossiness"))
-      m.alpha = fraction(numbers(gloss, "diffuseFactor", {1.0, 1.0, 1.0, 1.0})[3]);
-    if (from.alphaMode == "MASK") {
+  void map_alpha(const JsonValue& from, Material& m, const TextureStatistics& base) {
+    m.alpha = fraction(base_color_of(from)[3]);
+    if (const JsonValue* gloss = specular_glossiness(from))
+      m.alpha = fraction(numbers_of(gloss, "diffuseFactor", {1.0, 1.0, 1.0, 1.0})[3]);
+    const std::string mode = text_of(&from, "alphaMode");
+    if (mode == "MASK") {
       m.alpha_mode = AlphaMode::mask;
-      m.alpha_cutoff = static_cast<float>(from.alphaCutoff);
+      m.alpha_cutoff = static_cast<float>(number_of(&from, "alphaCutoff", 0.5));
     }
-    if (from.alphaMode != "BLEND") return;
+    if (mode != "BLEND") return;
     const float highest = m.alpha * base.greatest_alpha;  // of any texel
     if (m.transmission > 0.0f) {
       scene_.notes.push_back(fmt::format("Material '{}': blending was left to its transmission.", m.name));
@@ -231,33 +251,37 @@ class MaterialReader {
     }
   }
 
-  // The unknown ones in the file's own list are noted by gltf_check.
+  // The unknown ones in the file's own list are noted by parse_gltf.
   bool is_listed(const std::string& name) const {
-    const auto& used = model_.extensionsUsed;
-    return std::find(used.begin(), used.end(), name) != used.end();
+    const auto& used = gltf_list(root_, "extensionsUsed");
+    return std::any_of(used.begin(), used.end(), [&](const JsonValue& n) { return n.text == name; });
   }
 
-  void note_unused(const tinygltf::Material& from, const std::string& name) {
-    if (from.normalTexture.index >= 0) unused_["Normal textures are"].insert(name);
-    if (from.occlusionTexture.index >= 0) unused_["Occlusion textures are"].insert(name);
-    for (const auto& [key, value] : from.extensions)
-      if (key.starts_with("KHR_materials_") && !is_listed(key) && key != "KHR_materials_transmission" &&
-          key != "KHR_materials_ior" && key != "KHR_materials_volume" &&
-          key != "KHR_materials_emissive_strength" && key != "KHR_materials_specular" &&
-          key != "KHR_materials_unlit" && key != "KHR_materials_pbrSpecularGlossiness")
+  void note_unused(const JsonValue& from, const std::string& name) {
+    if (has(&from, "normalTexture")) unused_["Normal textures are"].insert(name);
+    if (has(&from, "occlusionTexture")) unused_["Occlusion textures are"].insert(name);
+    const JsonValue* extensions = member(&from, "extensions");
+    if (extensions == nullptr) return;
+    for (const auto& [key, begin, value] : extensions->members)
+      if (value.type == JsonValue::Type::object && key.starts_with("KHR_materials_") && !is_listed(key) &&
+          key != "KHR_materials_transmission" && key != "KHR_materials_ior" &&
+          key != "KHR_materials_volume" && key != "KHR_materials_emissive_strength" &&
+          key != "KHR_materials_specular" && key != "KHR_materials_unlit" &&
+          key != "KHR_materials_pbrSpecularGlossiness")
         unused_[key + " is"].insert(name);
   }
 
   // Metallic and roughness factors, times the means of the texture's blue and green channels.
-  Expected<Vec2> metallic_roughness(const tinygltf::Material& from) {
-    const auto& pbr = from.pbrMetallicRoughness;
-    Vec2 out(pbr.metallicFactor, pbr.roughnessFactor);
-    const int index = pbr.metallicRoughnessTexture.index;
+  Expected<Vec2> metallic_roughness(const JsonValue& from) {
+    const JsonValue* pbr = metallic_roughness_of(from);
+    const Vec2 out(number_of(pbr, "metallicFactor", 1.0), number_of(pbr, "roughnessFactor", 1.0));
+    const int index = metallic_roughness_texture(from).index;
     if (index < 0) return out;
-    const auto mean = textures_.linear_mean(index, from.name);
+    const std::string name = text_of(&from, "name");
+    const auto mean = textures_.linear_mean(index, name);
     if (!mean) return fail(mean.error());
     if (!*mean) return out;
-    unused_["Metallic-roughness textures are averaged, the rest of them"].insert(from.name);
+    unused_["Metallic-roughness textures are averaged, the rest of them"].insert(name);
     return out * Vec2((*mean)->b, (*mean)->g);
   }
 
@@ -277,7 +301,8 @@ class MaterialReader {
   }
 
   Scene& scene_;
-  const tinygltf::Model& model_;
+  const JsonValue& root_;
+  const std::vector<JsonValue>& materials_;
   UnusedParts unused_;
   GltfTextures textures_;
   TexcoordSets sets_;
@@ -285,9 +310,8 @@ class MaterialReader {
 
 }  // namespace
 
-Expected<TexcoordSets> add_gltf_materials(Scene& scene, const tinygltf::Model& model, GltfData& data,
-                                          const std::string& file) {
-  return MaterialReader(scene, model, data, file).run();
+Expected<TexcoordSets> add_gltf_materials(Scene& scene, const JsonDocument& json, GltfData& data) {
+  return MaterialReader(scene, json, data).run();
 }
 
 }  // namespace gnomon

@@ -25,17 +25,12 @@
 #include "scene/files/gltf_data.h"
 #include "scene/scene.h"
 
-namespace tinygltf {
-class Model;
-}
-
 namespace gnomon {
 
 /// Which set of texture coordinates each material's base colour texture uses, by glTF material index.
 using TexcoordSets = std::vector<int>;
 
-/// Appends every material and the textures that they use. `file` is for messages.
-Expected<TexcoordSets> add_gltf_materials(Scene& scene, const tinygltf::Model& model, GltfData& data,
-                                          const std::string& file);
+/// Appends every material of the file and the textures that they use.
+Expected<TexcoordSets> add_gltf_materials(Scene& scene, const JsonDocument& json, GltfData& data);
 
 }  // namespace gnomon

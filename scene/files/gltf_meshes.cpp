@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tiny_gltf.h>
 
 #include <atomic>
 
@@ -13,12 +12,14 @@
 namespace gnomon {
 namespace {
 
+using gltf::attribute;
+
 // glTF 2.0, section 3.7.2.1; a strip's every other triangle is turned round, and its stitches are dropped.
 template <class Visit>
 void for_each_triangle_of_mode(int mode, const std::vector<std::uint32_t>& v, const Visit& visit) {
-  if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+  if (mode == gltf::triangle_fan)
     for (std::size_t i = 1; i + 1 < v.size(); ++i) visit(v[i], v[i + 1], v[0]);
-  if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+  if (mode == gltf::triangle_strip)
     for (std::size_t i = 0; i + 2 < v.size(); ++i) {
       if (v[i] == v[i + 1] || v[i + 1] == v[i + 2] || v[i] == v[i + 2]) continue;
       visit(v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]);
@@ -42,11 +43,6 @@ class FirstBad {
   static constexpr std::size_t none = ~std::size_t{0};
   std::atomic<std::size_t> first_{none};
 };
-
-int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
-  const auto found = primitive.attributes.find(name);
-  return found == primitive.attributes.end() ? -1 : found->second;
-}
 
 bool is_placeable(const Vec3& p) {
   return std::abs(p.x) <= max_coordinate && std::abs(p.y) <= max_coordinate &&
@@ -82,7 +78,7 @@ struct Blend {
 }  // namespace
 
 Expected<GltfMesh> GltfMeshReader::read(std::size_t index, const GltfPose& pose) {
-  const tinygltf::Mesh& from = model_.meshes[index];
+  const gltf::Mesh& from = model_.meshes[index];
   GltfMesh out;
   Mesh& mesh = out.mesh;
   mesh.name = from.name.empty() ? fmt::format("mesh-{}", index + 1) : from.name;
@@ -111,14 +107,13 @@ GltfAccessor GltfMeshReader::accessor(int index) const {
   return {model_, data_, index};
 }
 
-Expected<void> GltfMeshReader::add_primitive(Mesh& mesh, const tinygltf::Primitive& primitive,
+Expected<void> GltfMeshReader::add_primitive(Mesh& mesh, const gltf::Primitive& primitive,
                                              const GltfPose& pose, std::string path) {
-  const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
-  if (mode < TINYGLTF_MODE_TRIANGLES) {
+  if (primitive.mode < gltf::triangles) {
     ++skipped_;
     return {};
   }
-  const int position = attribute(primitive, "POSITION");
+  const int position = attribute(primitive.attributes, "POSITION");
   if (position < 0) {
     ++without_position_;
     return {};
@@ -134,7 +129,7 @@ Expected<void> GltfMeshReader::add_primitive(Mesh& mesh, const tinygltf::Primiti
   apply_targets(mesh, part, pose.weights);
   apply_skin(mesh, part, pose.joints);
   if (const auto sound = check_positions(mesh, part); !sound) return sound;
-  return add_triangles(mesh, part, mode);
+  return add_triangles(mesh, part);
 }
 
 Expected<void> GltfMeshReader::add_positions(Mesh& mesh, const Part& part) const {
@@ -142,7 +137,7 @@ Expected<void> GltfMeshReader::add_positions(Mesh& mesh, const Part& part) const
     return error(part.path, fmt::format("the mesh has too many vertices (got {}, allowed {})",
                                         part.first + part.count, no_id - 1));
   mesh.positions.resize(mesh.positions.size() + part.count);
-  accessor(attribute(part.primitive, "POSITION")).for_each([&](std::size_t i, const double* v) {
+  accessor(attribute(part.primitive.attributes, "POSITION")).for_each([&](std::size_t i, const double* v) {
     mesh.positions[part.first + i] = vec3(v);
   });
   return {};
@@ -160,7 +155,7 @@ Expected<void> GltfMeshReader::check_positions(const Mesh& mesh, const Part& par
 
 // Normals and texture coordinates that are missing or not finite are zero: flat, and the texture's corner.
 void GltfMeshReader::add_normals(Mesh& mesh, const Part& part) {
-  const int index = attribute(part.primitive, "NORMAL");
+  const int index = attribute(part.primitive.attributes, "NORMAL");
   if (index < 0) return;
   mesh.normals.resize(part.first + part.count, Vec3f(0.0f));
   std::atomic<std::size_t> bad = 0;
@@ -178,7 +173,7 @@ void GltfMeshReader::add_normals(Mesh& mesh, const Part& part) {
 void GltfMeshReader::add_uvs(Mesh& mesh, const Part& part) {
   const int material = part.primitive.material;
   const int set = material < 0 ? 0 : sets_[static_cast<std::size_t>(material)];
-  const int index = attribute(part.primitive, fmt::format("TEXCOORD_{}", set));
+  const int index = attribute(part.primitive.attributes, fmt::format("TEXCOORD_{}", set));
   if (index < 0) return;
   mesh.uvs.resize(part.first + part.count, Vec2f(0.0f));
   std::atomic<std::size_t> bad = 0;
@@ -195,7 +190,7 @@ void GltfMeshReader::add_uvs(Mesh& mesh, const Part& part) {
 
 // glTF 2.0, section 3.7.2.1: linear, of three or four components in [0, 1]. What is missing or not finite is white.
 void GltfMeshReader::add_colors(Mesh& mesh, const Part& part) {
-  const int index = attribute(part.primitive, "COLOR_0");
+  const int index = attribute(part.primitive.attributes, "COLOR_0");
   if (index < 0) return;
   if (part.primitive.material >= 0) coloured_.insert(static_cast<std::uint32_t>(part.primitive.material));
   mesh.colors.resize(part.first + part.count, Vec4f(1.0f));
@@ -218,9 +213,9 @@ void GltfMeshReader::apply_targets(Mesh& mesh, const Part& part, const std::vect
   for (std::size_t t = 0; t < std::min(targets.size(), weights.size()); ++t) {
     if (weights[t] == 0.0) continue;
     const auto add = [&](const char* name, auto&& put) {
-      const auto found = targets[t].find(name);
-      if (found == targets[t].end() || found->second < 0) return;
-      accessor(found->second).for_each([&](std::size_t i, const double* v) {
+      const int index = gltf::attribute(targets[t], name);
+      if (index < 0) return;
+      accessor(index).for_each([&](std::size_t i, const double* v) {
         if (i < part.count) put(part.first + i, weights[t] * vec3(v));
       });
     };
@@ -238,8 +233,8 @@ void GltfMeshReader::apply_skin(Mesh& mesh, const Part& part, const std::vector<
   if (joints.empty()) return;
   std::vector<Blend> blends(part.count);
   for (int set = 0;; ++set) {
-    const int indices = attribute(part.primitive, fmt::format("JOINTS_{}", set));
-    const int weights = attribute(part.primitive, fmt::format("WEIGHTS_{}", set));
+    const int indices = attribute(part.primitive.attributes, fmt::format("JOINTS_{}", set));
+    const int weights = attribute(part.primitive.attributes, fmt::format("WEIGHTS_{}", set));
     if (indices < 0 || weights < 0) break;
     const GltfAccessor weight = accessor(weights);
     const std::size_t known = std::min(part.count, weight.count());
@@ -296,11 +291,12 @@ Expected<void> GltfMeshReader::for_each_index(const Part& part, const Put& put) 
                            static_cast<std::int64_t>(part.count) - 1));
 }
 
-Expected<void> GltfMeshReader::add_triangles(Mesh& mesh, const Part& part, int mode) {
+Expected<void> GltfMeshReader::add_triangles(Mesh& mesh, const Part& part) {
+  const int mode = part.primitive.mode;
   const std::size_t count =
       part.primitive.indices < 0 ? part.count : accessor(part.primitive.indices).count();
   const auto base = static_cast<std::uint32_t>(part.first);
-  if (mode == TINYGLTF_MODE_TRIANGLES) {
+  if (mode == gltf::triangles) {
     const std::size_t first = mesh.triangles.size(), whole = count / 3 * 3;
     mesh.triangles.resize(first + count / 3);
     const auto read = for_each_index(part, [&](std::size_t i, std::uint32_t v) {
@@ -319,7 +315,7 @@ Expected<void> GltfMeshReader::add_triangles(Mesh& mesh, const Part& part, int m
   return {};
 }
 
-std::uint32_t GltfMeshReader::material_of(const tinygltf::Primitive& primitive) const {
+std::uint32_t GltfMeshReader::material_of(const gltf::Primitive& primitive) const {
   return primitive.material < 0 ? default_material_ : static_cast<std::uint32_t>(primitive.material);
 }
 

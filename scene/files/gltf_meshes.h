@@ -10,10 +10,6 @@
 #include "scene/files/gltf_materials.h"
 #include "scene/scene.h"
 
-namespace tinygltf {
-struct Primitive;
-}
-
 namespace gnomon {
 
 class GltfAccessor;
@@ -33,7 +29,7 @@ struct GltfMesh {
 class GltfMeshReader {
  public:
   /// Primitives without a material get `default_material`. All of these must outlive the reader.
-  GltfMeshReader(const tinygltf::Model& model, const GltfData& data, const TexcoordSets& sets,
+  GltfMeshReader(const gltf::Model& model, const GltfData& data, const TexcoordSets& sets,
                  std::uint32_t default_material, const std::string& file)
       : model_(model), data_(data), sets_(sets), default_material_(default_material), file_(file) {}
 
@@ -46,13 +42,13 @@ class GltfMeshReader {
  private:
   /// A primitive's part of a mesh: positions [first, first + count).
   struct Part {
-    const tinygltf::Primitive& primitive;
+    const gltf::Primitive& primitive;
     std::string path;
     std::size_t first = 0, count = 0;
   };
   tl::unexpected<Error> error(std::string field, std::string reason) const;
   GltfAccessor accessor(int index) const;
-  Expected<void> add_primitive(Mesh& mesh, const tinygltf::Primitive& primitive, const GltfPose& pose,
+  Expected<void> add_primitive(Mesh& mesh, const gltf::Primitive& primitive, const GltfPose& pose,
                                std::string path);
   Expected<void> add_positions(Mesh& mesh, const Part& part) const;
   Expected<void> check_positions(const Mesh& mesh, const Part& part) const;
@@ -63,10 +59,10 @@ class GltfMeshReader {
   void apply_skin(Mesh& mesh, const Part& part, const std::vector<Mat4>& joints);
   template <class Put>
   Expected<void> for_each_index(const Part& part, const Put& put) const;
-  Expected<void> add_triangles(Mesh& mesh, const Part& part, int mode);
-  std::uint32_t material_of(const tinygltf::Primitive& primitive) const;
+  Expected<void> add_triangles(Mesh& mesh, const Part& part);
+  std::uint32_t material_of(const gltf::Primitive& primitive) const;
 
-  const tinygltf::Model& model_;
+  const gltf::Model& model_;
   const GltfData& data_;
   const TexcoordSets& sets_;
   std::uint32_t default_material_;

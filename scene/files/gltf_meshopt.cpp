@@ -1,4 +1,4 @@
-#include "scene/files/gltf_meshopt.h"
+#include "scene/files/gltf_packed.h"
 
 #include <fmt/core.h>
 #include <meshoptimizer.h>
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "scene/files/gltf_data.h"
+#include "scene/files/gltf_value.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon {

@@ -1,12 +1,11 @@
 #include "scene/files/gltf_paths.h"
 
 #include <fmt/core.h>
-#include <tiny_gltf.h>
 
 #include <set>
 
 #include "scene/files/gltf_accessor.h"
-#include "scene/files/gltf_skins.h"
+#include "scene/files/gltf_transforms.h"
 #include "scene/files/json_reader.h"
 
 namespace gnomon {
@@ -24,7 +23,7 @@ using MovedNodes = std::map<std::size_t, MovedNode>;
 
 class AnimationReader {
  public:
-  AnimationReader(const tinygltf::Model& model, const GltfData& data, const JsonNode& animation)
+  AnimationReader(const gltf::Model& model, const GltfData& data, const JsonNode& animation)
       : model_(model), data_(data), animation_(animation) {
     if (const auto list = animation.child("samplers")) samplers_ = list->as_array();
   }
@@ -69,12 +68,12 @@ class AnimationReader {
   }
 
   MovedNode stored(std::size_t index) const {
-    const tinygltf::Node& node = model_.nodes[index];
+    const gltf::Node& node = model_.nodes[index];
     MovedNode out;
-    if (node.translation.size() == 3) out.translation = vector(node.translation.data());
-    if (node.scale.size() == 3) out.scale = vector(node.scale.data());
-    if (node.rotation.size() == 4 && glm::length(quaternion(node.rotation.data())) > 0.0)
-      out.rotation = glm::normalize(quaternion(node.rotation.data()));
+    out.translation = node.translation.value_or(out.translation);
+    out.scale = node.scale.value_or(out.scale);
+    if (node.rotation && glm::length(quaternion(&node.rotation->x)) > 0.0)
+      out.rotation = glm::normalize(quaternion(&node.rotation->x));
     return out;
   }
 
@@ -123,7 +122,7 @@ class AnimationReader {
       if (!(glm::length(value) > 0.0)) return sampler.error("a rotation of length 0");
   }
 
-  const tinygltf::Model& model_;
+  const gltf::Model& model_;
   const GltfData& data_;
   const JsonNode& animation_;
   std::vector<JsonNode> samplers_;
@@ -131,12 +130,8 @@ class AnimationReader {
 
 class PathBuilder {
  public:
-  PathBuilder(const tinygltf::Model& model, const CarriedNodes& carried, Scene& scene)
-      : model_(model), carried_(carried), scene_(scene), parent_(model.nodes.size(), -1) {
-    for (std::size_t i = 0; i < model.nodes.size(); ++i)
-      for (const int child : model.nodes[i].children)
-        parent_[static_cast<std::size_t>(child)] = static_cast<int>(i);
-  }
+  PathBuilder(const gltf::Model& model, const CarriedNodes& carried, Scene& scene)
+      : model_(model), carried_(carried), scene_(scene) {}
 
   /// Nothing where neither a camera nor a light moves.
   std::optional<LoadedPath> path(const MovedNodes& moved, std::string name) {
@@ -163,39 +158,39 @@ class PathBuilder {
   NodeChain chain(std::size_t node, const MovedNodes& moved, std::set<std::size_t>& used) const {
     NodeChain out;
     bool any = false;
-    for (int at = static_cast<int>(node); at >= 0; at = parent_[static_cast<std::size_t>(at)]) {
+    for (int at = static_cast<int>(node); at >= 0;) {
       const auto index = static_cast<std::size_t>(at);
+      at = model_.nodes[index].parent;
       const auto keyed = moved.find(index);
       if (keyed != moved.end()) any = true, used.insert(index);
-      out.push_back(keyed != moved.end() ? keyed->second : MovedNode{.matrix = local_matrix(model_, index)});
+      out.push_back(keyed != moved.end() ? keyed->second
+                                         : MovedNode{.matrix = local_matrix(model_.nodes[index])});
     }
     if (!any) return {};
     std::reverse(out.begin(), out.end());
     return out;
   }
 
-  const tinygltf::Model& model_;
+  const gltf::Model& model_;
   const CarriedNodes& carried_;
   Scene& scene_;
-  std::vector<int> parent_;
 };
 
 }  // namespace
 
-Expected<std::vector<LoadedPath>> read_gltf_paths(const tinygltf::Model& model, const GltfData& data,
-                                                  const CheckedGltf& checked, const CarriedNodes& carried,
-                                                  Scene& scene) {
-  JsonErrors errors{checked.document};
-  const JsonNode root(errors, checked.document.root, "");
+Expected<std::vector<LoadedPath>> read_gltf_paths(const GltfDocument& document, const GltfData& data,
+                                                  const CarriedNodes& carried, Scene& scene) {
+  JsonErrors errors{document.json};
+  const JsonNode root(errors, document.json.root, "");
   std::vector<LoadedPath> paths;
   const auto list = root.child("animations");
   if (!list) return paths;
-  PathBuilder builder(model, carried, scene);
+  PathBuilder builder(document.model, carried, scene);
   std::size_t index = 0;
   for (const JsonNode& animation : list->as_array()) {
     const auto name = animation.child("name");
     const std::string own = name ? name->as_string() : std::string();
-    const MovedNodes moved = AnimationReader(model, data, animation).read();
+    const MovedNodes moved = AnimationReader(document.model, data, animation).read();
     if (errors.first) return fail(*errors.first);
     if (auto path = builder.path(moved, own.empty() ? fmt::format("animation-{}", index) : own))
       paths.push_back(std::move(*path));

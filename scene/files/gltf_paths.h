@@ -6,10 +6,6 @@
 #include "scene/files/formats.h"
 #include "scene/files/gltf_data.h"
 
-namespace tinygltf {
-class Model;
-}
-
 namespace gnomon {
 
 /// Nodes that carry what the loaded file lists, in its order.
@@ -19,8 +15,7 @@ struct CarriedNodes {
 
 /// One path for each animation that moves a camera, a light or a node above one; its name, or animation-I. What else
 /// it moves is said in a note. Error (bad input): a channel or a sampler that is not sound.
-Expected<std::vector<LoadedPath>> read_gltf_paths(const tinygltf::Model& model, const GltfData& data,
-                                                  const CheckedGltf& checked, const CarriedNodes& carried,
-                                                  Scene& scene);
+Expected<std::vector<LoadedPath>> read_gltf_paths(const GltfDocument& document, const GltfData& data,
+                                                  const CarriedNodes& carried, Scene& scene);
 
 }  // namespace gnomon

@@ -34,39 +34,34 @@ bool is_ktx2(std::string_view bytes) {
   return bytes.starts_with("\xabKTX 20\xbb\r\n\x1a\n");
 }
 
-GltfTextureUse use_of(int index, int set, const tinygltf::Value* transform) {
-  GltfTextureUse use{index, set, {}};
-  if (transform == nullptr) return use;
-  const auto offset = numbers(transform, "offset", {0.0, 0.0});
-  const auto scale = numbers(transform, "scale", {1.0, 1.0});
-  use.transform = {{offset[0], offset[1]}, {scale[0], scale[1]}, number(transform, "rotation", 0.0)};
-  use.set = static_cast<int>(std::clamp(number(transform, "texCoord", set), -1.0, 16.0));
-  return use;
-}
-
 /// The images of a texture: the plain one first, then what an extension offers.
-std::vector<int> sources(const tinygltf::Texture& texture) {
+std::vector<int> sources(const JsonValue& texture) {
   std::vector<int> out;
-  if (texture.source >= 0) out.push_back(texture.source);
-  const tinygltf::Value* webp = extension(texture.extensions, "EXT_texture_webp");
-  if (const double source = number(webp, "source", -1.0); source >= 0.0)
-    out.push_back(static_cast<int>(std::min(source, 2147483647.0)));
+  const JsonValue* webp = extension(member(&texture, "extensions"), "EXT_texture_webp");
+  for (const JsonValue* from : {&texture, webp})
+    if (const double source = number_of(from, "source", -1.0); source >= 0.0)
+      out.push_back(static_cast<int>(std::min(source, 2147483647.0)));
   return out;
 }
 
 }  // namespace
 
-GltfTextureUse texture_use(const tinygltf::TextureInfo& info) {
-  if (info.index < 0) return {};
-  return use_of(info.index, info.texCoord, extension(info.extensions, "KHR_texture_transform"));
+GltfTextureUse texture_use(const JsonValue* info) {
+  GltfTextureUse use;
+  use.index = static_cast<int>(std::clamp(number_of(info, "index", -1.0), -1.0, 2147483647.0));
+  double set = number_of(info, "texCoord", 0.0);
+  if (const JsonValue* transform = extension(member(info, "extensions"), "KHR_texture_transform")) {
+    const auto offset = numbers_of(transform, "offset", {0.0, 0.0});
+    const auto scale = numbers_of(transform, "scale", {1.0, 1.0});
+    use.transform = {{offset[0], offset[1]}, {scale[0], scale[1]}, number_of(transform, "rotation", 0.0)};
+    set = number_of(transform, "texCoord", set);
+  }
+  use.set = static_cast<int>(std::clamp(set, -1.0, 16.0));
+  return use;
 }
 
-GltfTextureUse texture_use(const tinygltf::Value* info) {
-  const int index = static_cast<int>(std::clamp(number(info, "index", -1.0), -1.0, 2147483647.0));
-  const int set = static_cast<int>(std::clamp(number(info, "texCoord", 0.0), -1.0, 16.0));
-  const tinygltf::Value* extensions = has(info, "extensions") ? &info->Get("extensions") : nullptr;
-  const bool moved = has(extensions, "KHR_texture_transform");
-  return use_of(index, set, moved ? &extensions->Get("KHR_texture_transform") : nullptr);
+const JsonValue& GltfTextures::texture_at(int index) const {
+  return gltf_list(json_.root, "textures")[static_cast<std::size_t>(index)];
 }
 
 Expected<std::uint32_t> GltfTextures::add(int index, const std::string& material) {
@@ -108,7 +103,7 @@ void GltfTextures::decode_ahead(const std::set<int>& colours, const std::set<int
 void GltfTextures::list_images(const std::set<int>& textures, bool srgb, std::vector<Decoded>& out) {
   std::set<std::size_t> known;
   for (const int index : textures)
-    for (const int source : sources(model_.textures[static_cast<std::size_t>(index)])) {
+    for (const int source : sources(texture_at(index))) {
       const auto at = static_cast<std::size_t>(source);
       const auto image = at < data_.image_count() ? data_.image(at) : Expected<GltfImage>();
       if (!image || image->bytes.empty() || is_ktx2(image->bytes)) continue;
@@ -144,8 +139,8 @@ void GltfTextures::note_once(std::string note) {
 }
 
 Expected<std::optional<GltfImage>> GltfTextures::find_image(int index, const std::string& material) {
-  const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(index)];
-  std::string why = extension(texture.extensions, "KHR_texture_basisu") != nullptr
+  const JsonValue& texture = texture_at(index);
+  std::string why = extension(member(&texture, "extensions"), "KHR_texture_basisu") != nullptr
                         ? "is in Basis Universal alone, which is not decoded"
                         : "has no image";
   for (const int source : sources(texture)) {
@@ -153,7 +148,7 @@ Expected<std::optional<GltfImage>> GltfTextures::find_image(int index, const std
       return fail(Error{ErrorKind::bad_input,
                         fmt::format("there is no such image (got {}, allowed 0 to {})", source,
                                     static_cast<std::int64_t>(data_.image_count()) - 1),
-                        file_, 0, 0, fmt::format("textures[{}].source", index)});
+                        json_.file, 0, 0, fmt::format("textures[{}].source", index)});
     auto image = data_.image(static_cast<std::size_t>(source));
     if (!image) return fail(image.error());
     if (is_ktx2(image->bytes)) {
@@ -168,21 +163,23 @@ Expected<std::optional<GltfImage>> GltfTextures::find_image(int index, const std
 }
 
 void GltfTextures::apply_sampler(int texture_index, Texture& texture, const std::string& material) {
-  const int index = model_.textures[static_cast<std::size_t>(texture_index)].sampler;
+  constexpr double nearest = 9728.0, clamp_to_edge = 33071.0, mirrored_repeat = 33648.0, repeat = 10497.0;
+  const auto& samplers = gltf_list(json_.root, "samplers");
+  const int index = index_of(&texture_at(texture_index), "sampler", samplers.size());
   if (index < 0) return;
-  const tinygltf::Sampler& sampler = model_.samplers[static_cast<std::size_t>(index)];
-  texture.repeat_s = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-  texture.repeat_t = sampler.wrapT != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-  texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
-  if (sampler.wrapS == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ||
-      sampler.wrapT == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT)
+  const JsonValue* sampler = &samplers[static_cast<std::size_t>(index)];
+  const double wrap_s = number_of(sampler, "wrapS", repeat), wrap_t = number_of(sampler, "wrapT", repeat);
+  texture.repeat_s = wrap_s != clamp_to_edge;
+  texture.repeat_t = wrap_t != clamp_to_edge;
+  texture.nearest = number_of(sampler, "magFilter", 0.0) == nearest;
+  if (wrap_s == mirrored_repeat || wrap_t == mirrored_repeat)
     unused_["Mirrored repeat of textures (they repeat plainly) is"].insert(material);
 }
 
 Expected<Texture> GltfTextures::decode(const GltfImage& image, bool srgb) const {
   const std::string path = fmt::format("images[{}]", image.index);
   auto texture = read_texture_bytes(path, image.bytes, srgb);
-  if (!texture) return fail(Error{ErrorKind::bad_input, texture.error().reason, file_, 0, 0, path});
+  if (!texture) return fail(Error{ErrorKind::bad_input, texture.error().reason, json_.file, 0, 0, path});
   texture->name = image.name;
   return texture;
 }

@@ -1,8 +1,6 @@
 // Textures of glTF materials: which image is taken, and how it is looked up.
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <map>
 #include <optional>
 #include <set>
@@ -20,9 +18,8 @@ struct GltfTextureUse {
   int set = 0;  ///< of texture coordinates
   TextureTransform transform{};
 };
-GltfTextureUse texture_use(const tinygltf::TextureInfo& info);
-/// Of an extension's own member, "diffuseTexture"; nullptr and what is no object: none.
-GltfTextureUse texture_use(const tinygltf::Value* info);
+/// `info` is the textureInfo object (glTF 2.0, section 5.28); nullptr and what is no object: none.
+GltfTextureUse texture_use(const JsonValue* info);
 
 /// What is not used of a file, and by which materials.
 using UnusedParts = std::map<std::string, std::set<std::string>>;
@@ -34,9 +31,8 @@ struct TextureStatistics {
 
 class GltfTextures {
  public:
-  GltfTextures(Scene& scene, const tinygltf::Model& model, GltfData& data, UnusedParts& unused,
-               const std::string& file)
-      : scene_(scene), model_(model), data_(data), unused_(unused), file_(file) {}
+  GltfTextures(Scene& scene, const JsonDocument& json, GltfData& data, UnusedParts& unused)
+      : scene_(scene), json_(json), data_(data), unused_(unused) {}
 
   /// Decodes what is likely to be asked for, in parallel: textures of colours (sRGB), and such as only their means are
   /// asked of. What is wrong with one is said when it is asked for.
@@ -62,14 +58,14 @@ class GltfTextures {
 
   Expected<std::optional<GltfImage>> find_image(int index, const std::string& material);
   Expected<Texture> decode(const GltfImage& image, bool srgb) const;
+  const JsonValue& texture_at(int index) const;
   void apply_sampler(int index, Texture& texture, const std::string& material);
   void note_once(std::string note);
 
   Scene& scene_;
-  const tinygltf::Model& model_;
+  const JsonDocument& json_;
   GltfData& data_;
   UnusedParts& unused_;
-  const std::string& file_;
   std::map<std::size_t, Decoded> ahead_;       // glTF images of colours
   std::map<int, std::uint32_t> textures_;      // glTF texture to ours
   std::vector<TextureStatistics> statistics_;  // of ours

@@ -8,7 +8,6 @@
 #include "scene/files/image_decode.h"
 #include "scene/files/image_library.h"
 #include "scene/files/read_file.h"
-#include "scene/files/texture_file.h"
 #include "scene/files/write_file.h"
 #include "scene/parallel.h"
 

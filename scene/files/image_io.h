@@ -23,6 +23,15 @@ inline constexpr int max_image_side =
 Expected<Texture> read_texture(const std::string& path, bool srgb);
 Expected<Texture> read_texture_bytes(const std::string& name, std::string_view bytes, bool srgb);
 
+/// A texture with what its file says of alpha.
+struct TextureFile {
+  Texture texture;
+  bool has_alpha = false;  ///< the file has an alpha channel; without one the texture is opaque
+};
+
+/// As read_texture().
+Expected<TextureFile> read_texture_file(const std::string& path, bool srgb);
+
 /// [0, 1], clipped, to 0 ... 255, rounded to nearest.
 inline std::uint8_t to_8_bit(float value) {
   return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));

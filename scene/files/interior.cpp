@@ -1,4 +1,4 @@
-#include "scene/files/interior.h"
+#include "scene/files/defaults.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,6 @@
 
 #include "scene/files/json_generate.h"
 #include "scene/files/json_parts.h"
-#include "scene/files/merge.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon {

@@ -7,6 +7,7 @@
 
 #include "scene/files/formats.h"
 #include "scene/files/json_reader.h"
+#include "scene/keyed_path.h"
 
 namespace gnomon {
 
@@ -45,9 +46,20 @@ struct RepeatedPlace {
 std::vector<RepeatedPlace> read_repeat(const JsonNode& node);
 /// A quadric, torus or implicit surface; `kind` is its key in the shape.
 decltype(Shape::geometry) read_solid(std::string_view kind, const JsonNode& node);
+/// The members "camera" and "lights" of a path by keys, in a file of its own or in a scene.
+void read_path_keys(const JsonObject& object, KeyedPath& path);
 NamedCamera read_camera(SceneReader& reader, const JsonNode& node);
 
 /// The material that a string names; 0 and an error when there is none.
 std::uint32_t find_material(SceneReader& reader, const JsonNode& name);
+
+/// Where the appended parts begin.
+struct MergeOffsets {
+  std::uint32_t material = 0, texture = 0, mesh = 0;
+};
+
+/// Appends materials, textures, meshes and notes of `from`; with `placed`, its instances, shapes and lights
+/// too. Camera and picture settings of `into` stay.
+MergeOffsets merge_scene(Scene& into, Scene&& from, bool placed);
 
 }  // namespace gnomon

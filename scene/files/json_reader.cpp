@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "scene/files/hex_digit.h"
 #include "scene/files/image_io.h"
 #include "scene/files/read_file.h"
 #include "scene/nearest_name.h"

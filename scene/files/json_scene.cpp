@@ -5,8 +5,6 @@
 #include <filesystem>
 
 #include "scene/files/json_parts.h"
-#include "scene/files/merge.h"
-#include "scene/files/path_keys.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon {

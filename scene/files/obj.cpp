@@ -1,16 +1,14 @@
-// OBJ: read by obj_text, its materials by tinyobjloader, cut into triangles by polygon.h and brought into the scene model
+// OBJ: read by obj_text, its materials by mtl, cut into triangles by polygon.h and brought into the scene model
 // here. One mesh and one instance per object or group; v of texture coordinates
 // is turned over.
 #include <fmt/core.h>
-#include <tiny_obj_loader.h>
 
 #include <filesystem>
 #include <span>
-#include <sstream>
 #include <unordered_map>
 
 #include "scene/files/formats.h"
-#include "scene/files/mtl_options.h"
+#include "scene/files/mtl.h"
 #include "scene/files/obj_materials.h"
 #include "scene/files/obj_text.h"
 #include "scene/files/polygon.h"
@@ -29,9 +27,7 @@ Error obj_error(const std::string& file, std::string reason) {
 class LibraryReader {
  public:
   LibraryReader(const std::string& folder, const LoadOptions& options) : folder_(folder), options_(options) {}
-  std::vector<tinyobj::material_t> materials;
-  std::vector<std::string> notes;
-  std::set<std::string> without_diffuse, warnings;
+  MtlLibrary all;
 
   /// Nothing, or why it cannot be used.
   Expected<std::string> read(const std::string& name) {
@@ -44,15 +40,14 @@ class LibraryReader {
     const auto bytes = read_file(*path);
     if (!bytes) return bytes.error().reason;
     if (bytes->find('\0') != std::string::npos) return "it is not UTF-8 text";
-    const auto text = plain_mtl(*bytes, *path, notes);
-    if (!text) return fail(text.error());
-    note_missing_diffuse(*text);
-    std::istringstream stream(*text);
-    std::string said, errors;
-    tinyobj::LoadMtl(&numbers_, &materials, &stream, &said, &errors);
-    std::istringstream lines(said);
-    for (std::string line; std::getline(lines, line);)
-      if (!line.empty()) warnings.insert(line);
+    auto library = parse_mtl(*bytes, *path);
+    if (!library) return fail(library.error());
+    for (MtlMaterial& material : library->materials) {
+      numbers_.try_emplace(material.name, static_cast<int>(all.materials.size()));
+      all.materials.push_back(std::move(material));
+    }
+    all.notes.insert(all.notes.end(), library->notes.begin(), library->notes.end());
+    all.warnings.merge(library->warnings);
     return std::string();
   }
 
@@ -62,20 +57,6 @@ class LibraryReader {
   }
 
  private:
-  // tinyobjloader gives such materials black.
-  void note_missing_diffuse(const std::string& text) {
-    std::istringstream lines(text);
-    std::string current;
-    for (std::string line; std::getline(lines, line);) {
-      std::istringstream words(line);
-      std::string key, value;
-      words >> key >> std::ws;
-      std::getline(words, value);
-      if (key == "newmtl") without_diffuse.insert(current = value);
-      if (key == "Kd") without_diffuse.erase(current);
-    }
-  }
-
   const std::string& folder_;
   const LoadOptions& options_;
   std::map<std::string, int> numbers_;  ///< of materials, by name
@@ -196,12 +177,10 @@ Expected<LoadedFile> read_obj(std::string_view bytes, const std::string& file, c
   LoadedFile loaded;
   loaded.is_model = true;
   Scene& scene = loaded.scene;
-  scene.notes = libraries.notes;
-  libraries.warnings.insert(parsed->warnings.begin(), parsed->warnings.end());
-  note_warnings(scene, libraries.warnings);
-  if (const auto added =
-          add_obj_materials(scene, libraries.materials, libraries.without_diffuse, folder, options);
-      !added) {
+  scene.notes = libraries.all.notes;
+  libraries.all.warnings.insert(parsed->warnings.begin(), parsed->warnings.end());
+  note_warnings(scene, libraries.all.warnings);
+  if (const auto added = add_obj_materials(scene, libraries.all.materials, folder, options); !added) {
     Error error = added.error();
     if (error.file.empty()) error.file = file;
     return fail(std::move(error));

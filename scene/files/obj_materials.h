@@ -8,22 +8,16 @@
 // Other maps are noted as not used.
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
+#include "scene/files/mtl.h"
 #include "scene/load.h"
-
-namespace tinyobj {
-struct material_t;
-}
 
 namespace gnomon {
 
-/// Appends the materials (and their textures) to the scene, in order. `without_diffuse`: names of materials
-/// that give no Kd.
-Expected<void> add_obj_materials(Scene& scene, const std::vector<tinyobj::material_t>& materials,
-                                 const std::set<std::string>& without_diffuse, const std::string& folder,
-                                 const LoadOptions& options);
+/// Appends the materials (and their textures) to the scene, in order.
+Expected<void> add_obj_materials(Scene& scene, const std::vector<MtlMaterial>& materials,
+                                 const std::string& folder, const LoadOptions& options);
 
 }  // namespace gnomon

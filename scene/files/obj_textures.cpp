@@ -1,14 +1,14 @@
 #include "scene/files/obj_textures.h"
 
 #include <fmt/core.h>
-#include <tiny_obj_loader.h>
 
 #include <algorithm>
 
+#include "scene/files/image_io.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
-#include "scene/files/texture_mask.h"
 #include "scene/parallel.h"
+#include "scene/texture_sample.h"
 
 namespace gnomon {
 namespace {
@@ -19,16 +19,15 @@ std::string with_slashes(std::string name) {
 }
 
 // In v-up terms the lookup is s * v + o; with v' = 1 - v on both sides that is s * v' + (1 - s - o).
-TextureTransform transform_of(const tinyobj::texture_option_t& option) {
+TextureTransform transform_of(const MtlTexture& texture) {
   TextureTransform t;
-  t.scale = {option.scale[0], option.scale[1]};
-  t.offset = {option.origin_offset[0], 1.0 - option.scale[1] - option.origin_offset[1]};
+  t.scale = texture.scale;
+  t.offset = {texture.offset.x, 1.0 - texture.scale.y - texture.offset.y};
   return t;
 }
 
-bool lie_alike(const tinyobj::texture_option_t& a, const tinyobj::texture_option_t& b) {
-  const TextureTransform of_a = transform_of(a), of_b = transform_of(b);
-  return of_a.scale == of_b.scale && of_a.offset == of_b.offset && a.clamp == b.clamp;
+bool lie_alike(const MtlTexture& a, const MtlTexture& b) {
+  return a.scale == b.scale && a.offset == b.offset && a.clamped == b.clamped;
 }
 
 /// A picture of numbers, such as a mask.
@@ -49,6 +48,42 @@ Texture white() {
   return texture;
 }
 
+Texture resized(Texture from, const ImageSize& size) {
+  if (from.size == size) return from;
+  std::vector<glm::u8vec4> texels;
+  texels.reserve(size.pixels());
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const Vec4f value = sample_texture(from, {(x + 0.5) / size.width, (y + 0.5) / size.height});
+      const auto stored = [&](float v) { return to_8_bit(from.srgb ? srgb_from_linear(v) : v); };
+      texels.emplace_back(stored(value.r), stored(value.g), stored(value.b), to_8_bit(value.a));
+    }
+  from.size = size;
+  from.texels = std::move(texels);
+  return from;
+}
+
+/// Makes alpha the luminance of the stored values (ITU-R BT.709's weights), as MTL's -imfchan l does. Of a grey texel
+/// it is the grey.
+void take_alpha_from_luminance(Texture& mask) {
+  for (glm::u8vec4& t : mask.texels)
+    t.a = static_cast<std::uint8_t>(std::lround(0.2126 * t.r + 0.7152 * t.g + 0.0722 * t.b));
+}
+
+/// The colours of one texture with the alpha of the other, both wrapped as `colours` is. Where they have different
+/// sizes, at the larger width and the larger height of the two: a texel then is what the lookup (texture_sample.h)
+/// gives at its centre.
+Texture with_alpha_of(Texture colours, Texture mask) {
+  const ImageSize size{std::max(colours.size.width, mask.size.width),
+                       std::max(colours.size.height, mask.size.height)};
+  mask.repeat_s = colours.repeat_s;
+  mask.repeat_t = colours.repeat_t;
+  colours = resized(std::move(colours), size);
+  mask = resized(std::move(mask), size);
+  for (std::size_t i = 0; i < colours.texels.size(); ++i) colours.texels[i].a = mask.texels[i].a;
+  return colours;
+}
+
 }  // namespace
 
 void ObjTextures::note(const std::string& material, const std::string& words) {
@@ -64,10 +99,10 @@ Expected<std::string> ObjTextures::find_file(const std::string& name, const std:
   return fail(std::move(error));
 }
 
-Expected<ObjTextures::Files> ObjTextures::find_files(const tinyobj::material_t& from) {
+Expected<ObjTextures::Files> ObjTextures::find_files(const MtlMaterial& from) {
   Files files;
-  if (!from.diffuse_texname.empty()) {
-    auto path = find_file(from.diffuse_texname, from.name, "map_Kd");
+  if (!from.colours.file.empty()) {
+    auto path = find_file(from.colours.file, from.name, "map_Kd");
     if (!path) return fail(path.error());
     const auto there = is_there(*path);
     if (!there) return fail(there.error());
@@ -76,8 +111,8 @@ Expected<ObjTextures::Files> ObjTextures::find_files(const tinyobj::material_t& 
     else
       note(from.name, fmt::format("the texture {} is not there; its plain colour is used", *path));
   }
-  if (!from.alpha_texname.empty()) {
-    auto path = find_file(from.alpha_texname, from.name, "map_d");
+  if (!from.mask.file.empty()) {
+    auto path = find_file(from.mask.file, from.name, "map_d");
     if (!path) return fail(path.error());
     const auto there = is_there(*path);
     if (!there) return fail(there.error());
@@ -89,8 +124,8 @@ Expected<ObjTextures::Files> ObjTextures::find_files(const tinyobj::material_t& 
       files.mask = *one ? files.colours : std::move(*path);
     }
   }
-  const auto& placed = files.colours.empty() ? from.alpha_texopt : from.diffuse_texopt;
-  files.clamped = placed.clamp;
+  const auto& placed = files.colours.empty() ? from.mask : from.colours;
+  files.clamped = placed.clamped;
   return files;
 }
 
@@ -115,9 +150,9 @@ Expected<ObjTextures::Made> ObjTextures::make(const Files& files) {
   return made;
 }
 
-Expected<void> ObjTextures::read(const std::vector<tinyobj::material_t>& materials) {
+Expected<void> ObjTextures::read(const std::vector<MtlMaterial>& materials) {
   std::vector<Files> wanted;  // once each
-  for (const tinyobj::material_t& from : materials) {
+  for (const MtlMaterial& from : materials) {
     auto files = find_files(from);
     if (!files) return fail(files.error());
     const bool is_new = std::find(wanted.begin(), wanted.end(), *files) == wanted.end();
@@ -134,20 +169,20 @@ Expected<void> ObjTextures::read(const std::vector<tinyobj::material_t>& materia
   return {};
 }
 
-void ObjTextures::give(const tinyobj::material_t& from, std::size_t number, Material& material) {
+void ObjTextures::give(const MtlMaterial& from, std::size_t number, Material& material) {
   const Files& files = files_[number];
   if (files.empty()) return;
   const Known& known = known_.at(files);
   material.diffuse_texture = known.texture;
-  material.texture_transform = transform_of(files.colours.empty() ? from.alpha_texopt : from.diffuse_texopt);
+  material.texture_transform = transform_of(files.colours.empty() ? from.mask : from.colours);
   if (files.mask.empty()) return;
   if (known.mask == Mask::none)
     return note(from.name,
-                fmt::format("map_d is not used: {} has colours and no alpha channel", from.alpha_texname));
+                fmt::format("map_d is not used: {} has colours and no alpha channel", from.mask.file));
   material.alpha_mode = AlphaMode::mask;
   if (known.mask == Mask::grey && !files.has_mask_of_its_own())
-    note(from.name, fmt::format("map_d is the grey of {}, which has no alpha channel", from.alpha_texname));
-  if (!files.colours.empty() && !lie_alike(from.diffuse_texopt, from.alpha_texopt))
+    note(from.name, fmt::format("map_d is the grey of {}, which has no alpha channel", from.mask.file));
+  if (!files.colours.empty() && !lie_alike(from.colours, from.mask))
     note(from.name, "map_d lies as map_Kd does: its own -s, -o and -clamp are not used");
 }
 

@@ -11,12 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/files/texture_file.h"
+#include "scene/files/image_io.h"
+#include "scene/files/mtl.h"
 #include "scene/load.h"
-
-namespace tinyobj {
-struct material_t;
-}
 
 namespace gnomon {
 
@@ -29,9 +26,9 @@ class ObjTextures {
 
   /// Brings in what the materials name, decoded in parallel. A file that is not there is a note; one that cannot be
   /// read is an error.
-  Expected<void> read(const std::vector<tinyobj::material_t>& materials);
+  Expected<void> read(const std::vector<MtlMaterial>& materials);
   /// Gives the material what the one of this number named; what is not used of it is a note.
-  void give(const tinyobj::material_t& from, std::size_t number, Material& material);
+  void give(const MtlMaterial& from, std::size_t number, Material& material);
 
  private:
   /// What map_d finds in an image. Pictures in colours without an alpha channel that are map_Kd, too, are no masks:
@@ -56,7 +53,7 @@ class ObjTextures {
 
   Expected<std::string> find_file(const std::string& name, const std::string& material,
                                   const std::string& statement);
-  Expected<Files> find_files(const tinyobj::material_t& from);
+  Expected<Files> find_files(const MtlMaterial& from);
   static Expected<Made> make(const Files& files);
   void note(const std::string& material, const std::string& words);
 

@@ -43,4 +43,12 @@ std::string printable(std::string_view text);
 /// The same for up to `longest` bytes.
 std::string printable(std::string_view text, std::size_t longest);
 
+/// The value of a hexadecimal digit, 0 to 15; -1 for what is none.
+constexpr int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
 }  // namespace gnomon

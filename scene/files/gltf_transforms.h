@@ -1,0 +1,29 @@
+// Transforms of a glTF file: of nodes, of the joints of skins in the pose that the nodes are stored in (glTF 2.0, section
+// 3.7.3), and of one node's many instances (EXT_mesh_gpu_instancing).
+#pragma once
+
+#include <vector>
+
+#include "scene/expected.h"
+#include "scene/files/gltf_data.h"
+#include "scene/math.h"
+
+namespace gnomon {
+
+/// The node's own transform: its matrix, or translation * rotation * scale.
+Mat4 local_matrix(const gltf::Node& node);
+
+/// world_from_node of every node, of all scenes together.
+std::vector<Mat4> node_transforms(const gltf::Model& model);
+
+/// What brings a skinned vertex into the world, by joint: world_from_joint * inverseBindMatrix. A matrix that
+/// is not given is the identity.
+std::vector<Mat4> joint_transforms(const gltf::Skin& skin, const std::vector<Mat4>& world_from_node,
+                                   const gltf::Model& model, const GltfData& data);
+
+/// node_from_instance of each instance; `extension` is the node's object of that name. Attributes that are not there
+/// change nothing. The Error holds the reason alone.
+Expected<std::vector<Mat4>> gltf_instances(const gltf::Model& model, const GltfData& data,
+                                           const JsonValue& extension);
+
+}  // namespace gnomon
