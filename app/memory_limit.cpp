@@ -11,7 +11,9 @@
 #include "app/machine.h"
 #include "app/options.h"
 #include "app/values.h"
-#include "compare/bands/bands.h"
+#include "compare/edges.h"
+#include "compare/penumbra.h"
+#include "compare/reduced.h"
 
 namespace gnomon::app {
 namespace {

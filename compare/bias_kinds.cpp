@@ -8,7 +8,6 @@
 
 #include "compare/biased_test.h"
 #include "compare/pixel_list.h"
-#include "compare/sweep/engine.h"
 #include "raster/technique_traits.h"
 #include "scene/light.h"
 #include "scene/parallel.h"

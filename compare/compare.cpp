@@ -27,9 +27,9 @@ Expected<std::vector<LightComparison>> compare_frames(const World& world, const 
   return lights;
 }
 
-raster::RasterOptions drawing_options(const CompareOptions& options) {
-  raster::RasterOptions drawing = options.raster;
-  drawing.seed = options.raytrace.seed, drawing.shadow_samples = options.raytrace.shadow_samples;
+raster::RasterOptions drawing_options(raster::RasterOptions drawing,
+                                      const raytrace::RaytraceOptions& traced) {
+  drawing.seed = traced.seed, drawing.shadow_samples = traced.shadow_samples;
   return drawing;
 }
 
@@ -65,7 +65,7 @@ Expected<Comparison> compare_world(const World& world, raster::Renderer& rendere
                                    std::span<const std::uint32_t> lights, const CompareOptions& options,
                                    const Progress& progress) {
   const raytrace::Tracer tracer(world, options.accel, options.precision);
-  auto drawn = renderer.render(drawing_options(options), lights);
+  auto drawn = renderer.render(drawing_options(options.raster, options.raytrace), lights);
   if (!drawn) return tl::unexpected(drawn.error());
   return compare_drawn(tracer, std::move(*drawn), lights, options, progress);
 }

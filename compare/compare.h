@@ -25,8 +25,8 @@ struct CompareOptions {
 /// Called as work proceeds with a stage name and the share done in [0, 1].
 using Progress = std::function<void(std::string_view stage, double done)>;
 
-/// What the drawing of a comparison asks of the rasterizer.
-raster::RasterOptions drawing_options(const CompareOptions& options);
+/// What is asked of the rasterizer, so that it samples lights as the ray tracer does.
+raster::RasterOptions drawing_options(raster::RasterOptions drawing, const raytrace::RaytraceOptions& traced);
 
 /// Traces what was drawn so, and compares the lights of those indices. `tracer` is of `options`.
 Expected<Comparison> compare_drawn(const raytrace::Tracer& tracer, raster::RasterFrame drawn,

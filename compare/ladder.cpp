@@ -220,11 +220,6 @@ void climb_group(const LowerClimb& lower, const LadderInput& in, std::size_t gro
   }
 }
 
-// Another renderer's picture without its map.
-bool lacks_map(const LadderInput& in) {
-  return in.record.captured && in.record.captured->unit_world == 0.0;
-}
-
 // Of a picture alone the light's size is known, and that the rest is what some map made of it.
 Climb climb_unexplained(const LadderInput& in, Climb out) {
   const Image<Label> climbed = labels_climbed(in, out.labels);
@@ -305,7 +300,7 @@ Climb climb_up(const LowerClimb& lower, const LadderInput& in) {
 }
 
 Climb climb(const LadderInput& in, Image<Label> sorted) {
-  if (lacks_map(in)) {
+  if (raster::lacks_map(in.record)) {
     Climb start{{}, std::move(sorted)};
     for (Image<float>& rung : start.rungs) rung = Image<float>(start.labels.size, 1.0f);
     return climb_unexplained(in, std::move(start));

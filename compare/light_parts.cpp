@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/bias_curve.h"
 #include "compare/option_names.h"
 #include "compare/pixel_list.h"
-#include "compare/sweep/engine.h"
 #include "scene/parallel.h"
 
 namespace gnomon::compare {
@@ -75,7 +75,7 @@ void StandardErrors::put(PenumbraStats& out) const {
 
 std::string_view why_no_curve(const raster::RasterFrame& drawn, const raster::LightRecord& record) {
   if (record.captured && !drawn.custom_shader)
-    return record.captured->unit_world == 0.0
+    return raster::lacks_map(record)
                ? std::string_view("The picture came without its map: there are no gaps to follow.")
                : std::string_view();
   if (biases_follow_from_gaps(drawn)) return {};

@@ -8,6 +8,7 @@
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
 #include "compare/picture_set.h"
+#include "compare/reduced.h"
 #include "compare/report/page.h"
 #include "compare/report/page_data.h"
 #include "compare/time_budget.h"

@@ -19,6 +19,7 @@
 #include "app/setting.h"
 #include "app/strongest_lights.h"
 #include "app/swim_note.h"
+#include "compare/reduced.h"
 #include "raster/bands.h"
 #include "scene/stages.h"
 #include "scene/timing.h"
@@ -100,7 +101,7 @@ Expected<Compared> compare_picture(const CompareCommand& command, const LoadedSc
   if (bands->size() > 1)
     return compare_bands(command, tracer, **renderer, lights, std::move(*bands), progress);
   progress("shadow maps", 0.1);
-  auto drawn = (*renderer)->render(compare::drawing_options(options), lights);
+  auto drawn = (*renderer)->render(compare::drawing_options(raster, options.raytrace), lights);
   if (!drawn) return fail(drawn.error());
   {
     const TimedStage stage("exit");

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "compare/aov.h"
-#include "compare/bands/reduced.h"
 #include "compare/bands/run_all.h"
 #include "compare/output_parts.h"
+#include "compare/reduced.h"
 #include "compare/shown_materials.h"
 #include "raster/bands.h"
 #include "raytrace/band.h"
@@ -79,10 +79,8 @@ class BandedWork {
 };
 
 Expected<raster::RasterFrame> BandedWork::draw(const PictureRows& rows) {
-  raster::RasterOptions options = in_.options.raster;
-  options.seed = in_.options.raytrace.seed, options.shadow_samples = in_.options.raytrace.shadow_samples;
   raster::set_rows(in_.renderer, rows);
-  auto drawn = in_.renderer.render(options, in_.lights);
+  auto drawn = in_.renderer.render(drawing_options(in_.options.raster, in_.options.raytrace), in_.lights);
   raster::set_rows(in_.renderer, std::nullopt);
   return drawn;
 }

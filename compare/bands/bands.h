@@ -40,14 +40,4 @@ struct BandedComparison {
 /// As compare_world(), of the tracer's world.
 Expected<BandedComparison> compare_in_bands(const BandedInput& input, const Progress& progress = {});
 
-/// Of a picture with more pixels than a page can hold, the page shows every so-manieth pixel and row: 1 up to 8
-/// million pixels.
-int image_step(const ImageSize& picture);
-/// The comparison with the images of those pixels alone; of a picture that has all.
-Comparison reduced_images(const Comparison& comparison, int step);
-
-/// write_outputs() but for result.json (write_result()), of a comparison that was made in bands; `parts` null: of any other.
-Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, BandedParts* parts,
-                                              OutputFolder output);
-
 }  // namespace gnomon::compare

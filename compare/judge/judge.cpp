@@ -91,7 +91,7 @@ void finish(Judging& in, const raytrace::Tracer& tracer, Comparison& out) {
   if (judged->has_map) {
     const raster::LightRecord& record = out.raster.lights.front();
     judged->biased_is_drawn = biased_is_drawn(light);
-    judged->unit_world = record.captured->unit_world;
+    judged->unit_world = record.captured->test->unit_world;
     const FrameInput frame{in.capture,      in.pictures,   in.world,     tracer,
                            in.scene.camera, out.raytraced, in.elsewhere, out.exposure};
     const DescribedTest test = check_described_test(frame, out.raster, light);

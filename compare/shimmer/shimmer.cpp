@@ -60,10 +60,9 @@ class Film {
     out_.accel_build_ms = tracer_.stats().build_ms;
     scene_.camera = receivers_of_;
     ShimmerOptions& o = out_.options;
+    o.compare.raster = drawing_options(o.compare.raster, o.compare.raytrace);
     o.compare.raster.runs = 0, o.compare.raster.analysis = true;
     o.compare.raster.map_contents = o.explain;
-    o.compare.raster.seed = o.compare.raytrace.seed;
-    o.compare.raster.shadow_samples = o.compare.raytrace.shadow_samples;
     o.compare.raytrace.size = o.compare.raster.size;
     o.compare.raytrace.picture = o.compare.raytrace.warm_up = false;
     o.compare.raytrace.runs = 1;

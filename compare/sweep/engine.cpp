@@ -63,28 +63,6 @@ double raster_ms(const raster::RasterFrame& frame) {
 
 }  // namespace
 
-bool biases_follow_from_gaps(const raster::MapOptions& map) {
-  const bool mixes = map.technique == raster::Technique::csm && map.cascades.blend > 0.0;
-  return raster::traits_of(map.technique).test == raster::ShadowTest::single && !mixes;
-}
-
-raster::Bias with_constant(const raster::MapOptions& map, double constant_world, double texel_world) {
-  raster::Bias bias = map.bias;
-  const bool scales = raster::scales_bias(map);
-  bias.constant = scales ? constant_world / texel_world : constant_world;
-  bias.unit = scales ? raster::BiasUnit::texel : raster::BiasUnit::world;
-  return bias;
-}
-
-void rebias(const Image<std::uint32_t>& primitive, double constant_world, raster::LightRecord& record) {
-  record.bias_constant_world = constant_world;
-  const auto bias = static_cast<float>(constant_world);
-  parallel_for(record.gap.data.size(), [&](std::size_t i) {
-    const bool shadowed = primitive.data[i] != no_id && record.gap.data[i] > bias;
-    record.visibility.data[i] = shadowed ? 0.0f : 1.0f;
-  });
-}
-
 LadderInput Engine::Impl::input(const raster::RasterFrame& frame, std::size_t i) const {
   const Light& light = scene.lights[frame.lights[i].light];
   return {world,
@@ -120,9 +98,7 @@ void Engine::Impl::trace(const Setting& setting) {
 
 Expected<void> Engine::Impl::draw(const Setting& setting) {
   drawn_for.reset();
-  raster::RasterOptions drawing = setting.raster;
-  drawing.seed = setting.raytrace.seed, drawing.shadow_samples = setting.raytrace.shadow_samples;
-  auto frame = renderer.render(drawing, setting.compared);
+  auto frame = renderer.render(drawing_options(setting.raster, setting.raytrace), setting.compared);
   if (!frame) return fail(frame.error());
   comparison.raster = std::move(*frame);
   drawn_for = setting;
