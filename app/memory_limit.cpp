@@ -12,8 +12,8 @@
 #include "app/options.h"
 #include "app/values.h"
 #include "compare/edges.h"
+#include "compare/measure/reduced.h"
 #include "compare/penumbra.h"
-#include "compare/reduced.h"
 
 namespace gnomon::app {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "compare/budget.h"
 #include "compare/pixel_list.h"
 #include "raster/technique_traits.h"
 #include "scene/parallel.h"
@@ -44,8 +45,7 @@ BiasCurvePoint GapLists::at(double bias) const {
 }
 
 double GapLists::wrong_fraction(std::uint64_t wrong) const {
-  const auto all = static_cast<double>(count());
-  return all > 0.0 ? (static_cast<double>(wrong) + 0.5 * static_cast<double>(ties)) / all : 0.0;
+  return wrong_share(wrong, ties, count());
 }
 
 double GapLists::wrong_fraction_at(double bias) const {

@@ -13,7 +13,7 @@
 namespace gnomon::compare {
 
 struct PageIntroduction;  // report/page.h
-struct BandedParts;       // bands/bands.h
+struct BandedParts;       // measure/measure.h
 
 /// The result file (compare/report/result.schema.json), schema "gnomon/result/1".
 std::string result_json(const Comparison& comparison);

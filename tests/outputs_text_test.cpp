@@ -5,10 +5,10 @@
 
 #include "compare/budget.h"
 #include "compare/csv_field.h"
+#include "compare/measure/reduced.h"
 #include "compare/number_text.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
-#include "compare/reduced.h"
 #include "compare/report/html.h"
 #include "compare/report/lessons.h"
 #include "compare/report/log_chart.h"

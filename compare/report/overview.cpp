@@ -6,11 +6,11 @@
 
 #include "compare/budget.h"
 #include "compare/judge/judged.h"
+#include "compare/measure/reduced.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
-#include "compare/reduced.h"
 #include "compare/report/charts.h"
 #include "compare/report/explanations.h"
 #include "compare/report/html.h"

@@ -171,7 +171,7 @@ std::array<Image<float>, rung_count> climb_rungs(const LadderInput& input, Image
 // V0, and V6 on every other rung.
 std::array<Image<float>, rung_count> ends_of_ladder(const LadderInput& input, const Image<Label>& labels) {
   std::array<Image<float>, rung_count> rungs;
-  rungs.fill(input.record.visibility);
+  rungs.fill(input.record().visibility);
   parallel_for(labels.data.size(), [&](std::size_t i) {
     if (is_compared(labels.data[i])) rungs[0].data[i] = true_visibility(input, i);
   });
@@ -180,8 +180,7 @@ std::array<Image<float>, rung_count> ends_of_ladder(const LadderInput& input, co
 
 RungFrame Film::climb_light(std::size_t i) const {
   const raster::LightRecord& record = drawn_.lights[i];
-  const LadderInput input{world_, tracer_, topology_, scene_.lights[record.light],
-                          drawn_, record,  *truth_,   truth_->lights[i]};
+  const LadderInput input{tracer_, topology_, drawn_, *truth_, i};
   Image<Label> labels = sort_pixels(input);
   keep_anchors(labels);
   RungFrame out{{}, Image<std::uint8_t>(labels.size), record.outside_map, record.face};

@@ -1,4 +1,4 @@
-#include "compare/reduced.h"
+#include "compare/measure/reduced.h"
 
 namespace gnomon::compare {
 namespace {
