@@ -139,10 +139,9 @@ bool only_prints_json(const ResultOutput& output) {
 }
 
 ExitCode print_result(const ResultOutput& output, compare::Comparison& comparison, LoadedScene& loaded,
-                      Console& console, const compare::BandedParts* parts) {
+                      Console& console) {
   const ExitCode code = judge_lights(output, comparison, console);
-  std::string json = compare::result_json(comparison, comparison.report_ms, comparison.total_ms,
-                                          parts != nullptr ? &parts->cascades : nullptr);
+  std::string json = compare::result_json(comparison);
   give_back(comparison, loaded);
   print_data(compare::with_time_budget(std::move(json)));
   return code;

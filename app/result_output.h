@@ -8,7 +8,8 @@
 
 #include "app/invocation.h"
 #include "app/session.h"
-#include "compare/bands/bands.h"
+#include "compare/measure/measure.h"
+#include "compare/outputs.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {
@@ -36,7 +37,7 @@ bool only_prints_json(const ResultOutput& output);
 /// --json - alone: the result goes to stdout and nowhere else. Both give scene and comparison back before the
 /// time budget is taken.
 ExitCode print_result(const ResultOutput& output, compare::Comparison& comparison, LoadedScene& loaded,
-                      Console& console, const compare::BandedParts* parts = nullptr);
+                      Console& console);
 /// `introduction`: what stands before the comparison on the page. `parts`: of a comparison in bands.
 Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison& comparison,
                                 LoadedScene& loaded, const RunFiles& files, const Stopwatch& total,

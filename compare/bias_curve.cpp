@@ -2,7 +2,9 @@
 
 #include <set>
 
+#include "compare/budget.h"
 #include "compare/pixel_list.h"
+#include "raster/technique_traits.h"
 #include "scene/parallel.h"
 #include "scene/sort_numbers.h"
 
@@ -43,8 +45,7 @@ BiasCurvePoint GapLists::at(double bias) const {
 }
 
 double GapLists::wrong_fraction(std::uint64_t wrong) const {
-  const auto all = static_cast<double>(count());
-  return all > 0.0 ? (static_cast<double>(wrong) + 0.5 * static_cast<double>(ties)) / all : 0.0;
+  return wrong_share(wrong, ties, count());
 }
 
 double GapLists::wrong_fraction_at(double bias) const {
@@ -121,6 +122,32 @@ std::vector<BiasCurvePoint> draw_bias_curve(const GapLists& gaps, double texel_w
   std::vector<BiasCurvePoint> curve;
   for (const double bias : biases) curve.push_back(gaps.at(bias));
   return curve;
+}
+
+bool biases_follow_from_gaps(const raster::MapOptions& map) {
+  const bool mixes = map.technique == raster::Technique::csm && map.cascades.blend > 0.0;
+  return raster::traits_of(map.technique).test == raster::ShadowTest::single && !mixes;
+}
+
+bool biases_follow_from_gaps(const raster::RasterFrame& drawn) {
+  return !drawn.custom_shader && !lacks_map(drawn) && biases_follow_from_gaps(drawn.options.map);
+}
+
+raster::Bias with_constant(const raster::MapOptions& map, double constant_world, double texel_world) {
+  raster::Bias bias = map.bias;
+  const bool scales = raster::scales_bias(map);
+  bias.constant = scales ? constant_world / texel_world : constant_world;
+  bias.unit = scales ? raster::BiasUnit::texel : raster::BiasUnit::world;
+  return bias;
+}
+
+void rebias(const Image<std::uint32_t>& primitive, double constant_world, raster::LightRecord& record) {
+  record.bias_constant_world = constant_world;
+  const auto bias = static_cast<float>(constant_world);
+  parallel_for(record.gap.data.size(), [&](std::size_t i) {
+    const bool shadowed = primitive.data[i] != no_id && record.gap.data[i] > bias;
+    record.visibility.data[i] = shadowed ? 0.0f : 1.0f;
+  });
 }
 
 }  // namespace gnomon::compare

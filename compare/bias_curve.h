@@ -40,4 +40,17 @@ BestBias find_best_bias(const GapLists& gaps);
 std::vector<BiasCurvePoint> draw_bias_curve(const GapLists& gaps, double texel_world, double current,
                                             double best, int points);
 
+/// A frame drawn with these options shadows a pixel iff its gap exceeds the constant bias: every other
+/// constant bias follows from it.
+bool biases_follow_from_gaps(const raster::MapOptions& map);
+/// The same of what was drawn: false as well where a shader of the user's own decided, or a map that is not known.
+bool biases_follow_from_gaps(const raster::RasterFrame& drawn);
+
+/// The map's bias with another constant, in the unit that draws it: texels of `texel_world` where the
+/// constant scales (raster::scales_bias), else world units.
+raster::Bias with_constant(const raster::MapOptions& map, double constant_world, double texel_world);
+
+/// Turns a record into that of another constant bias. `primitive`: what each pixel shows.
+void rebias(const Image<std::uint32_t>& primitive, double constant_world, raster::LightRecord& record);
+
 }  // namespace gnomon::compare

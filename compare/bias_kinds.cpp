@@ -8,7 +8,6 @@
 
 #include "compare/biased_test.h"
 #include "compare/pixel_list.h"
-#include "compare/sweep/engine.h"
 #include "raster/technique_traits.h"
 #include "scene/light.h"
 #include "scene/parallel.h"
@@ -42,7 +41,9 @@ float gap_number(double gap) {
 /// All kinds but the normal offset look up the same texel.
 KindGaps gaps_of_kinds(const LadderInput& in, const raster::Bias& bias,
                        const std::vector<std::uint32_t>& pixels) {
-  const raster::LightRecord& record = in.record;
+  std::optional<raster::LightRecord> own;  // on another renderer's map, too, Gnomon's own kinds are tried
+  if (in.record().captured) own = in.record(), own->captured.reset();
+  const raster::LightRecord& record = own ? *own : in.record();
   std::array<raster::Bias, kind_count> biases;
   KindGaps gaps;
   for (std::size_t k = 0; k < kind_count; ++k) {
@@ -51,7 +52,7 @@ KindGaps gaps_of_kinds(const LadderInput& in, const raster::Bias& bias,
   }
   parallel_for(pixels.size(), [&](std::size_t i) {
     const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixels[i]];
-    const Vec3 to_light = light_at(in.light, receiver.position).to_light;
+    const Vec3 to_light = light_at(in.light(), receiver.position).to_light;
     gaps[normal_offset][i] =
         gap_number(biased_gap(record, biases[normal_offset], to_light, receiver, pixels[i]));
     const auto lookup = biased_lookup(record, biases[plain], to_light, receiver, pixels[i]);
@@ -177,7 +178,8 @@ KindSettings settings_of_kinds(const LadderInput& in, const Image<float>& truth,
   });
   KindSettings out{gaps_of_kinds(in, map.bias, pixels), std::vector<char>(pixels.size()),
                    count_ties(truth, labels)};
-  make_slopes(out.settings, raster::automatic_bias_world(in.record.rounding, in.record.map.view, in.world));
+  make_slopes(out.settings,
+              raster::automatic_bias_world(in.record().rounding, in.record().map.view, in.world()));
   for (std::size_t i = 0; i < pixels.size(); ++i) out.lit[i] = truth.data[pixels[i]] > 0.5f ? 1 : 0;
   return out;
 }
@@ -195,34 +197,17 @@ BiasKind kind_of_bias(KindOfBias kind, const LadderInput& in, const GapLists& li
   constexpr std::array<std::string_view, kind_count> names{"constant bias", "slope bias", "receiver plane",
                                                            "adaptive bias", "normal offset"};
   const raster::MapOptions map = plain_options(in.drawn.options.map);
-  const double automatic = raster::automatic_bias_world(in.record.rounding, in.record.map.view, in.world);
+  const double automatic =
+      raster::automatic_bias_world(in.record().rounding, in.record().map.view, in.world());
   if (kind == slope) return of_slope(map, lists, automatic);
   raster::MapOptions tried = map;
   tried.bias = bias_of(kind, map.bias);
-  return of_constant(names[kind], tried, in.record, lists, automatic);
+  return of_constant(names[kind], tried, in.record(), lists, automatic);
 }
 
 void sort_kinds(std::vector<BiasKind>& kinds) {
   std::stable_sort(kinds.begin(), kinds.end(),
                    [](const BiasKind& a, const BiasKind& b) { return a.wrong_fraction < b.wrong_fraction; });
-}
-
-std::vector<BiasKind> compare_bias_kinds(const LadderInput& in, const Image<float>& truth,
-                                         const Image<Label>& labels) {
-  if (!kinds_apply(in.drawn, in.record)) return {};
-  KindSettings found = settings_of_kinds(in, truth, labels);
-  if (found.lit.empty() && found.ties == 0) return {};
-  std::array<GapLists, kind_count> lists;
-  parallel_tasks(kind_count, [&](std::size_t k) {
-    put_into_lists(found.settings[k], found.lit, lists[k]);
-    lists[k].ties = found.ties;
-    sort_numbers(std::span(lists[k].lit));
-    sort_numbers(std::span(lists[k].shadowed));
-  });
-  std::vector<BiasKind> kinds;
-  for (const KindOfBias kind : kinds_in_order) kinds.push_back(kind_of_bias(kind, in, lists[kind]));
-  sort_kinds(kinds);
-  return kinds;
 }
 
 }  // namespace gnomon::compare

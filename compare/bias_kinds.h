@@ -21,11 +21,7 @@ BestBias find_advised_bias(const GapLists& gaps);
 /// The number with the fewest digits in [from, to), not far above from.
 double short_number_in(double from, double to);
 
-/// The best first. Empty where other biases do not follow from the drawing (biases_follow_from_gaps).
-std::vector<BiasKind> compare_bias_kinds(const LadderInput& in, const Image<float>& truth,
-                                         const Image<Label>& labels);
-
-/// The parts of it, for pictures that come in bands. `settings`: of each kind, for each compared pixel the setting
+/// What kinds are compared by, of the pixels of some rows. `settings`: of each kind, for each compared pixel the setting
 /// from which on it is lit, in the order of the pixels, and which of them are truly lit; ties (GapLists) are counted.
 enum KindOfBias : std::size_t { plain, slope, receiver_plane, adaptive, normal_offset, kind_count };
 struct KindSettings {

@@ -49,7 +49,7 @@ std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, con
   BiasedLookup out;
   out.position = receiver.position;
   out.at = project_to_face(view, record.face.data[pixel], receiver.position);
-  const double given = record.captured ? record.captured->normal_offset_world : 0.0;
+  const double given = record.captured ? record.captured->test->normal_offset_world : 0.0;
   if (bias.normal_offset_texels > 0.0 || given > 0.0) {
     const double sine = glm::length(glm::cross(receiver.normal, to_light));
     const double texels = bias.normal_offset_texels * texel_world_size(view, out.at) * sine;
@@ -70,19 +70,20 @@ double captured_gap(const raster::LightRecord& record, const raster::Bias& bias,
                     const BiasedLookup& lookup, double caster_depth) {
   const LightView& view = record.map.view;
   const TexelCoordinate& at = lookup.at;
+  const raster::CapturedTest& test = *record.captured->test;
   const int face = lookup.key.face();
   const double u = lookup.key.column() + 0.5, v = lookup.key.row() + 0.5;
   const double slope =
       bias.slope != 0.0 ? bias.slope * texel_depth_slope(view, at, lookup.position, normal) : 0.0;
-  if (record.captured->distances) {
+  if (test.distances) {
     const double along = glm::dot(texel_ray(view, face, u, v).direction, view.face(face).forward);
-    return (at.distance - caster_depth / along) * record.captured->unit_world - slope;
+    return (at.distance - caster_depth / along) * test.unit_world - slope;
   }
   const double own = stored_from_depth(view, face, v, at.depth);
   const double before = stored_from_depth(view, face, v, at.depth - slope * at.depth / at.distance);
   const double caster = stored_from_depth(view, face, v, caster_depth);
   const double behind = view.reversed ? caster - own : own - caster;
-  return (behind - std::abs(own - before)) * record.captured->unit_world;
+  return (behind - std::abs(own - before)) * test.unit_world;
 }
 
 }  // namespace

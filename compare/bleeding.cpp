@@ -45,11 +45,4 @@ BleedingStats BleedingSum::stats() const {
   return out;
 }
 
-BleedingStats measure_bleeding(const LadderInput& in, const std::array<Image<float>, rung_count>& rungs,
-                               const Image<Label>& labels) {
-  BleedingSum sum;
-  sum.add(in, rungs, labels);
-  return sum.stats();
-}
-
 }  // namespace gnomon::compare

@@ -8,7 +8,7 @@ namespace gnomon::compare {
 
 /// Of the pixels that are shadowed at V0 ... V5, with nothing lit within the filter's reach, and lighter at
 /// V6 by half a step of an 8-bit picture or more. Zero but for vsm, esm, evsm and msm.
-/// The same of a picture that comes in parts, each of whole rows, from the top.
+/// A picture comes in parts, each of whole rows, from the top.
 class BleedingSum {
  public:
   void add(const LadderInput& input, const std::array<Image<float>, rung_count>& rungs,
@@ -19,8 +19,5 @@ class BleedingSum {
   BleedingStats sums_;
   std::uint64_t compared_ = 0;
 };
-
-BleedingStats measure_bleeding(const LadderInput& input, const std::array<Image<float>, rung_count>& rungs,
-                               const Image<Label>& labels);
 
 }  // namespace gnomon::compare

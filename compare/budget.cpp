@@ -9,22 +9,6 @@ namespace {
 using Rungs = std::array<Image<float>, rung_count>;
 using Labels = std::array<std::uint64_t, 256>;  ///< pixels by label
 
-/// add(sums, pixel) for the compared pixels, all sums in one pass; `total` may hold those of the rows above.
-template <std::size_t count, class Add>
-void sum_compared(const Image<Label>& labels, const Add& add, std::array<double, count>& total) {
-  using Sums = std::array<double, count>;
-  std::vector<Sums> rows(static_cast<std::size_t>(labels.size.height), Sums{});
-  const auto width = static_cast<std::size_t>(labels.size.width);
-  parallel_for(rows.size(), [&](std::size_t y) {
-    Sums sums{};
-    for (std::size_t i = y * width; i < (y + 1) * width; ++i)
-      if (is_compared(labels.data[i])) add(sums, i);
-    rows[y] = sums;
-  });
-  for (const Sums& row : rows)
-    for (std::size_t k = 0; k < count; ++k) total[k] += row[k];
-}
-
 /// How many pixels have each label.
 Labels count_labels(const Image<Label>& labels) {
   constexpr std::size_t block = 1 << 16;
@@ -53,109 +37,8 @@ PixelCounts pixels_of(const Labels& labels) {
   return counts;
 }
 
-std::array<std::uint64_t, class_count> classes_of(const Labels& labels) {
-  std::array<std::uint64_t, class_count> classes{};
-  for (std::size_t k = 0; k < class_count; ++k) classes[k] = labels[k + 1];  // Label's first values
-  return classes;
-}
-
-using ErrorSums = std::array<double, 7>;
-
-void sum_errors(const Rungs& rungs, const Image<Label>& labels, ErrorSums& total) {
-  const auto between = [](float v) { return v > 0.0f && v < 1.0f; };
-  sum_compared(
-      labels,
-      [&](auto& sums, std::size_t i) {
-        const float drawn = rungs[6].data[i], truth = rungs[0].data[i];
-        const double difference = double(drawn) - double(truth);
-        sums[0] += 1.0;
-        sums[1] += difference < -0.5 ? 1.0 : 0.0, sums[2] += difference > 0.5 ? 1.0 : 0.0;
-        sums[3] += std::abs(difference) == 0.5 ? 1.0 : 0.0;
-        sums[4] += between(drawn) || between(truth) ? 1.0 : 0.0;
-        sums[5] += std::abs(difference), sums[6] += difference * difference;
-      },
-      total);
-}
-
-ErrorStats error_of(const ErrorSums& sums) {
-  const auto [count, false_shadow, missed_shadow, ties, fractional, absolute, squared] = sums;
-  ErrorStats error;
-  error.false_shadow = static_cast<std::uint64_t>(false_shadow);
-  error.missed_shadow = static_cast<std::uint64_t>(missed_shadow);
-  error.wrong = error.false_shadow + error.missed_shadow;
-  error.ties = static_cast<std::uint64_t>(ties);
-  error.fractional = static_cast<std::uint64_t>(fractional);
-  if (!(count > 0.0)) return error;
-  error.wrong_fraction = (double(error.wrong) + 0.5 * double(error.ties)) / count;
-  error.mean_absolute = absolute / count;
-  error.rms = std::sqrt(squared / count);
-  return error;
-}
-
-std::array<float, rung_count> rungs_of(const Rungs& rungs, std::size_t pixel) {
-  std::array<float, rung_count> v{};
-  for (std::size_t k = 0; k < rung_count; ++k) v[k] = rungs[k].data[pixel];
-  return v;
-}
-
-void sum_rungs(const Rungs& rungs, const Image<Label>& labels, std::array<double, rung_count + 1>& total) {
-  sum_compared(
-      labels,
-      [&](auto& sum, std::size_t i) {
-        for (std::size_t k = 0; k < rung_count; ++k) sum[k] += double(rungs[k].data[i]);
-        sum[rung_count] += 1.0;
-      },
-      total);
-}
-
-std::array<double, rung_count> means_of(const std::array<double, rung_count + 1>& sums) {
-  std::array<double, rung_count> means{};
-  const double count = sums[rung_count];
-  for (std::size_t k = 0; k < rung_count && count > 0.0; ++k) means[k] = sums[k] / count;
-  return means;
-}
-
-void sum_accidents(const Rungs& rungs, const Image<Label>& labels, std::array<double, 2>& total) {
-  sum_compared(
-      labels,
-      [&](auto& sums, std::size_t i) {
-        const std::array<float, rung_count> v = rungs_of(rungs, i);
-        if (is_accident(v)) sums[v[2] > v[0] ? 0 : 1] += 1.0;
-      },
-      total);
-}
-
-RightByAccident accidents_of(const std::array<double, 2>& sums) {
-  return {static_cast<std::uint64_t>(sums[0]), static_cast<std::uint64_t>(sums[1])};
-}
-
-using BudgetSums = std::array<double, 4 * cause_count + 1>;
-
-void sum_budget(const Rungs& rungs, const Image<Label>& labels, BudgetSums& total) {
-  sum_compared(
-      labels,
-      [&](auto& sum, std::size_t i) {
-        const std::array<float, rung_count> v = rungs_of(rungs, i);
-        for (std::size_t k = 0; k < cause_count; ++k) {
-          const double step = double(v[k + 1]) - double(v[k]);
-          sum[4 * k] += step, sum[4 * k + 1] += std::abs(step);
-        }
-        if (is_wrong(labels.data[i])) {
-          const auto step = static_cast<std::size_t>(step_of_label(labels.data[i], v));
-          sum[4 * step + (v[6] < v[0] ? 2 : 3)] += 1.0;
-        }
-        sum[4 * cause_count] += 1.0;
-      },
-      total);
-}
-
-std::array<BudgetStep, cause_count> budget_of(const BudgetSums& sums) {
-  std::array<BudgetStep, cause_count> budget{};
-  const double count = sums[4 * cause_count];
-  for (std::size_t k = 0; k < cause_count && count > 0.0; ++k)
-    budget[k] = {sums[4 * k] / count, sums[4 * k + 1] / count, static_cast<std::uint64_t>(sums[4 * k + 2]),
-                 static_cast<std::uint64_t>(sums[4 * k + 3])};
-  return budget;
+bool is_between(float visibility) {
+  return visibility > 0.0f && visibility < 1.0f;
 }
 
 }  // namespace
@@ -172,64 +55,124 @@ bool is_accident(const std::array<float, rung_count>& v) {
   return std::abs(v[2] - v[0]) > 0.5f && !(std::abs(v[1] - v[0]) > 0.5f) && !(std::abs(v[6] - v[0]) > 0.5f);
 }
 
-void PixelSums::add(const Rungs& rungs, const Image<Label>& labels) {
+double wrong_share(std::uint64_t wrong, std::uint64_t ties, std::uint64_t pixels) {
+  return pixels > 0 ? (double(wrong) + 0.5 * double(ties)) / double(pixels) : 0.0;
+}
+
+void PixelTerms::add(const std::array<float, rung_count>& v, Label label, double times) {
+  const double difference = double{v[6]} - double{v[0]};
+  compared_ += times;
+  false_shadow_ += difference < -0.5 ? times : 0.0, missed_shadow_ += difference > 0.5 ? times : 0.0;
+  ties_ += std::abs(difference) == 0.5 ? times : 0.0;
+  fractional_ += is_between(v[6]) || is_between(v[0]) ? times : 0.0;
+  absolute_ += times * std::abs(difference), squared_ += times * (difference * difference);
+  for (std::size_t k = 0; k < rung_count; ++k) rungs_[k] += times * double{v[k]};
+  if (is_accident(v)) accidents_[v[2] > v[0] ? 0 : 1] += times;
+  for (std::size_t k = 0; k < cause_count; ++k) {
+    const double step = double{v[k + 1]} - double{v[k]};
+    steps_[k].signed_sum += times * step, steps_[k].absolute_sum += times * std::abs(step);
+  }
+  if (!is_wrong(label)) return;
+  classes_[static_cast<std::size_t>(label) - 1] += times;
+  Step& blamed = steps_[static_cast<std::size_t>(step_of_label(label, v))];
+  (v[6] < v[0] ? blamed.false_shadow : blamed.missed_shadow) += times;
+}
+
+void PixelTerms::add(const PixelTerms& other) {
+  compared_ += other.compared_, false_shadow_ += other.false_shadow_, missed_shadow_ += other.missed_shadow_;
+  ties_ += other.ties_, fractional_ += other.fractional_;
+  absolute_ += other.absolute_, squared_ += other.squared_;
+  for (std::size_t k = 0; k < rung_count; ++k) rungs_[k] += other.rungs_[k];
+  for (std::size_t k = 0; k < accidents_.size(); ++k) accidents_[k] += other.accidents_[k];
+  for (std::size_t k = 0; k < class_count; ++k) classes_[k] += other.classes_[k];
+  for (std::size_t k = 0; k < cause_count; ++k) {
+    Step& step = steps_[k];
+    const Step& more = other.steps_[k];
+    step.signed_sum += more.signed_sum, step.absolute_sum += more.absolute_sum;
+    step.false_shadow += more.false_shadow, step.missed_shadow += more.missed_shadow;
+  }
+}
+
+ErrorStats PixelTerms::error() const {
+  ErrorStats error;
+  error.false_shadow = static_cast<std::uint64_t>(false_shadow_);
+  error.missed_shadow = static_cast<std::uint64_t>(missed_shadow_);
+  error.wrong = error.false_shadow + error.missed_shadow;
+  error.ties = static_cast<std::uint64_t>(ties_);
+  error.fractional = static_cast<std::uint64_t>(fractional_);
+  if (!(compared_ > 0.0)) return error;
+  error.wrong_fraction = wrong_share(error.wrong, error.ties, static_cast<std::uint64_t>(compared_));
+  error.mean_absolute = absolute_ / compared_;
+  error.rms = std::sqrt(squared_ / compared_);
+  return error;
+}
+
+std::array<std::uint64_t, class_count> PixelTerms::classes() const {
+  std::array<std::uint64_t, class_count> classes{};
+  for (std::size_t k = 0; k < class_count; ++k) classes[k] = static_cast<std::uint64_t>(classes_[k]);
+  return classes;
+}
+
+RightByAccident PixelTerms::accidents() const {
+  return {static_cast<std::uint64_t>(accidents_[0]), static_cast<std::uint64_t>(accidents_[1])};
+}
+
+std::array<double, rung_count> PixelTerms::rung_means() const {
+  std::array<double, rung_count> means{};
+  for (std::size_t k = 0; k < rung_count && compared_ > 0.0; ++k) means[k] = rungs_[k] / compared_;
+  return means;
+}
+
+std::array<BudgetStep, cause_count> PixelTerms::budget() const {
+  std::array<BudgetStep, cause_count> budget{};
+  for (std::size_t k = 0; k < cause_count && compared_ > 0.0; ++k) {
+    const Step& step = steps_[k];
+    budget[k] = {step.signed_sum / compared_, step.absolute_sum / compared_,
+                 static_cast<std::uint64_t>(step.false_shadow),
+                 static_cast<std::uint64_t>(step.missed_shadow)};
+  }
+  return budget;
+}
+
+void PixelTerms::put(LightComparison& light) const {
+  light.error = error(), light.classes = classes(), light.budget = budget();
+  light.accidents = accidents(), light.rung_mean = rung_means();
+}
+
+template <class RungsOf>
+void PixelSums::add_rows(const Image<Label>& labels, const RungsOf& rungs_of) {
   const Labels counted = count_labels(labels);
   for (std::size_t k = 0; k < counted.size(); ++k) labels_[k] += counted[k];
-  sum_errors(rungs, labels, error_);
-  sum_rungs(rungs, labels, rungs_);
-  sum_accidents(rungs, labels, accidents_);
-  sum_budget(rungs, labels, budget_);
+  std::vector<PixelTerms> rows(static_cast<std::size_t>(labels.size.height));
+  const auto width = static_cast<std::size_t>(labels.size.width);
+  parallel_for(rows.size(), [&](std::size_t y) {
+    PixelTerms sums;
+    for (std::size_t i = y * width; i < (y + 1) * width; ++i)
+      if (is_compared(labels.data[i])) sums.add(rungs_of(i), labels.data[i]);
+    rows[y] = sums;
+  });
+  for (const PixelTerms& row : rows) terms_.add(row);
+}
+
+void PixelSums::add(const Rungs& rungs, const Image<Label>& labels) {
+  add_rows(labels, [&](std::size_t i) { return rungs_at(rungs, i); });
+}
+
+void PixelSums::add_ends(const Image<float>& truth, const Image<float>& drawn, const Image<Label>& labels) {
+  add_rows(labels, [&](std::size_t i) {
+    std::array<float, rung_count> v{};
+    v.fill(truth.data[i]);
+    v.back() = drawn.data[i];
+    return v;
+  });
 }
 
 PixelCounts PixelSums::pixels() const {
   return pixels_of(labels_);
 }
-std::array<std::uint64_t, class_count> PixelSums::classes() const {
-  return classes_of(labels_);
-}
-ErrorStats PixelSums::error() const {
-  return error_of(error_);
-}
-std::array<double, rung_count> PixelSums::rung_means() const {
-  return means_of(rungs_);
-}
-RightByAccident PixelSums::accidents() const {
-  return accidents_of(accidents_);
-}
-std::array<BudgetStep, cause_count> PixelSums::budget() const {
-  return budget_of(budget_);
-}
 
 PixelCounts count_pixels(const Image<Label>& labels) {
   return pixels_of(count_labels(labels));
-}
-
-std::array<std::uint64_t, class_count> count_classes(const Image<Label>& labels) {
-  return classes_of(count_labels(labels));
-}
-
-ErrorStats measure_error(const Rungs& rungs, const Image<Label>& labels) {
-  ErrorSums sums{};
-  sum_errors(rungs, labels, sums);
-  return error_of(sums);
-}
-
-std::array<double, rung_count> mean_rungs(const Rungs& rungs, const Image<Label>& labels) {
-  std::array<double, rung_count + 1> sums{};
-  sum_rungs(rungs, labels, sums);
-  return means_of(sums);
-}
-
-RightByAccident count_accidents(const Rungs& rungs, const Image<Label>& labels) {
-  std::array<double, 2> sums{};
-  sum_accidents(rungs, labels, sums);
-  return accidents_of(sums);
-}
-
-std::array<BudgetStep, cause_count> add_up_budget(const Rungs& rungs, const Image<Label>& labels) {
-  BudgetSums sums{};
-  sum_budget(rungs, labels, sums);
-  return budget_of(sums);
 }
 
 }  // namespace gnomon::compare

@@ -6,35 +6,9 @@
 
 namespace gnomon::compare {
 
-/// The sums of a picture that comes in parts, each of whole rows, from the top: the same as those of the whole.
-class PixelSums {
- public:
-  void add(const std::array<Image<float>, rung_count>& rungs, const Image<Label>& labels);
-  PixelCounts pixels() const;
-  std::array<std::uint64_t, class_count> classes() const;
-  ErrorStats error() const;
-  std::array<double, rung_count> rung_means() const;
-  RightByAccident accidents() const;
-  std::array<BudgetStep, cause_count> budget() const;
-
- private:
-  std::array<std::uint64_t, 256> labels_{};
-  std::array<double, 7> error_{};
-  std::array<double, rung_count + 1> rungs_{};
-  std::array<double, 2> accidents_{};
-  std::array<double, 4 * cause_count + 1> budget_{};
-};
-
-PixelCounts count_pixels(const Image<Label>& labels);
-std::array<std::uint64_t, class_count> count_classes(const Image<Label>& labels);
-
-/// wrong, false and missed shadow, ties, fractional, mean |V6 - V0| and RMS over compared pixels (FLIP and
-/// SSIM are left NaN). Two pixels that are off by exactly one half count as one wrong pixel in the fraction.
-ErrorStats measure_error(const std::array<Image<float>, rung_count>& rungs, const Image<Label>& labels);
-
-/// Mean visibility of each rung over compared pixels; 0 where none is compared.
-std::array<double, rung_count> mean_rungs(const std::array<Image<float>, rung_count>& rungs,
-                                          const Image<Label>& labels);
+/// The share of wrong pixels. Two pixels that are off by exactly one half (ties) count as one wrong pixel; 0 of no
+/// pixels.
+double wrong_share(std::uint64_t wrong, std::uint64_t ties, std::uint64_t pixels);
 
 /// For words: `sum`, or 0 where it is no more than what rounding leaves of it. `sizes`: what its terms add up to without
 /// their signs.
@@ -42,11 +16,54 @@ double beyond_rounding(double sum, double sizes);
 
 /// A pixel that the sampling step made wrong and that is drawn right.
 bool is_accident(const std::array<float, rung_count>& rungs);
-RightByAccident count_accidents(const std::array<Image<float>, rung_count>& rungs,
-                                const Image<Label>& labels);
 
-/// Means of the six steps over compared pixels, and the wrong pixels that each is to blame for.
-std::array<BudgetStep, cause_count> add_up_budget(const std::array<Image<float>, rung_count>& rungs,
-                                                  const Image<Label>& labels);
+/// What compared pixels add up to. Where all rungs are 0 or 1 every sum is a whole number, and exact in any order.
+class PixelTerms {
+ public:
+  /// A compared pixel, `times` over; -1 takes away one that was added.
+  void add(const std::array<float, rung_count>& rungs, Label label, double times = 1.0);
+  void add(const PixelTerms& other);
+
+  /// wrong, false and missed shadow, ties, fractional, mean |V6 - V0| and RMS; FLIP and SSIM are NaN.
+  ErrorStats error() const;
+  std::array<std::uint64_t, class_count> classes() const;
+  RightByAccident accidents() const;
+  /// Mean visibility of each rung; 0 of no pixels.
+  std::array<double, rung_count> rung_means() const;
+  /// Means of the six steps, and the wrong pixels that each is to blame for.
+  std::array<BudgetStep, cause_count> budget() const;
+  /// All of these; FLIP and SSIM of the light become NaN.
+  void put(LightComparison& light) const;
+
+ private:
+  struct Step {
+    double signed_sum = 0.0, absolute_sum = 0.0, false_shadow = 0.0, missed_shadow = 0.0;
+  };
+  double compared_ = 0.0, false_shadow_ = 0.0, missed_shadow_ = 0.0, ties_ = 0.0, fractional_ = 0.0;
+  double absolute_ = 0.0, squared_ = 0.0;
+  std::array<double, rung_count> rungs_{};
+  std::array<double, 2> accidents_{};
+  std::array<double, class_count> classes_{};
+  std::array<Step, cause_count> steps_{};
+};
+
+/// The sums of a picture that comes in parts, each of whole rows, from the top: the same as those of the whole.
+class PixelSums {
+ public:
+  void add(const std::array<Image<float>, rung_count>& rungs, const Image<Label>& labels);
+  /// V0 and V6 alone; of the terms error() says something then.
+  void add_ends(const Image<float>& truth, const Image<float>& drawn, const Image<Label>& labels);
+  PixelCounts pixels() const;
+  const PixelTerms& terms() const { return terms_; }
+
+ private:
+  template <class RungsOf>
+  void add_rows(const Image<Label>& labels, const RungsOf& rungs_of);
+
+  std::array<std::uint64_t, 256> labels_{};  ///< pixels by label
+  PixelTerms terms_;
+};
+
+PixelCounts count_pixels(const Image<Label>& labels);
 
 }  // namespace gnomon::compare

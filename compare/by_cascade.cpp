@@ -29,7 +29,8 @@ std::vector<CascadeSums> sums_of_cascades(const raster::RasterFrame& drawn,
 std::vector<CascadeFigures> figures_of(const std::vector<CascadeSums>& sums) {
   std::vector<CascadeFigures> figures;
   for (const CascadeSums& cascade : sums)
-    figures.push_back({cascade.sums.pixels().compared, cascade.sums.error(), cascade.sums.budget()});
+    figures.push_back(
+        {cascade.sums.pixels().compared, cascade.sums.terms().error(), cascade.sums.terms().budget()});
   return figures;
 }
 
@@ -53,15 +54,6 @@ Json by_cascade_json(const std::vector<CascadeFigures>& cascades) {
                    {"budget", steps_json(figures.budget)}});
   }
   return out;
-}
-
-Json by_cascade_json(const Comparison& c, const LightComparison& light) {
-  const raster::LightRecord& record = drawn_record(c, light);
-  if (c.judged || light.labels.data.empty() || record.face.data.size() != light.labels.data.size())
-    return nullptr;
-  std::vector<CascadeSums> sums = sums_of_cascades(c.raster, record);
-  for (CascadeSums& cascade : sums) cascade.add(record, light.rungs, light.labels);
-  return by_cascade_json(figures_of(sums));
 }
 
 }  // namespace gnomon::compare

@@ -38,7 +38,7 @@ class SeamCounter {
         const std::size_t here = labels_.index(x, y), there = labels_.index(x + dx, y + dy);
         if (!meet_at_border(here, there)) continue;
         border = true;
-        changed = changed || changes(here, in_.record.face.data[there]);
+        changed = changed || changes(here, in_.record().face.data[there]);
       }
       out.at_border += border ? 1 : 0, out.changed += changed ? 1 : 0;
     }
@@ -46,17 +46,17 @@ class SeamCounter {
 
  private:
   bool meet_at_border(std::size_t here, std::size_t there) const {
-    const Image<std::uint8_t>& face = in_.record.face;
+    const Image<std::uint8_t>& face = in_.record().face;
     return is_compared(labels_.data[here]) && is_compared(labels_.data[there]) &&
            face.data[here] != face.data[there] &&
-           on_smooth_surface(in_.traced.receiver.data[here], in_.traced.receiver.data[there], in_.world);
+           on_smooth_surface(in_.traced.receiver.data[here], in_.traced.receiver.data[there], in_.world());
   }
   bool changes(std::size_t pixel, int face) const {
     const SurfacePoint& receiver = in_.traced.receiver.data[pixel];
-    const LightView& view = in_.record.map.view;
+    const LightView& view = in_.record().map.view;
     if (!project_to_face(view, face, receiver.position).inside) return false;
-    const double other = cascade_visibility(in_.record, in_.drawn.options.map, in_.light, receiver, face);
-    return std::abs(other - double{in_.record.visibility.data[pixel]}) > 0.5;
+    const double other = cascade_visibility(in_.record(), in_.drawn.options.map, in_.light(), receiver, face);
+    return std::abs(other - double{in_.record().visibility.data[pixel]}) > 0.5;
   }
 
   const LadderInput& in_;
@@ -84,13 +84,9 @@ double cascade_visibility(const raster::LightRecord& record, const raster::MapOp
   return (1.0 - share) * here + share * double{hard_test(record, drawn.bias, light, receiver, next)};
 }
 
-std::optional<SeamCount> count_seams(const LadderInput& in, const Image<Label>& labels) {
-  return count_seams(in, labels, {0, labels.size.height});
-}
-
 std::optional<SeamCount> count_seams(const LadderInput& in, const Image<Label>& labels,
                                      const PictureRows& within) {
-  const raster::LightRecord& record = in.record;
+  const raster::LightRecord& record = in.record();
   const bool cascades = in.drawn.options.map.technique == raster::Technique::csm && !record.captured;
   if (!cascades || in.drawn.custom_shader || record.map.depth.empty() ||
       record.face.data.size() != labels.data.size())

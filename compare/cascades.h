@@ -16,9 +16,8 @@ double cascade_visibility(const raster::LightRecord& record, const raster::MapOp
 
 /// Compared receivers beside whose pixel, up, down, left or right, the same surface looks up another cascade, and those
 /// of them that the other cascade would draw on the other side of one half. Nothing of other techniques, of another
-/// renderer's map, where a shader of the user's own drew, and where the map was not handed on.
-std::optional<SeamCount> count_seams(const LadderInput& in, const Image<Label>& labels);
-/// Of those rows of the images; the rows beside them must be there.
+/// renderer's map, where a shader of the user's own drew, and where the map was not handed on. Counted in those rows of
+/// the images; the rows beside them must be there.
 std::optional<SeamCount> count_seams(const LadderInput& in, const Image<Label>& labels,
                                      const PictureRows& rows);
 

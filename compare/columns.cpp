@@ -19,7 +19,7 @@ Ray caster_ray(const LightView& view, int face_index, double u, double v) {
 }
 
 TexelCentre trace_centre(const LadderInput& in, TexelKey key) {
-  const LightView& view = in.record.map.view;
+  const LightView& view = in.record().map.view;
   TexelCentre out;
   out.face = key.face();
   out.ray = caster_ray(view, key.face(), key.column() + 0.5, key.row() + 0.5);
@@ -51,15 +51,15 @@ bool meets_plane_unhindered(const LadderInput& in, const TexelCentre& centre,
   const double facing = glm::dot(receiver.normal, centre.ray.direction);
   if (!(facing < 0.0)) return false;
   const double t = glm::dot(receiver.normal, receiver.position - centre.ray.origin) / facing;
-  const bool ahead = in.record.map.view.projection == LightProjection::orthographic || t > 0.0;
+  const bool ahead = in.record().map.view.projection == LightProjection::orthographic || t > 0.0;
   return ahead && centre.hit->t >= t - plane_rounding(centre.ray, receiver);
 }
 
 bool Column::same_sheet(std::uint32_t a, std::uint32_t b) {
   if (a == b) return true;
-  const World& world = input_.world;
+  const World& world = input_.world();
   if (!world.is_triangle(a) || !world.is_triangle(b)) return false;
-  if (!sheets_) sheets_.emplace(world, input_.topology, input_.record.map.view, key_);
+  if (!sheets_) sheets_.emplace(world, input_.topology, input_.record().map.view, key_);
   return sheets_->same(a, b);
 }
 

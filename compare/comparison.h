@@ -213,6 +213,13 @@ struct SeamCount {
   std::uint64_t changed = 0;    ///< of them those whose visibility changes only because the cascade does
 };
 
+/// Of the compared pixels that look up one cascade.
+struct CascadeFigures {
+  std::uint64_t compared = 0;
+  ErrorStats error;
+  std::array<BudgetStep, cause_count> budget{};
+};
+
 struct LightComparison {
   std::uint32_t light = 0;  ///< index in Scene::lights
   std::size_t record = 0;   ///< index in RasterFrame::lights and RayTracedFrame::lights
@@ -226,6 +233,7 @@ struct LightComparison {
   BleedingStats bleeding;
   std::optional<PenumbraStats> penumbra;  ///< of a light with size
   std::optional<SeamCount> seams;         ///< of technique csm
+  std::vector<CascadeFigures> cascades;   ///< of technique csm, the finest first; else empty
   std::optional<ShimmerFigures> shimmer;  ///< where a film was asked for, too
   /// Empty, and best_bias without meaning, where the drawing does not say what another bias would draw.
   std::vector<BiasCurvePoint> bias_curve;
@@ -252,6 +260,14 @@ struct LightComparison {
   Image<std::uint32_t>
       stored_glass;  ///< shown_materials.h; empty where no material is glass, and where not made
 };
+
+/// A pixel's rungs.
+inline std::array<float, rung_count> rungs_at(const std::array<Image<float>, rung_count>& rungs,
+                                              std::size_t pixel) {
+  std::array<float, rung_count> v{};
+  for (std::size_t k = 0; k < rung_count; ++k) v[k] = rungs[k].data[pixel];
+  return v;
+}
 
 struct MachineInfo {
   std::string cpu, os;

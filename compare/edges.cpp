@@ -189,16 +189,6 @@ void add_edges(const EdgeInput& input, const PictureRows& rows, EdgeSums& total)
   for (const EdgeSums& row : by_row) total.add(row);
 }
 
-EdgeStats measure_edges(const EdgeInput& input) {
-  EdgeSums all;
-  add_edges(input, {0, input.labels.size.height}, all);
-  return all.stats();
-}
-
-Image<float> edge_displacement_map(const EdgeInput& input) {
-  return edge_displacement_rows(input, {0, input.labels.size.height});
-}
-
 Image<float> edge_displacement_rows(const EdgeInput& input, const PictureRows& rows) {
   const EdgeWalk walk(input);
   const ImageSize size{input.labels.size.width, rows.count};

@@ -24,7 +24,6 @@ struct EdgeInput {
   const World& world;
   int first_row = 0;  ///< of the picture: row 0 of these images, of a picture in bands
 };
-EdgeStats measure_edges(const EdgeInput& input);
 
 /// Sums over edges, in their order.
 struct EdgeSums {
@@ -39,10 +38,8 @@ struct EdgeSums {
 /// Adds the edges that begin in those rows of the images; all within edge_margin of them must be there.
 void add_edges(const EdgeInput& input, const PictureRows& rows, EdgeSums& sums);
 
-/// The offsets in texels on the pixels that were walked over, the larger one where several walks meet; NaN
-/// elsewhere.
-Image<float> edge_displacement_map(const EdgeInput& input);
-/// Those rows of the images alone.
+/// Of those rows of the images the offsets in texels on the pixels that were walked over, the larger one where several
+/// walks meet; NaN elsewhere.
 Image<float> edge_displacement_rows(const EdgeInput& input, const PictureRows& rows);
 
 /// The same for every constant bias of a hard test, where a pixel is drawn lit iff its gap does not exceed

@@ -16,11 +16,13 @@ class Nearby {
       : in_(in),
         column_(column),
         receiver_(in.traced.receiver.data[pixel]),
-        at_(project_to_face(in.record.map.view, column.key().face(), receiver_.position)) {}
+        at_(project_to_face(in.record().map.view, column.key().face(), receiver_.position)) {}
 
   const raytrace::SurfacePoint& receiver() const { return receiver_; }
   Vec2 place() const { return {at_.u, at_.v}; }
-  Ray ray(const Vec2& uv) const { return caster_ray(in_.record.map.view, column_.key().face(), uv.x, uv.y); }
+  Ray ray(const Vec2& uv) const {
+    return caster_ray(in_.record().map.view, column_.key().face(), uv.x, uv.y);
+  }
 
   // Where the ray meets the receiver's tangent plane; infinite where it does not meet it from the front.
   double plane_distance(const Ray& ray) const {
@@ -62,7 +64,7 @@ Casters casters_on(const raytrace::Tracer& tracer, const Ray& ray, double t_end,
 
 bool missed_caster_is_known(const LadderInput& in, Column& column, const WrongPixel& wrong) {
   const Nearby nearby(in, column, wrong.pixel);
-  const Casters casters = casters_on(in.tracer, in.tracer.shadow_ray(nearby.receiver(), in.light), infinity,
+  const Casters casters = casters_on(in.tracer, in.tracer.shadow_ray(nearby.receiver(), in.light()), infinity,
                                      [](std::uint32_t) { return true; });
   const Vec2 low = glm::floor(nearby.place() - 0.5) + 0.5;
   for (int k = 0; k < 4; ++k)

@@ -18,15 +18,15 @@ class ReceiverPlane {
   ReceiverPlane(const LadderInput& in, std::size_t pixel)
       : in_(in),
         receiver_(in.traced.receiver.data[pixel]),
-        face_(in.record.face.data[pixel]),
-        at_(project_to_face(in.record.map.view, face_, receiver_.position)) {}
+        face_(in.record().face.data[pixel]),
+        at_(project_to_face(in.record().map.view, face_, receiver_.position)) {}
 
   Vec2 place() const { return {at_.u, at_.v}; }
 
   // Of the plane's point on the ray through a place. Uncertain too where the ray does not reach the plane from
   // the front.
   raytrace::PointVisibility visibility(const Vec2& uv) const {
-    const LightView& view = in_.record.map.view;
+    const LightView& view = in_.record().map.view;
     const Ray ray = texel_ray(view, face_, uv.x, uv.y);
     const double facing = glm::dot(receiver_.normal, ray.direction);
     if (!(facing < 0.0)) return raytrace::PointVisibility::uncertain;
@@ -35,7 +35,7 @@ class ReceiverPlane {
       return raytrace::PointVisibility::uncertain;
     raytrace::SurfacePoint there = receiver_;
     there.position = ray.at(t);
-    return in_.tracer.centre_visibility(there, in_.light);
+    return in_.tracer.centre_visibility(there, in_.light());
   }
 
  private:
@@ -61,11 +61,11 @@ bool any_within_reach(const LadderInput& in, std::size_t pixel, raytrace::PointV
 // beyond the last one are read at the last: 3 above the finest of a cube map.
 double pixel_level(const LadderInput& in, std::size_t pixel) {
   const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
-  const LightView& map = in.record.map.view;
-  const int face = in.record.face.data[pixel];
+  const LightView& map = in.record().map.view;
+  const int face = in.record().face.data[pixel];
   ImageSize size = in.drawn.primitive.size;
   if (in.place.picture_height > 0) size.height = in.place.picture_height;
-  const View view = make_view(in.world.scene->camera, size);
+  const View view = make_view(in.world().scene->camera, size);
   const auto place = [&](double x, double y) {
     const Ray ray = pixel_ray(view, x, y);
     const double t =
@@ -79,7 +79,7 @@ double pixel_level(const LadderInput& in, std::size_t pixel) {
   const TexelCoordinate own = project_to_face(map, face, receiver.position);
   const Vec2 here(own.u, own.v), across = place(x + 1.0, y) - here, down = place(x, y + 1.0) - here;
   const double level = 0.5 * std::log2(std::max(glm::dot(across, across), glm::dot(down, down)));
-  const double most = in.light.type == LightType::point ? 3.0 : std::floor(std::log2(map.size));
+  const double most = in.light().type == LightType::point ? 3.0 : std::floor(std::log2(map.size));
   return level > 0.0 ? std::min(level, most) : 0.0;  // not a number becomes 0
 }
 

@@ -24,10 +24,11 @@ void drop_rows(Image<T>& rows, int count) {
   rows.size.height -= count;
 }
 
+/// Those rows alone.
 template <class T>
-Image<T> cut_rows(const Image<T>& rows, const PictureRows& wanted) {
+Image<T> cut_rows(Image<T>&& rows, const PictureRows& wanted) {
+  if (rows.data.empty() || wanted == PictureRows{0, rows.size.height}) return std::move(rows);
   Image<T> out;
-  if (rows.data.empty()) return out;
   out.size = {rows.size.width, wanted.count};
   const auto first = rows.data.begin() + static_cast<std::ptrdiff_t>(rows.index(0, wanted.first));
   out.data.assign(first, first + static_cast<std::ptrdiff_t>(out.size.pixels()));

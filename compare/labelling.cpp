@@ -22,7 +22,7 @@ bool stored_is_true_occluder(const LadderInput& in, Column& column, const WrongP
   const std::uint32_t stored = stored_surface(in, wrong.lookup).primitive;
   const SurfacePoint& receiver = in.traced.receiver.data[wrong.pixel];
   const auto met = first_on_ray(
-      in.tracer, in.tracer.shadow_ray(receiver, in.light), infinity, [&](const raytrace::Hit& hit) {
+      in.tracer, in.tracer.shadow_ray(receiver, in.light()), infinity, [&](const raytrace::Hit& hit) {
         return hit.primitive == stored || (stored != no_id && column.same_sheet(stored, hit.primitive));
       });
   return met.has_value();

@@ -44,11 +44,12 @@ Image<Label> sort_pixels(const LadderInput& in) {
     if (receiver.primitive != in.drawn.primitive.data[i]) {
       labels.data[i] = Label::silhouette;
     } else if (receiver.primitive != no_id) {
-      if (light_cannot_reach(in.light, receiver.position, receiver.normal))
+      if (light_cannot_reach(in.light(), receiver.position, receiver.normal))
         labels.data[i] = Label::facing_away;
       else
-        labels.data[i] = ray_leaves_doubt(in.truth, i) || samples_leave_doubt(in.truth, i) ? Label::uncertain
-                                                                                           : Label::right;
+        labels.data[i] = ray_leaves_doubt(in.truth(), i) || samples_leave_doubt(in.truth(), i)
+                             ? Label::uncertain
+                             : Label::right;
     }
   });
   return labels;
@@ -56,16 +57,17 @@ Image<Label> sort_pixels(const LadderInput& in) {
 
 Image<Label> labels_climbed(const LadderInput& in, const Image<Label>& labels) {
   Image<Label> climbed = labels;
-  if (in.truth.standard_error.data.empty()) return climbed;
+  if (in.truth().standard_error.data.empty()) return climbed;
   parallel_for(labels.data.size(), [&](std::size_t i) {
-    if (labels.data[i] == Label::uncertain && !ray_leaves_doubt(in.truth, i)) climbed.data[i] = Label::right;
+    if (labels.data[i] == Label::uncertain && !ray_leaves_doubt(in.truth(), i))
+      climbed.data[i] = Label::right;
   });
   return climbed;
 }
 
 float true_visibility(const LadderInput& in, std::size_t pixel) {
-  if (!in.truth.visibility.data.empty()) return in.truth.visibility.data[pixel];
-  return in.truth.centre.data[pixel] == PointVisibility::lit ? 1.0f : 0.0f;
+  if (!in.truth().visibility.data.empty()) return in.truth().visibility.data[pixel];
+  return in.truth().centre.data[pixel] == PointVisibility::lit ? 1.0f : 0.0f;
 }
 
 Cause deciding_step(const std::array<float, rung_count>& v) {
@@ -87,21 +89,21 @@ float lit(bool is_lit) {
 
 // A sphere's or closed solid's inside is another sheet than the outside that the light meets first.
 bool on_inner_side(const LadderInput& in, const SurfacePoint& receiver) {
-  if (in.world.is_triangle(receiver.primitive)) return false;
-  const ShapeGeometry& geometry = in.world.shape(receiver.primitive).geometry;
+  if (in.world().is_triangle(receiver.primitive)) return false;
+  const ShapeGeometry& geometry = in.world().shape(receiver.primitive).geometry;
   if (is_solid(geometry))
-    return is_closed(geometry) &&
-           glm::dot(receiver.normal, geometric_normal(in.world, receiver.primitive, receiver.position)) < 0.0;
+    return is_closed(geometry) && glm::dot(receiver.normal, geometric_normal(in.world(), receiver.primitive,
+                                                                             receiver.position)) < 0.0;
   const auto* sphere = std::get_if<Sphere>(&geometry);
   return sphere != nullptr && glm::dot(receiver.normal, receiver.position - sphere->center) < 0.0;
 }
 
 // Of a solid that is not convex, one primitive may hold several sheets.
 bool on_one_piece(const LadderInput& in, const SurfacePoint& receiver, const TexelCentre& centre) {
-  if (in.world.is_triangle(receiver.primitive) || centre.hit->primitive != receiver.primitive) return true;
-  const ShapeGeometry& geometry = in.world.shape(receiver.primitive).geometry;
+  if (in.world().is_triangle(receiver.primitive) || centre.hit->primitive != receiver.primitive) return true;
+  const ShapeGeometry& geometry = in.world().shape(receiver.primitive).geometry;
   if (!is_solid(geometry)) return true;
-  const LightView& view = in.record.map.view;
+  const LightView& view = in.record().map.view;
   const bool orthographic = view.projection == LightProjection::orthographic;
   const Vec3 own = orthographic ? centre.ray.direction : glm::normalize(receiver.position - view.origin);
   return raytrace::hang_together(geometry, receiver.position, centre.ray.at(centre.hit->t), own,
@@ -137,7 +139,7 @@ bool beyond_map(const LightView& view, const TexelCentre& centre) {
 // and where the stored depth is the exact one.
 float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::TexelKey key, bool stores_first,
                   double own, float flat) {
-  const raster::ShadowMap& map = in.record.map;
+  const raster::ShadowMap& map = in.record().map;
   if (raster::traits_of(in.drawn.options.map.technique).contents == raster::MapContents::midpoint_depth)
     return flat;
   if (!stores_first) return flat;
@@ -150,12 +152,12 @@ float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::Te
 
 // V1: the light shrunk to its centre.
 float point_rung(const LadderInput& in, std::size_t pixel) {
-  return lit(in.truth.centre.data[pixel] == PointVisibility::lit);
+  return lit(in.truth().centre.data[pixel] == PointVisibility::lit);
 }
 
 void climb_outside(const LadderInput& in, std::size_t pixel, Climb& out) {
   const float truth = out.rungs[0].data[pixel];
-  const float drawn = in.record.visibility.data[pixel];
+  const float drawn = in.record().visibility.data[pixel];
   out.rungs[1].data[pixel] = point_rung(in, pixel);
   for (std::size_t k = 2; k < rung_count; ++k) out.rungs[k].data[pixel] = drawn;
   if (is_compared(out.labels.data[pixel]) && std::abs(drawn - truth) > 0.5f)
@@ -173,7 +175,7 @@ void climb_lower(Column& column, const TexelCentre& centre, raytrace::TexelKey k
                  std::size_t pixel, LowerClimb& out) {
   const LadderInput& in = out.input;
   const SurfacePoint& receiver = in.traced.receiver.data[pixel];
-  const LightView& view = in.record.map.view;
+  const LightView& view = in.record().map.view;
   // The depth that project_to_face gives.
   const double own = glm::dot(receiver.position - view.origin, view.face(centre.face).forward);
   const float flat = flat_rung(receiver, centre, own);
@@ -184,45 +186,23 @@ void climb_lower(Column& column, const TexelCentre& centre, raytrace::TexelKey k
   out.rungs[4].data[pixel] = stored_rung(in, centre, key, stores_first, own, flat);
 }
 
-// A shader of the user's own that names neither bias nor gap draws without a bias.
-bool tests_bias(const LadderInput& in) {
-  return !in.drawn.custom_shader || in.drawn.custom_shader->reads_bias;
-}
-
 bool drawn_wrong(const LadderInput& in, const Climb& climbed, std::size_t pixel) {
   return is_compared(climbed.labels.data[pixel]) &&
-         std::abs(in.record.visibility.data[pixel] - climbed.rungs[0].data[pixel]) > 0.5f;
+         std::abs(in.record().visibility.data[pixel] - climbed.rungs[0].data[pixel]) > 0.5f;
 }
 
-// The exact depth in place of the stored one would have made the biased test right.
-bool right_with_exact_depth(const LowerClimb& lower, const LadderInput& in, std::size_t group,
-                            std::size_t pixel, const std::array<float, rung_count>& v) {
-  if (!(std::abs(v[5] - v[0]) > 0.5f)) return false;
-  const auto gap = exact_gap(lower, in, group, pixel);
-  return gap && !(std::abs(lit(!(*gap > in.record.bias_constant_world)) - v[0]) > 0.5f);
-}
-
-// V5 and V6 of one texel's pixels, and the labels of those that are wrong.
+// V5 and V6 of one texel's pixels, and the labels of those that are wrong. `out` holds the lower rungs.
 void climb_group(const LowerClimb& lower, const LadderInput& in, std::size_t group, Climb& out) {
   Column column(in, lower.groups.keys[group], lower.surfaces);
+  const raster::LightRecord& record = in.record();
   for (const std::uint32_t pixel : lower.groups[group]) {
-    raytrace::TexelKey lookup = lower.groups.keys[group];
-    const double gap = gap_with_bias(lower, in, group, pixel, lookup);
-    out.rungs[5].data[pixel] =
-        tests_bias(in) ? lit(!(gap > in.record.bias_constant_world)) : out.rungs[4].data[pixel];
-    out.rungs[6].data[pixel] = in.record.visibility.data[pixel];
-    if (!drawn_wrong(in, out, pixel)) continue;
-    std::array<float, rung_count> v{};
-    for (std::size_t k = 0; k < rung_count; ++k) v[k] = out.rungs[k].data[pixel];
-    const bool exact = right_with_exact_depth(lower, in, group, pixel, v);
-    out.labels.data[pixel] =
-        label_wrong_pixel(in, column, {pixel, lookup, deciding_step(v), v[6] < v[0], exact, v[0]});
+    const bool compared = is_compared(out.labels.data[pixel]);
+    const float drawn = record.visibility.data[pixel];
+    const auto [biased, label] = UpperPixel(lower, in, column, group, pixel, out.rungs)
+                                     .verdict_at(record.bias_constant_world, drawn, compared);
+    out.rungs[5].data[pixel] = biased, out.rungs[6].data[pixel] = drawn;
+    if (compared) out.labels.data[pixel] = label;
   }
-}
-
-// Another renderer's picture without its map.
-bool lacks_map(const LadderInput& in) {
-  return in.record.captured && in.record.captured->unit_world == 0.0;
 }
 
 // Of a picture alone the light's size is known, and that the rest is what some map made of it.
@@ -232,7 +212,7 @@ Climb climb_unexplained(const LadderInput& in, Climb out) {
     if (!is_compared(climbed.data[i])) return;
     out.rungs[0].data[i] = true_visibility(in, i);
     out.rungs[1].data[i] = point_rung(in, i);
-    const float drawn = in.record.visibility.data[i];
+    const float drawn = in.record().visibility.data[i];
     for (std::size_t k = 2; k < rung_count; ++k) out.rungs[k].data[i] = drawn;
     if (!drawn_wrong(in, out, i)) return;
     const bool of_point = std::abs(drawn - out.rungs[1].data[i]) <= 0.5f;
@@ -246,7 +226,7 @@ Climb climb_unexplained(const LadderInput& in, Climb out) {
 // shader of the user's own.
 Climb climb_without_map(const LadderInput& in, Climb out) {
   const Image<Label> climbed = labels_climbed(in, out.labels);
-  const bool sized = has_size(in.light);
+  const bool sized = has_size(in.light());
   const std::size_t first_drawn = sized ? 1 : 4;
   const Label label = in.drawn.custom_shader ? Label::custom_shader
                       : sized                ? Label::light_size
@@ -254,7 +234,7 @@ Climb climb_without_map(const LadderInput& in, Climb out) {
   for (std::size_t i = 0; i < out.labels.data.size(); ++i) {
     if (!is_compared(climbed.data[i])) continue;
     for (std::size_t k = 0; k < rung_count; ++k)
-      out.rungs[k].data[i] = k < first_drawn ? true_visibility(in, i) : in.record.visibility.data[i];
+      out.rungs[k].data[i] = k < first_drawn ? true_visibility(in, i) : in.record().visibility.data[i];
     if (drawn_wrong(in, out, i)) out.labels.data[i] = label;
   }
   return out;
@@ -267,10 +247,10 @@ std::vector<std::uint32_t> compared_pixels(const Image<Label>& labels) {
 }  // namespace
 
 LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
-    : input(in), sorted(std::move(to_compare)), surfaces(in.world, in.topology) {
+    : input(in), sorted(std::move(to_compare)), surfaces(in.world(), in.topology) {
   const TimedStage stage("columns and sheets");
   parallel_for(rungs.size(), [&](std::size_t k) { rungs[k] = Image<float>(sorted.size, 1.0f); });
-  groups = group_by_texel(in.record, compared_pixels(labels_climbed(in, sorted)), outside);
+  groups = group_by_texel(in.record(), compared_pixels(labels_climbed(in, sorted)), outside);
   parallel_for(outside.size(), [&](std::size_t i) {
     rungs[0].data[outside[i]] = true_visibility(in, outside[i]);
     rungs[1].data[outside[i]] = point_rung(in, outside[i]);
@@ -305,7 +285,7 @@ Climb climb_up(const LowerClimb& lower, const LadderInput& in) {
 }
 
 Climb climb(const LadderInput& in, Image<Label> sorted) {
-  if (lacks_map(in)) {
+  if (raster::lacks_map(in.record())) {
     Climb start{{}, std::move(sorted)};
     for (Image<float>& rung : start.rungs) rung = Image<float>(start.labels.size, 1.0f);
     return climb_unexplained(in, std::move(start));

@@ -19,15 +19,17 @@ struct ImagePlace {
 
 /// What one light's pixels are climbed with. All parts must outlive the ladder.
 struct LadderInput {
-  const World& world;
   const raytrace::Tracer& tracer;
   const raytrace::Topology& topology;
-  const Light& light;
   const raster::RasterFrame& drawn;
-  const raster::LightRecord& record;
   const raytrace::RayTracedFrame& traced;
-  const raytrace::LightTruth& truth;
+  std::size_t index = 0;  ///< of the light in both frames' lists
   ImagePlace place{};
+
+  const World& world() const { return tracer.world(); }
+  const raster::LightRecord& record() const { return drawn.lights[index]; }
+  const raytrace::LightTruth& truth() const { return traced.lights[index]; }
+  const Light& light() const { return world().scene->lights[record().light]; }
 };
 
 /// Marks each pixel background, silhouette, facing_away, uncertain, or right (= to be compared). Uncertain: a

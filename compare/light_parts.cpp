@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/bias_curve.h"
 #include "compare/option_names.h"
 #include "compare/pixel_list.h"
-#include "compare/sweep/engine.h"
 #include "scene/parallel.h"
 
 namespace gnomon::compare {
@@ -16,7 +16,7 @@ bool has_one_texel_size(const LightView& view) {
 }
 
 std::vector<double> texel_widths(const LadderInput& in, const Image<Label>& labels) {
-  const LightView& view = in.record.map.view;
+  const LightView& view = in.record().map.view;
   std::vector<std::uint32_t> pixels =
       pixels_where(labels.data.size(), [&](std::size_t i) { return is_compared(labels.data[i]); });
   if (pixels.empty()) return {};
@@ -24,7 +24,7 @@ std::vector<double> texel_widths(const LadderInput& in, const Image<Label>& labe
   std::vector<double> sizes(pixels.size());
   parallel_for(pixels.size(), [&](std::size_t i) {
     const Vec3& x = in.traced.receiver.data[pixels[i]].position;
-    sizes[i] = texel_world_size(view, project_to_face(view, in.record.face.data[pixels[i]], x));
+    sizes[i] = texel_world_size(view, project_to_face(view, in.record().face.data[pixels[i]], x));
   });
   return sizes;
 }
@@ -37,17 +37,20 @@ std::array<double, 3> low_middle_high(std::vector<double>& values) {
   return {*low, *middle, *high};
 }
 
-Image<float> visibility_picture(const Image<float>& visibility, const Image<Label>& labels) {
-  Image<float> picture(visibility.size, 1.0f);
-  for (std::size_t i = 0; i < labels.data.size(); ++i)
-    if (is_compared(labels.data[i]) || labels.data[i] == Label::uncertain)
-      picture.data[i] = visibility.data[i];
+Image<float> visibility_picture(const Image<float>& visibility, const Image<Label>& labels,
+                                const PictureRows& rows) {
+  Image<float> picture({labels.size.width, rows.count}, 1.0f);
+  const std::size_t first = labels.index(0, rows.first);
+  for (std::size_t i = 0; i < picture.data.size(); ++i)
+    if (const Label label = labels.data[first + i]; is_compared(label) || label == Label::uncertain)
+      picture.data[i] = visibility.data[first + i];
   return picture;
 }
 
-void ComparedMean::add(const Image<float>& map, const Image<Label>& labels) {
+void ComparedMean::add(const Image<float>& map, const Image<Label>& labels, int first_row) {
+  const std::size_t first = labels.index(0, first_row);
   for (std::size_t i = 0; i < map.data.size(); ++i) {
-    if (!is_compared(labels.data[i]) || std::isnan(map.data[i])) continue;
+    if (!is_compared(labels.data[first + i]) || std::isnan(map.data[i])) continue;
     sum_ += double{map.data[i]};
     ++count_;
   }
@@ -75,7 +78,7 @@ void StandardErrors::put(PenumbraStats& out) const {
 
 std::string_view why_no_curve(const raster::RasterFrame& drawn, const raster::LightRecord& record) {
   if (record.captured && !drawn.custom_shader)
-    return record.captured->unit_world == 0.0
+    return raster::lacks_map(record)
                ? std::string_view("The picture came without its map: there are no gaps to follow.")
                : std::string_view();
   if (biases_follow_from_gaps(drawn)) return {};

@@ -1,5 +1,4 @@
-// What a light's figures are made of, for pictures that are measured whole (light_comparison.h) and for those that come
-// in bands (bands/light_measures.h).
+// What a light's figures (measure/sums.h) are made of.
 #pragma once
 
 #include <array>
@@ -7,6 +6,7 @@
 #include <vector>
 
 #include "compare/ladder.h"
+#include "scene/picture_rows.h"
 
 namespace gnomon::compare {
 
@@ -16,14 +16,16 @@ bool has_one_texel_size(const LightView& view);
 /// Least, median and largest, which puts the values into another order; 0 of none.
 std::array<double, 3> low_middle_high(std::vector<double>& values);
 
-/// White lit, black shadowed, white where nothing is compared. Where the truth is uncertain the rungs have
-/// what is known of it, or are white both.
-Image<float> visibility_picture(const Image<float>& visibility, const Image<Label>& labels);
+/// Some rows of a light's picture: white lit, black shadowed, white where nothing is compared. Where the truth is
+/// uncertain the rungs have what is known of it, or are white both.
+Image<float> visibility_picture(const Image<float>& visibility, const Image<Label>& labels,
+                                const PictureRows& rows);
 
 /// Mean over the pixels that are compared and have a value, in their order.
 class ComparedMean {
  public:
-  void add(const Image<float>& map, const Image<Label>& labels);
+  /// `map` begins at that row of the labels.
+  void add(const Image<float>& map, const Image<Label>& labels, int first_row);
   double mean() const;  ///< NaN of none
 
  private:

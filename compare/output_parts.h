@@ -20,17 +20,18 @@ inline const raytrace::LightTruth& true_record(const Comparison& c, const LightC
 inline const Light& light_of(const Comparison& c, const LightComparison& light) {
   return c.world->scene->lights[light.light];
 }
-/// Whether a depth is compared with a bias: not by izb and hybrid, nor by a shader of the user's own that
-/// reads none.
-inline bool draws_bias(const Comparison& c) {
-  const auto& custom = c.raster.custom_shader;
-  return compares_depths(c.raster.options.map.technique) && (!custom || custom->reads_bias);
-}
-
 /// Another renderer's picture, whose depth map is not known.
 inline bool lacks_map(const Comparison& c) {
-  return !c.raster.lights.empty() && c.raster.lights.front().captured &&
-         c.raster.lights.front().captured->unit_world == 0.0;
+  return raster::lacks_map(c.raster);
+}
+/// Whether stored depths are compared with receivers: not by izb and hybrid, nor where no map is known.
+inline bool compares_depths(const Comparison& c) {
+  return !lacks_map(c) && compares_depths(c.raster.options.map.technique);
+}
+/// Whether a depth is compared with a bias: a shader of the user's own may read none.
+inline bool draws_bias(const Comparison& c) {
+  const auto& custom = c.raster.custom_shader;
+  return compares_depths(c) && (!custom || custom->reads_bias);
 }
 /// Without the map there are two steps: light size, and all the rest.
 inline std::size_t known_steps(const Comparison& c) {

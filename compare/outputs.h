@@ -13,6 +13,7 @@
 namespace gnomon::compare {
 
 struct PageIntroduction;  // report/page.h
+struct BandedParts;       // measure/measure.h
 
 /// The result file (compare/report/result.schema.json), schema "gnomon/result/1".
 std::string result_json(const Comparison& comparison);
@@ -92,7 +93,12 @@ struct OutputFolder {
 /// the time spent here until their text is fixed.
 Expected<WrittenOutputs> write_outputs(const Comparison& comparison, OutputFolder output);
 
-/// The last of two steps (the first: write_all_but_result() in compare/bands/bands.h), so that the time budget in
+/// The first of two steps that write_outputs() is made of: all but result.json. `parts`: of a comparison that was made
+/// in bands; null: of any other.
+Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, BandedParts* parts,
+                                              OutputFolder output);
+
+/// The last of two steps (the first: write_all_but_result()), so that the time budget in
 /// result.json holds what the other files took and whatever is done in between. Where no StageLog runs it has none. The
 /// folder is in its place afterwards.
 Expected<void> write_result(WrittenOutputs& written);

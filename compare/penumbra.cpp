@@ -174,11 +174,11 @@ void PenumbraMeasure::add_widths(const std::vector<Sample>& samples, PenumbraSta
 
 PenumbraMeasure::Pixels PenumbraMeasure::pixels_of(const LadderInput& in, const Image<float>& truth,
                                                    const Image<Label>& labels) {
-  Pixels out{Image<Vec3>(labels.size), Image<std::uint32_t>(labels.size), truth, in.record.visibility};
+  Pixels out{Image<Vec3>(labels.size), Image<std::uint32_t>(labels.size), truth, in.record().visibility};
   parallel_for(labels.data.size(), [&](std::size_t i) {
     out.positions.data[i] = in.traced.receiver.data[i].position;
     out.objects.data[i] =
-        is_compared(labels.data[i]) ? in.world.object_of(in.drawn.primitive.data[i]) : no_id;
+        is_compared(labels.data[i]) ? in.world().object_of(in.drawn.primitive.data[i]) : no_id;
   });
   return out;
 }
@@ -246,12 +246,6 @@ PenumbraStats PenumbraMeasure::stats() const {
   PenumbraStats out = counts_;
   add_widths(samples_, out);
   return out;
-}
-
-PenumbraStats measure_penumbra(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels) {
-  PenumbraMeasure measure;
-  measure.add(in, truth, labels);
-  return measure.stats();
 }
 
 }  // namespace gnomon::compare

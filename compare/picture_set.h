@@ -31,14 +31,14 @@ struct PictureSet {
   std::vector<LightPictures> lights;  ///< as Comparison::lights
 };
 
-/// Draws and encodes all pictures in parallel.
-Expected<PictureSet> encode_pictures(const Comparison& comparison);
+class PictureStore;  // measure/pictures.h
+
+/// Draws and encodes all pictures in parallel. `store`: of a comparison in bands what they are drawn from, as many at a
+/// time as memory has room for; null: the comparison has all images.
+Expected<PictureSet> encode_pictures(const Comparison& comparison, const PictureStore* store = nullptr);
 
 /// What a light's file names end in: nothing for the only one.
 std::string light_suffix(const Comparison& comparison, const LightComparison& light);
-/// The pictures of its depth map alone.
-Expected<void> encode_depth_maps(const Comparison& comparison, const LightComparison& light,
-                                 LightPictures& out);
 
 /// A map with one texel for every step x step block, which keeps the block's nearest depth, so that thin
 /// casters stay visible. Only `view.size` and `depth` are meaningful in it.

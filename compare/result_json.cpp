@@ -198,14 +198,10 @@ Json shaders_json(const std::vector<raster::ReplacedShader>& replaced) {
 }
 
 std::string result_json(const Comparison& c, double report_ms, double total_ms) {
-  return result_json(c, report_ms, total_ms, nullptr);
-}
-
-std::string result_json(const Comparison& c, double report_ms, double total_ms, const CascadeTables* tables) {
   Json json = result_object(c, report_ms, total_ms);
   for (std::size_t i = 0; i < c.lights.size(); ++i) {
-    Json cascades = tables != nullptr ? by_cascade_json((*tables)[i]) : by_cascade_json(c, c.lights[i]);
-    if (!cascades.is_null()) json["lights"][i]["by_cascade"] = std::move(cascades);
+    if (!c.judged && !c.lights[i].cascades.empty())
+      json["lights"][i]["by_cascade"] = by_cascade_json(c.lights[i].cascades);
     if (const auto& seams = c.lights[i].seams)
       json["lights"][i]["seams"] = {{"at_border", seams->at_border}, {"changed", seams->changed}};
   }

@@ -54,7 +54,6 @@ inline std::string dumped(const Json& json, int indent) {
 /// One entry of "lights".
 Json light_block(const Comparison& comparison, const LightComparison& light);
 /// The budget of each cascade by itself, finest first; null of other techniques.
-Json by_cascade_json(const Comparison& comparison, const LightComparison& light);
 Json by_cascade_json(const std::vector<CascadeFigures>& cascades);
 /// Its "times_ms".
 Json light_times_json(const Comparison& comparison, const LightComparison& light);

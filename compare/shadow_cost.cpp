@@ -54,11 +54,4 @@ void add_ray_work(const raytrace::Tracer& tracer, const Light& light,
   sum.boxes += work.boxes, sum.primitives += work.primitives;
 }
 
-RayWork count_ray_work(const raytrace::Tracer& tracer, const Light& light,
-                       const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels) {
-  RayWork out;
-  add_ray_work(tracer, light, receivers, labels, 0, labels.data.size(), out);
-  return out;
-}
-
 }  // namespace gnomon::compare

@@ -19,7 +19,7 @@ struct StoredSurface {
 StoredSurface stored_surface(const raytrace::Tracer& tracer, const raster::LightRecord& record,
                              const raster::MapOptions& options, raytrace::TexelKey key);
 inline StoredSurface stored_surface(const LadderInput& in, raytrace::TexelKey key) {
-  return stored_surface(in.tracer, in.record, in.drawn.options.map, key);
+  return stored_surface(in.tracer, in.record(), in.drawn.options.map, key);
 }
 
 }  // namespace gnomon::compare

@@ -63,22 +63,22 @@ class Predictor {
   Predictor(const LadderInput& in, const Image<Label>& labels, int picture_height)
       : in_(in),
         labels_(labels),
-        camera_(in.world.scene->camera),
+        camera_(in.world().scene->camera),
         pixel_side_(2.0 * std::tan(0.5 * camera_.vertical_fov) / picture_height),
         forward_(glm::normalize(camera_.target - camera_.eye)) {}
 
   PixelTheory at(int x, int y) const {
     const std::size_t pixel = labels_.index(x, y);
     const SurfacePoint& receiver = in_.traced.receiver.data[pixel];
-    const LightView& view = in_.record.map.view;
-    const TexelCoordinate texel = project_to_face(view, in_.record.face.data[pixel], receiver.position);
+    const LightView& view = in_.record().map.view;
+    const TexelCoordinate texel = project_to_face(view, in_.record().face.data[pixel], receiver.position);
     PixelTheory out;
     out.acne_free_bias = texel_depth_slope(view, texel, receiver.position, receiver.normal);
     const Vec3 from_eye = receiver.position - camera_.eye;
     const double distance = glm::length(from_eye), cos_axis = glm::dot(from_eye, forward_) / distance;
     const double pixel_area = distance * distance * pixel_solid_angle(cos_axis);
     const double cos_eye = -glm::dot(from_eye, receiver.normal) / distance;
-    const double cos_light = glm::dot(light_at(in_.light, receiver.position).to_light, receiver.normal);
+    const double cos_light = glm::dot(light_at(in_.light(), receiver.position).to_light, receiver.normal);
     out.perspective = std::sqrt(texel_area(view, texel) / pixel_area);
     out.projection = std::sqrt(cos_eye / cos_light);
     out.measured = measured(x, y);
@@ -97,12 +97,12 @@ class Predictor {
                       below = labels_.index(x, y + 1);
     for (const std::size_t other : {right, below})
       if (in_.drawn.primitive.data[other] != in_.drawn.primitive.data[here] ||
-          in_.record.face.data[other] != in_.record.face.data[here])
+          in_.record().face.data[other] != in_.record().face.data[here])
         return infinity;
     const Vec2 a = texel(right) - texel(here), b = texel(below) - texel(here);
     return 1.0 / std::sqrt(std::abs(a.x * b.y - a.y * b.x));
   }
-  Vec2 texel(std::size_t pixel) const { return Vec2(in_.record.texel_uv.data[pixel]); }
+  Vec2 texel(std::size_t pixel) const { return Vec2(in_.record().texel_uv.data[pixel]); }
 
   const LadderInput& in_;
   const Image<Label>& labels_;
@@ -148,13 +148,6 @@ Distribution& distribution_of(TheoryStats& stats, std::size_t value) {
   const std::array<Distribution*, 5> places{&stats.acne_free_bias, &stats.perspective, &stats.projection,
                                             &stats.aliasing, &stats.measured_aliasing};
   return *places[value];
-}
-
-TheoryStats predict(const LadderInput& in, const Image<Label>& labels) {
-  TheoryValues values = theory_values(in, labels, {0, labels.size.height}, labels.size.height);
-  TheoryStats stats;
-  parallel_for(values.size(), [&](std::size_t k) { distribution_of(stats, k) = distribution(values[k]); });
-  return stats;
 }
 
 }  // namespace gnomon::compare

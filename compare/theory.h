@@ -22,10 +22,7 @@
 
 namespace gnomon::compare {
 
-/// Theory of one light over its compared pixels.
-TheoryStats predict(const LadderInput& input, const Image<Label>& labels);
-
-/// The parts that predict() is made of: of each compared pixel the acne-free bias, perspective, projection, their
+/// What TheoryStats is made of: of each compared pixel the acne-free bias, perspective, projection, their
 /// product (aliasing) and the measured aliasing, in that order; infinite where there is none.
 using TheoryValues = std::array<std::vector<double>, 5>;
 /// Of those rows of the images; the row below them must be there. picture_height: of the whole picture.

@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "compare/bias_advice.h"
+#include "compare/bias_curve.h"
 #include "compare/judge/judged.h"
 #include "compare/number_text.h"
-#include "compare/sweep/engine.h"
 #include "compare/text_layout.h"
 #include "raster/technique_traits.h"
 

@@ -3,7 +3,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "compare/bands/bands.h"
+#include "compare/measure/measure.h"
+#include "compare/measure/reduced.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"
 #include "compare/picture_set.h"
@@ -83,8 +84,7 @@ Texts make_texts(const Comparison& comparison, const BandedParts* parts, const P
   // What the files say about the time of their own making: up to the point where their text is fixed.
   const double report_ms = comparison.report_ms + watch.elapsed_ms();
   const double total_ms = comparison.total_ms + watch.elapsed_ms();
-  Texts out{
-      result_json(comparison, report_ms, total_ms, parts != nullptr ? &parts->cascades : nullptr), {}, {}};
+  Texts out{result_json(comparison, report_ms, total_ms), {}, {}};
   out.csv = result_csv(out.result);
   if (!output.page) return out;
   const StageLog* log = StageLog::current();
@@ -106,7 +106,7 @@ Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, Band
   const std::string folder = staged->path();
   TimedStage encoding("pictures");
   const Expected<PictureSet> pictures =
-      parts != nullptr ? encode_pictures(comparison, parts->pictures) : encode_pictures(comparison);
+      encode_pictures(comparison, parts != nullptr ? &parts->pictures : nullptr);
   if (parts != nullptr) parts->pictures = PictureStore({}, 0);
   encoding.end();
   if (!pictures) return fail(pictures.error());

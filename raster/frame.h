@@ -64,10 +64,17 @@ double constant_bias_world(const Bias& bias, const BiasRounding& rounding, const
 /// How another renderer tests a map that it drew: by stored numbers, and in its own units.
 struct CapturedTest {
   /// World units that 1 of a stored number counts for; gaps and constant bias are differences of stored
-  /// numbers times this, as the renderer itself tests. 0: its map is not known, and the record's is empty.
+  /// numbers times this, as the renderer itself tests.
   double unit_world = 1.0;
   double normal_offset_world = 0.0;  ///< >= 0, along the receiver's normal, whatever the light's angle
   bool distances = false;  ///< the renderer stores distances from the light, not the depths of its matrix
+};
+
+/// Another renderer's picture.
+struct CapturedPicture {
+  /// How its map is tested. None: the map is not known; the record's holds nothing, and no technique is known to have
+  /// drawn the picture.
+  std::optional<CapturedTest> test;
 };
 
 /// One light's records, per pixel. Only where a primitive is visible; elsewhere visibility is 1, the rest 0.
@@ -104,8 +111,14 @@ struct LightRecord {
   /// What each pixel's visibility took of the map: texels compared, or filtered reads of moments.
   Image<std::uint16_t> lookups;
   std::optional<ExternalCosts> external;  ///< Technique::hybrid
-  std::optional<CapturedTest> captured;   ///< another renderer's map
+  std::optional<CapturedPicture>
+      captured;  ///< another renderer drew `visibility`, and the map if it is known
 };
+
+/// Another renderer's picture, whose map is not known.
+inline bool lacks_map(const LightRecord& record) {
+  return record.captured && !record.captured->test;
+}
 
 /// A file of the user's that was compiled in place of the program's own (--shader-dir).
 struct ReplacedShader {
@@ -134,5 +147,10 @@ struct RasterFrame {
   std::uint64_t map_texels = 0;  ///< texels rendered, all lights, blur and the like included
   std::uint64_t map_bytes = 0;   ///< device memory of maps at one time: the lights take turns in it
 };
+
+/// A picture has its map or lacks it for all lights: one is captured at a time.
+inline bool lacks_map(const RasterFrame& frame) {
+  return !frame.lights.empty() && lacks_map(frame.lights.front());
+}
 
 }  // namespace gnomon::raster

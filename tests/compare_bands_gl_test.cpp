@@ -5,9 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
-#include "compare/bands/bands.h"
+#include "compare/compare.h"
 #include "compare/output_parts.h"
+#include "compare/outputs.h"
+#include "compare/picture_set.h"
 #include "compare/report/page.h"
 #include "compare/report/page_data.h"
 #include "hybrid/visibility.h"
@@ -95,43 +98,48 @@ void expect_same_page(const Comparison& whole, const Comparison& banded,
     EXPECT_TRUE(a.parts[i].json == b.parts[i].json) << a.parts[i].name;
 }
 
+std::string cascades_of(const Comparison& comparison) {
+  return nlohmann::json::parse(result_json(comparison))
+      .at("lights")
+      .front()
+      .value("by_cascade", nlohmann::json())
+      .dump();
+}
+
 TEST_P(CompareBands, AreTheWhole) {
   const auto whole = compare_world(world_, *renderer(), lights_, options_);
   ASSERT_TRUE(whole) << whole.error().reason;
   const auto drawn = renderer();
   const raytrace::Tracer tracer(world_, options_.accel, options_.precision);
-  auto banded = compare_in_bands({.tracer = tracer,
-                                  .renderer = *drawn,
-                                  .lights = lights_,
-                                  .options = options_,
-                                  .bands = bands_of(GetParam().size, band_step),
-                                  .folder = folder_.string(),
-                                  .aov = path("bands.exr")});
-  ASSERT_TRUE(banded) << banded.error().reason;
+  Plan plan = plan_of(tracer, lights_, options_);
+  plan.bands = bands_of(GetParam().size, band_step);
+  plan.folder = folder_.string(), plan.aov = path("bands.exr");
+  Comparison banded;
+  const auto parts = measure(banded, plan, frames_of(tracer, *drawn, lights_, options_));
+  ASSERT_TRUE(parts) << parts.error().reason;
   // What the hybrid holds of a light grows with the receivers that it has been asked for at a time.
-  banded->comparison.raster.map_bytes = whole->raster.map_bytes;
+  banded.raster.map_bytes = whole->raster.map_bytes;
   for (std::size_t i = 0; i < lights_.size(); ++i)
-    if (auto& external = banded->comparison.raster.lights[i].external)
+    if (auto& external = banded.raster.lights[i].external)
       external->bytes = whole->raster.lights[i].external->bytes;
-  EXPECT_EQ(result_line(*whole, {}), result_line(banded->comparison, {}));
+  EXPECT_EQ(result_line(*whole, {}), result_line(banded, {}));
+  EXPECT_EQ(cascades_of(*whole), cascades_of(banded));
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    const auto& edges = banded->comparison.lights[i].edges;
+    const auto& edges = banded.lights[i].edges;
     EXPECT_GT(edges.edges, 0U) << "nothing hangs on rows nearby";
-    const auto& penumbra = banded->comparison.lights[i].penumbra;
+    const auto& penumbra = banded.lights[i].penumbra;
     EXPECT_TRUE(!penumbra || penumbra->edges > 0U) << "no width was measured";
   }
   if (GetParam().technique == raster::Technique::csm) {
-    ASSERT_EQ(banded->parts->cascades.size(), lights_.size());
-    EXPECT_FALSE(banded->parts->cascades.front().empty());
+    EXPECT_FALSE(banded.lights.front().cascades.empty());
   }
-  const auto pictures = encode_pictures(*whole),
-             in_bands = encode_pictures(banded->comparison, banded->parts->pictures);
+  const auto pictures = encode_pictures(*whole), in_bands = encode_pictures(banded, &(*parts)->pictures);
   ASSERT_TRUE(pictures && in_bands);
   expect_same(*pictures, *in_bands);
-  expect_same_page(*whole, banded->comparison, *pictures);
+  expect_same_page(*whole, banded, *pictures);
   ASSERT_TRUE(write_aov(*whole, path("whole.exr")));
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    ASSERT_TRUE(banded->parts->channels[i].close());
+    ASSERT_TRUE((*parts)->channels[i].close());
     EXPECT_TRUE(bytes_of(aov_path(*whole, whole->lights[i], path("whole.exr"))) ==
                 bytes_of(aov_path(*whole, whole->lights[i], path("bands.exr"))));
   }

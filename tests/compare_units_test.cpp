@@ -50,7 +50,9 @@ TEST(ErrorStats, ExactHalvesCountHalf) {
   std::array<Image<float>, rung_count> rungs;
   for (Image<float>& rung : rungs) rung = Image<float>({4, 1}, 1.0f);
   rungs[6].data = {1.0f, 0.5f, 0.5f, 0.25f};
-  const ErrorStats error = measure_error(rungs, Image<Label>({4, 1}, Label::right));
+  PixelSums sums;
+  sums.add(rungs, Image<Label>({4, 1}, Label::right));
+  const ErrorStats error = sums.terms().error();
   EXPECT_EQ(error.wrong, 1u);
   EXPECT_EQ(error.false_shadow + error.missed_shadow, error.wrong);
   EXPECT_EQ(error.ties, 2u);

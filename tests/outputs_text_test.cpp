@@ -3,9 +3,9 @@
 
 #include <regex>
 
-#include "compare/bands/bands.h"
 #include "compare/budget.h"
 #include "compare/csv_field.h"
+#include "compare/measure/reduced.h"
 #include "compare/number_text.h"
 #include "compare/output_parts.h"
 #include "compare/outputs.h"

@@ -19,6 +19,7 @@
 #include "app/setting.h"
 #include "app/strongest_lights.h"
 #include "app/swim_note.h"
+#include "compare/measure/reduced.h"
 #include "raster/bands.h"
 #include "scene/stages.h"
 #include "scene/timing.h"
@@ -61,25 +62,6 @@ std::string folder_of_rows(const CompareCommand& command) {
                         : std::filesystem::absolute(folder).parent_path().string();
 }
 
-Expected<Compared> compare_bands(const CompareCommand& command, const raytrace::Tracer& tracer,
-                                 raster::Renderer& renderer, const std::vector<std::uint32_t>& lights,
-                                 std::vector<PictureRows> bands, const compare::Progress& progress) {
-  if (const std::string& aov = command.output.aov; !aov.empty())
-    if (const auto made = make_folder_for(aov); !made) return fail(made.error());
-  auto compared = compare::compare_in_bands({.tracer = tracer,
-                                             .renderer = renderer,
-                                             .lights = lights,
-                                             .options = command.setting.options,
-                                             .bands = std::move(bands),
-                                             .folder = folder_of_rows(command),
-                                             .page = wants_page(command),
-                                             .command = command.command_line,
-                                             .aov = command.output.aov},
-                                            progress);
-  if (!compared) return fail(compared.error());
-  return Compared{std::move(compared->comparison), std::move(compared->parts)};
-}
-
 /// What the drawing needs is let go before the rest is compared, and the hierarchy is made before it is asked for: memory
 /// that one of them frees the next one takes.
 Expected<Compared> compare_picture(const CompareCommand& command, const LoadedScene& loaded,
@@ -98,18 +80,28 @@ Expected<Compared> compare_picture(const CompareCommand& command, const LoadedSc
   const auto bytes = compare_bytes(*loaded.scene, lights, raster.size, wants_page(command));
   auto bands = plan_bands(command.memory, raster.size, bytes, raster::most_pixels(**renderer, raster.map));
   if (!bands) return fail(bands.error());
-  if (bands->size() > 1)
-    return compare_bands(command, tracer, **renderer, lights, std::move(*bands), progress);
-  progress("shadow maps", 0.1);
-  auto drawn = (*renderer)->render(compare::drawing_options(options), lights);
-  if (!drawn) return fail(drawn.error());
-  {
-    const TimedStage stage("exit");
-    renderer->reset();
+  compare::Plan plan = compare::plan_of(tracer, lights, options);
+  compare::FrameSource frames = compare::frames_of(tracer, **renderer, lights, options);
+  plan.bands = std::move(*bands);
+  if (plan.bands.size() > 1) {
+    plan.folder = folder_of_rows(command), plan.page = wants_page(command), plan.aov = command.output.aov;
+    if (!plan.aov.empty())
+      if (const auto made = make_folder_for(plan.aov); !made) return fail(made.error());
+  } else {
+    progress("shadow maps", 0.1);
+    frames.draw = [&, draw = std::move(frames.draw)](const PictureRows& rows) {
+      auto drawn = draw(rows);
+      const TimedStage stage("exit");
+      renderer->reset();
+      return drawn;
+    };
   }
-  auto comparison = compare::compare_drawn(tracer, std::move(*drawn), lights, options, progress);
-  if (!comparison) return fail(comparison.error());
-  return Compared{std::move(*comparison), nullptr};
+  Compared out;
+  out.comparison.command = command.command_line;
+  auto parts = compare::measure(out.comparison, plan, frames, progress);
+  if (!parts) return fail(parts.error());
+  out.parts = std::move(*parts);
+  return out;
 }
 
 /// Of maps that were made: for the page and the JSON, too.
@@ -154,7 +146,6 @@ Expected<Compared> render_and_compare(const CompareCommand& command, const Loade
   compare::Comparison& comparison = compared->comparison;
   const auto used = check_shaders_used(command.shader_folder, comparison.raster, *loaded.scene, console);
   if (!used) return fail(used.error());
-  comparison.command = command.command_line;
   comparison.seed = command.seed;
   comparison.machine = machine_info();
   comparison.fail_above = command.output.fail_above;
@@ -200,7 +191,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   compared->comparison.total_ms = total.elapsed_ms();
   console.progress("writing", 1.0);
   if (only_prints_json(command.output))
-    return print_result(command.output, compared->comparison, *loaded, console, compared->parts.get());
+    return print_result(command.output, compared->comparison, *loaded, console);
   return write_folder(command.output, compared->comparison, *loaded, files, total, console, nullptr,
                       std::move(compared->parts));
 }

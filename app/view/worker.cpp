@@ -8,7 +8,6 @@
 #include "app/view/map_pictures.h"
 #include "app/view/priority.h"
 #include "compare/outputs.h"
-#include "scene/exposure.h"
 
 namespace gnomon::app {
 
@@ -145,29 +144,24 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   outcome.preview = request.preview;
   outcome.precision = request.precision;
   outcome.camera = request.camera;
-  compare::Comparison& comparison = outcome.comparison;
-  comparison.world = world_.get();
-  comparison.plan = request.plan;
-  comparison.precision = request.precision;
-  comparison.raster = std::move(request.drawn);
-  comparison.accel_build_ms = tracer_->stats().build_ms;
-
-  compare::CompareOptions options = options_;
-  options.raster = comparison.raster.options;
-  options.raytrace.size = comparison.raster.options.size;
-  const std::vector<std::uint32_t> lights{comparison.raster.lights.front().light};
+  const std::vector<std::uint32_t> lights{request.drawn.lights.front().light};
   outcome.light = scene_->lights[lights.front()];
-  options.precision = request.precision;
+  compare::CompareOptions options = options_;
+  options.raster = request.drawn.options;
+  options.raytrace.size = options.raster.size;
   options.raytrace.stop = job.given_up.get_token();
-  comparison.raytraced =
-      raytrace::trace_frame(*tracer_, request.plan, scene_->camera, lights, options.raytrace);
-  if (job.given_up.stop_requested()) return std::nullopt;
-
-  auto compared =
-      compare::compare_frames(*world_, *tracer_, comparison.raster, comparison.raytraced, options);
-  if (!compared) return Expected<ComparisonOutcome>(fail(compared.error()));
-  comparison.lights = std::move(*compared);
-  comparison.exposure = scene_->exposure ? *scene_->exposure : auto_exposure(comparison.raytraced.color);
+  const compare::FrameSource frames{
+      [&](const PictureRows&) { return Expected<raster::RasterFrame>(std::move(request.drawn)); },
+      [&](const PictureRows&) -> Expected<raytrace::RayTracedFrame> {
+        auto traced = raytrace::trace_frame(*tracer_, request.plan, scene_->camera, lights, options.raytrace);
+        if (job.given_up.stop_requested()) return fail(ErrorKind::internal, "given up");
+        return traced;
+      }};
+  compare::Comparison& comparison = outcome.comparison;
+  const auto measured = compare::measure(comparison, compare::plan_of(*tracer_, lights, options), frames);
+  if (!measured && job.given_up.stop_requested()) return std::nullopt;
+  if (!measured) return Expected<ComparisonOutcome>(fail(measured.error()));
+  comparison.plan = request.plan;
   draw_pictures(outcome);
   outcome.verdict = compare::verdict_on(comparison, comparison.lights.front());
   outcome.normals = Image<Vec3f>(comparison.raytraced.receiver.size);

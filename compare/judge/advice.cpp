@@ -39,7 +39,7 @@ std::vector<double> offsets_to_try(double now, double texel_world) {
 GapLists gaps_with_offset(const FrameInput& in, const raster::Bias& bias, const LightComparison& light,
                           const raster::LightRecord& drawn, double offset) {
   raster::LightRecord record = drawn;
-  record.captured->normal_offset_world = offset;
+  record.captured->test->normal_offset_world = offset;
   fill_record(in, bias, record);
   return sort_gaps(record, light.rungs[0], light.labels);
 }
@@ -49,7 +49,7 @@ GapLists gaps_with_offset(const FrameInput& in, const raster::Bias& bias, const 
 std::vector<Advice> give_advice(const FrameInput& in, const raster::Bias& bias, const LightComparison& light,
                                 const raster::LightRecord& record) {
   std::vector<Advice> out;
-  const raster::CapturedTest& test = *record.captured;
+  const raster::CapturedTest& test = *record.captured->test;
   const bool distances = test.distances;
   const std::string unit = distances ? "world units" : "stored depth";
   const GapLists gaps = sort_gaps(record, light.rungs[0], light.labels);

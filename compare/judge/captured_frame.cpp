@@ -134,16 +134,13 @@ Expected<raster::ShadowMap> empty_map(const FrameInput& in, const Light& light) 
 void fill_light(const FrameInput& in, bool known, bool distances, raster::RasterFrame& frame,
                 raster::LightRecord& record) {
   raster::MapOptions& map = frame.options.map;
-  raster::CapturedTest& test = record.captured.emplace();
+  record.captured.emplace();
   record.texel_world = raster::texel_world(record.map.view, in.world);
   record.rounding = rounding_of(record.map.view, in.world);
   record.rounding_world = raster::rounding_world(record.rounding, record.map.view, in.world);
+  if (!known) return fill_record(in, map.bias, record);
+  raster::CapturedTest& test = record.captured->test.emplace();
   test.distances = distances;
-  if (!known) {
-    test.unit_world = 0.0;
-    fill_record(in, map.bias, record);
-    return;
-  }
   const CapturedBias bias = in.capture.bias.value_or(CapturedBias{});
   test.unit_world = distances ? 1.0 : unit_world(record.map, in.traced);
   test.normal_offset_world = bias.normal_offset_world;
@@ -161,7 +158,6 @@ void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRe
   record.distance = record.gap = Image<float>(size, 0.0f);
   record.outside_map = Image<std::uint8_t>(size, 0);
   const Light& light = in.world.scene->lights[record.light];
-  const bool has_map = record.captured->unit_world > 0.0;
   parallel_for(size.pixels(), [&](std::size_t i) {
     const SurfacePoint& point = in.traced.receiver.data[i];
     if (point.primitive == no_id) return;
@@ -170,7 +166,7 @@ void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRe
     record.face.data[i] = static_cast<std::uint8_t>(at.face);
     record.distance.data[i] = static_cast<float>(at.distance);
     record.outside_map.data[i] = at.inside ? 0 : 1;
-    if (!has_map) return;
+    if (raster::lacks_map(record)) return;
     record.gap.data[i] =
         static_cast<float>(biased_gap(record, bias, light_at(light, point.position).to_light, point, i));
   });
@@ -195,7 +191,6 @@ Expected<raster::RasterFrame> make_frame(const FrameInput& in, std::optional<Cap
   }
   frame.options.size = in.capture.size;
   frame.options.map = map_options(in.capture, record.map.view.size);
-  if (!map) frame.options.map.technique = raster::Technique::izb;
   frame.options.map.depth_format = record.map.format;
   frame.map_texels = map ? record.map.depth.size() : 0;
   frame.map_bytes = frame.map_texels * sizeof(float);

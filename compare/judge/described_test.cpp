@@ -37,7 +37,7 @@ class Checker {
         map_(drawn.options.map),
         record_(drawn.lights.front()),
         light_(in.world.scene->lights[record_.light]),
-        slack_(record_.rounding_world + rounding_stored * record_.captured->unit_world) {
+        slack_(record_.rounding_world + rounding_stored * record_.captured->test->unit_world) {
     using raster::Technique;
     const bool compares = map_.technique == Technique::pcf || map_.technique == Technique::pcss || is_hard();
     reach_ = compares ? rounding_texels + (is_hard() ? 0.0 : map_.filter.radius_texels) : infinity;
@@ -162,7 +162,7 @@ bool Checker::holds_other(std::size_t pixel) const {
   const raytrace::TexelKey key = lookup->key;
   const double stored = record_.map.depth[record_.map.texel_index(key.face(), key.column(), key.row())];
   const bool nothing = !holds_caster(view, stored);
-  const double allowed = imprecise_ + slack_ / record_.captured->unit_world;
+  const double allowed = imprecise_ + slack_ / record_.captured->test->unit_world;
   for (int dv = -1; dv <= 1; ++dv)
     for (int du = -1; du <= 1; ++du) {
       const int column = key.column() + du, row = key.row() + dv;

@@ -61,7 +61,7 @@ bool take_off_texture_matrix(raster::LightRecord& record) {
 /// The depths' range so many times as long, up to the same far plane.
 bool stretch_depths(raster::LightRecord& record, double times) {
   if (record.map.view.reversed) return false;
-  record.captured->unit_world *= times, record.bias_constant_world *= times;
+  record.captured->test->unit_world *= times, record.bias_constant_world *= times;
   return change_faces(record, [=](LightFace& face) {
     face.near_depth = face.far_depth - times * (face.far_depth - face.near_depth);
   });
@@ -111,7 +111,7 @@ std::optional<OtherTest> find_other_constant(const raster::LightRecord& describe
   const Fit fit = fit_of(record, light);
   if (!fits(fit, now)) return std::nullopt;
   return OtherTest{fmt::format("`constant_depth` is about {:.2g}",
-                               record.bias_constant_world / described.captured->unit_world),
+                               record.bias_constant_world / described.captured->test->unit_world),
                    fit.drawn, true};
 }
 

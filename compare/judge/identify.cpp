@@ -275,11 +275,12 @@ Expected<void> put_below(Comparison& judged, raster::RasterFrame model, const Id
   model.color = std::move(judged.raster.color);
   model.context = judged.raster.context;
   judged.raster = std::move(model);
-  CompareOptions comparing;
-  comparing.bias_curve_points = options.bias_curve_points;
-  auto compared = compare_frames(world, tracer, judged.raster, judged.raytraced, comparing);
-  if (!compared) return fail(compared.error());
-  judged.lights = std::move(*compared);
+  const std::vector<std::uint32_t> lights{judged.lights.front().light};
+  const Plan plan{.tracer = tracer,
+                  .picture = judged.raster.primitive.size,
+                  .lights = lights,
+                  .measure = {.bias_curve_points = options.bias_curve_points}};
+  if (const auto measured = measure_frames(judged, plan); !measured) return measured;
   mark_unexplained(drawn_by_model, judged.lights.front());
   return {};
 }
@@ -301,8 +302,9 @@ void mark_unexplained(const std::vector<std::uint32_t>& pixels, LightComparison&
     light.detachment_map.data[i] = std::numeric_limits<float>::quiet_NaN();
   }
   // Other reasons for the same wrong pixels: what truth and picture alone decide, FLIP and SSIM among it, stays.
-  light.classes = count_classes(light.labels);
-  light.budget = add_up_budget(light.rungs, light.labels);
+  PixelSums sums;
+  sums.add(light.rungs, light.labels);
+  light.classes = sums.terms().classes(), light.budget = sums.terms().budget();
   light.detachment = measure_detachment(light.detachment_map);
 }
 

@@ -8,9 +8,7 @@
 #include "compare/judge/align.h"
 #include "compare/judge/captured_frame.h"
 #include "compare/judge/described_test.h"
-#include "compare/light_comparison.h"
 #include "scene/exposure.h"
-#include "scene/parallel.h"
 #include "scene/stages.h"
 
 namespace gnomon::compare {
@@ -91,7 +89,7 @@ void finish(Judging& in, const raytrace::Tracer& tracer, Comparison& out) {
   if (judged->has_map) {
     const raster::LightRecord& record = out.raster.lights.front();
     judged->biased_is_drawn = biased_is_drawn(light);
-    judged->unit_world = record.captured->unit_world;
+    judged->unit_world = record.captured->test->unit_world;
     const FrameInput frame{in.capture,      in.pictures,   in.world,     tracer,
                            in.scene.camera, out.raytraced, in.elsewhere, out.exposure};
     const DescribedTest test = check_described_test(frame, out.raster, light);
@@ -146,13 +144,10 @@ Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const W
   }
   reading.end();
   Comparison out;
-  out.world = &world;
   out.judged = std::make_shared<Judged>(std::move(judged));
-  out.threads = threads_in_use();
   out.plan = plan_effects(scene);
   report("ray tracing", 0.2);
   const raytrace::Tracer tracer(world, options.accel, options.precision);
-  out.precision = options.precision, out.accel_build_ms = tracer.stats().build_ms;
   Judging judging{
       capture, scene, world, options, *light, std::move(*pictures), {}, {}, map ? &map->map.view : nullptr};
   if (const auto traced = trace_truth(judging, tracer, out.plan, out); !traced) return fail(traced.error());
@@ -163,11 +158,11 @@ Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const W
                           std::move(map));
   if (!frame) return fail(frame.error());
   out.raster = std::move(*frame);
-  CompareOptions comparing;
-  comparing.bias_curve_points = options.bias_curve_points;
-  auto compared = compare_frames(world, tracer, out.raster, out.raytraced, comparing);
-  if (!compared) return fail(compared.error());
-  out.lights = std::move(*compared);
+  const Plan plan{.tracer = tracer,
+                  .picture = capture.size,
+                  .lights = {&*light, 1},
+                  .measure = {.bias_curve_points = options.bias_curve_points}};
+  if (const auto measured = measure_frames(out, plan); !measured) return fail(measured.error());
   finish(judging, tracer, out);
   report("compared", 1.0);
   return out;

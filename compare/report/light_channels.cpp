@@ -12,11 +12,11 @@
 #include <functional>
 #include <limits>
 
+#include "compare/bias_curve.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"
 #include "compare/report/sections.h"
 #include "compare/result_parts.h"
-#include "compare/sweep/engine.h"
 #include "scene/parallel.h"
 
 namespace gnomon::compare {
@@ -284,9 +284,9 @@ nlohmann::ordered_json light_data(const PageInput& in, std::size_t index, Packer
   return {{"name", shown_light_name(c, index)},
           {"view", view_json(record.map.view)},
           {"map_known", !lacks_map(c)},
-          {"technique", technique_name(options.technique)},
+          {"technique", drawn_technique(c)},
           {"gaps_decide", biases_follow_from_gaps(c.raster)},
-          {"compares_depths", compares_depths(options.technique)},
+          {"compares_depths", compares_depths(c)},
           {"bias",
            {{"constant", draws_bias(c) ? record.bias_constant_world : 0.0},
             {"slope", bias.slope},

@@ -14,7 +14,6 @@
 #include "compare/report/html.h"
 #include "compare/report/lessons.h"
 #include "compare/report/light_block.h"
-#include "compare/sweep/engine.h"
 
 namespace gnomon::compare {
 namespace {
@@ -278,7 +277,7 @@ Depth from the light in world units{}; dark grey where nothing is stored.{}{}{}<
           ? " Six faces: +x, \u2212x, +y above \u2212y, +z, \u2212z."
           : " Each cascade's own map, the finest first.",
       step > 1 ? fmt::format(" One pixel shows the nearest of {} \u00d7 {} texels.", step, step) : "",
-      compares_depths(b.in.comparison.raster.options.map.technique)
+      compares_depths(b.in.comparison)
           ? ""
           : " This technique does not read it: it is what a hard test would look up.");
 }

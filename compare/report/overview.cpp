@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/bands/bands.h"
 #include "compare/budget.h"
 #include "compare/judge/judged.h"
+#include "compare/measure/reduced.h"
 #include "compare/number_text.h"
 #include "compare/option_names.h"
 #include "compare/output_parts.h"

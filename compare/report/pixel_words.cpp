@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "compare/bias_curve.h"
 #include "compare/ladder.h"
 #include "compare/number_text.h"
 #include "compare/output_parts.h"
 #include "compare/report/explanations.h"
-#include "compare/sweep/engine.h"
 
 namespace gnomon::compare {
 namespace {
@@ -139,7 +139,7 @@ struct Story {
   std::string whole() const {
     if (!is_compared(pixel.label)) return say("not_compared", {{"what", what()}});
     if (lacks_map(comparison)) return compared_alone();
-    if (!compares_depths(comparison.raster.options.map.technique)) return exactly();
+    if (!compares_depths(comparison)) return exactly();
     if (!biases_follow_from_gaps(comparison.raster)) return filtered();
     return map_test() + " " + say("ray_says", {{"brightness", brightness(pixel.rungs[0])}}) + " " +
            (pixel.label == Label::right ? say("right") : went_wrong());

@@ -60,10 +60,9 @@ class Film {
     out_.accel_build_ms = tracer_.stats().build_ms;
     scene_.camera = receivers_of_;
     ShimmerOptions& o = out_.options;
+    o.compare.raster = drawing_options(o.compare.raster, o.compare.raytrace);
     o.compare.raster.runs = 0, o.compare.raster.analysis = true;
     o.compare.raster.map_contents = o.explain;
-    o.compare.raster.seed = o.compare.raytrace.seed;
-    o.compare.raster.shadow_samples = o.compare.raytrace.shadow_samples;
     o.compare.raytrace.size = o.compare.raster.size;
     o.compare.raytrace.picture = o.compare.raytrace.warm_up = false;
     o.compare.raytrace.runs = 1;
@@ -172,7 +171,7 @@ std::array<Image<float>, rung_count> climb_rungs(const LadderInput& input, Image
 // V0, and V6 on every other rung.
 std::array<Image<float>, rung_count> ends_of_ladder(const LadderInput& input, const Image<Label>& labels) {
   std::array<Image<float>, rung_count> rungs;
-  rungs.fill(input.record.visibility);
+  rungs.fill(input.record().visibility);
   parallel_for(labels.data.size(), [&](std::size_t i) {
     if (is_compared(labels.data[i])) rungs[0].data[i] = true_visibility(input, i);
   });
@@ -181,8 +180,7 @@ std::array<Image<float>, rung_count> ends_of_ladder(const LadderInput& input, co
 
 RungFrame Film::climb_light(std::size_t i) const {
   const raster::LightRecord& record = drawn_.lights[i];
-  const LadderInput input{world_, tracer_, topology_, scene_.lights[record.light],
-                          drawn_, record,  *truth_,   truth_->lights[i]};
+  const LadderInput input{tracer_, topology_, drawn_, *truth_, i};
   Image<Label> labels = sort_pixels(input);
   keep_anchors(labels);
   RungFrame out{{}, Image<std::uint8_t>(labels.size), record.outside_map, record.face};

@@ -10,36 +10,10 @@
 #include "compare/budget.h"
 #include "compare/edges.h"
 #include "compare/exact_depth.h"
-#include "compare/labelling.h"
 #include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
-
-// What one pixel adds to the counts of a bias.
-struct Counts {
-  std::int64_t false_shadow = 0, missed_shadow = 0;
-  std::array<std::int64_t, class_count> classes{};
-  std::array<std::int64_t, cause_count> signed_steps{}, absolute_steps{};
-  std::array<std::int64_t, rung_count> rungs{};
-  std::array<std::int64_t, cause_count> blamed_false{}, blamed_missed{};
-  std::int64_t accidents_shadowed = 0, accidents_lit = 0;
-
-  void add(const Counts& other, std::int64_t sign) {
-    false_shadow += sign * other.false_shadow;
-    missed_shadow += sign * other.missed_shadow;
-    for (std::size_t k = 0; k < class_count; ++k) classes[k] += sign * other.classes[k];
-    for (std::size_t k = 0; k < cause_count; ++k) {
-      signed_steps[k] += sign * other.signed_steps[k];
-      absolute_steps[k] += sign * other.absolute_steps[k];
-      blamed_false[k] += sign * other.blamed_false[k];
-      blamed_missed[k] += sign * other.blamed_missed[k];
-    }
-    accidents_shadowed += sign * other.accidents_shadowed;
-    accidents_lit += sign * other.accidents_lit;
-    for (std::size_t k = 0; k < rung_count; ++k) rungs[k] += sign * other.rungs[k];
-  }
-};
 
 // A pixel that the bias lets light through to, for biases number `from` to `to` (excluded).
 struct Gap {
@@ -47,9 +21,9 @@ struct Gap {
   double distance = 0.0;
 };
 
-// One thread's share: counts[i] changes from bias i - 1 to bias i.
+// One thread's share: the sums change by changes[i] from bias i - 1 to bias i.
 struct Share {
-  std::vector<Counts> changes;
+  std::vector<PixelTerms> changes;
   std::vector<Gap> gaps;
   std::vector<WrongSpan> spans;
 };
@@ -82,7 +56,7 @@ class BiasAxis {
  public:
   BiasAxis(const LowerClimb& lower, const LadderInput& in, std::span<const double> asked)
       : lower_(lower), in_(in), biases_(asked), shares_([this] {
-          return Share{std::vector<Counts>(biases_.count() + std::size_t{1}), {}, {}};
+          return Share{std::vector<PixelTerms>(biases_.count() + std::size_t{1}), {}, {}};
         }) {}
 
   void run() {
@@ -90,11 +64,11 @@ class BiasAxis {
     parallel_for(lower_.groups.keys.size(), [&](std::size_t g) { add_group(g); });
     totals_.assign(biases_.count() + std::size_t{1}, {});
     for (const Share& share : shares_) {
-      for (std::size_t i = 0; i < totals_.size(); ++i) totals_[i].add(share.changes[i], 1);
+      for (std::size_t i = 0; i < totals_.size(); ++i) totals_[i].add(share.changes[i]);
       gaps_.insert(gaps_.end(), share.gaps.begin(), share.gaps.end());
       spans_.insert(spans_.end(), share.spans.begin(), share.spans.end());
     }
-    for (std::size_t i = 1; i < totals_.size(); ++i) totals_[i].add(totals_[i - 1], 1);
+    for (std::size_t i = 1; i < totals_.size(); ++i) totals_[i].add(totals_[i - 1]);
     tbb::parallel_sort(gaps_, [](const Gap& a, const Gap& b) {
       return a.pixel != b.pixel ? a.pixel < b.pixel : a.from < b.from;
     });
@@ -102,7 +76,7 @@ class BiasAxis {
 
   const Biases& biases() const { return biases_; }
   std::vector<WrongSpan> take_spans() { return std::move(spans_); }
-  const Counts& counts(std::size_t bias) const { return totals_[bias]; }
+  const PixelTerms& terms(std::size_t bias) const { return totals_[bias]; }
   Detachment detachment(std::size_t bias) const {
     DetachmentSum sum;
     for (const Gap& gap : gaps_)
@@ -112,7 +86,7 @@ class BiasAxis {
 
  private:
   std::uint32_t first_drawn_lit(std::uint32_t pixel) const {
-    return Biases::first_lit(biases_.drawn, in_.record.gap.data[pixel]);
+    return Biases::first_lit(biases_.drawn, in_.record().gap.data[pixel]);
   }
   bool truly_lit(std::uint32_t pixel) const { return lower_.rungs[0].data[pixel] > 0.5f; }
   bool ever_wrong(std::uint32_t pixel) const {
@@ -120,27 +94,12 @@ class BiasAxis {
     return truly_lit(pixel) ? lit_from > 0 : lit_from < biases_.count();
   }
 
-  // Counts of a pixel in one state, for biases from `from` to `to` (excluded).
+  // A pixel in one state, for biases from `from` to `to` (excluded).
   void add_state(std::uint32_t pixel, const std::array<float, rung_count>& v, Label label, std::uint32_t from,
                  std::uint32_t to) {
-    Counts counts;
-    counts.false_shadow = v[6] < v[0];
-    counts.missed_shadow = v[6] > v[0];
-    if (is_wrong(label)) {
-      const auto step = static_cast<std::size_t>(step_of_label(label, v));
-      counts.classes[static_cast<std::size_t>(label) - 1] = 1;
-      (counts.false_shadow != 0 ? counts.blamed_false : counts.blamed_missed)[step] = 1;
-    }
-    counts.accidents_shadowed = is_accident(v) && v[0] < 0.5f ? 1 : 0;
-    counts.accidents_lit = is_accident(v) && v[0] > 0.5f ? 1 : 0;
-    for (std::size_t k = 0; k < rung_count; ++k) counts.rungs[k] = v[k] > 0.5f;
-    for (std::size_t k = 0; k < cause_count; ++k) {
-      counts.signed_steps[k] = counts.rungs[k + 1] - counts.rungs[k];
-      counts.absolute_steps[k] = std::abs(counts.signed_steps[k]);
-    }
     Share& share = shares_.local();
-    share.changes[from].add(counts, 1);
-    share.changes[to].add(counts, -1);
+    share.changes[from].add(v, label);
+    share.changes[to].add(v, label, -1.0);
     if (is_wrong(label)) share.spans.push_back({pixel, from, to, label, v[6] < v[0]});
   }
 
@@ -160,26 +119,19 @@ class BiasAxis {
   void add_group(std::size_t group) {
     Column column(in_, lower_.groups.keys[group], lower_.surfaces);
     for (const std::uint32_t pixel : lower_.groups[group]) {
-      raytrace::TexelKey lookup = lower_.groups.keys[group];
-      const double gap = gap_with_bias(lower_, in_, group, pixel, lookup);
-      const std::uint32_t biased_from = Biases::first_lit(biases_.ascending, gap);
+      UpperPixel upper(lower_, in_, column, group, pixel, lower_.rungs);
+      std::array<float, rung_count> v = rungs_at(lower_.rungs, pixel);
+      const std::uint32_t biased_from = Biases::first_lit(biases_.ascending, upper.gap());
       const std::uint32_t drawn_from = first_drawn_lit(pixel);
-      const auto exact = ever_wrong(pixel) ? exact_gap(lower_, in_, group, pixel) : std::nullopt;
+      const auto exact = ever_wrong(pixel) ? upper.exact_gap() : std::nullopt;
       const std::uint32_t exact_from = exact ? Biases::first_lit(biases_.ascending, *exact) : biased_from;
       std::array<std::uint32_t, 5> ends{0, biased_from, drawn_from, exact_from, biases_.count()};
       std::sort(ends.begin(), ends.end());
-      std::array<float, rung_count> v{};
-      for (std::size_t k = 0; k < 5; ++k) v[k] = lower_.rungs[k].data[pixel];
       for (std::size_t s = 0; s + 1 < ends.size(); ++s) {
         if (ends[s] == ends[s + 1]) continue;
-        v[5] = ends[s] >= biased_from ? 1.0f : 0.0f;
         v[6] = ends[s] >= drawn_from ? 1.0f : 0.0f;
-        Label label = Label::right;
-        if (v[6] != v[0]) {
-          const bool exact_is_right = exact && v[5] != v[0] && (ends[s] >= exact_from ? 1.0f : 0.0f) == v[0];
-          label = label_wrong_pixel(in_, column,
-                                    {pixel, lookup, deciding_step(v), v[6] < v[0], exact_is_right, v[0]});
-        }
+        const auto [biased, label] = upper.verdict_at(biases_.ascending[ends[s]], v[6]);
+        v[5] = biased;
         add_state(pixel, v, label, ends[s], ends[s + 1]);
         if (label == Label::peter_panning) add_gap(pixel, ends[s], ends[s + 1]);
       }
@@ -187,7 +139,7 @@ class BiasAxis {
   }
 
   void add_gap(std::uint32_t pixel, std::uint32_t from, std::uint32_t to) {
-    if (const auto distance = detachment_distance(in_.tracer, in_.light, in_.traced.receiver.data[pixel]))
+    if (const auto distance = detachment_distance(in_.tracer, in_.light(), in_.traced.receiver.data[pixel]))
       // rounded as a map keeps it (detachment_map)
       shares_.local().gaps.push_back({pixel, from, to, double{static_cast<float>(*distance)}});
   }
@@ -196,35 +148,10 @@ class BiasAxis {
   const LadderInput& in_;
   Biases biases_;
   PerThread<Share> shares_;
-  std::vector<Counts> totals_;
+  std::vector<PixelTerms> totals_;
   std::vector<Gap> gaps_;
   std::vector<WrongSpan> spans_;
 };
-
-// As measure_pixels has it, from counts instead of images.
-void fill_counts(const Counts& counts, LightComparison& out) {
-  out.classes = {};
-  for (std::size_t k = 0; k < class_count; ++k)
-    out.classes[k] = static_cast<std::uint64_t>(counts.classes[k]);
-  out.accidents = {static_cast<std::uint64_t>(counts.accidents_shadowed),
-                   static_cast<std::uint64_t>(counts.accidents_lit)};
-  out.error = {};
-  out.budget = {};
-  out.rung_mean = {};
-  out.error.false_shadow = static_cast<std::uint64_t>(counts.false_shadow);
-  out.error.missed_shadow = static_cast<std::uint64_t>(counts.missed_shadow);
-  out.error.wrong = out.error.false_shadow + out.error.missed_shadow;
-  const auto count = static_cast<double>(out.pixels.compared);
-  if (!(count > 0.0)) return;
-  out.error.wrong_fraction = double(out.error.wrong) / count;
-  out.error.mean_absolute = double(out.error.wrong) / count;
-  out.error.rms = std::sqrt(double(out.error.wrong) / count);
-  for (std::size_t k = 0; k < cause_count; ++k)
-    out.budget[k] = {double(counts.signed_steps[k]) / count, double(counts.absolute_steps[k]) / count,
-                     static_cast<std::uint64_t>(counts.blamed_false[k]),
-                     static_cast<std::uint64_t>(counts.blamed_missed[k])};
-  for (std::size_t k = 0; k < rung_count; ++k) out.rung_mean[k] = double(counts.rungs[k]) / count;
-}
 
 // Everything but the images.
 LightComparison without_images(const LightComparison& light) {
@@ -254,14 +181,15 @@ BiasTable compare_biases(const LowerClimb& lower, const LadderInput& in, const L
                          std::span<const double> asked, int bias_curve_points) {
   BiasAxis axis(lower, in, asked);
   axis.run();
-  const EdgePaths edges({in.drawn, in.record, in.traced.receiver, lower.rungs[0], lower.sorted, in.world});
-  const GapLists gaps = sort_gaps(in.record, lower.rungs[0], lower.sorted);
+  const EdgePaths edges(
+      {in.drawn, in.record(), in.traced.receiver, lower.rungs[0], lower.sorted, in.world()});
+  const GapLists gaps = sort_gaps(in.record(), lower.rungs[0], lower.sorted);
   BiasTable out{std::vector<LightComparison>(asked.size()), axis.biases().place, axis.take_spans()};
   std::vector<LightComparison>& lights = out.lights;
   parallel_for(asked.size(), [&](std::size_t i) {
     const std::size_t place = axis.biases().place[i];
     lights[i] = without_images(drawn);
-    fill_counts(axis.counts(place), lights[i]);
+    axis.terms(place).put(lights[i]);
     lights[i].detachment = axis.detachment(place);
     lights[i].edges = edges.at(static_cast<float>(asked[i]));
     lights[i].bias_curve = draw_bias_curve(gaps, drawn.bias_texel_world, asked[i],

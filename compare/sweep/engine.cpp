@@ -6,7 +6,6 @@
 #include "compare/shimmer/shimmer.h"
 #include "compare/sweep/engine_impl.h"
 #include "raster/technique_traits.h"
-#include "scene/exposure.h"
 #include "scene/parallel.h"
 #include "scene/sort_numbers.h"
 
@@ -50,7 +49,8 @@ void add_gaps(const LadderInput& in, double scale, GapLists& gaps) {
     if (truth == 0.5f)
       ++gaps.ties;
     else
-      (truth > 0.5f ? gaps.lit : gaps.shadowed).push_back(static_cast<float>(scale * in.record.gap.data[i]));
+      (truth > 0.5f ? gaps.lit : gaps.shadowed)
+          .push_back(static_cast<float>(scale * in.record().gap.data[i]));
   }
 }
 
@@ -63,38 +63,8 @@ double raster_ms(const raster::RasterFrame& frame) {
 
 }  // namespace
 
-bool biases_follow_from_gaps(const raster::MapOptions& map) {
-  const bool mixes = map.technique == raster::Technique::csm && map.cascades.blend > 0.0;
-  return raster::traits_of(map.technique).test == raster::ShadowTest::single && !mixes;
-}
-
-raster::Bias with_constant(const raster::MapOptions& map, double constant_world, double texel_world) {
-  raster::Bias bias = map.bias;
-  const bool scales = raster::scales_bias(map);
-  bias.constant = scales ? constant_world / texel_world : constant_world;
-  bias.unit = scales ? raster::BiasUnit::texel : raster::BiasUnit::world;
-  return bias;
-}
-
-void rebias(const Image<std::uint32_t>& primitive, double constant_world, raster::LightRecord& record) {
-  record.bias_constant_world = constant_world;
-  const auto bias = static_cast<float>(constant_world);
-  parallel_for(record.gap.data.size(), [&](std::size_t i) {
-    const bool shadowed = primitive.data[i] != no_id && record.gap.data[i] > bias;
-    record.visibility.data[i] = shadowed ? 0.0f : 1.0f;
-  });
-}
-
 LadderInput Engine::Impl::input(const raster::RasterFrame& frame, std::size_t i) const {
-  const Light& light = scene.lights[frame.lights[i].light];
-  return {world,
-          *tracer,
-          topology,
-          light,
-          frame,
-          frame.lights[i],
-          comparison.raytraced,
-          comparison.raytraced.lights[i]};
+  return {*tracer, topology, frame, comparison.raytraced, i};
 }
 
 void Engine::Impl::trace(const Setting& setting) {
@@ -105,24 +75,19 @@ void Engine::Impl::trace(const Setting& setting) {
   drawn_for.reset();
   if (!tracer || truth_of->accel != setting.accel || truth_of->precision != setting.precision) {
     tracer = std::make_unique<raytrace::Tracer>(world, setting.accel, setting.precision);
-    comparison.precision = setting.precision;
-    comparison.accel_build_ms = tracer->stats().build_ms;
   }
   scene.camera = setting.camera;
   scene.lights = setting.lights;
   comparison.plan = plan_effects(scene);
   comparison.raytraced =
       raytrace::trace_frame(*tracer, comparison.plan, scene.camera, setting.compared, setting.raytrace);
-  comparison.exposure = scene.exposure ? *scene.exposure : auto_exposure(comparison.raytraced.color);
   truth_of = setting;
   ++work.truths;
 }
 
 Expected<void> Engine::Impl::draw(const Setting& setting) {
   drawn_for.reset();
-  raster::RasterOptions drawing = setting.raster;
-  drawing.seed = setting.raytrace.seed, drawing.shadow_samples = setting.raytrace.shadow_samples;
-  auto frame = renderer.render(drawing, setting.compared);
+  auto frame = renderer.render(drawing_options(setting.raster, setting.raytrace), setting.compared);
   if (!frame) return fail(frame.error());
   comparison.raster = std::move(*frame);
   drawn_for = setting;
@@ -153,15 +118,8 @@ void Engine::Impl::climb_lower() {
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     const LadderInput in = input(*lower_frame, i);
     lower.push_back(std::make_unique<LowerClimb>(in, sort_pixels(in)));
-    map_measures.push_back(measure_map(in, lower.back()->sorted));
     ++work.lower_climbs;
   }
-}
-
-MeasureOptions Engine::Impl::measure_options() const {
-  MeasureOptions options;
-  options.perceptual = perceptual;
-  return options;
 }
 
 std::size_t Engine::Impl::expected_place(const raster::Bias& bias) const {
@@ -179,9 +137,9 @@ bool Engine::Impl::fill_table() {
     const LadderInput in = input(comparison.raster, i);
     std::vector<double> biases;
     for (const raster::Bias& bias : expected)
-      biases.push_back(raster::constant_bias_world(bias, in.record.rounding, in.record.map.view, world));
+      biases.push_back(raster::constant_bias_world(bias, in.record().rounding, in.record().map.view, world));
     table.push_back(
-        compare_biases(*lower[i], in, comparison.lights[i], biases, measure_options().bias_curve_points));
+        compare_biases(*lower[i], in, comparison.lights[i], biases, MeasureOptions{}.bias_curve_points));
   }
   return true;
 }
@@ -194,20 +152,22 @@ bool Engine::Impl::measure_from_table(const raster::Bias& bias) {
   return true;
 }
 
-void Engine::Impl::measure() {
+Expected<void> Engine::Impl::measure() {
   if (!derived) climb_lower();
   has_images = true;
-  comparison.lights.clear();
-  for (std::size_t i = 0; i < comparison.raster.lights.size(); ++i) {
-    const LadderInput in = input(comparison.raster, i);
-    Times classify;
-    Climb climbed;
-    time_run(classify, [&] { climbed = climb_up(*lower[i], in); });
-    MeasureOptions options = measure_options();
-    options.map = &map_measures[i];
-    comparison.lights.push_back(measure_light(in, i, std::move(climbed), options));
-    comparison.lights.back().classify = classify;
-  }
+  const Plan plan{.tracer = *tracer,
+                  .picture = comparison.raster.primitive.size,
+                  .lights = truth_of->compared,
+                  .measure = {.perceptual = perceptual, .by_cascade = false},
+                  .maps = map_measures,
+                  .topology = &topology};
+  const auto measured =
+      measure_frames(comparison, plan, [&](const LadderInput& in) { return climb_up(*lower[in.index], in); });
+  if (!measured) return measured;
+  map_measures.clear();
+  for (const LightComparison& light : comparison.lights)
+    map_measures.push_back({light.texel_world, light.theory});
+  return {};
 }
 
 Expected<void> Engine::Impl::compare(const Setting& setting, Detail detail) {
@@ -218,8 +178,7 @@ Expected<void> Engine::Impl::compare(const Setting& setting, Detail detail) {
   if (!derived) {
     if (auto drawn = draw(setting); !drawn) return drawn;
     table.clear();
-    measure();
-    return {};
+    return measure();
   }
   if (detail == Detail::numbers && expected_place(setting.raster.map.bias) < expected.size()) {
     derive(setting, Detail::numbers);
@@ -228,8 +187,7 @@ Expected<void> Engine::Impl::compare(const Setting& setting, Detail detail) {
     --work.derived;
   }
   derive(setting, Detail::images);
-  measure();
-  return {};
+  return measure();
 }
 
 // Draws for what is not a comparison: nothing of what stood before holds for it.
@@ -251,7 +209,7 @@ Expected<double> Engine::Impl::time_drawing(const Setting& setting) {
 std::vector<ErrorFigures> Engine::Impl::figures(ErrorMeasure measure) const {
   std::vector<ErrorFigures> out;
   for (std::size_t i = 0; i < comparison.raster.lights.size(); ++i)
-    out.push_back(measure_figures(input(comparison.raster, i), measure));
+    out.push_back(figures_of(input(comparison.raster, i), measure));
   return out;
 }
 
@@ -304,10 +262,7 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting, ErrorMeasure measure
 }
 
 Engine::Engine(Scene& scene, const World& world, raster::Renderer& renderer, bool perceptual)
-    : impl_(std::make_unique<Impl>(scene, world, renderer, perceptual)) {
-  impl_->comparison.world = &world;
-  impl_->comparison.threads = threads_in_use();
-}
+    : impl_(std::make_unique<Impl>(scene, world, renderer, perceptual)) {}
 
 Engine::~Engine() = default;
 

@@ -113,19 +113,4 @@ inline constexpr std::uint8_t code_label_mask = 0x1f;
 inline constexpr std::uint8_t code_true_shadow = 0x20;   ///< truly in shadow, of the light that counts
 inline constexpr std::uint8_t code_false_shadow = 0x40;  ///< drawn darker than the truth
 
-/// A frame drawn with these options shadows a pixel iff its gap exceeds the constant bias: every other
-/// constant bias follows from it.
-bool biases_follow_from_gaps(const raster::MapOptions& map);
-/// And no shader of the user's own decided otherwise.
-inline bool biases_follow_from_gaps(const raster::RasterFrame& drawn) {
-  return !drawn.custom_shader && biases_follow_from_gaps(drawn.options.map);
-}
-
-/// The map's bias with another constant, in the unit that draws it: texels of `texel_world` where the
-/// constant scales (raster::scales_bias), else world units.
-raster::Bias with_constant(const raster::MapOptions& map, double constant_world, double texel_world);
-
-/// Turns a record into that of another constant bias. `primitive`: what each pixel shows.
-void rebias(const Image<std::uint32_t>& primitive, double constant_world, raster::LightRecord& record);
-
 }  // namespace gnomon::compare

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "compare/light_comparison.h"
+#include "compare/measure/figures.h"
 #include "compare/sweep/bias_axis.h"
 #include "compare/sweep/engine.h"
 
@@ -22,7 +22,7 @@ struct Engine::Impl {
   /// The drawing that the lower climbs were made from, and one climb per light compared.
   std::unique_ptr<raster::RasterFrame> lower_frame;
   std::vector<std::unique_ptr<LowerClimb>> lower;
-  std::vector<MapMeasures> map_measures;  ///< as `lower`
+  std::vector<MapMeasures> map_measures;  ///< as `lower`; empty: not measured yet
   Rgb8Image backdrop;                     ///< the ray-traced picture in grey; empty: not made yet
   bool has_images = false;
   std::vector<raster::Bias> expected;
@@ -62,13 +62,12 @@ struct Engine::Impl {
   void derive(const Setting& setting, Detail detail);
   /// The lower rungs of all lights, kept where the maps are the same as before.
   void climb_lower();
-  MeasureOptions measure_options() const;
   /// Place of the bias among those expected, or their count.
   std::size_t expected_place(const raster::Bias& bias) const;
   /// The numbers of all expected biases, once per drawing; false where they cannot be made together.
   bool fill_table();
   bool measure_from_table(const raster::Bias& bias);
-  void measure();
+  Expected<void> measure();
   /// V6 - V0 of the light that is most wrong at a pixel.
   float worst_error(std::size_t pixel) const;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "compare/budget.h"
 #include "compare/number_text.h"
 #include "scene/parallel.h"
 
@@ -59,7 +60,7 @@ void add_light(const Json& light, CellSummary& sum, Json& classes) {
 
 void finish_means(CellSummary& sum, const Json& classes) {
   const auto weight = static_cast<double>(std::max<std::uint64_t>(sum.compared, 1));
-  sum.wrong_fraction = (static_cast<double>(sum.wrong) + 0.5 * static_cast<double>(sum.ties)) / weight;
+  sum.wrong_fraction = wrong_share(sum.wrong, sum.ties, sum.compared);
   sum.mean_absolute /= weight;
   sum.rms = std::sqrt(sum.rms / weight);
   sum.flip /= weight;

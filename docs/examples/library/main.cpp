@@ -28,15 +28,10 @@ int main(int argc, char** argv) {
   if (!context) return fail_with(context.error());
   auto renderer = raster::Renderer::create(std::move(*context), world, plan);
   if (!renderer) return fail_with(renderer.error());
-  const auto drawn = (*renderer)->render(options.raster, lights);
-  if (!drawn) return fail_with(drawn.error());
-
-  const raytrace::Tracer tracer(world, raytrace::Accel::bvh);
-  const auto traced = trace_frame(tracer, plan, scene->camera, lights, options.raytrace);
-  const auto compared = compare::compare_frames(world, tracer, *drawn, traced, options);
+  const auto compared = compare::compare_world(world, **renderer, lights, options);
   if (!compared) return fail_with(compared.error());
 
-  const compare::LightComparison& light = compared->front();
+  const compare::LightComparison& light = compared->lights.front();
   std::printf("%llu of %llu pixels are wrong\n", static_cast<unsigned long long>(light.error.wrong),
               static_cast<unsigned long long>(light.pixels.compared));
   for (std::size_t i = 0; i < compare::class_count; ++i)

@@ -1,11 +1,12 @@
 // What the pictures of a comparison in bands are drawn from, on the disk until everything is known that they need.
 #pragma once
 
-#include <map>
+#include <string>
+#include <vector>
 
-#include "compare/bands/light_measures.h"
-#include "compare/picture_set.h"
+#include "compare/comparison.h"
 #include "scene/files/row_file.h"
+#include "scene/picture_rows.h"
 
 namespace gnomon::compare {
 
@@ -58,16 +59,14 @@ class PictureStore {
   struct Wanted {
     bool raster = false, raytraced = false, visibility = false, edges = false, detachment = false,
          flip = false, ssim = false, decisions = false;
+    bool operator==(const Wanted&) const = default;
   };
-  /// The comparison and its light with the wanted images of these rows alone.
+  /// The comparison and that light alone, with the wanted images of these rows alone.
   Expected<Comparison> rows_of(const Comparison& whole, std::size_t light, const PictureRows& rows,
                                const Wanted& wanted) const;
 
  private:
   ImageSize size_;
 };
-
-/// encode_pictures() of what is stored, as many pictures at a time as memory has room for.
-Expected<PictureSet> encode_pictures(const Comparison& comparison, const PictureStore& store);
 
 }  // namespace gnomon::compare

@@ -10,6 +10,12 @@ struct Reduction {
   int height = 0;  ///< of the whole picture, pixels
 };
 
+/// The page shows every step-th pixel of every step-th row of a picture with more pixels than it can hold: 1 up to 8
+/// million pixels.
+int image_step(const ImageSize& picture);
+/// The comparison with the images of those pixels alone; `comparison` has all.
+Comparison reduced_images(const Comparison& comparison, int step);
+
 /// Puts what a step leaves of these rows, the first of which is first_row of the picture, under what is there.
 template <class T>
 void append_reduced(Image<T>& to, const Image<T>& rows, int first_row, const Reduction& reduction) {

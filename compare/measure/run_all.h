@@ -1,4 +1,4 @@
-// Steps that do not hang on each other, over all threads.
+// Steps that do not depend on each other, over all threads.
 #pragma once
 
 #include <algorithm>

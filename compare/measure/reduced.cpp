@@ -1,6 +1,4 @@
-#include "compare/bands/reduced.h"
-
-#include "compare/bands/bands.h"
+#include "compare/measure/reduced.h"
 
 namespace gnomon::compare {
 namespace {

@@ -1,0 +1,11 @@
+// The figures of a drawing that is not climbed.
+#pragma once
+
+#include "compare/ladder.h"
+
+namespace gnomon::compare {
+
+/// What `measure` needs of one light of a whole picture; figures that cost more are left NaN.
+ErrorFigures figures_of(const LadderInput& input, ErrorMeasure measure);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,247 @@
+#include "compare/measure/sums.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/cascades.h"
+#include "compare/flip.h"
+#include "compare/measure/run_all.h"
+#include "compare/shadow_cost.h"
+#include "compare/ssim.h"
+#include "scene/sort_numbers.h"
+#include "scene/stages.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr int perception_margin = 64;  // rows; more than the filters of FLIP and SSIM reach
+
+/// Rows wanted and as many around them as there are.
+PictureRows widened(const PictureRows& rows, int by, int height) {
+  const int first = std::max(0, rows.first - by), end = std::min(height, rows.end() + by);
+  return {first, end - first};
+}
+
+}  // namespace
+
+void Perception::add(const NearLight& light, int first_row, const PictureRows& rows, int height,
+                     FinishedMaps& maps) {
+  const PictureRows wide = widened(rows, perception_margin, height);
+  const PictureRows near{wide.first - first_row, wide.count}, inner{rows.first - wide.first, rows.count};
+  const Image<float> truth = visibility_picture(light.truth, light.labels, near);
+  const Image<float> drawn = visibility_picture(light.drawn, light.labels, near);
+  maps.flip = cut_rows(flip_error(truth, drawn), inner);
+  for (int y = 0; y < rows.count; ++y) {
+    double row = 0.0;
+    for (int x = 0; x < maps.flip.size.width; ++x) row += static_cast<double>(maps.flip.at(x, y));
+    flip_sum_ += row;
+  }
+  flips_ += maps.flip.data.size();
+  maps.ssim = cut_rows(ssim_by_pixel(ssim_map(truth, drawn), truth.size), inner);
+  constexpr int middle = ssim_window / 2;
+  for (int y = 0; y < rows.count; ++y) {
+    const int row = rows.first + y;
+    if (row < middle || row >= height - middle) continue;
+    for (int x = middle; x < maps.ssim.size.width - middle; ++x)
+      ssim_sum_ += static_cast<double>(maps.ssim.at(x, y)), ++ssims_;
+  }
+  const int first = rows.first - first_row;
+  flip_compared_.add(maps.flip, light.labels, first), ssim_compared_.add(maps.ssim, light.labels, first);
+}
+
+void Perception::put(ErrorStats& out) const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  out.flip = flips_ == 0 ? 0.0 : flip_sum_ / static_cast<double>(flips_);
+  out.ssim = ssims_ == 0 ? none : ssim_sum_ / static_cast<double>(ssims_);
+  out.flip_compared = flip_compared_.mean(), out.ssim_compared = ssim_compared_.mean();
+}
+
+Expected<FinishedMaps> LightSums::add_neighbours(const LadderInput& near, const NearLight& light,
+                                                 const PictureRows& rows) {
+  FinishedMaps maps;
+  if (rows.count <= 0) return maps;
+  const TimedStage stage("metrics");
+  const int first_row = near.place.first_row;
+  const PictureRows here{rows.first - first_row, rows.count};
+  const EdgeInput edges{near.drawn,   near.record(), near.traced.receiver, light.truth, light.climbed,
+                        near.world(), first_row};
+  add_edges(edges, here, edges_);
+  if (const auto seams = count_seams(near, light.labels, here)) {
+    SeamCount& sum = seams_ ? *seams_ : seams_.emplace();
+    sum.at_border += seams->at_border, sum.changed += seams->changed;
+  }
+  if (options_.perceptual) {
+    maps.edges = edge_displacement_rows(edges, here);
+    perception_.add(light, first_row, rows, picture_.height, maps);
+  }
+  if (options_.map != nullptr) return maps;
+  TheoryValues values = theory_values(near, light.labels, here, picture_.height);
+  std::vector<Step> steps;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    steps.emplace_back([this, k, &values] {
+      std::erase_if(values[k], [](double v) { return !std::isfinite(v); });
+      return theory_[k].append(options_.spill, std::move(values[k]));
+    });
+  if (const auto added = run_all(steps); !added) return fail(added.error());
+  if (rows.end() == picture_.height)
+    if (const auto done = finish_theory(); !done) return fail(done.error());
+  return maps;
+}
+
+/// As soon as all is there, so that these lists and those of gaps are not in memory at one time.
+Expected<void> LightSums::finish_theory() {
+  const auto most = std::max_element(theory_.begin(), theory_.end(),
+                                     [](const auto& a, const auto& b) { return a.count() < b.count(); });
+  const double bytes = 8.0 * static_cast<double>(most->count());
+  std::vector<Step> steps;
+  for (std::size_t k = 0; k < theory_.size(); ++k)
+    steps.emplace_back([this, k]() -> Expected<void> {
+      auto values = theory_[k].take();
+      if (!values) return fail(values.error());
+      distribution_of(theory_stats_, k) = distribution(*values);
+      return {};
+    });
+  return run_all(steps, steps_together(bytes));
+}
+
+Expected<Image<float>> LightSums::add_pixels(const LadderInput& in, const Climb& climb,
+                                             const Image<Label>& labels_climbed) {
+  const TimedStage stage("metrics");
+  const Image<Label>& labels = climb.labels;
+  if (!begun_) {
+    if (options_.by_cascade) cascades_ = sums_of_cascades(in.drawn, in.record());
+    soft_ = !in.truth().visibility.data.empty();
+    has_curve_ = why_no_curve(in.drawn, in.record()).empty();
+    has_kinds_ = has_curve_ && options_.perceptual && kinds_apply(in.drawn, in.record());
+    begun_ = true;
+  }
+  sums_.add(climb.rungs, labels);
+  for (CascadeSums& cascade : cascades_) cascade.add(in.record(), climb.rungs, labels);
+  if (soft_) {
+    climbed_compared_ += count_pixels(labels_climbed).compared;
+    standard_errors_.add(in.truth(), labels);
+    penumbra_.add(in, climb.rungs.front(), labels_climbed);
+  }
+  Image<float> detached = detachment_map(in.tracer, in.light(), in.traced.receiver, labels);
+  for (const float distance : detached.data)
+    if (!std::isnan(distance)) detachment_.add(double{distance});
+  bleeding_.add(in, climb.rungs, labels);
+  if (const auto lookups = count_lookups(in.drawn, in.record(), labels))
+    lookups_ = lookups_.value_or(0) + *lookups;
+  if (options_.perceptual) {
+    const std::size_t first = in.traced.receiver.index(0, in.place.first_row);
+    add_ray_work(in.tracer, in.light(), in.traced.receiver, labels, first, picture_.pixels(), ray_work_);
+  }
+  if (const auto added = add_lists(in, climb); !added) return fail(added.error());
+  return detached;
+}
+
+Expected<void> LightSums::add_lists(const LadderInput& in, const Climb& climb) {
+  if (options_.map == nullptr) {
+    std::vector<double> widths = texel_widths(in, climb.labels);
+    if (has_one_texel_size(in.record().map.view)) {
+      if (texel_width_.empty()) texel_width_ = std::move(widths);
+    } else if (const auto added = texel_widths_.append(options_.spill, std::move(widths)); !added) {
+      return added;
+    }
+  }
+  if (!has_curve_) return {};
+  const TimedStage stage("curve");
+  const Image<float>& truth = climb.rungs[0];
+  ties_ += count_ties(truth, climb.labels);
+  std::vector<Step> steps;
+  for (const bool lit : {false, true})
+    steps.emplace_back([&, lit] {
+      return gaps_[lit ? 1 : 0].append(options_.spill, gaps_where(in.record(), truth, climb.labels, lit));
+    });
+  KindSettings found;
+  if (has_kinds_) found = settings_of_kinds(in, truth, climb.labels);
+  for (std::size_t k = 0; has_kinds_ && k < kind_count; ++k)
+    steps.emplace_back([this, &found, k]() -> Expected<void> {
+      GapLists lists;
+      put_into_lists(found.settings[k], found.lit, lists);
+      kinds_left_out_[k] += lists.lit_left_out;
+      if (const auto added = kinds_[k][0].append(options_.spill, std::move(lists.shadowed)); !added)
+        return added;
+      return kinds_[k][1].append(options_.spill, std::move(lists.lit));
+    });
+  return run_all(steps);
+}
+
+Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
+  const TimedStage stage("metrics");
+  out.light = in.record().light;
+  out.record = in.index;
+  out.pixels = sums_.pixels();
+  sums_.terms().put(out);
+  if (options_.perceptual) perception_.put(out.error);
+  out.cascades = figures_of(cascades_);
+  out.edges = edges_.stats();
+  out.detachment = detachment_.stats();
+  out.bleeding = bleeding_.stats();
+  if (soft_) {
+    out.pixels.uncertain_by_samples = climbed_compared_ - out.pixels.compared;
+    out.penumbra = penumbra_.stats();
+    standard_errors_.put(*out.penumbra);
+  }
+  out.bias_texel_world = in.record().texel_world;
+  out.seams = seams_;
+  out.lookups = lookups_;
+  out.ray_work = ray_work_;
+  if (options_.map != nullptr) {
+    out.texel_world = options_.map->texel_world, out.theory = options_.map->theory;
+  } else {
+    auto widths = texel_widths_.take();
+    if (!widths) return fail(widths.error());
+    out.texel_world = low_middle_high(texel_width_.empty() ? *widths : texel_width_);
+    out.theory = theory_stats_;
+  }
+  out.bias_curve_withheld = why_no_curve(in.drawn, in.record());
+  return out.bias_curve_withheld.empty() ? finish_curve(in, out) : Expected<void>{};
+}
+
+namespace {
+
+Expected<GapLists> sorted_lists(std::array<NumberList<float>, 2>& files, std::uint64_t ties) {
+  GapLists lists;
+  lists.ties = ties;
+  for (const bool lit : {false, true}) {
+    auto numbers = files[lit ? 1 : 0].take();
+    if (!numbers) return fail(numbers.error());
+    sort_numbers(std::span(*numbers));
+    (lit ? lists.lit : lists.shadowed) = std::move(*numbers);
+  }
+  return lists;
+}
+
+}  // namespace
+
+Expected<void> LightSums::finish_curve(const LadderInput& in, LightComparison& out) {
+  const TimedStage stage("curve");
+  const double bytes_of_lists = 12.0 * double(gaps_[0].count() + gaps_[1].count());  // with what sorts them
+  std::vector<Step> steps{[&]() -> Expected<void> {
+    const auto gaps = sorted_lists(gaps_, ties_);
+    if (!gaps) return fail(gaps.error());
+    out.best_bias = find_advised_bias(*gaps);
+    out.bias_curve = draw_bias_curve(*gaps, out.bias_texel_world, in.record().bias_constant_world,
+                                     out.best_bias.constant_world, options_.bias_curve_points);
+    return {};
+  }};
+  const bool kinds = has_kinds_ && out.pixels.compared > 0;
+  if (kinds) out.bias_kinds.resize(kinds_in_order.size());
+  for (std::size_t k = 0; k < out.bias_kinds.size(); ++k)
+    steps.emplace_back([&, k]() -> Expected<void> {
+      const KindOfBias kind = kinds_in_order[k];
+      auto lists = sorted_lists(kinds_[kind], ties_);
+      if (!lists) return fail(lists.error());
+      lists->lit_left_out = kinds_left_out_[kind];
+      out.bias_kinds[k] = kind_of_bias(kind, in, *lists);
+      return {};
+    });
+  if (const auto done = run_all(steps, steps_together(bytes_of_lists)); !done) return done;
+  if (kinds) sort_kinds(out.bias_kinds);
+  return {};
+}
+
+}  // namespace gnomon::compare
