@@ -1,5 +1,5 @@
-// The comparison's long lists, against slower ways to the same: sorted numbers, pixels that something holds
-// of, pixels by their texel, and the closed form of a plane's depth slope.
+// The comparison's long lists, against slower ways to the same: sorted numbers, numbers on the disk, pixels that something
+// holds of, pixels by their texel, and the closed form of a plane's depth slope.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <random>
 
 #include "compare/biased_test.h"
+#include "compare/measure/number_list.h"
 #include "compare/pixel_list.h"
 #include "compare/texel_groups.h"
 #include "scene/sort_numbers.h"
@@ -145,6 +146,30 @@ TEST(TexelDepthSlope, OfEvenTexelsIsThePlanesOwn) {
       EXPECT_NEAR(slope, expected, 1e-12 * expected);  // of the general form's differences
   }
   EXPECT_TRUE(std::isinf(texel_depth_slope(even, at, position, even.face(0).forward))) << "turned away";
+}
+
+// Bands of random lengths, none among them, on either side of the limit: what comes back is what went in, in its order,
+// and the list can be filled again.
+TEST(NumberList, GivesBackWhatSpilled) {
+  std::mt19937 random(4);
+  for (const std::size_t limit :
+       {std::size_t{0}, std::size_t{400}, std::size_t{4000}, std::size_t{1} << 20}) {
+    const Spill spill{testing::TempDir(), limit};
+    NumberList<float> list;
+    for (int again = 0; again < 2; ++again) {
+      std::vector<float> all;
+      for (int band = 0; band < 20; ++band) {
+        std::vector<float> numbers = random_gaps(random() % 4 * 40, random);
+        all.insert(all.end(), numbers.begin(), numbers.end());
+        ASSERT_TRUE(list.append(spill, std::move(numbers)));
+        EXPECT_EQ(list.count(), all.size());
+      }
+      const auto back = list.take();
+      ASSERT_TRUE(back);
+      EXPECT_EQ(*back, all) << "limit " << limit;
+      EXPECT_EQ(list.count(), 0U);
+    }
+  }
 }
 
 }  // namespace
