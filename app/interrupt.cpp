@@ -107,13 +107,15 @@ void end_process(int exit_code, std::string_view words) {
 OutputGuard::OutputGuard() : lock_(output_mutex()) {}
 
 RemovedOnSignal::RemovedOnSignal(const std::string& path) {
-  const OutputGuard guard;
-  place_ = temporary_folders().insert(temporary_folders().end(), path);
+  TemporaryFolders& folders = temporary_folders();
+  const std::lock_guard lock(folders.mutex);
+  place_ = folders.paths.insert(folders.paths.end(), path);
 }
 
 RemovedOnSignal::~RemovedOnSignal() {
-  const OutputGuard guard;
-  temporary_folders().erase(place_);
+  TemporaryFolders& folders = temporary_folders();
+  const std::lock_guard lock(folders.mutex);
+  folders.paths.erase(place_);
 }
 
 TemporaryFolder::TemporaryFolder(const std::string& name) {
