@@ -156,13 +156,13 @@ struct InputsOfSets {
       run(Words{"sweep", "acne-floor", "--bias", "0,0.1", "--shard", std::string(part) + "/2", "-o",
                 std::string("shard") + part, "-q"} +
           small);
-    run({"export", "--suite", "suite", "--size", "64x36", "-q"});
+    run({"export", "--suite", "suite", "--size", "16x9", "-q"});
     for (const char* name : {"a", "b"}) {
       fs::create_directories(folder / (std::string("captures/") + name));
       for (const char* file : {"/cube-seams.glb", "/cube-seams.exr"})
         fs::copy_file(folder / "suite" + file, folder / (std::string("captures/") + name) + file);
       write_text(folder / (std::string("captures/") + name) + "/capture.json",
-                 R"({"schema": "gnomon/capture/1", "renderer": {"name": "x"}, "size": [64, 36],
+                 R"({"schema": "gnomon/capture/1", "renderer": {"name": "x"}, "size": [16, 9],
                      "scene": "cube-seams.glb", "visibility": "cube-seams.exr"})");
     }
   }
@@ -173,7 +173,7 @@ struct InputsOfSets {
 };
 
 const std::vector<Words> sets = {{"shaders", "-q", "-o"},
-                                 {"export", "-q", "--size", "64x36", "--suite"},
+                                 {"export", "-q", "--size", "16x9", "--suite"},
                                  {"merge", "-q", "shard1", "shard2", "-o"},
                                  {"judge", "-q", "--suite", "captures", "-o"}};
 
@@ -181,7 +181,7 @@ const std::vector<Words> sets = {{"shaders", "-q", "-o"},
 TEST(NoDataLost, SetsOfFilesAreThereWholeOrNotAtAll) {
   const InputsOfSets inputs;
   const auto limited = [&](const Words& words) {
-    return run_gnomon(words, {.folder = inputs.folder.path(), .file_size_limit = 6000});
+    return run_gnomon(words, {.folder = inputs.folder.path(), .file_size_limit = 3000});
   };
   for (const Words& words : sets) {
     const auto before = all_files(inputs.folder.path());
