@@ -99,7 +99,7 @@ Expected<void> LightSums::finish_theory() {
     steps.emplace_back([this, k]() -> Expected<void> {
       auto values = theory_[k].take();
       if (!values) return fail(values.error());
-      distribution_of(theory_stats_, k) = distribution(*values);
+      distribution_of(map_.theory, k) = distribution(*values);
       return {};
     });
   return run_all(steps, steps_together(bytes));
@@ -137,16 +137,20 @@ Expected<Image<float>> LightSums::add_pixels(const LadderInput& in, const Climb&
   return detached;
 }
 
-Expected<void> LightSums::add_lists(const LadderInput& in, const Climb& climb) {
-  if (options_.map == nullptr) {
-    std::vector<double> widths = texel_widths(in, climb.labels);
-    if (has_one_texel_size(in.record().map.view)) {
-      if (texel_width_.empty()) texel_width_ = std::move(widths);
-    } else if (const auto added = texel_widths_.append(options_.spill, std::move(widths)); !added) {
+Expected<void> LightSums::add_widths(const LadderInput& in, const Image<Label>& labels) {
+  if (options_.map != nullptr) return {};
+  if (texel_widths_.count() == 0 || !has_one_texel_size(in.record().map.view))
+    if (const auto added = texel_widths_.append(options_.spill, texel_widths(in, labels)); !added)
       return added;
-    }
-  }
-  if (!has_curve_) return {};
+  if (in.place.first_row + labels.size.height < picture_.height) return {};
+  auto widths = texel_widths_.take();
+  if (!widths) return fail(widths.error());
+  map_.texel_world = low_middle_high(*widths);
+  return {};
+}
+
+Expected<void> LightSums::add_lists(const LadderInput& in, const Climb& climb) {
+  if (const auto added = add_widths(in, climb.labels); !added || !has_curve_) return added;
   const TimedStage stage("curve");
   const Image<float>& truth = climb.rungs[0];
   ties_ += count_ties(truth, climb.labels);
@@ -189,14 +193,8 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
   out.seams = seams_;
   out.lookups = lookups_;
   out.ray_work = ray_work_;
-  if (options_.map != nullptr) {
-    out.texel_world = options_.map->texel_world, out.theory = options_.map->theory;
-  } else {
-    auto widths = texel_widths_.take();
-    if (!widths) return fail(widths.error());
-    out.texel_world = low_middle_high(texel_width_.empty() ? *widths : texel_width_);
-    out.theory = theory_stats_;
-  }
+  const auto [texel_world, theory] = options_.map != nullptr ? *options_.map : map_;
+  out.texel_world = texel_world, out.theory = theory;
   out.bias_curve_withheld = why_no_curve(in.drawn, in.record());
   return out.bias_curve_withheld.empty() ? finish_curve(in, out) : Expected<void>{};
 }

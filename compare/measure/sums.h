@@ -66,6 +66,7 @@ class LightSums {
   Expected<void> finish(const LadderInput& in, LightComparison& out);
 
  private:
+  Expected<void> add_widths(const LadderInput& in, const Image<Label>& labels);
   Expected<void> add_lists(const LadderInput& in, const Climb& climb);
   Expected<void> finish_theory();
   Expected<void> finish_curve(const LadderInput& in, LightComparison& out);
@@ -85,10 +86,9 @@ class LightSums {
   RayWork ray_work_;
   EdgeSums edges_;
   Perception perception_;
-  std::vector<double> texel_width_;  ///< where all are alike
-  NumberList<double> texel_widths_;
+  NumberList<double> texel_widths_;  ///< one where all are alike
   std::array<NumberList<double>, std::tuple_size_v<TheoryValues>> theory_;
-  TheoryStats theory_stats_;
+  MapMeasures map_;
   std::array<NumberList<float>, 2> gaps_;  ///< of shadowed and of lit pixels
   std::uint64_t ties_ = 0;                 ///< in neither (GapLists)
   std::array<std::array<NumberList<float>, 2>, kind_count> kinds_;
