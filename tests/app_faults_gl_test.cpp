@@ -104,7 +104,7 @@ TEST(Faults, AFolderThatMayOnlyBeRead) {
         Words{"raytrace", "acne-floor", "-o", "out/a.png", "-q"} + Words{"--size", "8x8"}}) {
     const ProcessResult result = run_gnomon(words, {.folder = folder.path(), .prepare = become_nobody});
     if (result.exit_code == 98) GTEST_SKIP() << "another user cannot run the program where it lies";
-    expect_one_line(result, 4, "cannot write here");
+    expect_one_line(result, 4, "Permission denied");
   }
   chmod(folder.path().c_str(), 0755);
   EXPECT_EQ(folder.entries(), Words{"out/"});
@@ -132,7 +132,7 @@ TEST(Faults, LinksInACircleAndNoFolderForTemporaryFiles) {
   fs::create_directory(folder / "suite");
   fs::create_symlink("capture.json", folder / "suite/capture.json");
   fs::create_symlink("round", folder / "suite/round");
-  expect_one_line(run_gnomon({"judge", "--suite", folder / "suite"}), 3, "no capture.json in");
+  expect_one_line(run_gnomon({"judge", "--suite", folder / "suite"}), 3, "Too many levels of symbolic links");
   const Words bands{"compare", "acne-floor", "--size", "1280x720", "--memory", "150M", "--json", "-", "-q"};
   const ProcessResult compared =
       run_gnomon(bands, {.folder = folder.path(), .environment = {"TMPDIR=" + (folder / "none")}});

@@ -124,7 +124,7 @@ TEST(Names, OnTheCommandLineAreEscapedInErrors) {
 TEST(Names, TooLongForAFolder) {
   const std::string long_name(5000, 'x');
   expect_one_line(run_gnomon({"raster", "fence", "-o", "x.png", "--shader-dir", long_name}), 2,
-                  "no such folder");
+                  "File name too long");
 }
 
 // The script that goes to sbatch holds no line but the program's own.

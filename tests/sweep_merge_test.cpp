@@ -32,7 +32,7 @@ std::string merge_line(int cell) {
 
 std::string merge_times(std::size_t cell) {
   std::string times = "\"lights\":[{";
-  for (const char* pass : {"exact_shadows", "shadow_lookups", "map_pass", "shade_pass"})
+  for (const char* pass : {"exact_shadows", "shadow_lookups", "map_pass", "shade_pass", "unshadowed_pass"})
     times += std::string("\"") + pass + R"(":{"median":1,"runs":[1]},)";
   times.back() = '}';
   return sealed("{\"cell\":" + std::to_string(cell) + R"(,"derived":false,"primary_rays":{"median":1},)" +
