@@ -149,7 +149,7 @@ void drop_times(Json& json) {
       if (member.is_structured()) drop_times(member);
       continue;
     }
-    for (auto& time : member) time = times_json({});
+    for (auto& time : member) time = time.contains("low") ? difference_json({}) : times_json({});
   }
 }
 

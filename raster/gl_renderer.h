@@ -86,7 +86,7 @@ class GlRenderer final : public Renderer {
   void keep_timed_visibility(Job& job) const;
   /// Before what is kept and not timed: where the frame is timed always, else before the first of its kind.
   Expected<void> warm_up_shading(const Job& job, const ShadePermutation& permutation);
-  Expected<void> warm_up_map(const Job& job, const MapJob& map, bool for_records);
+  Expected<void> warm_up_map(const Job& job, const MapJob& map, bool for_records, const Pass& pass);
   Expected<void> draw_visibility(const View& view);
   Expected<void> read_shading(Job& job, const MapJob& map_job, LightRecord& record);
   /// The map of the last frame with records, as long as the device holds it.

@@ -197,11 +197,13 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
   }
   const bool for_records = record != nullptr && hands_on_map(job.options);
   if (!timed || (for_records && draws_map_for_records(map.options.technique))) {
-    if (auto ok = warm_up_map(job, map, for_records); !ok) return ok;
+    // What the timed runs left in the technique's pass stays: the map of depths alone is still to be drawn.
+    const Pass kept = [&] {
+      return timed ? map_pass_.draw(buffers_, map.view, map.options.cull) : draw_map(map, for_records);
+    };
+    if (auto ok = warm_up_map(job, map, for_records, kept); !ok) return ok;
     const TimedStage drawing("map");
-    if (auto ok = timed ? map_pass_.draw(buffers_, map.view, map.options.cull) : draw_map(map, for_records);
-        !ok)
-      return ok;
+    if (auto ok = kept(); !ok) return ok;
     (*gl_)->Finish();
   }
   const ReadBack reading(job.frame);
@@ -229,7 +231,8 @@ Expected<void> GlRenderer::draw_visibility(const View& view) {
   return pass();
 }
 
-Expected<void> GlRenderer::warm_up_map(const Job& job, const MapJob& map, bool for_records) {
+Expected<void> GlRenderer::warm_up_map(const Job& job, const MapJob& map, bool for_records,
+                                       const Pass& pass) {
   const FilterOptions& filter = map.options.filter;
   const WarmMap key{map.options.technique,
                     map.light.type,
@@ -239,8 +242,7 @@ Expected<void> GlRenderer::warm_up_map(const Job& job, const MapJob& map, bool f
                     filter.mipmaps,
                     for_records};
   const bool first = warm_maps_.insert(key).second;
-  return first || job.options.runs > 0 ? warm_up([&] { return draw_map(map, for_records); })
-                                       : Expected<void>{};
+  return first || job.options.runs > 0 ? warm_up(pass) : Expected<void>{};
 }
 
 Expected<void> GlRenderer::warm_up_shading(const Job& job, const ShadePermutation& permutation) {
@@ -325,8 +327,7 @@ Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const V
                                         LightRecord& record) {
   const RasterOptions& options = job.options;
   if (options.runs == 0) return {};
-  if (options.timed_as_judged && options.analysis)
-    return time_shading_as_judged(job, map_job, asked, record);
+  if (options.timed_as_judged && options.analysis) return time_shading_as_judged(job, map_job, asked, record);
   if (auto ok = time_camera(job); !ok) return ok;
   const double seen_ms = job.goes_on ? 0.0 : shading_.times(buffers_, job.view).median();
   const ShadePermutation shadowed = shade_permutation(map_job.light, map_job.options, job.first_light, false);

@@ -32,7 +32,7 @@ using Values = OptionValues;
 constexpr OptionRange time_range{0.0, 1e9, true};  // milliseconds
 
 /// Drawings in turn of those that come near the best.
-constexpr int usual_runs = 5;
+constexpr int tuned_runs = 5;
 
 struct TuneCommand {
   SceneArgument scene;
@@ -147,7 +147,7 @@ Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
                         console);
   auto setting = resolve_setting(*parsed, *loaded.scene, *loaded.world);
   if (!setting) return fail(setting.error());
-  setting->raster.runs = command.runs.value_or(usual_runs);
+  setting->raster.runs = command.runs.value_or(tuned_runs);
   setting->raytrace.picture = !command.folder.empty();
   auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
@@ -279,7 +279,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
   add_backend(*app, command->backend);
   add_shader_dir(*app, command->shader_folder);
   add_threads(*app, command->threads, "threads of the ray tracer and of Mesa's software rasterizer");
-  add_runs(*app, command->runs, std::to_string(usual_runs).c_str());
+  add_runs(*app, command->runs, std::to_string(tuned_runs).c_str());
   add_json(*app, command->json, "the answer");
   add_quiet(*app, command->quiet);
   bind_run(*app, invocation, command, run_tune);

@@ -17,6 +17,11 @@ struct Side {
   std::string text = milliseconds(ms);
 };
 
+Side timed_side(std::string key, const Times& times) {
+  constexpr double not_timed = -1.0;
+  return times.runs.empty() ? Side{{}, not_timed} : Side{std::move(key), times.median()};
+}
+
 std::string cell(const Side& side) {
   if (side.text.empty()) return "nothing";
   return side.key.empty() ? escaped(side.text) : keyed(side.key + ".median", side.ms, side.text);
@@ -35,18 +40,18 @@ std::string rows_of(const Comparison& c, std::size_t i) {
   if (drawn.unshadowed_pass.runs.empty()) return {};
   const auto key = [i](std::string_view name) { return light_key(i, fmt::format("times_ms.{}", name)); };
   const TimeDifference lookups = shadow_lookups(drawn), both = map_and_lookups(drawn);
-  const Side map{key("map_pass"), drawn.map_pass.median()};
+  const Side map = timed_side(key("map_pass"), drawn.map_pass);
   const Side looked_up{key("shadow_lookups"), lookups.median, milliseconds(lookups)};
   const double structure_ms = truth.is_soft() ? 0.0 : truth.light_structure.median();
   const Side structure = structure_ms > 0.0 ? Side{key("light_structure"), structure_ms} : Side{{}, 0.0, {}};
-  const Side rays{key("exact_shadows_standing"), standing_rays(truth).median()};
+  const Side rays = timed_side(key("exact_shadows_standing"), standing_rays(truth));
   const std::string name = c.lights.size() > 1 ? escaped(shown_light_name(c, i)) + ": " : std::string();
   const std::string_view map_name = drawn.external ? "the sheets" : "the map";
   return row(name + "what is made for the light",
              fmt::format("{}; rays ask the scene's own hierarchy", map_name), map, structure) +
          row(name + "asking it", "every frame, even where light and casters stand still", looked_up, rays) +
          row(name + "both", "a frame in which something has moved", {{}, both.median, milliseconds(both)},
-             {key("exact_shadows"), truth.exact_times().median()}) +
+             timed_side(key("exact_shadows"), truth.exact_times())) +
          row(name + "the picture without shadows", "shading, or primary rays",
              {key("unshadowed_pass"), drawn.unshadowed_pass.median()},
              {"times_ms.primary_rays", c.raytraced.primary_rays.median()});
