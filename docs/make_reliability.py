@@ -19,7 +19,9 @@ import time
 
 DOCS = os.path.dirname(os.path.abspath(__file__))
 PAGE = os.path.join(DOCS, 'reliability.md')
-RANDOM_COMPARE = os.path.join(os.path.dirname(DOCS), 'tests', 'tools', 'random_compare.py')
+TESTS = os.path.join(os.path.dirname(DOCS), 'tests')
+RANDOM_COMPARE = os.path.join(TESTS, 'tools', 'random_compare.py')
+FAULTS = os.path.join(TESTS, 'faults', 'campaign.py')
 BELOW = '\nWhat each hard case is stands in'
 FUZZ_TARGETS = {
     'json': 'scene files', 'gltf': 'glTF and GLB', 'obj': 'OBJ', 'ply': 'PLY', 'world': 'small worlds, all structures',
@@ -134,6 +136,17 @@ def faults(page):
         page.notes.append(f'{skipped[1]} of the tests of faults were skipped: what they need is not on this machine.')
 
 
+def failing_calls(page):
+    n = page.times(200)
+    done, seconds = page.run([sys.executable, FAULTS, page.program(), page.test('libfault_injector.so'), '--points', str(n)])
+    found = re.search(r'^(\d+) points of (\d+) commands, (\d+) reached: (.*)$', done.stdout, re.MULTILINE)
+    if not found:
+        sys.exit(f'campaign.py said something else:\n{done.stdout}{done.stderr}')
+    page.add(f'Single calls that fail (files, memory, threads, processes) in {found[2]} commands: half outputs, older results or '
+             "files of the user's harmed, wrong exit codes, crashes, hangs", int(found[3]), sum(numbers(found[4])), seconds,
+             f'`tests/faults/campaign.py BUILD/app/gnomon BUILD/tests/libfault_injector.so --points {n}`')
+
+
 def killed(page, words, folder, after):
     process = subprocess.Popen([page.program(), *words, '-o', folder], stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL)
@@ -196,7 +209,7 @@ def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
     page = Page(os.path.abspath(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) == 3 else 1.0)
-    for part in (exactness, hard_cases, other_seeds, random_comparisons, mutated_files, faults, kills):
+    for part in (exactness, hard_cases, other_seeds, random_comparisons, mutated_files, faults, failing_calls, kills):
         part(page)
     text = text_of(page)
     with open(PAGE, 'w', encoding='utf-8') as out:

@@ -74,8 +74,9 @@ TEST(FewResources, NoMoreThreadsFromAnyOneOn) {
       const TemporaryFolder folder;
       const ProcessResult result =
           run_gnomon(words, {.folder = folder.path(),
-                             .environment = {"LD_PRELOAD=" + test::fault_in_worker(),
-                                             "GNOMON_TEST_NO_THREAD_FROM=" + std::to_string(first)}});
+                             .environment = {"LD_PRELOAD=" + test::fault_injector(), "GNOMON_FAULT_CALL=thread",
+                                             "GNOMON_FAULT_ONWARD=1", "GNOMON_FAULT_ERROR=11",  // EAGAIN
+                                             "GNOMON_FAULT_AT=" + std::to_string(first)}});
       expect_done_or_said(result, usual, words[0] + ", none from " + std::to_string(first));
     }
   }

@@ -17,8 +17,8 @@ std::string program() {
 std::string image_module() {
   return GNOMON_IMAGE_MODULE;
 }
-std::string fault_in_worker() {
-  return GNOMON_FAULT_IN_WORKER;
+std::string fault_injector() {
+  return GNOMON_FAULT_INJECTOR;
 }
 
 }  // namespace gnomon::test

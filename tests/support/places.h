@@ -13,8 +13,7 @@ std::string shared_data();
 /// The built program, and the module with which it reads images.
 std::string program();
 std::string image_module();
-/// The library that throws in one of the program's threads (tests/support/fault_in_worker.cpp), or refuses to start them
-/// (fault_in_thread_start.cpp).
-std::string fault_in_worker();
+/// The library that makes calls of the C library fail (tests/faults/injector.cpp).
+std::string fault_injector();
 
 }  // namespace gnomon::test

@@ -1,0 +1,329 @@
+#!/usr/bin/env python3
+"""Makes calls of the C library fail, one at a time, in every command of gnomon, and looks at what the command leaves behind.
+
+usage: tests/faults/campaign.py GNOMON INJECTOR [--points N] [--only COMMAND]... [--kind KIND]... [--table FILE]
+
+INJECTOR is the library made of tests/faults/injector.cpp. A point is one run in which the n-th call of one kind fails. Each
+command is run undisturbed first, which counts its calls; then the points are spread evenly over the kinds and over each kind's
+calls, and all calls around those that publish a result (the renames to its final names) are points. Half of the runs find an
+older result where they write, and every run finds files of the user's there.
+
+Held at every point:
+  - exit code 0 (or what the undisturbed run has): every output is there and is the undisturbed run's (outputs.py);
+  - else each output (a folder, or a file that an option names) is the older one byte by byte, or all of the new, and nothing
+    else of the program's lies about;
+  - files of the user's are what they were;
+  - the exit code is 4 where an output failed, 3 where an input did, 5 where a resource did; the program does not crash, hang
+    (limits: processor time, and a generous time besides) or call it an error of its own.
+Where a drawn process of grade fails, its parent has to answer as well.
+
+What is not counted as the program's is listed in points.py, by the library that made the failing call. The last line is
+"N points, ..."; the exit code is 1 when anything was wrong.
+"""
+import argparse
+import collections
+import errno
+import json
+import os
+import pathlib
+import resource
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+
+from commands import COMMANDS, make_inputs
+from outputs import files_below, same
+from points import EXCEPTIONS, KINDS, RESOURCES, points_of
+
+FOREIGN = {"out/movie.mp4.part": b"a film that a browser is loading", "out/notes.txt": b"notes", "out/cells/cell-7.png": b"a picture",
+           "out/.gnomon-notes": b"more notes", "mine.part": b"mine"}
+
+class Campaign:
+    def __init__(self, options, folder):
+        self.program, self.injector = str(options.gnomon.resolve()), str(options.injector.resolve())
+        self.kinds = options.kind or KINDS
+        self.table = open(options.table, "w", encoding="utf-8") if options.table else None
+        self.folder, self.account = folder / "work", folder / "account"
+        self.counts = collections.Counter()
+        self.environment = dict(
+            os.environ, GLIBC_TUNABLES="glibc.malloc.hugetlb=0", TMPDIR=str(self.folder / "tmp"), HOME=str(folder / "home"),
+            XDG_CACHE_HOME=str(folder / "home/cache"), LC_ALL="C.UTF-8", LANG="C.UTF-8")
+        for name in ("home/cache", "work"):
+            (folder / name).mkdir(parents=True)
+        make_inputs(self.program, self.folder, self.environment)
+        self.inputs = files_below(self.folder / "in")
+
+    # -- One run.
+
+    def clear(self, older=None):
+        """Empties all places but in/, and puts an older result and the user's files there."""
+        for name in list(os.listdir(self.folder)):
+            if name == "in":
+                continue
+            path = self.folder / name
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+        for name in ("tmp", "said"):
+            (self.folder / name).mkdir()
+        if older is None:
+            (self.folder / "mine.part").write_bytes(FOREIGN["mine.part"])
+            return
+        for name, content in {**older, **FOREIGN}.items():
+            path = self.folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+
+    def run(self, command, faults, seconds=600.0):
+        """Exit code (minus a signal's number, or "hangs"), and what was said on stderr."""
+        variables = {"LD_PRELOAD": self.injector, "GNOMON_FAULT_PROGRAM": self.program, "GNOMON_FAULT_ACCOUNT": str(self.account),
+                     "GNOMON_FAULT_NOT_FROM": ":".join(EXCEPTIONS),
+                     "GNOMON_FAULT_FOLDERS": str(self.folder), **{f"GNOMON_FAULT_{k}": str(v) for k, v in faults.items()}}
+        for path in (self.account, pathlib.Path(str(self.account) + ".calls")):
+            path.unlink(missing_ok=True)
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_CPU, (int(seconds), int(seconds) + 5))
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        with open(self.folder / "said/stdout", "wb") as out:
+            process = subprocess.Popen([self.program, *command.words], cwd=self.folder, env={**self.environment, **variables}, stdout=out,
+                                       stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, preexec_fn=limit, start_new_session=True)
+            try:
+                said = process.communicate(timeout=60 + 10 * seconds)[1]
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                return "hangs", process.communicate()[1].decode("utf-8", "replace")
+        code = "hangs" if process.returncode in (-signal.SIGXCPU, -signal.SIGKILL) else process.returncode
+        return code, said.decode("utf-8", "replace")
+
+    def calls(self):
+        """What the injector noted: (what, process, kind, n, path, callers)."""
+        try:
+            lines = pathlib.Path(str(self.account) + ".calls").read_text(errors="replace").splitlines()
+        except FileNotFoundError:
+            return []
+        found = []
+        for line in lines:
+            head, _, callers = line.partition("\t")
+            what, process, kind, n, path = head.split(" ", 4)
+            found.append((what, int(process), kind, int(n), path, callers))
+        return found
+
+    def counted(self):
+        """How often each kind was called, by (process, kind)."""
+        data = self.account.read_bytes()
+        width = 8 * len(KINDS)
+        processes = struct.unpack_from("<q", data)[0]
+        rows = [struct.unpack_from(f"<{len(KINDS)}q", data, 8 + p * width) for p in range(processes)]
+        return {(p, kind): n for p, row in enumerate(rows) for kind, n in zip(KINDS, row) if n > 0}
+
+    def outputs(self):
+        """All that a run left but for inputs and for empty folders where outputs go."""
+        return {name: content for name, content in files_below(self.folder).items()
+                if not name.startswith("in/") and name not in ("tmp/", "said/", "out/")}
+
+    # -- A command undisturbed.
+
+    def older_result(self, command):
+        """What out/ holds before, or None where the command refuses to write over anything."""
+        self.clear()
+        if command.older is None:
+            return {}
+        if command.older[0] == "copy":
+            shutil.copytree(self.folder / command.older[1], self.folder / "out")
+        else:
+            done = subprocess.run([self.program, *command.older], cwd=self.folder, env=self.environment, capture_output=True, text=True)
+            if done.returncode != 0:
+                raise SystemExit(f"{command.name}: the older result: {done.stderr}")
+        return {name: content for name, content in self.outputs().items() if name.startswith("out/")}
+
+    def undisturbed(self, command, older, faults):
+        self.clear(older)
+        code, said = self.run(command, faults)
+        if code != command.code:
+            raise SystemExit(f"{command.name}: ends with {code} when nothing fails: {said}")
+        return self.outputs()
+
+    # -- A point.
+
+    def try_point(self, command, point, base, older, seconds):
+        self.clear(older)
+        before = self.outputs()
+        faults = {"CALL": point.kind, "AT": point.n, "ERROR": point.error, "ONWARD": int(point.onward), "PROCESS": point.process}
+        code, said = self.run(command, faults, seconds)
+        failed = [call for call in self.calls() if call[0] == "failed"]
+        found = self.judge(command, point, code, said, failed, before, base)
+        self.counts["points"] += 1
+        self.counts["reached"] += bool(failed)
+        for what in {what for what, _ in found}:
+            self.counts[what] += 1
+        path, callers = (failed[0][4], failed[0][5]) if failed else ("", "")
+        path = path.replace(str(self.folder) + "/", "")
+        if found:
+            print(f"{command.name}: {point.kind} {point.n}{' and on' if point.onward else ''} of process {point.process} "
+                  f"({errno.errorcode.get(point.error, 'short')}, {path or 'not reached'}{', over an older result' if point.old else ''}): "
+                  + "; ".join(text for _, text in found), flush=True)
+        if self.table:
+            row = {"command": command.name, **point._asdict(), "code": code, "path": path, "callers": callers, "said": said[-400:],
+                   "found": found}
+            self.table.write(json.dumps(row) + "\n")
+            self.table.flush()
+
+    def judge(self, command, point, code, said, failed, before, base):
+        found, after = [], self.outputs()
+        if files_below(self.folder / "in") != self.inputs:
+            found.append(("damaged", "an input was changed"))
+            shutil.rmtree(self.folder / "in")
+            for name, content in self.inputs.items():
+                path = self.folder / "in" / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(content)
+        foreign = [name for name, content in FOREIGN.items() if name in before and after.get(name) != content]
+        if foreign:
+            found.append(("foreign", f"the user's {', '.join(foreign)} changed"))
+        found += self.judge_code(command, point, code, said, failed)
+        files = {name: content for name, content in after.items() if not self.is_excused(point, name, failed)}
+        new = same(base, files)
+        if code == command.code:
+            if new:
+                found.append(("wrong", f"exit code {code}, but {self.listed(new)} missing or different"))
+        elif new and command.resumes:
+            found += self.judge_resumed(command, said, after, base)
+        elif new:
+            for output in sorted({command.output_of(name) for name in {**files, **before} if not name.startswith("said/")}):
+                found += self.judge_failed(*({k: v for k, v in part.items() if command.output_of(k) == output}
+                                             for part in (files, before, base)))
+        return found
+
+    @staticmethod
+    def listed(names):
+        return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+
+    def is_excused(self, point, name, failed):
+        """What could not be removed lies there."""
+        if point.kind != "unlink":
+            return False
+        path = str(self.folder / name).rstrip("/")
+        return any(path == call[4] or path.startswith(call[4] + "/") for call in failed)
+
+    def judge_failed(self, after, before, base):
+        """One output of a command that failed is the older one, or all of the new."""
+        if after == before or not same(base, after):
+            return []
+        found = []
+        damaged = [name for name, content in before.items() if name.startswith("out/") and name not in FOREIGN and after.get(name) != content]
+        if damaged:
+            found.append(("damaged", f"of the older result {self.listed(damaged)} changed"))
+        made = [name for name in after if name not in before]
+        ours = [name for name in made if name in base]
+        if ours:
+            found.append(("half", f"half an output: {self.listed(ours)}"))
+        if len(made) > len(ours):
+            found.append(("left over", f"left over: {self.listed([name for name in made if name not in base])}"))
+        return found
+
+    def judge_resumed(self, command, said, after, base):
+        """A sweep that failed is taken up again."""
+        parts = [name for name in after if name.endswith((".part", ".part/")) and name not in FOREIGN]
+        found = [("left over", f"left over: {self.listed(parts)}")] if parts else []
+        code, said = self.run(command, {"CALL": "none"})
+        wrong = same(base, self.outputs())
+        if code != command.code:
+            found.append(("half", f"cannot be taken up again: exit code {code}: {said.strip()[-200:]}"))
+        elif wrong:
+            found.append(("half", f"taken up again, but {self.listed(wrong)} missing or different"))
+        return found
+
+    def judge_code(self, command, point, code, said, failed):
+        if code == "hangs":
+            return [("hangs", "hangs")]
+        if code == command.code:
+            return []
+        if code < 0 or code >= 128:
+            return [("crashes", f"ended by signal {-code if code < 0 else code - 128}: {said.strip()[-160:]}")]
+        wanted = self.wanted_codes(point, failed)
+        if code not in wanted:
+            wanted_text = " or ".join(str(c) for c in sorted(wanted)) or "none but success"
+            return [("exit codes", f"exit code {code}, not {wanted_text}: {said.strip()[-200:]}")]
+        return [] if said.strip() else [("exit codes", f"exit code {code} without a word")]
+
+    def wanted_codes(self, point, failed):
+        if point.kind in ("short-write", "short-read") or not failed:
+            return set()
+        if point.kind in RESOURCES:
+            return {5}
+        return {3} if failed[0][4].startswith(str(self.folder / "in")) else {4}
+
+    # -- All points of a command.
+
+    def try_command(self, command, budget):
+        older = self.older_result(command)
+        for old, part in ((True, budget - budget // 2), (False, budget // 2)):
+            if part == 0:
+                continue
+            start = resource.getrusage(resource.RUSAGE_CHILDREN)
+            base = self.undisturbed(command, older if old else None, {})
+            end = resource.getrusage(resource.RUSAGE_CHILDREN)
+            seconds = 10 + 10 * (end.ru_utime + end.ru_stime - start.ru_utime - start.ru_stime)
+            counts, calls = self.counted(), self.calls()
+            again = same(base, self.undisturbed(command, older if old else None, {"CALL": "none"})) if budget > 20 else []
+            if again:
+                raise SystemExit(f"{command.name}: two undisturbed runs differ in {', '.join(again)}")
+            for point in points_of(counts, calls, self.kinds, old, part):
+                self.try_point(command, point, base, older if old else None, seconds)
+
+
+WRONG = {"half": "half outputs", "damaged": "older results damaged", "wrong": "successes with a wrong output", "left over": "left over",
+         "exit codes": "wrong exit codes", "foreign": "files of the user's touched", "crashes": "crashes", "hangs": "hangs"}
+
+
+def display():
+    """Xvfb and the variable that names it, or nothing where it is not there."""
+    if shutil.which("Xvfb") is None:
+        return None, None
+    read_end, write_end = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
+                              pass_fds=[write_end], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    os.close(write_end)
+    with os.fdopen(read_end) as lines:
+        number = lines.readline().strip()
+    return server, f":{number}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("gnomon", type=pathlib.Path)
+    parser.add_argument("injector", type=pathlib.Path)
+    parser.add_argument("--points", type=int, default=120, help="over all commands (default %(default)s)")
+    parser.add_argument("--only", action="append", default=[], metavar="COMMAND", help="of commands.py, by its name")
+    parser.add_argument("--kind", action="append", choices=KINDS, help="of calls; default all")
+    parser.add_argument("--table", metavar="FILE", help="writes every point as a line of JSON")
+    options = parser.parse_args()
+    commands = [c for c in COMMANDS if not options.only or c.name in options.only]
+    server, number = display() if any(c.window for c in commands) else (None, None)
+    if server is None:
+        commands = [c for c in commands if not c.window]
+    try:
+        with tempfile.TemporaryDirectory(prefix="gnomon-faults-") as folder:
+            campaign = Campaign(options, pathlib.Path(folder))
+            if number:
+                campaign.environment["DISPLAY"] = number
+            shares = sum(command.share for command in commands)
+            for command in commands:
+                campaign.try_command(command, max(2, round(options.points * command.share / shares)))
+            counts = campaign.counts
+    finally:
+        if server is not None:
+            server.terminate()
+            server.wait()
+    print(f"{counts['points']} points of {len(commands)} commands, {counts['reached']} reached: "
+          + ", ".join(f"{counts[key]} {text}" for key, text in WRONG.items()))
+    if counts["reached"] < counts["points"] / 2:
+        print("the injector does not reach what it is to make fail")
+        return 1
+    return 1 if any(counts[key] for key in WRONG) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
