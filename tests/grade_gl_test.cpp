@@ -423,9 +423,9 @@ TEST_F(Grade, WhatIsTimedIsTheProgramThatIsJudged) {
 
 // A shader that counts in a buffer how often it was drawn could answer otherwise the last time.
 TEST_F(Grade, WhatDrawsOtherwiseWhenItIsTimedIsFound) {
-  hand_in("anna", R"(// counts
-#include "camera.glsl"
-layout(std430, binding = izb_shadows_buffer) buffer IzbShadows { uint shadows[]; };
+  hand_in("anna",
+          "// counts\n#include \"camera.glsl\"\n"
+          R"(layout(std430, binding = izb_shadows_buffer) buffer IzbShadows { uint shadows[]; };
 float technique_visibility(ShadowTest test, vec3 position, vec3 normal, vec3 to_light) {
   uint pixel = uint(gl_FragCoord.y) * uint(camera.size.x) + uint(gl_FragCoord.x);
   return (atomicAdd(shadows[pixel], 1u) & 1u) != 0u ? 0.0 : 1.0;
