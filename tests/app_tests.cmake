@@ -21,5 +21,5 @@ add_dependencies(lesson_faults_gl_test gnomon_program)
 gnomon_test(export_suite_test SOURCES export_suite_test.cpp LIBS gnomon::app gnomon::scene)
 
 # gnomon grade, on shaders with known faults.
-gnomon_test(grade_gl_test SOURCES grade_gl_test.cpp LIBS app_process nlohmann_json::nlohmann_json)
+gnomon_test(grade_gl_test SOURCES grade_gl_test.cpp grade_class_gl_test.cpp LIBS app_process nlohmann_json::nlohmann_json)
 add_dependencies(grade_gl_test gnomon_program)
