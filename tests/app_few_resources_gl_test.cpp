@@ -72,11 +72,11 @@ TEST(FewResources, NoMoreThreadsFromAnyOneOn) {
     const ProcessResult usual = run_gnomon(words, {.folder = usual_folder.path()});
     for (const int first : {1, 4, 8, 10, 11, 12, 14, 15, 16, 17, 18, 20, 22, 24}) {
       const TemporaryFolder folder;
-      const ProcessResult result =
-          run_gnomon(words, {.folder = folder.path(),
-                             .environment = {"LD_PRELOAD=" + test::fault_injector(), "GNOMON_FAULT_CALL=thread",
-                                             "GNOMON_FAULT_ONWARD=1", "GNOMON_FAULT_ERROR=11",  // EAGAIN
-                                             "GNOMON_FAULT_AT=" + std::to_string(first)}});
+      const ProcessResult result = run_gnomon(
+          words, {.folder = folder.path(),
+                  .environment = {"LD_PRELOAD=" + test::fault_injector(), "GNOMON_FAULT_CALL=thread",
+                                  "GNOMON_FAULT_ONWARD=1", "GNOMON_FAULT_ERROR=11",  // EAGAIN
+                                  "GNOMON_FAULT_AT=" + std::to_string(first)}});
       expect_done_or_said(result, usual, words[0] + ", none from " + std::to_string(first));
     }
   }
