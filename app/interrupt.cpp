@@ -8,11 +8,13 @@
 #include <atomic>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <string_view>
 #include <system_error>
 #include <thread>
 
 #include "scene/files/path_status.h"
+#include "scene/files/staged_folder.h"
 #include "scene/run_program.h"
 #include "scene/threads.h"
 
@@ -94,29 +96,22 @@ int interrupt_exit_code() {
   return signal_number == 0 ? 0 : exit_code_of(signal_number);
 }
 
+// Memory may be what is missing.
 void end_process(int exit_code, std::string_view words) {
   TemporaryFolders& folders = temporary_folders();
   folders.mutex.lock();  // for good: no other is made any more
-  for (const std::string& folder : folders.paths) remove_folder(folder);
-  std::string line = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
-  line.append("gnomon: ").append(words).append("\n");
-  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
+  try {
+    for (const std::string& folder : folders.paths) remove_folder(folder);
+    StagedFolder::remove_all_at_the_end();
+  } catch (const std::bad_alloc&) {  // it stays
+  }
+  const std::string_view start = isatty(STDERR_FILENO) == 1 ? "\r\033[Kgnomon: " : "gnomon: ";
+  for (const std::string_view part : {start, words, std::string_view("\n")})
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, part.data(), part.size());
   _exit(exit_code);
 }
 
 OutputGuard::OutputGuard() : lock_(output_mutex()) {}
-
-RemovedOnSignal::RemovedOnSignal(const std::string& path) {
-  TemporaryFolders& folders = temporary_folders();
-  const std::lock_guard lock(folders.mutex);
-  place_ = folders.paths.insert(folders.paths.end(), path);
-}
-
-RemovedOnSignal::~RemovedOnSignal() {
-  TemporaryFolders& folders = temporary_folders();
-  const std::lock_guard lock(folders.mutex);
-  folders.paths.erase(place_);
-}
 
 TemporaryFolder::TemporaryFolder(const std::string& name) {
   TemporaryFolders& folders = temporary_folders();

@@ -22,7 +22,7 @@ void leave_interrupts_to_the_system();
 /// 0: no signal has come. Else 130 or 143, with which the process ends once its outputs are finished.
 int interrupt_exit_code();
 
-/// Ends the process where it stands, with "gnomon: WORDS" on stderr; temporary folders are removed.
+/// Ends the process where it stands, with "gnomon: WORDS" on stderr; temporary folders and unpublished outputs are removed.
 [[noreturn]] void end_process(int exit_code, std::string_view words);
 
 /// While one lives, a signal waits.
@@ -32,18 +32,6 @@ class OutputGuard {
 
  private:
   std::unique_lock<std::mutex> lock_;
-};
-
-/// A folder that this process has made, and that goes when a signal ends the process before this object's end.
-class RemovedOnSignal {
- public:
-  explicit RemovedOnSignal(const std::string& path);
-  ~RemovedOnSignal();
-  RemovedOnSignal(const RemovedOnSignal&) = delete;
-  RemovedOnSignal& operator=(const RemovedOnSignal&) = delete;
-
- private:
-  std::list<std::string>::iterator place_;
 };
 
 /// A new folder for temporary files; it goes with all that is in it, also when a signal ends the process.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <future>
+#include <memory>
 #include <utility>
 
 namespace gnomon {
@@ -33,7 +34,10 @@ void count_refused_thread();
 template <class Work>
 auto in_background(Work work) {
   const RefusalIsHandled goes_on;
-  return std::async(std::launch::async | std::launch::deferred, std::move(work));
+  // By a pointer: libstdc++'s async() has moved its function away when it finds that no thread can be started, and then
+  // takes what is left for the function to call.
+  const auto kept = std::make_shared<Work>(std::move(work));
+  return std::async(std::launch::async | std::launch::deferred, [kept] { return (*kept)(); });
 }
 
 }  // namespace gnomon

@@ -227,7 +227,6 @@ Expected<ExitCode> judge_several(JudgeCommand& command, Console& console) {
   if (const auto apart = check_folders(command, captures); !apart) return fail(apart.error());
   auto making = begin_set(command.output.folder);
   if (!making) return fail(making.error());
-  const RemovedOnSignal staged(making->staged.path());
   ExitCode code = ExitCode::done;
   std::optional<Error> refused;
   for (const NamedCapture& named : captures) {

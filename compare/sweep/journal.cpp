@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/sweep/cell_files.h"
+#include "scene/files/failed_call.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/sha256.h"
@@ -26,10 +27,6 @@ using Json = nlohmann::ordered_json;
 
 std::string path_in(const std::string& folder, std::string_view name) {
   return fmt::format("{}{}{}", folder, folder.ends_with('/') ? "" : "/", name);
-}
-
-tl::unexpected<Error> cannot_write(const std::string& path, std::string_view step, int error_number) {
-  return fail(Error{ErrorKind::cannot_write, fmt::format("{}: {}", step, std::strerror(error_number)), path});
 }
 
 tl::unexpected<Error> bad_line(const std::string& path, std::size_t line, std::string reason) {
@@ -69,13 +66,13 @@ struct Journal::File {
     auto file = std::make_unique<File>();
     file->path = std::move(path);
     file->descriptor = ::open(file->path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file->descriptor < 0) return cannot_write(file->path, "cannot open", errno);
+    if (file->descriptor < 0) return failed_call(ErrorKind::cannot_write, file->path, "cannot open", errno);
     return file;
   }
   Expected<void> cut(std::size_t length) {
     size = length;
     if (::ftruncate(descriptor, static_cast<off_t>(length)) != 0)
-      return cannot_write(path, "cannot cut", errno);
+      return failed_call(ErrorKind::cannot_write, path, "cannot cut", errno);
     return {};
   }
   Expected<void> append(const std::string& text) {
@@ -87,7 +84,7 @@ struct Journal::File {
       if (count <= 0) {
         const int error_number = count < 0 ? errno : ENOSPC;
         if (auto cut_back = cut(size); !cut_back) return cut_back;
-        return cannot_write(path, "cannot write", error_number);
+        return failed_call(ErrorKind::cannot_write, path, "cannot write", error_number);
       }
       done += static_cast<std::size_t>(count);
     }
@@ -295,7 +292,7 @@ Expected<SweepClaim> SweepClaim::of(const std::string& folder) {
   const std::string path = path_in(folder, "sweep.jsonl");
   SweepClaim claim(::open(path.c_str(), O_RDWR | O_CLOEXEC));
   if (claim.descriptor_ < 0 && errno != ENOENT && errno != ENOTDIR)
-    return cannot_write(path, "cannot open", errno);
+    return failed_call(ErrorKind::cannot_write, path, "cannot open", errno);
   if (claim.descriptor_ >= 0 && ::flock(claim.descriptor_, LOCK_EX | LOCK_NB) != 0) return is_claimed(folder);
   return claim;
 }

@@ -127,9 +127,7 @@ Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, cons
   if (auto written = write_whole(cells, lines, whole, folders, staged->path()); !written)
     return fail(written.error());
   const auto page = write_sweep_page(staged->path(), report_max_mb, limit);
-  if (!page)  // of what was written just now
-    return fail(
-        Error{ErrorKind::cannot_write, "cannot be read back: " + page.error().reason, page.error().file});
+  if (!page) return fail(page.error());
   if (auto sealed = staged->seal({}); !sealed) return fail(sealed.error());
   if (auto there = staged->publish("report.html"); !there) return fail(there.error());
   return MergedSweep{cells.size(), *page, {drawers.begin(), drawers.end()}};

@@ -254,8 +254,10 @@ href="#provenance">Provenance</a></li>)";
   return build_page(shell).html;
 }
 
-Expected<WrittenPage> write_sweep_page(const std::string& folder, double report_max_mb,
-                                       const std::optional<Threshold>& limit) {
+namespace {
+
+Expected<WrittenPage> read_and_write_page(const std::string& folder, double report_max_mb,
+                                          const std::optional<Threshold>& limit) {
   const auto sweep = read_sweep(folder);
   if (!sweep) return fail(sweep.error());
   const auto cells = summarise(*sweep);
@@ -276,6 +278,17 @@ Expected<WrittenPage> write_sweep_page(const std::string& folder, double report_
   if (input.beside) page = sweep_page(input);
   if (auto saved = write_file(folder + "/report.html", page); !saved) return fail(saved.error());
   return written;
+}
+
+}  // namespace
+
+Expected<WrittenPage> write_sweep_page(const std::string& folder, double report_max_mb,
+                                       const std::optional<Threshold>& limit) {
+  auto page = read_and_write_page(folder, report_max_mb, limit);
+  if (!page && page.error().kind == ErrorKind::bad_input)  // of what was written just now
+    return fail(
+        Error{ErrorKind::cannot_write, "cannot be read back: " + page.error().reason, page.error().file});
+  return page;
 }
 
 }  // namespace gnomon::compare

@@ -1,4 +1,5 @@
 #include "scene/files/path_status.h"
+#include "scene/files/failed_call.h"
 
 #include <fmt/core.h>
 
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 
 tl::unexpected<Error> path_error(ErrorKind kind, const std::string& path, std::string_view what,
                                  const std::error_code& why) {
-  return fail(Error{kind, fmt::format("{}: {}", what, why.message()), path});
+  return failed_call(kind, path, what, why.value());
 }
 
 constexpr std::string_view cannot_look = "cannot be looked at", cannot_list = "cannot be listed",

@@ -10,11 +10,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <optional>
 #include <set>
 #include <string_view>
 #include <vector>
 
+#include "scene/files/failed_call.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
@@ -45,7 +47,7 @@ struct Moves {
 };
 
 tl::unexpected<Error> cannot_move(const std::string& path, std::string_view step) {
-  return fail(Error{ErrorKind::cannot_write, fmt::format("{}: {}", step, std::strerror(errno)), path});
+  return failed_call(ErrorKind::cannot_write, path, step, errno);
 }
 
 /// Of a file or a link itself; none where nothing is there.
@@ -174,6 +176,15 @@ Expected<void> move_all(const Moves& moves) {
   return {};
 }
 
+/// Memory that is missing is an error like others here: what has moved has to go back.
+Expected<void> move_all_or_tell(const Moves& moves) {
+  try {
+    return move_all(moves);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::graphics, "out of memory");
+  }
+}
+
 /// Whether it has left the staged folder and stands in its place.
 Expected<bool> is_in_place(const Moves& moves, const MovingFile& file) {
   const auto before = what_is_at(moves.from(file.name));
@@ -216,7 +227,7 @@ Expected<void> publish_into(const std::string& folder, const std::string& staged
   if (!moves) return fail(moves.error());
   if (moves->files.empty()) return {};
   if (auto listed = write_file(moves->list(), list_text(*moves)); !listed) return listed;
-  auto moved = move_all(*moves);
+  auto moved = move_all_or_tell(*moves);
   if (moved) return {};
   if (const auto undone = undo_all(*moves))
     (void)remove_path(moves->list());  // where it stays, the next run finds that nothing is left to undo

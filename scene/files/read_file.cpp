@@ -1,4 +1,5 @@
 #include "scene/files/read_file.h"
+#include "scene/files/failed_call.h"
 #include "scene/files/path_status.h"
 #include "scene/one_line.h"
 
@@ -33,7 +34,7 @@ Expected<std::string> read_file(const std::string& path) {
   if (*kind == FileKind::folder) return cannot_read(path, "is a folder, not a file");
   if (*kind != FileKind::file) return cannot_read(path, "is not a plain file");
   std::ifstream file(path, std::ios::binary);
-  if (!file) return cannot_read(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  if (!file) return failed_call(ErrorKind::bad_input, path, "cannot be opened", errno);
   const auto size = size_of_file(path);
   if (!size) return fail(size.error());
   std::string bytes(*size, '\0');

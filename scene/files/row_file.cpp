@@ -10,16 +10,15 @@
 #include <filesystem>
 #include <utility>
 
+#include "scene/files/failed_call.h"
 #include "scene/files/path_status.h"
 
 namespace gnomon {
 namespace {
 
 tl::unexpected<Error> trouble(const std::string& folder, std::string_view step, int error_number) {
-  Error error{ErrorKind::cannot_write,
-              fmt::format("rows of a large picture: {}: {}", step, std::strerror(error_number))};
-  error.file = folder;
-  return fail(std::move(error));
+  return failed_call(ErrorKind::cannot_write, folder, fmt::format("rows of a large picture: {}", step),
+                     error_number);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
+#include <new>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -17,6 +19,7 @@
 #include <vector>
 
 #include "scene/files/descriptor.h"
+#include "scene/files/failed_call.h"
 #include "scene/files/path_status.h"
 #include "scene/files/publication.h"
 #include "scene/files/write_file.h"
@@ -25,10 +28,6 @@ namespace gnomon {
 namespace {
 
 namespace fs = std::filesystem;
-
-tl::unexpected<Error> cannot_write(const std::string& path, std::string_view step, const std::string& why) {
-  return fail(Error{ErrorKind::cannot_write, fmt::format("{}: {}", step, why), path});
-}
 
 /// A staged folder's name is this, the process's number and ".part". One in a folder that is there lies in it, one of a
 /// folder that is not there yet beside it.
@@ -106,10 +105,11 @@ Expected<void> clear_abandoned(const fs::path& folder, const fs::path& place, co
 
 Expected<void> flush_folder(const std::string& folder) {
   const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (descriptor.number() < 0) return cannot_write(folder, "cannot open the folder", std::strerror(errno));
+  if (descriptor.number() < 0)
+    return failed_call(ErrorKind::cannot_write, folder, "cannot open the folder", errno);
   if (::fsync(descriptor.number()) == 0 || errno == EINVAL || errno == ENOTSUP)
     return {};  // not every system can
-  return cannot_write(folder, "cannot flush it to the disk", std::strerror(errno));
+  return failed_call(ErrorKind::cannot_write, folder, "cannot flush it to the disk", errno);
 }
 
 using FileId = std::pair<dev_t, ino_t>;
@@ -119,7 +119,7 @@ Expected<std::optional<FileId>> file_id(const std::string& path) {
   struct stat status = {};
   if (::stat(path.c_str(), &status) == 0) return FileId{status.st_dev, status.st_ino};
   if (errno == ENOENT || errno == ENOTDIR) return std::nullopt;
-  return cannot_write(path, "cannot be looked at", std::strerror(errno));
+  return failed_call(ErrorKind::cannot_write, path, "cannot be looked at", errno);
 }
 
 Expected<std::set<FileId>> file_ids(std::span<const std::string> paths) {
@@ -140,7 +140,8 @@ Expected<void> check_targets(const fs::path& folder, const std::vector<std::stri
     const std::string target = (folder / file).string();
     const auto kind = file_kind(target, ErrorKind::cannot_write);
     if (!kind) return fail(kind.error());
-    if (*kind == FileKind::folder) return cannot_write(target, "cannot write", "it is a folder");
+    if (*kind == FileKind::folder)
+      return fail(Error{ErrorKind::cannot_write, "cannot write: it is a folder", target});
     const auto id = file_id(target);
     if (!id) return fail(id.error());
     if (*id && ids->contains(**id))
@@ -150,10 +151,35 @@ Expected<void> check_targets(const fs::path& folder, const std::vector<std::stri
   return {};
 }
 
+/// The staged folders of this process.
+struct LivingFolders {
+  std::mutex mutex;
+  std::set<std::string> paths;
+};
+LivingFolders& living_folders() {
+  static LivingFolders folders;
+  return folders;
+}
+
+void remove_staged(const std::string& path, bool published) {
+  const auto remove = [&] {
+    // What could not be put back stays in it for the next run into the folder.
+    if (published || !is_unfinished_publication(path)) (void)remove_all_of(path);
+  };
+  try {
+    remove();
+  } catch (const std::bad_alloc&) {  // there may be memory again, now that the stack is unwound
+    remove();
+  }
+}
+
 }  // namespace
 
-StagedFolder::StagedFolder(std::string folder, std::string path, int lock)
-    : folder_(std::move(folder)), path_(std::move(path)), lock_(lock) {}
+StagedFolder::StagedFolder(std::string folder, std::string path)
+    : folder_(std::move(folder)), path_(std::move(path)) {
+  const std::lock_guard lock(living_folders().mutex);
+  living_folders().paths.insert(path_);
+}
 
 StagedFolder::StagedFolder(StagedFolder&& other) noexcept
     : folder_(std::move(other.folder_)),
@@ -163,9 +189,19 @@ StagedFolder::StagedFolder(StagedFolder&& other) noexcept
       lock_(std::exchange(other.lock_, -1)) {}
 
 StagedFolder::~StagedFolder() {
-  // What could not be put back stays in it for the next run into the folder.
-  if (!path_.empty() && (published_ || !is_unfinished_publication(path_))) (void)remove_all_of(path_);
+  if (!path_.empty()) remove_staged(path_, published_);
+  forget();
   if (lock_ >= 0) ::close(lock_);
+}
+
+void StagedFolder::forget() {
+  const std::lock_guard lock(living_folders().mutex);
+  living_folders().paths.erase(std::exchange(path_, {}));
+}
+
+void StagedFolder::remove_all_at_the_end() {
+  living_folders().mutex.lock();
+  for (const std::string& path : living_folders().paths) remove_staged(path, false);
 }
 
 Expected<StagedFolder> StagedFolder::open(const std::string& folder) {
@@ -183,12 +219,13 @@ Expected<StagedFolder> StagedFolder::open(const std::string& folder) {
   // Until it is locked, another process that starts may take the folder for an abandoned one.
   for (;;) {
     if (::mkdir(staged.c_str(), 0777) != 0)
-      return cannot_write(staged, "cannot create the folder", std::strerror(errno));
-    FolderLock lock(staged, Wait::yes);
-    if (lock.held()) return StagedFolder(target.string(), staged, lock.release());
+      return failed_call(ErrorKind::cannot_write, staged, "cannot create the folder", errno);
+    StagedFolder made(target.string(), staged);
+    made.lock_ = FolderLock(staged, Wait::yes).release();
+    if (made.lock_ >= 0) return made;
     const auto unlocked = is_there(staged, ErrorKind::cannot_write);
     if (!unlocked) return fail(unlocked.error());
-    if (*unlocked) return StagedFolder(target.string(), staged, -1);
+    if (*unlocked) return made;
   }
 }
 
@@ -204,11 +241,11 @@ Expected<void> StagedFolder::publish(const std::string& last) {
   // One rename where nothing, or an empty folder, is in the way.
   if (fs::path(path_).parent_path() != fs::path(folder_)) {
     if (::rename(path_.c_str(), folder_.c_str()) == 0) {
-      path_.clear();
+      forget();
       return {};
     }
     if (errno != EEXIST && errno != ENOTEMPTY)
-      return cannot_write(folder_, "cannot rename the finished folder", std::strerror(errno));
+      return failed_call(ErrorKind::cannot_write, folder_, "cannot rename the finished folder", errno);
   }
   const FolderLock others(folder_, Wait::yes);  // that put their files here at the same time
   if (auto moved = publish_into(folder_, path_, files_, last); !moved) return moved;
@@ -216,7 +253,7 @@ Expected<void> StagedFolder::publish(const std::string& last) {
   auto gone = remove_all_of(path_);
   if (!gone) gone = remove_all_of(path_);  // a disk that stumbled once
   if (gone)
-    path_.clear();
+    forget();
   else
     gone.error().reason += "; the new files are all in their places";
   return gone;

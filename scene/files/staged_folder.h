@@ -32,8 +32,13 @@ class StagedFolder {
   /// ErrorKind::cannot_write; the folder is then as it was.
   Expected<void> publish(const std::string& last);
 
+  /// Removes all that this process has not published, before it ends where it stands. None can be opened any more: who
+  /// tries waits.
+  static void remove_all_at_the_end();
+
  private:
-  StagedFolder(std::string folder, std::string path, int lock);
+  StagedFolder(std::string folder, std::string path);
+  void forget();
   std::string folder_, path_;
   std::vector<std::string> files_;  ///< names in path_, from seal() on
   bool published_ = false;          ///< what is left in path_ is of no use

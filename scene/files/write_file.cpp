@@ -1,6 +1,7 @@
 #include "scene/files/write_file.h"
 
 #include "scene/files/descriptor.h"
+#include "scene/files/failed_call.h"
 #include "scene/files/part_file.h"
 #include "scene/files/path_status.h"
 
@@ -22,12 +23,6 @@ namespace gnomon {
 namespace {
 
 namespace fs = std::filesystem;
-
-tl::unexpected<Error> cannot_write(const std::string& path, std::string_view step, int error_number) {
-  Error error{ErrorKind::cannot_write, fmt::format("{}: {}", step, std::strerror(error_number))};
-  error.file = path;
-  return fail(std::move(error));
-}
 
 // A write past RLIMIT_FSIZE raises SIGXFSZ, whose default is to end the process. It is raised for the writing
 // thread, so blocking it there and discarding what is pending turns it into EFBIG and touches nobody else.
@@ -64,9 +59,10 @@ int write_all(int descriptor, std::string_view bytes) {
 
 Expected<void> write_directly(const std::string& path, std::string_view bytes) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-  if (file.number() < 0) return cannot_write(path, "cannot open it", errno);
-  if (const int error = write_all(file.number(), bytes)) return cannot_write(path, "cannot write", error);
-  if (!file.close()) return cannot_write(path, "cannot close it", errno);
+  if (file.number() < 0) return failed_call(ErrorKind::cannot_write, path, "cannot open it", errno);
+  if (const int error = write_all(file.number(), bytes))
+    return failed_call(ErrorKind::cannot_write, path, "cannot write", error);
+  if (!file.close()) return failed_call(ErrorKind::cannot_write, path, "cannot close it", errno);
   return {};
 }
 
@@ -81,16 +77,28 @@ std::string temporary_name(const std::string& path) {
   return (file.parent_path() / fmt::format("{}.{}-{}.part", name, ::getpid(), counter++)).string();
 }
 
-// Writes, flushes and closes the temporary file; the caller removes it on failure.
+/// Goes unless it was renamed, whatever is thrown.
+struct TemporaryFile {
+  explicit TemporaryFile(const std::string& target) : path(temporary_name(target)) {}
+  ~TemporaryFile() { ::unlink(path.c_str()); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::string path;
+};
+
+// Writes, flushes and closes the temporary file.
 Expected<void> fill_temporary(const std::string& path, const std::string& temporary, std::string_view bytes,
                               std::optional<mode_t> old_mode) {
   Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (file.number() < 0) return cannot_write(path, "cannot create a file beside it", errno);
+  if (file.number() < 0)
+    return failed_call(ErrorKind::cannot_write, path, "cannot create a file beside it", errno);
   if (old_mode && ::fchmod(file.number(), *old_mode & 07777) != 0)
-    return cannot_write(path, "cannot keep its permissions", errno);
-  if (const int error = write_all(file.number(), bytes)) return cannot_write(path, "cannot write", error);
-  if (::fsync(file.number()) != 0) return cannot_write(path, "cannot flush it to the disk", errno);
-  if (!file.close()) return cannot_write(path, "cannot close it", errno);
+    return failed_call(ErrorKind::cannot_write, path, "cannot keep its permissions", errno);
+  if (const int error = write_all(file.number(), bytes))
+    return failed_call(ErrorKind::cannot_write, path, "cannot write", error);
+  if (::fsync(file.number()) != 0)
+    return failed_call(ErrorKind::cannot_write, path, "cannot flush it to the disk", errno);
+  if (!file.close()) return failed_call(ErrorKind::cannot_write, path, "cannot close it", errno);
   return {};
 }
 
@@ -101,7 +109,7 @@ Expected<std::string> follow_link(const std::string& path) {
   if (!*there) return path;
   std::error_code error;
   const fs::path target = fs::canonical(path, error);
-  if (error) return cannot_write(path, "cannot follow it", error.value());
+  if (error) return failed_call(ErrorKind::cannot_write, path, "cannot follow it", error.value());
   return target.string();
 }
 
@@ -124,16 +132,15 @@ Expected<void> write_file(const std::string& path, std::string_view bytes) {
   struct stat status {};
   std::optional<mode_t> old_mode;
   if (::stat(target.c_str(), &status) == 0) {
-    if (S_ISDIR(status.st_mode)) return cannot_write(path, "it is a folder", EISDIR);
+    if (S_ISDIR(status.st_mode)) return failed_call(ErrorKind::cannot_write, path, "it is a folder", EISDIR);
     if (!S_ISREG(status.st_mode)) return write_directly(path, bytes);
     old_mode = status.st_mode;
   }
-  const std::string temporary = temporary_name(target);
-  Expected<void> filled = fill_temporary(path, temporary, bytes, old_mode);
-  if (filled && ::rename(temporary.c_str(), target.c_str()) != 0)
-    filled = cannot_write(path, "cannot rename the finished file", errno);
-  if (!filled) ::unlink(temporary.c_str());
-  return filled;
+  const TemporaryFile temporary(target);
+  if (auto filled = fill_temporary(path, temporary.path, bytes, old_mode); !filled) return filled;
+  if (::rename(temporary.path.c_str(), target.c_str()) != 0)
+    return failed_call(ErrorKind::cannot_write, path, "cannot rename the finished file", errno);
+  return {};
 }
 
 std::string abandoned_part_of(std::string_view name) {
@@ -158,13 +165,14 @@ Expected<PartFile> PartFile::create(const std::string& path) {
   file.target_ = std::move(*target);
   struct stat status {};
   if (::stat(file.target_.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
-    return cannot_write(path, "a picture made in bands needs a plain file", EINVAL);
+    return failed_call(ErrorKind::cannot_write, path, "a picture made in bands needs a plain file", EINVAL);
   const fs::path folder = fs::path(file.target_).parent_path();
   file.descriptor_ = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
   if (file.descriptor_ >= 0) return file;
   const std::string part = temporary_name(file.target_);
   file.descriptor_ = ::open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file.descriptor_ < 0) return cannot_write(path, "cannot create a file beside it", errno);
+  if (file.descriptor_ < 0)
+    return failed_call(ErrorKind::cannot_write, path, "cannot create a file beside it", errno);
   file.part_ = part;
   return file;
 }
@@ -188,27 +196,29 @@ std::string PartFile::path() const {
 Expected<void> PartFile::publish() {
   struct stat old {};
   if (::stat(target_.c_str(), &old) == 0 && ::fchmod(descriptor_, old.st_mode & 07777) != 0)
-    return cannot_write(target_, "cannot keep its permissions", errno);
-  if (::fsync(descriptor_) != 0) return cannot_write(target_, "cannot flush it to the disk", errno);
+    return failed_call(ErrorKind::cannot_write, target_, "cannot keep its permissions", errno);
+  if (::fsync(descriptor_) != 0)
+    return failed_call(ErrorKind::cannot_write, target_, "cannot flush it to the disk", errno);
   if (part_.empty()) {  // gets a name first, for a file that is there already can only be renamed over
     const std::string part = temporary_name(target_);
     if (::linkat(AT_FDCWD, path().c_str(), AT_FDCWD, part.c_str(), AT_SYMLINK_FOLLOW) != 0)
-      return cannot_write(target_, "cannot name the finished file", errno);
+      return failed_call(ErrorKind::cannot_write, target_, "cannot name the finished file", errno);
     part_ = part;
   }
   if (::rename(part_.c_str(), target_.c_str()) != 0)
-    return cannot_write(target_, "cannot rename the finished file", errno);
+    return failed_call(ErrorKind::cannot_write, target_, "cannot rename the finished file", errno);
   part_.clear();
   return {};
 }
 
 Expected<void> write_over_end(const std::string& path, std::string_view end) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-  if (file.number() < 0) return cannot_write(path, "cannot open it", errno);
+  if (file.number() < 0) return failed_call(ErrorKind::cannot_write, path, "cannot open it", errno);
   if (::lseek(file.number(), -static_cast<off_t>(end.size()), SEEK_END) < 0)
-    return cannot_write(path, "cannot write over its end", errno);
-  if (const int error = write_all(file.number(), end)) return cannot_write(path, "cannot write", error);
-  if (!file.close()) return cannot_write(path, "cannot close it", errno);
+    return failed_call(ErrorKind::cannot_write, path, "cannot write over its end", errno);
+  if (const int error = write_all(file.number(), end))
+    return failed_call(ErrorKind::cannot_write, path, "cannot write", error);
+  if (!file.close()) return failed_call(ErrorKind::cannot_write, path, "cannot close it", errno);
   return {};
 }
 
@@ -226,19 +236,20 @@ bool is_same_file(const std::string& a, const std::string& b) {
 Expected<void> make_output_folder(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) return cannot_write(path, "cannot create the folder", error.value());
+  if (error) return failed_call(ErrorKind::cannot_write, path, "cannot create the folder", error.value());
   return check_takes_files(path);
 }
 
 Expected<void> check_takes_files(const std::string& folder) {
   const auto there = is_folder(folder, ErrorKind::cannot_write);
   if (!there) return fail(there.error());
-  if (!*there) return cannot_write(folder, "cannot write here", ENOTDIR);
+  if (!*there) return failed_call(ErrorKind::cannot_write, folder, "cannot write here", ENOTDIR);
   const Descriptor nameless(::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600));
   if (nameless.number() >= 0) return {};
   const std::string probe = temporary_name((fs::path(folder) / probe_name).string());
   const Descriptor file(::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-  if (file.number() < 0) return cannot_write(folder, "cannot create files in the folder", errno);
+  if (file.number() < 0)
+    return failed_call(ErrorKind::cannot_write, folder, "cannot create files in the folder", errno);
   return remove_path(probe);
 }
 
