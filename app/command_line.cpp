@@ -27,7 +27,7 @@
 #include "app/output_path.h"
 #include "app/session.h"
 #include "app/shell.h"
-#include "compare/option_names.h"
+#include "compare/result/option_names.h"
 #include "scene/files/write_file.h"
 #include "scene/load.h"
 #include "scene/nearest_name.h"

@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "compare/report/lessons.h"
+#include "report/lessons.h"
 #include "scene/load.h"
 
 namespace gnomon::app {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "compare/palette.h"
+#include "compare/result/palette.h"
 #include "scene/files/image_io.h"
 #include "scene/files/read_file.h"
 #include "scene/parallel.h"

@@ -1,7 +1,7 @@
 // Every part of a capture as an option of `judge`.
 #pragma once
 
-#include "compare/judge/capture.h"
+#include "studies/judge/capture.h"
 
 namespace CLI {
 class App;

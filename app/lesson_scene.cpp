@@ -12,7 +12,7 @@
 
 #include "app/map_options.h"
 #include "app/shimmer_options.h"
-#include "compare/report/lessons.h"
+#include "report/lessons.h"
 #include "scene/files/json_reader.h"
 #include "scene/files/path_status.h"
 #include "scene/load.h"

@@ -11,7 +11,7 @@
 #include "app/help.h"
 #include "app/map_options.h"
 #include "app/values.h"
-#include "compare/option_names.h"
+#include "compare/result/option_names.h"
 #include "raster/technique_traits.h"
 #include "scene/light_type_name.h"
 
@@ -119,7 +119,7 @@ std::string json_chapter() {
       "line of "
       "`DIR/sweep.jsonl`, in the order of\nthe file. `[]` stands for every element of a list. The schema "
       "itself is "
-      "`compare/report/result.schema.json`;\ninstalled, `share/gnomon/schema/result.schema.json`.\n\n{}",
+      "`compare/result/result.schema.json`;\ninstalled, `share/gnomon/schema/result.schema.json`.\n\n{}",
       written_by_the_program, wrap(schema.value("description", std::string()), 0, page_width), keys.take());
 }
 

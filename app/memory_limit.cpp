@@ -11,9 +11,9 @@
 #include "app/machine.h"
 #include "app/options.h"
 #include "app/values.h"
-#include "compare/edges.h"
+#include "compare/ladder/penumbra.h"
 #include "compare/measure/reduced.h"
-#include "compare/penumbra.h"
+#include "compare/metrics/edges.h"
 
 namespace gnomon::app {
 namespace {
@@ -112,7 +112,7 @@ PictureBytes compare_bytes(const Scene& scene, const std::vector<std::uint32_t>&
   // Measured: what the peak of a picture in one piece grows by from 320x180 to 2560x1440, with one light and with
   // four. In bands what the camera sees, the longest list and a picture on its way to its file are whole, and what
   // the page shows; half as much as of a band is kept of the rows around it, and for soft shadows what their widths
-  // take (compare/penumbra.h).
+  // take (compare/ladder/penumbra.h).
   const double light = static_cast<double>(lights.size());
   const auto soft =
       std::count_if(lights.begin(), lights.end(), [&](std::uint32_t i) { return has_size(scene.lights[i]); });

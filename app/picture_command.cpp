@@ -8,7 +8,7 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/picture_file.h"
-#include "compare/time_budget.h"
+#include "compare/result/time_budget.h"
 #include "scene/files/read_file.h"
 #include "scene/stages.h"
 

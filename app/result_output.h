@@ -9,7 +9,7 @@
 #include "app/invocation.h"
 #include "app/session.h"
 #include "compare/measure/measure.h"
-#include "compare/outputs.h"
+#include "report/write_outputs.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {

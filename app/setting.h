@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/pose_options.h"
-#include "compare/sweep/engine.h"
+#include "studies/sweep/engine.h"
 
 namespace gnomon::app {
 

@@ -6,7 +6,7 @@
 
 #include "app/option_kinds.h"
 #include "app/shell.h"
-#include "compare/threshold.h"
+#include "compare/result/threshold.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon::app {

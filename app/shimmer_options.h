@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "app/session.h"
-#include "compare/shimmer/shimmer.h"
+#include "studies/shimmer/shimmer.h"
 
 namespace CLI {
 class App;

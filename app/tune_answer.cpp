@@ -10,11 +10,11 @@
 #include "app/setting.h"
 #include "app/shell.h"
 #include "app/values.h"
-#include "compare/engine_units_json.h"
-#include "compare/number_text.h"
-#include "compare/option_names.h"
-#include "compare/result_parts.h"
-#include "compare/text_layout.h"
+#include "compare/result/engine_units_json.h"
+#include "compare/result/number_text.h"
+#include "compare/result/option_names.h"
+#include "compare/result/result_parts.h"
+#include "compare/result/text_layout.h"
 #include "scene/one_line.h"
 
 namespace gnomon::app {

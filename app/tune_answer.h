@@ -9,8 +9,8 @@
 #include "app/shimmer_options.h"
 #include "app/strongest_lights.h"
 #include "app/tune_families.h"
-#include "compare/tune/tune.h"
 #include "raster/frame.h"
+#include "studies/tune/tune.h"
 
 namespace gnomon::app {
 

@@ -9,7 +9,7 @@
 #include "app/options.h"
 #include "app/setting.h"
 #include "app/values.h"
-#include "compare/option_names.h"
+#include "compare/result/option_names.h"
 #include "raster/technique_traits.h"
 #include "scene/light_type_name.h"
 

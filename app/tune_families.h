@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/sweep/axes.h"
-#include "compare/tune/tune.h"
+#include "studies/tune/tune.h"
 
 namespace gnomon::app {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "compare/threshold.h"
+#include "compare/result/threshold.h"
 #include "scene/expected.h"
 #include "scene/image.h"
 #include "scene/option_text.h"

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "compare/seen_surfaces.h"
-#include "compare/threshold.h"
+#include "compare/result/threshold.h"
+#include "compare/truth/seen_surfaces.h"
 #include "raster/frame.h"
 #include "raytrace/frame.h"
 #include "scene/effects.h"
@@ -197,7 +197,7 @@ struct RayWork {
   std::uint64_t rays = 0, boxes = 0, primitives = 0;  ///< tested
 };
 
-/// Of a film whose first frame is the comparison's picture (compare/shimmer/shimmer.h).
+/// Of a film whose first frame is the comparison's picture (studies/shimmer/shimmer.h).
 struct ShimmerFigures {
   int frames = 0;
   double fps = 0.0;
@@ -278,7 +278,7 @@ struct Judged;
 
 struct Comparison {
   const World* world = nullptr;
-  /// Another renderer's picture and map stand in `raster` (compare/judge/judged.h); null: Gnomon's own.
+  /// Another renderer's picture and map stand in `raster` (compare/result/judged.h); null: Gnomon's own.
   std::shared_ptr<const Judged> judged;
   std::string command;  ///< as the user could type it again
   std::uint64_t seed = 0;

@@ -11,7 +11,7 @@
 
 #include "app/command_line.h"
 #include "compare/comparison.h"
-#include "compare/report/lessons.h"
+#include "report/lessons.h"
 #include "scene/builtin.h"
 #include "tests/app_process.h"
 #include "tests/support/places.h"
@@ -154,7 +154,7 @@ TEST(Documents, LinksLeadSomewhere) {
 
 TEST(Documents, ChannelsOfTheManualAreThoseOfTheFile) {
   const std::string manual = read_file(test::source_dir() + "/docs/manual/aov.md");
-  const std::string source = read_file(test::source_dir() + "/compare/aov.cpp");
+  const std::string source = read_file(test::source_dir() + "/compare/result/aov.cpp");
   const std::regex channel(R"re("([a-z_]+\.[A-Z])")re");
   int count = 0;
   for (std::sregex_iterator found(source.begin(), source.end(), channel), end; found != end; ++found, ++count)

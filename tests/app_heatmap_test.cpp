@@ -3,7 +3,7 @@
 
 #include "app/bench/row.h"
 #include "app/heatmap.h"
-#include "compare/palette.h"
+#include "compare/result/palette.h"
 
 namespace gnomon::app {
 namespace {

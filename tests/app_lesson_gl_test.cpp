@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "compare/report/lessons.h"
+#include "report/lessons.h"
 #include "scene/builtin.h"
 #include "tests/app_process.h"
 

@@ -14,7 +14,7 @@ if(NOT GNOMON_SANITIZE)
 endif()
 
 # The lessons' own commands, and the fault that each of them shows.
-gnomon_test(lesson_faults_gl_test TIMEOUT 900 SOURCES lesson_faults_gl_test.cpp LIBS app_process gnomon::compare nlohmann_json::nlohmann_json)
+gnomon_test(lesson_faults_gl_test TIMEOUT 900 SOURCES lesson_faults_gl_test.cpp LIBS app_process gnomon::report nlohmann_json::nlohmann_json)
 add_dependencies(lesson_faults_gl_test gnomon_program)
 
 # The conformance suite that gnomon export writes.

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/compare.h"
-#include "compare/output_parts.h"
-#include "compare/outputs.h"
-#include "compare/picture_set.h"
-#include "compare/report/page.h"
-#include "compare/report/page_data.h"
+#include "compare/result/output_parts.h"
+#include "compare/result/outputs.h"
+#include "compare/result/picture_set.h"
 #include "hybrid/visibility.h"
+#include "report/page.h"
+#include "report/page_data.h"
 #include "scene/load.h"
 
 namespace gnomon::test {

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "compare/outputs.h"
-#include "compare/verdict.h"
+#include "compare/result/outputs.h"
+#include "compare/result/verdict.h"
 #include "support/compare_support.h"
 
 namespace gnomon::test {

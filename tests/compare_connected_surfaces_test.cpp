@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "compare/surfaces.h"
+#include "compare/truth/surfaces.h"
 #include "support/placements.h"
 #include "support/small_scenes.h"
 

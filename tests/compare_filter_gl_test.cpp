@@ -3,7 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "compare/outputs.h"
+#include "compare/result/outputs.h"
 #include "support/compare_support.h"
 #include "tests/json_schema_check.h"
 #include "tests/support/places.h"
@@ -186,7 +186,7 @@ TEST_P(Ladder, OnlyTheLastStepIsTheFilters) {
   double sum = 0.0;
   for (const auto& step : run.light().budget) sum += step.signed_mean;
   EXPECT_NEAR(sum, run.light().rung_mean[6] - run.light().rung_mean[0], 1e-12);
-  std::ifstream file(gnomon::test::source_dir() + "/compare/report/result.schema.json");
+  std::ifstream file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
   const auto json = nlohmann::json::parse(compare::result_json(run.result));
   EXPECT_EQ(SchemaCheck(nlohmann::json::parse(file)).violations(json), std::vector<std::string>{});
 }

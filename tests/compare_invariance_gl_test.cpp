@@ -21,12 +21,12 @@
 #include <span>
 #include <string>
 
-#include "app/verify/random_scene.h"
 #include "compare/compare.h"
-#include "compare/stored_surface.h"
+#include "compare/truth/stored_surface.h"
 #include "hybrid/visibility.h"
 #include "raster/technique_traits.h"
 #include "scene/light.h"
+#include "verify/random_scene.h"
 
 namespace gnomon::test {
 namespace {

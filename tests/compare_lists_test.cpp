@@ -7,10 +7,10 @@
 #include <map>
 #include <random>
 
-#include "compare/biased_test.h"
+#include "compare/ladder/biased_test.h"
 #include "compare/measure/number_list.h"
-#include "compare/pixel_list.h"
-#include "compare/texel_groups.h"
+#include "compare/metrics/pixel_list.h"
+#include "compare/truth/texel_groups.h"
 #include "scene/sort_numbers.h"
 #include "tests/every_target.h"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "compare/outputs.h"
+#include "compare/result/outputs.h"
 #include "scene/load.h"
 #include "support/compare_support.h"
 #include "support/model_files.h"

@@ -1,6 +1,6 @@
 // Impostors of quadrics, tori and implicit surfaces against the ray tracer: which solid is seen at each pixel
 // and texel, the stored depths, the receivers, culling, and the whole comparison of the scene "shapes".
-#include "compare/stored_surface.h"
+#include "compare/truth/stored_surface.h"
 #include "raytrace/tracer.h"
 #include "scene/load.h"
 #include "tests/raster_fixture.h"

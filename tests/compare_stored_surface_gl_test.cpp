@@ -2,8 +2,8 @@
 // numbers that were put there.
 #include <algorithm>
 
-#include "compare/columns.h"
-#include "compare/stored_surface.h"
+#include "compare/truth/columns.h"
+#include "compare/truth/stored_surface.h"
 #include "tests/raster_fixture.h"
 
 namespace gnomon::test {

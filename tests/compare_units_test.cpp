@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "compare/bias_curve.h"
-#include "compare/bias_kinds.h"
-#include "compare/budget.h"
-#include "compare/engine_units.h"
-#include "compare/ladder.h"
+#include "compare/bias/bias_curve.h"
+#include "compare/bias/bias_kinds.h"
+#include "compare/ladder/budget.h"
+#include "compare/ladder/ladder.h"
+#include "compare/result/engine_units.h"
 #include "support/compare_support.h"
 
 namespace gnomon::compare {

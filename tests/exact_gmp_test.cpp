@@ -11,9 +11,9 @@
 #include <atomic>
 #include <cstdlib>
 
-#include "app/verify/adversarial.h"
-#include "app/verify/rational.h"
 #include "raytrace/error_bounds.h"
+#include "verify/adversarial.h"
+#include "verify/rational.h"
 
 namespace gnomon::verify {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/verify/verify.h"
+#include "verify/verify.h"
 
 namespace gnomon::verify {
 namespace {

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "compare/judge/judge.h"
 #include "scene/files/image_io.h"
 #include "scene/files/write_file.h"
 #include "scene/load.h"
+#include "studies/judge/judge.h"
 #include "tests/json_schema_check.h"
 #include "tests/support/places.h"
 
@@ -150,7 +150,7 @@ std::pair<bool, bool> taken(const nlohmann::json& capture) {
   const std::string file = folder() + "/schema.json";
   EXPECT_TRUE(write_file(file, capture.dump()));
   const auto read = compare::read_capture(file);
-  std::ifstream schema(source_dir() + "/compare/judge/capture.schema.json");
+  std::ifstream schema(source_dir() + "/studies/judge/capture.schema.json");
   return {SchemaCheck(nlohmann::json::parse(schema)).violations(capture).empty(),
           read && compare::check_capture(*read)};
 }

@@ -2,8 +2,8 @@
 // is not that of the picture.
 #include <fmt/ranges.h>
 
-#include "compare/judge/judged.h"
-#include "compare/verdict.h"
+#include "compare/result/judged.h"
+#include "compare/result/verdict.h"
 #include "scene/files/image_io.h"
 #include "support/capture_support.h"
 #include "support/other_renderer.h"

@@ -8,12 +8,13 @@
 #include <fstream>
 #include <functional>
 
-#include "compare/judge/captured_map.h"
-#include "compare/judge/judged.h"
-#include "compare/judge/page.h"
-#include "compare/outputs.h"
+#include "compare/result/judged.h"
+#include "compare/result/outputs.h"
+#include "report/write_outputs.h"
 #include "scene/files/image_io.h"
 #include "scene/files/read_file.h"
+#include "studies/judge/captured_map.h"
+#include "studies/judge/page.h"
 #include "support/capture_support.h"
 #include "support/small_scenes.h"
 #include "tests/json_schema_check.h"
@@ -74,7 +75,7 @@ TEST(JudgeLadder, WithoutAMapHasOneStepUnexplained) {
 }
 
 TEST(JudgeOutputs, AreWholeWithAMapAndWithout) {
-  std::ifstream file(source_dir() + "/compare/report/result.schema.json");
+  std::ifstream file(source_dir() + "/compare/result/result.schema.json");
   const nlohmann::json schema = nlohmann::json::parse(file);
   const Compared drawn = draw_builtin("courtyard", small_picture, hard_map(256));
   for (const bool map : {true, false}) {
@@ -109,7 +110,7 @@ TEST(JudgeAdvice, IsTheSmallestConstantThatIsHardlyWorseThanTheBest) {
   const compare::Advice& advice = judged.result->judged->advice.front();
   const compare::BestBias& best = judged.result->lights[0].best_bias;
   EXPECT_LT(advice.instead * judged.result->judged->unit_world, 0.5 * best.constant_world);
-  // compare/bias_kinds.h: one pixel in 100,000, or one wrong pixel in fifty.
+  // compare/bias/bias_kinds.h: one pixel in 100,000, or one wrong pixel in fifty.
   EXPECT_LE(advice.wrong_instead, best.wrong_fraction + std::max(1e-5, best.wrong_fraction / 50.0));
   // Where it is used already it stays.
   capture.bias->constant_depth = advice.instead;

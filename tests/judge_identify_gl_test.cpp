@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "compare/judge/identify.h"
-#include "compare/option_names.h"
-#include "compare/outputs.h"
+#include "compare/result/option_names.h"
+#include "compare/result/outputs.h"
+#include "studies/judge/identify.h"
 #include "support/capture_support.h"
 #include "tests/synthetic_comparison.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/judge/judged.h"
+#include "compare/result/judged.h"
 #include "scene/files/image_io.h"
 #include "support/capture_support.h"
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "compare/report/lessons.h"
+#include "report/lessons.h"
 #include "tests/app_process.h"
 #include "tests/support/places.h"
 

@@ -6,8 +6,8 @@
 
 #include <random>
 
-#include "compare/flip.h"
-#include "compare/weighted_rows.h"
+#include "compare/metrics/flip.h"
+#include "compare/metrics/weighted_rows.h"
 
 namespace gnomon::compare {
 namespace {

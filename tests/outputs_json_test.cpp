@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "compare/outputs.h"
+#include "compare/result/outputs.h"
 #include "tests/json_schema_check.h"
 #include "tests/support/places.h"
 #include "tests/synthetic_comparison.h"
@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::json;
 
 Json load_schema() {
-  std::ifstream file(gnomon::test::source_dir() + "/compare/report/result.schema.json");
+  std::ifstream file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
   return Json::parse(file);
 }
 

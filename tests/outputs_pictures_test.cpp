@@ -6,10 +6,11 @@
 #include <set>
 #include <sstream>
 
-#include "compare/output_parts.h"
-#include "compare/outputs.h"
-#include "compare/palette.h"
-#include "compare/picture_set.h"
+#include "compare/result/output_parts.h"
+#include "compare/result/outputs.h"
+#include "compare/result/palette.h"
+#include "compare/result/picture_set.h"
+#include "report/write_outputs.h"
 #include "scene/files/image_io.h"
 #include "tests/synthetic_comparison.h"
 

@@ -2,7 +2,7 @@
 // into folders below the one given, for the browser test of the report page.
 #include <iostream>
 
-#include "compare/outputs.h"
+#include "report/write_outputs.h"
 #include "tests/synthetic_comparison.h"
 
 namespace {

@@ -3,19 +3,20 @@
 
 #include <regex>
 
-#include "compare/budget.h"
-#include "compare/csv_field.h"
+#include "compare/ladder/budget.h"
 #include "compare/measure/reduced.h"
-#include "compare/number_text.h"
-#include "compare/output_parts.h"
-#include "compare/outputs.h"
-#include "compare/report/html.h"
-#include "compare/report/lessons.h"
-#include "compare/report/log_chart.h"
-#include "compare/report/shell.h"
-#include "compare/shadow_cost.h"
-#include "compare/sweep/summary.h"
-#include "compare/text_layout.h"
+#include "compare/result/csv_field.h"
+#include "compare/result/number_text.h"
+#include "compare/result/output_parts.h"
+#include "compare/result/outputs.h"
+#include "compare/result/shadow_cost.h"
+#include "compare/result/text_layout.h"
+#include "report/html.h"
+#include "report/lessons.h"
+#include "report/log_chart.h"
+#include "report/shell.h"
+#include "report/write_outputs.h"
+#include "studies/sweep/summary.h"
 #include "tests/synthetic_comparison.h"
 
 namespace gnomon::compare {

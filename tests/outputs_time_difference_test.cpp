@@ -1,7 +1,7 @@
 // A difference of two timed passes, and what its runs leave open.
 #include <gtest/gtest.h>
 
-#include "compare/number_text.h"
+#include "compare/result/number_text.h"
 #include "scene/time_difference.h"
 
 namespace gnomon {

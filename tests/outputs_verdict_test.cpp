@@ -1,9 +1,9 @@
 // What is said of a light, from counts that are set by hand.
 #include <gtest/gtest.h>
 
-#include "compare/judge/judged.h"
-#include "compare/tune/page.h"
-#include "compare/verdict.h"
+#include "compare/result/judged.h"
+#include "compare/result/verdict.h"
+#include "studies/tune/page.h"
 #include "tests/synthetic_comparison.h"
 
 namespace gnomon::compare {

@@ -8,10 +8,10 @@
 
 #include <cstdlib>
 
-#include "app/verify/random_scene.h"
-#include "app/verify/rational.h"
 #include "raytrace/precision/exact_shadow.h"
 #include "scene/light.h"
+#include "verify/random_scene.h"
+#include "verify/rational.h"
 
 namespace gnomon::verify {
 namespace {

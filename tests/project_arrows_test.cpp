@@ -29,8 +29,12 @@ const std::map<std::string, std::set<std::string>, std::less<>> arrows = {
     {"raytrace", {"scene"}},
     {"hybrid", {"scene", "raster", "raytrace"}},
     {"compare", {"scene", "raster", "raytrace", "hybrid"}},
-    {"app", {"scene", "raster", "raytrace", "hybrid", "compare"}},
-    {"tests", {"scene", "shaders", "raster", "raytrace", "hybrid", "compare", "app"}},
+    {"report", {"scene", "compare"}},
+    {"studies", {"scene", "raster", "raytrace", "compare", "report"}},
+    {"verify", {"scene", "raster", "raytrace"}},
+    {"app", {"scene", "raster", "raytrace", "hybrid", "compare", "report", "studies", "verify"}},
+    {"tests",
+     {"scene", "shaders", "raster", "raytrace", "hybrid", "compare", "report", "studies", "verify", "app"}},
 };
 
 bool is_room(std::string_view name) {
@@ -52,7 +56,7 @@ bool may_use_opengl(std::string_view path) {
 /// Loops over all threads are those of scene/parallel.h: oneTBB's headers take seconds to compile. What else there is of it,
 /// a sort, a limit and an observer of threads, is used where it is needed.
 bool may_use_tbb(std::string_view path) {
-  constexpr std::string_view files[] = {"scene/parallel.cpp", "compare/sweep/bias_axis.cpp",
+  constexpr std::string_view files[] = {"scene/parallel.cpp", "studies/sweep/bias_axis.cpp",
                                         "app/session.cpp", "app/view/priority.cpp"};
   return path.starts_with("tests/") || std::find(std::begin(files), std::end(files), path) != std::end(files);
 }

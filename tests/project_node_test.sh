@@ -3,7 +3,7 @@
 # Usage: SOURCE
 set -eu
 cd -- "$1"
-locks="tests/browser/package-lock.json adapters/package-lock.json compare/report/page/package-lock.json"
+locks="tests/browser/package-lock.json adapters/package-lock.json report/page/package-lock.json"
 # A range that admits 18: one of its alternatives begins at 18 or below.
 newer=$(grep -nE '"node": "' $locks | grep -vE '(>=?|\^) *(1[0-8]|[0-9])(\.[0-9.]+)?( |"|$)' || true)
 [ "$(grep -cE '"node": "' tests/browser/package-lock.json)" -gt 0 ] || { echo "no package says which Node.js it wants"; exit 1; }

@@ -54,7 +54,7 @@ if [[ ${1-} == --together ]]; then
   tidy_together "${2:?--together needs a room}" || status=1
 else
   alone_configured || exit 1
-  (($#)) || set -- '/(app|compare|hybrid|raster|raytrace|scene|tests)/.*\.cpp$'
+  (($#)) || set -- '/(app|compare|hybrid|raster|raytrace|report|scene|studies|tests|verify)/.*\.cpp$'
   tidy "$build" "$@" || status=1
 fi
 ((status)) || echo "clang-tidy has nothing to say"

@@ -5,11 +5,11 @@
 #include <array>
 #include <cstdlib>
 
-#include "app/verify/random_scene.h"
 #include "hybrid/visibility.h"
 #include "raster/renderer.h"
 #include "scene/load.h"
 #include "tests/support/places.h"
+#include "verify/random_scene.h"
 
 namespace gnomon::verify {
 namespace {

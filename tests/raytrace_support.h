@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "app/verify/small_world.h"
+#include "verify/small_world.h"
 
 namespace gnomon::test {
 

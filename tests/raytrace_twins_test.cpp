@@ -2,11 +2,11 @@
 // expression, a cylinder as a cone, a square in a cap's plane. What shows and what hides is a matter of rounding there.
 #include <gtest/gtest.h>
 
-#include "app/verify/twin.h"
 #include "raytrace/frame.h"
 #include "raytrace_support.h"
 #include "scene/light.h"
 #include "scene/solid.h"
+#include "verify/twin.h"
 
 namespace gnomon {
 namespace {

@@ -1,6 +1,6 @@
 // Shadows in time (docs/shimmer.md): stillness gives nothing, snapping holds still, the temporal budget adds up, the
 // first frame is the picture's own, and a straight edge under a drifting map flips as its closed form says.
-#include "compare/shimmer/shimmer.h"
+#include "studies/shimmer/shimmer.h"
 
 #include "raster/technique_traits.h"
 #include "support/one_world.h"

@@ -2,9 +2,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "compare/outputs.h"
-#include "compare/shimmer/outputs.h"
+#include "compare/result/outputs.h"
 #include "json_schema_check.h"
+#include "studies/shimmer/outputs.h"
 #include "support/one_world.h"
 #include "support/places.h"
 #include "support/small_scenes.h"
@@ -146,7 +146,7 @@ TEST(ShimmerJson, FitsItsSchema) {
       compare::film_shimmer(one.world, one.scene, *one.renderer, every_light(one.scene), options);
   ASSERT_TRUE(film);
   const auto json = nlohmann::json::parse(compare::shimmer_json(*film, {"gnomon shimmer", 0, 1.0}));
-  std::ifstream schema(source_dir() + "/compare/shimmer/shimmer.schema.json");
+  std::ifstream schema(source_dir() + "/studies/shimmer/shimmer.schema.json");
   for (const std::string& violation : SchemaCheck(nlohmann::json::parse(schema)).violations(json))
     ADD_FAILURE() << violation;
   ASSERT_EQ(json["lights"].size(), 3u);
@@ -169,7 +169,7 @@ TEST(CascadeBudgets, AddUpToTheLights) {
   options.raster.map.technique = raster::Technique::csm;
   options.raster.runs = 1;
   const auto json = nlohmann::json::parse(compare::result_json(one.compare(options)));
-  std::ifstream schema(source_dir() + "/compare/report/result.schema.json");
+  std::ifstream schema(source_dir() + "/compare/result/result.schema.json");
   for (const std::string& violation : SchemaCheck(nlohmann::json::parse(schema)).violations(json))
     ADD_FAILURE() << violation;
   const auto& light = json["lights"][0];

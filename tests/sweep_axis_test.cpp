@@ -1,7 +1,7 @@
 // Lists and ranges of a sweep, and the cells they make.
 #include <gtest/gtest.h>
 
-#include "compare/sweep/axis.h"
+#include "studies/sweep/axis.h"
 
 namespace gnomon::compare {
 namespace {

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "app/sweep/cell_pictures.h"
-#include "compare/sweep/cell_files.h"
+#include "studies/sweep/cell_files.h"
 #include "support/one_world.h"
 #include "support/small_scenes.h"
 

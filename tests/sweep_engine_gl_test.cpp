@@ -2,9 +2,9 @@
 // bit.
 #include <random>
 
-#include "compare/output_parts.h"
-#include "compare/sweep/engine.h"
+#include "compare/result/output_parts.h"
 #include "scene/load.h"
+#include "studies/sweep/engine.h"
 #include "support/one_world.h"
 #include "support/small_scenes.h"
 

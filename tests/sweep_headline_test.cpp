@@ -1,8 +1,8 @@
 // Which cells of a sweep are worth having, and what is said of the best.
 #include <gtest/gtest.h>
 
-#include "compare/sweep/headline.h"
-#include "compare/sweep/words.h"
+#include "studies/sweep/headline.h"
+#include "studies/sweep/words.h"
 
 namespace gnomon::compare {
 namespace {

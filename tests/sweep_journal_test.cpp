@@ -9,8 +9,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "compare/sweep/cell_files.h"
-#include "compare/sweep/journal.h"
+#include "studies/sweep/cell_files.h"
+#include "studies/sweep/journal.h"
 
 namespace gnomon::compare {
 namespace {

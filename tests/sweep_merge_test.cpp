@@ -6,9 +6,9 @@
 #include <fstream>
 #include <map>
 
-#include "compare/sweep/cell_files.h"
-#include "compare/sweep/journal.h"
-#include "compare/sweep/merge.h"
+#include "studies/sweep/cell_files.h"
+#include "studies/sweep/journal.h"
+#include "studies/sweep/merge.h"
 #include "tests/scene_files_support.h"
 
 namespace gnomon::compare {

@@ -17,7 +17,7 @@ namespace {
 
 TEST_F(SweepProgram, WritesResultsWithAxes) {
   ASSERT_EQ(run(words("whole")), 0) << said();
-  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/report/result.schema.json");
+  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
   gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
   std::istringstream stream(lines("whole"));
   std::vector<nlohmann::json> results;
@@ -60,7 +60,7 @@ TEST_F(SweepProgram, WhatCellsLackOfAComparisonIsDocumented) {
   compare.insert(compare.end(), {"--bias", "1texel", "--json", (root / "one.json").string()});
   ASSERT_EQ(run(sweep), 0) << said();
   ASSERT_EQ(run(compare), 0) << said();
-  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/report/result.schema.json");
+  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
   const nlohmann::json schema = nlohmann::json::parse(schema_file);
   const std::string text = lines("cells");
   const nlohmann::json cell = nlohmann::json::parse(text.substr(0, text.find('\n')));
@@ -91,7 +91,7 @@ TEST_F(SweepProgram, CountsFlipsOfFilms) {
       run(joined({"sweep"}, {setting, film, {"--snap", "off,on", "--metric", "shimmer", "-o", folder}})), 0)
       << said();
   EXPECT_NE(said().find("Best for flips"), std::string::npos) << said();
-  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/report/result.schema.json");
+  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
   gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
   std::istringstream stream(lines("films"));
   std::vector<nlohmann::json> cells;
@@ -195,7 +195,7 @@ TEST_F(SweepProgram, AnAxisThatATechniqueDoesNotReadIsNamed) {
     return run(all);
   };
   ASSERT_EQ(sweep("whole", {}), 0) << said();
-  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/report/result.schema.json");
+  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
   gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
   std::istringstream stream(lines("whole"));
   std::vector<nlohmann::json> cells;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "compare/ssim.h"
+#include "compare/metrics/ssim.h"
 
 namespace gnomon::compare {
 namespace {

@@ -1,6 +1,6 @@
 // What each technique draws (V6) is its bias and its texel in double precision (V5), but for a few pixels on
 // texel borders; and the whole ladder adds up. The same for every depth format.
-#include "compare/cascades.h"
+#include "compare/truth/cascades.h"
 #include "scene/load.h"
 #include "support/compare_support.h"
 #include "support/one_world.h"

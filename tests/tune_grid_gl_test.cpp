@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "compare/tune/full_grid.h"
-#include "compare/tune/ties.h"
-#include "compare/tune/tuner.h"
 #include "scene/load.h"
+#include "studies/tune/full_grid.h"
+#include "studies/tune/ties.h"
+#include "studies/tune/tuner.h"
 #include "support/one_world.h"
 
 namespace gnomon::test {

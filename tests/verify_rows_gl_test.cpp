@@ -2,7 +2,7 @@
 // fails where there is OpenGL is wrong.
 #include <gtest/gtest.h>
 
-#include "app/verify/drawn_world.h"
+#include "verify/drawn_world.h"
 
 namespace gnomon::verify {
 namespace {

@@ -9,8 +9,8 @@
 #include <set>
 #include <thread>
 
-#include "compare/outputs.h"
-#include "compare/palette.h"
+#include "compare/result/outputs.h"
+#include "compare/result/palette.h"
 #include "scene/files/image_io.h"
 #include "tests/app_process.h"
 #include "tests/view_display.h"

@@ -8,11 +8,11 @@
 #include <atomic>
 
 #include "app/bench/row.h"
-#include "app/verify/adversarial.h"
-#include "app/verify/rational.h"
 #include "raytrace/frame.h"
 #include "scene/one_line.h"
 #include "scene/parallel.h"
+#include "verify/adversarial.h"
+#include "verify/rational.h"
 
 namespace gnomon::app {
 namespace {
@@ -124,7 +124,7 @@ Wrong wrong_primary(Precision precision, std::uint64_t rays, std::uint64_t seed)
   return count_wrong(rays, seed, [&](verify::Random& random, Wrong& wrong) {
     const verify::AimedTriangle aimed = verify::aimed_triangle(random);
     const auto truth = verify::rational_triangle(aimed.origin, aimed.direction, aimed.corners);
-    // The exact test alone is asked for the sign of t (app/verify/case_rational.cpp).
+    // The exact test alone is asked for the sign of t (verify/case_rational.cpp).
     const bool meets = truth.meets && (truth.ahead || !exact);
     ++wrong.tried;
     if (verify::kernel_meets(precision, aimed) == meets) return;

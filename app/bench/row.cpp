@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/machine.h"
-#include "compare/result_parts.h"
+#include "compare/result/result_parts.h"
 
 namespace gnomon::app {
 

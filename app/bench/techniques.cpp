@@ -7,7 +7,7 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/render_json.h"
-#include "compare/shadow_cost.h"
+#include "compare/result/shadow_cost.h"
 #include "scene/files/write_file.h"
 #include "scene/one_line.h"
 #include "scene/parallel.h"

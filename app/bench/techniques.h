@@ -6,7 +6,7 @@
 
 #include "app/bench/row.h"
 #include "app/session.h"
-#include "compare/sweep/engine.h"
+#include "studies/sweep/engine.h"
 
 namespace gnomon::app {
 

@@ -8,10 +8,10 @@
 #include "app/render_json.h"
 #include "app/session.h"
 #include "app/tune_families.h"
-#include "compare/tune/full_grid.h"
 #include "raster/technique_traits.h"
 #include "scene/one_line.h"
 #include "scene/parallel.h"
+#include "studies/tune/full_grid.h"
 
 namespace gnomon::app {
 namespace {

@@ -1,5 +1,5 @@
 // gnomon judge: what another renderer drew, in the place of Gnomon's own picture. Its folder is that of compare.
-#include "compare/judge/judge.h"
+#include "studies/judge/judge.h"
 
 #include <fmt/core.h>
 
@@ -15,14 +15,14 @@
 #include "app/machine.h"
 #include "app/result_output.h"
 #include "app/run_options.h"
-#include "compare/judge/identify.h"
-#include "compare/judge/page.h"
-#include "compare/judge/several.h"
-#include "compare/report/page.h"
+#include "report/page.h"
 #include "scene/files/path_status.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 #include "scene/stages.h"
+#include "studies/judge/identify.h"
+#include "studies/judge/page.h"
+#include "studies/judge/several.h"
 
 namespace gnomon::app {
 

@@ -10,9 +10,9 @@
 #include "app/invocation.h"
 #include "app/options.h"
 #include "app/output_path.h"
-#include "compare/sweep/merge.h"
 #include "scene/files/path_status.h"
 #include "scene/one_line.h"
+#include "studies/sweep/merge.h"
 
 namespace gnomon::app {
 

@@ -11,7 +11,7 @@
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/render_json.h"
-#include "compare/report/lessons.h"
+#include "report/lessons.h"
 #include "scene/load.h"
 
 namespace gnomon::app {

@@ -16,8 +16,8 @@
 #include "app/setting.h"
 #include "app/shimmer_options.h"
 #include "app/strongest_lights.h"
-#include "compare/shimmer/write.h"
 #include "scene/timing.h"
+#include "studies/shimmer/write.h"
 
 namespace gnomon::app {
 

@@ -18,15 +18,15 @@
 #include "app/sweep/make_cells.h"
 #include "app/sweep/slurm.h"
 #include "app/values.h"
-#include "compare/sweep/cell_files.h"
-#include "compare/sweep/merge.h"
-#include "compare/sweep/page.h"
-#include "compare/sweep/ray_points.h"
 #include "raster/shader_folder.h"
 #include "scene/files/path_status.h"
 #include "scene/files/write_file.h"
 #include "scene/one_line.h"
 #include "scene/timing.h"
+#include "studies/sweep/cell_files.h"
+#include "studies/sweep/merge.h"
+#include "studies/sweep/page.h"
+#include "studies/sweep/ray_points.h"
 
 namespace gnomon::app {
 

@@ -1,5 +1,5 @@
 // gnomon tune: the cheapest setting that is good enough, as a command line.
-#include "compare/tune/tune.h"
+#include "studies/tune/tune.h"
 
 #include <fmt/core.h>
 
@@ -18,10 +18,10 @@
 #include "app/sweep/axes.h"
 #include "app/tune_answer.h"
 #include "app/values.h"
-#include "compare/outputs.h"
-#include "compare/tune/page.h"
 #include "raster/shader_folder.h"
+#include "report/write_outputs.h"
 #include "scene/timing.h"
+#include "studies/tune/page.h"
 
 namespace gnomon::app {
 

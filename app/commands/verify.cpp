@@ -13,7 +13,7 @@
 #include "app/render_json.h"
 #include "app/session.h"
 #include "app/values.h"
-#include "app/verify/verify.h"
+#include "verify/verify.h"
 
 namespace gnomon::app {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "compare/bias_curve.h"
+#include "compare/bias/bias_curve.h"
 #include "scene/files/image_io.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"

@@ -11,7 +11,7 @@
 
 #include "app/grade/check_runs.h"
 #include "app/grade/excerpt.h"
-#include "compare/number_text.h"
+#include "compare/result/number_text.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/one_line.h"

@@ -6,10 +6,10 @@
 #include <sstream>
 #include <utility>
 
-#include "compare/outputs.h"
-#include "compare/report/explanations.h"
-#include "compare/report/html.h"
-#include "compare/report/page_head.h"
+#include "compare/result/outputs.h"
+#include "report/explanations.h"
+#include "report/html.h"
+#include "report/page_head.h"
 #include "scene/files/path_status.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/grade/page_name.h"
-#include "compare/csv_field.h"
-#include "compare/option_names.h"
+#include "compare/result/csv_field.h"
+#include "compare/result/option_names.h"
 #include "scene/one_line.h"
 
 namespace gnomon::app::grade {

@@ -10,8 +10,8 @@
 #include "app/options.h"
 #include "app/session.h"
 #include "app/setting.h"
-#include "compare/report/charts.h"
-#include "compare/report/page_data.h"
+#include "report/charts.h"
+#include "report/page_data.h"
 
 namespace gnomon::app::lessons {
 

@@ -1,5 +1,5 @@
 // A comparison as a live figure shows it: what `gnomon compare` would do with the same words, in a picture small enough
-// for a phone, as the parts of a page's data (compare/report/page_data.h).
+// for a phone, as the parts of a page's data (report/page_data.h).
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/report/shell.h"
+#include "report/shell.h"
 #include "scene/expected.h"
 
 namespace gnomon::app {

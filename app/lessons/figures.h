@@ -1,5 +1,5 @@
 // The live figures of one page: what a lesson's marks ask for, as the data that the page's script
-// (compare/report/page/src/lessons) makes figures of. A mark of a name that is not known here keeps its picture.
+// (report/page/src/lessons) makes figures of. A mark of a name that is not known here keeps its picture.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -6,9 +6,9 @@
 #include <array>
 #include <optional>
 
-#include "compare/report/section_mesh.h"
 #include "raytrace/frame.h"
 #include "raytrace/shading/fresnel.h"
+#include "report/section_mesh.h"
 #include "scene/load.h"
 
 namespace gnomon::app::lessons {

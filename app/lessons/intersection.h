@@ -1,4 +1,4 @@
-// What the ray tracer finds for rays at the surfaces of the intersection figures (compare/report/page/src/lessons), whose
+// What the ray tracer finds for rays at the surfaces of the intersection figures (report/page/src/lessons), whose
 // numbers the page works out by itself.
 #pragma once
 

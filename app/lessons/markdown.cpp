@@ -5,7 +5,7 @@
 #include <md4c-html.h>
 #include <md4c.h>
 
-#include "compare/report/html.h"
+#include "report/html.h"
 
 namespace gnomon::app::lessons {
 

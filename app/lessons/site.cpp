@@ -10,9 +10,9 @@
 #include "app/lessons/figures.h"
 #include "app/lessons/lesson_text.h"
 #include "app/lessons/markdown.h"
-#include "compare/report/html.h"
-#include "compare/report/lessons.h"
-#include "compare/report/shell.h"
+#include "report/html.h"
+#include "report/lessons.h"
+#include "report/shell.h"
 #include "scene/nearest_name.h"
 
 namespace gnomon::app::lessons {

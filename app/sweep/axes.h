@@ -1,5 +1,5 @@
 // The options of a sweep: those of `compare`, by the same names, each taking lists and ranges
-// (compare/sweep/axis.h). They are read off compare's own parser and every value is checked by it, so that
+// (studies/sweep/axis.h). They are read off compare's own parser and every value is checked by it, so that
 // units, ranges and messages are the same and a new option is an axis by itself.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/setting.h"
-#include "compare/sweep/axis.h"
+#include "studies/sweep/axis.h"
 
 namespace CLI {
 class App;

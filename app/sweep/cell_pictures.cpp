@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "app/interrupt.h"
-#include "compare/outputs.h"
-#include "compare/sweep/cell_files.h"
+#include "compare/result/outputs.h"
 #include "scene/files/image_io.h"
 #include "scene/files/write_file.h"
+#include "studies/sweep/cell_files.h"
 
 namespace gnomon::app {
 

@@ -1,4 +1,4 @@
-// The pictures of a sweep's cells, written as the cells are made (compare/sweep/cell_files.h).
+// The pictures of a sweep's cells, written as the cells are made (studies/sweep/cell_files.h).
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "compare/sweep/engine.h"
 #include "scene/expected.h"
+#include "studies/sweep/engine.h"
 
 namespace gnomon::app {
 

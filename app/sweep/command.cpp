@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/shell.h"
-#include "compare/option_names.h"
+#include "compare/result/option_names.h"
 #include "scene/files/read_file.h"
 #include "scene/files/sha256.h"
 

@@ -11,9 +11,9 @@
 #include "app/strongest_lights.h"
 #include "app/sweep/axes.h"
 #include "app/sweep/plan.h"
-#include "compare/outputs.h"
-#include "compare/sweep/journal.h"
 #include "raster/frame.h"
+#include "report/write_outputs.h"
+#include "studies/sweep/journal.h"
 
 namespace gnomon::app {
 

@@ -6,10 +6,10 @@
 #include <future>
 
 #include "app/interrupt.h"
-#include "compare/output_parts.h"
-#include "compare/sweep/cell_files.h"
+#include "compare/result/output_parts.h"
 #include "scene/threads.h"
 #include "scene/timing.h"
+#include "studies/sweep/cell_files.h"
 
 namespace gnomon::app {
 namespace {

@@ -5,8 +5,8 @@
 #include "app/session.h"
 #include "app/sweep/cell_pictures.h"
 #include "app/sweep/command.h"
-#include "compare/sweep/engine.h"
-#include "compare/sweep/journal.h"
+#include "studies/sweep/engine.h"
+#include "studies/sweep/journal.h"
 
 namespace gnomon::app {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "compare/output_parts.h"
-#include "compare/sweep/axis.h"
-#include "compare/sweep/journal.h"
+#include "compare/result/output_parts.h"
+#include "studies/sweep/axis.h"
+#include "studies/sweep/journal.h"
 
 namespace gnomon::app {
 

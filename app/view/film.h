@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/pose.h"
-#include "compare/shimmer/path.h"
+#include "studies/shimmer/path.h"
 
 namespace gnomon::app {
 

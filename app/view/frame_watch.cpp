@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "compare/number_text.h"
+#include "compare/result/number_text.h"
 #include "scene/clock.h"
 
 namespace gnomon::app {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "compare/palette.h"
+#include "compare/result/palette.h"
 #include "scene/parallel.h"
 
 namespace gnomon::app {

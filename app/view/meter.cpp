@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "compare/number_text.h"
+#include "compare/result/number_text.h"
 
 namespace gnomon::app {
 

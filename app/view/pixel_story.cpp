@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "compare/report/explanations.h"
-#include "compare/report/pixel_words.h"
+#include "report/explanations.h"
+#include "report/pixel_words.h"
 #include "scene/light_view.h"
 
 namespace gnomon::app {

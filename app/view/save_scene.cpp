@@ -11,7 +11,7 @@
 #include "app/output_path.h"
 #include "app/pose.h"
 #include "app/view/status.h"
-#include "compare/result_parts.h"
+#include "compare/result/result_parts.h"
 #include "scene/builtin.h"
 #include "scene/files/formats.h"
 #include "scene/files/read_file.h"

@@ -9,7 +9,7 @@
 #include "app/options.h"
 #include "app/shell.h"
 #include "app/values.h"
-#include "compare/number_text.h"
+#include "compare/result/number_text.h"
 #include "raster/settings.h"
 
 namespace gnomon::app {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "compare/outputs.h"
+#include "compare/result/outputs.h"
 #include "scene/exposure.h"
 #include "scene/files/image_io.h"
 #include "scene/timing.h"

@@ -7,7 +7,7 @@
 
 #include "app/view/map_pictures.h"
 #include "app/view/priority.h"
-#include "compare/outputs.h"
+#include "compare/result/outputs.h"
 
 namespace gnomon::app {
 

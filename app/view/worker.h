@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "compare/compare.h"
-#include "compare/shown_materials.h"
-#include "compare/verdict.h"
+#include "compare/result/verdict.h"
+#include "compare/truth/shown_materials.h"
 #include "scene/effects.h"
 #include "scene/expected.h"
 #include "scene/world.h"

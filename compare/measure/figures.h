@@ -1,7 +1,7 @@
 // The figures of a drawing that is not climbed.
 #pragma once
 
-#include "compare/ladder.h"
+#include "compare/ladder/ladder.h"
 
 namespace gnomon::compare {
 

@@ -1,10 +1,10 @@
 #include "compare/measure/image_sink.h"
 
-#include "compare/aov.h"
 #include "compare/measure/reduced.h"
 #include "compare/measure/run_all.h"
-#include "compare/output_parts.h"
-#include "compare/shown_materials.h"
+#include "compare/result/aov.h"
+#include "compare/result/output_parts.h"
+#include "compare/truth/shown_materials.h"
 #include "raster/bands.h"
 #include "raytrace/band.h"
 #include "scene/exposure.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "compare/ladder.h"
+#include "compare/ladder/ladder.h"
 #include "compare/measure/sums.h"
 #include "raster/renderer.h"
 #include "scene/expected.h"

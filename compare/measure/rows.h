@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "compare/edges.h"
-#include "compare/image_rows.h"
-#include "compare/ladder.h"
+#include "compare/ladder/ladder.h"
+#include "compare/metrics/edges.h"
+#include "compare/metrics/image_rows.h"
 
 namespace gnomon::compare {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/cascades.h"
-#include "compare/flip.h"
 #include "compare/measure/run_all.h"
-#include "compare/shadow_cost.h"
-#include "compare/ssim.h"
+#include "compare/metrics/flip.h"
+#include "compare/metrics/ssim.h"
+#include "compare/result/shadow_cost.h"
+#include "compare/truth/cascades.h"
 #include "scene/sort_numbers.h"
 #include "scene/stages.h"
 

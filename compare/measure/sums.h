@@ -5,15 +5,15 @@
 
 #include <optional>
 
-#include "compare/bias_kinds.h"
-#include "compare/bleeding.h"
-#include "compare/by_cascade.h"
-#include "compare/edges.h"
-#include "compare/light_parts.h"
+#include "compare/bias/bias_kinds.h"
+#include "compare/ladder/bleeding.h"
+#include "compare/ladder/by_cascade.h"
+#include "compare/ladder/penumbra.h"
+#include "compare/measure/light_parts.h"
 #include "compare/measure/number_list.h"
 #include "compare/measure/rows.h"
-#include "compare/penumbra.h"
-#include "compare/theory.h"
+#include "compare/metrics/edges.h"
+#include "compare/truth/theory.h"
 
 namespace gnomon::compare {
 

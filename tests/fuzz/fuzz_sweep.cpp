@@ -3,9 +3,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "compare/sweep/journal.h"
-#include "compare/sweep/summary.h"
 #include "fuzz_target.h"
+#include "studies/sweep/journal.h"
+#include "studies/sweep/summary.h"
 
 namespace {
 

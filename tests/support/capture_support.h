@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "compare/judge/capture_pictures.h"
-#include "compare/judge/judge.h"
+#include "studies/judge/capture_pictures.h"
+#include "studies/judge/judge.h"
 #include "support/compare_support.h"
 
 namespace gnomon::test {

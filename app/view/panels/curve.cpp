@@ -8,8 +8,8 @@
 
 #include "app/view/panels/panels.h"
 #include "app/view/presets.h"
-#include "compare/number_text.h"
-#include "compare/palette.h"
+#include "compare/result/number_text.h"
+#include "compare/result/palette.h"
 
 namespace gnomon::app {
 

@@ -3,7 +3,7 @@
 
 #include "app/view/panels/panels.h"
 #include "app/view/presets.h"
-#include "compare/report/lessons.h"
+#include "report/lessons.h"
 #include "scene/load.h"
 
 namespace gnomon::app {

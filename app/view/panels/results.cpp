@@ -7,10 +7,10 @@
 
 #include "app/view/panels/panels.h"
 #include "app/view/status.h"
-#include "compare/number_text.h"
-#include "compare/outputs.h"
-#include "compare/palette.h"
-#include "compare/report/explanations.h"
+#include "compare/result/number_text.h"
+#include "compare/result/outputs.h"
+#include "compare/result/palette.h"
+#include "report/explanations.h"
 
 namespace gnomon::app {
 

@@ -1,0 +1,45 @@
+// Which kind of bias suits a drawing: constant, slope, normal offset, receiver plane and adaptive, each tried
+// on the map as it was drawn with the double-precision twin of the hard test (biased_test.h), and each at the
+// smallest setting that is hardly wrong more often than its best.
+#pragma once
+
+#include "compare/bias/bias_curve.h"
+#include "compare/ladder/ladder.h"
+
+namespace gnomon::compare {
+
+/// Settings that are hardly worse than the best: by at most one compared pixel in 100,000, or one wrong pixel
+/// in fifty.
+struct BiasRange {
+  float from = 0.0f, to = 0.0f;  ///< the first such settings: from <= setting < to
+};
+/// `gaps` may be those of any setting that lights more pixels the larger it is.
+BiasRange smallest_good_range(const GapLists& gaps);
+/// find_best_bias, with what is clearly smaller and hardly worse.
+BestBias find_advised_bias(const GapLists& gaps);
+
+/// The number with the fewest digits in [from, to), not far above from.
+double short_number_in(double from, double to);
+
+/// What kinds are compared by, of the pixels of some rows. `settings`: of each kind, for each compared pixel the setting
+/// from which on it is lit, in the order of the pixels, and which of them are truly lit; ties (GapLists) are counted.
+enum KindOfBias : std::size_t { plain, slope, receiver_plane, adaptive, normal_offset, kind_count };
+struct KindSettings {
+  std::array<std::vector<float>, kind_count> settings;
+  std::vector<char> lit;
+  std::uint64_t ties = 0;
+};
+/// Whether kinds can be compared on this map.
+bool kinds_apply(const raster::RasterFrame& drawn, const raster::LightRecord& record);
+KindSettings settings_of_kinds(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels);
+/// Lists of one kind from its settings; the lit ones that no setting harms are only counted.
+void put_into_lists(const std::vector<float>& settings, const std::vector<char>& lit, GapLists& lists);
+/// From sorted lists.
+BiasKind kind_of_bias(KindOfBias kind, const LadderInput& in, const GapLists& lists);
+/// The best first.
+void sort_kinds(std::vector<BiasKind>& kinds);
+/// In the order in which equally good kinds are listed.
+inline constexpr std::array<KindOfBias, kind_count> kinds_in_order{slope, plain, receiver_plane,
+                                                                   normal_offset, adaptive};
+
+}  // namespace gnomon::compare

@@ -1,0 +1,132 @@
+#include "compare/ladder/biased_test.h"
+
+#include "compare/truth/texel_groups.h"
+
+namespace gnomon::compare {
+
+double plane_depth(const LightView& view, int face, double u, double v, const Vec3& position,
+                   const Vec3& normal) {
+  const Ray ray = texel_ray(view, face, u, v);
+  const double facing = glm::dot(normal, ray.direction);
+  if (!(facing < 0.0)) return infinity;
+  const double t = glm::dot(normal, position - ray.origin) / facing;
+  if (view.projection == LightProjection::orthographic) return t;
+  if (!(t > 0.0)) return infinity;
+  return t * glm::dot(ray.direction, view.faces[static_cast<std::size_t>(face)].forward);
+}
+
+namespace {
+
+/// Of a map whose texels are all alike: the plane's depth changes by the same from each texel to the next.
+double even_depth_slope(const LightView& view, const LightFace& face, const Vec3& normal) {
+  const double facing = -glm::dot(normal, face.forward);
+  if (!(facing > 0.0)) return infinity;
+  return (std::abs(glm::dot(normal, face.right)) * face.half_extent.x +
+          std::abs(glm::dot(normal, face.up)) * face.half_extent.y) /
+         (facing * view.size);
+}
+
+}  // namespace
+
+double texel_depth_slope(const LightView& view, const TexelCoordinate& at, const Vec3& position,
+                         const Vec3& normal) {
+  if (view.projection == LightProjection::orthographic && view.face(at.face).warp == 0.0)
+    return even_depth_slope(view, view.face(at.face), normal);
+  const auto slope = [&](double du, double dv) {
+    const double below = plane_depth(view, at.face, at.u - du, at.v - dv, position, normal);
+    const double above = plane_depth(view, at.face, at.u + du, at.v + dv, position, normal);
+    return std::isinf(below) || std::isinf(above) ? infinity : 0.5 * std::abs(above - below);
+  };
+  const double along_ray = at.distance / at.depth;
+  const double scale = view.projection == LightProjection::orthographic ? 1.0 : along_ray;
+  return (slope(0.5, 0.0) + slope(0.0, 0.5)) * scale;
+}
+
+std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, const raster::Bias& bias,
+                                          const Vec3& to_light, const raytrace::SurfacePoint& receiver,
+                                          std::size_t pixel) {
+  const LightView& view = record.map.view;
+  BiasedLookup out;
+  out.position = receiver.position;
+  out.at = project_to_face(view, record.face.data[pixel], receiver.position);
+  const double given = record.captured ? record.captured->test->normal_offset_world : 0.0;
+  if (bias.normal_offset_texels > 0.0 || given > 0.0) {
+    const double sine = glm::length(glm::cross(receiver.normal, to_light));
+    const double texels = bias.normal_offset_texels * texel_world_size(view, out.at) * sine;
+    out.position += receiver.normal * (texels + given);
+    out.at = project_to_texel(view, out.position);
+    if (!out.at.inside) return std::nullopt;
+    out.key = raytrace::TexelKey::pack(out.at.face, out.at.column(), out.at.row());
+  } else if (!texel_of_pixel(record, pixel, out.key)) {
+    return std::nullopt;
+  }
+  return out;
+}
+
+namespace {
+
+/// As another renderer tests its own map: a difference of stored numbers.
+double captured_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
+                    const BiasedLookup& lookup, double caster_depth) {
+  const LightView& view = record.map.view;
+  const TexelCoordinate& at = lookup.at;
+  const raster::CapturedTest& test = *record.captured->test;
+  const int face = lookup.key.face();
+  const double u = lookup.key.column() + 0.5, v = lookup.key.row() + 0.5;
+  const double slope =
+      bias.slope != 0.0 ? bias.slope * texel_depth_slope(view, at, lookup.position, normal) : 0.0;
+  if (test.distances) {
+    const double along = glm::dot(texel_ray(view, face, u, v).direction, view.face(face).forward);
+    return (at.distance - caster_depth / along) * test.unit_world - slope;
+  }
+  const double own = stored_from_depth(view, face, v, at.depth);
+  const double before = stored_from_depth(view, face, v, at.depth - slope * at.depth / at.distance);
+  const double caster = stored_from_depth(view, face, v, caster_depth);
+  const double behind = view.reversed ? caster - own : own - caster;
+  return (behind - std::abs(own - before)) * test.unit_world;
+}
+
+}  // namespace
+
+double gap_before(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
+                  const BiasedLookup& lookup, double caster_depth) {
+  if (record.captured) return captured_gap(record, bias, normal, lookup, caster_depth);
+  const LightView& view = record.map.view;
+  const TexelCoordinate& at = lookup.at;
+  const int face = lookup.key.face();
+  const double centre_v = lookup.key.row() + 0.5;
+  const auto plane = [&] {
+    return plane_depth(view, face, lookup.key.column() + 0.5, centre_v, lookup.position, normal);
+  };
+  double receiver_depth = at.depth;
+  if (bias.receiver_plane) {
+    const double stored = stored_from_depth(view, face, centre_v, caster_depth);
+    const double next = depth_from_stored(view, face, centre_v, stored + record.rounding.stored_step);
+    receiver_depth = plane() - record.rounding.float_world - std::abs(next - caster_depth);
+  }
+  if (bias.adaptive)
+    receiver_depth -= std::max(0.0, at.depth - plane()) + record.rounding.adaptive_epsilon_world;
+  const double along_ray = view.projection == LightProjection::orthographic ? 1.0 : at.distance / at.depth;
+  double gap = (receiver_depth - caster_depth) * along_ray;
+  if (bias.slope != 0.0) gap -= bias.slope * texel_depth_slope(view, at, lookup.position, normal);
+  if (const double base = record.rounding.constant_texel_world; base > 0.0)
+    gap *= base / texel_world_size(view, at);
+  return gap;
+}
+
+std::optional<double> stored_caster(const raster::LightRecord& record, raytrace::TexelKey key) {
+  const LightView& view = record.map.view;
+  const double stored = record.map.depth[record.map.texel_index(key.face(), key.column(), key.row())];
+  if (!holds_caster(view, stored)) return std::nullopt;
+  return depth_from_stored(view, key.face(), key.row() + 0.5, stored);
+}
+
+double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& to_light,
+                  const raytrace::SurfacePoint& receiver, std::size_t pixel) {
+  const auto lookup = biased_lookup(record, bias, to_light, receiver, pixel);
+  if (!lookup) return -infinity;
+  const auto depth = stored_caster(record, lookup->key);
+  return depth ? gap_before(record, bias, receiver.normal, *lookup, *depth) : -infinity;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,132 @@
+#include "compare/ladder/filter_probe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/ladder/filter_parameters.h"
+#include "scene/camera.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr int least_probes = 5, most_probes = 9;  // on a side
+constexpr double probe_spacing_texels = 1.5;
+
+/// The receiver's tangent plane as the map's light rays meet it.
+class ReceiverPlane {
+ public:
+  ReceiverPlane(const LadderInput& in, std::size_t pixel)
+      : in_(in),
+        receiver_(in.traced.receiver.data[pixel]),
+        face_(in.record().face.data[pixel]),
+        at_(project_to_face(in.record().map.view, face_, receiver_.position)) {}
+
+  Vec2 place() const { return {at_.u, at_.v}; }
+
+  // Of the plane's point on the ray through a place. Uncertain too where the ray does not reach the plane from
+  // the front.
+  raytrace::PointVisibility visibility(const Vec2& uv) const {
+    const LightView& view = in_.record().map.view;
+    const Ray ray = texel_ray(view, face_, uv.x, uv.y);
+    const double facing = glm::dot(receiver_.normal, ray.direction);
+    if (!(facing < 0.0)) return raytrace::PointVisibility::uncertain;
+    const double t = glm::dot(receiver_.normal, receiver_.position - ray.origin) / facing;
+    if (view.projection == LightProjection::perspective && !(t > 0.0))
+      return raytrace::PointVisibility::uncertain;
+    raytrace::SurfacePoint there = receiver_;
+    there.position = ray.at(t);
+    return in_.tracer.centre_visibility(there, in_.light());
+  }
+
+ private:
+  const LadderInput& in_;
+  const raytrace::SurfacePoint& receiver_;
+  int face_;
+  TexelCoordinate at_;
+};
+
+bool any_within_reach(const LadderInput& in, std::size_t pixel, raytrace::PointVisibility wanted) {
+  const ReceiverPlane plane(in, pixel);
+  const double reach = pixel_reach_texels(in, pixel);
+  const int spans = static_cast<int>(std::ceil(std::min(2.0 * reach / probe_spacing_texels, 1e3)));
+  const int probes = std::clamp(spans + 1, least_probes, most_probes);
+  const auto offset = [&](int i) { return (2.0 * i / (probes - 1) - 1.0) * reach; };
+  for (int j = 0; j < probes; ++j)
+    for (int i = 0; i < probes; ++i)
+      if (plane.visibility(plane.place() + Vec2(offset(i), offset(j))) == wanted) return true;
+  return false;
+}
+
+// Texels that the pixel covers on its longer side, as a mipmap level (shaders/moment_lookup.glsl). Levels
+// beyond the last one are read at the last: 3 above the finest of a cube map.
+double pixel_level(const LadderInput& in, std::size_t pixel) {
+  const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
+  const LightView& map = in.record().map.view;
+  const int face = in.record().face.data[pixel];
+  ImageSize size = in.drawn.primitive.size;
+  if (in.place.picture_height > 0) size.height = in.place.picture_height;
+  const View view = make_view(in.world().scene->camera, size);
+  const auto place = [&](double x, double y) {
+    const Ray ray = pixel_ray(view, x, y);
+    const double t =
+        glm::dot(receiver.normal, receiver.position - ray.origin) / glm::dot(receiver.normal, ray.direction);
+    const TexelCoordinate at = project_to_face(map, face, ray.at(t));
+    return Vec2(at.u, at.v);
+  };
+  const auto width = static_cast<std::size_t>(size.width);
+  const double x = static_cast<double>(pixel % width) + 0.5;
+  const double y = in.place.first_row + static_cast<double>(pixel / width) + 0.5;
+  const TexelCoordinate own = project_to_face(map, face, receiver.position);
+  const Vec2 here(own.u, own.v), across = place(x + 1.0, y) - here, down = place(x, y + 1.0) - here;
+  const double level = 0.5 * std::log2(std::max(glm::dot(across, across), glm::dot(down, down)));
+  const double most = in.light().type == LightType::point ? 3.0 : std::floor(std::log2(map.size));
+  return level > 0.0 ? std::min(level, most) : 0.0;  // not a number becomes 0
+}
+
+// The k-th of n places along a kernel's side around a receiver at `at`: the centre of the texel there.
+double tap_centre(const raster::FilterOptions& filter, double at, int k, int n) {
+  const double share = (k + 0.5) / n;
+  if (filter.kernel == raster::FilterKernel::box) {
+    const double side = 2.0 * std::floor(filter.radius_texels) + 1.0;
+    return std::floor(at) - std::floor(filter.radius_texels) + std::floor(share * side) + 0.5;
+  }
+  const double radius = filter.kernel == raster::FilterKernel::hardware ? 0.5 : filter.radius_texels;
+  return std::floor(at + (2.0 * share - 1.0) * radius) + 0.5;
+}
+
+}  // namespace
+
+double pixel_reach_texels(const LadderInput& in, std::size_t pixel) {
+  const raster::MapOptions& map = in.drawn.options.map;
+  const bool levels = raster::uses_moments(map.technique) && map.filter.mipmaps;
+  return filter_reach_texels(map, levels ? pixel_level(in, pixel) : 0.0);
+}
+
+bool lit_within_reach(const LadderInput& in, std::size_t pixel) {
+  return any_within_reach(in, pixel, raytrace::PointVisibility::lit);
+}
+
+bool shadowed_within_reach(const LadderInput& in, std::size_t pixel) {
+  return any_within_reach(in, pixel, raytrace::PointVisibility::shadowed);
+}
+
+double true_average(const LadderInput& in, std::size_t pixel) {
+  const ReceiverPlane plane(in, pixel);
+  const raster::FilterOptions& filter = in.drawn.options.map.filter;
+  const bool disc = filter.kernel == raster::FilterKernel::vogel;
+  int lit = 0, met = 0;
+  for (int j = 0; j < most_probes; ++j) {
+    for (int i = 0; i < most_probes; ++i) {
+      const double x = 2.0 * (i + 0.5) / most_probes - 1.0, y = 2.0 * (j + 0.5) / most_probes - 1.0;
+      if (disc && x * x + y * y > 1.0) continue;
+      const Vec2 place = plane.place();
+      const auto found = plane.visibility(
+          {tap_centre(filter, place.x, i, most_probes), tap_centre(filter, place.y, j, most_probes)});
+      lit += found == raytrace::PointVisibility::lit ? 1 : 0;
+      met += found != raytrace::PointVisibility::uncertain ? 1 : 0;
+    }
+  }
+  return met > 0 ? static_cast<double>(lit) / met : 1.0;
+}
+
+}  // namespace gnomon::compare

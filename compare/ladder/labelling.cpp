@@ -1,0 +1,101 @@
+#include "compare/ladder/labelling.h"
+
+#include "compare/ladder/features.h"
+#include "compare/ladder/filter_parameters.h"
+#include "compare/ladder/filter_probe.h"
+#include "compare/truth/stored_surface.h"
+
+namespace gnomon::compare {
+
+using raytrace::SurfacePoint;
+
+namespace {
+
+Label sampling_label(const LadderInput& in, Column& column, const WrongPixel& wrong) {
+  if (wrong.false_shadow)
+    return false_caster_goes_on(in, column, wrong) ? Label::aliasing : Label::false_feature;
+  return missed_caster_is_known(in, column, wrong) ? Label::aliasing : Label::missed_feature;
+}
+
+// The stored primitive, or one that hangs together with it in this column, lies between x and the light.
+bool stored_is_true_occluder(const LadderInput& in, Column& column, const WrongPixel& wrong) {
+  const std::uint32_t stored = stored_surface(in, wrong.lookup).primitive;
+  const SurfacePoint& receiver = in.traced.receiver.data[wrong.pixel];
+  const auto met = first_on_ray(
+      in.tracer, in.tracer.shadow_ray(receiver, in.light()), infinity, [&](const raytrace::Hit& hit) {
+        return hit.primitive == stored || (stored != no_id && column.same_sheet(stored, hit.primitive));
+      });
+  return met.has_value();
+}
+
+Label bias_label(const LadderInput& in, Column& column, const WrongPixel& wrong) {
+  if (!wrong.false_shadow)
+    return stored_is_true_occluder(in, column, wrong) ? Label::peter_panning : Label::light_leak;
+  const std::uint32_t stored = stored_surface(in, wrong.lookup).primitive;
+  const std::uint32_t receiver = in.traced.receiver.data[wrong.pixel].primitive;
+  return stored != no_id && column.same_sheet(stored, receiver) ? Label::acne : Label::false_feature;
+}
+
+// A filter that averages comparisons draws what they say: where true comparisons, averaged alike, are right,
+// those with the map are at fault, and what they find dark is the surface itself. Of moments the least is
+// known: only where nothing within reach is shadowed is the surface itself the caster.
+bool filters_own_surface(const LadderInput& in, const WrongPixel& wrong) {
+  if (in.drawn.options.map.technique != raster::Technique::pcf)
+    return !shadowed_within_reach(in, wrong.pixel);
+  return !(std::abs(true_average(in, wrong.pixel) - double{wrong.truth}) > 0.5);
+}
+
+// Light where nothing within the filter's reach is lit has leaked; near an edge it is the edge's blur.
+Label filter_label(const LadderInput& in, const WrongPixel& wrong) {
+  if (in.drawn.custom_shader) return Label::custom_shader;
+  if (filter_kind(in.drawn.options.map) == "none") return Label::precision;
+  if (wrong.false_shadow) return filters_own_surface(in, wrong) ? Label::acne : Label::blur;
+  return lit_within_reach(in, wrong.pixel) ? Label::blur : Label::light_leak;
+}
+
+}  // namespace
+
+Label label_wrong_pixel(const LadderInput& in, Column& column, const WrongPixel& wrong) {
+  if (in.drawn.custom_shader && !in.drawn.custom_shader->reads_bias) return Label::custom_shader;
+  if (wrong.exact_is_right) return Label::precision;
+  switch (wrong.step) {
+    case Cause::light_size:
+      return Label::light_size;
+    case Cause::sampling:
+      return sampling_label(in, column, wrong);
+    case Cause::slope:
+      return wrong.false_shadow ? Label::acne : Label::light_leak;
+    case Cause::precision:
+      return Label::precision;
+    case Cause::bias:
+      return bias_label(in, column, wrong);
+    case Cause::filter:
+      return filter_label(in, wrong);
+  }
+  return Label::blur;
+}
+
+Cause step_of_label(Label label, const std::array<float, rung_count>& rungs) {
+  switch (label) {
+    case Label::acne:
+      return Cause::slope;
+    case Label::precision:
+      return Cause::precision;
+    case Label::peter_panning:
+      return Cause::bias;
+    case Label::aliasing:
+    case Label::missed_feature:
+    case Label::false_feature:
+    case Label::outside_map:
+      return Cause::sampling;
+    case Label::blur:
+    case Label::custom_shader:
+      return Cause::filter;
+    case Label::light_size:
+      return Cause::light_size;
+    default:
+      return deciding_step(rungs);
+  }
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,25 @@
+// One label for every wrong pixel: the step that made it wrong, and for some steps what was met there.
+// docs/labels.md has the rules as a stranger could write them again.
+#pragma once
+
+#include "compare/truth/columns.h"
+
+namespace gnomon::compare {
+
+struct WrongPixel {
+  std::size_t pixel;          ///< index in the image
+  raytrace::TexelKey lookup;  ///< the texel that the biased test looked up
+  Cause step;                 ///< deciding_step()
+  bool false_shadow;          ///< drawn darker than the truth; otherwise a missed shadow
+  bool exact_is_right;  ///< V5 is wrong, and would be right with the exact depth in place of the stored one
+  float truth;          ///< V0
+};
+
+/// The label of a wrong pixel, by the rules of docs/labels.md.
+Label label_wrong_pixel(const LadderInput& input, Column& column, const WrongPixel& wrong);
+
+/// The step that a label stands for: the one whose doing it is, which for a missed shadow that leaks is the
+/// deciding one.
+Cause step_of_label(Label label, const std::array<float, rung_count>& rungs);
+
+}  // namespace gnomon::compare

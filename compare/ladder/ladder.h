@@ -1,0 +1,83 @@
+// The visibility ladder: every compared pixel climbed from the truth to what was drawn, one change at a time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compare/comparison.h"
+#include "compare/truth/surfaces.h"
+#include "compare/truth/texel_groups.h"
+#include "raytrace/sheets.h"
+
+namespace gnomon::compare {
+
+/// Where images lie in a picture that comes in bands.
+struct ImagePlace {
+  int first_row = 0;       ///< of the picture: row 0 of the images
+  int picture_height = 0;  ///< 0: the images hold the whole picture
+};
+
+/// What one light's pixels are climbed with. All parts must outlive the ladder.
+struct LadderInput {
+  const raytrace::Tracer& tracer;
+  const raytrace::Topology& topology;
+  const raster::RasterFrame& drawn;
+  const raytrace::RayTracedFrame& traced;
+  std::size_t index = 0;  ///< of the light in both frames' lists
+  ImagePlace place{};
+
+  const World& world() const { return tracer.world(); }
+  const raster::LightRecord& record() const { return drawn.lights[index]; }
+  const raytrace::LightTruth& truth() const { return traced.lights[index]; }
+  const Light& light() const { return world().scene->lights[record().light]; }
+};
+
+/// Marks each pixel background, silhouette, facing_away, uncertain, or right (= to be compared). Uncertain: a
+/// ray that cannot be decided, or a share of a light with size that lies within its standard error of one
+/// half.
+Image<Label> sort_pixels(const LadderInput& input);
+
+/// The labels with `right` where only the samples of a light with size leave the truth open: these pixels
+/// are not compared, but climbed, so that pictures and widths have no holes there.
+Image<Label> labels_climbed(const LadderInput& input, const Image<Label>& labels);
+
+/// V0: the share of the light that the pixel's receiver sees; of a light without size, all or nothing.
+float true_visibility(const LadderInput& input, std::size_t pixel);
+
+/// The rungs of every pixel, and its label.
+struct Climb {
+  std::array<Image<float>, rung_count> rungs;  ///< V0 … V6; 1 where not climbed
+  Image<Label> labels;
+};
+
+/// What the map as stored makes of the compared pixels, before the technique's bias and filter: V0 … V4. Frames of one light that were drawn with the same map share it.
+struct LowerClimb {
+  /// `sorted`: label `right` on what is to be compared. The parts of `input` must outlive this.
+  LowerClimb(const LadderInput& input, Image<Label> sorted);
+  LowerClimb(const LowerClimb&) = delete;
+  LowerClimb& operator=(const LowerClimb&) = delete;
+
+  LadderInput input;
+  Image<Label> sorted;
+  std::array<Image<float>, rung_count> rungs;  ///< V5 and V6 are 1, and V2 … V4 of pixels outside the map
+  std::vector<std::uint32_t> outside;          ///< compared pixels whose own texel lies outside the map
+  TexelGroups groups;                          ///< the other compared pixels
+  /// By group, the depth along the map's forward axis of the first thing that the exact light ray through the texel's
+  /// centre meets.
+  std::vector<double> centres;
+  Surfaces surfaces;
+};
+
+/// V5 and V6 of `input`, and the labels of its wrong pixels. `input` may hold another frame than `lower` was
+/// made from, as long as light, truth and map are the same.
+Climb climb_up(const LowerClimb& lower, const LadderInput& input);
+
+/// Climbs the compared pixels (label `right` on entry) and labels the wrong ones.
+Climb climb(const LadderInput& input, Image<Label> sorted);
+
+/// The step that made a wrong pixel wrong. Of a false shadow, the step at which V0 - V last rose above one
+/// half. Of a missed shadow the filter where V5 is right, else the step at which V - V0 first rose above one
+/// half: what darkens it in between by accident, and is taken away again, is not what it lacks.
+Cause deciding_step(const std::array<float, rung_count>& rungs);
+
+}  // namespace gnomon::compare

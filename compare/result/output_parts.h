@@ -1,0 +1,74 @@
+// What the writers of result.json, CSV, summary and report share: the records of one light.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "compare/comparison.h"
+#include "compare/result/option_names.h"
+
+namespace gnomon::compare {
+
+inline const raster::LightRecord& drawn_record(const Comparison& c, const LightComparison& light) {
+  return c.raster.lights[light.record];
+}
+inline const raytrace::LightTruth& true_record(const Comparison& c, const LightComparison& light) {
+  return c.raytraced.lights[light.record];
+}
+inline const Light& light_of(const Comparison& c, const LightComparison& light) {
+  return c.world->scene->lights[light.light];
+}
+/// Another renderer's picture, whose depth map is not known.
+inline bool lacks_map(const Comparison& c) {
+  return raster::lacks_map(c.raster);
+}
+/// Whether stored depths are compared with receivers: not by izb and hybrid, nor where no map is known.
+inline bool compares_depths(const Comparison& c) {
+  return !lacks_map(c) && compares_depths(c.raster.options.map.technique);
+}
+/// Whether a depth is compared with a bias: a shader of the user's own may read none.
+inline bool draws_bias(const Comparison& c) {
+  const auto& custom = c.raster.custom_shader;
+  return compares_depths(c) && (!custom || custom->reads_bias);
+}
+/// Without the map there are two steps: light size, and all the rest.
+inline std::size_t known_steps(const Comparison& c) {
+  return lacks_map(c) ? 2 : cause_count;
+}
+inline std::string_view step_name(const Comparison& c, Cause cause) {
+  return lacks_map(c) && cause == Cause::sampling ? "unexplained" : cause_name(cause);
+}
+/// "hard"; "unknown" where another renderer's map is not known.
+inline std::string_view drawn_technique(const Comparison& c) {
+  return lacks_map(c) ? "unknown" : technique_name(c.raster.options.map.technique);
+}
+
+/// A light's name as a part of a file name, unique among the lights compared.
+std::string light_file_part(const Comparison& comparison, const LightComparison& light);
+/// Where one light's channels go: `path` itself, or with "-NAME" before the extension when there are several
+/// lights.
+std::string aov_path(const Comparison& comparison, const LightComparison& light, const std::string& path);
+
+/// The text of result.json with these times in place of the comparison's own (the writer knows how long
+/// writing took).
+std::string result_json(const Comparison& comparison, double report_ms, double total_ms);
+
+/// The table of a result.json's text (result_table.h).
+std::string result_csv(std::string_view result);
+
+/// Names and values of a sweep's axes.
+using AxisValues = std::vector<std::pair<std::string, std::string>>;
+/// result.json on one line, with "axes" and without times (every one is "not timed"), so that the same
+/// setting gives the same bytes; ends with a line break. `no_effect`: the axes that the cell's technique does
+/// not read.
+std::string result_line(const Comparison& comparison, const AxisValues& axes,
+                        const std::vector<std::string>& no_effect = {});
+/// The object "axes" of that line, as its JSON text.
+std::string axes_text(const AxisValues& axes);
+/// The times that belong to a cell's line. `derived`: made from the gaps of the last drawn frame, whose times
+/// these are; `cell_ms`: what making the cell took.
+std::string times_line(const Comparison& comparison, std::size_t cell, bool derived, double cell_ms);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,248 @@
+// result.json: every number of a comparison under the keys of docs/design.md, section 6
+// (compare/result/result.schema.json). Conventions: a time is {median, runs[]} in ms, median null when it was
+// not timed; fractions and means are over compared pixels; a number that is not finite is written as null,
+// which the schema allows only where it has a meaning.
+#include <algorithm>
+#include <charconv>
+
+#include "compare/ladder/by_cascade.h"
+#include "compare/result/judged.h"
+#include "compare/result/option_names.h"
+#include "compare/result/output_parts.h"
+#include "compare/result/outputs.h"
+#include "compare/result/result_parts.h"
+#include "compare/result/shadow_cost.h"
+
+namespace gnomon::compare {
+namespace {
+
+Json effects_json(const EffectPlan& plan) {
+  Json json = Json::array();
+  for (const EffectEntry& e : plan.entries)
+    json.push_back({{"effect", effect_name(e.effect)},
+                    {"called_for", e.called_for},
+                    {"simulated", e.simulated},
+                    {"reason", e.reason}});
+  return json;
+}
+
+Json costs_json(const Comparison& c) {
+  const raytrace::RayCounts& rays = c.raytraced.rays;
+  return {{"map_texels", c.raster.map_texels},    {"map_bytes", c.raster.map_bytes},
+          {"primary_rays", rays.primary},         {"shadow_rays", rays.shadow},
+          {"soft_shadow_rays", rays.soft_shadow}, {"soft_shadow_rays_asked", rays.soft_shadow_asked},
+          {"reflection_rays", rays.reflection},   {"refraction_rays", rays.for_refraction()},
+          {"glossy_rays", rays.glossy},           {"indirect_rays", rays.indirect}};
+}
+
+// What --fail-above was held against; absent where nothing was asked for.
+void add_threshold(const Comparison& c, Json& json) {
+  if (!c.fail_above) return;
+  const std::vector<ErrorFigures> lights = figures_of(c);
+  json["fail_above"] = {{"threshold", threshold_text(*c.fail_above)},
+                        {"measure", measure_name(c.fail_above->measure)},
+                        {"limit", number(c.fail_above->limit)},
+                        {"failed", !is_kept(*c.fail_above, lights)}};
+}
+
+Json agreement_json(const std::vector<Agreement>& all) {
+  Json json = Json::array();
+  for (const Agreement& one : all) json.push_back({{"of", one.what}, {"share", number(one.share)}});
+  return json;
+}
+
+Json identified_json(const Identified& i) {
+  return {{"technique", i.technique},
+          {"options", i.options},
+          {"map_size", i.map_size},
+          {"bias_world", number(i.bias_world)},
+          {"bias_texels", number(i.bias_texels)},
+          {"explained", number(i.explained)},
+          {"model_error", number(i.model_error)},
+          {"picture_error", number(i.picture_error)},
+          {"renders", i.renders}};
+}
+
+// Of a picture that another renderer drew.
+Json judged_json(const Judged& j) {
+  Json mended = Json::array(), advice = Json::array();
+  Json::object_t settings;  // appended to: operator[] looks through all there are, and no two have one name
+  for (const auto& [key, value] : j.settings) settings.push_back({key, value});
+  for (const Mended& m : j.mended)
+    mended.push_back({{"what", m.what},
+                      {"evidence", m.evidence},
+                      {"before", number(m.before)},
+                      {"after", number(m.after)}});
+  for (const Advice& a : j.advice)
+    advice.push_back({{"setting", a.setting},
+                      {"now", number(a.now)},
+                      {"instead", number(a.instead)},
+                      {"unit", a.unit},
+                      {"wrong_now", number(a.wrong_now)},
+                      {"wrong_instead", number(a.wrong_instead)},
+                      {"feasible", a.feasible}});
+  return {{"capture", j.capture},
+          {"renderer", {{"name", j.renderer}, {"version", j.version}, {"settings", std::move(settings)}}},
+          {"map", j.has_map},
+          {"positions", j.has_positions},
+          {"ratio", j.of_ratio},
+          {"agreement", agreement_json(j.agreement)},
+          {"mended", std::move(mended)},
+          {"biased_is_drawn", j.has_map ? number(j.biased_is_drawn) : Json(nullptr)},
+          {"unit_world", j.has_map ? number(j.unit_world) : Json(nullptr)},
+          {"identified", j.identified ? identified_json(*j.identified) : Json(nullptr)},
+          {"advice", std::move(advice)},
+          {"notes", j.notes}};
+}
+
+// How often passes were timed.
+Json timing_json(const Comparison& c) {
+  const auto side = [](int runs, double enough_ms, bool subtracts, bool warm_up) {
+    return Json{{"most_runs", runs},
+                {"enough_ms", number(enough_ms)},
+                {"subtracted_runs", subtracts ? std::min(runs, subtracted_runs) : 0},
+                {"warm_up", warm_up}};
+  };
+  const raster::RasterOptions& drawn = c.raster.options;
+  const raytrace::RaytraceOptions& traced = c.raytraced.options;
+  return {{"raster", side(drawn.runs, drawn.enough_ms, drawn.shadow_cost, drawn.runs > 0)},
+          {"rays", side(traced.runs, traced.enough_ms, false, traced.warm_up)},
+          {"as_judged", drawn.timed_as_judged},
+          {"software_rasterizer", is_software(c.raster.context)}};
+}
+
+Json result_object(const Comparison& c, double report_ms, double total_ms) {
+  Json lights = Json::array();
+  for (const LightComparison& light : c.lights) lights.push_back(light_block(c, light));
+  return {{"schema", "gnomon/result/1"},
+          {"command", c.command},
+          {"version", program_version()},
+          {"seed", c.seed},
+          {"threads", c.threads},
+          {"size", {{"width", c.raster.options.size.width}, {"height", c.raster.options.size.height}}},
+          {"exposure", number(c.exposure)},
+          {"scene", scene_json(*c.world)},
+          {"machine", machine_json(c.machine)},
+          {"gl", context_json(c.raster.context)},
+          {"shaders", shaders_json(c.raster.replaced_shaders)},
+          {"effects", effects_json(c.plan)},
+          {"timing", timing_json(c)},
+          {"precision", raytrace::precision_name(c.precision)},
+          {"costs", costs_json(c)},
+          {"times_ms",
+           {{"load", one_time_json(c.load_ms)},
+            {"accel_build", one_time_json(c.accel_build_ms)},
+            {"primary_rays", times_json(c.raytraced.primary_rays)},
+            {"picture", one_time_json(c.raytraced.picture_ms)},
+            {"upload", one_time_json(c.raster.upload_ms)},
+            {"read_back", one_time_json(c.raster.read_back_ms)},
+            {"topology", one_time_json(c.topology_ms)},
+            {"report", one_time_json(report_ms)},
+            {"total", one_time_json(total_ms)}}},
+          {"lights", std::move(lights)}};
+}
+
+// Every time inside becomes "not timed".
+void drop_times(Json& json) {
+  for (auto& [key, member] : json.items()) {
+    if (key != "times_ms") {
+      if (member.is_structured()) drop_times(member);
+      continue;
+    }
+    for (auto& time : member) time = time.contains("low") ? difference_json({}) : times_json({});
+  }
+}
+
+// A number where the text is one, "on" and "off" as truth values, else the text.
+Json axis_value(const std::string& text) {
+  if (text == "on" || text == "off") return text == "on";
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+  if (!whole) return text;
+  const bool integer = value == std::floor(value) && std::abs(value) < 1e15;
+  return integer ? Json(static_cast<std::int64_t>(value)) : Json(value);
+}
+
+Json axes_object(const AxisValues& axes) {
+  Json json = Json::object();
+  for (const auto& [name, value] : axes) json[name] = axis_value(value);
+  return json;
+}
+
+}  // namespace
+
+Json scene_json(const World& world) {
+  const Scene& scene = *world.scene;
+  return {{"path", scene.path},
+          {"sha256", scene.sha256},
+          {"triangles", world.triangle_count()},
+          {"shapes", world.shapes.size()},
+          {"name", scene.name},
+          {"notes", scene.notes}};
+}
+
+Json machine_json(const MachineInfo& machine) {
+  return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}};
+}
+
+Json context_json(const raster::ContextInfo& context) {
+  return {{"backend", context.backend}, {"version", context.version}, {"renderer", context.renderer}};
+}
+
+Json shaders_json(const std::vector<raster::ReplacedShader>& replaced) {
+  Json json = Json::array();
+  for (const raster::ReplacedShader& shader : replaced)
+    json.push_back({{"replaced", shader.name}, {"sha256", shader.sha256}});
+  return json;
+}
+
+std::string result_json(const Comparison& c, double report_ms, double total_ms) {
+  Json json = result_object(c, report_ms, total_ms);
+  for (std::size_t i = 0; i < c.lights.size(); ++i) {
+    if (!c.judged && !c.lights[i].cascades.empty())
+      json["lights"][i]["by_cascade"] = by_cascade_json(c.lights[i].cascades);
+    if (const auto& seams = c.lights[i].seams)
+      json["lights"][i]["seams"] = {{"at_border", seams->at_border}, {"changed", seams->changed}};
+  }
+  if (c.judged) json["judged"] = judged_json(*c.judged);
+  add_threshold(c, json);
+  return dumped(json, 2);
+}
+
+std::string result_line(const Comparison& c, const AxisValues& axes,
+                        const std::vector<std::string>& no_effect) {
+  Json json = result_object(c, 0.0, 0.0);
+  drop_times(json);
+  if (c.judged) json["judged"] = judged_json(*c.judged);
+  json["axes"] = axes_object(axes);
+  if (!no_effect.empty()) json["no_effect"] = no_effect;
+  return dumped(json, -1);
+}
+
+std::string axes_text(const AxisValues& axes) {
+  return axes_object(axes).dump();
+}
+
+std::string times_line(const Comparison& c, std::size_t cell, bool derived, double cell_ms) {
+  Json lights = Json::array();
+  for (const LightComparison& light : c.lights) {
+    Json entry = Json::object();
+    entry["light"] = light_of(c, light).name;
+    entry.update(light_times_json(c, light));
+    lights.push_back(std::move(entry));
+  }
+  return dumped({{"cell", cell},
+                 {"derived", derived},
+                 {"cell_ms", number(cell_ms)},
+                 {"primary_rays", times_json(c.raytraced.primary_rays)},
+                 {"picture", one_time_json(c.raytraced.picture_ms)},
+                 {"lights", std::move(lights)}},
+                -1);
+}
+
+std::string result_json(const Comparison& c) {
+  return result_json(c, c.report_ms, c.total_ms);
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,415 @@
+// One light's block of result.json. Conventions: result_json.cpp.
+#include <algorithm>
+#include <array>
+
+#include "compare/ladder/filter_parameters.h"
+#include "compare/result/engine_units_json.h"
+#include "compare/result/judged.h"
+#include "compare/result/option_names.h"
+#include "compare/result/output_parts.h"
+#include "compare/result/result_parts.h"
+#include "compare/result/shadow_cost.h"
+#include "scene/light.h"
+#include "scene/light_type_name.h"
+
+namespace gnomon::compare {
+namespace {
+
+Json extent_json(std::monostate) {
+  return nullptr;
+}
+Json extent_json(const SunDisc& sun) {
+  return {{"shape", "sun"}, {"angular_diameter_degrees", number(sun.angular_diameter * 180.0 / pi)}};
+}
+Json extent_json(const SphereLight& sphere) {
+  return {{"shape", "sphere"}, {"radius", number(sphere.radius)}};
+}
+Json extent_json(const DiscLight& disc) {
+  return {{"shape", "disc"}, {"radius", number(disc.radius)}, {"normal", vector3(disc.normal)}};
+}
+Json extent_json(const RectangleLight& r) {
+  return {
+      {"shape", "rectangle"}, {"half_width", vector3(r.half_width)}, {"half_height", vector3(r.half_height)}};
+}
+
+Json light_json(const Light& light) {
+  Json json{{"name", light.name}, {"type", light_type_name(light.type)}};
+  if (light.type != LightType::directional) json["position"] = vector3(light.position);
+  if (light.type != LightType::point) json["direction"] = vector3(light.direction);
+  if (has_size(light))
+    json["extent"] = std::visit([](const auto& e) { return extent_json(e); }, light.extent);
+  return json;
+}
+
+/// The setting by its key, where it has one.
+void add_setting(Json& json, const raster::MapSetting& setting, const raster::MapOptions& map) {
+  if (setting.key.empty()) return;
+  Json& value = json[std::string(setting.key)];
+  if (const auto* n = std::get_if<raster::NumberSetting>(&setting.kind))
+    value = number(n->get(map));
+  else if (const auto* i = std::get_if<raster::IntegerSetting>(&setting.kind))
+    value = i->get(map);
+  else if (const auto* s = std::get_if<raster::SwitchSetting>(&setting.kind))
+    value = s->get(map);
+  else
+    value = raster::setting_text(setting, map);
+}
+
+Json filter_json(const raster::MapOptions& map) {
+  Json json{{"kind", filter_kind(map)}, {"radius_texels", filter_reach_texels(map)}};
+  for (const raster::MapSetting& setting : raster::map_settings())
+    if (setting.group == raster::SettingGroup::filter && raster::reads(map, setting))
+      add_setting(json, setting, map);
+  return json;
+}
+
+Json share_json(std::uint64_t part, std::uint64_t whole) {
+  return whole > 0 ? number(static_cast<double>(part) / static_cast<double>(whole)) : Json(nullptr);
+}
+
+Json hybrid_json(const raster::ExternalCosts& e) {
+  return {{"receivers", e.receivers},
+          {"surely_lit", e.surely_lit},
+          {"surely_shadowed", e.surely_shadowed},
+          {"penumbra", e.penumbra},
+          {"rays", e.rays},
+          {"all_rays", e.all_rays},
+          {"ray_share", share_json(e.rays, e.all_rays)},
+          {"triangle_tests", e.triangle_tests},
+          {"all_triangle_tests", e.all_triangle_tests},
+          {"triangle_test_share", share_json(e.triangle_tests, e.all_triangle_tests)},
+          {"silhouette", e.silhouette},
+          {"bytes", e.bytes},
+          {"times_ms",
+           {{"build", times_json(e.build)},
+            {"receivers", times_json(e.receivers_ms)},
+            {"shadow", times_json(e.shadow)}}}};
+}
+
+// null for a technique without cascades.
+Json cascades_json(const raster::MapOptions& map, const LightView& view) {
+  if (map.technique != raster::Technique::csm) return nullptr;
+  Json faces = Json::array();
+  for (int i = 0; i < view.face_count; ++i) {
+    const LightFace& face = view.face(i);
+    faces.push_back({{"texel_world", number(texel_world_size(view, i, 1.0))},
+                     {"near", number(face.near_depth)},
+                     {"far", number(face.far_depth)}});
+  }
+  Json json = Json::object();
+  for (const raster::MapSetting& setting : raster::map_settings())
+    if (setting.group == raster::SettingGroup::cascades)
+      add_setting(json, setting, raster::effective_options(map));
+  json["faces"] = std::move(faces);
+  return json;
+}
+
+std::string_view bias_unit_name(raster::BiasUnit unit) {
+  switch (unit) {
+    case raster::BiasUnit::world:
+      return "world";
+    case raster::BiasUnit::texel:
+      return "texel";
+    case raster::BiasUnit::automatic:
+      break;
+  }
+  return "auto";
+}
+
+// Exact techniques, and a shader of the user's own that reads no bias, draw without: null, and nothing but zeros.
+Json bias_json(const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& record = drawn_record(c, light);
+  const raster::MapOptions& map = c.raster.options.map;
+  const bool drawn = draws_bias(c);
+  raster::MapOptions given = map;
+  if (!drawn) given.bias = raster::Bias{};
+  const auto if_drawn = [drawn](double value) { return drawn ? number(value) : Json(nullptr); };
+  Json json{{"constant_world", if_drawn(record.bias_constant_world)},
+            {"constant_texels", if_drawn(record.bias_constant_world / record.texel_world)},
+            {"unit", bias_unit_name(map.bias.unit)},
+            {"texel_world", number(record.texel_world)},
+            {"scales_with_texel", raster::scales_bias(map)}};
+  for (const raster::MapSetting& setting : raster::map_settings()) {
+    if (setting.group != raster::SettingGroup::bias) continue;
+    add_setting(json, setting, given);
+    if (setting.name == "receiver-plane")
+      json["receiver_plane_slack_world"] =
+          given.bias.receiver_plane ? number(record.rounding_world) : Json(nullptr);
+  }
+  json["adaptive_epsilon_world"] =
+      given.bias.adaptive ? number(record.rounding.adaptive_epsilon_world) : Json(nullptr);
+  return json;
+}
+
+// null where the program's own shaders drew.
+Json custom_shader_json(const raster::RasterFrame& drawn) {
+  if (!drawn.custom_shader) return nullptr;
+  return {{"files", drawn.custom_shader->files}, {"reads_bias", drawn.custom_shader->reads_bias}};
+}
+
+Json map_json(const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& record = drawn_record(c, light);
+  const raster::MapOptions& map = c.raster.options.map;
+  const bool known = !lacks_map(c);
+  Json json{{"technique", drawn_technique(c)},
+            {"size", known ? Json(record.map.view.size) : Json(nullptr)},
+            {"inferred", c.judged && c.judged->identified.has_value()},
+            {"faces", record.map.view.face_count},
+            {"depth_format", depth_format_name(record.map.format)},
+            {"cull", cull_name(map.cull)},
+            {"bias", bias_json(c, light)},
+            {"custom_shader", custom_shader_json(c.raster)},
+            {"snap", map.snap},
+            {"cascades", cascades_json(map, record.map.view)},
+            {"warp", number(record.map.view.face(0).warp * record.map.view.face(0).half_extent.y)},
+            {"filter", filter_json(map)},
+            {"texel_world",
+             {{"min", number(light.texel_world[0])},
+              {"median", number(light.texel_world[1])},
+              {"max", number(light.texel_world[2])}}}};
+  if (record.external) json["hybrid"] = hybrid_json(*record.external);
+  return json;
+}
+
+Json pixels_json(const PixelCounts& p) {
+  return {{"total", p.total},
+          {"background", p.background},
+          {"facing_away", p.facing_away},
+          {"silhouette", p.silhouette},
+          {"uncertain", p.uncertain},
+          {"uncertain_by_samples", p.uncertain_by_samples},
+          {"compared", p.compared}};
+}
+
+Json error_json(const ErrorStats& e) {
+  return {{"wrong", e.wrong},
+          {"wrong_fraction", number(e.wrong_fraction)},
+          {"false_shadow", e.false_shadow},
+          {"missed_shadow", e.missed_shadow},
+          {"ties", e.ties},
+          {"fractional", e.fractional},
+          {"mean_absolute", number(e.mean_absolute)},
+          {"rms", number(e.rms)},
+          {"flip", number(e.flip)},
+          {"ssim", number(e.ssim)},
+          {"flip_compared", number(e.flip_compared)},
+          {"ssim_compared", number(e.ssim_compared)}};
+}
+
+Json budget_json(const Comparison& c, const LightComparison& light) {
+  Json json = Json::array();
+  for (std::size_t k = 0; k < known_steps(c); ++k)
+    json.push_back({{"cause", step_name(c, static_cast<Cause>(k))},
+                    {"signed", number(light.budget[k].signed_mean)},
+                    {"absolute", number(light.budget[k].absolute_mean)},
+                    {"darkened", number(light.budget[k].darkened())},
+                    {"lightened", number(light.budget[k].lightened())},
+                    {"false_shadow", light.budget[k].false_shadow},
+                    {"missed_shadow", light.budget[k].missed_shadow}});
+  return json;
+}
+
+Json ladder_json(const LightComparison& light) {
+  constexpr std::array<const char*, rung_count> names{"truth",  "point",  "texel", "flat",
+                                                      "stored", "biased", "drawn"};
+  const auto means = light.rung_mean;
+  Json json = Json::array();
+  for (std::size_t k = 0; k < rung_count; ++k)
+    json.push_back({{"rung", names[k]}, {"mean", number(means[k])}});
+  return json;
+}
+
+Json classes_json(const LightComparison& light) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < class_count; ++k)
+    json[std::string(label_name(static_cast<Label>(k + 1)))] = light.classes[k];
+  return json;
+}
+
+Json bleeding_json(const LightComparison& light) {
+  const double filter = light.budget[static_cast<std::size_t>(Cause::filter)].absolute_mean;
+  const BleedingStats& b = light.bleeding;
+  return {{"pixels", b.pixels},
+          {"mean", number(b.mean)},
+          {"max", number(b.max)},
+          {"share_of_filter", number(filter > 0.0 ? b.mean / filter : 0.0)}};
+}
+
+Json penumbra_json(const PenumbraStats& p) {
+  return {{"edges", p.edges},
+          {"true_penumbra_world", number(p.true_penumbra_world)},
+          {"drawn_penumbra_world", number(p.drawn_penumbra_world)},
+          {"umbra_edges", p.umbra_edges},
+          {"true_umbra_world", number(p.true_umbra_world)},
+          {"drawn_umbra_world", number(p.drawn_umbra_world)},
+          {"true_umbra_pixels", p.true_umbra_pixels},
+          {"true_penumbra_pixels", p.true_penumbra_pixels},
+          {"drawn_umbra_pixels", p.drawn_umbra_pixels},
+          {"drawn_penumbra_pixels", p.drawn_penumbra_pixels},
+          {"standard_error_mean", number(p.standard_error_mean)},
+          {"standard_error_max", number(p.standard_error_max)}};
+}
+
+Json bias_curve_json(const LightComparison& light) {
+  Json json = Json::array();
+  for (const BiasCurvePoint& p : light.bias_curve)
+    json.push_back({{"bias", number(p.bias)},
+                    {"bias_texels", number(p.bias / light.bias_texel_world)},
+                    {"false_shadow", p.false_shadow},
+                    {"missed_shadow", p.missed_shadow}});
+  return json;
+}
+
+Json best_bias_json(const LightComparison& light) {
+  if (!light.bias_curve_withheld.empty()) {
+    Json nothing = Json::object();
+    for (const char* key :
+         {"constant_world", "constant_texels", "wrong_fraction", "feasible", "needs_more_than",
+          "needs_less_than", "lit_pixels_above", "shadowed_pixels_below"})
+      nothing[key] = nullptr;
+    return nothing;
+  }
+  const BestBias& b = light.best_bias;
+  return {{"constant_world", number(b.constant_world)},
+          {"constant_texels", number(b.constant_world / light.bias_texel_world)},
+          {"wrong_fraction", number(b.wrong_fraction)},
+          {"feasible", b.feasible},
+          {"needs_more_than", number(b.needs_more_than)},
+          {"needs_less_than", number(b.needs_less_than)},
+          {"lit_pixels_above", b.lit_pixels_above},
+          {"shadowed_pixels_below", b.shadowed_pixels_below}};
+}
+
+Json bias_kinds_json(const LightComparison& light, const raster::MapOptions& drawn) {
+  Json json = Json::array();
+  for (const BiasKind& kind : light.bias_kinds)
+    json.push_back({{"kind", kind.name},
+                    {"options", bias_arguments(kind.bias, drawn)},
+                    {"wrong_fraction", number(kind.wrong_fraction)},
+                    {"range_of", kind.of_slope ? "slope" : "constant_world"},
+                    {"from", number(kind.from)},
+                    {"to", number(kind.to)}});
+  return json;
+}
+
+Json distribution_json(const Distribution& d) {
+  return {{"count", d.count},
+          {"median", number(d.median)},
+          {"p90", number(d.p90)},
+          {"p99", number(d.p99)},
+          {"max", number(d.max)}};
+}
+
+Json theory_json(const TheoryStats& t) {
+  return {{"acne_free_bias", distribution_json(t.acne_free_bias)},
+          {"aliasing", distribution_json(t.aliasing)},
+          {"perspective", distribution_json(t.perspective)},
+          {"projection", distribution_json(t.projection)},
+          {"measured_aliasing", distribution_json(t.measured_aliasing)}};
+}
+
+// null where no receiver has a texel.
+Json in_texels(double world, const LightComparison& light) {
+  const double texel = light.texel_world[1];
+  return texel > 0.0 ? number(world / texel) : Json(nullptr);
+}
+
+// Of the compared pixels; null where the technique looks up no map, or a shader of the user's own does.
+Json lookups_json(const LightComparison& light) {
+  if (!light.lookups) return {{"total", nullptr}, {"per_pixel", nullptr}};
+  const auto pixels = static_cast<double>(std::max<std::uint64_t>(light.pixels.compared, 1));
+  return {{"total", *light.lookups}, {"per_pixel", number(static_cast<double>(*light.lookups) / pixels)}};
+}
+
+Json ray_tests_json(const RayWork& work) {
+  const auto per_ray = [&work](std::uint64_t tests) {
+    return work.rays > 0 ? number(static_cast<double>(tests) / static_cast<double>(work.rays))
+                         : Json(nullptr);
+  };
+  return {{"rays", work.rays},
+          {"boxes_per_ray", per_ray(work.boxes)},
+          {"primitives_per_ray", per_ray(work.primitives)}};
+}
+
+}  // namespace
+
+Json light_times_json(const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& drawn = drawn_record(c, light);
+  const raytrace::LightTruth& truth = true_record(c, light);
+  Json json{{"map_pass", times_json(drawn.map_pass)},
+            {"first_map", drawn.first_map_ms > 0.0 ? one_time_json(drawn.first_map_ms) : times_json({})},
+            {"shade_pass", times_json(drawn.shade_pass)},
+            {"unshadowed_pass", times_json(drawn.unshadowed_pass)},
+            {"shadow_lookups", difference_json(shadow_lookups(drawn))},
+            {"shadow_rays", times_json(truth.shadow_rays)},
+            {"light_structure", times_json(truth.light_structure)},
+            {"exact_shadows", times_json(truth.exact_times())},
+            {"exact_shadows_standing", times_json(standing_rays(truth))},
+            {"id_map", times_json({})},  // nothing is drawn for it any more
+            {"classify", times_json(light.classify)}};
+  if (truth.is_soft()) json["soft_shadow_rays"] = times_json(truth.soft_shadow_rays);
+  return json;
+}
+
+namespace {
+
+Json shimmer_figures_json(const ShimmerFigures& film) {
+  return {{"frames", film.frames},
+          {"fps", number(film.fps)},
+          {"receiver_steps", film.receiver_steps},
+          {"flips", film.flips},
+          {"flips_per_receiver_second", number(film.flips_per_receiver_second)},
+          {"mean_absolute", number(film.mean_absolute)}};
+}
+
+}  // namespace
+
+Json light_block(const Comparison& c, const LightComparison& light) {
+  const raytrace::LightTruth& truth = true_record(c, light);
+  Json block{{"light", light_json(light_of(c, light))},
+             {"map", map_json(c, light)},
+             {"pixels", pixels_json(light.pixels)},
+             {"error", error_json(light.error)},
+             {"budget", budget_json(c, light)},
+             {"ladder", ladder_json(light)},
+             {"classes", classes_json(light)},
+             {"right_by_accident", {{"shadowed", light.accidents.shadowed}, {"lit", light.accidents.lit}}},
+             {"edges",
+              {{"count", light.edges.edges},
+               {"mean_texels", number(light.edges.mean_texels)},
+               {"rms_texels", number(light.edges.rms_texels)},
+               {"rms_pixels", number(light.edges.rms_pixels)},
+               {"mean_absolute_texels", number(light.edges.mean_absolute_texels)},
+               {"mean_world", number(light.edges.mean_world)},
+               {"mean_absolute_world", number(light.edges.mean_absolute_world)},
+               {"rms_world", number(light.edges.rms_world)}}},
+             {"detachment",
+              {{"pixels", light.detachment.pixels},
+               {"mean_world", number(light.detachment.mean_world)},
+               {"max_world", number(light.detachment.max_world)},
+               {"rms_world", number(light.detachment.rms_world)},
+               {"mean_texels", in_texels(light.detachment.mean_world, light)},
+               {"max_texels", in_texels(light.detachment.max_world, light)}}},
+             {"bias_curve", bias_curve_json(light)},
+             {"bias_curve_withheld",
+              light.bias_curve_withheld.empty() ? Json(nullptr) : Json(light.bias_curve_withheld)},
+             {"best_bias", best_bias_json(light)},
+             {"bias_kinds", bias_kinds_json(light, c.raster.options.map)},
+             {"engine_units", engine_units_json(engine_units(c, light))},
+             {"theory", theory_json(light.theory)},
+             {"shadow_rays", truth.rays},
+             {"lookups", lookups_json(light)},
+             {"ray_tests", ray_tests_json(light.ray_work)},
+             {"times_ms", light_times_json(c, light)}};
+  if (raster::uses_moments(c.raster.options.map.technique)) block["bleeding"] = bleeding_json(light);
+  if (light.shimmer) block["shimmer"] = shimmer_figures_json(*light.shimmer);
+  if (light.penumbra) block["penumbra"] = penumbra_json(*light.penumbra);
+  if (truth.is_soft()) {
+    block["shadow_samples"] = truth.samples;
+    block["soft_shadow_rays"] = truth.soft_rays;
+    block["soft_shadow_rays_asked"] = truth.soft_rays_asked;
+  }
+  return block;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,61 @@
+// Pieces of result.json that its top and the blocks of its lights share.
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compare/comparison.h"
+#include "compare/ladder/by_cascade.h"
+#include "scene/time_difference.h"
+
+namespace gnomon::compare {
+
+using Json = nlohmann::ordered_json;
+
+/// null where it is not finite.
+inline Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+/// {median, runs[]}; the median of no runs is null.
+inline Json times_json(const Times& t) {
+  Json runs = Json::array();
+  for (const double run : t.runs) runs.push_back(number(run));
+  return {{"median", t.runs.empty() ? Json(nullptr) : number(t.median())}, {"runs", std::move(runs)}};
+}
+
+/// {median, low, high, runs[]}; the first three of no runs are null.
+inline Json difference_json(const TimeDifference& d) {
+  const auto known = [&d](double ms) { return d.timed() ? number(ms) : Json(nullptr); };
+  Json json = times_json(d.pairs);
+  json["median"] = known(d.median), json["low"] = known(d.low), json["high"] = known(d.high);
+  return json;
+}
+
+inline Json one_time_json(double ms) {
+  return times_json(Times{{ms}});
+}
+
+inline Json vector3(const Vec3& v) {
+  return Json::array({number(v.x), number(v.y), number(v.z)});
+}
+
+Json scene_json(const World& world);
+Json machine_json(const MachineInfo& machine);
+Json context_json(const raster::ContextInfo& context);
+/// The user's files that were compiled in place of the program's own.
+Json shaders_json(const std::vector<raster::ReplacedShader>& replaced);
+
+/// Names come from files and may hold bytes that are not UTF-8: those are replaced, not refused.
+inline std::string dumped(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// One entry of "lights".
+Json light_block(const Comparison& comparison, const LightComparison& light);
+/// The budget of each cascade by itself, finest first; null of other techniques.
+Json by_cascade_json(const std::vector<CascadeFigures>& cascades);
+/// Its "times_ms".
+Json light_times_json(const Comparison& comparison, const LightComparison& light);
+
+}  // namespace gnomon::compare

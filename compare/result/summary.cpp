@@ -1,0 +1,315 @@
+// The summary that `gnomon compare` prints: per light the verdict, the counts, the budget and what the time
+// bought. At most 80 columns; colour is the terminal's own bold and dim, so that it follows the user's theme.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "compare/ladder/budget.h"
+#include "compare/ladder/filter_parameters.h"
+#include "compare/result/judged.h"
+#include "compare/result/number_text.h"
+#include "compare/result/option_names.h"
+#include "compare/result/output_parts.h"
+#include "compare/result/outputs.h"
+#include "compare/result/shadow_cost.h"
+#include "compare/result/text_layout.h"
+#include "compare/result/verdict.h"
+#include "scene/light_type_name.h"
+#include "scene/one_line.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr std::size_t columns = 80;
+constexpr std::size_t field_column = 12;  // where the values begin
+
+class Page {
+ public:
+  explicit Page(bool colour) : colour_(colour) {}
+
+  void heading(std::string_view text) {
+    for (const std::string& part : wrapped(one_line(text), columns)) text_ += styled("1", part) + '\n';
+  }
+  void paragraph(std::string_view text) {
+    for (const std::string& part : wrapped(text, columns - 2)) text_ += "  " + part + '\n';
+  }
+  // A name and its value; longer values go on below the first.
+  void field(std::string_view name, std::string_view value) {
+    std::string label = right_padded(name, field_column - 2);
+    for (const std::string& part : wrapped(one_line(value), columns - field_column)) {
+      text_ += "  " + styled("2", label) + part + '\n';
+      label = std::string(field_column - 2, ' ');
+    }
+  }
+  void blank() { text_ += '\n'; }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string styled(std::string_view code, const std::string& text) const {
+    return colour_ ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : text;
+  }
+  bool colour_;
+  std::string text_;
+};
+
+// "1 shape", "1,024 triangles".
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
+std::string map_line(const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& record = drawn_record(c, light);
+  const raster::MapOptions& map = c.raster.options.map;
+  const double texel = light.bias_texel_world;
+  if (lacks_map(c)) return "not known";
+  std::string text =
+      fmt::format("{}{}, {} x {}{} texels", c.judged && c.judged->identified ? "inferred: " : "",
+                  technique_name(map.technique), record.map.view.size, record.map.view.size,
+                  record.map.view.face_count > 1 ? fmt::format(" x {}", record.map.view.face_count) : "");
+  if (!compares_depths(map.technique)) return text;
+  text += fmt::format(", {}", depth_format_name(record.map.format));
+  if (!draws_bias(c)) return text + ", shader of --shader-dir";
+  text += fmt::format(", bias {}", plain_number(record.bias_constant_world));
+  if (texel > 0.0)
+    text += fmt::format(" ({}; a texel is {} wide)", texels_text(record.bias_constant_world / texel),
+                        plain_number(texel));
+  return text + beside_constant(map);
+}
+
+std::string hybrid_line(const raster::ExternalCosts& e) {
+  const auto share = [](std::uint64_t part, std::uint64_t whole) {
+    return percent(whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0);
+  };
+  return fmt::format(
+      "{} surely lit, {} surely shadowed, {} rays ({} of {}; {} of the triangle tests); sheets {} ms, "
+      "shadows {} "
+      "ms, {} KiB",
+      grouped(e.surely_lit), grouped(e.surely_shadowed), grouped(e.rays), share(e.rays, e.all_rays),
+      grouped(e.all_rays), share(e.triangle_tests, e.all_triangle_tests), plain_number(e.build.median()),
+      plain_number(e.shadow.median()), grouped(e.bytes / 1024));
+}
+
+std::string pixels_line(const PixelCounts& p) {
+  return fmt::format("{} of {} compared; {} background, {} facing away, {} silhouette, {} uncertain",
+                     grouped(p.compared), grouped(p.total), grouped(p.background), grouped(p.facing_away),
+                     grouped(p.silhouette), grouped(p.uncertain));
+}
+
+std::string wrong_line(const ErrorStats& e) {
+  const std::string ties =
+      e.ties > 0 ? fmt::format(", {} off by exactly one half count half", grouped(e.ties)) : "";
+  return fmt::format("{} ({}{}); false shadow {}, missed shadow {}", grouped(e.wrong),
+                     percent(e.wrong_fraction), ties, grouped(e.false_shadow), grouped(e.missed_shadow));
+}
+
+std::string error_line(const ErrorStats& e) {
+  const auto flip = [](double value) { return std::isfinite(value) ? plain_number(value) : "none"; };
+  return fmt::format("mean {}, RMS {}; FLIP {}, over compared pixels alone {}", plain_number(e.mean_absolute),
+                     plain_number(e.rms), flip(e.flip), flip(e.flip_compared));
+}
+
+std::string labels_line(const LightComparison& light) {
+  std::string text;
+  for (std::size_t k = 0; k < class_count; ++k)
+    if (light.classes[k] > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", spoken(label_name(static_cast<Label>(k + 1))),
+                          grouped(light.classes[k]));
+  return text.empty() ? "none" : text;
+}
+
+std::string accidents_line(const RightByAccident& a) {
+  return fmt::format("{} dark only because the surface shadows itself, {} lit only past a stored caster",
+                     grouped(a.shadowed), grouped(a.lit));
+}
+
+std::string seams_line(const SeamCount& seams) {
+  return fmt::format("{} of {} receivers beside another cascade would be drawn otherwise by it",
+                     grouped(seams.changed), grouped(seams.at_border));
+}
+
+// What each step took and what it added.
+std::string budget_line(const Comparison& c, const LightComparison& light) {
+  std::string text;
+  double sum = 0.0, sizes = 0.0;
+  for (std::size_t k = 0; k < cause_count; ++k) {
+    const BudgetStep& step = light.budget[k];
+    sum += step.signed_mean, sizes += step.absolute_mean;
+    if (!(step.absolute_mean > 0.0)) continue;
+    text += spoken(step_name(c, static_cast<Cause>(k)));
+    if (step.darkened() > 0.0) text += ' ' + signed_number(-step.darkened());
+    if (step.lightened() > 0.0) text += ' ' + signed_number(step.lightened());
+    text += ", ";
+  }
+  return text + "sum " + signed_number(beyond_rounding(sum, sizes));
+}
+
+std::string median_text(const Times& t) {
+  return milliseconds(t.runs.empty() ? -1.0 : t.median());
+}
+
+// The closed forms beside what was found.
+void add_theory(Page& page, const TheoryStats& t) {
+  page.field("theory",
+             fmt::format("half the pixels need a bias below {} against acne, 99 % below {}",
+                         plain_number(t.acne_free_bias.median), plain_number(t.acne_free_bias.p99)));
+  const std::string measured = t.measured_aliasing.count > 0
+                                   ? fmt::format(" ({} measured)", plain_number(t.measured_aliasing.median))
+                                   : "";
+  page.field("", fmt::format("a texel is {} pixels wide in the median{}, {} at 99 %",
+                             plain_number(t.aliasing.median), measured, plain_number(t.aliasing.p99)));
+}
+
+// What moments let through inside shadows, as a part of the filter step.
+void add_bleeding(Page& page, const Comparison& c, const LightComparison& light) {
+  if (!raster::uses_moments(c.raster.options.map.technique)) return;
+  const BleedingStats& b = light.bleeding;
+  page.field("bleeding",
+             fmt::format("{} of the filter step, on {} pixel{}; at most {}", signed_number(b.mean),
+                         grouped(b.pixels), b.pixels == 1 ? "" : "s", percent(b.max)));
+}
+
+// What the truth of a light with size is known by, and median widths across shadow edges.
+void add_penumbra(Page& page, const PenumbraStats& p, int samples) {
+  const std::string error =
+      samples == 1 ? "how far off one is cannot be told"
+                   : fmt::format("where a part of it is seen its standard error is {}, at most {}",
+                                 plain_number(p.standard_error_mean), plain_number(p.standard_error_max));
+  page.field("truth", fmt::format("{} of the light; {}",
+                                  counted(static_cast<std::uint64_t>(samples), "sample"), error));
+  if (p.edges == 0) return;
+  page.field("penumbra",
+             fmt::format("{} wide in truth, {} as drawn ({} of {})", plain_number(p.true_penumbra_world),
+                         plain_number(p.drawn_penumbra_world), p.edges == 1 ? "the width" : "medians",
+                         counted(p.edges, "edge")));
+  if (p.umbra_edges == 0) return;
+  page.field("umbra",
+             fmt::format("{} wide in truth, {} as drawn ({} of {})", plain_number(p.true_umbra_world),
+                         plain_number(p.drawn_umbra_world), p.umbra_edges == 1 ? "the width" : "medians",
+                         counted(p.umbra_edges, "edge")));
+}
+
+// What the exact shadow took, and of what.
+std::string exact_shadows_line(const raytrace::LightTruth& truth) {
+  std::string text = fmt::format("exact shadows: {} for {} ray{}", median_text(truth.exact_times()),
+                                 grouped(truth.exact_rays()), truth.exact_rays() == 1 ? "" : "s");
+  if (!truth.is_soft()) return text;
+  return text + fmt::format(", of {} samples asked for ({} a receiver); and {} to the light's centre",
+                            grouped(truth.soft_rays_asked), truth.samples, median_text(truth.shadow_rays));
+}
+
+// What is left of the shading when the picture without shadows is taken from it.
+std::string lookups_text(const TimeDifference& lookups, bool hybrid) {
+  if (!lookups.timed()) return "lookups not timed";
+  return milliseconds(lookups) + (hybrid ? " for the rest" : " to look it up") +
+         (lookups.told ? "" : ", which these runs do not tell from nothing");
+}
+
+// The shadows' part of a frame on both sides, and of one in which nothing that the light sees has moved.
+void add_shadow_cost(Page& page, const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& drawn = drawn_record(c, light);
+  const raytrace::LightTruth& truth = true_record(c, light);
+  if (drawn.unshadowed_pass.runs.empty()) return;
+  const TimeDifference lookups = shadow_lookups(drawn);
+  const bool hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
+  page.field("shadows", fmt::format("without the picture: {} for the {}, {}; by rays {}, with nothing made "
+                                    "for the light",
+                                    median_text(drawn.map_pass), hybrid ? "sheets" : "map",
+                                    lookups_text(lookups, hybrid), median_text(standing_rays(truth))));
+  page.field("", fmt::format("where light and casters stand still: {} against {}", milliseconds(lookups),
+                             median_text(standing_rays(truth))));
+  page.field("picture",
+             fmt::format("without shadows: {} to shade it, {} for primary rays",
+                         median_text(drawn.unshadowed_pass), median_text(c.raytraced.primary_rays)));
+}
+
+// What does not hang on the machine.
+std::string work_line(const Comparison& c, const LightComparison& light) {
+  const raytrace::LightTruth& truth = true_record(c, light);
+  std::string text = counted(drawn_record(c, light).map_texels, "texel") + " drawn";
+  if (light.lookups)
+    text += fmt::format(", {} looked up ({} a pixel)", grouped(*light.lookups),
+                        plain_number(static_cast<double>(*light.lookups) /
+                                     static_cast<double>(std::max<std::uint64_t>(light.pixels.compared, 1))));
+  text += "; " + counted(truth.exact_rays(), "ray");
+  const RayWork& work = light.ray_work;
+  if (work.rays > 0)
+    text += fmt::format(", {} boxes and {} primitives tested for one (of {} through the tree)",
+                        plain_number(static_cast<double>(work.boxes) / static_cast<double>(work.rays)),
+                        plain_number(static_cast<double>(work.primitives) / static_cast<double>(work.rays)),
+                        grouped(work.rays));
+  return text;
+}
+
+// What the time bought: an approximation by the map, or the exact answer by rays.
+void add_times(Page& page, const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& drawn = drawn_record(c, light);
+  if (!c.judged)
+    page.field("time", fmt::format("the map: {}, and {} to shade the picture with it",
+                                   median_text(drawn.map_pass), median_text(drawn.shade_pass)));
+  page.field(c.judged ? "time" : "", exact_shadows_line(true_record(c, light)));
+  add_shadow_cost(page, c, light);
+  if (!c.judged) page.field("work", work_line(c, light));
+}
+
+// What comes before the first frame, and what only the comparison needs.
+void add_once(Page& page, const Comparison& c) {
+  double first_map = 0.0;
+  for (const LightComparison& light : c.lights) first_map += drawn_record(c, light).first_map_ms;
+  page.field(
+      "once",
+      fmt::format("{} to upload the scene, {} to make memory for the maps and draw them first; "
+                  "{} to build the tracer's hierarchy",
+                  milliseconds(c.raster.upload_ms), first_map > 0.0 ? milliseconds(first_map) : "not timed",
+                  milliseconds(c.accel_build_ms)));
+  page.field("", fmt::format("for the comparison alone: {} to join triangles, {} to read back",
+                             milliseconds(c.topology_ms), milliseconds(c.raster.read_back_ms)));
+  if (is_software(c.raster.context)) page.field("", std::string(software_note));
+}
+
+void add_light(Page& page, const Comparison& c, const LightComparison& light) {
+  page.blank();
+  page.heading(
+      fmt::format("light '{}' ({})", light_of(c, light).name, light_type_name(light_of(c, light).type)));
+  page.paragraph(verdict_on(c, light).whole());
+  page.blank();
+  page.field("map", map_line(c, light));
+  const std::string filter = filter_text(c.raster.options.map);
+  if (!filter.empty()) page.field("filter", filter);
+  if (const auto& external = drawn_record(c, light).external) page.field("hybrid", hybrid_line(*external));
+  page.field("pixels", pixels_line(light.pixels));
+  if (light.pixels.compared > 0) {
+    page.field("wrong", wrong_line(light.error));
+    page.field("error", error_line(light.error));
+    page.field("labels", labels_line(light));
+    if (light.accidents.shadowed + light.accidents.lit > 0)
+      page.field("by chance", accidents_line(light.accidents));
+    page.field("budget", budget_line(c, light));
+    if (light.seams) page.field("seams", seams_line(*light.seams));
+    add_bleeding(page, c, light);
+    if (light.penumbra) add_penumbra(page, *light.penumbra, true_record(c, light).samples);
+    if (!lacks_map(c)) add_theory(page, light.theory);
+    if (!light.bias_curve_withheld.empty()) page.field("bias", light.bias_curve_withheld);
+  }
+  add_times(page, c, light);
+}
+
+}  // namespace
+
+std::string summary_table(const Comparison& c, bool colour) {
+  Page page(colour);
+  const ImageSize size = c.raster.options.size;
+  page.heading(fmt::format("{}: {} x {} pixels, {}, {}", c.world->scene->name, size.width, size.height,
+                           counted(c.world->triangle_count(), "triangle"),
+                           counted(c.world->shapes.size(), "shape")));
+  if (c.judged)
+    for (const auto& [name, value] : judged_lines(c)) page.field(name, value);
+  for (const LightComparison& light : c.lights) add_light(page, c, light);
+  page.blank();
+  page.field("whole", fmt::format("{} on {} thread{}; primary rays {}; peak memory {}",
+                                  milliseconds(c.total_ms), c.threads, c.threads == 1 ? "" : "s",
+                                  median_text(c.raytraced.primary_rays), byte_count(c.peak_memory_bytes)));
+  if (!c.lights.empty() && !c.judged) add_once(page, c);
+  return page.take();
+}
+
+}  // namespace gnomon::compare

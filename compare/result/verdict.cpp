@@ -1,0 +1,153 @@
+#include "compare/result/verdict.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "compare/bias/bias_advice.h"
+#include "compare/bias/bias_curve.h"
+#include "compare/result/judged.h"
+#include "compare/result/number_text.h"
+#include "compare/result/text_layout.h"
+#include "raster/technique_traits.h"
+
+namespace gnomon::compare {
+namespace {
+
+std::string spoken_label(Label label) {
+  std::string name(label_name(label));
+  std::replace(name.begin(), name.end(), '_', label == Label::peter_panning ? '-' : ' ');
+  return name;
+}
+
+// "all of them acne", "mostly acne", "mainly acne and aliasing".
+std::string main_reasons(const LightComparison& light) {
+  std::array<std::size_t, class_count> order{};
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return light.classes[a] > light.classes[b]; });
+  const auto name = [&](std::size_t rank) { return spoken_label(static_cast<Label>(order[rank] + 1)); };
+  const auto count = [&](std::size_t rank) { return light.classes[order[rank]]; };
+  const std::uint64_t wrong = light.error.wrong;
+  if (count(0) == wrong) return wrong == 1 ? name(0) : "all of them " + name(0);
+  if (2 * count(0) > wrong) return "mostly " + name(0);
+  if (2 * (count(0) + count(1)) > wrong) return fmt::format("mainly {} and {}", name(0), name(1));
+  return fmt::format("mainly {}, {} and {}", name(0), name(1), name(2));
+}
+
+// "4.1 % of the lit-or-shadowed pixels are wrong, mostly acne." Each is wholly wrong, so the share is the mean error.
+std::string yes_or_no_part(const LightComparison& light) {
+  const std::uint64_t wrong = light.error.wrong, compared = light.pixels.compared;
+  if (wrong == 0 && compared == 1) return "The one lit-or-shadowed pixel is right.";
+  if (wrong == 0) return fmt::format("None of the {} lit-or-shadowed pixels is wrong.", grouped(compared));
+  const bool few = light.error.wrong_fraction < few_fraction;
+  const std::string share = few ? fmt::format("{} of {}", grouped(wrong), grouped(compared))
+                                : fmt::format("{} of the", percent(light.error.wrong_fraction));
+  return fmt::format("{} lit-or-shadowed pixels {} wrong, {}.", share, few && wrong == 1 ? "is" : "are",
+                     main_reasons(light));
+}
+
+// Where something is partly lit, in truth or as drawn, counts of what is more than one half off say little.
+std::string fractional_part(const LightComparison& light) {
+  const std::uint64_t wrong = light.error.wrong, compared = light.pixels.compared;
+  const std::string lead =
+      fmt::format("The mean error is {} over {} lit-or-shadowed pixel{}; ",
+                  percent(light.error.mean_absolute), grouped(compared), compared == 1 ? "" : "s");
+  if (wrong == 0) return lead + "none of them is wrong by more than one half.";
+  // Without those that are off by exactly one half, of which the figure of the error counts half.
+  const double share = static_cast<double>(wrong) / static_cast<double>(compared);
+  const bool few = share < few_fraction;
+  return lead + fmt::format("{} of them {} wrong by more than one half, {}.",
+                            few ? grouped(wrong) : percent(share), few && wrong == 1 ? "is" : "are",
+                            main_reasons(light));
+}
+
+std::string uncertain_part(const PixelCounts& p) {
+  if (p.uncertain == 0) return {};
+  return fmt::format(
+      "{} more ({}) {} uncertain: the truth there lies within its own error bound.", grouped(p.uncertain),
+      percent(static_cast<double>(p.uncertain) / static_cast<double>(p.compared + p.uncertain)),
+      p.uncertain == 1 ? "is" : "are");
+}
+
+// Most of the error is that a light with size was taken for its centre: no filter makes up for most of that, and no other
+// step stands for more of the error, or for more of the wrong pixels.
+bool lacks_light_size(const raster::RasterFrame& drawn, const LightComparison& light) {
+  if (drawn.custom_shader || raster::traits_of(drawn.options.map.technique).soft) return false;
+  const auto step = [&](Cause cause) { return light.budget[static_cast<std::size_t>(cause)]; };
+  const double shrunk = step(Cause::light_size).absolute_mean, error = light.error.mean_absolute;
+  if (light.error.fractional == 0 || shrunk < 0.5 * error || error < 0.5 * shrunk) return false;
+  const double biased =  // what the bias leaves of the map's acne, or adds
+      step(Cause::slope).signed_mean + step(Cause::precision).signed_mean + step(Cause::bias).signed_mean;
+  const double others =
+      std::max({step(Cause::filter).absolute_mean, step(Cause::sampling).absolute_mean, std::abs(biased)});
+  const std::uint64_t by_size = light.classes[static_cast<std::size_t>(Label::light_size) - 1];
+  return shrunk > others && by_size == *std::max_element(light.classes.begin(), light.classes.end());
+}
+
+std::string soft_technique_advice() {
+  std::string options;
+  for (const raster::TechniqueTraits& t : raster::all_technique_traits())
+    if (t.soft) options += fmt::format("{}--technique {}", options.empty() ? "" : " or ", t.name);
+  return fmt::format(
+      "Most of the mean error is the light's size: no bias gives the shadow of its centre a penumbra, a "
+      "technique for soft shadows does ({}).",
+      options);
+}
+
+std::string error_part(const LightComparison& light) {
+  return light.error.fractional > 0 ? fractional_part(light) : yes_or_no_part(light);
+}
+
+std::string nothing_compared(const PixelCounts& p, LightType light) {
+  const std::string one = p.facing_away == 1 ? "s" : "";
+  const std::string away = fmt::format("{} face{} away from the light", grouped(p.facing_away), one);
+  return fmt::format(
+      "No pixel could be compared: of {}, {} show{} no surface, {}, {} {} and {} {} uncertain.",
+      grouped(p.total), grouped(p.background), p.background == 1 ? "s" : "",
+      light == LightType::spot ? fmt::format("{} or lie{} outside its cone", away, one) : away,
+      grouped(p.silhouette), p.silhouette == 1 ? "is a silhouette" : "are silhouettes", grouped(p.uncertain),
+      p.uncertain == 1 ? "is" : "are");
+}
+
+std::string instead_text(const Advice& advice, std::string_view setting) {
+  return fmt::format("{} {:.4g} instead of {:.4g}", setting, advice.instead, advice.now);
+}
+
+// Of another renderer's picture, in that renderer's own units; no option of Gnomon's own can be set there. First comes
+// the constant alone, and where a normal offset does clearly better that offset and the constant beside it.
+std::string judged_advice(const Judged& judged, const LightComparison& light) {
+  if (judged.advice.empty()) return {};
+  const Advice& last = judged.advice.back();
+  const double drawn = light.error.wrong_fraction;
+  if (last.wrong_instead >= drawn || percent(last.wrong_instead) == percent(drawn)) return {};
+  std::string settings;
+  if (judged.advice.size() > 1) settings = instead_text(judged.advice[1], judged.advice[1].setting);
+  if (last.instead != last.now)
+    settings += (settings.empty() ? "" : " and ") + instead_text(last, "bias.constant_depth");
+  if (settings.empty()) return {};
+  return fmt::format("{} would leave {}.", settings, percent(last.wrong_instead));
+}
+
+}  // namespace
+
+std::string Verdict::whole() const {
+  return joined_sentences({headline, detail});
+}
+
+Verdict verdict_on(const Comparison& c, const LightComparison& light) {
+  if (light.pixels.compared == 0)
+    return {nothing_compared(light.pixels, c.world->scene->lights[light.light].type), {}};
+  const std::string error = error_part(light), uncertain = uncertain_part(light.pixels);
+  if (c.judged) return {joined_sentences({error, judged_advice(*c.judged, light)}), uncertain};
+  if (lacks_light_size(c.raster, light))
+    return {joined_sentences({error, soft_technique_advice()}), uncertain};
+  // What other biases would do follows from the gaps of a hard test alone.
+  if (!biases_follow_from_gaps(c.raster)) return {error, uncertain};
+  const BiasAdvice advice = bias_advice(light, c.raster.options.map);
+  return {joined_sentences({error, advice.best}), joined_sentences({uncertain, advice.more})};
+}
+
+}  // namespace gnomon::compare

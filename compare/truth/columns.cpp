@@ -1,0 +1,66 @@
+#include "compare/truth/columns.h"
+
+#include <algorithm>
+
+#include "scene/parallel.h"
+
+namespace gnomon::compare {
+
+using raytrace::TexelKey;
+
+Ray caster_ray(const LightView& view, int face_index, double u, double v) {
+  Ray ray = texel_ray(view, face_index, u, v);
+  if (view.projection == LightProjection::perspective) return ray;
+  const LightFace& face = view.face(face_index);
+  const double before = face.far_depth - face.near_depth;
+  ray.origin += (face.near_depth - before) * ray.direction;
+  ray.t = {before, infinity};
+  return ray;
+}
+
+TexelCentre trace_centre(const LadderInput& in, TexelKey key) {
+  const LightView& view = in.record().map.view;
+  TexelCentre out;
+  out.face = key.face();
+  out.ray = caster_ray(view, key.face(), key.column() + 0.5, key.row() + 0.5);
+  out.hit = in.tracer.closest_hit(out.ray);
+  if (out.hit) {
+    const Vec3& forward = view.face(out.face).forward;
+    out.depth =
+        glm::dot(out.ray.origin - view.origin, forward) + out.hit->t * glm::dot(out.ray.direction, forward);
+  }
+  return out;
+}
+
+std::vector<TexelCentre> trace_centres(const LadderInput& in, const std::vector<TexelKey>& keys) {
+  std::vector<TexelCentre> centres(keys.size());
+  parallel_for(keys.size(), [&](std::size_t i) { centres[i] = trace_centre(in, keys[i]); });
+  return centres;
+}
+
+double plane_rounding(const Ray& ray, const raytrace::SurfacePoint& receiver) {
+  const double facing = std::abs(glm::dot(receiver.normal, ray.direction));
+  const double size =
+      glm::length(receiver.position) + glm::length(ray.origin) + glm::length(receiver.position_error);
+  return 32.0 * std::numeric_limits<double>::epsilon() * size / facing;
+}
+
+bool meets_plane_unhindered(const LadderInput& in, const TexelCentre& centre,
+                            const raytrace::SurfacePoint& receiver) {
+  if (!centre.hit) return true;
+  const double facing = glm::dot(receiver.normal, centre.ray.direction);
+  if (!(facing < 0.0)) return false;
+  const double t = glm::dot(receiver.normal, receiver.position - centre.ray.origin) / facing;
+  const bool ahead = in.record().map.view.projection == LightProjection::orthographic || t > 0.0;
+  return ahead && centre.hit->t >= t - plane_rounding(centre.ray, receiver);
+}
+
+bool Column::same_sheet(std::uint32_t a, std::uint32_t b) {
+  if (a == b) return true;
+  const World& world = input_.world();
+  if (!world.is_triangle(a) || !world.is_triangle(b)) return false;
+  if (!sheets_) sheets_.emplace(world, input_.topology, input_.record().map.view, key_);
+  return sheets_->same(a, b);
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,112 @@
+#include "compare/truth/exact_depth.h"
+
+#include "compare/ladder/biased_test.h"
+#include "compare/ladder/labelling.h"
+#include "compare/truth/stored_surface.h"
+#include "raster/technique_traits.h"
+
+namespace gnomon::compare {
+namespace {
+
+// Infinite where the ray meets nothing.
+std::optional<double> depth_of_stored(const LadderInput& in, raytrace::TexelKey key, double first_depth) {
+  if (raster::traits_of(in.drawn.options.map.technique).contents == raster::MapContents::midpoint_depth)
+    return std::nullopt;
+  if (in.drawn.options.map.cull == raster::Cull::none) return first_depth;
+  const StoredSurface stored = stored_surface(in, key);
+  if (stored.primitive == no_id) return std::nullopt;
+  return stored.depth;
+}
+
+std::optional<BiasedLookup> lookup_of(const LadderInput& in, std::size_t pixel) {
+  const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
+  const Vec3 to_light = light_at(in.light(), receiver.position).to_light;
+  return biased_lookup(in.record(), in.drawn.options.map.bias, to_light, receiver, pixel);
+}
+
+// Up to the rounding of doubles the receiver itself counts as level with what it is compared with, as in V3.
+double gap_before_exact(const LadderInput& in, const BiasedLookup& lookup,
+                        const raytrace::SurfacePoint& receiver, double depth) {
+  const raytrace::TexelKey key = lookup.key;
+  const Ray ray = caster_ray(in.record().map.view, key.face(), key.column() + 0.5, key.row() + 0.5);
+  return gap_before(in.record(), in.drawn.options.map.bias, receiver.normal, lookup, depth) -
+         plane_rounding(ray, receiver);
+}
+
+double gap_with_bias(const LowerClimb& lower, const LadderInput& in, std::size_t group, std::size_t pixel,
+                     raytrace::TexelKey& texel) {
+  const auto lookup = lookup_of(in, pixel);
+  if (!lookup) return -infinity;
+  texel = lookup->key;
+  const auto depth = stored_caster(in.record(), texel);
+  if (!depth) return -infinity;
+  const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
+  const double exact = lower.centres[group];
+  if (texel == lower.groups.keys[group] && is_exact(in, *depth, exact))
+    return gap_before_exact(in, *lookup, receiver, exact);
+  return gap_before(in.record(), in.drawn.options.map.bias, receiver.normal, *lookup, *depth);
+}
+
+std::optional<double> gap_to_exact(const LowerClimb& lower, const LadderInput& in, std::size_t group,
+                                   std::size_t pixel) {
+  const auto lookup = lookup_of(in, pixel);
+  if (!lookup) return std::nullopt;
+  double first_depth = lower.centres[group];
+  if (lookup->key != lower.groups.keys[group]) first_depth = trace_centre(in, lookup->key).depth;
+  const auto depth = depth_of_stored(in, lookup->key, first_depth);
+  if (!depth) return std::nullopt;
+  if (std::isinf(*depth)) return -infinity;
+  return gap_before_exact(in, *lookup, in.traced.receiver.data[pixel], *depth);
+}
+
+/// A shader of the user's own that names neither bias nor gap draws without a bias.
+bool tests_bias(const LadderInput& in) {
+  return !in.drawn.custom_shader || in.drawn.custom_shader->reads_bias;
+}
+
+float lit_with(double gap, double bias_world) {
+  return gap > bias_world ? 0.0f : 1.0f;
+}
+
+bool is_off(float visibility, float truth) {
+  return std::abs(visibility - truth) > 0.5f;
+}
+
+}  // namespace
+
+UpperPixel::UpperPixel(const LowerClimb& lower, const LadderInput& in, Column& column, std::size_t group,
+                       std::uint32_t pixel, const Rungs& rungs)
+    : lower_(lower),
+      in_(in),
+      column_(column),
+      group_(group),
+      pixel_(pixel),
+      rungs_(rungs),
+      lookup_(lower.groups.keys[group]),
+      gap_(gap_with_bias(lower, in, group, pixel, lookup_)) {}
+
+const std::optional<double>& UpperPixel::exact_gap() {
+  if (!exact_) exact_ = gap_to_exact(lower_, in_, group_, pixel_);
+  return *exact_;
+}
+
+/// The exact depth in place of the stored one would have made the biased test right.
+bool UpperPixel::right_with_exact_depth(float biased, float truth, double bias_world) {
+  if (!is_off(biased, truth)) return false;
+  const auto& exact = exact_gap();
+  return exact && !is_off(lit_with(*exact, bias_world), truth);
+}
+
+UpperPixel::Verdict UpperPixel::verdict_at(double bias_world, float drawn, bool labelled) {
+  const float truth = rungs_[0].data[pixel_];
+  Verdict out{tests_bias(in_) ? lit_with(gap_, bias_world) : rungs_[4].data[pixel_]};
+  if (!labelled || !is_off(drawn, truth)) return out;
+  std::array<float, rung_count> v = rungs_at(rungs_, pixel_);
+  v[5] = out.biased, v[6] = drawn;
+  const bool exact = right_with_exact_depth(out.biased, truth, bias_world);
+  out.label =
+      label_wrong_pixel(in_, column_, {pixel_, lookup_, deciding_step(v), drawn < truth, exact, truth});
+  return out;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,22 @@
+#include "compare/truth/seen_surfaces.h"
+
+#include <cmath>
+
+#include "scene/parallel.h"
+
+namespace gnomon::compare {
+
+SeenSurface::SeenSurface(const raytrace::SurfacePoint& receiver) : primitive(receiver.primitive) {
+  if (primitive == no_id) return;
+  for (int k = 0; k < 3; ++k)
+    if (const double steps = normal_steps * receiver.normal[k]; !std::isnan(steps))
+      normal[k] = static_cast<std::int16_t>(std::round(steps));
+}
+
+Image<SeenSurface> seen_surfaces(const Image<raytrace::SurfacePoint>& receivers) {
+  Image<SeenSurface> out(receivers.size);
+  parallel_for(out.data.size(), [&](std::size_t i) { out.data[i] = SeenSurface(receivers.data[i]); });
+  return out;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,41 @@
+// The report page: one HTML file that needs nothing but itself, or, where it would grow too large, the files
+// beside it. What can be read without scripts is written in C++ (sections, charts) into the built page
+// (shell.h); page_data.h adds what the scripts read. Every number on the page carries its key in result.json
+// (<data data-key="lights.0.error.wrong">), which the browser test compares.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "compare/comparison.h"
+#include "compare/result/picture_set.h"
+#include "report/shell.h"
+#include "scene/stages.h"
+
+namespace gnomon::compare {
+
+/// What stands before a comparison on a page that is about more than that: the page of the tuner.
+struct PageIntroduction {
+  std::string title;  ///< of the document, not escaped
+  std::string links;  ///< <li> items
+  std::string html;   ///< sections
+};
+
+struct PageData;  // page_data.h
+
+struct PageInput {
+  const Comparison& comparison;
+  const PictureSet& pictures;
+  std::string_view json;  ///< result.json's text so far, embedded in the page and offered for saving
+  std::string_view csv;
+  double total_ms = 0.0;
+  const PageIntroduction* introduction = nullptr;
+  const TimeBudget* budget = nullptr;  ///< as in `json`, where it has one
+  bool beside = false;                 ///< pictures and pixels are files beside the page; set by report_page
+};
+
+/// The whole page, which takes what is in `data`; of more than `max_mb` megabytes its data, and the set's
+/// pictures by their file names, are beside it.
+BuiltPage report_page(PageInput input, PageData& data, double max_mb);
+
+}  // namespace gnomon::compare

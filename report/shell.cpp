@@ -1,0 +1,102 @@
+#include "report/shell.h"
+
+#include <fmt/core.h>
+
+#include <embedded/report.h>
+
+#include "report/html.h"
+#include "report/page_head.h"
+
+namespace gnomon::compare {
+namespace {
+
+// The built page: style and script inline, with two places left for what is written here.
+struct Template {
+  std::string_view before_head, after_head, after_body, style, script;
+};
+
+// Text between the end of the tag that `opening` starts and `closing`.
+std::string_view inline_block(std::string_view html, std::string_view opening, std::string_view closing) {
+  const std::size_t tag = html.find(opening), start = html.find('>', tag) + 1;
+  return html.substr(start, html.find(closing, start) - start);
+}
+
+Template page_template(std::string_view name) {
+  constexpr std::string_view head_mark = "<!--gnomon:head-->", body_mark = "<!--gnomon:body-->";
+  const std::string_view html = embedded::report(name);
+  const std::size_t head = html.find(head_mark), body = html.find(body_mark);
+  const std::size_t after_head = head + head_mark.size();
+  return {html.substr(0, head), html.substr(after_head, body - after_head),
+          html.substr(body + body_mark.size()), inline_block(html, "<style", "</style>"),
+          inline_block(html, "<script", "</script>")};
+}
+
+constexpr std::string_view data_file_head = "(globalThis.gnomonFiles=globalThis.gnomonFiles||{})",
+                           data_file_value = "]=";
+
+// The data with its parts, which are large, or with the folder that holds them.
+void append_data(std::string& html, const PageShell& shell) {
+  append_script_safe(html, std::string_view(shell.data).substr(0, shell.data.rfind('}')));
+  html += shell.data.find(':') == std::string::npos ? "" : ",";
+  if (shell.beside) return append_script_safe(html, fmt::format("\"folder\":\"{}\"}}", shell.folder));
+  html += "\"parts\":{";
+  for (std::size_t i = 0; i < shell.parts.size(); ++i) {
+    append_script_safe(html, fmt::format("{}\"{}\":", i > 0 ? "," : "", shell.parts[i].name));
+    append_script_safe(html, shell.parts[i].json);
+  }
+  html += "}}";
+}
+
+std::size_t bytes_of(const PageShell& shell) {
+  std::size_t bytes = shell.main.size() + shell.result.size() + shell.data.size();
+  for (const DataPart& part : shell.parts) bytes += shell.beside ? 0 : part.json.size();
+  return bytes;
+}
+
+}  // namespace
+
+double BuiltPage::megabytes() const {
+  std::size_t bytes = html.size();
+  for (const PageFile& file : files) bytes += file.bytes.size();
+  return static_cast<double>(bytes) / 1e6;
+}
+
+std::string data_file(const DataPart& part) {
+  return fmt::format("{}[\"{}\"{}{};\n", data_file_head, part.name, data_file_value, part.json);
+}
+
+std::string_view data_in_file(std::string_view file) {
+  const std::size_t value = file.find(data_file_value);
+  if (!file.starts_with(data_file_head) || value == std::string_view::npos || !file.ends_with(";\n"))
+    return {};
+  const std::size_t start = value + data_file_value.size();
+  return file.substr(start, file.size() - 2 - start);
+}
+
+BuiltPage build_page(const PageShell& shell) {
+  const Template built = page_template(shell.built);
+  BuiltPage out;
+  out.html.reserve(bytes_of(shell) + embedded::report(shell.built).size() + (std::size_t{1} << 16));
+  out.html = built.before_head;
+  out.html.append(page_head({shell.title, built.style, built.script, shell.beside})).append(built.after_head);
+  out.html += fmt::format(R"(<a class="skip" href="#main">{}</a>)", shell.skip);
+  out.html += R"(
+<header class="bar-top"><span class="brand">Gnomon</span>
+<nav aria-label="Sections"><ul>)" +
+              shell.links + "</ul></nav></header>\n<main id=\"main\">\n" + shell.main + "</main>\n";
+  if (!shell.result.empty()) {
+    out.html += R"(<script type="application/json" id="result">)";
+    append_script_safe(out.html, shell.result);
+    out.html += "</script>\n";
+  }
+  out.html += R"(<script type="application/json" id="page-data">)";
+  append_data(out.html, shell);
+  out.html += "</script>\n";
+  out.html.append(built.after_body);
+  if (shell.beside)
+    for (const DataPart& part : shell.parts)
+      out.files.push_back({fmt::format("{}/{}.js", shell.folder, part.name), data_file(part)});
+  return out;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,42 @@
+// The pictures that a capture names, read and checked: visibility, and where the capture says them the places
+// that its pixels show.
+#pragma once
+
+#include <span>
+
+#include "scene/files/image_io.h"
+#include "studies/judge/capture.h"
+
+namespace gnomon::compare {
+
+/// Images are of the capture's size, row 0 at the top.
+struct CapturedPictures {
+  Image<float> visibility;      ///< in [0, 1]; 1 where `reached` is 0
+  Image<std::uint8_t> reached;  ///< 1 where the light arrives without shadows, as far as the pictures tell
+  /// 1 where something was drawn. Empty: the pictures do not tell.
+  Image<std::uint8_t> drawn;
+  bool ratio = false;  ///< visibility is shadowed over unshadowed
+  /// Of a ratio: pixels where the picture with shadows is clearly brighter or darker than the one without.
+  std::size_t brighter = 0, darker = 0;
+  ColorImage color;  ///< linear; grey where the capture has no colours
+  /// Depth along the camera's forward axis or distance, whichever the capture gives, or positions; one of
+  /// them or none is not empty. 0 where nothing was drawn.
+  Image<Vec3> position;
+  Image<double> depth;
+  bool depth_is_distance = false;
+};
+
+/// By the headers of all pictures and layers that the capture names, before anything is decoded: they are there, pictures have
+/// the capture's size, and layers are square and of one size. Errors (bad input) name picture and field.
+Expected<void> check_picture_sizes(const Capture& capture);
+
+/// Errors (bad input) name picture and field: a file that is missing, of another size, with more channels
+/// than wanted, or with values that are not finite or not in their range.
+Expected<CapturedPictures> read_pictures(const Capture& capture);
+
+/// One channel of a picture by the first of these names, or its only one. `field`: for messages.
+Expected<Channel> read_single_channel(const Capture& capture, const std::string& file,
+                                      const std::string& field, std::span<const std::string_view> names,
+                                      ImageSize& size);
+
+}  // namespace gnomon::compare

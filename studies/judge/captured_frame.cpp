@@ -1,0 +1,201 @@
+#include "studies/judge/captured_frame.h"
+
+#include <algorithm>
+
+#include "compare/ladder/biased_test.h"
+#include "compare/truth/columns.h"
+#include "compare/truth/stored_surface.h"
+#include "compare/truth/texel_groups.h"
+#include "scene/parallel.h"
+#include "scene/stages.h"
+
+namespace gnomon::compare {
+namespace {
+
+using raytrace::SurfacePoint;
+
+raster::Technique technique_of(FilterName filter) {
+  constexpr std::array techniques{raster::Technique::hard, raster::Technique::pcf, raster::Technique::pcss,
+                                  raster::Technique::vsm,  raster::Technique::esm, raster::Technique::evsm,
+                                  raster::Technique::msm};
+  return techniques[static_cast<std::size_t>(filter)];
+}
+
+raster::MapOptions map_options(const Capture& capture, int size) {
+  raster::MapOptions map;
+  const CapturedFilter filter = capture.filter.value_or(CapturedFilter{});
+  map.technique = technique_of(filter.kind);
+  map.size = size;
+  map.bias = {.constant = 0.0, .unit = raster::BiasUnit::world};
+  if (capture.bias) map.bias.slope = capture.bias->slope;
+  map.filter.radius_texels = map.filter.search_radius_texels = filter.radius_texels;
+  map.filter.blur_radius_texels = static_cast<int>(std::ceil(filter.radius_texels - 0.5));
+  map.filter.receiver_plane = map.filter.mipmaps = false;
+  map.filter.light_bleeding_reduction = 0.0;
+  return map;
+}
+
+/// World units of distance that 1 of a stored number counts for, at the middle of the receivers.
+double unit_world(const raster::ShadowMap& map, const raytrace::RayTracedFrame& traced) {
+  const LightView& view = map.view;
+  if (view.projection == LightProjection::orthographic)
+    return view.face(0).far_depth - view.face(0).near_depth;
+  std::vector<double> depths;
+  for (std::size_t i = 0; i < traced.receiver.data.size(); i += 61)
+    if (traced.receiver.data[i].primitive != no_id)
+      depths.push_back(project_to_texel(view, traced.receiver.data[i].position).depth);
+  if (depths.empty()) return 1.0;
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  const double z = std::max(*middle, view.face(0).near_depth);
+  const double n = view.face(0).near_depth, f = view.face(0).far_depth;
+  return z * z * (f - n) / (n * f);
+}
+
+raster::BiasRounding rounding_of(const LightView& view, const World& world) {
+  // As of Gnomon's own shaders (raster::bias_rounding), but positions are floats in the world's own frame.
+  double reach = glm::length(view.origin);
+  const Aabb& box = world.finite_bounds;
+  if (!box.empty()) reach += glm::length(box.center()) + 0.5 * box.diagonal();
+  return {.float_world = 8.0 * std::exp2(-24.0) * reach,
+          .stored_step = std::exp2(-24),
+          .adaptive_epsilon_world = raster::adaptive_epsilon * (box.empty() ? reach : box.diagonal())};
+}
+
+/// What the picture shows: the receiver's primitive, or another number where it shows something else.
+Image<std::uint32_t> shown_primitives(const FrameInput& in) {
+  Image<std::uint32_t> shown(in.capture.size, no_id);
+  const bool masked = !in.pictures.drawn.data.empty();
+  parallel_for(shown.data.size(), [&](std::size_t i) {
+    const std::uint32_t primitive = in.traced.receiver.data[i].primitive;
+    const bool drawn = !masked || in.pictures.drawn.data[i] != 0;
+    if (primitive == no_id)
+      shown.data[i] = masked && drawn ? 0 : no_id;
+    else if (drawn && in.elsewhere.data[i] == 0 && in.pictures.reached.data[i] != 0)
+      shown.data[i] = primitive;
+  });
+  // Facing away is known without a picture: such pixels keep their surface.
+  const Light& light = in.world.scene->lights[in.traced.lights.front().light];
+  parallel_for(shown.data.size(), [&](std::size_t i) {
+    const SurfacePoint& point = in.traced.receiver.data[i];
+    const bool unlit = point.primitive != no_id && in.pictures.reached.data[i] == 0;
+    if (unlit && light_cannot_reach(light, point.position, point.normal)) shown.data[i] = point.primitive;
+  });
+  return shown;
+}
+
+/// The capture's picture as bright as Gnomon's on the page.
+ColorImage shown_colour(const FrameInput& in) {
+  ColorImage out = in.pictures.color;
+  double scale = 1.0 / in.exposure;
+  if (in.pictures.ratio) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < out.data.size(); i += 7)
+      values.push_back(std::max({out.data[i].x, out.data[i].y, out.data[i].z}));
+    const auto high = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 99 / 100);
+    std::nth_element(values.begin(), high, values.end());
+    if (*high > 0.0f) scale /= double{*high};
+  }
+  for (Vec3f& c : out.data) c *= static_cast<float>(scale);
+  return out;
+}
+
+/// A quarter of the texels with another surface than the first: the renderer left the first ones out.
+constexpr double culled_share = 0.25;
+
+bool is_culled(const FrameInput& in, const raster::MapOptions& map, const raster::LightRecord& record) {
+  std::size_t seen = 0, later = 0;
+  const std::size_t step = std::max<std::size_t>(1, in.traced.receiver.data.size() / 4096);
+  for (std::size_t i = 0; i < in.traced.receiver.data.size(); i += step) {
+    raytrace::TexelKey key;
+    if (in.traced.receiver.data[i].primitive == no_id || !texel_of_pixel(record, i, key)) continue;
+    const StoredSurface found = stored_surface(in.tracer, record, map, key);
+    if (found.primitive == no_id) continue;
+    const Ray ray = caster_ray(record.map.view, key.face(), key.column() + 0.5, key.row() + 0.5);
+    const auto first = in.tracer.closest_hit(ray);
+    ++seen, later += first && first->t < found.t ? 1 : 0;
+  }
+  return seen > 0 && static_cast<double>(later) > culled_share * static_cast<double>(seen);
+}
+
+/// Of a picture without its map: a place to measure pixels by, nothing stored in it.
+Expected<raster::ShadowMap> empty_map(const FrameInput& in, const Light& light) {
+  constexpr int texels = 64;
+  raster::ShadowMap map;
+  const double aspect = static_cast<double>(in.capture.size.width) / in.capture.size.height;
+  auto view = fit_light_view(in.world, light, in.camera, aspect, texels);
+  if (!view) return fail(view.error());
+  map.view = *view;
+  const auto count = static_cast<std::size_t>(view->face_count) * texels * texels;
+  map.depth.assign(count, 1.0f);
+  return map;
+}
+
+void fill_light(const FrameInput& in, bool known, bool distances, raster::RasterFrame& frame,
+                raster::LightRecord& record) {
+  raster::MapOptions& map = frame.options.map;
+  record.captured.emplace();
+  record.texel_world = raster::texel_world(record.map.view, in.world);
+  record.rounding = rounding_of(record.map.view, in.world);
+  record.rounding_world = raster::rounding_world(record.rounding, record.map.view, in.world);
+  if (!known) return fill_record(in, map.bias, record);
+  raster::CapturedTest& test = record.captured->test.emplace();
+  test.distances = distances;
+  const CapturedBias bias = in.capture.bias.value_or(CapturedBias{});
+  test.unit_world = distances ? 1.0 : unit_world(record.map, in.traced);
+  test.normal_offset_world = bias.normal_offset_world;
+  record.bias_constant_world = map.bias.constant = bias.constant_depth * test.unit_world;
+  fill_record(in, map.bias, record);
+  if (is_culled(in, map, record)) map.cull = raster::Cull::front;
+}
+
+}  // namespace
+
+void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRecord& record) {
+  const ImageSize size = in.capture.size;
+  record.texel_uv = Image<Vec2f>(size, Vec2f(0.0f));
+  record.face = Image<std::uint8_t>(size, 0);
+  record.distance = record.gap = Image<float>(size, 0.0f);
+  record.outside_map = Image<std::uint8_t>(size, 0);
+  const Light& light = in.world.scene->lights[record.light];
+  parallel_for(size.pixels(), [&](std::size_t i) {
+    const SurfacePoint& point = in.traced.receiver.data[i];
+    if (point.primitive == no_id) return;
+    const TexelCoordinate at = project_to_texel(record.map.view, point.position);
+    record.texel_uv.data[i] = Vec2f(at.u, at.v);
+    record.face.data[i] = static_cast<std::uint8_t>(at.face);
+    record.distance.data[i] = static_cast<float>(at.distance);
+    record.outside_map.data[i] = at.inside ? 0 : 1;
+    if (raster::lacks_map(record)) return;
+    record.gap.data[i] =
+        static_cast<float>(biased_gap(record, bias, light_at(light, point.position).to_light, point, i));
+  });
+}
+
+Expected<raster::RasterFrame> make_frame(const FrameInput& in, std::optional<CapturedMap> map) {
+  const TimedStage stage("capture's map");
+  const Light& light = in.world.scene->lights[in.traced.lights.front().light];
+  raster::RasterFrame frame;
+  frame.context = {"capture", in.capture.version, in.capture.renderer, 0};
+  frame.color = shown_colour(in);
+  frame.primitive = shown_primitives(in);
+  raster::LightRecord& record = frame.lights.emplace_back();
+  record.light = in.traced.lights.front().light;
+  record.visibility = in.pictures.visibility;
+  if (map) {
+    record.map = std::move(map->map);
+  } else {
+    auto empty = empty_map(in, light);
+    if (!empty) return fail(empty.error());
+    record.map = std::move(*empty);
+  }
+  frame.options.size = in.capture.size;
+  frame.options.map = map_options(in.capture, record.map.view.size);
+  frame.options.map.depth_format = record.map.format;
+  frame.map_texels = map ? record.map.depth.size() : 0;
+  frame.map_bytes = frame.map_texels * sizeof(float);
+  fill_light(in, map.has_value(), map && map->distances, frame, record);
+  return frame;
+}
+
+}  // namespace gnomon::compare

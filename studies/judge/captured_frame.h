@@ -1,0 +1,27 @@
+// A capture as the rasterizer's frame: what the ladder, the pictures and the page read.
+#pragma once
+
+#include "studies/judge/captured_map.h"
+#include "studies/judge/receivers.h"
+
+namespace gnomon::compare {
+
+struct FrameInput {
+  const Capture& capture;
+  const CapturedPictures& pictures;
+  const World& world;
+  const raytrace::Tracer& tracer;
+  const Camera& camera;
+  const raytrace::RayTracedFrame& traced;
+  const Image<std::uint8_t>& elsewhere;  ///< Retraced::elsewhere
+  double exposure = 1.0;                 ///< of both pictures
+};
+
+/// `map`: the capture's, or none. A pixel that the capture shows otherwise than Gnomon (other surface, nothing,
+/// no light without shadows) gets another primitive than the receiver's, so that it is counted as silhouette.
+Expected<raster::RasterFrame> make_frame(const FrameInput& input, std::optional<CapturedMap> map);
+
+/// Fills `record`'s gaps from its map and bias, and the other fields that follow from positions alone.
+void fill_record(const FrameInput& input, const raster::Bias& bias, raster::LightRecord& record);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,234 @@
+#include "studies/judge/captured_map.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "scene/light.h"
+#include "studies/judge/capture_pictures.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr std::array<std::string_view, 4> texel_names{"Z", "Y", "R", "V"};
+/// Engines keep matrices as floats: 2^-24 of each entry, some of them sums of a few.
+constexpr double matrix_slack = 1e-4;
+/// The light's direction, which engines keep in floats and work out again from a target: radians.
+constexpr double direction_slack = 2e-3;
+constexpr double farthest = 1e12;  ///< of the near depth; what an endless far plane counts for
+
+Vec4 row(const Mat4& m, int i) {
+  return {m[0][i], m[1][i], m[2][i], m[3][i]};
+}
+
+/// As stored: z/w or (z/w + 1)/2, so that both run over [0, 1].
+Vec4 stored_row(const Vec4& z, const Vec4& w, StoredDepth convention) {
+  const bool halves = convention == StoredDepth::minus_one_to_one || convention == StoredDepth::distance;
+  return halves ? 0.5 * (z + w) : z;
+}
+
+bool square(const Vec3& a, const Vec3& b) {
+  return std::abs(glm::dot(glm::normalize(a), glm::normalize(b))) < matrix_slack;
+}
+
+/// right and up as the matrix has them, forward square to both, and right x up = -forward.
+void set_axes(const Vec3& x, const Vec3& y, const Vec3& along, MatrixFace& out) {
+  LightFace& face = out.face;
+  face.right = glm::normalize(x);
+  face.up = glm::normalize(glm::normalize(y) - glm::dot(glm::normalize(y), face.right) * face.right);
+  face.forward = glm::cross(face.up, face.right);
+  out.mirrored = glm::dot(face.forward, along) < 0.0;
+  if (out.mirrored) face.right = -face.right, face.forward = -face.forward;
+}
+
+tl::expected<MatrixFace, std::string> orthographic(const Vec4& x, const Vec4& y, const Vec4& s,
+                                                   bool reversed) {
+  const Vec3 along = reversed ? -Vec3(s) : Vec3(s);
+  if (!square(Vec3(x), Vec3(y)) || !square(Vec3(x), along) || !square(Vec3(y), along))
+    return tl::unexpected<std::string>("shears: its axes are not square to each other");
+  MatrixFace out;
+  set_axes(Vec3(x), Vec3(y), along, out);
+  LightFace& face = out.face;
+  const double a = glm::length(Vec3(x)), b = glm::length(Vec3(y)), c = glm::length(Vec3(s));
+  face.half_extent = {1.0 / a, 1.0 / b};
+  face.center = {(out.mirrored ? x.w : -x.w) / a, -y.w / b};
+  face.near_depth = (reversed ? s.w - 1.0 : -s.w) / c;
+  face.far_depth = (reversed ? s.w : 1.0 - s.w) / c;
+  return out;
+}
+
+tl::expected<MatrixFace, std::string> perspective(const Vec4& x, const Vec4& y, const Vec4& s, const Vec4& w,
+                                                  bool reversed) {
+  if (!square(Vec3(x), Vec3(y)) || !square(Vec3(x), Vec3(w)) || !square(Vec3(y), Vec3(w)))
+    return tl::unexpected<std::string>("is no perspective that is symmetric about its axis");
+  MatrixFace out;
+  out.projection = LightProjection::perspective;
+  set_axes(Vec3(x), Vec3(y), Vec3(w), out);
+  const Mat3 axes = glm::transpose(Mat3(Vec3(x), Vec3(y), Vec3(w)));
+  out.origin = glm::inverse(axes) * -Vec3(x.w, y.w, w.w);
+  LightFace& face = out.face;
+  const double k = glm::length(Vec3(w));
+  face.half_extent = {k / glm::length(Vec3(x)), k / glm::length(Vec3(y))};
+  // Stored is a + b / depth.
+  const double a = glm::dot(Vec3(s), face.forward) / k;
+  const double b = (glm::dot(Vec3(s), out.origin) + s.w) / k;
+  const double at_zero = -b / a, at_one = b / (1.0 - a);
+  face.near_depth = reversed ? at_one : at_zero;
+  face.far_depth = reversed ? at_zero : at_one;
+  const double limit = farthest * face.near_depth;
+  if (!(face.near_depth > 0.0)) return tl::unexpected<std::string>("has no near plane before its eye");
+  if (!(face.far_depth > 0.0 && face.far_depth < limit)) face.far_depth = limit;
+  return out;
+}
+
+std::string direction_text(const Vec3& v) {
+  return fmt::format("({:.3f}, {:.3f}, {:.3f})", v.x, v.y, v.z);
+}
+
+/// The reason why the map cannot be this light's.
+std::optional<std::string> not_of_light(const MatrixFace& face, std::size_t faces, const Light& light,
+                                        const World& world) {
+  const bool orthographic = face.projection == LightProjection::orthographic;
+  if (orthographic != (light.type == LightType::directional))
+    return fmt::format("is {} where light \"{}\" needs {}", orthographic ? "orthographic" : "a perspective",
+                       light.name, orthographic ? "a perspective" : "an orthographic one");
+  if (orthographic) {
+    const double cosine = glm::dot(face.face.forward, light.direction);
+    if (std::acos(std::clamp(cosine, -1.0, 1.0)) < direction_slack) return std::nullopt;
+    const bool turned = std::acos(std::clamp(-cosine, -1.0, 1.0)) < direction_slack;
+    return fmt::format("looks along {}{}, light \"{}\" shines along {}", direction_text(face.face.forward),
+                       turned ? " (against the light: the sign of its direction, or of z)" : "", light.name,
+                       direction_text(light.direction));
+  }
+  const Aabb& bounds = world.finite_bounds;
+  const double size = bounds.min.x < bounds.max.x ? glm::length(bounds.max - bounds.min) : 1.0;
+  if (glm::length(face.origin - light.position) > 1e-3 * std::max(size, glm::length(light.position)))
+    return fmt::format("looks from {}, light \"{}\" stands at {}", direction_text(face.origin), light.name,
+                       direction_text(light.position));
+  if (light.type == LightType::spot && faces == 1 && glm::dot(face.face.forward, light.direction) < 0.99)
+    return fmt::format("looks along {}, light \"{}\" shines along {}", direction_text(face.face.forward),
+                       light.name, direction_text(light.direction));
+  return std::nullopt;
+}
+
+/// Texels row by row from the bottom, and mirrored where the matrix was.
+template <class Put>
+void for_each_texel(const CapturedLayer& layer, int n, bool mirrored, const Put& put) {
+  for (int v = 0; v < n; ++v)
+    for (int u = 0; u < n; ++u) {
+      const int y = *layer.rows == RowOrder::top_down ? n - 1 - v : v;
+      const int x = mirrored ? n - 1 - u : u;
+      put(u, v, static_cast<std::size_t>(y) * static_cast<std::size_t>(n) + static_cast<std::size_t>(x));
+    }
+}
+
+/// A distance as the view's stored depth; what lies beyond its far plane, and 0, is nothing.
+float stored_of_distance(const LightView& view, int face, int u, int v, double distance) {
+  const float nothing = view.reversed ? 0.0f : 1.0f;
+  if (!(distance > 0.0) || !std::isfinite(distance)) return nothing;
+  const double depth =
+      distance * glm::dot(texel_ray(view, face, u + 0.5, v + 0.5).direction, view.face(face).forward);
+  if (distance > view.face(face).far_depth * 1.7321) return nothing;  // a cube's corner
+  return static_cast<float>(stored_from_depth(view, face, v + 0.5, depth));
+}
+
+Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored, int face, CapturedMap& out) {
+  const CapturedLayer& layer = capture.map[i];
+  const std::string field = fmt::format("map[{}].depth", i);
+  ImageSize size;
+  const auto channel = read_single_channel(capture, layer.depth, field, texel_names, size);
+  if (!channel) return fail(channel.error());
+  const auto wrong = [&](std::string reason) { return capture_error(capture, field, std::move(reason)); };
+  raster::ShadowMap& map = out.map;
+  const auto n = static_cast<std::size_t>(size.width);
+  map.view.size = size.width;
+  map.depth.resize(static_cast<std::size_t>(map.view.face_count) * n * n, 1.0f);
+  std::size_t bad = 0, beyond = 0;
+  for_each_texel(layer, size.width, mirrored, [&](int u, int v, std::size_t from) {
+    const float value = channel->values[from];
+    bad += std::isnan(value) || (!out.distances && !std::isfinite(value)) ? 1 : 0;
+    beyond += !out.distances && (value < 0.0f || value > 1.0f) ? 1 : 0;
+    map.depth[map.texel_index(face, u, v)] =
+        out.distances ? stored_of_distance(map.view, face, u, v, double{value}) : value;
+  });
+  if (bad > 0) return wrong(fmt::format("{} texels are not finite numbers", bad));
+  if (beyond > 0)
+    return wrong(fmt::format("{} texels lie beyond 0 to 1; minus_one_to_one stores (z/w + 1)/2", beyond));
+  return {};
+}
+
+/// The faces of a cube in the order of cube_face(), whatever order the layers have.
+Expected<std::vector<int>> order_faces(const Capture& capture, const std::vector<MatrixFace>& faces) {
+  std::vector<int> order(faces.size());
+  const bool cube = faces.front().projection == LightProjection::perspective && faces.size() == 6;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    order[i] = cube ? cube_face(faces[i].face.forward) : static_cast<int>(i);
+    if (!cube) continue;
+    const std::string field = fmt::format("map[{}].clip_from_world", i);
+    const LightFace& face = faces[i].face;
+    if (std::find(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(i), order[i]) !=
+        order.begin() + static_cast<std::ptrdiff_t>(i))
+      return capture_error(capture, field, "looks the same way as a face before");
+    const Vec3 a = glm::abs(face.forward);
+    const double along = std::max({a.x, a.y, a.z});
+    if (along < 1.0 - matrix_slack || std::abs(face.half_extent.x - 1.0) > 1e-2)
+      return capture_error(capture, field,
+                           "is not the face of a cube: it looks along an axis, 90 degrees wide");
+  }
+  return order;
+}
+
+}  // namespace
+
+tl::expected<MatrixFace, std::string> take_apart(const Mat4& m, StoredDepth convention) {
+  for (int i = 0; i < 16; ++i)
+    if (!std::isfinite(m[i / 4][i % 4]))
+      return tl::unexpected<std::string>("has numbers that are not finite");
+  const Vec4 x = row(m, 0), y = row(m, 1), w = row(m, 3);
+  const Vec4 s = stored_row(row(m, 2), w, convention);
+  const double lengths = glm::length(Vec3(x)) * glm::length(Vec3(y)) * glm::length(Vec3(row(m, 2)));
+  const double volume = std::abs(glm::determinant(Mat3(Vec3(x), Vec3(y), Vec3(row(m, 2)))));
+  if (!(lengths > 0.0) || !(volume > 1e-9 * lengths)) return tl::unexpected<std::string>("is singular");
+  const bool reversed = convention == StoredDepth::reversed;
+  const bool parallel = glm::length(Vec3(w)) < 1e-12 * std::max(1.0, std::abs(w.w));
+  if (!parallel) return perspective(x, y, s, w, reversed);
+  if (!(w.w > 0.0)) return tl::unexpected<std::string>("is singular");
+  return orthographic(x / w.w, y / w.w, s / w.w, reversed);
+}
+
+Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world) {
+  CapturedMap out;
+  std::vector<MatrixFace> faces;
+  const StoredDepth convention = *capture.map.front().convention;
+  out.distances = convention == StoredDepth::distance;
+  for (std::size_t i = 0; i < capture.map.size(); ++i) {
+    const std::string field = fmt::format("map[{}].clip_from_world", i);
+    const auto face = take_apart(*capture.map[i].clip_from_world, convention);
+    if (!face) return capture_error(capture, field, face.error());
+    if (const auto reason = not_of_light(*face, capture.map.size(), light, world))
+      return capture_error(capture, field, *reason);
+    faces.push_back(*face);
+  }
+  LightView& view = out.map.view;
+  view.projection = faces.front().projection;
+  view.face_count = static_cast<int>(faces.size());
+  const bool parallel = view.projection == LightProjection::orthographic;
+  if (!parallel && faces.size() != 1 && faces.size() != 6)
+    return capture_error(capture, "map", "of a light in perspective has one layer, or six of a cube");
+  if (parallel && out.distances)
+    return capture_error(capture, "map[0].convention", "distance does not go with an orthographic matrix");
+  view.origin = faces.front().origin;
+  view.reversed = convention == StoredDepth::reversed || out.distances;
+  view.seamless = !parallel && faces.size() == 6;
+  const auto order = order_faces(capture, faces);
+  if (!order) return fail(order.error());
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    view.faces[static_cast<std::size_t>((*order)[i])] = faces[i].face;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (const auto read = read_texels(capture, i, faces[i].mirrored, (*order)[i], out); !read)
+      return fail(read.error());
+  out.map.format = view.reversed ? raster::DepthFormat::d32f_reversed : raster::DepthFormat::d32f;
+  return out;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,31 @@
+// The depth map of a capture as the ladder reads maps: the matrices taken apart into a LightView, and the
+// texels as stored depths of that view.
+#pragma once
+
+#include "raster/frame.h"
+#include "studies/judge/capture.h"
+
+namespace gnomon::compare {
+
+struct CapturedMap {
+  raster::ShadowMap map;   ///< `primitive` holds no_id all over
+  bool distances = false;  ///< StoredDepth::distance
+};
+
+/// Reads and checks the layers. Errors (bad input): a picture that cannot be read, is not square or not of the
+/// others' size; a matrix that is singular, shears, or is not the light's (its rays run elsewhere); values
+/// that are not finite, or beyond the convention's range.
+Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world);
+
+/// The face of one matrix (right x up = -forward; `mirrored`: the matrix's x runs the other way), and for a
+/// perspective matrix the place it looks from. The reason where it is no orthographic or symmetric
+/// perspective projection.
+struct MatrixFace {
+  LightFace face;
+  LightProjection projection = LightProjection::orthographic;
+  Vec3 origin{0.0};
+  bool mirrored = false;
+};
+tl::expected<MatrixFace, std::string> take_apart(const Mat4& clip_from_world, StoredDepth convention);
+
+}  // namespace gnomon::compare

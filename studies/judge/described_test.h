@@ -1,0 +1,45 @@
+// Whether the shadow test that a capture describes (map, matrix, bias, filter) is the one that was drawn, and whether the
+// map holds what the scene holds. Where not, the ladder's reasons are those of something else.
+#pragma once
+
+#include "compare/comparison.h"
+#include "studies/judge/captured_frame.h"
+
+namespace gnomon::compare {
+
+struct DescribedTest {
+  std::size_t compared = 0;  ///< pixels
+  /// Compared pixels that the described test does not draw as they were drawn, whatever rounding does, whichever texel
+  /// within the filter's reach decides, and whichever cascade that holds the place is looked up.
+  std::size_t not_drawn = 0;
+  /// Wrong pixels where the map's texel does not hold the depth of what the light meets first there.
+  std::size_t other_content = 0;
+
+  bool is_drawn() const;  ///< but for a few pixels
+};
+
+/// Wrong pixels that the described test and a map of this scene cannot have made get the label `unexplained`. Needs a
+/// map. `light` is that of `drawn`'s only record.
+DescribedTest check_described_test(const FrameInput& input, const raster::RasterFrame& drawn,
+                                   LightComparison& light);
+
+/// A usual mistake in the description with which it is the test that was drawn.
+struct OtherTest {
+  std::string what;    ///< "`rows` of the map is the other one"
+  double share = 0.0;  ///< of the compared pixels that are drawn so
+  /// It is the constant that the capture says otherwise: what other constants would draw holds all the same.
+  bool of_constant = false;
+};
+std::optional<OtherTest> find_drawn_test(const FrameInput& input, const raster::RasterFrame& drawn,
+                                         const LightComparison& light);
+
+/// Whether what the described test would draw with another bias says something of the renderer.
+inline bool advice_holds(const DescribedTest& test, const std::optional<OtherTest>& other) {
+  return test.is_drawn() || (other && other->of_constant);
+}
+
+/// One sentence each: that the test is not the one drawn, and that the map holds something else.
+std::vector<std::string> described_test_notes(const DescribedTest& test,
+                                              const std::optional<OtherTest>& other);
+
+}  // namespace gnomon::compare

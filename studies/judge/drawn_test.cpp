@@ -1,0 +1,138 @@
+// Usual mistakes in the description of a shadow test, each tried against the picture: the map's rows, the bias's sign,
+// and the matrix.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "compare/bias/bias_curve.h"
+#include "scene/parallel.h"
+#include "studies/judge/described_test.h"
+
+namespace gnomon::compare {
+namespace {
+
+/// The test must then be drawn nearly everywhere, and on most of the pixels where it was not.
+constexpr double least_drawn = 0.98, most_not_drawn = 1.0 / 3.0;
+
+struct TestSuspect {
+  const char* of_capture;                       ///< what is wrong where the test so changed is the better one
+  const char* of_renderer;                      ///< null: the capture is wrong in any case
+  bool (*change)(raster::LightRecord& record);  ///< false: does not apply
+};
+
+bool turn_rows(raster::LightRecord& record) {
+  raster::ShadowMap& map = record.map;
+  const int n = map.view.size;
+  for (int face = 0; face < map.view.face_count; ++face)
+    for (int row = 0; row < n / 2; ++row) {
+      const auto low = map.depth.begin() + static_cast<std::ptrdiff_t>(map.texel_index(face, 0, row));
+      const auto high =
+          map.depth.begin() + static_cast<std::ptrdiff_t>(map.texel_index(face, 0, n - 1 - row));
+      std::swap_ranges(low, low + n, high);
+    }
+  return true;
+}
+
+bool turn_sign(raster::LightRecord& record) {
+  record.bias_constant_world = -record.bias_constant_world;
+  return record.bias_constant_world != 0.0;
+}
+
+bool is_parallel(const raster::LightRecord& record) {
+  return record.map.view.projection == LightProjection::orthographic;
+}
+
+template <class Change>
+bool change_faces(raster::LightRecord& record, const Change& change) {
+  if (!is_parallel(record)) return false;
+  for (int i = 0; i < record.map.view.face_count; ++i)
+    change(record.map.view.faces[static_cast<std::size_t>(i)]);
+  return true;
+}
+
+/// x / 2 + 1 / 2 in the place of x.
+bool take_off_texture_matrix(raster::LightRecord& record) {
+  return change_faces(record, [](LightFace& face) {
+    face.half_extent = 0.5 * face.half_extent;
+    face.center += face.half_extent;
+  });
+}
+
+/// The depths' range so many times as long, up to the same far plane.
+bool stretch_depths(raster::LightRecord& record, double times) {
+  if (record.map.view.reversed) return false;
+  record.captured->test->unit_world *= times, record.bias_constant_world *= times;
+  return change_faces(record, [=](LightFace& face) {
+    face.near_depth = face.far_depth - times * (face.far_depth - face.near_depth);
+  });
+}
+
+constexpr TestSuspect test_suspects[] = {
+    {"`rows` of the map is the other one", "the renderer reads its map upside down (v runs the other way)",
+     turn_rows},
+    {"`constant_depth` has the other sign (positive takes shadow away)",
+     "the renderer applies its bias with the other sign", turn_sign},
+    {"`clip_from_world` holds the scale and shift to texture coordinates", nullptr, take_off_texture_matrix},
+    {"the matrix makes depths of -1 to 1 (`minus_one_to_one`)", nullptr,
+     [](raster::LightRecord& record) { return stretch_depths(record, 2.0); }},
+    {"the matrix makes depths of 0 to 1 (`zero_to_one`)", nullptr,
+     [](raster::LightRecord& record) { return stretch_depths(record, 0.5); }}};
+
+/// Shares of the compared pixels.
+struct Fit {
+  double drawn = 0.0, wrong = 0.0;
+};
+
+Fit fit_of(const raster::LightRecord& record, const LightComparison& light) {
+  std::size_t count = 0, drawn = 0, wrong = 0;
+  for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
+    if (!is_compared(light.labels.data[i])) continue;
+    const float picture = light.rungs[6].data[i];
+    const bool dark = double{record.gap.data[i]} > record.bias_constant_world;
+    const float test = record.outside_map.data[i] != 0 ? picture : dark ? 0.0f : 1.0f;
+    ++count;
+    drawn += std::abs(test - picture) <= 0.5f ? 1 : 0;
+    wrong += std::abs(test - light.rungs[0].data[i]) > 0.5f ? 1 : 0;
+  }
+  const auto all = static_cast<double>(std::max<std::size_t>(1, count));
+  return {static_cast<double>(drawn) / all, static_cast<double>(wrong) / all};
+}
+
+bool fits(const Fit& fit, const Fit& now) {
+  return fit.drawn >= least_drawn && 1.0 - fit.drawn < most_not_drawn * (1.0 - now.drawn);
+}
+
+/// Another constant, found as the best bias is: with the picture in the place of the truth.
+std::optional<OtherTest> find_other_constant(const raster::LightRecord& described,
+                                             const LightComparison& light, const Fit& now) {
+  raster::LightRecord record = described;
+  record.bias_constant_world =
+      find_best_bias(sort_gaps(described, light.rungs[6], light.labels)).constant_world;
+  const Fit fit = fit_of(record, light);
+  if (!fits(fit, now)) return std::nullopt;
+  return OtherTest{fmt::format("`constant_depth` is about {:.2g}",
+                               record.bias_constant_world / described.captured->test->unit_world),
+                   fit.drawn, true};
+}
+
+}  // namespace
+
+std::optional<OtherTest> find_drawn_test(const FrameInput& in, const raster::RasterFrame& drawn,
+                                         const LightComparison& light) {
+  const raster::LightRecord& described = drawn.lights.front();
+  const Fit now = fit_of(described, light);
+  std::optional<OtherTest> best;
+  for (const TestSuspect& suspect : test_suspects) {
+    raster::LightRecord record = described;
+    if (!suspect.change(record)) continue;
+    fill_record(in, drawn.options.map.bias, record);
+    const Fit fit = fit_of(record, light);
+    if (!fits(fit, now) || (best && best->share >= fit.drawn)) continue;
+    const bool renderer = suspect.of_renderer != nullptr && fit.wrong > now.wrong;
+    best = OtherTest{renderer ? suspect.of_renderer : suspect.of_capture, fit.drawn,
+                     suspect.change == turn_sign && !renderer};
+  }
+  return best ? best : find_other_constant(described, light, now);
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,271 @@
+#include "studies/judge/evidence.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "scene/parallel.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr std::size_t most_samples = 40000;
+constexpr std::size_t least_border = 40;  ///< pixels; fewer say nothing
+/// A right capture's places fall on the pixels' centres up to the rounding of floats; one that is half a
+/// pixel off is twice as far.
+constexpr double place_slack = 0.25;  // pixels
+/// Depth may differ by what a quarter of a pixel's step to its neighbours changes, and by a float's rounding.
+constexpr double depth_slack = 1e-4;
+
+/// Less light than one step of a picture of eight bits, beside the brightest: a spot's rim, or a light in the
+/// surface's own plane, where the sign of n.l is rounding. A share, and a cosine.
+constexpr double faint = 1.0 / 256.0;
+
+/// Whether the picture says that something (with `ratio`: something that the light reaches) was drawn.
+bool tells_drawn(const CapturedPictures& pictures) {
+  return !pictures.drawn.data.empty() || pictures.ratio;
+}
+
+/// Irradiance of what faces the light; 0 else.
+double light_on(const Light& light, const raytrace::SurfacePoint& point) {
+  const LightAtPoint at = light_at(light, point.position);
+  const double most = std::max({at.irradiance.x, at.irradiance.y, at.irradiance.z});
+  return most * std::max(0.0, glm::dot(point.normal, at.to_light));
+}
+
+struct Tally {
+  std::size_t agree = 0, count = 0;
+  std::optional<double> share() const {
+    if (count == 0) return std::nullopt;
+    return static_cast<double>(agree) / static_cast<double>(count);
+  }
+  Tally& operator+=(const Tally& o) {
+    agree += o.agree, count += o.count;
+    return *this;
+  }
+};
+
+struct Tallies {
+  Tally places, depths, border, lit, shadowed;
+  float darkest = 1.0f, lightest = 0.0f;
+
+  void show(float visibility) {
+    darkest = std::min(darkest, visibility), lightest = std::max(lightest, visibility);
+  }
+  Tallies& operator+=(const Tallies& o) {
+    places += o.places, depths += o.depths, border += o.border, lit += o.lit, shadowed += o.shadowed;
+    darkest = std::min(darkest, o.darkest), lightest = std::max(lightest, o.lightest);
+    return *this;
+  }
+};
+
+class Gatherer {
+ public:
+  Gatherer(const EvidenceInput& in, const Suspect& suspect, double brightest)
+      : in_(in), suspect_(suspect), sight_(in.sight), brightest_(brightest) {
+    sight_.shift += suspect.shift;
+    if (suspect.view) sight_.view = *suspect.view;
+    light_ = in.tracer.world().scene->lights[in.light];
+    if (suspect.light_turned) light_.direction = -light_.direction;
+  }
+
+  void grid(std::uint32_t pixel, Tallies& out) const;
+  void border(std::uint32_t pixel, Tallies& out) const;
+
+ private:
+  struct Shown {
+    Ray ray;
+    raytrace::SurfacePoint point;
+    int x = 0, y = 0;        // of the scene's picture
+    std::size_t shadow = 0;  // where the capture shows its visibility
+  };
+  Shown look(std::uint32_t pixel) const;
+  void place(std::uint32_t pixel, const Shown& shown, Tally& out) const;
+  void depth(std::uint32_t pixel, const Shown& shown, Tally& out) const;
+  void visibility(const Shown& shown, Tallies& out) const;
+  /// Whether light arrives cannot be told from a picture.
+  bool is_faint(const raytrace::SurfacePoint& point, bool reached) const {
+    const double cosine = std::abs(glm::dot(point.normal, light_at(light_, point.position).to_light));
+    return cosine < faint || (reached && light_on(light_, point) < faint * brightest_);
+  }
+  bool drawn(std::size_t pixel) const {
+    return in_.pictures.drawn.data.empty() || in_.pictures.drawn.data[pixel] != 0;
+  }
+
+  const EvidenceInput& in_;
+  const Suspect& suspect_;
+  Sight sight_;
+  Light light_;
+  double brightest_;
+};
+
+Gatherer::Shown Gatherer::look(std::uint32_t pixel) const {
+  Shown out;
+  const int width = sight_.view.size.width;
+  const int cx = static_cast<int>(pixel) % width, cy = static_cast<int>(pixel) / width;
+  const bool all = !suspect_.visibility_only;
+  std::tie(out.x, out.y) = flipped(all && suspect_.flip_x, all && suspect_.flip_y, sight_.view.size, cx, cy);
+  const auto [sx, sy] = flipped(!all && suspect_.flip_x, !all && suspect_.flip_y, sight_.view.size, cx, cy);
+  out.shadow = static_cast<std::size_t>(sy) * static_cast<std::size_t>(width) + static_cast<std::size_t>(sx);
+  out.ray = pixel_ray(sight_.view, out.x + 0.5 + sight_.shift.x, out.y + 0.5 + sight_.shift.y);
+  if (const auto hit = in_.tracer.closest_seen(out.ray)) out.point = in_.tracer.surface_point(out.ray, *hit);
+  return out;
+}
+
+void Gatherer::place(std::uint32_t pixel, const Shown& shown, Tally& out) const {
+  const Vec3 there = suspect_.place_from_captured * in_.pictures.position.data[pixel];
+  const Vec3 seen = project_to_pixels(sight_.view, there);
+  const double along = glm::length(there - sight_.view.eye);
+  const double own = glm::length(shown.point.position - sight_.view.eye);
+  const Vec2 off = glm::abs(Vec2(seen) - Vec2(shown.x + 0.5, shown.y + 0.5) - sight_.shift);
+  ++out.count;
+  out.agree += seen.z > 0.0 && std::max(off.x, off.y) < place_slack && std::abs(along - own) < 0.05 * own;
+}
+
+void Gatherer::depth(std::uint32_t pixel, const Shown& shown, Tally& out) const {
+  const double axis = glm::dot(shown.ray.direction, sight_.view.forward);
+  const double own = glm::length(shown.point.position - shown.ray.origin);
+  const bool distance = in_.pictures.depth_is_distance != suspect_.other_depth;
+  const double given = in_.pictures.depth.data[pixel] * suspect_.depth_scale / (distance ? 1.0 : axis);
+  const double footprint = 2.0 * sight_.view.tan_half_y * own / sight_.view.size.height;
+  const double facing = std::max(0.02, std::abs(glm::dot(shown.point.normal, shown.ray.direction)));
+  ++out.count;
+  out.agree += std::abs(given - own) < place_slack * footprint / facing + depth_slack * own;
+}
+
+void Gatherer::visibility(const Shown& shown, Tallies& out) const {
+  const raytrace::SurfacePoint& point = shown.point;
+  if (in_.pictures.reached.data[shown.shadow] == 0) return;
+  if (in_.map != nullptr && !project_to_texel(*in_.map, point.position).inside) return;
+  const bool reached = !light_cannot_reach(light_, point.position, point.normal);
+  // A renderer that has the light's direction wrong draws what then faces away dark.
+  if (!reached && !suspect_.light_turned) return;
+  const raytrace::PointVisibility truth =
+      reached ? in_.tracer.centre_visibility(point, light_) : raytrace::PointVisibility::shadowed;
+  if (truth == raytrace::PointVisibility::uncertain) return;
+  const float drawn = in_.pictures.visibility.data[shown.shadow];
+  out.show(drawn);
+  const bool lit = (drawn > 0.5f) != suspect_.inverted;
+  Tally& tally = truth == raytrace::PointVisibility::lit ? out.lit : out.shadowed;
+  ++tally.count;
+  tally.agree += lit == (truth == raytrace::PointVisibility::lit) ? 1 : 0;
+}
+
+void Gatherer::grid(std::uint32_t pixel, Tallies& out) const {
+  if (!drawn(pixel)) return;
+  const Shown shown = look(pixel);
+  const bool hit = shown.point.primitive != no_id;
+  if (!in_.pictures.position.data.empty() && hit) place(pixel, shown, out.places);
+  if (!in_.pictures.position.data.empty() && !hit) ++out.places.count;
+  if (!in_.pictures.depth.data.empty() && hit) depth(pixel, shown, out.depths);
+  if (!in_.pictures.depth.data.empty() && !hit) ++out.depths.count;
+  if (hit) visibility(shown, out);
+}
+
+void Gatherer::border(std::uint32_t pixel, Tallies& out) const {
+  const Shown shown = look(pixel);
+  const bool hit = shown.point.primitive != no_id;
+  const bool reached = hit && !light_cannot_reach(light_, shown.point.position, shown.point.normal);
+  const bool masked = !in_.pictures.drawn.data.empty();
+  if (!masked && hit && is_faint(shown.point, reached)) return;
+  const bool captured = masked ? drawn(pixel) : in_.pictures.reached.data[pixel] != 0;
+  ++out.border.count;
+  out.border.agree += captured == (masked ? hit : reached) ? 1 : 0;
+}
+
+template <class Is>
+void add_border(const ImageSize& size, const Is& is, std::vector<std::uint32_t>& out) {
+  const int w = size.width, h = size.height;
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
+      const bool here = is(i);
+      const bool edge = (x + 1 < w && is(i + 1) != here) || (x > 0 && is(i - 1) != here) ||
+                        (y + 1 < h && is(i + static_cast<std::size_t>(w)) != here) ||
+                        (y > 0 && is(i - static_cast<std::size_t>(w)) != here);
+      if (edge) out.push_back(static_cast<std::uint32_t>(i));
+    }
+}
+
+void thin_out(std::vector<std::uint32_t>& pixels) {
+  std::sort(pixels.begin(), pixels.end());
+  pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+  if (pixels.size() <= most_samples) return;
+  const double step = static_cast<double>(pixels.size()) / most_samples;
+  for (std::size_t i = 0; i < most_samples; ++i)
+    pixels[i] = pixels[static_cast<std::size_t>(static_cast<double>(i) * step)];
+  pixels.resize(most_samples);
+}
+
+}  // namespace
+
+Samples choose_samples(const EvidenceInput& in, const raytrace::RayTracedFrame& frame) {
+  Samples out;
+  const std::size_t pixels = frame.receiver.data.size();
+  // A stride that is prime to the width spreads the samples over columns, too.
+  std::size_t stride = std::max<std::size_t>(1, pixels / most_samples);
+  while (stride > 1 && static_cast<std::size_t>(frame.receiver.size.width) % stride == 0) ++stride;
+  for (std::size_t i = 0; i < pixels; i += stride) out.grid.push_back(static_cast<std::uint32_t>(i));
+  if (!tells_drawn(in.pictures)) return out;
+  const bool masked = !in.pictures.drawn.data.empty();
+  const Light& light = in.tracer.world().scene->lights[in.light];
+  for (const std::uint32_t i : out.grid)
+    if (frame.receiver.data[i].primitive != no_id)
+      out.brightest = std::max(out.brightest, light_on(light, frame.receiver.data[i]));
+  const Image<std::uint8_t>& captured = masked ? in.pictures.drawn : in.pictures.reached;
+  add_border(
+      captured.size, [&](std::size_t i) { return captured.data[i] != 0; }, out.border);
+  add_border(
+      captured.size,
+      [&](std::size_t i) {
+        const raytrace::SurfacePoint& p = frame.receiver.data[i];
+        return p.primitive != no_id && (masked || !light_cannot_reach(light, p.position, p.normal));
+      },
+      out.border);
+  thin_out(out.border);
+  return out;
+}
+
+Evidence gather(const EvidenceInput& in, const Samples& samples, const Suspect& suspect) {
+  const Gatherer gatherer(in, suspect, samples.brightest);
+  constexpr std::size_t block = 512;
+  const std::size_t count = samples.grid.size() + samples.border.size();
+  std::vector<Tallies> parts((count + block - 1) / block);
+  parallel_for(parts.size(), [&](std::size_t p) {
+    for (std::size_t i = p * block; i < std::min(count, (p + 1) * block); ++i) {
+      if (i < samples.grid.size())
+        gatherer.grid(samples.grid[i], parts[p]);
+      else
+        gatherer.border(samples.border[i - samples.grid.size()], parts[p]);
+    }
+  });
+  Tallies sum;
+  for (const Tallies& part : parts) sum += part;
+  Evidence out;
+  out.positions = sum.places.share(), out.depths = sum.depths.share();
+  if (sum.border.count >= least_border) out.silhouettes = sum.border.share();
+  out.lit = sum.lit.count, out.shadowed = sum.shadowed.count;
+  out.darkest = sum.darkest, out.lightest = sum.lightest;
+  // Half for the lit ones and half for the shadowed, however few they are.
+  const auto lit = sum.lit.share(), shadowed = sum.shadowed.share();
+  if (lit && shadowed) out.visibility = 0.5 * (*lit + *shadowed);
+  if (!lit && suspect.light_turned) out.visibility = shadowed;
+  return out;
+}
+
+std::optional<Agreement> Evidence::geometry() const {
+  if (positions) return Agreement{"positions", *positions};
+  if (depths) return Agreement{"depths", *depths};
+  if (silhouettes) return Agreement{"silhouettes", *silhouettes};
+  return std::nullopt;
+}
+
+std::vector<Agreement> Evidence::all() const {
+  std::vector<Agreement> out;
+  if (silhouettes) out.push_back({"silhouettes", *silhouettes});
+  if (positions) out.push_back({"positions", *positions});
+  if (depths) out.push_back({"depths", *depths});
+  if (visibility) out.push_back({"visibility", *visibility});
+  return out;
+}
+
+}  // namespace gnomon::compare

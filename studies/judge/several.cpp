@@ -1,0 +1,144 @@
+#include "studies/judge/several.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "compare/result/number_text.h"
+#include "compare/result/output_parts.h"
+#include "report/html.h"
+#include "report/sections.h"
+#include "report/shell.h"
+#include "scene/files/write_file.h"
+#include "scene/one_line.h"
+#include "studies/judge/advice.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr std::string_view no_figures = "nothing compared";
+
+/// The two labels with the most wrong pixels.
+std::string main_labels(const LightComparison& light) {
+  std::vector<std::pair<std::uint64_t, std::string>> counts;
+  for (std::size_t k = 0; k < class_count; ++k)
+    if (light.classes[k] > 0) counts.emplace_back(light.classes[k], label_name(static_cast<Label>(k + 1)));
+  std::stable_sort(counts.begin(), counts.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (std::size_t k = 0; k < std::min<std::size_t>(2, counts.size()); ++k)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[k].second, grouped(counts[k].first));
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+std::vector<const JudgedRow*> worst_first(const JudgedSet& set) {
+  std::vector<const JudgedRow*> rows;
+  for (const JudgedRow& row : set.rows) rows.push_back(&row);
+  // Rows without figures last.
+  const auto rank = [](const JudgedRow& row) { return !row.refused.empty() ? 2 : row.compared == 0 ? 1 : 0; };
+  std::stable_sort(rows.begin(), rows.end(), [&](const JudgedRow* a, const JudgedRow* b) {
+    return rank(*a) != rank(*b) ? rank(*a) < rank(*b) : a->wrong > b->wrong;
+  });
+  return rows;
+}
+
+std::string page_row(const JudgedRow& row) {
+  if (!row.refused.empty())
+    return fmt::format(R"(<tr><th scope="row">{}</th><td colspan="7">not judged: {}</td></tr>
+)",
+                       escaped(row.name), escaped(row.refused));
+  const std::string head =
+      fmt::format(R"(<tr><th scope="row"><a href="{}/report.html">{}</a><small>{}</small></th><td>{}</td>)",
+                  url_segment(row.name), escaped(row.name), escaped(row.scene), escaped(row.renderer));
+  if (row.compared == 0)
+    return fmt::format(R"({}<td colspan="5">{}</td><td>{}</td></tr>
+)",
+                       head, no_figures, escaped(row.advice));
+  return fmt::format(
+      R"({}<td class="n">{}</td><td
+class="n">{}</td><td>{}</td><td class="n">{}</td><td class="n">{}</td><td>{}</td></tr>
+)",
+      head, percent(row.wrong), percent(row.mean_error), escaped(row.labels), plain_number(row.edge_pixels),
+      row.detachment_world ? plain_number(*row.detachment_world) : "\u2013", escaped(row.advice));
+}
+
+std::string judged_line(const JudgedRow& row, std::size_t width) {
+  const std::string name = one_line(row.name);
+  if (!row.refused.empty()) return fmt::format("{:{}}  not judged: {}\n", name, width, one_line(row.refused));
+  if (row.compared == 0) return fmt::format("{:{}}  {}\n", name, width, no_figures);
+  return fmt::format("{:{}}  {:>8}  {:>8}  {:>7.3f}  {:8}  {}\n", name, width, percent(row.wrong),
+                     percent(row.mean_error), row.edge_pixels, row.ladder, row.labels);
+}
+
+std::string judged_page(const JudgedSet& set) {
+  std::string rows;
+  for (const JudgedRow* row : worst_first(set)) rows += page_row(*row);
+  PageShell shell;
+  shell.title = "Captures judged \u2013 Gnomon";
+  shell.links = R"(<li><a href="#captures">Captures</a></li>)";
+  shell.main =
+      R"(<section id="captures" aria-labelledby="captures-title"><h1 id="captures-title">Captures judged</h1>
+<p>The worst first. Each name opens that capture's own report. Edges: how far drawn shadow edges lie from the true
+ones, root mean square in pixels. Detached: how far shadows start from what casts them, mean in world units.</p>
+)" +
+      scroll_region(
+          "Captures",
+          R"(<table class="captures"><thead><tr><th scope="col">capture</th><th scope="col">drawn by</th><th
+scope="col" class="n">wrong</th><th scope="col" class="n">mean error</th><th scope="col">mostly</th><th
+scope="col" class="n">edges</th><th scope="col" class="n">detached</th><th scope="col">advice</th></tr></thead><tbody>
+)" + rows + "</tbody></table>") +
+      "</section>\n";
+  shell.data =
+      R"({"kind": "compare", "lights": 0, "labels": []})";  // the page's script finds no light to bring to life
+  return build_page(shell).html;
+}
+
+}  // namespace
+
+JudgedRow judged_row(const std::string& name, const Comparison& c) {
+  const LightComparison& light = c.lights.front();
+  const Judged& judged = *c.judged;
+  JudgedRow row;
+  row.name = name, row.scene = c.world->scene->name;
+  row.renderer = judged.renderer + (judged.version.empty() ? "" : " " + judged.version);
+  row.ladder = judged.has_map ? "map" : judged.identified ? "inferred" : "none";
+  row.labels = (judged.identified ? "inferred: " : "") + main_labels(light);
+  row.compared = light.pixels.compared;
+  row.wrong = light.error.wrong_fraction, row.mean_error = light.error.mean_absolute;
+  row.edge_pixels = light.edges.rms_pixels;
+  if (light.detachment.pixels > 0) row.detachment_world = light.detachment.mean_world;
+  for (const Advice& advice : judged.advice)
+    row.advice += (row.advice.empty() ? "" : "; ") + advice_text(advice);
+  return row;
+}
+
+void JudgedSet::add(const std::string& name, const Comparison& comparison) {
+  const std::string line = result_line(comparison, {{"capture", name}});
+  lines += line;
+  table.add(rows.size(), line, times_line(comparison, rows.size(), false, comparison.total_ms));
+  rows.push_back(judged_row(name, comparison));
+}
+
+void JudgedSet::add_refused(const std::string& name, const std::string& why) {
+  JudgedRow row;
+  row.name = name, row.refused = why;
+  rows.push_back(std::move(row));
+}
+
+std::string judged_table(const JudgedSet& set) {
+  std::size_t width = 8;
+  for (const JudgedRow& row : set.rows) width = std::max(width, one_line(row.name).size());
+  std::string text = fmt::format("{:{}}  {:>8}  {:>8}  {:>7}  {:8}  {}\n", "capture", width, "wrong", "mean",
+                                 "edge px", "ladder", "mostly");
+  for (const JudgedRow* row : worst_first(set)) text += judged_line(*row, width);
+  return text;
+}
+
+Expected<void> write_judged_set(const JudgedSet& set, const std::string& folder) {
+  if (const auto lines = write_file(folder + "/judge.jsonl", set.lines); !lines) return lines;
+  if (const auto table = write_file(folder + "/judge.csv", set.table.text()); !table) return table;
+  return write_file(folder + "/report.html", judged_page(set));
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,158 @@
+#include "studies/judge/suspects.h"
+
+#include <fmt/core.h>
+
+namespace gnomon::compare {
+namespace {
+
+void add_flips(std::vector<Suspect>& out) {
+  constexpr std::array names{"is upside down", "is mirrored left to right", "is turned by half a turn"};
+  for (const bool alone : {false, true})
+    for (int k = 0; k < 3; ++k) {
+      Suspect suspect;
+      suspect.what = fmt::format("{} {}{}", alone ? "the shadow's picture" : "the picture",
+                                 names[static_cast<std::size_t>(k)], alone ? ", the others are not" : "");
+      suspect.flip_y = k != 1, suspect.flip_x = k != 0;
+      suspect.visibility_only = alone, suspect.geometric = !alone;
+      out.push_back(suspect);
+    }
+}
+
+/// As many steps to each side, of so many pixels. A bias, too, moves shadows by whole pixels.
+void add_shifts(double step, int steps, std::vector<Suspect>& out) {
+  for (int i = -steps; i <= steps; ++i)
+    for (int j = -steps; j <= steps; ++j) {
+      if (i == 0 && j == 0) continue;
+      Suspect suspect;
+      suspect.shift = {step * i, step * j};
+      suspect.what =
+          fmt::format("the picture is {} off (x {:+g}, y {:+g})", step < 1.0 ? "half a pixel" : "some pixels",
+                      suspect.shift.x, suspect.shift.y);
+      suspect.by_shadows = step < 1.0;
+      out.push_back(suspect);
+    }
+}
+
+void add_views(const SuspectInput& in, std::vector<Suspect>& out) {
+  const View view = make_view(in.camera, in.size);
+  const auto add = [&](std::string what, double tan_x, double tan_y) {
+    Suspect suspect;
+    suspect.what = std::move(what);
+    suspect.view = view;
+    suspect.view->tan_half_x = tan_x, suspect.view->tan_half_y = tan_y;
+    out.push_back(suspect);
+  };
+  const double aspect = view.tan_half_x / view.tan_half_y;
+  if (std::abs(aspect - 1.0) > 0.01) {
+    add("the vertical field of view was taken for the horizontal one", view.tan_half_y,
+        view.tan_half_y / aspect);
+    add("the horizontal field of view was taken for the vertical one", view.tan_half_x * aspect,
+        view.tan_half_x);
+  }
+  for (const double other : {1.0, 4.0 / 3.0, 1.5, 1.6, 16.0 / 9.0, 2.0, 21.0 / 9.0, 1.0 / aspect})
+    if (std::abs(other / aspect - 1.0) > 0.01)
+      add(fmt::format("the picture was drawn for an aspect of {:.4g}, not {:.4g}", other, aspect),
+          other * view.tan_half_y, view.tan_half_y);
+}
+
+struct Axes {
+  const char* what;
+  Mat3 scene_from_captured;
+};
+
+std::vector<Axes> other_axes() {
+  // Columns: where the capture's x, y and z axis point in the scene.
+  const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  return {{"z-up, the scene y-up", Mat3(x, -z, y)},
+          {"y-up, the scene z-up", Mat3(x, z, -y)},
+          {"left-handed (z the other way)", Mat3(x, y, -z)},
+          {"left-handed (x the other way)", Mat3(-x, y, z)},
+          {"in centimetres, the scene in metres", Mat3(0.01)},
+          {"in metres, the scene in centimetres", Mat3(100.0)}};
+}
+
+View transformed(const Camera& camera, const ImageSize& size, const Mat3& axes) {
+  View view = make_view(camera, size);
+  view.eye = axes * view.eye;
+  const double scale = std::cbrt(std::abs(glm::determinant(axes)));
+  view.right = axes * view.right / scale, view.up = axes * view.up / scale;
+  view.forward = axes * view.forward / scale;
+  return view;
+}
+
+void add_axes(const SuspectInput& in, std::vector<Suspect>& out) {
+  for (const Axes& axes : other_axes()) {
+    Suspect suspect;
+    suspect.place_from_captured = axes.scene_from_captured;
+    const double scale = std::cbrt(std::abs(glm::determinant(axes.scene_from_captured)));
+    const bool scaled = std::abs(scale - 1.0) > 0.5;
+    if (in.has_positions || (in.has_depths && scaled)) {
+      suspect.what = fmt::format("the {} are {}", in.has_positions ? "positions" : "depths", axes.what);
+      if (scaled) suspect.depth_scale = scale;
+      out.push_back(suspect);
+    }
+    suspect.what = fmt::format("the camera's world is {}", axes.what);
+    suspect.view = transformed(in.camera, in.size, axes.scene_from_captured);
+    out.push_back(suspect);
+  }
+}
+
+template <class T>
+void flip(bool flip_x, bool flip_y, Image<T>& image) {
+  if (image.data.empty() || (!flip_x && !flip_y)) return;
+  const Image<T> from = image;
+  for (int y = 0; y < image.size.height; ++y)
+    for (int x = 0; x < image.size.width; ++x) {
+      const auto [cx, cy] = flipped(flip_x, flip_y, image.size, x, y);
+      image.at(x, y) = from.at(cx, cy);
+    }
+}
+
+}  // namespace
+
+std::vector<Suspect> usual_suspects(const SuspectInput& in) {
+  std::vector<Suspect> out;
+  add_flips(out);
+  add_shifts(0.5, 1, out);
+  add_shifts(1.0, 3, out);
+  add_views(in, out);
+  add_axes(in, out);
+  if (in.has_depths) {
+    Suspect suspect;
+    suspect.what = "the depths are along the ray where the axis was said, or the reverse";
+    suspect.other_depth = true;
+    out.push_back(suspect);
+  }
+  if (in.has_direction) {
+    Suspect suspect;
+    suspect.what = "the light shines the other way (the sign of its direction), or nothing is lit at all";
+    suspect.light_turned = true, suspect.geometric = false;
+    out.push_back(suspect);
+  }
+  Suspect inverted;
+  inverted.what = "the shadow's picture has 1 for shadow and 0 for light";
+  inverted.inverted = true, inverted.geometric = false;
+  out.push_back(inverted);
+  return out;
+}
+
+void undo(const Suspect& suspect, CapturedPictures& pictures, Sight& sight) {
+  flip(suspect.flip_x, suspect.flip_y, pictures.visibility);
+  flip(suspect.flip_x, suspect.flip_y, pictures.reached);
+  flip(suspect.flip_x, suspect.flip_y, pictures.color);
+  if (!suspect.visibility_only) {
+    flip(suspect.flip_x, suspect.flip_y, pictures.drawn);
+    flip(suspect.flip_x, suspect.flip_y, pictures.position);
+    flip(suspect.flip_x, suspect.flip_y, pictures.depth);
+  }
+  if (suspect.inverted)
+    for (float& v : pictures.visibility.data) v = 1.0f - v;
+  sight.shift += suspect.shift;
+  if (suspect.view) sight.view = *suspect.view;
+  if (suspect.place_from_captured != Mat3(1.0))
+    for (Vec3& place : pictures.position.data) place = suspect.place_from_captured * place;
+  for (double& depth : pictures.depth.data) depth *= suspect.depth_scale;
+  if (suspect.other_depth) pictures.depth_is_distance = !pictures.depth_is_distance;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,143 @@
+#include "studies/sweep/cell_files.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "report/packing.h"
+#include "report/shell.h"
+#include "scene/files/path_status.h"
+#include "scene/files/sha256.h"
+#include "scene/files/write_file.h"
+#include "studies/sweep/journal.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr std::string_view truth_prefix = "truth-";
+constexpr std::size_t truth_digits = 12;
+
+}  // namespace
+
+bool has_thumbnail(std::size_t cell, std::size_t cells) {
+  if (cells <= max_thumbnails) return true;
+  // Cell i is the k-th chosen where floor(k * cells / max) = i.
+  const std::size_t k = (cell * max_thumbnails + cells - 1) / cells;
+  return k < max_thumbnails && k * cells / max_thumbnails == cell;
+}
+
+std::string thumbnail_path(const std::string& folder, std::size_t cell) {
+  return fmt::format("{}/thumbnails/{}.png", folder, cell_name(cell));
+}
+
+std::string cells_folder(const std::string& folder) {
+  return folder + "/cells";
+}
+
+std::string cell_name(std::size_t cell) {
+  return fmt::format("cell-{:06}", cell);
+}
+
+std::string truth_name(std::string_view png) {
+  return std::string(truth_prefix) + sha256_hex(png).substr(0, truth_digits);
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The cell that "cell-000012.js" belongs to, in the cells' folder or that of the thumbnails; none of a name that the
+/// program would not write.
+std::optional<std::size_t> cell_of_file(std::string_view name) {
+  constexpr std::string_view prefix = "cell-";
+  const std::size_t dot = name.find('.');
+  if (!name.starts_with(prefix) || dot == std::string_view::npos) return std::nullopt;
+  const std::string_view extension = name.substr(dot), stem = name.substr(0, dot);
+  std::size_t cell = 0;
+  std::from_chars(stem.data() + prefix.size(), stem.data() + stem.size(), cell);
+  if ((extension != ".js" && extension != ".png") || stem != cell_name(cell)) return std::nullopt;
+  return cell;
+}
+
+bool is_truth(std::string_view name) {
+  constexpr std::string_view end = ".png";
+  return name.size() == truth_prefix.size() + truth_digits + end.size() && name.starts_with(truth_prefix) &&
+         name.ends_with(end) &&
+         name.find_first_not_of("0123456789abcdef", truth_prefix.size()) == name.size() - end.size();
+}
+
+/// What a process that is no more left of a file that a sweep writes.
+bool is_unfinished(std::string_view name) {
+  const std::string of = abandoned_part_of(name);
+  return !of.empty() &&
+         (of == probe_name || cell_of_file(of) || is_truth(of) ||
+          std::find(sweep_file_names.begin(), sweep_file_names.end(), of) != sweep_file_names.end());
+}
+
+/// The folder need not be there.
+Expected<void> remove_files(const std::string& folder,
+                            const std::function<bool(std::string_view)>& unwanted) {
+  const auto names = names_if_there(folder, ErrorKind::cannot_write);
+  if (!names) return fail(names.error());
+  for (const std::string& name : *names) {
+    if (!unwanted(name)) continue;
+    const std::string path = folder + "/" + name;
+    const auto plain = is_plain_file(path, ErrorKind::cannot_write);
+    if (!plain) return fail(plain.error());
+    if (!*plain) continue;
+    if (auto gone = remove_path(path); !gone) return gone;
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<std::vector<std::string>> truths_in(const std::string& folder) {
+  auto names = names_if_there(cells_folder(folder));
+  if (names) std::erase_if(*names, [](const std::string& name) { return !is_truth(name); });
+  return names;
+}
+
+Expected<void> remove_strays(const std::string& folder, std::span<const std::size_t> unfinished) {
+  const auto stray = [&](std::string_view name) {
+    const auto cell = cell_of_file(name);
+    return is_unfinished(name) || (cell && std::binary_search(unfinished.begin(), unfinished.end(), *cell));
+  };
+  if (auto gone = remove_files(folder, is_unfinished); !gone) return gone;
+  for (const std::string& pictures : {folder + "/thumbnails", cells_folder(folder)})
+    if (auto gone = remove_files(pictures, stray); !gone) return gone;
+  return {};
+}
+
+Expected<void> discard_sweep(const std::string& folder) {
+  const auto claim = SweepClaim::of(folder);
+  if (!claim) return fail(claim.error());
+  for (const std::string_view name : sweep_file_names)
+    if (auto gone = remove_path((fs::path(folder) / name).string()); !gone) return gone;
+  const auto ours = [](std::string_view name) {
+    return is_unfinished(name) || cell_of_file(name) || is_truth(name);
+  };
+  for (const std::string& pictures : {folder + "/thumbnails", cells_folder(folder)}) {
+    if (auto gone = remove_files(pictures, ours); !gone) return gone;
+    const auto others = names_if_there(pictures, ErrorKind::cannot_write);
+    if (!others) return fail(others.error());
+    if (!others->empty()) continue;
+    if (auto gone = remove_path(pictures); !gone) return gone;
+  }
+  return {};
+}
+
+std::string cell_data_file(std::size_t cell, const Image<std::uint8_t>& codes, const std::string& truth) {
+  const std::string classes = packed({codes.data.begin(), codes.data.end()}, {1, From::nothing, 1});
+  return data_file(
+      {cell_name(cell),
+       fmt::format(
+           R"({{"width":{},"height":{},"truth":"{}","classes":{{"bytes":1,"from":"nothing","data":"{}"}}}})",
+           codes.size.width, codes.size.height, truth, classes)});
+}
+
+}  // namespace gnomon::compare

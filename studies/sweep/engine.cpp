@@ -1,0 +1,313 @@
+#include "studies/sweep/engine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "raster/technique_traits.h"
+#include "scene/parallel.h"
+#include "scene/sort_numbers.h"
+#include "studies/shimmer/shimmer.h"
+#include "studies/sweep/engine_impl.h"
+
+namespace gnomon::compare {
+namespace {
+
+// What the truth hangs on.
+bool same_truth(const Setting& a, const Setting& b) {
+  return a.accel == b.accel && a.precision == b.precision && a.raytrace == b.raytrace &&
+         a.camera == b.camera && a.lights == b.lights && a.compared == b.compared;
+}
+
+// The drawing options are equal but for the constant bias.
+bool same_but_bias(const raster::RasterOptions& a, const raster::RasterOptions& b) {
+  raster::RasterOptions rebiased = a;
+  rebiased.map.bias.constant = b.map.bias.constant;
+  rebiased.map.bias.unit = b.map.bias.unit;
+  return rebiased == b && raster::scales_bias(a.map) == raster::scales_bias(b.map);
+}
+
+bool stores_midpoints(const raster::MapOptions& map) {
+  return raster::traits_of(map.technique).contents == raster::MapContents::midpoint_depth;
+}
+
+// Two drawings stored the same map and show the same primitives at the same places: the lower rungs agree.
+bool same_map(const raster::RasterFrame& a, const raster::RasterFrame& b, std::size_t light) {
+  const raster::LightRecord &x = a.lights[light], &y = b.lights[light];
+  return a.options.map.cull == b.options.map.cull &&
+         stores_midpoints(a.options.map) == stores_midpoints(b.options.map) && x.light == y.light &&
+         x.map.format == y.map.format && x.map.view.size == y.map.view.size && x.map.depth == y.map.depth &&
+         x.texel_uv.data == y.texel_uv.data && x.face.data == y.face.data &&
+         a.primitive.data == b.primitive.data;
+}
+
+// Of one light's compared pixels, times `scale`.
+void add_gaps(const LadderInput& in, double scale, GapLists& gaps) {
+  const Image<Label> labels = sort_pixels(in);
+  for (std::size_t i = 0; i < labels.data.size(); ++i) {
+    if (!is_compared(labels.data[i])) continue;
+    const auto truth = true_visibility(in, i);
+    if (truth == 0.5f)
+      ++gaps.ties;
+    else
+      (truth > 0.5f ? gaps.lit : gaps.shadowed)
+          .push_back(static_cast<float>(scale * in.record().gap.data[i]));
+  }
+}
+
+double raster_ms(const raster::RasterFrame& frame) {
+  double sum = 0.0;
+  for (const raster::LightRecord& light : frame.lights)
+    sum += light.map_pass.median() + light.shade_pass.median();
+  return sum;
+}
+
+}  // namespace
+
+LadderInput Engine::Impl::input(const raster::RasterFrame& frame, std::size_t i) const {
+  return {*tracer, topology, frame, comparison.raytraced, i};
+}
+
+void Engine::Impl::trace(const Setting& setting) {
+  if (truth_of && same_truth(*truth_of, setting)) return;
+  lower.clear();
+  table.clear();
+  backdrop = {};
+  drawn_for.reset();
+  if (!tracer || truth_of->accel != setting.accel || truth_of->precision != setting.precision) {
+    tracer = std::make_unique<raytrace::Tracer>(world, setting.accel, setting.precision);
+  }
+  scene.camera = setting.camera;
+  scene.lights = setting.lights;
+  comparison.plan = plan_effects(scene);
+  comparison.raytraced =
+      raytrace::trace_frame(*tracer, comparison.plan, scene.camera, setting.compared, setting.raytrace);
+  truth_of = setting;
+  ++work.truths;
+}
+
+Expected<void> Engine::Impl::draw(const Setting& setting) {
+  drawn_for.reset();
+  auto frame = renderer.render(drawing_options(setting.raster, setting.raytrace), setting.compared);
+  if (!frame) return fail(frame.error());
+  comparison.raster = std::move(*frame);
+  drawn_for = setting;
+  ++work.renders;
+  return {};
+}
+
+void Engine::Impl::derive(const Setting& setting, Detail detail) {
+  comparison.raster.options = setting.raster;
+  comparison.raster.options.map = raster::effective_options(setting.raster.map);
+  for (raster::LightRecord& record : comparison.raster.lights) {
+    const double world_units =
+        raster::constant_bias_world(setting.raster.map.bias, record.rounding, record.map.view, world);
+    record.bias_constant_world = world_units;
+    if (detail == Detail::images) rebias(comparison.raster.primitive, world_units, record);
+  }
+  ++work.derived;
+}
+
+void Engine::Impl::climb_lower() {
+  const raster::RasterFrame& frame = comparison.raster;
+  bool same = lower.size() == frame.lights.size();
+  for (std::size_t i = 0; same && i < lower.size(); ++i) same = same_map(*lower_frame, frame, i);
+  if (same) return;
+  lower.clear();
+  map_measures.clear();
+  lower_frame = std::make_unique<raster::RasterFrame>(frame);
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    const LadderInput in = input(*lower_frame, i);
+    lower.push_back(std::make_unique<LowerClimb>(in, sort_pixels(in)));
+    ++work.lower_climbs;
+  }
+}
+
+std::size_t Engine::Impl::expected_place(const raster::Bias& bias) const {
+  const auto same = [&](const raster::Bias& b) { return b.constant == bias.constant && b.unit == bias.unit; };
+  return static_cast<std::size_t>(std::find_if(expected.begin(), expected.end(), same) - expected.begin());
+}
+
+bool Engine::Impl::fill_table() {
+  if (!table.empty()) return true;
+  if (perceptual || comparison.lights.size() != lower.size()) return false;
+  for (const auto& light : lower)
+    if (!biases_add_up(*light)) return false;
+  right_codes = {};
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    const LadderInput in = input(comparison.raster, i);
+    std::vector<double> biases;
+    for (const raster::Bias& bias : expected)
+      biases.push_back(raster::constant_bias_world(bias, in.record().rounding, in.record().map.view, world));
+    table.push_back(
+        compare_biases(*lower[i], in, comparison.lights[i], biases, MeasureOptions{}.bias_curve_points));
+  }
+  return true;
+}
+
+bool Engine::Impl::measure_from_table(const raster::Bias& bias) {
+  const std::size_t place = expected_place(bias);
+  if (place == expected.size() || !fill_table()) return false;
+  for (std::size_t i = 0; i < table.size(); ++i) comparison.lights[i] = table[i].lights[place];
+  table_place = place;
+  return true;
+}
+
+Expected<void> Engine::Impl::measure() {
+  if (!derived) climb_lower();
+  has_images = true;
+  const Plan plan{.tracer = *tracer,
+                  .picture = comparison.raster.primitive.size,
+                  .lights = truth_of->compared,
+                  .measure = {.perceptual = perceptual, .by_cascade = false},
+                  .maps = map_measures,
+                  .topology = &topology};
+  const auto measured =
+      measure_frames(comparison, plan, [&](const LadderInput& in) { return climb_up(*lower[in.index], in); });
+  if (!measured) return measured;
+  map_measures.clear();
+  for (const LightComparison& light : comparison.lights)
+    map_measures.push_back({light.texel_world, light.theory});
+  return {};
+}
+
+Expected<void> Engine::Impl::compare(const Setting& setting, Detail detail) {
+  trace(setting);
+  // A shader of the user's need not compare with the bias at all.
+  derived = drawn_for && comparison.raster.replaced_shaders.empty() &&
+            biases_follow_from_gaps(setting.raster.map) && same_but_bias(drawn_for->raster, setting.raster);
+  if (!derived) {
+    if (auto drawn = draw(setting); !drawn) return drawn;
+    table.clear();
+    return measure();
+  }
+  if (detail == Detail::numbers && expected_place(setting.raster.map.bias) < expected.size()) {
+    derive(setting, Detail::numbers);
+    has_images = false;
+    if (measure_from_table(setting.raster.map.bias)) return {};
+    --work.derived;
+  }
+  derive(setting, Detail::images);
+  return measure();
+}
+
+// Draws for what is not a comparison: nothing of what stood before holds for it.
+Expected<void> Engine::Impl::draw_alone(const Setting& setting) {
+  auto drawn = draw(setting);
+  table.clear();
+  lower.clear();
+  drawn_for.reset();
+  return drawn;
+}
+
+Expected<double> Engine::Impl::time_drawing(const Setting& setting) {
+  Setting bare = setting;
+  bare.raster.analysis = false;
+  if (auto drawn = draw_alone(bare); !drawn) return fail(drawn.error());
+  return raster_ms(comparison.raster);
+}
+
+std::vector<ErrorFigures> Engine::Impl::figures(ErrorMeasure measure) const {
+  std::vector<ErrorFigures> out;
+  for (std::size_t i = 0; i < comparison.raster.lights.size(); ++i)
+    out.push_back(figures_of(input(comparison.raster, i), measure));
+  return out;
+}
+
+// What the drawing would be wrong by with the bias that its gaps say is best, asked for once for all lights: where the
+// constant scales it is a number of texels, and each light has its own.
+void Engine::Impl::probe_best_bias(const raster::MapOptions& map, ErrorMeasure measure, Probe& probe) {
+  raster::RasterFrame& frame = comparison.raster;
+  const bool scales = raster::scales_bias(map);
+  for (std::size_t i = 0; i < frame.lights.size(); ++i)
+    add_gaps(input(frame, i), scales ? probe.texel_world / frame.lights[i].texel_world : 1.0, probe.gaps);
+  sort_numbers(std::span(probe.gaps.lit));
+  sort_numbers(std::span(probe.gaps.shadowed));
+  probe.best = find_best_bias(probe.gaps);
+  probe.bias_at_best = with_constant(map, probe.best->constant_world, probe.texel_world);
+  for (raster::LightRecord& record : frame.lights)
+    rebias(frame.primitive,
+           raster::constant_bias_world(probe.bias_at_best, record.rounding, record.map.view, world), record);
+  probe.lights_at_best = figures(measure);
+}
+
+Expected<Probe> Engine::Impl::probe(const Setting& setting, ErrorMeasure measure) {
+  trace(setting);
+  Setting without_map = setting;
+  without_map.raster.map_contents = false;
+  if (auto drawn = draw_alone(without_map); !drawn) return fail(drawn.error());
+  Probe probe;
+  const raster::RasterFrame& frame = comparison.raster;
+  for (const raster::LightRecord& light : frame.lights)
+    if (light.external) probe.rays += light.external->rays;
+  probe.lights = figures(measure);
+  if (film && measure == ErrorMeasure::shimmer) {
+    const auto flips = count_flips(setting);
+    if (!flips) return fail(flips.error());
+    for (std::size_t i = 0; i < flips->size(); ++i)
+      probe.lights[i].flips_per_second = (*flips)[i].flips_per_receiver_second;
+  }
+  for (const ErrorFigures& light : probe.lights) probe.compared += light.compared;
+  probe.raster_ms = raster_ms(frame);
+  probe.map_texels = frame.map_texels;
+  probe.map_bytes = frame.map_bytes;
+  if (!frame.lights.empty()) {
+    probe.bias_world = frame.lights.front().bias_constant_world;
+    probe.texel_world = raster::texel_world(frame.lights.front().map.view, world);
+  }
+  probe.custom_shader = frame.custom_shader.has_value();
+  probe.reads_bias = !frame.custom_shader || frame.custom_shader->reads_bias;
+  if (biases_follow_from_gaps(frame) && measure != ErrorMeasure::shimmer)
+    probe_best_bias(setting.raster.map, measure, probe);
+  return probe;
+}
+
+Engine::Engine(Scene& scene, const World& world, raster::Renderer& renderer, bool perceptual)
+    : impl_(std::make_unique<Impl>(scene, world, renderer, perceptual)) {}
+
+Engine::~Engine() = default;
+
+Expected<Probe> Engine::probe(const Setting& setting, ErrorMeasure measure) {
+  return impl_->probe(setting, measure);
+}
+
+Expected<double> Engine::time_drawing(const Setting& setting) {
+  return impl_->time_drawing(setting);
+}
+
+bool Engine::last_was_derived() const {
+  return impl_->derived;
+}
+
+const EngineWork& Engine::work() const {
+  return impl_->work;
+}
+
+void Engine::expect_biases(std::vector<raster::Bias> biases) {
+  impl_->expected = std::move(biases);
+  impl_->table.clear();
+}
+
+void Engine::film_with(const FilmPlan& plan) {
+  impl_->film = plan;
+}
+
+Expected<std::vector<ShimmerFigures>> Engine::Impl::count_flips(const Setting& setting) const {
+  ShimmerOptions options{*film, {}};
+  options.compare.raster = setting.raster;
+  options.compare.raytrace = setting.raytrace;
+  options.compare.accel = setting.accel, options.compare.precision = setting.precision;
+  return compare::count_flips({*tracer, topology, comparison.raytraced}, world, scene, renderer,
+                              setting.compared, options);
+}
+
+Expected<Comparison*> Engine::compare(const Setting& setting, Detail detail) {
+  if (auto compared = impl_->compare(setting, detail); !compared) return fail(compared.error());
+  if (impl_->film) {
+    const auto flips = impl_->count_flips(setting);
+    if (!flips) return fail(flips.error());
+    for (std::size_t i = 0; i < flips->size(); ++i) impl_->comparison.lights[i].shimmer = (*flips)[i];
+  }
+  return &impl_->comparison;
+}
+
+}  // namespace gnomon::compare

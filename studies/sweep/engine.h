@@ -1,0 +1,116 @@
+// One comparison after another at different settings, each from what the last one left: scene, hierarchy,
+// camera rays and truth as long as camera and lights stay; the lower rungs and their columns as long as the
+// depth maps stay; and a frame of another constant bias without drawing it at all (docs/design.md, section 3).
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "compare/bias/bias_curve.h"
+#include "compare/compare.h"
+#include "studies/shimmer/path.h"
+
+namespace gnomon::compare {
+
+/// Everything that a cell of a sweep may change.
+struct Setting {
+  raster::RasterOptions raster;
+  raytrace::RaytraceOptions raytrace;
+  raytrace::Accel accel = raytrace::Accel::bvh;
+  raytrace::Precision precision = raytrace::Precision::robust;
+  Camera camera;
+  std::vector<Light> lights;            ///< the scene's, of the same types; some may be left out
+  std::vector<std::uint32_t> compared;  ///< indices in `lights`
+};
+
+enum class Detail : std::uint8_t { numbers, images };
+
+/// What a sweep's cells cost in all.
+struct EngineWork {
+  std::uint64_t truths = 0;        ///< times that camera and shadow rays were traced
+  std::uint64_t renders = 0;       ///< frames drawn
+  std::uint64_t lower_climbs = 0;  ///< lights whose lower rungs were climbed
+  std::uint64_t derived = 0;       ///< frames of another constant bias made without drawing
+};
+
+/// What the tuner needs of a drawing: its errors at every constant bias, and its times; nothing is climbed.
+struct Probe {
+  std::uint64_t compared = 0;        ///< pixels, all lights together
+  std::vector<ErrorFigures> lights;  ///< of each light, as drawn
+  /// Of all lights together, as the first light's texel has them where the constant scales; empty where biases do not
+  /// follow from gaps.
+  GapLists gaps;
+  /// The constant bias with the fewest wrong pixels, and each light's figures with it; none where biases do
+  /// not follow from gaps.
+  std::optional<BestBias> best;
+  raster::Bias bias_at_best;  ///< with that constant, in the unit that draws it
+  std::vector<ErrorFigures> lights_at_best;
+  double bias_world = 0.0;   ///< the constant bias drawn with, of the first light
+  double texel_world = 0.0;  ///< the width that biases in texels are taken in, of the first light
+  double raster_ms = 0.0;    ///< median times of the map and the shading passes, all lights
+  std::uint64_t map_texels = 0, map_bytes = 0;
+  std::uint64_t rays = 0;  ///< of the hybrid
+  /// A shader of the user's own decided; `reads_bias`: and it has the bias in it, as every technique has.
+  bool custom_shader = false, reads_bias = true;
+};
+
+class Engine {
+ public:
+  /// `world` was made from `scene`, and `renderer` for both; all outlive the engine. The scene's camera and
+  /// lights are changed by compare(). `perceptual`: FLIP and SSIM too.
+  Engine(Scene& scene, const World& world, raster::Renderer& renderer, bool perceptual);
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// The constant biases that the coming settings differ in, so that the numbers of all of them are made
+  /// together (bias_axis.h). Empty: none.
+  void expect_biases(std::vector<raster::Bias> biases);
+
+  /// From now on a film of each setting is made as well, beginning with its picture: LightComparison::shimmer and
+  /// ErrorMeasure::shimmer.
+  void film_with(const FilmPlan& plan);
+
+  /// The comparison at a setting, as compare_world would make it, times aside; valid until the next call, and
+  /// the caller's to complete (command, seed, machine). A frame that differs from the last drawn one in its
+  /// constant bias alone is not drawn: what it would show follows from the gaps. Its times and its picture
+  /// (RasterFrame::color) are those of the frame that it was made from. With Detail::numbers the images of
+  /// such a frame (visibility, rungs, labels) may be left out.
+  Expected<Comparison*> compare(const Setting& setting, Detail detail = Detail::images);
+
+  /// Draws at a setting and measures what `measure` needs (FLIP, edges and flips are left NaN otherwise; where it is
+  /// flips, no other bias is looked for). A
+  /// comparison that stood before is no longer valid.
+  Expected<Probe> probe(const Setting& setting, ErrorMeasure measure = ErrorMeasure::wrong_and_mean);
+
+  /// Draws at a setting for Probe::raster_ms alone. A comparison that stood before is no longer valid.
+  Expected<double> time_drawing(const Setting& setting);
+
+  /// The last comparison in small, `width` pixels wide (or as wide as the picture, if that is less): the
+  /// ray-traced picture in grey with false shadow and missed shadow of any light compared in their two
+  /// colours.
+  Rgb8Image thumbnail(int width) const;
+
+  /// The last comparison's rasterized picture, `width` pixels wide at most; of a derived one that of the
+  /// frame that it was made from.
+  Rgb8Image drawing(int width) const;
+
+  /// The last comparison's labels, all lights together: the first wrong label of a pixel, else right where a
+  /// light is compared, else why it is not. Codes as below.
+  Image<std::uint8_t> class_codes() const;
+
+  /// The last comparison was derived.
+  bool last_was_derived() const;
+  const EngineWork& work() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A class code: the label's value, counted from Label::uncertain, and what the error is.
+inline constexpr std::uint8_t code_label_mask = 0x1f;
+inline constexpr std::uint8_t code_true_shadow = 0x20;   ///< truly in shadow, of the light that counts
+inline constexpr std::uint8_t code_false_shadow = 0x40;  ///< drawn darker than the truth
+
+}  // namespace gnomon::compare

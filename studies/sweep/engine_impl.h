@@ -1,0 +1,75 @@
+// The engine's insides: what it keeps from one setting to the next. Parts: engine.cpp (one comparison after
+// another), engine_pictures.cpp (a cell in small).
+#pragma once
+
+#include <optional>
+
+#include "compare/measure/figures.h"
+#include "studies/sweep/bias_axis.h"
+#include "studies/sweep/engine.h"
+
+namespace gnomon::compare {
+
+struct Engine::Impl {
+  Scene& scene;
+  const World& world;
+  raster::Renderer& renderer;
+  bool perceptual;
+  raytrace::Topology topology;
+  std::unique_ptr<raytrace::Tracer> tracer;
+  Comparison comparison;
+  std::optional<Setting> truth_of, drawn_for;
+  /// The drawing that the lower climbs were made from, and one climb per light compared.
+  std::unique_ptr<raster::RasterFrame> lower_frame;
+  std::vector<std::unique_ptr<LowerClimb>> lower;
+  std::vector<MapMeasures> map_measures;  ///< as `lower`; empty: not measured yet
+  Rgb8Image backdrop;                     ///< the ray-traced picture in grey; empty: not made yet
+  bool has_images = false;
+  std::vector<raster::Bias> expected;
+  std::vector<BiasTable> table;     ///< by light; empty: not made yet
+  Image<std::uint8_t> right_codes;  ///< class_codes of the table's drawing as if no pixel were wrong
+  std::size_t table_place = 0;      ///< of the bias that the comparison's numbers were last taken from it for
+  std::optional<FilmPlan> film;
+  EngineWork work;
+  bool derived = false;
+
+  Impl(Scene& s, const World& w, raster::Renderer& r, bool p)
+      : scene(s), world(w), renderer(r), perceptual(p), topology(w) {}
+
+  Expected<void> compare(const Setting& setting, Detail detail);
+  Expected<Probe> probe(const Setting& setting, ErrorMeasure measure);
+  Expected<double> time_drawing(const Setting& setting);
+  /// Of every light of a setting that was traced.
+  Expected<std::vector<ShimmerFigures>> count_flips(const Setting& setting) const;
+
+  /// The ray-traced picture in grey between 64 and 232, so that both error colours stand out from it.
+  void make_backdrop();
+  /// The mean colour of the pixels x0 … x1, y0 … y1 (ends excluded), with the errors' colours. `codes`: those
+  /// of a hard test, or null.
+  glm::u8vec3 mean_colour(const Image<std::uint8_t>* codes, int x0, int x1, int y0, int y1) const;
+  Image<std::uint8_t> class_codes();
+
+ private:
+  Image<std::uint8_t> codes_of_images() const;
+  LadderInput input(const raster::RasterFrame& frame, std::size_t i) const;
+  /// Of every light of the last drawing.
+  std::vector<ErrorFigures> figures(ErrorMeasure measure) const;
+  void probe_best_bias(const raster::MapOptions& map, ErrorMeasure measure, Probe& probe);
+  void trace(const Setting& setting);
+  Expected<void> draw(const Setting& setting);
+  Expected<void> draw_alone(const Setting& setting);
+  /// The bias alone, or the images with it.
+  void derive(const Setting& setting, Detail detail);
+  /// The lower rungs of all lights, kept where the maps are the same as before.
+  void climb_lower();
+  /// Place of the bias among those expected, or their count.
+  std::size_t expected_place(const raster::Bias& bias) const;
+  /// The numbers of all expected biases, once per drawing; false where they cannot be made together.
+  bool fill_table();
+  bool measure_from_table(const raster::Bias& bias);
+  Expected<void> measure();
+  /// V6 - V0 of the light that is most wrong at a pixel.
+  float worst_error(std::size_t pixel) const;
+};
+
+}  // namespace gnomon::compare

@@ -1,0 +1,115 @@
+#include "studies/sweep/headline.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/result/number_text.h"
+#include "studies/sweep/words.h"
+
+namespace gnomon::compare {
+namespace {
+
+HeadlineItem item(std::string title, const CellSummary& cell, ErrorMeasure measure) {
+  ErrorFigures pooled;
+  pooled.wrong_fraction = cell.wrong_fraction, pooled.mean_absolute = cell.mean_absolute;
+  pooled.flip = cell.flip, pooled.edge_rms_texels = cell.edge_rms_texels;
+  pooled.flips_per_second = cell.flips_per_second;
+  std::string figures = figure_words(pooled, measure);
+  if (std::isfinite(cell.raster_ms)) figures += ", " + milliseconds(cell.raster_ms);
+  if (cell.shadows.timed()) figures += fmt::format(", {} of it for shadows", milliseconds(cell.shadows));
+  return {std::move(title), cell.cell, axes_words(cell), std::move(figures)};
+}
+
+// Some other cell may have taken less time, but by no more than such times spread.
+std::string time_title(const std::vector<CellSummary>& cells, std::size_t fastest) {
+  const bool tied = std::any_of(cells.begin(), cells.end(),
+                                [&](const CellSummary& c) { return c.raster_ms < cells[fastest].raster_ms; });
+  return tied ? "Best for time (none is faster by more than the times' spread)" : "Best for time";
+}
+
+// Of what lies on the front the least product of error and time: a step along it that halves the one and
+// doubles the other is neither gain nor loss. Half a pixel stands for no error.
+std::size_t balanced(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
+  const auto product = [&](std::size_t i) {
+    const double least = 0.5 / static_cast<double>(std::max<std::uint64_t>(cells[i].compared, 1));
+    return std::max(cells[i].error(), least) * cells[i].raster_ms;
+  };
+  return *std::min_element(front.begin(), front.end(),
+                           [&](std::size_t a, std::size_t b) { return product(a) < product(b); });
+}
+
+bool says_nothing_of(const CellSummary& cell) {
+  return (cell.measure() == ErrorMeasure::shimmer ? cell.receiver_steps : cell.compared) == 0;
+}
+
+// Least time of those within the limit; of untimed cells the fewest texels.
+const CellSummary* cheapest_within(const std::vector<CellSummary>& cells, const Threshold& limit) {
+  const CellSummary* best = nullptr;
+  for (const CellSummary& cell : cells) {
+    if (!is_kept(limit, cell.lights)) continue;
+    if (best == nullptr || clearly_faster(cell, *best) ||
+        (!clearly_faster(*best, cell) && cell.map_texels < best->map_texels))
+      best = &cell;
+  }
+  return best;
+}
+
+void add_limit(const std::vector<CellSummary>& cells, const Threshold& limit, Headline& out) {
+  const CellSummary* best = cheapest_within(cells, limit);
+  out.limit_met = best != nullptr;
+  if (best != nullptr)
+    out.items.push_back(item(fmt::format("Cheapest with {}", limit_words(limit)), *best, limit.measure));
+  else
+    out.items.push_back({fmt::format("No cell has {}", limit_words(limit)), {}, {}, {}});
+}
+
+}  // namespace
+
+std::string axes_words(const CellSummary& cell) {
+  std::string out;
+  for (const auto& [name, value] : cell.axes)
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", axis_words(name), value_words(value));
+  return out.empty() ? "the only cell" : out;
+}
+
+std::vector<std::string> Headline::lines() const {
+  std::vector<std::string> out;
+  for (const HeadlineItem& i : items)
+    out.push_back(i.cell ? fmt::format("{}: cell {} ({}) with {}.", i.title, *i.cell, i.setting, i.figures)
+                         : i.title + ".");
+  return out;
+}
+
+Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front,
+                        const std::optional<Threshold>& limit) {
+  Headline out;
+  if (std::all_of(cells.begin(), cells.end(), says_nothing_of)) {
+    out.items.push_back({"No pixel could be compared in any cell", {}, {}, {}});
+    out.limit_met = !limit;
+    return out;
+  }
+  if (limit) add_limit(cells, *limit, out);
+  if (cells.size() < 2) return out;
+  const ErrorMeasure measure = cells.front().measure();
+  const std::string error = measure == ErrorMeasure::shimmer ? "flips" : "error";
+  if (front.empty()) {
+    const auto least = std::min_element(cells.begin(), cells.end(),
+                                        [](const auto& a, const auto& b) { return a.error() < b.error(); });
+    out.items.push_back(item("Least " + error, *least, measure));
+    return out;
+  }
+  const std::size_t fastest = front.front(), best = front.back();
+  if (fastest == best) {
+    out.items.push_back(item("Best for " + error + " and for time", cells[best], measure));
+    return out;
+  }
+  out.items.push_back(item("Best for " + error, cells[best], measure));
+  out.items.push_back(item(time_title(cells, fastest), cells[fastest], measure));
+  out.items.push_back(item("Best for both (least product of " + error + " and time)",
+                           cells[balanced(cells, front)], measure));
+  return out;
+}
+
+}  // namespace gnomon::compare

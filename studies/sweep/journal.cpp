@@ -1,0 +1,407 @@
+#include "studies/sweep/journal.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "scene/files/failed_call.h"
+#include "scene/files/path_status.h"
+#include "scene/files/read_file.h"
+#include "scene/files/sha256.h"
+#include "scene/files/write_file.h"
+#include "scene/parallel.h"
+#include "studies/sweep/cell_files.h"
+
+namespace gnomon::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string path_in(const std::string& folder, std::string_view name) {
+  return fmt::format("{}{}{}", folder, folder.ends_with('/') ? "" : "/", name);
+}
+
+tl::unexpected<Error> bad_line(const std::string& path, std::size_t line, std::string reason) {
+  return fail(Error{ErrorKind::bad_input, std::move(reason), path, static_cast<int>(line)});
+}
+
+// Lines with their breaks; what follows the last break is dropped.
+std::vector<std::string> whole_lines(const std::string& bytes) {
+  std::vector<std::string> lines;
+  for (std::size_t start = 0; start < bytes.size();) {
+    const std::size_t end = bytes.find('\n', start);
+    if (end == std::string::npos) break;
+    lines.push_back(bytes.substr(start, end + 1 - start));
+    start = end + 1;
+  }
+  return lines;
+}
+
+std::size_t size_of_lines(const std::vector<std::string>& lines) {
+  std::size_t count = 0;
+  for (const std::string& line : lines) count += line.size();
+  return count;
+}
+
+}  // namespace
+
+// A file that grows by whole lines. A line that could not be written whole is taken back.
+struct Journal::File {
+  std::string path;
+  int descriptor = -1;
+  std::size_t size = 0;
+  ~File() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+
+  static Expected<std::unique_ptr<File>> open(std::string path) {
+    auto file = std::make_unique<File>();
+    file->path = std::move(path);
+    file->descriptor = ::open(file->path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file->descriptor < 0) return failed_call(ErrorKind::cannot_write, file->path, "cannot open", errno);
+    return file;
+  }
+  Expected<void> cut(std::size_t length) {
+    size = length;
+    if (::ftruncate(descriptor, static_cast<off_t>(length)) != 0)
+      return failed_call(ErrorKind::cannot_write, path, "cannot cut", errno);
+    return {};
+  }
+  Expected<void> append(const std::string& text) {
+    std::size_t done = 0;
+    while (done < text.size()) {
+      const ssize_t count =
+          ::pwrite(descriptor, text.data() + done, text.size() - done, static_cast<off_t>(size + done));
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) {
+        const int error_number = count < 0 ? errno : ENOSPC;
+        if (auto cut_back = cut(size); !cut_back) return cut_back;
+        return failed_call(ErrorKind::cannot_write, path, "cannot write", error_number);
+      }
+      done += static_cast<std::size_t>(count);
+    }
+    size += text.size();
+    return {};
+  }
+};
+
+SweepHeader make_header(std::string configuration, std::size_t cells, Shard shard) {
+  SweepHeader header;
+  header.hash = sha256_hex(configuration);
+  header.configuration = std::move(configuration);
+  header.cells = cells;
+  header.shard = shard;
+  return header;
+}
+
+std::string header_json(const SweepHeader& header) {
+  const Json json{{"schema", "gnomon/sweep/1"},
+                  {"configuration_sha256", header.hash},
+                  {"cells", header.cells},
+                  {"shard", {{"part", header.shard.part}, {"of", header.shard.of}}},
+                  {"configuration", Json::parse(header.configuration)}};
+  return json.dump(2) + "\n";
+}
+
+Expected<SweepHeader> read_header(const std::string& folder) {
+  const std::string path = path_in(folder, "sweep.json");
+  const auto bytes = read_file(path);
+  if (!bytes) return fail(bytes.error());
+  const Json json = Json::parse(*bytes, nullptr, false);
+  const auto bad = [&path](std::string reason) {
+    return fail(Error{ErrorKind::bad_input, std::move(reason), path});
+  };
+  if (!json.is_object()) return bad("not the configuration of a sweep");
+  try {
+    if (json.at("schema") != "gnomon/sweep/1") return bad("schema: unknown (allowed gnomon/sweep/1)");
+    Shard shard{json.at("shard").at("part").get<int>(), json.at("shard").at("of").get<int>()};
+    SweepHeader header =
+        make_header(json.at("configuration").dump(), json.at("cells").get<std::size_t>(), shard);
+    if (json.at("configuration_sha256") != header.hash) return bad("the configuration was changed by hand");
+    return header;
+  } catch (const Json::exception& error) {
+    return bad(error.what());
+  }
+}
+
+namespace {
+
+constexpr std::string_view checksum_key = "\"checksum\":\"";
+constexpr std::size_t checksum_digits = 16;
+constexpr std::string_view line_end = "\"}\n";
+constexpr std::size_t seal_size = checksum_key.size() + checksum_digits + line_end.size();
+
+/// Of the line without its seal, which begins after the comma or the opening brace.
+std::string checksum(std::string_view line) {
+  return sha256_hex(line).substr(0, checksum_digits);
+}
+
+}  // namespace
+
+bool is_sealed(std::string_view line) {
+  if (line.size() <= seal_size) return false;
+  const std::string_view seal = line.substr(line.size() - seal_size);
+  return seal.starts_with(checksum_key) && seal.ends_with(line_end) &&
+         seal.substr(checksum_key.size(), checksum_digits) ==
+             checksum(line.substr(0, line.size() - seal_size));
+}
+
+std::string sealed(const std::string& line) {
+  if (is_sealed(line) || !line.ends_with("}\n")) return line;
+  std::string out = line.substr(0, line.size() - 2);
+  if (!out.ends_with('{')) out += ',';
+  const std::string sum = checksum(out);
+  return out.append(checksum_key).append(sum).append(line_end);
+}
+
+std::string axes_of_line(std::string_view line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object() || !json.contains("lights")) return {};
+  return json.value("axes", Json::object()).dump();
+}
+
+std::string drawer_of_line(std::string_view line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object() || !json.contains("gl")) return {};
+  return json["gl"].value("backend", "") + ", " + json["gl"].value("renderer", "");
+}
+
+namespace {
+
+// Names the options in which two configurations differ.
+std::string differences(const std::string& a, const std::string& b) {
+  const Json x = Json::parse(a).flatten(), y = Json::parse(b).flatten();
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : x.items())
+    if (!y.contains(key) || y[key] != value) keys.push_back(key);
+  for (const auto& [key, value] : y.items())
+    if (!x.contains(key)) keys.push_back(key);
+  std::string text;
+  for (std::size_t i = 0; i < keys.size() && i < 3; ++i) text += (i == 0 ? "" : ", ") + keys[i].substr(1);
+  return keys.size() > 3 ? text + ", …" : text;
+}
+
+/// Where a header is; true: it is this sweep's.
+Expected<bool> has_header(const std::string& folder, const SweepHeader& header) {
+  const auto exists = is_there(path_in(folder, "sweep.json"), ErrorKind::cannot_write);
+  if (!exists || !*exists) return exists;
+  const auto there = read_header(folder);
+  if (!there) return fail(there.error());
+  if (there->hash != header.hash)
+    return fail(ErrorKind::usage,
+                fmt::format("{} holds another sweep (it differs in {}); give another folder, or --restart",
+                            folder, differences(there->configuration, header.configuration)));
+  if (there->shard.part != header.shard.part || there->shard.of != header.shard.of)
+    return fail(ErrorKind::usage, fmt::format("{} holds shard {}/{} of this sweep; give another folder",
+                                              folder, there->shard.part, there->shard.of));
+  return true;
+}
+
+tl::unexpected<Error> is_claimed(const std::string& folder) {
+  return fail(ErrorKind::usage, folder + ": another process is at work in this folder");
+}
+
+constexpr std::string_view edited =
+    "this line is not as the sweep wrote it: its checksum does not fit (--restart makes the sweep anew)";
+
+bool is_object(std::string_view line) {
+  return Json::parse(line, nullptr, false).is_object();
+}
+
+// How many of the lines are this sweep's; an error for one that is not, unless it is a torn last one.
+Expected<std::size_t> count_good(const std::string& path, const std::vector<std::string>& lines,
+                                 const std::vector<std::string>& axes) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const bool belongs = i < axes.size() && axes_of_line(lines[i]) == axes[i];
+    if (belongs && is_sealed(lines[i])) continue;
+    if (i + 1 == lines.size() && !is_object(lines[i])) return i;
+    return bad_line(path, i + 1,
+                    belongs ? std::string(edited) : "not the line of this sweep that belongs here");
+  }
+  return lines.size();
+}
+
+Expected<void> check_times(const std::string& path, const std::vector<std::string>& times, std::size_t keep) {
+  for (std::size_t i = 0; i < keep; ++i)
+    if (!is_sealed(times[i])) return bad_line(path, i + 1, std::string(edited));
+  return {};
+}
+
+}  // namespace
+
+namespace {
+
+/// The lines and times that are there, without what is torn or surplus.
+struct GoodLines {
+  std::vector<std::string> lines, times;
+  bool torn = false;
+};
+
+Expected<GoodLines> read_lines(const std::string& line_path, const std::string& time_path,
+                               const std::vector<std::string>& axes) {
+  const auto bytes = read_file(line_path), bytes_of_times = read_file(time_path);
+  if (!bytes) return fail(bytes.error());
+  if (!bytes_of_times) return fail(bytes_of_times.error());
+  GoodLines found{whole_lines(*bytes), whole_lines(*bytes_of_times), false};
+  const auto good = count_good(line_path, found.lines, axes);
+  if (!good) return fail(good.error());
+  // Times are written first: a line without times cannot be, but a surplus of times can.
+  const std::size_t keep = std::min(*good, found.times.size());
+  if (auto fine = check_times(time_path, found.times, keep); !fine) return fail(fine.error());
+  found.lines.resize(keep);
+  found.times.resize(keep);
+  found.torn = size_of_lines(found.lines) != bytes->size();
+  return found;
+}
+
+Expected<void> fill_table(const std::string& folder, ResultTable& table, std::span<const std::size_t> cells,
+                          const std::vector<std::string>& lines, const std::vector<std::string>& times) {
+  for (std::size_t i = 0; i < lines.size(); ++i) try {
+      table.add(cells[i], lines[i], times[i]);
+    } catch (const Json::exception&) {
+      return bad_line(
+          path_in(folder, "sweep.jsonl"), i + 1,
+          "a line of another version of the program, which lacks what its table needs (--restart makes "
+          "the sweep anew)");
+    }
+  return {};
+}
+
+std::string all_of_lines(const std::vector<std::string>& lines) {
+  std::string text;
+  text.reserve(size_of_lines(lines));
+  for (const std::string& line : lines) text += line;
+  return text;
+}
+
+}  // namespace
+
+SweepClaim::~SweepClaim() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Expected<SweepClaim> SweepClaim::of(const std::string& folder) {
+  const std::string path = path_in(folder, "sweep.jsonl");
+  SweepClaim claim(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+  if (claim.descriptor_ < 0 && errno != ENOENT && errno != ENOTDIR)
+    return failed_call(ErrorKind::cannot_write, path, "cannot open", errno);
+  if (claim.descriptor_ >= 0 && ::flock(claim.descriptor_, LOCK_EX | LOCK_NB) != 0) return is_claimed(folder);
+  return claim;
+}
+
+Expected<void> check_takes_sweep(const std::string& folder, const SweepHeader& header,
+                                 const std::vector<std::string>& axes) {
+  const auto same = has_header(folder, header);
+  if (!same) return fail(same.error());
+  const std::string lines = path_in(folder, "sweep.jsonl"), times = path_in(folder, "sweep_times.jsonl");
+  for (const std::string* path : {&lines, &times}) {
+    const auto exists = is_there(*path, ErrorKind::cannot_write);
+    if (!exists) return fail(exists.error());
+    if (!*exists) return {};  // killed before the first line
+  }
+  const auto found = read_lines(lines, times, axes);
+  return found ? Expected<void>{} : fail(found.error());
+}
+
+Expected<void> write_sweep(const std::string& folder, const SweepHeader& header,
+                           const std::vector<std::size_t>& cells, const std::vector<std::string>& lines,
+                           const std::vector<std::string>& times) {
+  ResultTable table;
+  if (auto filled = fill_table(folder, table, cells, lines, times); !filled) return filled;
+  for (const auto& [name, text] :
+       {std::pair("sweep.json", header_json(header)), std::pair("sweep.jsonl", all_of_lines(lines)),
+        std::pair("sweep_times.jsonl", all_of_lines(times)), std::pair("sweep.csv", table.text())})
+    if (auto written = write_file(path_in(folder, name), text); !written) return written;
+  return {};
+}
+
+Journal::Journal(Journal&&) noexcept = default;
+Journal& Journal::operator=(Journal&&) noexcept = default;
+Journal::~Journal() = default;
+
+Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& header,
+                                const std::vector<std::string>& axes, std::vector<std::size_t> cells) {
+  if (auto made = make_output_folder(folder); !made) return fail(made.error());
+  Journal journal;
+  auto lines = File::open(path_in(folder, "sweep.jsonl"));
+  if (!lines) return fail(lines.error());
+  if (::flock((*lines)->descriptor, LOCK_EX | LOCK_NB) != 0) return is_claimed(folder);
+  const auto same = has_header(folder, header);
+  if (!same) return fail(same.error());
+  if (!*same)
+    if (auto written = write_file(path_in(folder, "sweep.json"), header_json(header)); !written)
+      return fail(written.error());
+  auto times = File::open(path_in(folder, "sweep_times.jsonl"));
+  if (!times) return fail(times.error());
+  auto table = File::open(path_in(folder, "sweep.csv"));
+  if (!table) return fail(table.error());
+
+  auto found = read_lines((*lines)->path, (*times)->path, axes);
+  if (!found) return fail(found.error());
+  journal.lines_ = std::move(found->lines);
+  journal.times_ = std::move(found->times);
+  journal.torn_ = found->torn;
+  if (auto cut = (*lines)->cut(size_of_lines(journal.lines_)); !cut) return fail(cut.error());
+  if (auto cut = (*times)->cut(size_of_lines(journal.times_)); !cut) return fail(cut.error());
+  journal.line_file_ = std::move(*lines);
+  journal.time_file_ = std::move(*times);
+  journal.table_file_ = std::move(*table);
+  journal.cells_ = std::move(cells);
+  const std::span<const std::size_t> all(journal.cells_);
+  if (auto gone = remove_strays(folder, all.subspan(journal.lines_.size())); !gone) return fail(gone.error());
+  if (auto filled = fill_table(folder, journal.table_, all, journal.lines_, journal.times_); !filled)
+    return fail(filled.error());
+  if (auto written = journal.write_table(); !written) return fail(written.error());
+  return journal;
+}
+
+// The table follows from the lines, so it is simply made anew.
+Expected<void> Journal::write_table() {
+  if (auto cut = table_file_->cut(0); !cut) return cut;
+  return table_file_->append(table_.text());
+}
+
+Expected<void> Journal::append(const std::string& unsealed_line, const std::string& unsealed_times) {
+  const std::string line = sealed(unsealed_line), times = sealed(unsealed_times);
+  if (auto written = time_file_->append(times); !written) return written;
+  if (auto written = line_file_->append(line); !written) return written;
+  const std::string rows = table_.add(cells_[lines_.size()], line, times);
+  lines_.push_back(line);
+  times_.push_back(times);
+  return rows.empty() ? write_table() : table_file_->append(rows);
+}
+
+Expected<SweepLines> read_sweep(const std::string& folder) {
+  SweepLines sweep;
+  auto header = read_header(folder);
+  if (!header) return fail(header.error());
+  sweep.header = std::move(*header);
+  const auto lines = read_file(path_in(folder, "sweep.jsonl")),
+             times = read_file(path_in(folder, "sweep_times.jsonl"));
+  if (!lines) return fail(lines.error());
+  if (!times) return fail(times.error());
+  sweep.lines = whole_lines(*lines), sweep.times = whole_lines(*times);
+  std::vector<char> whole(sweep.lines.size(), 0);
+  parallel_for(whole.size(), [&](std::size_t i) {
+    whole[i] = static_cast<char>(is_sealed(sweep.lines[i]) && !axes_of_line(sweep.lines[i]).empty());
+  });
+  if (const auto bad = std::find(whole.begin(), whole.end(), 0); bad != whole.end())
+    return bad_line(path_in(folder, "sweep.jsonl"), static_cast<std::size_t>(bad - whole.begin()) + 1,
+                    std::string(edited));
+  if (sweep.times.size() < sweep.lines.size())
+    return bad_line(path_in(folder, "sweep_times.jsonl"), sweep.times.size() + 1, "a line is missing");
+  sweep.times.resize(sweep.lines.size());
+  if (auto fine = check_times(path_in(folder, "sweep_times.jsonl"), sweep.times, sweep.times.size()); !fine)
+    return fail(fine.error());
+  return sweep;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,125 @@
+// The folder of a sweep: what was asked for, and one line per finished cell, in the order of the cells.
+// Files:
+//   sweep.json         the configuration; a folder takes one configuration only
+//   sweep.jsonl        one result per line (result.schema.json with `axes`), without times: the same sweep
+//   gives the
+//                      same bytes, however often it was interrupted
+//   sweep.csv          the same numbers and the times as a table (result_table.h)
+//   sweep_times.jsonl  the times of each line of sweep.jsonl, in the same order
+// Each line ends with a checksum of itself, so that one which was edited is not taken for a result.
+// A line is appended with one write() and reaches the system before the next cell begins; what a crash leaves
+// of a torn last line is cut off when the folder is opened again, and its cell is made anew.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "compare/result/result_table.h"
+#include "scene/expected.h"
+
+namespace gnomon::compare {
+
+/// Files that a sweep's folder always has.
+inline constexpr std::array<std::string_view, 6> sweep_file_names{
+    "sweep.json", "sweep.jsonl", "sweep_times.jsonl", "sweep.csv", "ray_tracer.json", "report.html"};
+
+struct Shard {
+  int part = 1, of = 1;  ///< 1 <= part <= of
+};
+
+/// What identifies a sweep, as JSON text.
+struct SweepHeader {
+  std::string configuration;  ///< JSON object: everything that the lines hang on, the shard apart
+  std::string hash;           ///< SHA-256 of the configuration
+  std::size_t cells = 0;      ///< of the whole sweep
+  Shard shard;
+};
+SweepHeader make_header(std::string configuration, std::size_t cells, Shard shard);
+std::string header_json(const SweepHeader& header);
+/// Reads DIR/sweep.json. Errors are ErrorKind::bad_input.
+Expected<SweepHeader> read_header(const std::string& folder);
+
+/// The line that a cell must have: its values by axis, as JSON text of the object "axes".
+using ExpectedAxes = std::vector<std::string>;
+
+/// Nobody else takes up or replaces the sweep of a folder while one lives.
+class SweepClaim {
+ public:
+  /// Where no sweep is, there is nothing to claim. ErrorKind::usage while another process is at work in the folder.
+  static Expected<SweepClaim> of(const std::string& folder);
+  SweepClaim(SweepClaim&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  SweepClaim& operator=(SweepClaim&&) = delete;
+  ~SweepClaim();
+
+ private:
+  explicit SweepClaim(int descriptor) : descriptor_(descriptor) {}
+  int descriptor_;
+};
+
+/// Whether a sweep may be put into the folder: it holds none, or the same one, and no line that is not the sweep's own.
+/// Changes nothing. Errors as of Journal::open().
+Expected<void> check_takes_sweep(const std::string& folder, const SweepHeader& header,
+                                 const std::vector<std::string>& axes);
+
+/// The files of a finished sweep, all but its pictures and its page, as a journal that got all these lines leaves them.
+/// Lines and times are sealed; `cells` as for Journal::open().
+Expected<void> write_sweep(const std::string& folder, const SweepHeader& header,
+                           const std::vector<std::size_t>& cells, const std::vector<std::string>& lines,
+                           const std::vector<std::string>& times);
+
+/// Lines already there, and where new ones go.
+class Journal {
+ public:
+  /// Makes the folder, or takes up the sweep that it holds. `axes`: of every line that this shard will have,
+  /// in order, as the text of their "axes" object. Errors: ErrorKind::usage when the folder holds another
+  /// configuration or another process is at work in it, bad_input for a line that is not this sweep's.
+  /// `cells`: the index of each line's cell in the whole sweep.
+  static Expected<Journal> open(const std::string& folder, const SweepHeader& header,
+                                const std::vector<std::string>& axes, std::vector<std::size_t> cells);
+  Journal(Journal&&) noexcept;
+  Journal& operator=(Journal&&) noexcept;
+  ~Journal();
+
+  /// Whole lines found or appended so far, with their line breaks.
+  const std::vector<std::string>& lines() const { return lines_; }
+  const std::vector<std::string>& times() const { return times_; }
+  /// A torn or surplus line was cut off on opening.
+  bool was_torn() const { return torn_; }
+
+  /// Appends a cell, sealed. Both texts are JSON objects and end with a line break.
+  Expected<void> append(const std::string& line, const std::string& times);
+
+ private:
+  Journal() = default;
+  struct File;
+  Expected<void> write_table();
+  std::unique_ptr<File> line_file_, time_file_, table_file_;
+  ResultTable table_;
+  std::vector<std::size_t> cells_;
+  std::vector<std::string> lines_, times_;
+  bool torn_ = false;
+};
+
+/// The whole lines of a shard's or a finished sweep's folder. Errors are ErrorKind::bad_input.
+struct SweepLines {
+  SweepHeader header;
+  std::vector<std::string> lines, times;
+};
+Expected<SweepLines> read_sweep(const std::string& folder);
+
+/// The line with its checksum as the last key; one that has it already stays as it is.
+std::string sealed(const std::string& line);
+/// Its checksum is there and fits.
+bool is_sealed(std::string_view line);
+
+/// "osmesa, llvmpipe (...)": backend and renderer of a line.
+std::string drawer_of_line(std::string_view line);
+
+/// "axes" of a line, as JSON text; empty when the line is not JSON or has none.
+std::string axes_of_line(std::string_view line);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,189 @@
+#include "studies/sweep/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "compare/ladder/budget.h"
+#include "compare/result/number_text.h"
+#include "scene/parallel.h"
+
+namespace gnomon::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+double number(const Json& value) {
+  return value.is_number() ? value.get<double>() : not_known;
+}
+
+std::string value_text(const Json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// Sums over lights: counts, means weighted by compared pixels, and those of edges by the edges.
+void add_light(const Json& light, CellSummary& sum, Json& classes) {
+  const Json& error = light.at("error");
+  const auto compared = light.at("pixels").at("compared").get<std::uint64_t>();
+  const auto weight = static_cast<double>(compared);
+  sum.compared += compared;
+  sum.wrong += error.at("wrong").get<std::uint64_t>();
+  sum.ties += error.at("ties").get<std::uint64_t>();
+  sum.false_shadow += error.at("false_shadow").get<std::uint64_t>();
+  sum.missed_shadow += error.at("missed_shadow").get<std::uint64_t>();
+  sum.mean_absolute += weight * number(error.at("mean_absolute"));
+  sum.rms += weight * number(error.at("rms")) * number(error.at("rms"));
+  sum.flip += weight * number(error.at("flip"));
+  sum.ssim += weight * number(error.at("ssim"));
+  const auto edges = light.at("edges").at("count").get<std::uint64_t>();
+  const double edge_rms = number(light.at("edges").at("rms_texels"));
+  sum.edges += edges;
+  sum.edge_rms_texels += static_cast<double>(edges) * edge_rms * edge_rms;
+  if (light.contains("shimmer")) {
+    const Json& film = light.at("shimmer");
+    sum.flips += film.at("flips").get<std::uint64_t>();
+    sum.receiver_steps += film.at("receiver_steps").get<std::uint64_t>();
+    sum.flips_per_second = number(film.at("fps"));  // of one flip a step; finish_means() makes it the mean
+  }
+  const Json& pixels = light.at("pixels");
+  sum.lights.push_back(
+      {number(error.at("wrong_fraction")), number(error.at("mean_absolute")), number(error.at("flip")),
+       edge_rms, compared, pixels.at("uncertain").get<std::uint64_t>(),
+       pixels.at("uncertain_by_samples").get<std::uint64_t>(),
+       light.contains("shimmer") ? number(light.at("shimmer").at("flips_per_receiver_second")) : not_known});
+  for (const auto& [name, count] : light.at("classes").items())
+    classes[name] = classes.value(name, std::uint64_t{0}) + count.get<std::uint64_t>();
+}
+
+void finish_means(CellSummary& sum, const Json& classes) {
+  const auto weight = static_cast<double>(std::max<std::uint64_t>(sum.compared, 1));
+  sum.wrong_fraction = wrong_share(sum.wrong, sum.ties, sum.compared);
+  sum.mean_absolute /= weight;
+  sum.rms = std::sqrt(sum.rms / weight);
+  sum.flip /= weight;
+  sum.ssim /= weight;
+  sum.edge_rms_texels =
+      std::sqrt(sum.edge_rms_texels / static_cast<double>(std::max<std::uint64_t>(sum.edges, 1)));
+  sum.flips_per_second *=
+      static_cast<double>(sum.flips) / static_cast<double>(std::max<std::uint64_t>(sum.receiver_steps, 1));
+  std::uint64_t most = 0;
+  for (const auto& [name, count] : classes.items())
+    if (count.get<std::uint64_t>() > most) most = count.get<std::uint64_t>(), sum.main_label = name;
+}
+
+Times times_of(const Json& times) {
+  return {times.at("runs").get<std::vector<double>>()};
+}
+
+TimeDifference shadows_of(const Json& light) {
+  const Json& lookups = light.at("shadow_lookups");
+  TimeDifference out;
+  if (!lookups.contains("low")) {  // sweeps made before have none
+    out = beyond_part(times_of(light.at("shade_pass")), times_of(light.at("unshadowed_pass")));
+  } else if (out.pairs = times_of(lookups); out.timed()) {
+    out.low = number(lookups.at("low")), out.median = number(lookups.at("median"));
+    out.high = number(lookups.at("high")), out.told = out.low > 0.0;
+  }
+  return out.timed() ? out += number(light.at("map_pass").at("median")) : out;
+}
+
+void add_times(const Json& times, CellSummary& sum) {
+  sum.cell = times.at("cell").get<std::size_t>();
+  sum.derived = times.at("derived").get<bool>();
+  sum.rays_ms = number(times.at("primary_rays").at("median"));
+  for (const Json& light : times.at("lights")) {
+    sum.rays_ms += number(light.at("exact_shadows").at("median"));
+    sum.exact_shadow_ms += number(light.at("exact_shadows").at("median"));
+    sum.shadows += shadows_of(light);
+    for (const char* pass : {"map_pass", "shade_pass"}) {
+      sum.raster_ms += number(light.at(pass).at("median"));
+      if (const Times times = times_of(light.at(pass)); !times.runs.empty()) sum.raster.add_part(times);
+    }
+  }
+}
+
+}  // namespace
+
+Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
+  try {
+    const Json json = Json::parse(line);
+    CellSummary sum;
+    for (const auto& [name, value] : json.at("axes").items()) sum.axes.emplace_back(name, value_text(value));
+    sum.no_effect = json.value("no_effect", std::vector<std::string>{});
+    sum.command = json.at("command").get<std::string>();
+    Json classes = Json::object();
+    for (const Json& light : json.at("lights")) {
+      add_light(light, sum, classes);
+      sum.technique = light.at("map").at("technique").get<std::string>();
+      sum.map_size = number(light.at("map").at("size"));
+    }
+    finish_means(sum, classes);
+    sum.map_texels = json.at("costs").at("map_texels").get<std::uint64_t>();
+    sum.map_bytes = json.at("costs").at("map_bytes").get<std::uint64_t>();
+    add_times(Json::parse(times), sum);
+    return sum;
+  } catch (const Json::exception& error) {
+    return fail(ErrorKind::bad_input, std::string("not a line of a sweep: ") + error.what());
+  }
+}
+
+Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep) {
+  std::vector<Expected<CellSummary>> read(sweep.lines.size());
+  parallel_for(read.size(), [&](std::size_t i) { read[i] = summarise(sweep.lines[i], sweep.times[i]); });
+  std::vector<CellSummary> cells;
+  for (Expected<CellSummary>& cell : read) {
+    if (!cell) return fail(cell.error());
+    cells.push_back(std::move(*cell));
+  }
+  return cells;
+}
+
+std::string error_words(const CellSummary& cell) {
+  return cell.is_filmed() ? plain_number(cell.flips_per_second) + " flips per receiver and second"
+                          : percent(cell.error());
+}
+
+bool clearly_faster(const CellSummary& a, const CellSummary& b) {
+  return gnomon::clearly_faster(a.raster, b.raster, false);
+}
+
+namespace {
+
+// Of cells with equal errors, from `first` to `last` (excluded).
+template <class Iterator>
+std::size_t least_cost(const std::vector<CellSummary>& cells, Iterator first, Iterator last) {
+  const auto fastest = *std::min_element(
+      first, last, [&](std::size_t a, std::size_t b) { return cells[a].raster_ms < cells[b].raster_ms; });
+  std::size_t best = fastest;
+  for (; first != last; ++first) {
+    const CellSummary &c = cells[*first], &b = cells[best];
+    if (clearly_faster(cells[fastest], c)) continue;
+    if (std::pair(c.map_texels, c.map_bytes) < std::pair(b.map_texels, b.map_bytes)) best = *first;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<std::size_t> pareto_front(const std::vector<CellSummary>& cells) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (std::isfinite(cells[i].raster_ms)) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cells[a].error() < cells[b].error(); });
+  std::vector<std::size_t> front;
+  for (auto first = order.begin(); first != order.end();) {
+    const auto last = std::find_if(first, order.end(),
+                                   [&](std::size_t i) { return cells[i].error() > cells[*first].error(); });
+    const std::size_t best = least_cost(cells, first, last);
+    if (front.empty() || clearly_faster(cells[best], cells[front.back()])) front.push_back(best);
+    first = last;
+  }
+  std::reverse(front.begin(), front.end());
+  return front;
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,67 @@
+// What the page and the tuner say of one cell: its errors over all lights together, and what it cost.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "compare/comparison.h"
+#include "scene/time_difference.h"
+#include "studies/sweep/journal.h"
+
+namespace gnomon::compare {
+
+struct CellSummary {
+  std::size_t cell = 0;
+  std::vector<std::pair<std::string, std::string>> axes;  ///< names as in "axes", values as text
+  std::vector<std::string> no_effect;  ///< of those names: the technique does not read them
+  std::string command, technique;
+  // Errors over the compared pixels of all lights; NaN where not computed.
+  std::uint64_t compared = 0, wrong = 0, ties = 0, false_shadow = 0, missed_shadow = 0;
+  double wrong_fraction = 0.0, mean_absolute = 0.0, rms = 0.0, flip = 0.0, ssim = 0.0;
+  std::uint64_t edges = 0;                      ///< measured, of all lights
+  double edge_rms_texels = 0.0;                 ///< over all of them
+  std::uint64_t flips = 0, receiver_steps = 0;  ///< of the films; none where none was made
+  /// Per receiver, over all lights; NaN without films.
+  double flips_per_second = std::numeric_limits<double>::quiet_NaN();
+  std::vector<ErrorFigures> lights;  ///< of each: thresholds are held against the worst
+  std::string main_label;            ///< of most wrong pixels; empty when none is wrong
+  double map_size = 0.0;             ///< texels on a side
+  std::uint64_t map_texels = 0, map_bytes = 0;
+  /// Median times of the map and the shading passes, all lights; NaN when not timed.
+  double raster_ms = 0.0;
+  /// Median times of camera and shadow rays, all lights: what the truth costs.
+  double rays_ms = 0.0;
+  Times raster;  ///< its runs: the i-th of every map and shading pass together
+  /// What shadows add to the picture, all lights: the map and its lookups, not timed where sweep_times.jsonl does not have
+  /// it, and the exact shadows' rays.
+  TimeDifference shadows;
+  double exact_shadow_ms = 0.0;
+  bool derived = false;  ///< the times are those of the drawing that it was made from
+  /// Share of wrong pixels or mean error, whichever is more: of yes-or-no shadows they are equal. With films what they
+  /// are about: flips per receiver and second.
+  double error() const { return is_filmed() ? flips_per_second : std::max(wrong_fraction, mean_absolute); }
+  bool is_filmed() const { return std::isfinite(flips_per_second); }
+  ErrorMeasure measure() const { return is_filmed() ? ErrorMeasure::shimmer : ErrorMeasure::wrong_and_mean; }
+};
+
+/// "1.2 %", or of films "0.012 flips per receiver and second".
+std::string error_words(const CellSummary& cell);
+
+/// a takes less time than b by more than their runs leave open (time_difference.h).
+bool clearly_faster(const CellSummary& a, const CellSummary& b);
+
+/// From a line of sweep.jsonl and its line of sweep_times.jsonl. Errors are ErrorKind::bad_input.
+Expected<CellSummary> summarise(std::string_view line, std::string_view times);
+Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep);
+
+/// Indices of the cells worth having for error against time, cheapest first: those that are clearly faster
+/// than every cell with a smaller error. Of cells with equal errors, the one with the fewest texels and then
+/// the fewest bytes among those that none of them is clearly faster than. Untimed cells are on no front.
+std::vector<std::size_t> pareto_front(const std::vector<CellSummary>& cells);
+
+}  // namespace gnomon::compare

@@ -1,0 +1,136 @@
+// Why each family won or lost, in words.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "compare/bias/bias_advice.h"
+#include "compare/result/number_text.h"
+#include "studies/tune/tuner.h"
+
+namespace gnomon::compare {
+namespace {
+
+std::string setting_text(const Attempt& a, ErrorMeasure measure) {
+  return fmt::format("{} in {} with {} texels{}", figure_words(a.figures, measure), milliseconds(a.time_ms),
+                     a.size, a.custom_shader ? ", by the shader of --shader-dir" : "");
+}
+
+// The sentence of why no constant bias is right everywhere, as a part of a longer one.
+std::string proof(const FamilyResult& family, const Attempt& attempt) {
+  if (!has_proof(attempt)) return {};
+  std::string text = contradiction(attempt.best, attempt.texel_world, family.family.map.bias);
+  text.front() = 'n', text.pop_back();
+  return "; " + text;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+std::string close_race(const FamilyResult& winner, const TuneGoal& goal) {
+  if (winner.as_fast.empty()) return {};
+  return fmt::format("; {} {}took as long within the spread of the times{}", joined(winner.as_fast),
+                     goal.max_time_ms ? "did as well and " : "",
+                     winner.by_cost ? ", and this one costs less on any machine (texels, bytes, rays)" : "");
+}
+
+std::string just_over_text(const TuneResult& result, ErrorMeasure measure) {
+  std::string text;
+  for (const JustOver& over : result.just_over)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", result.families[over.family].family.name,
+                        setting_text(over.attempt, measure));
+  return text.empty()
+             ? text
+             : "; more accurate, but longer than the limit by no more than one time may be off: " + text;
+}
+
+// The answer's own times, where they do not settle that it is cheap enough.
+std::string doubtful_time(const Attempt& answer, const TuneGoal& goal) {
+  return goal.max_time_ms && answer.times.median() > *goal.max_time_ms
+             ? "; half of its own runs took longer than the limit"
+             : "";
+}
+
+std::string floor_text(double floor, ErrorMeasure measure) {
+  switch (measure) {
+    case ErrorMeasure::flip:
+      return "a mean FLIP of " + plain_number(floor);
+    case ErrorMeasure::edge:
+      return texels_text(floor) + " of displacement";
+    case ErrorMeasure::shimmer:
+      return plain_number(floor) + " flips per receiver and second";
+    case ErrorMeasure::mean:
+      return "a mean error of " + percent(floor);
+    case ErrorMeasure::wrong:
+      return percent(floor) + " wrong";
+    default:
+      return "an error of " + percent(floor);
+  }
+}
+
+// Pixels of a light that no setting can be judged by.
+std::string doubt(const std::optional<Threshold>& goal, const std::vector<ErrorFigures>& lights) {
+  if (!goal) return {};
+  const auto light = std::find_if(lights.begin(), lights.end(),
+                                  [&](const ErrorFigures& figures) { return too_uncertain(*goal, figures); });
+  if (light == lights.end()) return {};
+  return fmt::format(
+      "; {} of {} pixels{} are uncertain, more than the goal allows to be wrong (more --samples "
+      "of lights with size, or a goal for the mean error, such as mean:1%)",
+      grouped(unknown_pixels(*light, goal->measure)), grouped(light->compared + light->uncertain),
+      lights.size() > 1 ? " of one light" : "");
+}
+
+}  // namespace
+
+std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner) const {
+  const bool by_error = options_.goal.max_error.has_value();
+  const ErrorMeasure measure = options_.goal.measure();
+  if (!loser.answer) {
+    const std::string nearest = setting_text(loser.closest, measure);
+    if (loser.stop == TuneStop::too_dear)
+      return "slower before it is good enough: " + nearest + proof(loser, loser.closest);
+    if (loser.stop == TuneStop::levels_off)
+      return fmt::format("levels off near {}: {}{}", floor_text(loser.floor, measure), nearest,
+                         proof(loser, loser.closest));
+    if (loser.stop == TuneStop::no_smaller)
+      return fmt::format("needs a map no smaller than {}: {}{}", loser.like, nearest,
+                         proof(loser, loser.closest));
+    return (by_error ? "not good enough at any size: at best " : "too slow at any size: at best ") + nearest +
+           proof(loser, loser.closest);
+  }
+  const Attempt& a = *loser.answer;
+  const std::string text = setting_text(a, measure);
+  if (!winner.answer) return text;
+  const bool close =
+      std::find(winner.as_fast.begin(), winner.as_fast.end(), loser.family.name) != winner.as_fast.end();
+  if (close) return "as fast within the spread of the times: " + text;
+  if (by_error)
+    return (a.times.runs.empty() ? "slower, measured once: " : "slower, measured in turn with the best: ") +
+           text;
+  if (price(a) == price(*winner.answer)) return "as good, and slower: " + text;
+  return "less accurate: " + text + proof(loser, a);
+}
+
+void Tuner::explain(TuneResult& result) const {
+  const FamilyResult& winner = result.families[result.winner];
+  for (std::size_t i = 0; i < result.families.size(); ++i) {
+    FamilyResult& family = result.families[i];
+    if (i != result.winner)
+      family.why = reason(family, winner);
+    else if (result.feasible)
+      family.why = (options_.goal.max_error ? "the cheapest that is good enough: "
+                                            : "the best that is cheap enough: ") +
+                   setting_text(*family.answer, options_.goal.measure()) +
+                   doubtful_time(*family.answer, options_.goal) + close_race(family, options_.goal) +
+                   just_over_text(result, options_.goal.measure());
+    else
+      family.why = "comes nearest: " + setting_text(family.closest, options_.goal.measure()) +
+                   doubt(options_.goal.max_error, family.closest.lights) + proof(family, family.closest);
+  }
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,73 @@
+// The tuner's insides. Parts: tune.cpp (the search), measure_in_turn.cpp (who wins), explain.cpp (why).
+#pragma once
+
+#include <limits>
+#include <map>
+
+#include "studies/tune/tune.h"
+
+namespace gnomon::compare {
+
+/// Sets `lights`, and `error` and `figures` of the worst of them.
+void set_figures(const std::vector<ErrorFigures>& lights, ErrorMeasure measure, Attempt& attempt);
+/// Whether an attempt meets the goal: where that is an error, with every light.
+bool is_good(const TuneGoal& goal, const Attempt& attempt);
+
+class Tuner {
+ public:
+  Tuner(Engine& engine, const Setting& base, const TuneOptions& options, const TuneProgress& progress)
+      : engine_(engine), base_(base), options_(options), progress_(progress) {}
+
+  Expected<TuneResult> run();
+
+ private:
+  bool good(const Attempt& a) const { return is_good(options_.goal, a); }
+  /// What is to be small among those that are good.
+  double price(const Attempt& a) const { return options_.goal.max_error ? a.cost : a.error; }
+  /// What is to be small where none is good.
+  double shortfall(const Attempt& a) const { return options_.goal.max_error ? a.error : a.cost; }
+  /// Costs so much more than the best answer that no larger map can win.
+  bool hopeless(const Attempt& a) const;
+  /// Sizes worth looking at: those below the answer of a family that costs the same, at least one.
+  std::size_t sizes_for(const TuneFamily& family, FamilyResult& result) const;
+  void stop_early(const Attempt& attempt, FamilyResult& result) const;
+
+  Setting setting_of(const TuneFamily& family, int size, const raster::Bias& bias) const;
+  Expected<Attempt> draw(const TuneFamily& family, int size, const raster::Bias& bias, GapLists* gaps,
+                         bool timed = true);
+  Expected<Attempt> attempt(const TuneFamily& family, int size);
+  Expected<Attempt> attempt_from_gaps(const TuneFamily& family, int size);
+  Expected<Attempt> attempt_by_trial(const TuneFamily& family, int size);
+  std::vector<raster::Bias> biases_to_try(const TuneFamily& family, int size) const;
+  void take(FamilyResult& result, const Attempt& attempt) const;  ///< of the next size tried
+  Expected<FamilyResult> search(const TuneFamily& family);
+  Expected<FamilyResult> bisect(const TuneFamily& family);
+  Expected<FamilyResult> walk_down(const TuneFamily& family);
+  Expected<void> search_all(TuneResult& result);
+
+  bool better(const FamilyResult& a, const FamilyResult& b) const;
+  std::size_t best_of(const TuneResult& result) const;
+  Expected<void> measure_best(TuneResult& result);
+  Expected<void> measure_in_turn(const std::vector<FamilyResult*>& finalists);
+  Expected<void> confirm(FamilyResult& result);
+  Expected<void> draw_again(FamilyResult& result);
+  std::size_t prefer_by_cost(TuneResult& result, std::size_t fastest) const;
+  Expected<void> choose(TuneResult& result);
+  Expected<void> verify(TuneResult& result);
+
+  void explain(TuneResult& result) const;
+  std::string reason(const FamilyResult& loser, const FamilyResult& winner) const;
+
+  Engine& engine_;
+  const Setting& base_;
+  const TuneOptions& options_;
+  const TuneProgress& progress_;
+  std::uint64_t renders_ = 0;
+  std::vector<const FamilyResult*> answered_;  ///< those that are good enough, as far as they are searched
+  std::size_t best_trial_ = 0;       ///< which of the biases tried was best at the family's last size
+  bool tried_before_ = false;        ///< whether that is known
+  std::map<int, double> hard_bias_;  ///< by size, of the first family whose gaps told it
+  double least_cost_ = std::numeric_limits<double>::infinity();  ///< of the answers so far
+};
+
+}  // namespace gnomon::compare
