@@ -149,5 +149,58 @@ TEST(TimeBudget, TraceHoldsTheStages) {
   }
 }
 
+json run_with_cache(const TemporaryFolder& folder, const std::string& cache) {
+  const ProcessResult result =
+      run_gnomon(Words{"compare", "fence", "--size", "64x36", "--map-size", "128", "-o", "out", "--quiet"},
+                 {.folder = folder.path(), .environment = {"MESA_SHADER_CACHE_DIR=" + cache}});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return json::parse(read_file(folder / "out/result.json"));
+}
+
+double cpu_ms(const json& result, const std::set<std::string>& stages) {
+  double sum = 0.0;
+  for (const json& stage : result.at("time_budget"))
+    if (stages.contains(stage.at("stage"))) sum += stage.at("cpu_ms").get<double>();
+  return sum;
+}
+
+/// All that does not depend on the clock.
+json answers_of(json result) {
+  for (const char* key : {"process", "time_budget", "costs", "times_ms", "machine"}) result.erase(key);
+  for (json& light : result.at("lights")) {
+    light.erase("times_ms");
+    light.erase("costs");
+  }
+  return result;
+}
+
+void expect_cost_is_an_interval(const json& result) {
+  const json& times = result.at("lights").at(0).at("times_ms");
+  const json& lookups = times.at("shadow_lookups");
+  EXPECT_LE(0.0, lookups.at("low").get<double>());
+  EXPECT_LE(lookups.at("low").get<double>(), lookups.at("median").get<double>());
+  EXPECT_LE(lookups.at("median").get<double>(), lookups.at("high").get<double>());
+  for (const char* pass : {"shade_pass", "unshadowed_pass"}) EXPECT_GE(times.at(pass).at("runs").size(), 3u);
+}
+
+// With an empty shader cache the driver translates every program, for more than a second of processor time; what is
+// timed at this size takes some hundredths. Where a timed run held a translation, "shading runs" or "map runs" would be
+// the larger part. Processor time of a busy machine can only be more, so one try of several is enough.
+TEST(TimeBudget, AnEmptyShaderCacheIsInNoTimedRun) {
+  bool apart = false;
+  for (int attempt = 0; attempt < 4 && !apart; ++attempt) {
+    const TemporaryFolder folder, cache;
+    const json cold = run_with_cache(folder, cache.path());
+    const json warm = run_with_cache(folder, cache.path());
+    EXPECT_EQ(answers_of(cold), answers_of(warm));
+    expect_cost_is_an_interval(cold);
+    expect_cost_is_an_interval(warm);
+    const double translated = cpu_ms(cold, {"driver translation"});
+    EXPECT_GT(translated, cpu_ms(warm, {"driver translation"}));
+    apart = cpu_ms(cold, {"shading runs", "map runs"}) < 0.5 * translated;
+  }
+  EXPECT_TRUE(apart);
+}
+
 }  // namespace
 }  // namespace gnomon::app_test
