@@ -155,6 +155,10 @@ void finish_map_options(const CLI::App& command, MapOptions& map) {
         check_read(setting.name, std::span(&map.technique, 1), std::span(&map.filter.kernel, 1));
     if (!read) throw CLI::ValidationError(read.error().field, read.error().reason);
   }
+  if (given("cascades") && !map.cascades.splits.empty() && map.cascades.count != map.cascades.splits.count)
+    throw CLI::ValidationError(
+        "--cascades", fmt::format("there is one cascade for each of --cascade-splits (got {}, allowed {})",
+                                  map.cascades.count, map.cascades.splits.count));
   if (given("slope-bias")) return;
   const bool any = given("bias") || given("normal-offset") || map.bias.receiver_plane || map.bias.adaptive;
   map.bias.slope = any ? 0.0 : raster::default_bias(map).slope;

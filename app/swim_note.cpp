@@ -35,7 +35,7 @@ bool swims(const World& world, const Light& light, const raster::MapOptions& map
       break;
   }
   const Camera& camera = world.scene->camera;
-  return window_moves(world, light, {camera, moved_aside(camera)}, aspect, map.size);
+  return window_moves(world, light, {camera, moved_aside(camera)}, aspect, map.size, map.window);
 }
 
 /// What moves by whole texels in its place.

@@ -49,7 +49,7 @@ Expected<LightView> fit_map(const World& world, const Light& light, const Camera
                   ? fit_cascades(world, light, camera, aspect, options.size, options.cascades, visible)
               : options.technique == Technique::lispsm
                   ? fit_warped(world, light, camera, aspect, options.size, options.snap)
-                  : fit_light_view(world, light, camera, aspect, options.size);
+                  : fit_light_view(world, light, camera, aspect, options.size, options.window);
   if (!view) return view;
   view->seamless = light.type == LightType::point;
   view->reversed = options.depth_format == DepthFormat::d32f_reversed;
@@ -65,7 +65,7 @@ void move_window(const Vec3& shift, double margin, LightView& view) {
   }
 }
 
-void snap_window(LightView& view) {
+void snap_window(LightView& view, bool keep_size) {
   LightFace& face = view.faces[0];
   if (view.projection != LightProjection::orthographic || view.face_count > 1 || face.warp != 0.0) return;
   const Vec3 middle = face_origin(view, face);
@@ -73,7 +73,7 @@ void snap_window(LightView& view) {
   for (int axis = 0; axis < 2; ++axis) {
     const double room =
         face.half_extent[axis] * view.size / std::max(1.0, view.size - 2.0);  // for half a texel
-    face.half_extent[axis] = up_to_size_step(room);
+    if (!keep_size) face.half_extent[axis] = up_to_size_step(room);
     const double texel = 2.0 * face.half_extent[axis] / view.size;
     face.center[axis] += std::round(place[axis] / texel) * texel - place[axis];
   }

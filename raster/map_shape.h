@@ -27,7 +27,7 @@ Expected<LightView> fit_map(const World& world, const Light& light, const Camera
 void move_window(const Vec3& shift, double margin, LightView& view);
 
 /// MapOptions::snap of an orthographic map of one face without a warp; of any other nothing.
-void snap_window(LightView& view);
+void snap_window(LightView& view, bool keep_size = false);
 
 /// Whether two maps have the same texels at the same places.
 bool same_window(const LightView& a, const LightView& b);

@@ -53,6 +53,7 @@ MapOptions effective_options(const MapOptions& options) {
       options.bias.receiver_plane || (filters && options.filter.receiver_plane && !options.bias.adaptive);
   if (traits.contents == MapContents::back_depth) out.cull = Cull::front;
   if (options.cascades.fit_samples) out.cascades.snap = false;
+  if (!options.cascades.splits.empty()) out.cascades.count = options.cascades.splits.count;
   return out;
 }
 
@@ -61,6 +62,9 @@ Expected<void> check_map_options(const MapOptions& options) {
   if (options.technique == Technique::second_depth && options.cull == Cull::back)
     return fail(
         usage("technique second-depth", "leaves out front faces (got --cull back, allowed none, front)"));
+  if (!options.cascades.splits.empty() && options.cascades.fit_samples)
+    return fail(
+        usage("cascade splits", "are given, or fitted to the surfaces that the camera sees: not both"));
   if (options.bias.adaptive && uses_moments(options.technique))
     return fail(
         usage("adaptive bias", "does not go with vsm, esm, evsm and msm: they compare with no single texel"));

@@ -113,6 +113,7 @@ struct MapOptions {
   Bias bias{.slope = 1.0};
   FilterOptions filter;
   CascadeOptions cascades;  ///< csm
+  LightWindow window;       ///< where the map lies, as the user's engine has it; of a fitted map empty
   /// Maps of a directional light that are one window: what stands still keeps its texels while the camera moves. Sizes
   /// go by steps of a quarter octave and places by whole texels; of lispsm see fit_warped().
   bool snap = false;

@@ -145,8 +145,9 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
   MapOptions map = job.options.map;
   if (record != nullptr) {
     if (auto ok = check_light(map.technique, light); !ok) return ok;
-  } else if (!has_map_for(map.technique, light.type)) {
-    map.technique = Technique::hard;  // lights the picture, and is not compared
+  } else {  // lights the picture, and is not compared
+    map.window = {};
+    if (!has_map_for(map.technique, light.type)) map.technique = Technique::hard;
   }
   const auto view = fit(job, light, map);
   if (!view) return fail(view.error());

@@ -143,7 +143,7 @@ Expected<LightView> GlRenderer::fit(Job& job, const Light& light, const MapOptio
   const double aspect = double(job.options.size.width) / job.options.size.height;
   auto view = fit_map(*world_, light, camera, aspect, map, visible);
   if (view && map_camera_) move_window(map_camera_->shift, map_camera_->margin, *view);
-  if (view && map.snap) snap_window(*view);
+  if (view && map.snap && map.window.origin.empty()) snap_window(*view, !map.window.size.empty());
   if (view && rows_) fitted_[job.light_index] = *view;
   return view;
 }

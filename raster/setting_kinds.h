@@ -79,6 +79,17 @@ constexpr IntegerSetting integer(std::string_view unit, int min, int max, int sl
           powers_of_two};
 }
 template <auto... path>
+constexpr ListSetting list(std::string_view unit, OptionRange range, int least, int most,
+                           bool ascending = false) {
+  return {[](const MapOptions& map) -> const NumberList& { return (map.*....*path); },
+          [](MapOptions& map, const NumberList& values) { (map.*....*path) = values; },
+          unit,
+          range,
+          least,
+          most,
+          ascending};
+}
+template <auto... path>
 constexpr SwitchSetting on_off(SwitchForm form) {
   return {[](const MapOptions& map) -> bool { return (map.*....*path); },
           [](MapOptions& map, bool on) { (map.*....*path) = on; }, form};

@@ -36,6 +36,10 @@ bool chooses_sides(const Traits& t) {
 bool can_stand_still(const Traits& t) {
   return compares(t) && t.texels != TexelShape::cascades && t.lights.has(LightType::directional);
 }
+/// The map is one window, or a cube about its light, and no fit to the camera changes it.
+bool lies_still(const Traits& t) {
+  return compares(t) && t.texels == TexelShape::of_light;
+}
 template <Technique only>
 bool is(const Traits& t) {
   return t.technique == only;
@@ -51,6 +55,9 @@ bool has_samples(FilterKernel kernel) {
 constexpr auto of_bias = &MapOptions::bias;
 constexpr auto of_filter = &MapOptions::filter;
 constexpr auto of_cascades = &MapOptions::cascades;
+constexpr auto of_window = &MapOptions::window;
+using W = LightWindow;
+constexpr OptionRange any_place{-1e30, 1e30};
 using F = FilterOptions;
 using C = CascadeOptions;
 
@@ -70,6 +77,43 @@ constexpr MapSetting rows[] = {
      .what = "Texels on a side of the depth map.",
      .acne = "Twice the texels need half the bias.",
      .peter_panning = "Less bias is enough, so shadows start closer to their casters."},
+    {.name = "window-size",
+     .key = "size",
+     .group = SettingGroup::window,
+     .kind = list<of_window, &W::size>("world units", {0.0, 1e30, true}, 2, 2),
+     .read_by = lies_still,
+     .type = "W,H",
+     .help = "width and height of a directional light's map, as your engine has them",
+     .title = "Window",
+     .what = "Width and height of a directional light's map, as an engine has them.",
+     .acne = "A wider window has larger texels, which need more bias.",
+     .peter_panning = "A wider window needs more bias, so shadows start farther from their casters.",
+     .range_help = "world units, above 0; auto fits them to the casters and the view"},
+    {.name = "window-origin",
+     .key = "origin",
+     .group = SettingGroup::window,
+     .kind = list<of_window, &W::origin>("world units", any_place, 3, 3),
+     .read_by = lies_still,
+     .type = "X,Y,Z",
+     .help =
+         "where a directional light's camera stands: the window's middle, from which --window-depths counts",
+     .title = "Window's origin",
+     .what = "Where a directional light's camera stands: the middle of its window.",
+     .range_help = "world units; auto fits it to the casters and the view"},
+    {.name = "window-depths",
+     .key = "depths",
+     .group = SettingGroup::window,
+     .kind = list<of_window, &W::depths>("world units", any_place, 2, 2, true),
+     .read_by = lies_still,
+     .type = "NEAR,FAR",
+     .help =
+         "near and far plane of the map: along the light from --window-origin or from the middle of what is "
+         "finite, or from a spot or point light; casters before the near plane are drawn at it",
+     .title = "Near and far",
+     .what = "Near and far plane of the map, along the light.",
+     .acne = "A longer range makes the steps of few bits larger: speckles.",
+     .peter_panning = "Casters before the near plane are stored at it: their shadows have no gap that fits.",
+     .range_help = "world units, ascending; auto fits them to casters and receivers"},
     {.name = "technique",
      .key = "technique",
      .group = SettingGroup::map,
@@ -326,6 +370,19 @@ constexpr MapSetting rows[] = {
      .what = "0 splits the view's depth evenly, 1 evenly in its logarithm.",
      .acne = "More gives the near slices smaller texels.",
      .peter_panning = "Less near the eye."},
+    {.name = "cascade-splits",
+     .key = "splits",
+     .group = SettingGroup::cascades,
+     .kind = list<of_cascades, &C::splits>("world units", {0.0, 1e30, true}, 1, 6, true),
+     .read_by = is<Technique::csm>,
+     .type = "D1,D2,...",
+     .help = "the depth from the camera at which each slice ends, as your engine has them; as many as there "
+             "are cascades",
+     .title = "Splits",
+     .what = "The depth from the camera at which each slice ends.",
+     .acne = "Shorter slices have smaller texels, which need less bias.",
+     .peter_panning = "Less where slices are short.",
+     .range_help = "world units, ascending; auto splits by --cascade-lambda"},
     {.name = "no-snap",
      .key = "snap",
      .group = SettingGroup::cascades,

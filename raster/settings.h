@@ -16,7 +16,7 @@
 
 namespace gnomon::raster {
 
-enum class SettingGroup : std::uint8_t { map, bias, filter, cascades };
+enum class SettingGroup : std::uint8_t { map, window, bias, filter, cascades };
 
 /// A number of this unit. The slider's ends lie within the range; what lies beyond them can be typed.
 struct NumberSetting {
@@ -56,6 +56,17 @@ struct ChoiceSetting {
   std::vector<std::string_view> (*names)();
 };
 
+/// Some numbers of this unit, one after the other, separated by commas: `least` to `most` of them, or none, which is said
+/// by "auto" and stands for what is fitted.
+struct ListSetting {
+  const NumberList& (*get)(const MapOptions&);
+  void (*set)(MapOptions&, const NumberList&);
+  std::string_view unit;
+  OptionRange range;
+  int least, most;
+  bool ascending = false;  ///< each number is above the one before
+};
+
 /// Bias::constant with its unit.
 struct ConstantBiasSetting {};
 
@@ -63,7 +74,8 @@ struct MapSetting {
   std::string_view name;   ///< on the command line, without "--"
   std::string_view key{};  ///< in its group's part of result.json; "" where nothing but the setting says it
   SettingGroup group;
-  std::variant<NumberSetting, IntegerSetting, SwitchSetting, ChoiceSetting, ConstantBiasSetting> kind;
+  std::variant<NumberSetting, IntegerSetting, SwitchSetting, ChoiceSetting, ListSetting, ConstantBiasSetting>
+      kind;
   /// Null where every technique reads it.
   bool (*read_by)(const TechniqueTraits&) = nullptr;
   /// With technique pcf, null where every kernel reads it.

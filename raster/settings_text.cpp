@@ -29,6 +29,53 @@ bool shown_on(const SwitchSetting& s, const MapOptions& map) {
   return s.get(map) != (s.form == SwitchForm::off_flag);
 }
 
+constexpr std::string_view fitted = "auto";
+
+std::string list_text(const NumberList& values) {
+  std::string text;
+  for (const double value : values) {
+    if (!text.empty()) text += ',';
+    text += number_text(value);
+  }
+  return text.empty() ? std::string(fitted) : text;
+}
+
+std::string count_text(const ListSetting& list) {
+  return list.least == list.most ? fmt::format("{} numbers", list.least)
+                                 : fmt::format("{} to {} numbers", list.least, list.most);
+}
+
+Expected<void> check_list(const ListSetting& list, const NumberList& values) {
+  if (values.empty()) return {};
+  const std::string got = list_text(values);
+  if (values.count < list.least || values.count > list.most)
+    return wrong_value("too few or too many numbers", got, count_text(list));
+  for (int i = 0; i < values.count; ++i) {
+    if (!list.range.contains(values[i]))
+      return wrong_value("is out of range", number_text(values[i]), range_text(list.range));
+    if (list.ascending && i > 0 && !(values[i] > values[i - 1]))
+      return wrong_value("does not ascend", got, "each number above the one before");
+  }
+  return {};
+}
+
+Expected<NumberList> parse_list(const ListSetting& list, std::string_view text) {
+  NumberList values;
+  if (text == fitted) return values;
+  for (std::string_view rest = text;;) {
+    const std::size_t comma = rest.find(',');
+    const std::optional<double> value = whole_number(rest.substr(0, comma));
+    if (!value || static_cast<std::size_t>(values.count) == values.values.size())
+      return wrong_value("not a list of numbers", text,
+                         fmt::format("auto, or {} separated by commas", count_text(list)));
+    values.push_back(*value);
+    if (comma == std::string_view::npos) break;
+    rest.remove_prefix(comma + 1);
+  }
+  if (const auto checked = check_list(list, values); !checked) return fail(checked.error());
+  return values;
+}
+
 bool is_flag(const MapSetting& setting) {
   const auto* s = std::get_if<SwitchSetting>(&setting.kind);
   return s != nullptr && s->form != SwitchForm::word;
@@ -42,6 +89,7 @@ std::string setting_text(const MapSetting& setting, const MapOptions& map) {
               [&](const IntegerSetting& n) { return std::to_string(n.get(map)); },
               [&](const SwitchSetting& s) { return std::string(shown_on(s, map) ? "on" : "off"); },
               [&](const ChoiceSetting& c) { return std::string(c.names()[c.get(map)]); },
+              [&](const ListSetting& l) { return list_text(l.get(map)); },
               [&](const ConstantBiasSetting&) { return bias_text(map.bias); }},
       setting.kind);
 }
@@ -69,6 +117,9 @@ Expected<void> set_setting(const MapSetting& setting, MapOptions& map, std::stri
                 const std::vector<std::string_view> names = c.names();
                 return store(parse_name(text, names), [&](std::size_t place) { c.set(map, place); });
               },
+              [&](const ListSetting& l) {
+                return store(parse_list(l, text), [&](const NumberList& values) { l.set(map, values); });
+              },
               [&](const ConstantBiasSetting&) {
                 return store(parse_bias(text), [&](const BiasValue& value) {
                   map.bias.constant = value.constant, map.bias.unit = value.unit;
@@ -91,6 +142,7 @@ Expected<void> check_range(const MapSetting& setting, const MapOptions& map) {
                             [&](const IntegerSetting& n) {
                               return check(n.get(map), {double(n.min), double(n.max)});
                             },
+                            [&](const ListSetting& l) { return check_list(l, l.get(map)); },
                             [&](const ConstantBiasSetting&) { return check(map.bias.constant, bias_range); },
                             [](const auto&) -> Expected<void> { return {}; }},
                     setting.kind);
@@ -108,6 +160,7 @@ std::string allowed_text(const MapSetting& setting) {
               },
               [&](const SwitchSetting&) { return names(switch_names); },
               [&](const ChoiceSetting& c) { return names(c.names()); },
+              [](const ListSetting& l) { return fmt::format("{}, {}", l.unit, range_text(l.range)); },
               [](const ConstantBiasSetting&) { return range_text(bias_range); }},
       setting.kind);
 }

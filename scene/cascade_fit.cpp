@@ -126,6 +126,11 @@ double nearest_seen(const World& world, const View& view, double limit) {
 // The practical split scheme (Zhang et al. 2006, equation 9). Slice i lies between splits i and i + 1; the
 // first begins at the eye.
 std::vector<double> split_depths(const Interval& seen, const CascadeOptions& options) {
+  if (!options.splits.empty()) {
+    std::vector<double> given{0.0};
+    given.insert(given.end(), options.splits.begin(), options.splits.end());
+    return given;
+  }
   const double far = options.snap && !options.fit_samples ? up_to_size_step(seen.max) : seen.max;
   double near = std::max(seen.min, nearest_share * far);
   if (options.snap && !options.fit_samples) near = 0.5 * up_to_size_step(near);

@@ -21,6 +21,9 @@ struct CascadeOptions {
   bool fit_samples = false;
   /// In [0, 0.5]: along the border of a cascade, over this share of its width, its test is mixed with the next one's.
   double blend = 0.0;
+  /// The depth along the view at which each cascade ends, ascending, as the user gives them; empty: by `lambda`. There are
+  /// `count` of them.
+  NumberList splits;
   bool operator==(const CascadeOptions&) const = default;
 };
 

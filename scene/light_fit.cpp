@@ -104,6 +104,25 @@ struct Extent {
   double z_min, z_max;
 };
 
+Extent extent_of(const WorldPart& part, std::uint32_t triangle, const LightFace& face,
+                 const Vec3& reference) {
+  Aabb box;
+  for (const Vec3& corner : part.corners(triangle)) box.grow(to_light_space(face, corner - reference));
+  return {{Vec2(box.min), Vec2(box.max)}, box.min.z, box.max.z};
+}
+
+/// Of a finite shape.
+Extent extent_of(const Shape& shape, const LightFace& face, const Vec3& reference) {
+  const auto* sphere = std::get_if<Sphere>(&shape.geometry);
+  const Vec3 center = sphere != nullptr ? sphere->center : solid_center(shape.geometry);
+  const auto reach = [&](const Vec3& axis) {
+    return sphere != nullptr ? sphere->radius : reach_along(shape.geometry, axis);
+  };
+  const Vec3 c = to_light_space(face, center - reference);
+  const Vec3 half(reach(face.right), reach(face.up), reach(face.forward));
+  return {{Vec2(c - half), Vec2(c + half)}, c.z - half.z, c.z + half.z};
+}
+
 // Adds up the light-space extents of all finite primitives, by add(sum, extent) and join(sum, other sum), as over_blocks()
 // does; makes_no_difference(sum, box) is asked with boxes in light space.
 template <class Sum, class Without, class Add, class Join>
@@ -115,22 +134,11 @@ Sum over_extents(const World& world, const LightFace& face, const Vec3& referenc
         return makes_no_difference(so_far, extent_of(box, face, reference));
       },
       [&](Sum& so_far, const WorldPart& part, std::uint32_t triangle) {
-        Aabb box;
-        for (const Vec3& corner : part.corners(triangle)) box.grow(to_light_space(face, corner - reference));
-        add(so_far, Extent{{Vec2(box.min), Vec2(box.max)}, box.min.z, box.max.z});
+        add(so_far, extent_of(part, triangle, face, reference));
       },
       join);
-  for (const Shape& shape : world.shapes) {
-    if (std::holds_alternative<Plane>(shape.geometry)) continue;
-    const auto* sphere = std::get_if<Sphere>(&shape.geometry);
-    const Vec3 center = sphere != nullptr ? sphere->center : solid_center(shape.geometry);
-    const auto reach = [&](const Vec3& axis) {
-      return sphere != nullptr ? sphere->radius : reach_along(shape.geometry, axis);
-    };
-    const Vec3 c = to_light_space(face, center - reference);
-    const Vec3 half(reach(face.right), reach(face.up), reach(face.forward));
-    add(sum, Extent{{Vec2(c - half), Vec2(c + half)}, c.z - half.z, c.z + half.z});
-  }
+  for (const Shape& shape : world.shapes)
+    if (!std::holds_alternative<Plane>(shape.geometry)) add(sum, extent_of(shape, face, reference));
   return sum;
 }
 
@@ -182,31 +190,52 @@ double widest(const Rect& rect) {
   return std::max(rect.max.x - rect.min.x, rect.max.y - rect.min.y);
 }
 
-/// The map over the rectangle, without depths.
-LightView window_over(const Casters& casters, const Rect& rect, const View& view, int size) {
+/// The map over the rectangle, or over the window given, without depths.
+LightView window_over(const Casters& casters, const Rect& rect, const View& view, int size,
+                      const LightWindow& given) {
   LightView out;
   out.size = size;
   out.projection = LightProjection::orthographic;
   out.faces[0] = casters.face;
   const Vec2 middle = rect.middle();
   out.origin = casters.reference(view) + middle.x * casters.face.right + middle.y * casters.face.up;
+  if (!given.origin.empty()) out.origin = Vec3(given.origin[0], given.origin[1], given.origin[2]);
   // One texel of margin on each side, so that no caster's silhouette falls on the border.
-  const Vec2 half =
+  Vec2 half =
       glm::max(0.5 * (rect.max - rect.min), Vec2(1e-6 * widest(rect))) * (size / std::max(1.0, size - 2.0));
+  if (!given.size.empty()) half = 0.5 * Vec2(given.size[0], given.size[1]);
   out.set_extent(half, 0.0, 1.0);
   return out;
 }
 
-Expected<LightView> fit_directional(const World& world, const Light& light, const View& view, int size) {
+/// What the window covers of light space, measured from `reference`.
+Rect covered(const LightView& window, const Vec3& reference) {
+  const LightFace& face = window.faces[0];
+  const Vec2 middle(to_light_space(face, window.origin - reference));
+  return {middle - face.half_extent, middle + face.half_extent};
+}
+
+Expected<LightView> fit_directional(const World& world, const Light& light, const View& view, int size,
+                                    const LightWindow& given) {
   const Casters casters(world, light);
-  const auto rect = fit_rect(world, casters, view);
-  if (!rect) return fail(rect.error());
-  if (!(widest(*rect) > 0.0))
+  auto rect = fit_rect(world, casters, view);
+  if (!rect && (given.size.empty() || given.origin.empty())) return fail(rect.error());
+  if (given.size.empty() && !(widest(*rect) > 0.0))
     return fail(ErrorKind::bad_input, "the shadow map has nothing to cover: the casters are a point");
-  const Interval z = light_fit::depths_over(world, casters.face, casters.reference(view), *rect, *rect);
-  const double margin = 1e-3 * std::max(z.max - z.min, 1e-3 * widest(*rect));
-  LightView out = window_over(casters, *rect, view, size);
-  out.set_extent(out.faces[0].half_extent, z.min - margin, z.max + margin);
+  const Vec3 reference = casters.reference(view);
+  LightView out = window_over(casters, rect ? *rect : Rect{}, view, size, given);
+  const Vec2 half = out.faces[0].half_extent;
+  const double origin_depth = to_light_space(casters.face, out.origin - reference).z;
+  if (!given.depths.empty()) {
+    // Without an origin, depths are counted from the middle of what is finite, as they are fitted.
+    out.set_extent(half, given.depths[0], given.depths[1]);
+    return out;
+  }
+  const bool moved = !given.size.empty() || !given.origin.empty();
+  const Rect over = moved ? covered(out, reference) : *rect;
+  const Interval z = light_fit::depths_over(world, casters.face, reference, over, over);
+  const double margin = 1e-3 * std::max(z.max - z.min, 1e-3 * widest(over));
+  out.set_extent(half, z.min - margin - origin_depth, z.max + margin - origin_depth);
   return out;
 }
 
@@ -316,9 +345,17 @@ View view_of(const Camera& camera, double aspect) {
 }  // namespace light_fit
 
 Expected<LightView> fit_light_view(const World& world, const Light& light, const Camera& camera,
-                                   double aspect, int size) {
+                                   double aspect, int size, const LightWindow& window) {
   if (light.type == LightType::directional)
-    return fit_directional(world, light, light_fit::view_of(camera, aspect), size);
+    return fit_directional(world, light, light_fit::view_of(camera, aspect), size, window);
+  if (!window.size.empty() || !window.origin.empty())
+    return fail(
+        ErrorKind::usage,
+        "a window's size and origin are those of a directional light's map (got the spot or point light " +
+            light.name + "; its window follows from the light, and its depths alone can be given)");
+  if (!window.depths.empty() && !(window.depths[0] > 0.0))
+    return fail(ErrorKind::usage,
+                "the near depth of a spot or point light's map is above 0 (light " + light.name + ")");
   LightView out;
   out.size = size;
   out.projection = LightProjection::perspective;
@@ -333,12 +370,48 @@ Expected<LightView> fit_light_view(const World& world, const Light& light, const
   }
   if (world.primitive_count() == 0)
     return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the scene has no surface");
-  fit_depth(world, half_extent, out);
+  if (window.depths.empty())
+    fit_depth(world, half_extent, out);
+  else
+    out.set_extent(half_extent, window.depths[0], window.depths[1]);
   return out;
 }
 
+WindowCasters window_casters(const World& world, const LightView& view) {
+  const LightFace& face = view.face(0);
+  const Rect window = covered(view, view.origin);
+  const auto count = [&](WindowCasters& sum, const Extent& e) {
+    const bool wholly = e.rect.min.x >= window.min.x && e.rect.min.y >= window.min.y &&
+                        e.rect.max.x <= window.max.x && e.rect.max.y <= window.max.y;
+    const bool between = e.z_min >= face.near_depth && e.z_max <= face.far_depth;
+    ++(!e.rect.overlaps(window)    ? sum.beside
+       : e.z_max < face.near_depth ? sum.before
+       : e.z_min > face.far_depth  ? sum.beyond
+       : wholly && between         ? sum.inside
+                                   : sum.cut);
+  };
+  const auto count_blocks = [&](std::size_t first, std::size_t last, WindowCasters sum) {
+    for (std::size_t b = first; b < last; ++b) {
+      const TriangleBlock& block = world.blocks[b];
+      for (std::uint32_t i = 0; i < block.count; ++i)
+        count(sum, extent_of(world.parts[block.part], block.first + i, face, view.origin));
+    }
+    return sum;
+  };
+  WindowCasters sum = parallel_reduce(world.blocks.size(), 16, WindowCasters{}, count_blocks,
+                                      [](WindowCasters a, const WindowCasters& b) {
+                                        a.inside += b.inside, a.cut += b.cut, a.beside += b.beside;
+                                        a.before += b.before, a.beyond += b.beyond;
+                                        return a;
+                                      });
+  for (const Shape& shape : world.shapes)
+    if (!std::holds_alternative<Plane>(shape.geometry)) count(sum, extent_of(shape, face, view.origin));
+  return sum;
+}
+
 bool window_moves(const World& world, const Light& light, const std::array<Camera, 2>& cameras, double aspect,
-                  int size) {
+                  int size, const LightWindow& window) {
+  if (!window.size.empty() && !window.origin.empty()) return false;
   const Casters casters(world, light);
   const Vec3 point = world.finite_bounds.empty() ? Vec3(0.0) : world.finite_bounds.center();
   std::array<TexelCoordinate, 2> at;
@@ -346,7 +419,7 @@ bool window_moves(const World& world, const Light& light, const std::array<Camer
     const View view = light_fit::view_of(cameras[i], aspect);
     const auto rect = fit_rect(world, casters, view);
     if (!rect || !(widest(*rect) > 0.0)) return false;
-    at[i] = project_to_texel(window_over(casters, *rect, view, size), point);
+    at[i] = project_to_texel(window_over(casters, *rect, view, size, window), point);
   }
   constexpr double rounding = 1e-6;  // texels: of the fit's doubles, in maps of up to 2^16
   return std::abs(at[0].u - at[1].u) > rounding || std::abs(at[0].v - at[1].v) > rounding;

@@ -15,6 +15,7 @@
 #include <array>
 
 #include "scene/expected.h"
+#include "scene/number_list.h"
 #include "scene/ray.h"
 #include "scene/scene.h"
 #include "scene/world.h"
@@ -107,11 +108,24 @@ double depth_from_stored(const LightView& view, int face, double v, double store
 /// light_clip_from_relative, for points given relative to `reference` (camera-relative upload); z in [0, w].
 Mat4 light_clip_from_relative(const LightView& view, int face, const Vec3& reference);
 
+/// The window of a light's map where a user gives it, as an engine has it; what is left empty is fitted. Places and sizes
+/// are world units. Of a spot or point light the depths alone can be given.
+struct LightWindow {
+  NumberList size;    ///< width and height of the whole window, above 0
+  NumberList origin;  ///< where the light's camera stands: the window's middle, from which depths are counted
+  /// Near and far, near < far; counted from the origin, or from the middle of what is finite; of a spot or point light
+  /// from the light, above 0.
+  NumberList depths;
+  bool empty() const { return size.empty() && origin.empty() && depths.empty(); }
+  bool operator==(const LightWindow&) const = default;
+};
+
 /// Fits a map of size x size texels tightly around what matters: all finite casters, restricted for a
 /// directional light to the part whose shadows the camera can see. Depth range: casters and receivers inside
 /// the map. A scene of infinite planes alone gets the part of them that the camera sees within 50 times its
-/// distance from them. Error (graphics) when nothing can be fitted.
+/// distance from them. Error (graphics) when nothing can be fitted;
+/// (usage) a window's size or origin for a light that is not directional, or depths before a spot or point light.
 Expected<LightView> fit_light_view(const World& world, const Light& light, const Camera& camera,
-                                   double aspect, int size);
+                                   double aspect, int size, const LightWindow& window = {});
 
 }  // namespace gnomon

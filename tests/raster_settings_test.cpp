@@ -18,6 +18,11 @@ std::vector<std::string> tried_values(const MapSetting& setting) {
   if (const auto* integer = std::get_if<IntegerSetting>(&setting.kind))
     return {std::to_string(integer->min), std::to_string(integer->max), std::to_string(integer->slider_to)};
   if (std::holds_alternative<SwitchSetting>(setting.kind)) return {"on", "off"};
+  if (const auto* list = std::get_if<ListSetting>(&setting.kind)) {
+    std::string most = "1";
+    for (int i = 1; i < list->most; ++i) most += "," + std::to_string(i + 1);
+    return {most, "auto"};
+  }
   if (std::holds_alternative<ConstantBiasSetting>(setting.kind)) return {"auto", "0.5texel", "-0.25", "0"};
   const auto names = std::get<ChoiceSetting>(setting.kind).names();
   return {names.begin(), names.end()};

@@ -5,6 +5,7 @@
 
 #include "scene/cascade_fit.h"
 #include "scene/generate/random.h"
+#include "scene/light_window.h"
 #include "scene/triangle_blocks.h"
 #include "support/small_scenes.h"
 
@@ -115,6 +116,97 @@ TEST(TriangleBlocks, FitsAreThoseOfAllTriangles) {
       }
     }
   }
+}
+
+NumberList numbers(std::initializer_list<double> values) {
+  NumberList list;
+  for (const double value : values) list.push_back(value);
+  return list;
+}
+
+// A light straight down: right is along x or z, forward is -y; depth from (1, 10, 2) is 10 - y.
+TEST(Window, LiesWhereItIsGiven) {
+  const Scene scene = test::sunlit_scene({test::box_mesh({-1, 0, -1}, {1, 2, 1})}, {0, -1, 0});
+  const World world = make_world(scene);
+  const LightWindow window{
+      .size = numbers({8, 4}), .origin = numbers({1, 10, 2}), .depths = numbers({0.5, 20})};
+  const LightView view = *fit_light_view(world, scene.lights[0], scene.camera, 1.5, 64, window);
+  EXPECT_EQ(view.face(0).half_extent, Vec2(4, 2));
+  EXPECT_EQ(view.face(0).near_depth, 0.5);
+  EXPECT_EQ(view.face(0).far_depth, 20.0);
+  const TexelCoordinate middle = project_to_texel(view, {1, 3, 2});
+  EXPECT_DOUBLE_EQ(middle.u, 32.0);
+  EXPECT_DOUBLE_EQ(middle.v, 32.0);
+  EXPECT_DOUBLE_EQ(middle.depth, 7.0);
+  EXPECT_DOUBLE_EQ(stored_from_depth(view, 0, 32.0, 0.5), 0.0);
+  EXPECT_DOUBLE_EQ(stored_from_depth(view, 0, 32.0, 20.0), 1.0);
+  EXPECT_DOUBLE_EQ(texel_world_size(view, 0, 1.0), 8.0 / 64.0);
+  Camera aside = scene.camera;
+  aside.eye += Vec3(3, 1, 2);
+  EXPECT_FALSE(window_moves(world, scene.lights[0], {scene.camera, aside}, 1.5, 64, window));
+}
+
+// What is not given stays fitted: an origin moves the window and counts its depths from there, the box still between them.
+TEST(Window, FitsWhatIsNotGiven) {
+  const Scene scene = test::sunlit_scene({test::box_mesh({-1, 0, -1}, {1, 2, 1})}, {0, -1, 0});
+  const World world = make_world(scene);
+  const LightView fitted = *fit_light_view(world, scene.lights[0], scene.camera, 1.5, 64);
+  const LightView moved =
+      *fit_light_view(world, scene.lights[0], scene.camera, 1.5, 64, {.origin = numbers({0, 10, 0})});
+  EXPECT_EQ(moved.face(0).half_extent, fitted.face(0).half_extent);
+  EXPECT_NEAR(moved.face(0).near_depth, 8.0, 0.01);
+  EXPECT_NEAR(moved.face(0).far_depth, 10.0, 0.01);
+  const LightView wide =
+      *fit_light_view(world, scene.lights[0], scene.camera, 1.5, 64, {.size = numbers({10, 10})});
+  EXPECT_EQ(wide.origin, fitted.origin);
+  EXPECT_EQ(wide.face(0).half_extent, Vec2(5));
+}
+
+TEST(Window, OfASpotLightHasDepthsAlone) {
+  Scene scene = test::sunlit_scene({test::box_mesh({-1, 0, -1}, {1, 2, 1})}, {0, -1, 0});
+  Light& light = scene.lights[0];
+  light.type = LightType::spot, light.position = {0, 10, 0};
+  const World world = make_world(scene);
+  const auto fit = [&](const LightWindow& window) {
+    return fit_light_view(world, light, scene.camera, 1.5, 64, window);
+  };
+  EXPECT_EQ(fit({.depths = numbers({1, 30})})->face(0).far_depth, 30.0);
+  EXPECT_FALSE(fit({.depths = numbers({0, 30})}));
+  EXPECT_FALSE(fit({.size = numbers({4, 4})}));
+  EXPECT_FALSE(fit({.origin = numbers({4, 4, 4})}));
+}
+
+TEST(Window, TellsWhichCastersItHolds) {
+  std::vector<Mesh> boxes;
+  for (const double x : {0.0, 4.0, 20.0}) boxes.push_back(test::box_mesh({x - 1, 0, -1}, {x + 1, 2, 1}));
+  boxes.push_back(test::box_mesh({-1, 7, -1}, {1, 8, 1}));
+  boxes.push_back(test::box_mesh({-1, -9, -1}, {1, -8, 1}));
+  Scene scene = test::sunlit_scene(std::move(boxes), {0, -1, 0});
+  scene.shapes.push_back({"ball", Sphere{{0, 1, 0}, 0.5}, 0});
+  const World world = make_world(scene);
+  const LightWindow window{.size = numbers({8, 8}), .origin = numbers({0, 5, 0}), .depths = numbers({0, 10})};
+  const LightView view = *fit_light_view(world, scene.lights[0], scene.camera, 1.5, 64, window);
+  const WindowCasters casters = window_casters(world, view);
+  EXPECT_EQ(casters.inside, 13u);  // a box and the ball
+  EXPECT_EQ(casters.cut + casters.inside, 13u + 12u - 2u)
+      << "two triangles of the box at the border lie beside it";
+  EXPECT_EQ(casters.beside, 12u + 2u);
+  EXPECT_EQ(casters.before, 12u);
+  EXPECT_EQ(casters.beyond, 12u);
+  EXPECT_EQ(casters.count(), world.primitive_count());
+}
+
+TEST(Cascades, EndWhereTheyAreGiven) {
+  const Scene scene = test::sunlit_scene({test::box_mesh({-1, 0, -1}, {1, 2, 1})}, {0.3, -1, 0.2});
+  const World world = make_world(scene);
+  CascadeOptions options{.count = 2, .snap = false};
+  const auto widths = [&](const NumberList& splits) {
+    options.splits = splits;
+    const LightView view = *fit_cascades(world, scene.lights[0], scene.camera, 1.5, 64, options, {});
+    return Vec2(view.face(0).half_extent.x, view.face(1).half_extent.x);
+  };
+  EXPECT_LT(widths(numbers({0.5, 4})).x, widths(numbers({2, 4})).x);
+  EXPECT_LE(widths(numbers({2, 3})).y, widths(numbers({2, 30})).y);
 }
 
 }  // namespace

@@ -41,6 +41,14 @@ Json light_json(const Light& light) {
   return json;
 }
 
+/// null where nothing is given.
+Json list_json(const NumberList& values) {
+  if (values.empty()) return nullptr;
+  Json json = Json::array();
+  for (const double value : values) json.push_back(number(value));
+  return json;
+}
+
 /// The setting by its key, where it has one.
 void add_setting(Json& json, const raster::MapSetting& setting, const raster::MapOptions& map) {
   if (setting.key.empty()) return;
@@ -51,6 +59,8 @@ void add_setting(Json& json, const raster::MapSetting& setting, const raster::Ma
     value = i->get(map);
   else if (const auto* s = std::get_if<raster::SwitchSetting>(&setting.kind))
     value = s->get(map);
+  else if (const auto* l = std::get_if<raster::ListSetting>(&setting.kind))
+    value = list_json(l->get(map));
   else
     value = raster::setting_text(setting, map);
 }
@@ -147,6 +157,32 @@ Json custom_shader_json(const raster::RasterFrame& drawn) {
   return {{"files", drawn.custom_shader->files}, {"reads_bias", drawn.custom_shader->reads_bias}};
 }
 
+// null where cascades, a warp or a cube have their own, or the map is not known.
+Json window_json(const Comparison& c, const LightComparison& light) {
+  const LightView& view = drawn_record(c, light).map.view;
+  const LightFace& face = view.face(0);
+  const raster::MapOptions& map = c.raster.options.map;
+  if (lacks_map(c) || view.face_count > 1 || face.warp != 0.0) return nullptr;
+  const bool parallel = view.projection == LightProjection::orthographic;
+  Json json{{"width", parallel ? number(2.0 * face.half_extent.x) : Json(nullptr)},
+            {"height", parallel ? number(2.0 * face.half_extent.y) : Json(nullptr)},
+            {"near", number(face.near_depth)},
+            {"far", number(face.far_depth)},
+            {"origin", vector3(face_origin(view, face))},
+            {"forward", vector3(face.forward)},
+            {"up", vector3(face.up)}};
+  Json given = Json::object();
+  for (const raster::MapSetting& setting : raster::map_settings())
+    if (setting.group == raster::SettingGroup::window) add_setting(given, setting, map);
+  json["given"] = std::move(given);
+  json["casters"] = nullptr;
+  if (map.window.empty() || c.world == nullptr || !parallel) return json;
+  const WindowCasters casters = window_casters(*c.world, view);
+  json["casters"] = {{"count", casters.count()}, {"inside", casters.inside}, {"cut", casters.cut},
+                     {"beside", casters.beside}, {"before", casters.before}, {"beyond", casters.beyond}};
+  return json;
+}
+
 Json map_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
@@ -160,6 +196,7 @@ Json map_json(const Comparison& c, const LightComparison& light) {
             {"bias", bias_json(c, light)},
             {"custom_shader", custom_shader_json(c.raster)},
             {"snap", map.snap},
+            {"window", window_json(c, light)},
             {"cascades", cascades_json(map, record.map.view)},
             {"warp", number(record.map.view.face(0).warp * record.map.view.face(0).half_extent.y)},
             {"filter", filter_json(map)},

@@ -15,6 +15,7 @@
 #include "compare/result/text_layout.h"
 #include "compare/result/verdict.h"
 #include "scene/light_type_name.h"
+#include "scene/light_window.h"
 #include "scene/one_line.h"
 
 namespace gnomon::compare {
@@ -74,6 +75,36 @@ std::string map_line(const Comparison& c, const LightComparison& light) {
     text += fmt::format(" ({}; a texel is {} wide)", texels_text(record.bias_constant_world / texel),
                         plain_number(texel));
   return text + beside_constant(map);
+}
+
+/// Where the map lies; empty where that is for the technique to say, or not known.
+std::string window_line(const Comparison& c, const LightComparison& light) {
+  const LightView& view = drawn_record(c, light).map.view;
+  const LightFace& face = view.face(0);
+  if (lacks_map(c) || view.projection != LightProjection::orthographic || view.face_count > 1) return {};
+  if (face.warp != 0.0 || !compares_depths(c.raster.options.map.technique)) return {};
+  const Vec3 origin = face_origin(view, face);
+  return fmt::format("{} x {} world units, depths {} to {} from {},{},{}",
+                     plain_number(2.0 * face.half_extent.x), plain_number(2.0 * face.half_extent.y),
+                     plain_number(face.near_depth), plain_number(face.far_depth), plain_number(origin.x),
+                     plain_number(origin.y), plain_number(origin.z));
+}
+
+/// Of a window that was given: what it leaves out.
+std::string left_out_line(const Comparison& c, const LightComparison& light) {
+  if (c.raster.options.map.window.empty() || c.world == nullptr) return {};
+  const WindowCasters casters = window_casters(*c.world, drawn_record(c, light).map.view);
+  if (casters.inside == casters.count()) return fmt::format("holds all {} casters", grouped(casters.count()));
+  std::string text =
+      fmt::format("of {} casters {} lie inside", grouped(casters.count()), grouped(casters.inside));
+  const auto add = [&](std::uint64_t count, std::string_view where) {
+    if (count > 0) text += fmt::format(", {} {}", grouped(count), where);
+  };
+  add(casters.cut, "across its border");
+  add(casters.beside, "beside it (their shadows are missing)");
+  add(casters.before, "before the near plane (drawn at it)");
+  add(casters.beyond, "beyond the far plane (not drawn)");
+  return text;
 }
 
 std::string hybrid_line(const raster::ExternalCosts& e) {
@@ -273,6 +304,8 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
   page.paragraph(verdict_on(c, light).whole());
   page.blank();
   page.field("map", map_line(c, light));
+  if (const std::string window = window_line(c, light); !window.empty()) page.field("window", window);
+  if (const std::string left_out = left_out_line(c, light); !left_out.empty()) page.field("", left_out);
   const std::string filter = filter_text(c.raster.options.map);
   if (!filter.empty()) page.field("filter", filter);
   if (const auto& external = drawn_record(c, light).external) page.field("hybrid", hybrid_line(*external));

@@ -35,7 +35,7 @@ Expected<LightView> first_fit(const World& world, const Light& light, const Came
     case raster::TexelShape::of_light:
       break;
   }
-  return fit_light_view(world, light, camera, aspect, map.size);
+  return fit_light_view(world, light, camera, aspect, map.size, map.window);
 }
 
 Vec3 middle_of(const World& world, const Camera& camera) {

@@ -3,6 +3,7 @@
 #include <imgui/imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/view/panels/panels.h"
@@ -128,6 +129,18 @@ struct RowControl {
     }
     ImGui::EndCombo();
     return changed;
+  }
+  /// Typed as on the command line; a text that is no such list leaves the value as it is.
+  bool operator()(const raster::ListSetting& list) const {
+    title_of(row, list.unit);
+    std::array<char, 128> text{};
+    const std::string now = raster::setting_text(row, map);
+    now.copy(text.data(), text.size() - 1);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    const bool entered =
+        ImGui::InputText("##value", text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    Note(row).of_control();
+    return entered && text.data() != now && raster::set_setting(row, map, text.data()).has_value();
   }
   /// In texels whatever the unit, and beside the slider what that is in the world.
   bool operator()(const raster::ConstantBiasSetting&) const {
@@ -378,6 +391,7 @@ void settings_panel(PanelContext& context) {
   raster::MapOptions map = context.state.setup.map;
   bool changed = technique(context, map);
   changed |= group(context, map, raster::SettingGroup::map, "Map");
+  changed |= group(context, map, raster::SettingGroup::window, "Window");
   changed |= group(context, map, raster::SettingGroup::bias, "Bias");
   changed |= group(context, map, raster::SettingGroup::filter, "Filter");
   changed |= group(context, map, raster::SettingGroup::cascades, "Cascades");
