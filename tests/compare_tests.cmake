@@ -23,4 +23,4 @@ gnomon_test(gltf_instances_gl_test
 # A comparison in bands against the whole.
 gnomon_test(compare_bands_gl_test TIMEOUT 900
   SOURCES compare_bands_gl_test.cpp
-  LIBS gnomon::compare gnomon::hybrid nlohmann_json::nlohmann_json)
+  LIBS gnomon::report gnomon::hybrid nlohmann_json::nlohmann_json)

@@ -73,12 +73,4 @@ std::vector<Advice> give_advice(const FrameInput& in, const raster::Bias& bias, 
   return out;
 }
 
-std::string advice_text(const Advice& a) {
-  if (a.instead == a.now)
-    return fmt::format("{} stays {:.4g} ({}): {:.3g} % of the pixels wrong, hardly more than with any other",
-                       a.setting, a.now, a.unit, 100.0 * a.wrong_instead);
-  return fmt::format("{} {:.4g} instead of {:.4g} ({}): {:.3g} % of the pixels wrong, with this one {:.3g} %",
-                     a.setting, a.instead, a.now, a.unit, 100.0 * a.wrong_instead, 100.0 * a.wrong_now);
-}
-
 }  // namespace gnomon::compare

@@ -12,7 +12,4 @@ namespace gnomon::compare {
 std::vector<Advice> give_advice(const FrameInput& input, const raster::Bias& bias,
                                 const LightComparison& light, const raster::LightRecord& record);
 
-/// "bias 0.0021 instead of 0.0005 (stored depth): 0.31 % wrong instead of 4.2 %"
-std::string advice_text(const Advice& advice);
-
 }  // namespace gnomon::compare

@@ -1,0 +1,72 @@
+#include "compare/result/judged.h"
+
+#include <fmt/core.h>
+
+#include "compare/result/number_text.h"
+#include "compare/result/output_parts.h"
+
+namespace gnomon::compare {
+namespace {
+
+std::string agreement_text(const Judged& j) {
+  std::string text;
+  for (const Agreement& one : j.agreement)
+    text += fmt::format("{}{} of the {}", text.empty() ? "" : ", ", percent(one.share), one.what);
+  return text.empty() ? "nothing to tell it by" : text;
+}
+
+std::string settings_text(const Judged& j) {
+  std::string text;
+  for (const auto& [key, value] : j.settings)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key, value);
+  return text;
+}
+
+std::string identified_text(const Identified& i) {
+  return fmt::format(
+      "inferred from the picture alone: nearest is {} ({} drawings); it explains {} of the error, and "
+      "differs "
+      "from the picture by {} in the mean",
+      i.options, i.renders, percent(i.explained), percent(i.model_error));
+}
+
+std::string ladder_text(const Comparison& c) {
+  const Judged& j = *c.judged;
+  if (j.has_map)
+    return fmt::format(
+        "that of its own map, matrix and bias; the test (V5) is what was drawn on {} of the pixels",
+        percent(j.biased_is_drawn));
+  if (j.identified) return "inferred: that of the nearest setting of Gnomon's own, up to what was drawn";
+  return "light size, and one step unexplained: the capture has no map";
+}
+
+}  // namespace
+
+std::string advice_text(const Advice& a) {
+  if (a.instead == a.now)
+    return fmt::format("{} stays {:.4g} ({}): {:.3g} % of the pixels wrong, hardly more than with any other",
+                       a.setting, a.now, a.unit, 100.0 * a.wrong_instead);
+  return fmt::format("{} {:.4g} instead of {:.4g} ({}): {:.3g} % of the pixels wrong, with this one {:.3g} %",
+                     a.setting, a.instead, a.now, a.unit, 100.0 * a.wrong_instead, 100.0 * a.wrong_now);
+}
+
+std::string renderer_text(const Judged& j) {
+  return j.renderer + (j.version.empty() ? "" : " " + j.version);
+}
+
+std::vector<std::pair<std::string, std::string>> judged_lines(const Comparison& c) {
+  const Judged& j = *c.judged;
+  std::vector<std::pair<std::string, std::string>> out{{"drawn by", renderer_text(j)}};
+  if (!j.settings.empty()) out.emplace_back("settings", settings_text(j));
+  out.emplace_back("agreement", agreement_text(j));
+  for (const Mended& m : j.mended)
+    out.emplace_back("mended", fmt::format("{}: {} of the {} agreed, now {}", m.what, percent(m.before),
+                                           m.evidence, percent(m.after)));
+  out.emplace_back("ladder", ladder_text(c));
+  if (j.identified) out.emplace_back("nearest", identified_text(*j.identified));
+  for (const Advice& advice : j.advice) out.emplace_back("advice", advice_text(advice));
+  for (const std::string& note : j.notes) out.emplace_back("note", note);
+  return out;
+}
+
+}  // namespace gnomon::compare
