@@ -11,6 +11,7 @@
 #include "compare/result/shadow_cost.h"
 #include "scene/light.h"
 #include "scene/light_type_name.h"
+#include "scene/light_window.h"
 
 namespace gnomon::compare {
 namespace {
