@@ -193,8 +193,8 @@ def kills(page):
 def text_of(page):
     version = page.run([page.program(), '--version'])[0].stdout.strip()
     lines = ['# Reliability', '',
-             'What was tried to break the program, and how often it broke. The table is written by',
-             f'`docs/make_reliability.py BUILD {page.scale:g}`, last for {version}; programs lie in `BUILD/tests`.', '',
+             'For whoever asks whether the program can be relied on: what was tried to break it, and how often it broke. The table is',
+             f'written by `docs/make_reliability.py BUILD {page.scale:g}`, last for {version}; programs lie in `BUILD/tests`.', '',
              '| what | tried | failed | seconds | command |', '|---|--:|--:|--:|---|']
     for what, tried, failed, seconds, command in page.rows:
         time_text = f'{seconds:.0f}' if seconds else ''
