@@ -84,8 +84,10 @@ function main() {
   const results = scenes.map((scene) => rows.map((entry) => judged(scene, entry)));
   const asShipped = judged("courtyard", cyclesAsShipped).lights[0];
   const truths = [...scenes, "far-from-origin"].map(secondTruth);
-  const drawn = results.map((list, s) => rows.map((entry, r) => [entry, list[r]]).filter(([, result]) => !result.refused && result.judged.biased_is_drawn != null && result.lights[0].map.filter.kind === "none")
-    .map(([entry, result]) => `${result.judged.renderer.name} ${entry[1]}, ${scenes[s]}: ${(100 * result.judged.biased_is_drawn).toFixed(3)} %`)).flat();
+  const drawn = results.flatMap((list) => rows.map((entry, r) => [entry, list[r]]))
+    .filter(([, result]) => !result.refused && result.judged.biased_is_drawn != null && result.lights[0].map.filter.kind === "none")
+    .map(([entry, result]) => ({ name: `${result.judged.renderer.name} ${entry[1]}`, share: result.judged.biased_is_drawn }));
+  const least = (name) => (100 * Math.min(...drawn.filter((d) => d.name === name).map((d) => d.share))).toFixed(3);
   console.log(`# Engines, judged
 
 For whoever asks what engines draw: four of Gnomon's scenes, each with a sun, drawn at ${size} by engines of the web in
@@ -118,10 +120,7 @@ ${[...rows, cycles, cyclesAsShipped].map(([engine, name, options]) => `| ${engin
 ## The ladder on another renderer's map
 
 Where a capture has a map and one comparison for each pixel, V5, worked out from its map, matrix and bias, must be V6, its
-picture. The share of pixels where it is:
-
-${drawn.map((line) => `- ${line}`).join("\n")}
-
+picture. In every scene it is on at least ${[...new Set(drawn.map((d) => d.name))].map((name) => `${least(name)} % of the pixels (${name})`).join(" and ")}.
 The others lie on the boundaries of texels, where the engine's 32-bit coordinates and Gnomon's 64-bit ones round to either
 side, or on surfaces whose interpolated normals the engine offsets along and Gnomon does not.
 
