@@ -67,18 +67,13 @@ function withAdvice(scene, result) {
   return `| ${scene} | ${number(-instead)} | ${percent(before)} | ${percent3(promised)} | ${percent3(again.lights[0].error.wrong_fraction)} |`;
 }
 
-const exponent = (value) => value.toExponential(1);
-/** A scene's row of the second truth, and a line for each pixel that differs. */
+/** A scene's row of the second truth. */
 function secondTruth(scene) {
   const result = judged(scene, cycles);
   if (result.refused) throw new Error(`${scene}: ${result.refused}`);
   const { pixels, error } = result.lights[0], capture = join(folder, `cycles-rays-${scene}`);
   const found = error.wrong === 0 ? [] : differences(join(folder, `${scene}.glb`), join(capture, "verdict.exr"), capture);
-  const explained = found.filter(explanation);
-  return {
-    row: `| ${scene} | ${pixels.compared} | ${error.wrong} | ${explained.length} |`,
-    pixels: found.map((d) => `| ${scene} | ${d.x}, ${d.y} | ${d.shadowed ? "shadowed" : "lit"} | ${Number.isFinite(d.margin) ? exponent(d.margin) : "-"} | ${exponent(d.spacing)} | ${explanation(d) || "none found"} |`),
-  };
+  return `| ${scene} | ${pixels.compared} | ${error.wrong} | ${found.filter(explanation).length} |`;
 }
 
 function main() {
@@ -89,23 +84,26 @@ function main() {
   const results = scenes.map((scene) => rows.map((entry) => judged(scene, entry)));
   const asShipped = judged("courtyard", cyclesAsShipped).lights[0];
   const truths = [...scenes, "far-from-origin"].map(secondTruth);
-  const drawn = results.map((list, s) => rows.map((entry, r) => [entry, list[r]]).filter(([, result]) => !result.refused && result.judged.biased_is_drawn != null && result.lights[0].map.filter.kind === "none")
-    .map(([entry, result]) => `${result.judged.renderer.name} ${entry[1]}, ${scenes[s]}: ${(100 * result.judged.biased_is_drawn).toFixed(3)} %`)).flat();
+  const drawn = results.flatMap((list) => rows.map((entry, r) => [entry, list[r]]))
+    .filter(([, result]) => !result.refused && result.judged.biased_is_drawn != null && result.lights[0].map.filter.kind === "none")
+    .map(([entry, result]) => ({ name: `${result.judged.renderer.name} ${entry[1]}`, share: result.judged.biased_is_drawn }));
+  const least = (name) => (100 * Math.min(...drawn.filter((d) => d.name === name).map((d) => d.share))).toFixed(3);
   console.log(`# Engines, judged
 
-Four of Gnomon's scenes, each with a sun, drawn at ${size} by engines of the web in headless Chromium and by Blender's EEVEE and Cycles, and judged by
-\`gnomon judge\`. \`docs/make_engines.sh\` wrote this page with the [adapters](../adapters/README.md); versions and options stand in each row.
+For whoever asks what engines draw: four of Gnomon's scenes, each with a sun, drawn at ${size} by engines of the web in
+headless Chromium and by Blender's EEVEE and Cycles, and judged by \`gnomon judge\`. \`docs/make_engines.sh\` wrote this page
+with the [adapters](../adapters/README.md); versions and options stand in each row.
 
-What is compared is one picture of one light in each scene, at settings that nobody has tuned for it: *default* is what the engine takes
-by itself, *advised* a finer map, its best filter for such a light, and biases in the range that its documents' examples show. An
-engine's map covers what the engine fits it to, which decides much; none of the numbers says that one engine is better than another.
+One picture of one light is compared in each scene, at settings that nobody has tuned for it: *default* is what the engine
+takes by itself, *advised* a finer map, its best filter for such a light, and biases in the range that its documents'
+examples show. Much depends on what the engine fits its map to; no number here says that one engine is better than another.
 
 | scene | engine | wrong pixels | mean error | labels | edges off by, pixels (RMS) | shadows detached by, world units (mean) | Gnomon's advice |
 |---|---|---|---|---|---|---|---|
 ${scenes.map((scene, s) => rows.map((entry, r) => row(scene, results[s][r], entry)).join("\n")).join("\n")}
 
-*unexplained*: the adapter hands over no depth map of this technique, so that Gnomon can say where the shadow is wrong and not why.
-A bias that an engine gives to the casters lies in its map; what is advised then comes on top of it.
+*unexplained*: the adapter hands over no depth map of this technique, so that Gnomon can say where the shadow is wrong and
+not why. A bias that an engine gives to the casters lies in its map; what is advised then comes on top of it.
 
 ## To repeat a row
 
@@ -121,13 +119,10 @@ ${[...rows, cycles, cyclesAsShipped].map(([engine, name, options]) => `| ${engin
 
 ## The ladder on another renderer's map
 
-Where a capture has a map and one comparison for each pixel, V5, worked out from its map, matrix and bias, must be V6, its picture. The share
-of pixels where it is:
-
-${drawn.map((line) => `- ${line}`).join("\n")}
-
-The others lie on the boundaries of texels, where the engine's 32-bit coordinates and Gnomon's 64-bit ones round to either side, or on
-surfaces whose normals are interpolated, along which the engine offsets and Gnomon does not.
+Where a capture has a map and one comparison for each pixel, V5, worked out from its map, matrix and bias, must be V6, its
+picture. In every scene it is on at least ${[...new Set(drawn.map((d) => d.name))].map((name) => `${least(name)} % of the pixels (${name})`).join(" and ")}.
+The others lie on the boundaries of texels, where the engine's 32-bit coordinates and Gnomon's 64-bit ones round to either
+side, or on surfaces whose interpolated normals the engine offsets along and Gnomon does not.
 
 ## The advice, taken
 
@@ -139,22 +134,18 @@ ${scenes.map((scene, s) => [scene, results[s][2]]).filter(([, result]) => result
 
 ## Cycles, a second truth
 
-Cycles traces the same hard shadows with its own code: one ray through each pixel's centre, lights without size, and its *shadow terminator
-geometry offset*, which starts the rays of smooth surfaces off the surface where the light grazes, set to 0 (with Blender's default of 0.1
-${asShipped.error.wrong} pixels of courtyard differ). The last scene is the conformance suite's.
+Cycles traces the same hard shadows with its own code: one ray through each pixel's centre, lights without size, and its
+*shadow terminator geometry offset*, which starts the rays of smooth surfaces off the surface where the light grazes, set to
+0 (with Blender's default of 0.1 ${asShipped.error.wrong} pixels of courtyard differ). The last scene is the conformance suite's.
 
 | scene | pixels compared | different | explained |
 |---|---|---|---|
-${truths.map(({ row }) => row).join("\n")}
+${truths.join("\n")}
 
-Cycles keeps places in 32-bit floats. Each differing pixel was worked out once more in 64-bit floats on the file's own numbers, against every
-triangle (\`adapters/second_truth.mjs\`): the exact answer at the receiver, the exact answer at the place that Cycles found for it (its position pass), and
-how far the receiver must be moved in its own plane for the exact answer to change. A difference is explained when Cycles is right
-about the place that it found, or when the edge of the shadow is nearer than one step of its floats.
-
-| scene | pixel | exactly | edge away by | floats are apart by | why |
-|---|---|---|---|---|---|
-${truths.flatMap(({ pixels }) => pixels).join("\n")}
+Cycles keeps places in 32-bit floats. Each differing pixel was computed again in 64-bit floats from the file's numbers,
+against every triangle (\`adapters/second_truth.mjs\` lists them). A difference is explained when Cycles is right about the place that it
+found (its position pass), or when the edge of the shadow is nearer to the receiver, in its plane, than one step of those
+floats.
 `);
 }
 

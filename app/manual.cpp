@@ -5,8 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <vector>
 
 #include "app/help.h"
 #include "app/map_options.h"
@@ -30,32 +32,117 @@ std::string list_item(const std::string& text) {
   return "- " + wrap(text, 2, page_width).substr(2);
 }
 
-std::string option_item(const CLI::Option& option) {
-  std::string names = option.get_positional() ? option.get_name(true) : option.get_name(false, true);
+/// "-o,--output", or "SCENE": what an option is called in every command that has it.
+std::string option_key(const CLI::Option& option) {
+  return option.get_positional() ? option.get_name(true) : option.get_name(false, true);
+}
+
+/// "`-o, --output DIR`".
+std::string option_heading(const CLI::Option& option) {
+  std::string names = option_key(option);
   for (std::size_t comma = names.find(','); comma != std::string::npos; comma = names.find(',', comma + 2))
     names.replace(comma, 1, ", ");
   const bool takes_value = !option.get_positional() && !option.get_type_name().empty();
-  return list_item(fmt::format("`{}{}`: {}", names, takes_value ? " " + option.get_type_name() : "",
-                               option.get_description()));
+  return fmt::format("`{}{}`", names, takes_value ? " " + option.get_type_name() : "");
 }
 
-std::string command_chapter(const CLI::App& command) {
-  std::string text = fmt::format("\n## gnomon {}\n\n{}\n```sh\n{}\n```\n\n", command.get_name(),
-                                 wrap(command.get_description(), 0, page_width), command.get_footer());
-  for (const CLI::Option* option : command.get_options())
-    if (option->get_name() != "--help") text += option_item(*option);
+std::string option_item(const CLI::Option& option) {
+  return list_item(fmt::format("{}: {}", option_heading(option), option.get_description()));
+}
+
+/// A sweep's switch takes "off or on", which its description says at its end; the rest is what the switch
+/// does in every other command.
+std::string shared_text(const CLI::Option& option) {
+  constexpr std::string_view values_of_a_switch = "; off or on";
+  std::string text = option.get_description();
+  if (text.ends_with(values_of_a_switch)) text.resize(text.size() - values_of_a_switch.size());
   return text;
+}
+
+/// SharedOptions holds the options that two commands or more describe in the same words. Of several such
+/// descriptions of one option it has the one that most commands use; the others stay with their commands.
+class SharedOptions {
+ public:
+  explicit SharedOptions(const CLI::App& program) {
+    for (const CLI::App* command : program.get_subcommands({}))
+      for (const CLI::Option* option : command->get_options()) count(*option);
+  }
+  /// The option as the shared list shows it, or null where this command's description is another.
+  const CLI::Option* find(const CLI::Option& option) const {
+    const Words* most = most_used(option_key(option));
+    return most != nullptr && most->text == shared_text(option) ? most->option : nullptr;
+  }
+  std::string list() const {
+    std::string text;
+    for (const std::string& key : keys_)
+      if (const Words* most = most_used(key)) text += option_item(*most->option);
+    return text;
+  }
+
+ private:
+  struct Words {
+    std::string text;
+    const CLI::Option* option = nullptr;  ///< the first that is described so
+    int commands = 0;
+  };
+
+  void count(const CLI::Option& option) {
+    const std::string key = option_key(option);
+    if (option.get_name() == "--help") return;
+    if (!words_.contains(key)) keys_.push_back(key);
+    std::vector<Words>& known = words_[key];
+    const std::string text = shared_text(option);
+    auto found =
+        std::find_if(known.begin(), known.end(), [&](const Words& words) { return words.text == text; });
+    if (found == known.end()) found = known.insert(known.end(), {text, &option});
+    ++found->commands;
+  }
+  const Words* most_used(const std::string& key) const {
+    const auto known = words_.find(key);
+    if (known == words_.end()) return nullptr;
+    const auto most =
+        std::max_element(known->second.begin(), known->second.end(),
+                         [](const Words& a, const Words& b) { return a.commands < b.commands; });
+    return most->commands > 1 ? &*most : nullptr;
+  }
+
+  std::vector<std::string> keys_;  ///< in the order in which the commands first name them
+  std::map<std::string, std::vector<Words>> words_;
+};
+
+/// The command's own options, then the names of those that it shares; a shared one that takes its value in
+/// another form here, as a sweep's lists, is named with that form.
+std::string command_chapter(const CLI::App& command, const SharedOptions& shared) {
+  std::string own, names;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_name() == "--help") continue;
+    const CLI::Option* same = shared.find(*option);
+    if (same == nullptr) {
+      own += option_item(*option);
+    } else {
+      const bool same_form = option_heading(*option) == option_heading(*same);
+      names += " " + (same_form ? fmt::format("`{}`", option_key(*option)) : option_heading(*option));
+    }
+  }
+  return fmt::format("\n## gnomon {}\n\n{}\n```sh\n{}\n```\n\n{}{}{}", command.get_name(),
+                     wrap(command.get_description(), 0, page_width), command.get_footer(), own,
+                     own.empty() || names.empty() ? "" : "\n",
+                     names.empty() ? "" : wrap("[Shared](#shared-options):" + names, 0, page_width));
 }
 
 std::string options_chapter(const CLI::App& program) {
-  std::string text = fmt::format(
-      "{}# Commands and options\n\nEvery option with its unit, its range and its default, as `gnomon COMMAND "
-      "--help` "
-      "prints them.\n\n",
-      written_by_the_program);
+  std::string text = written_by_the_program;
+  text += "# Commands and options\n\n";
+  text += wrap(
+      "For whoever types a command: every option with its unit, its range and its default. An option that "
+      "several commands share is described once, under [Shared options](#shared-options), and named at each "
+      "of them. `gnomon COMMAND --help` prints all of a command's options in one piece.",
+      0, page_width);
+  text += "\n";
   for (const CLI::Option* option : program.get_options()) text += option_item(*option);
-  for (const CLI::App* command : program.get_subcommands({})) text += command_chapter(*command);
-  return text;
+  const SharedOptions shared(program);
+  for (const CLI::App* command : program.get_subcommands({})) text += command_chapter(*command, shared);
+  return text + "\n## Shared options\n\n" + shared.list();
 }
 
 /// "number, null", "\"hard\" or \"pcf\"", "array of integer".
@@ -71,13 +158,24 @@ std::string type_text(const Json& schema) {
   return fmt::format("{}", fmt::join(schema["type"].get<std::vector<std::string>>(), " or "));
 }
 
+/// How often the schema, or a part of it, refers to each definition ("#/$defs/time").
+void count_references(const Json& part, std::map<std::string, int>& counts) {
+  if (part.is_object() && part.contains("$ref")) ++counts[part["$ref"].get<std::string>()];
+  for (const Json& member : part)
+    if (member.is_structured()) count_references(member, counts);
+}
+
 class KeyList {
  public:
-  explicit KeyList(const Json& schema) : schema_(schema) {}
+  explicit KeyList(const Json& schema) : schema_(schema) { count_references(schema, counts_); }
 
   /// Everything below a schema, under its path: "lights[].map.bias.slope".
   void add(const Json& given, const std::string& path, const std::string& note = {}) {
     std::string description = given.value("description", note);
+    if (is_shared(given)) {
+      entry(path, shared_name(given), description);
+      return;
+    }
     const Json& schema = resolve(given);
     if (description.empty()) description = schema.value("description", std::string());
     if (schema.contains("anyOf") || schema.contains("oneOf")) {
@@ -91,9 +189,26 @@ class KeyList {
         add(member, path.empty() ? key : path + "." + key);
     if (schema.contains("items") && schema["items"].is_object()) add(schema["items"], path + "[]");
   }
+  /// The keys of each object that stands in several places, once and under its name.
+  void add_shared() {
+    for (const auto& [name, definition] : schema_["$defs"].items()) {
+      const Json reference = {{"$ref", "#/$defs/" + name}};
+      if (!is_shared(reference)) continue;
+      text_ += fmt::format("\n## {}\n\n", name);
+      for (const auto& [key, member] : definition["properties"].items()) add(member, key);
+    }
+  }
   std::string take() { return std::move(text_); }
 
  private:
+  bool is_shared(const Json& given) const {
+    if (!given.contains("$ref") || !resolve(given).contains("properties")) return false;
+    return counts_.at(given["$ref"].get<std::string>()) > 1;
+  }
+  static std::string shared_name(const Json& given) {
+    const std::string name = given["$ref"].get<std::string>().substr(std::string("#/$defs/").size());
+    return fmt::format("[{0}](#{0})", name);
+  }
   const Json& resolve(const Json& schema) const {
     if (!schema.contains("$ref")) return schema;
     return schema_.at(Json::json_pointer(schema["$ref"].get<std::string>().substr(1)));
@@ -107,6 +222,7 @@ class KeyList {
   }
 
   const Json& schema_;
+  std::map<std::string, int> counts_;  ///< of references, by definition
   std::string text_;
 };
 
@@ -114,13 +230,15 @@ std::string json_chapter() {
   const Json schema = Json::parse(embedded::schemas("result.schema.json"));
   KeyList keys(schema);
   keys.add(schema, "");
-  return fmt::format(
-      "{}# The keys of result.json\n\n{}\n`DIR/result.json` of `gnomon compare`, `--json FILE`, and each "
-      "line of "
-      "`DIR/sweep.jsonl`, in the order of\nthe file. `[]` stands for every element of a list. The schema "
-      "itself is "
-      "`compare/result/result.schema.json`;\ninstalled, `share/gnomon/schema/result.schema.json`.\n\n{}",
-      written_by_the_program, wrap(schema.value("description", std::string()), 0, page_width), keys.take());
+  keys.add_shared();
+  const std::string intro =
+      "For whoever reads results with a program: `DIR/result.json` of `gnomon compare`, `--json FILE`, "
+      "and each line of `DIR/sweep.jsonl`, in the order of the file. `[]` stands for every element of a "
+      "list. An object that stands in several places is described once, below the list. The schema itself"
+      " is `compare/result/result.schema.json`; installed, `share/gnomon/schema/result.schema.json`.";
+  return fmt::format("{}# The keys of result.json\n\n{}\n{}\n{}", written_by_the_program,
+                     wrap(intro, 0, page_width),
+                     wrap(schema.value("description", std::string()), 0, page_width), keys.take());
 }
 
 std::string_view contents_text(raster::MapContents contents) {
@@ -184,17 +302,17 @@ std::string options_text(raster::Technique technique) {
 }
 
 std::string techniques_chapter() {
+  const std::string intro =
+      "For whoever chooses a technique: what `--technique` takes. For each one the table says what a "
+      "texel of the map holds, how a pixel's visibility comes from it, which lights it is for, how wide "
+      "its texels are, the slope bias where none is asked for, and the options that it reads of those "
+      "that not every technique reads ([options](options.md#shared-options)). `pcf` reads some with some "
+      "of its kernels alone.";
   std::string text = fmt::format(
-      "{}# The techniques\n\nWhat `--technique` takes: what a texel of the map holds, how a pixel's "
-      "visibility "
-      "comes from it, which lights it\nis for, how wide its texels are, the slope bias where none is asked "
-      "for, "
-      "and the options that it reads of those\nthat not every technique reads (`options.md` says what they "
-      "do). "
-      "`pcf` reads some with some of its kernels alone.\n\n"
+      "{}# The techniques\n\n{}\n"
       "| technique | texel holds | decides by | lights | texels | default slope bias | reads |\n"
       "|---|---|---|---|---|---|---|\n",
-      written_by_the_program);
+      written_by_the_program, wrap(intro, 0, page_width));
   for (const raster::TechniqueTraits& t : raster::all_technique_traits()) {
     const bool biased = raster::compares_depths(t.technique);
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", t.name, contents_text(t.contents),
