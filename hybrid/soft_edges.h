@@ -6,8 +6,8 @@
 // a tree.
 #pragma once
 
+#include "hybrid/light_cone.h"
 #include "hybrid/light_facing.h"
-#include "hybrid/light_hull.h"
 
 namespace gnomon::hybrid {
 

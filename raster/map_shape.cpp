@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "raster/technique_traits.h"
-#include "scene/light_type_name.h"
+#include "scene/light.h"
 #include "scene/size_steps.h"
 
 namespace gnomon::raster {

@@ -14,7 +14,7 @@
 #include "compare/result/shadow_cost.h"
 #include "compare/result/text_layout.h"
 #include "compare/result/verdict.h"
-#include "scene/light_type_name.h"
+#include "scene/light.h"
 #include "scene/one_line.h"
 
 namespace gnomon::compare {

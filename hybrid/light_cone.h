@@ -1,23 +1,9 @@
-// A light with size as the hybrid sees it: a convex body around all that it samples, by its corners and by a
-// ball. A sun's disc stands so far away that all the world sees it under nearly the same angle; the little
-// that is missing is added to its radius.
+// What a receiver and a light with size have between them: all that can stand in the way.
 #pragma once
 
-#include <vector>
-
-#include "scene/light.h"
-#include "scene/world.h"
+#include "scene/light_shape/light_shape.h"
 
 namespace gnomon::hybrid {
-
-struct LightHull {
-  std::vector<Vec3> corners;  ///< their convex hull holds the whole light
-  Vec3 center{0.0};
-  double radius = 0.0;  ///< of a ball around the center that holds the whole light
-};
-
-/// The light has a size. `reach`: no coordinate of a receiver is larger.
-LightHull light_hull(const Light& light, const World& world, double reach);
 
 /// The convex hull of a point (or a ball around it) and the light's ball.
 class LightCone {

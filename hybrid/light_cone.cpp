@@ -1,55 +1,6 @@
-#include "hybrid/light_hull.h"
+#include "hybrid/light_cone.h"
 
 namespace gnomon::hybrid {
-namespace {
-
-/// A sun stands this many reaches away: parallax across the world is then 2^-14 of a radian.
-constexpr double sun_distance = 0x1p16;
-
-/// The corners of a square of directions u and v, widened against the rounding of samples on its rim.
-std::vector<Vec3> square(const Vec3& center, const Vec3& u, const Vec3& v) {
-  constexpr double wider = 1.0 + 0x1p-40;
-  const Vec3 a = wider * u, b = wider * v;
-  return {center - a - b, center + a - b, center + a + b, center - a + b};
-}
-
-std::vector<Vec3> cube(const Vec3& center, double radius) {
-  const Vec3 up(0.0, 0.0, (1.0 + 0x1p-40) * radius);
-  std::vector<Vec3> corners = square(center - up, Vec3(radius, 0.0, 0.0), Vec3(0.0, radius, 0.0));
-  for (std::size_t i = 0; i < 4; ++i) corners.push_back(corners[i] + 2.0 * up);
-  return corners;
-}
-
-std::vector<Vec3> disc_square(const Vec3& center, const Vec3& normal, double radius) {
-  Vec3 u, v;
-  orthonormal_basis(normal, u, v);
-  return square(center, radius * u, radius * v);
-}
-
-}  // namespace
-
-LightHull light_hull(const Light& light, const World& world, double reach) {
-  LightHull hull;
-  hull.center = light.position;
-  if (const auto* sphere = std::get_if<SphereLight>(&light.extent)) {
-    hull.corners = cube(hull.center, sphere->radius);
-    hull.radius = sphere->radius;
-  } else if (const auto* disc = std::get_if<DiscLight>(&light.extent)) {
-    hull.corners = disc_square(hull.center, disc->normal, disc->radius);
-    hull.radius = disc->radius;
-  } else if (const auto* rectangle = std::get_if<RectangleLight>(&light.extent)) {
-    hull.corners = square(hull.center, rectangle->half_width, rectangle->half_height);
-    hull.radius = glm::length(rectangle->half_width + rectangle->half_height);
-  } else if (const auto* sun = std::get_if<SunDisc>(&light.extent)) {
-    const double distance = sun_distance * reach;
-    const Vec3 middle = world.finite_bounds.empty() ? Vec3(0.0) : world.finite_bounds.center();
-    hull.center = middle - distance * light.direction;
-    hull.radius = distance * std::tan(0.5 * sun->angular_diameter) + 4.0 * reach;
-    hull.corners = disc_square(hull.center, light.direction, hull.radius);
-  }
-  hull.radius *= 1.0 + 0x1p-40;
-  return hull;
-}
 
 LightCone::LightCone(const Vec3& point, double point_radius, const LightHull& hull)
     : point_(point), point_radius_(point_radius), light_radius_(hull.radius) {
