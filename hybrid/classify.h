@@ -4,7 +4,7 @@
 #pragma once
 
 #include "hybrid/light_sheets.h"
-#include "raytrace/packets/quantised_tile.h"
+#include "raytrace/quantised_tile.h"
 
 namespace gnomon::hybrid {
 

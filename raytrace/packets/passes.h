@@ -7,8 +7,8 @@
 
 #include "raytrace/packets/blocks.h"
 #include "raytrace/packets/light_setup.h"
-#include "raytrace/packets/quantised_tile.h"
 #include "raytrace/packets/tile.h"
+#include "raytrace/quantised_tile.h"
 #include "raytrace/tracer.h"
 #include "scene/camera.h"
 #include "scene/image.h"
@@ -42,16 +42,5 @@ struct ReceiverSource {
   /// Those asked for, many at a time, by their place in the tile: points[16 * y + x].
   void fill(const TileRect& rect, const LaneMask& asked, SurfacePoint* points) const;
 };
-
-/// By primitive, its place as TileHits has it; nothing_hit for those that cannot be hit.
-std::vector<std::uint32_t> hit_places(const Tracer& tracer);
-
-/// Fills the tile's receivers (row 0 of the images is first_row of the view's picture) from the primitives that its pixels are known to show (no_id: none), as
-/// primary_pass does where it finds the same ones. `leaf_of`: hit_places(). Returns the
-/// number of pixels whose ray misses their primitive; these get the nearest hit.
-std::uint64_t known_tile(const Tracer& tracer, const View& view, int first_row,
-                         std::span<const std::uint32_t> leaf_of, const TileRect& rect,
-                         const Image<std::uint32_t>& primitives, Image<SurfacePoint>& receivers,
-                         QuantisedTile& quantised);
 
 }  // namespace gnomon::raytrace

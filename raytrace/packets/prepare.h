@@ -5,8 +5,8 @@
 #include <array>
 
 #include "raytrace/packets/light_setup.h"
-#include "raytrace/packets/quantised_tile.h"
 #include "raytrace/packets/tile.h"
+#include "raytrace/quantised_tile.h"
 #include "scene/camera.h"
 
 namespace gnomon::raytrace {

@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "raytrace/packets/quantised_tile.cpp"
+#define HWY_TARGET_INCLUDE "raytrace/quantised_tile.cpp"
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "raytrace/packets/hit_corners-inl.h"
-#include "raytrace/packets/quantised_tile.h"
+#include "raytrace/packets/receivers.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {

@@ -3,8 +3,8 @@
 // leaves open they ask of the receivers in double.
 #pragma once
 
-#include "raytrace/packets/tile.h"
-#include "scene/camera.h"
+#include "raytrace/tiles.h"
+#include "raytrace/tracer.h"
 
 namespace gnomon::raytrace {
 
@@ -58,15 +58,5 @@ void publish_receivers();
   const char* bytes = reinterpret_cast<const char*>(next);
   for (std::size_t i = 0; i < sizeof(QuantisedTile); i += 64) __builtin_prefetch(bytes + i);
 }
-
-/// Bits per packet of the hits that are not on triangles, and of those whose triangle's plane is too ill to
-/// say where the receiver lies.
-struct DraftLeft {
-  LaneMask others, ill;
-};
-
-/// Writes a tile's receivers from the planes of their triangles alone: right to 2^-38 of their distance.
-DraftLeft draft_receivers(const Bvh& bvh, const View& view, int x0, int y0, const TileHits& hits,
-                          QuantisedTile& tile, TileDraft& draft);
 
 }  // namespace gnomon::raytrace
