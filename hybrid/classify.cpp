@@ -5,7 +5,7 @@
 
 #include <bit>
 
-#include "hybrid/classify.h"
+#include "hybrid/light_sheets.h"
 #include "raytrace/mask_bits-inl.h"
 
 HWY_BEFORE_NAMESPACE();

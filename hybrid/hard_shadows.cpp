@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstring>
 
-#include "hybrid/classify.h"
+#include "hybrid/light_sheets.h"
 #include "scene/parallel.h"
 
 namespace gnomon::hybrid {

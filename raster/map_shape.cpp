@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "raster/technique_traits.h"
+#include "scene/cascade_fit.h"
 #include "scene/light.h"
-#include "scene/size_steps.h"
 
 namespace gnomon::raster {
 

@@ -15,7 +15,7 @@
 #include <array>
 
 #include "scene/expected.h"
-#include "scene/ray.h"
+#include "scene/math.h"
 #include "scene/scene.h"
 #include "scene/world.h"
 
@@ -113,5 +113,12 @@ Mat4 light_clip_from_relative(const LightView& view, int face, const Vec3& refer
 /// distance from them. Error (graphics) when nothing can be fitted.
 Expected<LightView> fit_light_view(const World& world, const Light& light, const Camera& camera,
                                    double aspect, int size);
+
+// Where a directional light's own map lies, without its depths, which take a look at every triangle.
+
+/// Whether the texels that fit_light_view() gives a directional light lie elsewhere for the one camera than for the
+/// other. False where it gives none.
+bool window_moves(const World& world, const Light& light, const std::array<Camera, 2>& cameras, double aspect,
+                  int size);
 
 }  // namespace gnomon

@@ -71,4 +71,14 @@ inline Vec2 concentric_disc(const Vec2& square) {
   return radius * Vec2(std::cos(angle), std::sin(angle));
 }
 
+// A ray owns its interval. The direction need not be unit length: t is in multiples of it.
+
+struct Ray {
+  Vec3 origin;
+  Vec3 direction;
+  Interval t{0.0, infinity};
+
+  Vec3 at(double s) const { return origin + s * direction; }
+};
+
 }  // namespace gnomon

@@ -1,4 +1,4 @@
-#include "scene/one_line.h"
+#include "scene/expected.h"
 
 #include <fmt/core.h>
 

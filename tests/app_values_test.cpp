@@ -13,7 +13,7 @@
 #include "app/memory_limit.h"
 #include "raster/settings.h"
 #include "scene/exposure.h"
-#include "scene/nearest_name.h"
+#include "scene/option_text.h"
 
 namespace gnomon::app {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "hybrid/classify.h"
+#include "hybrid/light_sheets.h"
 #include "hybrid_support.h"
 #include "raytrace/tiles.h"
 #include "scene/load.h"

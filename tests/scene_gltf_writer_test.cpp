@@ -4,7 +4,7 @@
 
 #include "gltf_support.h"
 #include "raytrace/frame.h"
-#include "scene/files/gltf_container.h"
+#include "scene/files/gltf_data.h"
 #include "scene/files/gltf_writer.h"
 #include "scene/tessellate.h"
 #include "scene/world.h"

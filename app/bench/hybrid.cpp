@@ -9,7 +9,7 @@
 #include "hybrid/hard_shadows.h"
 #include "raytrace/frame.h"
 #include "raytrace/tiles.h"
-#include "scene/one_line.h"
+#include "scene/expected.h"
 #include "scene/parallel.h"
 
 namespace gnomon::app {

@@ -9,9 +9,9 @@
 #include <memory>
 #include <optional>
 
-#include "app/bind.h"
 #include "app/machine.h"
 #include "app/memory_limit.h"
+#include "app/option_kinds.h"
 #include "app/output_path.h"
 #include "app/result_output.h"
 #include "app/run_options.h"

@@ -9,10 +9,10 @@
 #include <memory>
 #include <set>
 
-#include "app/bind.h"
 #include "app/interrupt.h"
 #include "app/judge_options.h"
 #include "app/machine.h"
+#include "app/option_kinds.h"
 #include "app/result_output.h"
 #include "app/run_options.h"
 #include "report/page.h"

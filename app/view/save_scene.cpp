@@ -1,4 +1,4 @@
-#include "app/view/save_scene.h"
+#include "app/view/scene_source.h"
 
 #include <fmt/core.h>
 
@@ -12,11 +12,11 @@
 #include "app/pose.h"
 #include "app/view/status.h"
 #include "compare/result/result_parts.h"
-#include "scene/builtin.h"
 #include "scene/files/formats.h"
 #include "scene/files/light_json.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
+#include "scene/load.h"
 
 namespace gnomon::app {
 

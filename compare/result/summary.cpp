@@ -14,8 +14,8 @@
 #include "compare/result/shadow_cost.h"
 #include "compare/result/text_layout.h"
 #include "compare/result/verdict.h"
+#include "scene/expected.h"
 #include "scene/light.h"
-#include "scene/one_line.h"
 
 namespace gnomon::compare {
 namespace {

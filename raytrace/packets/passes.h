@@ -5,6 +5,7 @@
 #include <span>
 #include <stop_token>
 
+#include "raytrace/huge_array.h"
 #include "raytrace/packets/blocks.h"
 #include "raytrace/packets/light_setup.h"
 #include "raytrace/packets/tile.h"
@@ -41,6 +42,20 @@ struct ReceiverSource {
   SurfacePoint at(const TileRect& rect, std::size_t lane) const;
   /// Those asked for, many at a time, by their place in the tile: points[16 * y + x].
   void fill(const TileRect& rect, const LaneMask& asked, SurfacePoint* points) const;
+};
+
+// Receivers that a frame does not store: where only the picture is wanted, each tile's are found again from
+// the primitives that its pixels see, bit for bit as they were, and live no longer than the tile is worked
+// on. They are 96 bytes a pixel, which to clear and to page in takes longer than to find them twice.
+
+struct UnstoredReceivers {
+  HugeArray<TileHits> hits;  ///< by tile; empty: the receivers are stored
+  int first_row = 0;         ///< as PrimarySinks has it
+
+  bool apply() const { return hits.size() > 0; }
+  ReceiverSource source(const Tracer& tracer, const View& view, std::size_t tile) const {
+    return {.tracer = &tracer, .stored = nullptr, .view = &view, .hits = &hits[tile], .first_row = first_row};
+  }
 };
 
 }  // namespace gnomon::raytrace

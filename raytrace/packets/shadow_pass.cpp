@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "raytrace/packets/light_setup.h"
-#include "raytrace/packets/prepare.h"
 #include "raytrace/packets/shadow_block.h"
 #include "scene/parallel.h"
 

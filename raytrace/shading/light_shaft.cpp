@@ -3,7 +3,7 @@
 #include "raytrace/bvh/wide_shaft.h"
 #include "raytrace/bvh/wide_single.h"
 #include "raytrace/precision/ray_offset.h"
-#include "raytrace/single_rays.h"
+#include "raytrace/tracer.h"
 
 namespace gnomon::raytrace {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "scene/camera.h"
-#include "scene/files/base64.h"
 #include "scene/files/defaults.h"
+#include "scene/files/encodings.h"
 #include "scene/files/gltf_extras.h"
 #include "scene/files/gltf_writer_parts.h"
 #include "scene/light.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scene/files/first_where.h"
+#include "scene/parallel.h"
 #include "scene/solid.h"
 
 namespace gnomon {

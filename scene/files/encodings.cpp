@@ -1,9 +1,15 @@
-#include "scene/files/base64.h"
+#include "scene/files/encodings.h"
 
 #include <nettle/base64.h>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <libdeflate.h>
+#include <nettle/sha2.h>
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <new>
 
 namespace gnomon {
 namespace {
@@ -42,6 +48,24 @@ std::optional<std::vector<char>> from_base64(std::string_view text) {
     out.push_back(static_cast<char>(bits >> held & 0xffu));
   }
   return out;
+}
+
+std::string deflate(std::string_view bytes, int level) {
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
+  if (!compressor) throw std::bad_alloc();
+  std::string out(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
+  out.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), out.data(), out.size()));
+  return out;
+}
+
+std::string sha256_hex(std::string_view bytes) {
+  sha256_ctx state;
+  sha256_init(&state);
+  sha256_update(&state, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+  std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
+  sha256_digest(&state, digest.size(), digest.data());
+  return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
 }  // namespace gnomon
