@@ -15,13 +15,10 @@
 #include <system_error>
 #include <vector>
 
-#include "app/completion.h"
 #include "app/console.h"
-#include "app/help.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
 #include "app/lesson_scene.h"
-#include "app/man_page.h"
 #include "app/manual.h"
 #include "app/options.h"
 #include "app/output_path.h"

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/help.h"
 #include "app/map_options.h"
 #include "app/values.h"
 #include "compare/result/option_names.h"

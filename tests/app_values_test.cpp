@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-#include "app/help.h"
+#include "app/manual.h"
 #include "app/memory_limit.h"
 #include "raster/settings.h"
 #include "scene/exposure.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/run_options.h"
+#include "app/options.h"
 #include "app/shimmer_options.h"
 #include "app/strongest_lights.h"
 #include "app/sweep/axes.h"
