@@ -15,23 +15,20 @@
 #include <system_error>
 #include <vector>
 
-#include "app/completion.h"
 #include "app/console.h"
-#include "app/help.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
 #include "app/lesson_scene.h"
-#include "app/man_page.h"
 #include "app/manual.h"
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/session.h"
-#include "app/shell.h"
+#include "app/setting.h"
 #include "compare/result/option_names.h"
+#include "scene/expected.h"
 #include "scene/files/write_file.h"
 #include "scene/load.h"
-#include "scene/nearest_name.h"
-#include "scene/one_line.h"
+#include "scene/option_text.h"
 #include "scene/stages.h"
 #include "scene/threads.h"
 

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "scene/one_line.h"
+#include "scene/expected.h"
 
 namespace gnomon::app {
 

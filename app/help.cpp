@@ -1,4 +1,4 @@
-#include "app/help.h"
+#include "app/manual.h"
 
 #include <fmt/core.h>
 

@@ -4,7 +4,6 @@
 #include "app/command_line.h"
 #include "app/interrupt.h"
 #include "app/large_pages.h"
-#include "app/thread_start.h"
 #include "scene/freed_memory.h"
 #include "scene/stages.h"
 

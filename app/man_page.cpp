@@ -1,4 +1,4 @@
-#include "app/man_page.h"
+#include "app/manual.h"
 
 #include <fmt/core.h>
 

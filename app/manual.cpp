@@ -10,12 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/help.h"
 #include "app/map_options.h"
 #include "app/values.h"
 #include "compare/result/option_names.h"
 #include "raster/technique_traits.h"
-#include "scene/light_type_name.h"
+#include "scene/light.h"
 
 namespace gnomon::app {
 

@@ -1,5 +1,5 @@
-// The chapters of docs/manual/ that the program writes of itself, so that they cannot drift from it: the
-// options from the parser, the keys of result.json from its schema, the techniques from their table.
+// What is made from the parser itself, so that it cannot drift from it: the text of --help, the manual page, the completion of
+// shells, and the chapters of docs/manual/ (the keys of result.json from its schema, the techniques from their table).
 #pragma once
 
 #include <string>
@@ -10,6 +10,18 @@ class App;
 }
 
 namespace gnomon::app {
+
+/// Examples first, then every option with its unit, range and default, at most 80 columns wide. Of the program itself (no parent) or of one subcommand. A command's examples are its footer, one per line.
+std::string help_text(const CLI::App& command);
+
+/// `text` broken at blanks so that no line passes `width` columns; every line starts with `indent` blanks.
+std::string wrap(const std::string& text, std::size_t indent, std::size_t width);
+
+/// gnomon(1) in the man macros of roff (man 7).
+std::string man_page(const CLI::App& program, const std::string& version);
+
+/// The script for "bash", "zsh" or "fish"; empty for any other shell.
+std::string completion_script(const CLI::App& program, std::string_view shell);
 
 /// "options", "json" or "techniques", as Markdown; empty for any other chapter.
 std::string manual_chapter(const CLI::App& program, std::string_view chapter);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scene/expected.h"
-#include "scene/picture_rows.h"
+#include "scene/image.h"
 #include "scene/scene.h"
 
 namespace CLI {

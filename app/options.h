@@ -71,4 +71,16 @@ void add_json(CLI::App& command, std::string& path, const char* what);
 void add_trace(CLI::App& command, std::string& path);
 void add_quiet(CLI::App& command, bool& quiet);
 
+// What every command takes that compares a picture with the truth.
+
+struct RunOptions {
+  raster::Backend backend = raster::Backend::automatic;
+  int threads = 0;                                ///< 0: all
+  std::optional<std::optional<double>> exposure;  ///< an empty one: automatic; none: the scene's
+  std::string trace;                              ///< file for the stages of the run; empty: none
+  std::uint64_t seed = 0;                         ///< of the samples of lights with size
+};
+/// --backend, --threads, --exposure, --seed.
+void add_run_options(CLI::App& command, RunOptions& options);
+
 }  // namespace gnomon::app

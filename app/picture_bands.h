@@ -9,7 +9,7 @@
 #include "scene/exposure.h"
 #include "scene/files/exr_file.h"
 #include "scene/files/row_file.h"
-#include "scene/picture_rows.h"
+#include "scene/image.h"
 
 namespace gnomon::app {
 

@@ -70,37 +70,20 @@ Camera posed_camera(const Camera& given, const CameraPose& pose) {
   return camera;
 }
 
-Vec3 scene_centre(const World& world) {
-  return world.finite_bounds.empty() ? Vec3(0.0) : world.finite_bounds.center();
-}
-
 LightPose light_pose(const Light& light, const Vec3& centre) {
   const Vec3 towards = light.type == LightType::directional ? -light.direction : light.position - centre;
   const Spherical s = spherical(frame_about(y_axis), towards);
   return {degrees(s.azimuth), degrees(s.elevation)};
 }
 
-double light_size(const Light& light) {
-  if (const auto* sun = std::get_if<SunDisc>(&light.extent)) return degrees(sun->angular_diameter);
-  if (const auto* sphere = std::get_if<SphereLight>(&light.extent)) return sphere->radius;
-  if (const auto* disc = std::get_if<DiscLight>(&light.extent)) return disc->radius;
-  if (const auto* sides = std::get_if<RectangleLight>(&light.extent))
-    return glm::length(sides->half_width + sides->half_height);
-  return 0.0;
-}
-
 Light resized_light(const Light& given, double size) {
   Light light = given;
-  if (light.type == LightType::directional) {
-    light.extent = SunDisc{radians(size)};
-  } else if (auto* disc = std::get_if<DiscLight>(&light.extent)) {
-    disc->radius = size;
-  } else if (auto* sides = std::get_if<RectangleLight>(&light.extent); sides && light_size(given) > 0.0) {
-    const double factor = size / light_size(given);
-    sides->half_width *= factor, sides->half_height *= factor;
-  } else {
-    light.extent = SphereLight{size};
-  }
+  if (resize_shape(light.extent, size)) return light;
+  if (light.type == LightType::directional)
+    light.extent = SunDisc{};
+  else
+    light.extent = SphereLight{};
+  resize_shape(light.extent, size);
   return light;
 }
 
@@ -123,11 +106,7 @@ Light posed_light(const Light& given, const Vec3& centre, const LightPose& pose)
            glm::dot(v, from.north) * to.north;
   };
   light.direction = glm::normalize(turned(given.direction));
-  if (auto* disc = std::get_if<DiscLight>(&light.extent)) disc->normal = glm::normalize(turned(disc->normal));
-  if (auto* rectangle = std::get_if<RectangleLight>(&light.extent)) {
-    rectangle->half_width = turned(rectangle->half_width);
-    rectangle->half_height = turned(rectangle->half_height);
-  }
+  turn_shape(light.extent, turned);
   return light;
 }
 

@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "scene/light.h"
 #include "scene/world.h"
 
 namespace gnomon::app {
@@ -34,15 +35,9 @@ CameraPose camera_pose(const Camera& camera);
 /// `given` with its eye and, where the pose has them, its target and its up vector moved; its angle stays.
 Camera posed_camera(const Camera& given, const CameraPose& pose);
 
-/// What lamps turn about: the middle of all that is finite.
-Vec3 scene_centre(const World& world);
-
 LightPose light_pose(const Light& light, const Vec3& centre);
-/// Of a sun the angular diameter of its disc, in degrees, at most most_sun_degrees; of a lamp the radius of its sphere
-/// or disc, or half a rectangle's diagonal, in world units. 0: a hard light.
-double light_size(const Light& light);
 inline constexpr double most_sun_degrees = 90.0;
-/// The light in another size: shapes keep theirs, and a lamp without one becomes a sphere.
+/// The light in another size, as light_size() has it: shapes keep theirs, and a point becomes a sphere.
 Light resized_light(const Light& light, double size);
 /// `given` turned about `centre` at its own distance or the pose's and in the pose's size; a spot keeps its aim relative
 /// to the line to the centre.

@@ -143,7 +143,7 @@ Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::strin
     return resolved;
   const Expected<std::uint32_t> chosen = chosen_light(light, scene);
   if (!chosen) return fail(chosen.error());
-  LightPose pose = light_pose(scene.lights[*chosen], scene_centre(world));
+  LightPose pose = light_pose(scene.lights[*chosen], world.middle());
   pose.azimuth_degrees = poses.light_azimuth.value_or(pose.azimuth_degrees);
   pose.elevation_degrees = poses.light_elevation.value_or(pose.elevation_degrees);
   if (poses.light_distance && scene.lights[*chosen].type == LightType::directional)
@@ -169,7 +169,7 @@ Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, S
   if (resolved->camera) scene.camera = posed_camera(scene.camera, *resolved->camera);
   if (!resolved->light_pose) return {};
   Light& turned = scene.lights[resolved->light];
-  turned = posed_light(turned, scene_centre(world), *resolved->light_pose);
+  turned = posed_light(turned, world.middle(), *resolved->light_pose);
   return {};
 }
 

@@ -7,7 +7,7 @@
 #include "compare/result/result_parts.h"
 #include "raster/technique_traits.h"
 #include "scene/files/write_file.h"
-#include "scene/light_type_name.h"
+#include "scene/light.h"
 #include "scene/parallel.h"
 
 namespace gnomon::app {

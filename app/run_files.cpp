@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "app/output_path.h"
-#include "app/shell.h"
+#include "app/setting.h"
 #include "raster/shader_folder.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"

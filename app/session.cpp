@@ -16,7 +16,7 @@
 #include "raster/technique_traits.h"
 #include "raytrace/choose_tracer.h"
 #include "scene/load.h"
-#include "scene/nearest_name.h"
+#include "scene/option_text.h"
 #include "scene/stages.h"
 #include "scene/tessellate.h"
 #include "scene/threads.h"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/pose_options.h"
@@ -21,5 +22,10 @@ void add_setting_options(CLI::App& command, SettingOptions& setting);
 /// What a comparison needs to know. `given` is the scene as it was loaded.
 Expected<compare::Setting> resolve_setting(const SettingOptions& setting, const Scene& given,
                                            const World& world);
+
+// Words as a POSIX shell would need them typed.
+
+/// The word itself where it is plain, else in single quotes.
+std::string shell_quoted(std::string_view word);
 
 }  // namespace gnomon::app

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "app/option_kinds.h"
-#include "app/shell.h"
+#include "app/setting.h"
 #include "compare/result/threshold.h"
 #include "scene/files/read_file.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "raster/technique_traits.h"
-#include "scene/light_window.h"
+#include "scene/light_view.h"
 
 namespace gnomon::app {
 

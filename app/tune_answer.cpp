@@ -8,14 +8,13 @@
 
 #include "app/options.h"
 #include "app/setting.h"
-#include "app/shell.h"
 #include "app/values.h"
 #include "compare/result/engine_units_json.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
 #include "compare/result/result_parts.h"
 #include "compare/result/text_layout.h"
-#include "scene/one_line.h"
+#include "scene/expected.h"
 
 namespace gnomon::app {
 namespace {

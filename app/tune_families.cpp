@@ -11,7 +11,7 @@
 #include "app/values.h"
 #include "compare/result/option_names.h"
 #include "raster/technique_traits.h"
-#include "scene/light_type_name.h"
+#include "scene/light.h"
 
 namespace gnomon::app {
 

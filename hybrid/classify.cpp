@@ -5,8 +5,8 @@
 
 #include <bit>
 
-#include "hybrid/classify.h"
-#include "raytrace/packets/lanes-inl.h"
+#include "hybrid/light_sheets.h"
+#include "raytrace/mask_bits-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::hybrid::HWY_NAMESPACE {
@@ -22,9 +22,10 @@ constexpr I index;
 constexpr hn::RebindToUnsigned<F> ids;
 using raytrace::packet_rays;
 using raytrace::QuantisedTile;
-using raytrace::HWY_NAMESPACE::bits_of;
-using raytrace::HWY_NAMESPACE::mask_of;
 
+inline unsigned bits_of(M mask) {
+  return raytrace::HWY_NAMESPACE::mask_bits(f, mask);
+}
 inline V all(double v) {
   return hn::Set(f, static_cast<float>(v));
 }
@@ -41,7 +42,7 @@ struct Local {
       : x(all(n.x)), y(all(n.y)), z(all(n.z)), size(sum_of_magnitudes(n) * extent) {}
   V at(const V (&p)[3]) const { return hn::MulAdd(x, p[0], hn::MulAdd(y, p[1], hn::Mul(z, p[2]))); }
 };
-/// Of the coefficient, the position (1.13, raytrace/packets/quantised_tile.h) and three operations: 2^-24 each.
+/// Of the coefficient, the position (1.13, raytrace/quantised_tile.h) and three operations: 2^-24 each.
 constexpr double rounding = 6.0 * 0x1p-24;
 
 /// The sheets as one picture tile looks at them. Everything counts from the tile's origin, where it is known
@@ -169,7 +170,7 @@ class Classifier {
     hn::Store(hn::Neg(deeper), f, reciprocal_depths_ + lane_);
     hn::Store(hn::Sub(u, hn::Add(column, all(0.5))), f, from_middle_u_ + lane_);
     hn::Store(hn::Sub(v, hn::Add(row, all(0.5))), f, from_middle_v_ + lane_);
-    const M on_map = mask_of(asked);
+    const M on_map = raytrace::HWY_NAMESPACE::mask_from_bits(f, asked);
     const Index texel_x = hn::ConvertTo(index, hn::IfThenElseZero(on_map, x));
     const Index texel_y = hn::ConvertTo(index, hn::IfThenElseZero(on_map, y));
     constexpr int tile_shift = 5;

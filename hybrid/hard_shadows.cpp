@@ -3,35 +3,18 @@
 #include <bit>
 #include <cstring>
 
-#include "hybrid/classify.h"
-#include "raytrace/packets/shadow_pass.h"
-#include "raytrace/tiles.h"
+#include "hybrid/light_sheets.h"
 #include "scene/parallel.h"
 
 namespace gnomon::hybrid {
 namespace {
 
-using raytrace::packet_rays;
 using raytrace::PointVisibility;
 using raytrace::QuantisedTile;
+using raytrace::Receivers;
 using raytrace::SurfacePoint;
 using raytrace::tile_packets;
 using raytrace::TileRect;
-
-/// lane(x, y, lane) for every set bit.
-template <class Lane>
-void for_each_lane(const TileRect& rect, const LaneMask& bits, const Lane& each) {
-  for (std::size_t p = 0; p < tile_packets; ++p)
-    for (unsigned left = bits[p]; left != 0; left &= left - 1) {
-      const std::size_t lane = p * packet_rays + static_cast<std::size_t>(std::countr_zero(left));
-      const raytrace::TilePixel at = raytrace::tile_pixel(lane);
-      each(rect.x0 + at.x, rect.y0 + at.y, lane);
-    }
-}
-
-void put(LaneMask& bits, std::size_t lane) {
-  bits[lane / packet_rays] |= static_cast<std::uint16_t>(1u << (lane % packet_rays));
-}
 
 /// One tile of the picture on its way from receivers to decisions.
 class Tile {
@@ -50,8 +33,8 @@ class Tile {
       all_.open = quantised_.present;
     else
       classify_tile(cache_.sheets, cache_.light, quantised_, all_);
-    for_each_lane(rect_, all_.open, [&](int x, int y, std::size_t lane) {
-      put(bits_of(decide(receivers_.points.at(x, y))), lane);
+    for_each_place(rect_, all_.open, [&](int x, int y, std::size_t lane) {
+      raytrace::add_lane(bits_of(decide(receivers_.points.at(x, y))), lane);
     });
     store(visibility);
     if (decisions != nullptr) store_decisions(*decisions);
@@ -102,7 +85,7 @@ class Tile {
   void store_decisions(Image<Decision>& decisions) const {
     fill(decisions, Decision::not_asked);
     const auto set = [&](const LaneMask& bits, Decision decision) {
-      for_each_lane(rect_, bits, [&](int x, int y, std::size_t) { decisions.at(x, y) = decision; });
+      for_each_place(rect_, bits, [&](int x, int y, std::size_t) { decisions.at(x, y) = decision; });
     };
     set(all_.lit, Decision::lit), set(all_.shadowed, Decision::shadowed);
     set(all_.ambiguous, Decision::traced);
@@ -140,7 +123,7 @@ std::vector<std::uint64_t> ambiguous_parts(const LightSheets& sheets, const Imag
                                            const std::vector<LaneMask>& ambiguous) {
   PerThread<std::vector<std::uint64_t>> found;
   for_each_tile(raytrace::TileGrid{receivers.size}, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-    for_each_lane({x0, y0, x1, y1}, ambiguous[i], [&](int x, int y, std::size_t) {
+    raytrace::for_each_place({x0, y0, x1, y1}, ambiguous[i], [&](int x, int y, std::size_t) {
       const auto part = sheets.part_of(receivers.at(x, y).position);
       if (part) found.local().push_back(*part);
     });
@@ -163,15 +146,6 @@ std::uint64_t hash_of(const std::vector<LaneMask>& tiles) {
 
 double share_of_rays(const ShadowCounts& counts) {
   return static_cast<double>(counts.rays) / static_cast<double>(std::max<std::uint64_t>(counts.asked, 1));
-}
-
-raytrace::PictureReceivers all_of(const raytrace::Tracer& tracer, const Receivers& receivers) {
-  return {.tracer = tracer,
-          .size = receivers.points.size,
-          .stored = &receivers.points,
-          .view = nullptr,
-          .hits = {},
-          .quantised = receivers.quantised()};
 }
 
 /// One light's pass over a picture.
@@ -197,7 +171,7 @@ class Pass {
       return trace_all();
     ShadowCounts counts = classify();
     if (cache_.sheets.is_built()) refine(counts);
-    if (counts.rays > 0) trace();
+    if (counts.rays > 0) trace_shadows_of(tracer_, receivers_, cache_.light, ambiguous_, visibility_);
     return counts;
   }
 
@@ -223,17 +197,8 @@ class Pass {
   /// As the pure tracer does.
   ShadowCounts trace_all() {
     ShadowCounts counts;
-    counts.rays = counts.asked = shadow_pass(all_of(tracer_, receivers_), cache_.light, visibility_).cast;
+    counts.rays = counts.asked = trace_shadows(tracer_, receivers_, cache_.light, visibility_);
     return counts;
-  }
-  void trace() {
-    if (packets_apply(tracer_))
-      return shadow_pass_of(all_of(tracer_, receivers_), cache_.light, ambiguous_, visibility_);
-    for_each_tile(grid_, [&](std::size_t i, int x0, int y0, int x1, int y1) {
-      for_each_lane({x0, y0, x1, y1}, ambiguous_[i], [&](int x, int y, std::size_t) {
-        visibility_.at(x, y) = tracer_.centre_visibility(receivers_.points.at(x, y), cache_.light);
-      });
-    });
   }
 
   const raytrace::Tracer& tracer_;

@@ -11,9 +11,7 @@
 #pragma once
 
 #include "hybrid/light_sheets.h"
-#include "hybrid/receivers.h"
-#include "raytrace/packets/passes.h"
-#include "scene/image.h"
+#include "raytrace/receiver_tiles.h"
 
 namespace gnomon::hybrid {
 
@@ -57,7 +55,8 @@ enum class Decision : std::uint8_t { shadowed = 0, lit = 1, traced = 2, not_aske
 
 /// Fills `visibility`: lit where there is no receiver, shadowed where the light cannot reach, as in
 /// raytrace::LightTruth. May refine the light's sheets. `decisions` (or null) says who decided.
-ShadowCounts trace_hard_shadows(const raytrace::Tracer& tracer, LightCache& cache, const Receivers& receivers,
+ShadowCounts trace_hard_shadows(const raytrace::Tracer& tracer, LightCache& cache,
+                                const raytrace::Receivers& receivers,
                                 Image<raytrace::PointVisibility>& visibility, Image<Decision>* decisions);
 
 }  // namespace gnomon::hybrid

@@ -40,7 +40,7 @@ SoftLight::SoftLight(const raytrace::Tracer& tracer, const raytrace::Topology& t
       light_(tracer.world().scene->lights[light]),
       reach_(reach_of(tracer.world(), light_)),
       position_error_(raytrace::error_gamma(64) * reach_),
-      hull_(light_hull(light_, tracer.world(), reach_)),
+      hull_(light_hull(light_, {tracer.world().middle(), reach_})),
       edges_(tracer.world(), topology, hull_, position_error_) {}
 
 // Some of the light may lie below the receiver's tangent plane.

@@ -1,4 +1,4 @@
-#include "hybrid/tile_bins.h"
+#include "hybrid/tile_sheets.h"
 
 #include "scene/parallel.h"
 

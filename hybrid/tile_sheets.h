@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
+#include "hybrid/sheet_grid.h"
 #include "hybrid/solid_columns.h"
 #include "hybrid/texel_parts.h"
 #include "hybrid/tile_shapes.h"
@@ -177,6 +179,25 @@ class TileBuilder : private PieceRelations {
   std::vector<TileTriangle> kept_;                                 // by Piece::slot
   float column_x_ = 0.0f, column_y_ = 0.0f, column_reach_ = 0.0f;  // of the column that is being solved
   std::uint64_t piece_count_ = 0;
+};
+
+// Which triangles may meet which tile of one face of the map: a counting sort over all threads.
+
+class TileBins {
+ public:
+  TileBins(const World& world, const SheetGrid& grid, const std::vector<ProjectedPoint>& points);
+  /// Ascending ids. `tile`: row by row on the face.
+  std::span<const std::uint32_t> triangles(std::size_t tile) const {
+    return {triangles_.data() + first_[tile], triangles_.data() + first_[tile + 1]};
+  }
+
+  std::uint64_t bytes() const {
+    return first_.size() * sizeof(std::uint64_t) + triangles_.size() * sizeof(std::uint32_t);
+  }
+
+ private:
+  std::vector<std::uint64_t> first_;  // of each tile
+  std::vector<std::uint32_t> triangles_;
 };
 
 }  // namespace gnomon::hybrid

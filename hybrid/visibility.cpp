@@ -4,7 +4,6 @@
 #include <map>
 
 #include "hybrid/hard_shadows.h"
-#include "hybrid/receivers.h"
 #include "hybrid/soft_shadows.h"
 #include "raster/bands.h"
 #include "scene/parallel.h"
@@ -149,9 +148,9 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
   const World& world_;
   std::optional<Tracer> tracer_;
   std::optional<raytrace::Topology> topology_;
-  std::optional<ReceiverFinder> finder_;
+  std::optional<raytrace::ReceiverFinder> finder_;
   std::map<std::uint32_t, Kept> kept_;  // by light
-  Receivers receivers_;                 // of the last frame
+  raytrace::Receivers receivers_;       // of the last frame
   Image<PointVisibility> centre_;
   Image<Decision> decision_;
   ShadowCounts counts_;

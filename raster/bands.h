@@ -8,7 +8,7 @@
 
 #include "raster/external_visibility.h"
 #include "raster/renderer.h"
-#include "scene/picture_rows.h"
+#include "scene/image.h"
 
 namespace gnomon::raster {
 

@@ -8,8 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "raster/context_backends.h"
-#include "raster/renderer_name.h"
 #include "scene/threads.h"
 
 namespace gnomon::raster {

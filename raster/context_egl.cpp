@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "raster/context_backends.h"
+#include "raster/context.h"
 #include "raster/dynamic_library.h"
-#include "raster/renderer_name.h"
 
 namespace gnomon::raster {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "raster/context_backends.h"
+#include "raster/context.h"
 #include "raster/dynamic_library.h"
 
 namespace gnomon::raster {

@@ -1,4 +1,4 @@
-#include "raster/custom_shader.h"
+#include "raster/shader_folder.h"
 
 #include <algorithm>
 

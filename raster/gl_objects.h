@@ -7,7 +7,6 @@
 
 #include "raster/gl.h"
 #include "scene/image.h"
-#include "scene/picture_rows.h"
 
 namespace gnomon::raster {
 

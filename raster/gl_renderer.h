@@ -9,7 +9,6 @@
 #include "raster/bands.h"
 #include "raster/depth_map_pass.h"
 #include "raster/external_pass.h"
-#include "raster/map_camera.h"
 #include "raster/renderer.h"
 #include "raster/shading_pass.h"
 #include "raster/technique_pass.h"

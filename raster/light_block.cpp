@@ -3,29 +3,6 @@
 #include "scene/light.h"
 
 namespace gnomon::raster {
-namespace {
-
-/// Two vectors from the light's centre that span it: half the sides of a rectangle, radii of a disc. A
-/// sphere's radius stands in x of the first; a sun's two are tangents at unit distance.
-std::pair<Vec3, Vec3> light_area(const Light& light, const LightView& view) {
-  if (const auto* sun = std::get_if<SunDisc>(&light.extent)) {
-    const double radius = std::tan(0.5 * sun->angular_diameter);
-    return {radius * view.faces[0].right, radius * view.faces[0].up};
-  }
-  if (const auto* sphere = std::get_if<SphereLight>(&light.extent))
-    return {Vec3(sphere->radius, 0, 0), Vec3(0.0)};
-  if (const auto* disc = std::get_if<DiscLight>(&light.extent)) {
-    const Vec3 n = disc->normal;
-    const Vec3 least = std::abs(n.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);  // an axis that n is not along
-    const Vec3 u = glm::normalize(glm::cross(n, least));
-    return {disc->radius * u, disc->radius * glm::cross(n, u)};
-  }
-  if (const auto* r = std::get_if<RectangleLight>(&light.extent)) return {r->half_width, r->half_height};
-  return {Vec3(0.0), Vec3(0.0)};
-}
-
-}  // namespace
-
 LightBlock make_light_block(const Light& light, const LightView& view, const MapOptions& map,
                             double constant_world, const BiasRounding& rounding, const Vec3& reference) {
   LightBlock block{};
@@ -45,9 +22,9 @@ LightBlock make_light_block(const Light& light, const LightView& view, const Map
   block.rounding = Vec4f(Vec4(rounding.float_world, rounding.stored_step, rounding.adaptive_epsilon_world,
                               rounding.constant_texel_world));
   block.counts = glm::ivec4(view.face_count, 0, 0, 0);
-  const auto [u, v] = light_area(light, view);
-  block.area_u = Vec4f(Vec4(u, 0.0));
-  block.area_v = Vec4f(Vec4(v, 0.0));
+  const ShaderArea area = shape_shader_area(light.extent, view.faces[0]);
+  block.area_u = Vec4f(Vec4(area.u, 0.0));
+  block.area_v = Vec4f(Vec4(area.v, 0.0));
   const FilterOptions& f = map.filter;
   block.filter_radii =
       Vec4f(Vec4(f.radius_texels, f.search_radius_texels, f.light_bleeding_reduction, map.cascades.blend));

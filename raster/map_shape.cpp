@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "raster/technique_traits.h"
-#include "scene/light_type_name.h"
-#include "scene/size_steps.h"
+#include "scene/cascade_fit.h"
+#include "scene/light.h"
 
 namespace gnomon::raster {
 

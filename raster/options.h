@@ -7,7 +7,7 @@
 #include "scene/cascade_fit.h"
 #include "scene/expected.h"
 #include "scene/image.h"
-#include "scene/repeats.h"
+#include "scene/timing.h"
 
 namespace gnomon::raster {
 

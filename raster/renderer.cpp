@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <new>
 
-#include "raster/custom_shader.h"
 #include "raster/gl_renderer.h"
 #include "raster/light_block.h"
 #include "raster/map_shape.h"

@@ -3,10 +3,10 @@
 #include <cstring>
 #include <utility>
 
+#include "raster/context.h"
 #include "raster/gl_renderer.h"
 #include "raster/izb_pass.h"
 #include "raster/map_shape.h"
-#include "raster/renderer_name.h"
 #include "raster/shader_folder.h"
 #include "raster/technique_shader.h"
 #include "raster/technique_traits.h"

@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "raster/settings.h"
-#include "scene/nearest_name.h"
+#include "scene/option_text.h"
 
 namespace gnomon::raster {
 namespace {

@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "raster/technique_shader.h"
+#include "scene/files/encodings.h"
 #include "scene/files/json_reader.h"
 #include "scene/files/read_file.h"
-#include "scene/files/sha256.h"
 
 namespace gnomon::raster {
 namespace {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -66,5 +67,21 @@ Error draws_differently(const ShaderFolder& folder, const std::string& technique
 /// [0, 1], one that is no number, or none.
 Expected<void> check_visibility(const Image<float>& visibility, const ShaderFolder& folder,
                                 const std::string& technique_file);
+
+// Whether files of a shader folder decide the visibility that is drawn. Private to raster.
+
+/// The files of the folder that stand in for the technique's own, for what it is given (shade.frag, the test of depths
+/// in gap.glsl, the lookup in light.glsl and light_map.glsl, what fills the maps of moments) or for the irregular
+/// z-buffer's; none where all of these are the program's.
+std::optional<CustomShader> custom_shader(const ShaderFolder& folder, const MapOptions& map,
+                                          const Light& light);
+
+// Which of the program's own shaders a technique reads.
+
+/// Its files of technique/ under whatever options, light and scene: of pcf one for each kernel.
+std::set<std::string> technique_files(Technique technique);
+
+/// Every file that may be compiled when a picture is drawn with it, those of technique_files() too.
+std::set<std::string> files_read_by(Technique technique);
 
 }  // namespace gnomon::raster

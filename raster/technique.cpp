@@ -34,16 +34,10 @@ TechniqueShader pcf_shader(const FilterOptions& filter) {
   return {"pcf_optimised", {define("PAIRS", (texels + 1) / 2)}};
 }
 
-const char* area_define(const LightExtent& extent) {
-  if (std::holds_alternative<SunDisc>(extent)) return "AREA_SUN";
-  if (std::holds_alternative<SphereLight>(extent)) return "AREA_SPHERE";
-  return std::holds_alternative<DiscLight>(extent) ? "AREA_DISC" : "AREA_RECTANGLE";
-}
-
 TechniqueShader pcss_shader(const FilterOptions& filter, const Light& light) {
   if (!has_size(light)) return {};  // no penumbra: the hard test
   return {"pcss",
-          {area_define(light.extent), define("FILTER_SAMPLES", filter.samples),
+          {std::string(shape_define(light.extent)), define("FILTER_SAMPLES", filter.samples),
            define("BLOCKER_SAMPLES", filter.blocker_samples)}};
 }
 

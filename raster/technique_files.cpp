@@ -1,4 +1,4 @@
-#include "raster/technique_files.h"
+#include "raster/shader_folder.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "raster/texel_pages.h"
+#include "raster/world_buffers.h"
 
 #include <fmt/core.h>
 

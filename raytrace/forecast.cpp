@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "raytrace/band.h"
+#include "raytrace/frame.h"
 #include "raytrace/packets/blocks.h"
 #include "scene/light.h"
 

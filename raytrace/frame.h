@@ -10,7 +10,6 @@
 #include "scene/camera.h"
 #include "scene/effects.h"
 #include "scene/image.h"
-#include "scene/repeats.h"
 #include "scene/timing.h"
 
 namespace gnomon::raytrace {
@@ -100,5 +99,17 @@ struct RayTracedFrame {
 /// Bit-identical for any number of threads (oneTBB's global limit decides how many).
 RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
                            std::span<const std::uint32_t> lights, const RaytraceOptions& options);
+
+// Parts of a picture, for pictures whose numbers would not all fit into memory at one time.
+
+/// Those rows of the picture that trace_frame makes with these options, to the last bit; row 0 of the frame's
+/// images is rows.first, options.size stays that of the whole. What the frame counts are the rows' rays, but
+/// for RayCounts::interior, which each band asks for anew.
+RayTracedFrame trace_band(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
+                          std::span<const std::uint32_t> lights, const RaytraceOptions& options,
+                          const PictureRows& rows);
+
+/// Counts and times of the band after those of the bands before it, whose images stay as they are.
+void add_costs(const RayTracedFrame& band, RayTracedFrame& sum);
 
 }  // namespace gnomon::raytrace

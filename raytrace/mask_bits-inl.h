@@ -1,4 +1,4 @@
-// A mask of lanes as the bits of a number.
+// A mask of lanes as the bits of a number, and back.
 
 #if defined(GNOMON_RAYTRACE_MASK_BITS_INL_H_) == \
     defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern
@@ -40,6 +40,13 @@ HWY_INLINE unsigned mask_bits(D d, hn::Mask<D> mask) {
     std::memcpy(&bits, bytes, sizeof bits);
     return bits;
   }
+}
+
+template <class D>
+HWY_INLINE hn::Mask<D> mask_from_bits(D d, unsigned bits) {
+  std::uint8_t bytes[8] = {};
+  std::memcpy(bytes, &bits, sizeof bits);
+  return hn::LoadMaskBits(d, bytes);
 }
 
 }  // namespace gnomon::raytrace::HWY_NAMESPACE

@@ -9,7 +9,6 @@
 #include "raytrace/precision/fast.h"
 #include "raytrace/precision/ray_offset.h"
 #include "raytrace/precision/visibility.h"
-#include "raytrace/single_rays.h"
 #include "scene/stages.h"
 #include "scene/timing.h"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "compare/result/number_text.h"
-#include "scene/files/base64.h"
-#include "scene/one_line.h"
+#include "scene/expected.h"
+#include "scene/files/encodings.h"
 
 namespace gnomon::compare {
 

@@ -14,7 +14,7 @@
 #include "report/html.h"
 #include "report/lessons.h"
 #include "report/light_block.h"
-#include "scene/light_type_name.h"
+#include "scene/light.h"
 
 namespace gnomon::compare {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/files/deflate.h"
+#include "scene/files/encodings.h"
 
 namespace gnomon::compare {
 namespace {

@@ -3,8 +3,7 @@
 #include <fmt/core.h>
 
 #include "report/html.h"
-#include "scene/files/base64.h"
-#include "scene/files/sha256.h"
+#include "scene/files/encodings.h"
 
 namespace gnomon::compare {
 namespace {

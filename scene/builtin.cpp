@@ -1,5 +1,4 @@
 // The list of built-in scenes. A test holds each description to the one in the scene's own file.
-#include "scene/builtin.h"
 
 #include <embedded/builtin_scenes.h>
 #include <array>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scene/image.h"
-#include "scene/ray.h"
+#include "scene/math.h"
 #include "scene/scene.h"
 
 namespace gnomon {

@@ -1,7 +1,6 @@
 #include "scene/cascade_fit.h"
 
 #include "scene/light_fit_parts.h"
-#include "scene/size_steps.h"
 #include "scene/solid.h"
 #include "scene/triangle_blocks.h"
 

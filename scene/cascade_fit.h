@@ -4,6 +4,7 @@
 // Shadow Maps").
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "scene/light_view.h"
@@ -39,5 +40,13 @@ Expected<LightView> fit_cascades(const World& world, const Light& light, const C
 /// all that a warp allows: its texels differ in size, so that no way moves each of them onto another.
 Expected<LightView> fit_warped(const World& world, const Light& light, const Camera& camera, double aspect,
                                int size, bool snap = false);
+
+// Sizes that must not change with every step of the camera go by steps, four to an octave.
+
+/// The least such size that is no smaller. `size` > 0.
+inline double up_to_size_step(double size) {
+  constexpr double steps_per_octave = 4.0;
+  return std::exp2(std::ceil(std::log2(size) * steps_per_octave) / steps_per_octave);
+}
 
 }  // namespace gnomon

@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include "scene/expected.h"
-#include "scene/one_line.h"
 
 namespace gnomon {
 

@@ -1,18 +1,18 @@
 # The loaders, and everything that reads or writes a file.
 target_sources(gnomon_scene PRIVATE
-  texture_sample.cpp files/apng.cpp files/base64.cpp files/defaults.cpp files/gltf_accessor.cpp
+  texture_sample.cpp files/apng.cpp files/encodings.cpp files/defaults.cpp files/gltf_accessor.cpp
   files/gltf_container.cpp files/gltf_data.cpp files/gltf_draco.cpp files/gltf_meshes.cpp files/gltf_meshopt.cpp
   files/gltf_transforms.cpp files/gltf_writer_meshes.cpp files/image_io.cpp files/image_library.cpp files/interior.cpp
-  files/deflate.cpp files/png_encode.cpp files/mapped_file.cpp files/merge.cpp files/obj.cpp files/obj_text.cpp
+  files/png_encode.cpp files/mapped_file.cpp files/merge.cpp files/obj.cpp files/obj_text.cpp
   files/ply.cpp files/ply_regular.cpp files/jpeg_decode.cpp files/png_decode.cpp files/polygon.cpp files/read_file.cpp
-  files/sha256.cpp files/row_file.cpp files/validate.cpp)
+  files/row_file.cpp files/validate.cpp)
 gnomon_untimed(scene
   files/gltf.cpp files/gltf_extras.cpp files/gltf_materials.cpp files/gltf_paths.cpp files/gltf_parse.cpp
   files/gltf_parse_nodes.cpp files/gltf_textures.cpp files/gltf_writer.cpp files/gltf_writer_materials.cpp
   files/json_document.cpp files/json_generate.cpp files/json_geometry.cpp files/json_lights.cpp
-  files/json_materials.cpp files/json_reader.cpp files/json_repeat.cpp files/json_solids.cpp files/json_scene.cpp
+  files/json_materials.cpp files/json_reader.cpp files/json_repeat.cpp files/json_solids.cpp files/json_scene.cpp files/light_json.cpp
   files/load.cpp files/mtl.cpp files/obj_materials.cpp files/obj_textures.cpp files/path_keys.cpp files/path_status.cpp files/ply_header.cpp
-  files/failed_call.cpp files/publication.cpp files/staged_folder.cpp files/exr_file.cpp files/write_file.cpp
+  files/publication.cpp files/staged_folder.cpp files/exr_file.cpp files/write_file.cpp
   LIBRARIES glm::glm tl::expected fmt::fmt nlohmann_json::nlohmann_json)
 target_link_libraries(gnomon_scene PRIVATE nlohmann_json::nlohmann_json PNG::PNG libdeflate ${TURBOJPEG_LIBRARY} ${NETTLE_LIBRARY} TBB::tbb ${CMAKE_DL_LIBS})
 # The headers of both lie where the compiler looks.

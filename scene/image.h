@@ -1,6 +1,7 @@
 // Images as plain data. Row 0 is the top row; row-major; linear values unless a type says otherwise.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -33,5 +34,25 @@ struct Image {
 using ColorImage = Image<Vec3f>;                     ///< linear RGB
 using Rgb8Image = Image<glm::u8vec3>;                ///< sRGB-encoded, for files and screens
 inline constexpr std::uint32_t no_id = 0xffffffffu;  ///< no primitive, no object, no texture
+
+// Some of a picture's rows: large pictures are worked through in bands of them.
+
+struct PictureRows {
+  int first = 0, count = 0;
+  int end() const { return first + count; }
+  bool operator==(const PictureRows&) const = default;
+};
+
+/// Bands begin at multiples of this, which is the side of the ray tracer's blocks.
+inline constexpr int band_step = 64;
+
+/// A picture from top to bottom in bands of so many rows, the last of what is left. `rows`: a multiple of
+/// band_step, or at least the picture's height.
+inline std::vector<PictureRows> bands_of(const ImageSize& size, int rows) {
+  std::vector<PictureRows> bands;
+  for (int first = 0; first < size.height; first += rows)
+    bands.push_back({first, std::min(rows, size.height - first)});
+  return bands;
+}
 
 }  // namespace gnomon

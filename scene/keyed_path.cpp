@@ -55,7 +55,7 @@ double last_time(const NodeChain& chain) {
   return last;
 }
 
-// What turns the stored light's sides along with its node.
+// What turns the stored light's shape along with its node.
 Mat3 turn_between(const Mat4& from, const Mat4& to) {
   const auto axes = [](const Mat4& m) {
     const Vec3 z = glm::normalize(Vec3(m[2]));
@@ -63,12 +63,6 @@ Mat3 turn_between(const Mat4& from, const Mat4& to) {
     return Mat3(x, glm::cross(z, x), z);
   };
   return axes(to) * glm::transpose(axes(from));
-}
-
-void turn_sides(const Mat3& turn, Light& light) {
-  if (auto* disc = std::get_if<DiscLight>(&light.extent)) disc->normal = turn * disc->normal;
-  if (auto* sides = std::get_if<RectangleLight>(&light.extent))
-    sides->half_width = turn * sides->half_width, sides->half_height = turn * sides->half_height;
 }
 
 }  // namespace
@@ -147,7 +141,8 @@ Light KeyedPath::light_at(const Light& stored, double seconds) const {
   const Mat4 world = transform_at(keys.nodes, seconds);
   out.position = Vec3(world[3]);
   out.direction = -glm::normalize(Vec3(world[2]));
-  turn_sides(turn_between(transform_at(keys.nodes, 0.0), world), out);
+  const Mat3 turn = turn_between(transform_at(keys.nodes, 0.0), world);
+  turn_shape(out.extent, [&](const Vec3& v) { return turn * v; });
   return out;
 }
 

@@ -24,24 +24,6 @@ LightAtPoint light_at(const Light& light, const Vec3& position) {
   return {to_light, distance, light.intensity * static_cast<float>(strength)};
 }
 
-namespace {
-
-struct ExtentIsPositive {
-  bool operator()(std::monostate) const { return false; }
-  bool operator()(const SunDisc& sun) const { return sun.angular_diameter > 0.0; }
-  bool operator()(const SphereLight& sphere) const { return sphere.radius > 0.0; }
-  bool operator()(const DiscLight& disc) const { return disc.radius > 0.0; }
-  bool operator()(const RectangleLight& r) const {
-    return r.half_width != Vec3(0.0) || r.half_height != Vec3(0.0);
-  }
-};
-
-}  // namespace
-
-bool has_size(const Light& light) {
-  return std::visit(ExtentIsPositive{}, light.extent);
-}
-
 bool light_cannot_reach(const Light& light, const Vec3& position, const Vec3& normal) {
   const Vec3 to_light = light.type == LightType::directional ? -light.direction : light.position - position;
   if (!(glm::dot(normal, to_light) > 0.0)) return true;

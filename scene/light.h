@@ -2,9 +2,18 @@
 // lit at all. Both renderers take these from here (shaders/light.glsl is the GLSL twin).
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "scene/scene.h"
 
 namespace gnomon {
+
+/// What kinds of lights are called, in scene files and in results, by LightType.
+inline constexpr std::array<std::string_view, 3> light_type_names{"directional", "point", "spot"};
+inline std::string_view light_type_name(LightType type) {
+  return light_type_names[static_cast<std::size_t>(type)];
+}
 
 struct LightAtPoint {
   Vec3 to_light;     ///< unit
@@ -21,8 +30,14 @@ double spot_ramp(const Light& light);
 /// formula.
 double spot_falloff(const Light& light, const Vec3& to_light);
 
-/// Whether the light casts soft shadows: its extent is there and not zero.
-bool has_size(const Light& light);
+/// As shape_size() has it.
+inline double light_size(const Light& light) {
+  return shape_size(light.extent);
+}
+/// Whether the light casts soft shadows.
+inline bool has_size(const Light& light) {
+  return light_size(light) > 0.0;
+}
 
 /// The geometric normal turned to the side that `direction` (from the eye to the surface) arrives from.
 inline Vec3 face_forward(const Vec3& normal, const Vec3& direction) {

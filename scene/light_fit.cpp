@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scene/light_fit_parts.h"
-#include "scene/light_window.h"
+#include "scene/light_view.h"
 #include "scene/solid.h"
 #include "scene/triangle_blocks.h"
 

@@ -3,6 +3,7 @@
 // without one is a built-in scene.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,5 +46,16 @@ struct BuiltinScene {
   bool large = false;            ///< millions of triangles
 };
 std::vector<BuiltinScene> builtin_scenes();
+
+// The built-in scenes' files, embedded in the program, so that their names work anywhere. The loader reads
+// them as it reads any other scene file.
+
+struct BuiltinFile {
+  std::string_view name;  ///< the scene's name
+  std::string_view text;  ///< the JSON
+};
+
+/// nullopt when there is no built-in scene of that name.
+std::optional<BuiltinFile> find_builtin_scene(std::string_view name);
 
 }  // namespace gnomon

@@ -60,4 +60,25 @@ inline void orthonormal_basis(const Vec3& n, Vec3& tangent, Vec3& bitangent) {
   bitangent = Vec3(b, sign + n.y * n.y * a, -n.y);
 }
 
+/// The unit square onto the unit disc, area to area (Shirley and Chiu 1997, "A Low Distortion Map Between Disk
+/// and Square").
+inline Vec2 concentric_disc(const Vec2& square) {
+  const Vec2 p = 2.0 * square - 1.0;
+  if (p == Vec2(0.0)) return p;
+  const bool wide = std::abs(p.x) > std::abs(p.y);
+  const double radius = wide ? p.x : p.y;
+  const double angle = wide ? pi / 4.0 * (p.y / p.x) : pi / 2.0 - pi / 4.0 * (p.x / p.y);
+  return radius * Vec2(std::cos(angle), std::sin(angle));
+}
+
+// A ray owns its interval. The direction need not be unit length: t is in multiples of it.
+
+struct Ray {
+  Vec3 origin;
+  Vec3 direction;
+  Interval t{0.0, infinity};
+
+  Vec3 at(double s) const { return origin + s * direction; }
+};
+
 }  // namespace gnomon

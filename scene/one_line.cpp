@@ -1,4 +1,4 @@
-#include "scene/one_line.h"
+#include "scene/expected.h"
 
 #include <fmt/core.h>
 
@@ -115,7 +115,8 @@ std::string visible_order(std::string_view text) {
   return without_unseen(
       text, [](std::string_view) { return std::size_t{0}; },
       [](std::string_view bytes, std::uint32_t code) {
-        return is_misleading(code) || code >= 0x7f ? "\\" + unicode_escape(code) : std::string(bytes);
+        return is_misleading(code) || code >= 0x7f ? fmt::format("\\{}", unicode_escape(code))
+                                                   : std::string(bytes);
       });
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -37,5 +38,14 @@ Expected<double> parse_number(std::string_view text, const OptionRange& range);
 Expected<std::int64_t> parse_integer(std::string_view text, std::int64_t min, std::int64_t max);
 /// An unsigned 64-bit integer.
 Expected<std::uint64_t> parse_unsigned(std::string_view text);
+
+// Did you mean …?
+
+/// The known name nearest to `name`, if it is near enough to be a slip: at most a third of its letters
+/// changed (an insertion, deletion, substitution or swap of neighbours counts as one). Empty when none is.
+std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
+
+/// "; did you mean NAME?", or nothing.
+std::string did_you_mean(std::string_view name, std::span<const std::string_view> known);
 
 }  // namespace gnomon

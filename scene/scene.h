@@ -12,6 +12,7 @@
 
 #include "scene/expression.h"
 #include "scene/image.h"
+#include "scene/light_shape/light_shape.h"
 #include "scene/math.h"
 
 namespace gnomon {
@@ -144,27 +145,6 @@ struct Shape {
 
 enum class LightType : std::uint8_t { directional, point, spot };
 
-/// What a light's shadow is cast from. The light's strength and direction at a surface are its centre's; its
-/// extent says which share of it the surface sees. Disc and rectangle shine from both sides, as a point does.
-struct SunDisc {
-  double angular_diameter = 0.0;  ///< directional: full angle, in [0, pi/2]; the sun's is 0.0093
-  bool operator==(const SunDisc&) const = default;
-};
-struct SphereLight {
-  double radius = 0.0;  ///< >= 0, around the light's position; so the disc's
-  bool operator==(const SphereLight&) const = default;
-};
-struct DiscLight {
-  double radius = 0.0;
-  Vec3 normal{0.0, -1.0, 0.0};  ///< unit
-  bool operator==(const DiscLight&) const = default;
-};
-struct RectangleLight {
-  Vec3 half_width{0.0}, half_height{0.0};  ///< from the centre to the middles of two sides; orthogonal
-  bool operator==(const RectangleLight&) const = default;
-};
-using LightExtent = std::variant<std::monostate, SunDisc, SphereLight, DiscLight, RectangleLight>;
-
 inline constexpr int max_shadow_samples = 65536;
 inline constexpr int max_samples = 65536;  ///< of a pixel, a rough surface, or the light around a point
 
@@ -176,7 +156,7 @@ struct Light {
   Vec3f intensity{1.0f};     ///< directional: irradiance at normal incidence; point, spot: radiant intensity
   double inner_angle = 0.0;  ///< spot: half-angle of full intensity
   double outer_angle = pi / 4.0;  ///< spot: half-angle where the light ends; inner < outer < pi/2
-  LightExtent extent{};           ///< none, or of size zero: a hard light
+  LightExtent extent{};           ///< a point, or of size zero: a hard light
   int shadow_samples = 64;        ///< rays per point to a light with size, in [1, max_shadow_samples]
   bool operator==(const Light&) const = default;
 };

@@ -1,4 +1,4 @@
-#include "scene/sort_numbers.h"
+#include "scene/parallel.h"
 
 #include <hwy/contrib/sort/vqsort.h>
 

@@ -1,7 +1,5 @@
 #include "scene/stages.h"
 
-#include "scene/clock.h"
-
 #include <fmt/core.h>
 #include <time.h>
 #include <unistd.h>

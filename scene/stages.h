@@ -3,6 +3,7 @@
 // one's clock. Processor time is that of all threads while the stage ran.
 #pragma once
 
+#include <ctime>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -85,5 +86,14 @@ class TimedStage {
   StageLog* log_;
   StageLog* hidden_ = nullptr;  ///< put back at the end
 };
+
+// The clocks of the system.
+
+/// Milliseconds of a clock of clock_gettime().
+inline double clock_ms(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
 
 }  // namespace gnomon

@@ -1,4 +1,4 @@
-#include "scene/surface_nets.h"
+#include "scene/tessellate.h"
 
 #include "scene/solid.h"
 

@@ -4,7 +4,6 @@
 
 #include "scene/files/defaults.h"
 #include "scene/solid.h"
-#include "scene/surface_nets.h"
 
 namespace gnomon {
 namespace {

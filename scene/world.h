@@ -74,6 +74,8 @@ struct World {
   std::span<const Shape> shapes;          ///< in world space already
 
   Aabb finite_bounds;  ///< of everything but planes
+  /// The middle of all that is finite, about which lamps turn.
+  Vec3 middle() const { return finite_bounds.empty() ? Vec3(0.0) : finite_bounds.center(); }
 
   std::uint32_t triangle_count() const { return triangle_ranges.size(); }
   std::uint32_t vertex_count() const { return vertex_ranges.size(); }

@@ -1,4 +1,4 @@
-// Local shading (Blinn 1977, Whitted 1980). Twin of raytrace/shading/blinn_phong.h. No factors of pi: radiance = diffuse *
+// Local shading (Blinn 1977, Whitted 1980). Twin of raytrace/shading/shade.h. No factors of pi: radiance = diffuse *
 // irradiance * n.l + specular * irradiance * (n.h)^shininess where n.l > 0. All vectors are unit length.
 
 vec3 blinn_phong(vec3 diffuse, vec4 specular_and_shininess, vec3 irradiance, vec3 n, vec3 to_light, vec3 to_eye) {

@@ -16,7 +16,7 @@ layout(std140, binding = light_block) uniform Light {
   vec4 rounding;                 // of floats (world units), of stored depth (a step), epsilon of the adaptive bias;
                                  // texel of the constant bias (TEXEL_BIAS)
   ivec4 counts;                  // faces
-  vec4 area_u;                   // a light with size: two vectors from its centre that span it (raster/light_block.cpp)
+  vec4 area_u;                   // a light with size: two vectors from its centre that span it (scene/light_shape/)
   vec4 area_v;
   vec4 filter_radii;             // filter and search radius, texels; bleeding reduction; blended share of a cascade
   vec4 moments;                  // positive and negative exponent, moment bias

@@ -12,7 +12,7 @@
 #include "app/command_line.h"
 #include "compare/comparison.h"
 #include "report/lessons.h"
-#include "scene/builtin.h"
+#include "scene/load.h"
 #include "tests/app_process.h"
 #include "tests/support/places.h"
 

@@ -5,8 +5,7 @@
 #include <cctype>
 #include <set>
 
-#include "app/grade/page.h"
-#include "app/grade/page_name.h"
+#include "app/grade/results.h"
 #include "tests/app_process.h"
 
 namespace gnomon::app::grade {

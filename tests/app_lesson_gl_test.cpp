@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/lessons.h"
-#include "scene/builtin.h"
+#include "scene/load.h"
 #include "tests/app_process.h"
 
 namespace gnomon::app_test {

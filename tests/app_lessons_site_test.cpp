@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "app/lessons/figures.h"
 #include "app/lessons/flatland.h"
 #include "app/lessons/lesson_text.h"
-#include "app/lessons/markdown.h"
-#include "app/lessons/structure.h"
+#include "app/lessons/site.h"
 #include "tests/app_process.h"
 
 namespace gnomon::app_test {

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "raster/shader_folder.h"
-#include "scene/files/sha256.h"
+#include "scene/files/encodings.h"
 #include "tests/app_process.h"
 
 namespace gnomon::app_test {

@@ -9,11 +9,11 @@
 #include <cmath>
 #include <random>
 
-#include "app/help.h"
+#include "app/manual.h"
 #include "app/memory_limit.h"
 #include "raster/settings.h"
 #include "scene/exposure.h"
-#include "scene/nearest_name.h"
+#include "scene/option_text.h"
 
 namespace gnomon::app {
 namespace {

@@ -8,7 +8,7 @@
 #include "hybrid/visibility.h"
 #include "raster/bands.h"
 #include "raster/technique_traits.h"
-#include "raytrace/band.h"
+#include "raytrace/frame.h"
 #include "scene/load.h"
 
 namespace gnomon::test {

@@ -3,7 +3,6 @@
 
 #include <set>
 
-#include "scene/builtin.h"
 #include "scene/load.h"
 #include "scene/world.h"
 

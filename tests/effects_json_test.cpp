@@ -1,4 +1,5 @@
 // Lights with size in JSON scenes: what is read, and what is refused with its place.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "scene/effects.h"
@@ -47,6 +48,17 @@ TEST(SizedLights, AreRead) {
   EXPECT_TRUE(has_size(light(lamp + R"("rectangle": {"width": 0, "height": 1})")));
 }
 
+TEST(SizedLights, RectanglesAreReadByTheirSides) {
+  const Light saved =
+      light(lamp + R"("rectangle": {"half_width": [0.1, 0, 0.3], "half_height": [0, 0.7, 0]})");
+  const RectangleLight sides{{0.1, 0.0, 0.3}, {0.0, 0.7, 0.0}};
+  EXPECT_TRUE(saved.extent == LightExtent(sides));
+  const Vec3 across = glm::normalize(Vec3(1, -2, 3));
+  const Light disc = light(
+      lamp + fmt::format(R"("disc": {{"radius": 1, "normal": [{}, {}, {}]}})", across.x, across.y, across.z));
+  EXPECT_EQ(std::get<DiscLight>(disc.extent).normal, across);  // a unit vector stays as it is
+}
+
 TEST(SizedLights, MistakesHaveTheirPlace) {
   const struct {
     std::string keys, message;
@@ -60,6 +72,9 @@ TEST(SizedLights, MistakesHaveTheirPlace) {
       {lamp + R"("rectangle": {"width": 1})", "lights[0].rectangle.height: is missing"},
       {lamp + R"("rectangle": {"width": 1, "height": 1, "up": [0, 2, 0]})",
        "lights[0].rectangle.up: is parallel to the rectangle's normal"},
+      {lamp + R"("rectangle": {"half_width": [1, 0, 0], "half_height": [0, 1, 0], "up": [0, 1, 0]})",
+       "lights[0].rectangle.up: cannot stand beside half_width and half_height"},
+      {lamp + R"("rectangle": {"half_width": [1, 0, 0]})", "lights[0].rectangle.half_height: is missing"},
       {lamp + R"("angular_diameter_degrees": 1)",
        "lights[0].angular_diameter_degrees: applies to a directional"},
       {sun + R"("sphere": {"radius": 1})", "lights[0].sphere: does not apply to a directional light"},

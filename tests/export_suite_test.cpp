@@ -5,7 +5,6 @@
 
 #include <optional>
 
-#include "app/suite/scenes.h"
 #include "app/suite/write.h"
 #include "scene/files/gltf_writer.h"
 #include "scene/light.h"

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "hybrid/classify.h"
+#include "hybrid/light_sheets.h"
 #include "hybrid_support.h"
 #include "raytrace/tiles.h"
 #include "scene/load.h"
@@ -43,7 +43,7 @@ void compare_receiver(const hybrid::LightSheets& sheets, const Light& light, con
 Agreement compare(const Stage& stage, std::uint32_t index, int map_size) {
   const Light& light = stage.scene.lights[index];
   hybrid::LightCache cache(stage.tracer, stage.topology, light, stage.map(index, map_size));
-  const hybrid::Receivers receivers = hybrid::make_receivers(stage.frame.receiver);
+  const raytrace::Receivers receivers = raytrace::make_receivers(stage.frame.receiver);
   Image<raytrace::PointVisibility> visibility;
   static_cast<void>(
       trace_hard_shadows(stage.tracer, cache, receivers, visibility, nullptr));  // looks closely

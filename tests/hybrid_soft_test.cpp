@@ -27,7 +27,7 @@ SoftOutcome run_soft(const Stage& stage, std::uint32_t light) {
   Image<Decision> decisions(stage.size);
   Image<float> visibility(stage.size);
   SoftOutcome out;
-  out.asked = trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(stage.frame.receiver), centre,
+  out.asked = trace_hard_shadows(stage.tracer, cache, raytrace::make_receivers(stage.frame.receiver), centre,
                                  &decisions)
                   .asked;
   out.soft = SoftLight(stage.tracer, stage.topology, light)

@@ -58,7 +58,7 @@ inline Outcome compare_pass(const Stage& stage, std::uint32_t light, hybrid::Lig
   Image<raytrace::PointVisibility> visibility;
   Image<hybrid::Decision> decisions(stage.size);
   Outcome out;
-  out.counts = trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(stage.frame.receiver),
+  out.counts = trace_hard_shadows(stage.tracer, cache, raytrace::make_receivers(stage.frame.receiver),
                                   visibility, &decisions);
   for (std::size_t i = 0; i < visibility.data.size(); ++i) {
     const raytrace::PointVisibility truth = stage.frame.lights[light].centre.data[i];

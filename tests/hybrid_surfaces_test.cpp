@@ -104,7 +104,7 @@ TEST(HybridCosts, SheetsAreLookedAtCloselyForReceiversThatAskAgain) {
     options.size = stage.size, options.picture = false;
     const auto frame = trace_frame(stage.tracer, plan_effects(stage.scene), camera, {}, options);
     Image<raytrace::PointVisibility> visibility;
-    return trace_hard_shadows(stage.tracer, cache, hybrid::make_receivers(frame.receiver), visibility,
+    return trace_hard_shadows(stage.tracer, cache, raytrace::make_receivers(frame.receiver), visibility,
                               nullptr);
   };
   const auto first = look(stage.scene.camera);

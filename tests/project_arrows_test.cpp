@@ -140,6 +140,8 @@ std::string check_include(const std::string& file, const Include& include,
   const std::string to = room_of(include.path);
   if (!is_room(to)) return "own headers are included by their path from the root";
   if (!allowed(from, to)) return from + " may not include " + to;
+  if (include.path.starts_with("raytrace/packets/") && from != "raytrace" && from != "tests")
+    return "packets/ is the tracer's own: raytrace/receiver_tiles.h is what others have of it";
   return {};
 }
 

@@ -1,5 +1,5 @@
 // Which files of a shader folder count as those that decide the visibility.
-#include "raster/custom_shader.h"
+#include "raster/shader_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "raytrace/frame.h"
 #include "raytrace/kernels.h"
 #include "raytrace/sheets/column_sheets.h"
-#include "raytrace/single_rays.h"
+#include "raytrace/tracer.h"
 #include "scene/light_view.h"
 #include "support/placements.h"
 

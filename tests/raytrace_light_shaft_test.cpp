@@ -10,7 +10,7 @@
 #include "every_target.h"
 #include "raytrace/shading/light_samples.h"
 #include "raytrace/shading/light_shaft.h"
-#include "raytrace/single_rays.h"
+#include "raytrace/tracer.h"
 #include "raytrace_support.h"
 #include "tests/support/placements.h"
 #include "tests/support/places.h"

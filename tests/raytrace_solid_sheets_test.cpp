@@ -5,7 +5,7 @@
 #include "raytrace/shapes/along_ray.h"
 #include "raytrace/shapes/inside.h"
 #include "raytrace/shapes/solid.h"
-#include "raytrace/sheets/solid_sheets.h"
+#include "raytrace/sheets/column_sheets.h"
 #include "raytrace_support.h"
 #include "solid_samples.h"
 

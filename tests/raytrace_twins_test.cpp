@@ -6,7 +6,7 @@
 #include "raytrace_support.h"
 #include "scene/light.h"
 #include "scene/solid.h"
-#include "verify/twin.h"
+#include "verify/random_scene.h"
 
 namespace gnomon {
 namespace {

@@ -11,7 +11,6 @@
 #include "raytrace/frame.h"
 #include "raytrace/kernels.h"
 #include "raytrace_support.h"
-#include "scene/builtin.h"
 #include "scene/load.h"
 #include "support/placements.h"
 

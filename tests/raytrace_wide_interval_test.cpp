@@ -6,7 +6,7 @@
 
 #include "every_target.h"
 #include "raytrace/packets/edge_setup.h"
-#include "raytrace/single_rays.h"
+#include "raytrace/tracer.h"
 #include "raytrace_support.h"
 
 namespace gnomon {

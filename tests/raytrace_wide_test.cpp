@@ -10,7 +10,7 @@
 #include "raytrace/bvh/wide_traverse.h"
 #include "raytrace/kernels.h"
 #include "raytrace/packets/edge_setup.h"
-#include "raytrace/single_rays.h"
+#include "raytrace/tracer.h"
 #include "raytrace_support.h"
 #include "scene/light.h"
 #include "tests/support/places.h"

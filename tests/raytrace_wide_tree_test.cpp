@@ -4,7 +4,7 @@
 
 #include "raytrace/bvh/wide_tree.h"
 #include "raytrace/given_up.h"
-#include "raytrace/single_rays.h"
+#include "raytrace/tracer.h"
 #include "raytrace_support.h"
 
 namespace gnomon {

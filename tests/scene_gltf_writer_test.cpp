@@ -4,7 +4,7 @@
 
 #include "gltf_support.h"
 #include "raytrace/frame.h"
-#include "scene/files/gltf_container.h"
+#include "scene/files/gltf_data.h"
 #include "scene/files/gltf_writer.h"
 #include "scene/tessellate.h"
 #include "scene/world.h"
@@ -314,7 +314,7 @@ TEST(GltfWriter, ExtrasOfOthersAreNotRead) {
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().field, "materials[0].shininess");
   json["asset"]["generator"] = "another program";
-  EXPECT_TRUE(std::holds_alternative<std::monostate>(read().lights[0].extent));
+  EXPECT_TRUE(std::holds_alternative<PointShape>(read().lights[0].extent));
 }
 
 TEST(GltfWriter, SidesColoursAndWhatGlowsComeBack) {

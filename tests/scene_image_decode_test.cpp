@@ -5,9 +5,9 @@
 #include <memory>
 #include <random>
 
-#include "scene/files/deflate.h"
-#include "scene/files/image_decode.h"
+#include "scene/files/encodings.h"
 #include "scene/files/image_io.h"
+#include "scene/files/image_library.h"
 #include "scene_files_support.h"
 
 namespace gnomon {

@@ -1,9 +1,9 @@
 // What a JSON scene means: every part read back as the scene model.
 #include <glm/gtc/matrix_access.hpp>
 
+#include "scene/files/encodings.h"
 #include "scene/files/formats.h"
 #include "scene/files/image_io.h"
-#include "scene/files/sha256.h"
 #include "scene/world.h"
 #include "scene_files_support.h"
 

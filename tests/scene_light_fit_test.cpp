@@ -5,7 +5,6 @@
 
 #include "scene/cascade_fit.h"
 #include "scene/generate/random.h"
-#include "scene/light_window.h"
 #include "scene/triangle_blocks.h"
 #include "support/small_scenes.h"
 

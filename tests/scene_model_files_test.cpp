@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "scene/files/sha256.h"
+#include "scene/files/encodings.h"
 #include "scene/load.h"
 #include "scene/world.h"
 #include "scene_files_support.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "scene/files/sha256.h"
+#include "scene/files/encodings.h"
 
 namespace gnomon {
 namespace {

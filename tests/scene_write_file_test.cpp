@@ -7,7 +7,6 @@
 
 #include <fstream>
 
-#include "scene/files/part_file.h"
 #include "scene/files/write_file.h"
 #include "scene_files_support.h"
 

@@ -8,7 +8,6 @@
 #include <regex>
 #include <set>
 
-#include "app/view/script_keys.h"
 #include "tests/support/places.h"
 
 namespace gnomon::app {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/view/map_pictures.h"
+#include "app/view/worker.h"
 #include "tests/view_fixture.h"
 
 namespace gnomon::app {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "app/view/save_scene.h"
+#include "app/view/scene_source.h"
 #include "scene/load.h"
 #include "tests/app_process.h"
 #include "tests/view_thread_fixture.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/view/frame_watch.h"
-#include "app/view/text_wrap.h"
+#include "app/view/style.h"
 #include "scene/timing.h"
 
 namespace gnomon::app {

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "raster/technique_traits.h"
-#include "verify/case_invariance.h"
+#include "verify/cases.h"
 #include "verify/drawn_world.h"
 #include "verify/random_scene.h"
 

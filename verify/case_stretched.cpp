@@ -1,7 +1,7 @@
 // Triangles a million times as long as wide, of which two lie so close together that the mean of the corners'
 // depths does not know which comes first.
 #include "raytrace/precision/exact.h"
-#include "verify/case_invariance.h"
+#include "verify/cases.h"
 #include "verify/rational.h"
 #include "verify/small_world.h"
 

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "verify/cases.h"
-#include "verify/oracle.h"
 #include "verify/small_world.h"
 
 namespace gnomon::verify {

@@ -3,8 +3,6 @@
 
 #include <array>
 
-#include "verify/case_invariance.h"
-
 namespace gnomon::verify {
 
 std::span<const Case> all_cases() {

@@ -1,6 +1,8 @@
 // One function per case; cases.cpp lists them.
 #pragma once
 
+#include "scene/math.h"
+#include "scene/world.h"
 #include "verify/run.h"
 
 namespace gnomon::verify {
@@ -49,5 +51,22 @@ void image_sizes(Run& run);
 void far_from_origin(Run& run);      // case_far.cpp
 void non_finite_radiance(Run& run);  // case_radiance.cpp
 void shrinking_lights(Run& run);     // case_small_lights.cpp
+
+// The cases of case_invariance.cpp and case_stretched.cpp, declared apart from the others.
+
+void scale_invariance(Run& run);
+void coplanar_lights(Run& run);
+void stretched_triangles(Run& run);  // case_stretched.cpp
+
+// The nearest hit of a ray as Moeller-Trumbore and the textbook quadratic see it in 128 bits, over every
+// primitive in turn.
+
+struct OracleHit {
+  double t = 0.0;
+  std::uint32_t primitive = no_id;
+  bool doubtful = false;  ///< so close to an edge, a tangent or another hit that doubles may choose otherwise
+};
+/// Triangles and spheres, of sizes from 0.01 to 10 and within 1e2 of the ray's origin.
+OracleHit oracle_closest(const World& world, const Ray& ray);
 
 }  // namespace gnomon::verify

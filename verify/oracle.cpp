@@ -1,4 +1,4 @@
-#include "verify/oracle.h"
+#include "verify/cases.h"
 
 #include "verify/quad.h"
 

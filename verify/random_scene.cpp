@@ -5,7 +5,6 @@
 #include "scene/light.h"
 #include "scene/solid.h"
 #include "verify/small_world.h"
-#include "verify/twin.h"
 
 namespace gnomon::verify {
 

@@ -1,4 +1,4 @@
-#include "verify/twin.h"
+#include "verify/random_scene.h"
 
 #include <fmt/core.h>
 

@@ -8,9 +8,8 @@
 #include "app/bench/row.h"
 #include "hybrid/hard_shadows.h"
 #include "raytrace/frame.h"
-#include "raytrace/packets/shadow_pass.h"
 #include "raytrace/tiles.h"
-#include "scene/one_line.h"
+#include "scene/expected.h"
 #include "scene/parallel.h"
 
 namespace gnomon::app {
@@ -36,7 +35,7 @@ class HybridBench {
         decisions_(input.size) {
     raytrace::RaytraceOptions options;
     options.size = input.size, options.picture = false;
-    receivers_ = hybrid::make_receivers(
+    receivers_ = raytrace::make_receivers(
         trace_frame(tracer_, input.loaded.plan, input.loaded.scene->camera, {}, options).receiver);
   }
 
@@ -89,22 +88,7 @@ class HybridBench {
     return fail(ErrorKind::internal, fmt::format("hybrid and ray tracing disagree on {} pixels", wrong));
   }
 
-  void trace_all() {
-    if (!packets_apply(tracer_)) {
-      for_each_pixel(raytrace::TileGrid{input_.size}, [&](int x, int y, std::size_t) {
-        const SurfacePoint& p = receivers_.points.at(x, y);
-        pure_.at(x, y) = p.primitive == no_id ? PointVisibility::lit : tracer_.centre_visibility(p, light_);
-      });
-      return;
-    }
-    shadow_pass({.tracer = tracer_,
-                 .size = input_.size,
-                 .stored = &receivers_.points,
-                 .view = nullptr,
-                 .hits = {},
-                 .quantised = receivers_.quantised()},
-                light_, pure_);
-  }
+  void trace_all() { trace_shadows(tracer_, receivers_, light_, pure_); }
 
   // Where there is a receiver and the ray tracer is certain.
   std::size_t differences() const {
@@ -182,7 +166,7 @@ class HybridBench {
   const Light& light_;
   raytrace::Tracer tracer_;
   raytrace::Topology topology_;
-  hybrid::Receivers receivers_;
+  raytrace::Receivers receivers_;
   Image<PointVisibility> pure_, visibility_;
   Image<Decision> decisions_;
   std::optional<LightCache> cache_;

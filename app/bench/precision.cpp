@@ -9,7 +9,7 @@
 
 #include "app/bench/row.h"
 #include "raytrace/frame.h"
-#include "scene/one_line.h"
+#include "scene/expected.h"
 #include "scene/parallel.h"
 #include "verify/adversarial.h"
 #include "verify/rational.h"

@@ -7,8 +7,8 @@
 
 #include "app/bench/row.h"
 #include "app/options.h"
-#include "raytrace/single_rays.h"
-#include "scene/one_line.h"
+#include "raytrace/tracer.h"
+#include "scene/expected.h"
 #include "scene/parallel.h"
 #include "scene/timing.h"
 

@@ -8,8 +8,8 @@
 #include "app/output_path.h"
 #include "app/render_json.h"
 #include "compare/result/shadow_cost.h"
+#include "scene/expected.h"
 #include "scene/files/write_file.h"
-#include "scene/one_line.h"
 #include "scene/parallel.h"
 
 namespace gnomon::app {

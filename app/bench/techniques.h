@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "app/bench/row.h"
+#include "app/console.h"
+#include "app/invocation.h"
 #include "app/session.h"
+#include "scene/image.h"
 #include "studies/sweep/engine.h"
 
 namespace gnomon::app {
@@ -54,5 +57,31 @@ std::string markdown(std::span<const TechniqueTable> tables, const std::string& 
 /// For a terminal, 80 columns.
 std::string text_table(const TechniqueTable& table);
 std::vector<BenchRow> bench_rows(const TechniqueTable& table);
+
+// The tuner against a full grid on real milliseconds: does its answer cost no more than the grid's best?
+
+struct TuneBench {
+  std::vector<std::string> scenes, techniques;  ///< techniques empty: all
+  SceneArgument how;                            ///< the scenes are loaded
+  double max_error = 0.01;                      ///< share of wrong pixels, the tuner's goal
+  ImageSize size = quick_picture;
+  int runs = 9;      ///< drawings in turn: of the tuner's finalists, and of its answer and the grid's best
+  std::string json;  ///< file to write; empty: none
+  bool quiet = false;
+};
+
+/// A line per scene on stdout. Errors are those of loading, drawing and writing.
+Expected<void> run_tune_bench(const TuneBench& bench, Console& console);
+
+// The whole benchmark is a program of its own, for it holds Embree, which the user's own program never does.
+
+struct WholeBench {
+  int runs = 0;  ///< 0: as it likes
+  std::string json;
+  std::string size;  ///< WxH
+};
+
+/// Becomes gnomon_bench, found beside this program or in the build's tests. Returns only to say why not.
+Expected<ExitCode> run_whole_bench(const WholeBench& bench);
 
 }  // namespace gnomon::app

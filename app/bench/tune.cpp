@@ -1,4 +1,4 @@
-#include "app/bench/tune.h"
+#include "app/bench/techniques.h"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include "app/session.h"
 #include "app/tune_families.h"
 #include "raster/technique_traits.h"
-#include "scene/one_line.h"
+#include "scene/expected.h"
 #include "scene/parallel.h"
 #include "studies/tune/full_grid.h"
 

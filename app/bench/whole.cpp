@@ -1,4 +1,4 @@
-#include "app/bench/whole.h"
+#include "app/bench/techniques.h"
 
 #include <fmt/core.h>
 #include <unistd.h>

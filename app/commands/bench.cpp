@@ -7,8 +7,6 @@
 
 #include "app/bench/row.h"
 #include "app/bench/techniques.h"
-#include "app/bench/tune.h"
-#include "app/bench/whole.h"
 #include "app/invocation.h"
 #include "app/option_kinds.h"
 #include "app/options.h"

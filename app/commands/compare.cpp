@@ -9,12 +9,12 @@
 #include <memory>
 #include <optional>
 
-#include "app/bind.h"
 #include "app/machine.h"
 #include "app/memory_limit.h"
+#include "app/option_kinds.h"
+#include "app/options.h"
 #include "app/output_path.h"
 #include "app/result_output.h"
-#include "app/run_options.h"
 #include "app/session.h"
 #include "app/setting.h"
 #include "app/strongest_lights.h"

@@ -9,9 +9,6 @@
 #include <optional>
 
 #include "app/console.h"
-#include "app/grade/kits.h"
-#include "app/grade/page.h"
-#include "app/grade/page_name.h"
 #include "app/grade/results.h"
 #include "app/interrupt.h"
 #include "app/invocation.h"
@@ -20,7 +17,7 @@
 #include "app/output_path.h"
 #include "app/render_json.h"
 #include "app/run_files.h"
-#include "scene/one_line.h"
+#include "scene/expected.h"
 
 namespace gnomon::app {
 

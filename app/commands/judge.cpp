@@ -9,12 +9,12 @@
 #include <memory>
 #include <set>
 
-#include "app/bind.h"
 #include "app/interrupt.h"
 #include "app/judge_options.h"
 #include "app/machine.h"
+#include "app/option_kinds.h"
+#include "app/options.h"
 #include "app/result_output.h"
-#include "app/run_options.h"
 #include "report/page.h"
 #include "scene/files/path_status.h"
 #include "scene/files/staged_folder.h"

@@ -10,8 +10,8 @@
 #include "app/invocation.h"
 #include "app/options.h"
 #include "app/output_path.h"
+#include "scene/expected.h"
 #include "scene/files/path_status.h"
-#include "scene/one_line.h"
 #include "studies/sweep/merge.h"
 
 namespace gnomon::app {

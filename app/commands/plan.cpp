@@ -18,8 +18,8 @@
 #include "compare/result/text_layout.h"
 #include "raytrace/choose_tracer.h"
 #include "raytrace/forecast.h"
+#include "scene/expected.h"
 #include "scene/light.h"
-#include "scene/one_line.h"
 
 namespace gnomon::app {
 

@@ -15,7 +15,7 @@
 #include "app/picture_samples.h"
 #include "app/pose_options.h"
 #include "app/session.h"
-#include "raytrace/band.h"
+#include "raytrace/frame.h"
 
 namespace gnomon::app {
 

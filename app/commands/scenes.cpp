@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/console.h"
-#include "app/help.h"
 #include "app/invocation.h"
+#include "app/manual.h"
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/render_json.h"

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <memory>
 
-#include "app/bind.h"
 #include "app/interrupt.h"
 #include "app/option_kinds.h"
 #include "app/options.h"

@@ -8,20 +8,19 @@
 #include <memory>
 #include <utility>
 
-#include "app/bind.h"
 #include "app/interrupt.h"
 #include "app/machine.h"
+#include "app/option_kinds.h"
 #include "app/output_path.h"
 #include "app/session.h"
 #include "app/strongest_lights.h"
 #include "app/sweep/command.h"
 #include "app/sweep/make_cells.h"
-#include "app/sweep/slurm.h"
 #include "app/values.h"
 #include "raster/shader_folder.h"
+#include "scene/expected.h"
 #include "scene/files/path_status.h"
 #include "scene/files/write_file.h"
-#include "scene/one_line.h"
 #include "scene/timing.h"
 #include "studies/sweep/cell_files.h"
 #include "studies/sweep/merge.h"

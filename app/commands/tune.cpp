@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "app/bind.h"
 #include "app/interrupt.h"
 #include "app/machine.h"
+#include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/render_json.h"
 #include "app/session.h"

@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "app/grade/limited_process.h"
-#include "app/shell.h"
-#include "scene/one_line.h"
+#include "app/setting.h"
+#include "scene/expected.h"
 
 namespace gnomon::app::grade {
 

@@ -7,7 +7,6 @@
 
 #include "app/grade/figures.h"
 #include "app/grade/rubric.h"
-#include "app/grade/student.h"
 
 namespace gnomon::app::grade {
 

@@ -1,12 +1,12 @@
-#include "app/grade/excerpt.h"
+#include "app/grade/grade.h"
 
 #include <fmt/core.h>
 
 #include <charconv>
 #include <sstream>
 
+#include "scene/expected.h"
 #include "scene/files/read_file.h"
-#include "scene/one_line.h"
 
 namespace gnomon::app::grade {
 

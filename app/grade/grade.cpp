@@ -10,11 +10,10 @@
 #include <thread>
 
 #include "app/grade/check_runs.h"
-#include "app/grade/excerpt.h"
 #include "compare/result/number_text.h"
+#include "scene/expected.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
-#include "scene/one_line.h"
 #include "scene/threads.h"
 
 namespace gnomon::app::grade {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "app/grade/rubric.h"
-#include "app/grade/student.h"
 #include "compare/comparison.h"
 #include "scene/expected.h"
 
@@ -57,5 +56,21 @@ struct Grades {
 /// take.
 Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& students,
                              const std::string& work_folder, const GradeOptions& options);
+
+// The lines of a shader that an error is about.
+
+/// For "DIR/technique/hard.glsl:3: …" the lines around the third, numbered, that one marked with ">"; empty where the
+/// text names no line of a file in `folder`.
+std::string excerpt_at(const std::string& error, const std::string& folder);
+
+// The rubrics that come with the program, each with what a class needs to begin.
+
+/// "first-shadow-map", …
+std::vector<std::string> kit_names();
+bool is_kit(const std::string& name);
+
+/// Writes the kit, all of it or nothing: rubric.json, its scenes, README.md, and student/ with the shader to be filled in.
+/// Errors (cannot write): a file of another content is there already.
+Expected<void> write_kit(const std::string& name, const std::string& folder);
 
 }  // namespace gnomon::app::grade

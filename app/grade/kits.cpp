@@ -1,4 +1,4 @@
-#include "app/grade/kits.h"
+#include "app/grade/grade.h"
 
 #include <embedded/grade_kits.h>
 

@@ -16,7 +16,7 @@
 #include <ctime>
 #include <optional>
 
-#include "scene/files/descriptor.h"
+#include "scene/files/write_file.h"
 
 namespace gnomon::app::grade {
 

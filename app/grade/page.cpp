@@ -1,4 +1,4 @@
-#include "app/grade/page.h"
+#include "app/grade/results.h"
 
 #include <embedded/grade_page.h>
 #include <fmt/core.h>

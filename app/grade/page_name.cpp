@@ -1,4 +1,4 @@
-#include "app/grade/page_name.h"
+#include "app/grade/results.h"
 
 #include <fmt/core.h>
 
@@ -6,7 +6,7 @@
 #include <cctype>
 #include <set>
 
-#include "scene/files/sha256.h"
+#include "scene/files/encodings.h"
 
 namespace gnomon::app::grade {
 

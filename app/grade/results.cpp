@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/grade/page_name.h"
 #include "compare/result/csv_field.h"
 #include "compare/result/option_names.h"
-#include "scene/one_line.h"
+#include "scene/expected.h"
 
 namespace gnomon::app::grade {
 

@@ -1,10 +1,13 @@
 // What a class was given, for people and for programs.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/grade/grade.h"
+#include "scene/expected.h"
 
 namespace gnomon::app::grade {
 
@@ -26,5 +29,25 @@ std::string grade_csv(const ClassResult& result);
 std::string grade_table(const ClassResult& result);
 /// "17.5 of 20".
 std::string points_text(double points, double of);
+
+// The files of the students' pages.
+
+/// For each student's name, which may hold any bytes, a file's name of at most 96 bytes, "anna.html": ASCII letters,
+/// digits, '-', '.' and '_' alone, not hidden. No two of them, nor one and "index.html", differ in nothing but case: they
+/// stay apart where a folder of pages is copied to.
+std::vector<std::string> page_names(const std::vector<std::string>& students);
+
+// Pages to hand out: one for each student, and a table of the class. They need no server and no network.
+
+std::string student_page(const Rubric& rubric, const StudentResult& student);
+std::string class_page(const ClassResult& result);
+/// What write_pages() always writes.
+inline constexpr std::array<std::string_view, 3> class_file_names{"index.html", "grades.json", "grades.csv"};
+/// Before anything is drawn: whether these pages can be put there. ErrorKind::cannot_write.
+Expected<void> check_pages(const std::string& folder, const std::vector<std::string>& pages);
+/// Those, and every student's page: all of them appear, or none. Errors: ErrorKind::usage where one would take the place of
+/// one of `inputs`, ErrorKind::cannot_write.
+Expected<void> write_pages(const ClassResult& result, const std::string& folder,
+                           const std::vector<std::string>& inputs);
 
 }  // namespace gnomon::app::grade

@@ -7,10 +7,9 @@
 #include <set>
 
 #include "app/options.h"
-#include "app/shell.h"
+#include "app/setting.h"
 #include "compare/comparison.h"
 #include "raster/shader_folder.h"
-#include "raster/technique_files.h"
 #include "raster/technique_traits.h"
 #include "scene/files/json_reader.h"
 #include "scene/files/path_status.h"

@@ -1,4 +1,4 @@
-#include "app/grade/student.h"
+#include "app/grade/rubric.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,9 +11,9 @@
 #include <set>
 
 #include "raster/shader_folder.h"
+#include "scene/expected.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
-#include "scene/one_line.h"
 
 namespace gnomon::app::grade {
 

@@ -6,8 +6,6 @@
 
 #include "app/console.h"
 #include "app/lessons/flatland.h"
-#include "app/lessons/intersection.h"
-#include "app/lessons/structure.h"
 
 namespace gnomon::app::lessons {
 

@@ -9,6 +9,7 @@
 
 #include "app/lessons/comparison.h"
 #include "app/lessons/lesson_text.h"
+#include "scene/expected.h"
 
 namespace gnomon::app::lessons {
 
@@ -37,5 +38,28 @@ class PageFigures {
   std::set<std::string> kept_;  ///< names of parts
   std::vector<compare::DataPart> parts_;
 };
+
+// What the ray tracer finds for rays at the surfaces of the intersection figures (report/page/src/lessons), whose
+// numbers the page works out by itself.
+
+/// `kind`: box, triangle, sphere, implicit. {"checks": [{from, to, t}]}: rays in the plane z = 0 from one point towards another, and the
+/// distance of the first hit or null; of a triangle "checks" [{corners [[x, y], …], t}]: seen along a ray down the z axis,
+/// corners at depths 2, 3 and 5. Error (internal): no such kind.
+Expected<nlohmann::ordered_json> intersection_checks(const std::string& kind);
+
+// An acceleration structure of a built-in scene, cut by an upright plane: of the structure what a ray in that plane can
+// come to, so that the page traverses the very cells that the ray tracer traverses (raytrace/accel), and of the scene
+// the segments that such a ray can hit.
+
+/// `kind`: grid, octree, kd, bsp, or bvh, the binary one. Keys: "plane" (z), "bounds" [left, right, bottom, top],
+/// "segments" [[item, x0, y0, x1, y1], …], "primitives" (of the whole scene), "tree", of a BSP tree "slack", and
+/// "checks": rays with what the program counts for them.
+///
+/// A tree's node is a leaf {"items": […]}, or has "children": of a kd-tree with "axis" and "split", of an octree with
+/// "middle", of a BSP tree with "normal" and "offset", of a BVH with its own "box"; a child that the plane does not come
+/// to is null, except of a BVH, where it is {"missed": true}, for it is tested. A grid has "walls" of both axes and
+/// "cells", rows of x. Items are ranges: first, last, first, last, …
+/// Error: of the scene; (internal) no such kind.
+Expected<nlohmann::ordered_json> structure_cut(const std::string& kind, const std::string& scene);
 
 }  // namespace gnomon::app::lessons

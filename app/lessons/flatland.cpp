@@ -98,18 +98,12 @@ class Cut {
   Json segments_ = Json::array(), circles_ = Json::array();
 };
 
-double radius_of(const Light& light) {
-  if (const auto* disc = std::get_if<DiscLight>(&light.extent)) return disc->radius;
-  if (const auto* sphere = std::get_if<SphereLight>(&light.extent)) return sphere->radius;
-  return 0.0;
-}
-
 Json light_json(const Light& light, const Cut& cut) {
   Json json = Json::object();
   const bool is_sun = light.type == LightType::directional;
   const glm::dvec2 flat = is_sun ? glm::normalize(cut.flat(light.direction)) : cut.place(light.position);
   json[is_sun ? "direction" : "position"] = {flat.x, flat.y};
-  json["radius"] = radius_of(light);
+  json["radius"] = is_sun ? 0.0 : shape_size(light.extent);
   return json;
 }
 

@@ -1,4 +1,4 @@
-#include "app/lessons/intersection.h"
+#include "app/lessons/figures.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "app/lessons/markdown.h"
+#include "app/lessons/site.h"
 
 #include <embedded/lesson_images.h>
 #include <fmt/core.h>

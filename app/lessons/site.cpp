@@ -9,11 +9,10 @@
 #include "app/console.h"
 #include "app/lessons/figures.h"
 #include "app/lessons/lesson_text.h"
-#include "app/lessons/markdown.h"
 #include "report/html.h"
 #include "report/lessons.h"
 #include "report/shell.h"
-#include "scene/nearest_name.h"
+#include "scene/option_text.h"
 
 namespace gnomon::app::lessons {
 

@@ -3,14 +3,37 @@
 // site works from disk, and a single lesson can be handed on.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/expected.h"
 
 namespace gnomon::app {
+
+// Markdown as HTML, by md4c; and what a page of the site does with links and pictures.
+
+namespace lessons {
+
+/// GitHub's dialect, with HTML in it left as it is: the text is the program's own. Error (internal): md4c fails.
+Expected<std::string> html_of(std::string_view markdown);
+
+/// Every link of the page that `target` knows gets its address; of any other that is not of the web, the words
+/// remain, with the file's name behind them. `target`: "acne.md" to "acne.html", empty for an unknown one.
+std::string with_links(const std::string& html, const std::function<std::string(std::string_view)>& target);
+
+/// Every <img> as a data URI. Error (internal): a picture that the program does not hold.
+Expected<std::string> with_pictures(const std::string& html);
+
+/// The address of the first picture in `markdown`, "../images/lesson-acne.png"; empty where there is none.
+std::string first_picture(std::string_view markdown);
+/// <img> of that picture. Error (internal): the program does not hold it.
+Expected<std::string> picture_html(std::string_view path, std::string_view alt);
+
+}  // namespace lessons
 class Console;
-}
+}  // namespace gnomon::app
 
 namespace gnomon::app::lessons {
 

@@ -1,4 +1,4 @@
-#include "app/suite/scenes.h"
+#include "app/suite/write.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

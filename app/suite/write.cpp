@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include "app/interrupt.h"
-#include "app/suite/scenes.h"
 #include "scene/files/gltf_writer.h"
 #include "scene/files/image_io.h"
 #include "scene/files/staged_folder.h"

@@ -2,13 +2,29 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/console.h"
 #include "raytrace/frame.h"
 #include "scene/expected.h"
 #include "scene/image.h"
+#include "scene/scene.h"
 
 namespace gnomon::app {
+
+// The conformance suite: small scenes with one light each, whose shadows can be worked out by hand. They are
+// made of three meshes, so that a test can work them out: "box", the unit cube around its origin; "square",
+// the unit square in the plane y = 0, facing up, with texture coordinates (x + 1/2, z + 1/2); "ell", two boxes.
+
+struct SuiteScene {
+  std::string description;  ///< one sentence: what it shows, and what goes wrong there
+  Scene scene;              ///< its name is the file's
+};
+
+std::vector<SuiteScene> suite_scenes();
+
+/// The two boxes of the mesh "ell", in its own space.
+std::vector<Aabb> ell_boxes();
 
 /// A scene's truth at the centres of the pixels, row 0 at the top. Both hold 0 and 1.
 struct SuiteMask {

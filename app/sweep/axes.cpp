@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "app/options.h"
-#include "app/shell.h"
+#include "app/setting.h"
 
 namespace gnomon::app {
 

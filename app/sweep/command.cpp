@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/shell.h"
+#include "app/setting.h"
 #include "compare/result/option_names.h"
+#include "scene/files/encodings.h"
 #include "scene/files/read_file.h"
-#include "scene/files/sha256.h"
 
 namespace gnomon::app {
 namespace {

@@ -4,18 +4,38 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "app/run_options.h"
+#include "app/options.h"
 #include "app/shimmer_options.h"
 #include "app/strongest_lights.h"
 #include "app/sweep/axes.h"
-#include "app/sweep/plan.h"
+#include "compare/result/output_parts.h"
 #include "raster/frame.h"
 #include "report/write_outputs.h"
+#include "scene/expected.h"
+#include "studies/sweep/axis.h"
 #include "studies/sweep/journal.h"
 
 namespace gnomon::app {
+
+// Which cells of a sweep a process makes.
+
+/// The cells of a shard, and what the journal must know of each.
+struct Plan {
+  compare::Grid grid;
+  std::vector<std::size_t> cells;
+  std::vector<std::string> axes;
+};
+
+/// Names and values of a cell.
+compare::AxisValues axis_values(const compare::Grid& grid, std::size_t cell);
+
+/// The same names, of the axes that have no effect on a cell.
+std::vector<std::string> json_names(std::vector<std::string> axes);
+
+Plan make_plan(compare::Grid grid, compare::Shard shard);
 
 struct SweepCommand : RunOptions {
   SceneArgument scene;
@@ -45,5 +65,22 @@ std::string compare_command(const SweepCommand& command, const Plan& plan, std::
 
 /// The same sweep for a task of a job array, without its folder and shard.
 std::string task_arguments(const SweepCommand& command);
+
+// A sweep as a Slurm job array: one shard per task, all in one folder that the nodes share.
+
+/// The batch script: task K of N writes DIR/shard-K. `arguments`: of gnomon sweep, quoted for a shell,
+/// without the folder. Paths are absolute.
+std::string slurm_script(const std::string& program, const std::string& arguments, const std::string& folder,
+                         int tasks);
+/// A line break in the script's words would begin a line of the script.
+bool holds_line_break(std::string_view words);
+/// sbatch's --output: the log of each task, DIR/slurm-K.log.
+std::string log_pattern(const std::string& folder);
+/// DIR/shard-1 … DIR/shard-N.
+std::vector<std::string> shard_folders(const std::string& folder, int tasks);
+
+/// Submits the script through sbatch and waits for all tasks. Errors are ErrorKind::graphics (resources): no
+/// sbatch, or a task that failed; its log is DIR/slurm-K.log.
+Expected<void> run_slurm_array(const std::string& script_path, const std::string& folder, int tasks);
 
 }  // namespace gnomon::app

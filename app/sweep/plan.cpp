@@ -1,4 +1,4 @@
-#include "app/sweep/plan.h"
+#include "app/sweep/command.h"
 
 #include <algorithm>
 

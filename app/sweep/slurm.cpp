@@ -1,8 +1,8 @@
-#include "app/sweep/slurm.h"
+#include "app/sweep/command.h"
 
 #include <fmt/core.h>
 
-#include "app/shell.h"
+#include "app/setting.h"
 #include "scene/run_program.h"
 
 namespace gnomon::app {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scene/nearest_name.h"
+#include "scene/option_text.h"
 
 namespace gnomon::app {
 

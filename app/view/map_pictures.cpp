@@ -1,4 +1,4 @@
-#include "app/view/map_pictures.h"
+#include "app/view/worker.h"
 
 #include <algorithm>
 #include <array>

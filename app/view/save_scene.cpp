@@ -1,4 +1,4 @@
-#include "app/view/save_scene.h"
+#include "app/view/scene_source.h"
 
 #include <fmt/core.h>
 
@@ -12,11 +12,11 @@
 #include "app/pose.h"
 #include "app/view/status.h"
 #include "compare/result/result_parts.h"
-#include "scene/builtin.h"
 #include "scene/files/formats.h"
+#include "scene/files/light_json.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
-#include "scene/light_type_name.h"
+#include "scene/load.h"
 
 namespace gnomon::app {
 
@@ -34,33 +34,15 @@ Json camera_json(const Camera& camera) {
   return json;
 }
 
-void add_extent(Json& json, const Light& light) {
-  if (const auto* sun = std::get_if<SunDisc>(&light.extent))
-    json["angular_diameter_degrees"] = degrees(sun->angular_diameter);
-  if (const auto* sphere = std::get_if<SphereLight>(&light.extent))
-    json["sphere"] = {{"radius", sphere->radius}};
-  if (const auto* disc = std::get_if<DiscLight>(&light.extent))
-    json["disc"] = {{"radius", disc->radius}, {"normal", compare::vector3(disc->normal)}};
-  if (const auto* rectangle = std::get_if<RectangleLight>(&light.extent)) {
-    const Vec3 &width = rectangle->half_width, &height = rectangle->half_height;
-    json["rectangle"] = {{"width", 2.0 * glm::length(width)},
-                         {"height", 2.0 * glm::length(height)},
-                         {"normal", compare::vector3(glm::cross(width, height))},
-                         {"up", compare::vector3(height)}};
-  }
-  if (light.shadow_samples != Light{}.shadow_samples) json["shadow_samples"] = light.shadow_samples;
-}
-
 Json light_json(const Light& light) {
-  Json json{{"name", light.name}, {"type", light_type_name(light.type)}};
-  if (light.type != LightType::directional) json["position"] = compare::vector3(light.position);
-  if (light.type != LightType::point) json["direction"] = compare::vector3(light.direction);
+  Json json = light_place_json(light);
   json["intensity"] = compare::vector3(Vec3(light.intensity));
   if (light.type == LightType::spot) {
     json["inner_angle_degrees"] = degrees(light.inner_angle);
     json["outer_angle_degrees"] = degrees(light.outer_angle);
   }
-  add_extent(json, light);
+  add_shape(json, light.extent, AngleForm::degrees);
+  if (light.shadow_samples != Light{}.shadow_samples) json["shadow_samples"] = light.shadow_samples;
   return json;
 }
 

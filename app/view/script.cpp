@@ -10,10 +10,9 @@
 #include "app/lesson_scene.h"
 #include "app/map_options.h"
 #include "app/values.h"
-#include "app/view/script_keys.h"
 #include "scene/files/read_file.h"
 #include "scene/load.h"
-#include "scene/nearest_name.h"
+#include "scene/option_text.h"
 
 namespace gnomon::app {
 

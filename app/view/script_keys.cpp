@@ -1,4 +1,4 @@
-#include "app/view/script_keys.h"
+#include "app/view/script.h"
 
 #include <fmt/core.h>
 

@@ -310,7 +310,7 @@ double sun_hour(const LightPose& pose) {
 }
 
 GivenScene given_scene(const Scene& scene, const World& world, const std::vector<KeyedPath>& paths) {
-  const Vec3 centre = scene_centre(world);
+  const Vec3 centre = world.middle();
   return {scene.camera, scene.lights, centre, films_of({scene.camera, scene.lights}, centre, paths)};
 }
 

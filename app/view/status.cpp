@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "app/options.h"
-#include "app/shell.h"
+#include "app/setting.h"
 #include "app/values.h"
 #include "compare/result/number_text.h"
 #include "raster/settings.h"

@@ -1,4 +1,4 @@
-#include "app/view/text_wrap.h"
+#include "app/view/style.h"
 
 namespace gnomon::app {
 

@@ -5,8 +5,8 @@
 #include "app/view/panels/panels.h"
 #include "app/view/presets.h"
 #include "app/view/status.h"
-#include "raster/renderer_name.h"
-#include "scene/one_line.h"
+#include "raster/context.h"
+#include "scene/expected.h"
 
 namespace gnomon::app {
 

@@ -19,7 +19,7 @@
 #include "app/view/meter.h"
 #include "app/view/projection.h"
 #include "app/view/render_thread.h"
-#include "app/view/save_scene.h"
+#include "app/view/scene_source.h"
 #include "app/view/script.h"
 #include "app/view/state.h"
 #include "app/view/status.h"

@@ -9,13 +9,13 @@
 
 #include "app/interrupt.h"
 #include "app/output_path.h"
-#include "app/view/save_scene.h"
+#include "app/view/scene_source.h"
 #include "app/view/status.h"
 #include "app/view/viewer.h"
 #include "raster/settings.h"
+#include "scene/expected.h"
 #include "scene/files/image_io.h"
 #include "scene/files/path_status.h"
-#include "scene/one_line.h"
 #include "scene/threads.h"
 
 namespace gnomon::app {

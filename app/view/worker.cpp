@@ -5,7 +5,6 @@
 #include <exception>
 #include <stop_token>
 
-#include "app/view/map_pictures.h"
 #include "app/view/priority.h"
 #include "compare/result/outputs.h"
 

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "compare/compare.h"
+#include "compare/comparison.h"
 #include "compare/result/verdict.h"
 #include "compare/truth/shown_materials.h"
 #include "scene/effects.h"
@@ -90,5 +91,19 @@ class CompareWorker {
   bool stop_ = false;
   std::thread thread_;  ///< last: starts when all else is there
 };
+
+// Pictures of what the map says, in the report page's colours: the true shadow, the gap, and the map's texels
+// where they lie on the surfaces.
+
+/// Visibility V0 in grey: white lit, black shadowed; dark grey where nothing is compared.
+Rgb8Image truth_picture(const compare::LightComparison& light);
+/// The gap, from white (none) to the colour of false shadow at gap_scale_texels and of missed shadow at minus
+/// as many.
+Rgb8Image gap_picture(const raster::LightRecord& record, const compare::LightComparison& light);
+inline constexpr double gap_scale_texels = 4.0;
+/// The drawn picture in grey under the map's texels, light and dark in turn as on a chess board; each face or
+/// cascade in a tint of its own. Texels that would be finer than the pixels are left out.
+Rgb8Image texel_picture(const Rgb8Image& drawn, const raster::LightRecord& record,
+                        const compare::LightComparison& light);
 
 }  // namespace gnomon::app

@@ -6,7 +6,6 @@
 #include "compare/metrics/pixel_list.h"
 #include "raster/technique_traits.h"
 #include "scene/parallel.h"
-#include "scene/sort_numbers.h"
 
 namespace gnomon::compare {
 namespace {

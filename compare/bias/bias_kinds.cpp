@@ -11,7 +11,6 @@
 #include "raster/technique_traits.h"
 #include "scene/light.h"
 #include "scene/parallel.h"
-#include "scene/sort_numbers.h"
 
 namespace gnomon::compare {
 namespace {

@@ -11,7 +11,7 @@
 #include "compare/truth/exact_depth.h"
 #include "compare/truth/stored_surface.h"
 #include "raster/technique_traits.h"
-#include "raytrace/sheets/solid_sheets.h"
+#include "raytrace/sheets/column_sheets.h"
 #include "scene/parallel.h"
 #include "scene/solid.h"
 #include "scene/stages.h"

@@ -6,7 +6,7 @@
 #include "compare/result/output_parts.h"
 #include "compare/truth/shown_materials.h"
 #include "raster/bands.h"
-#include "raytrace/band.h"
+#include "raytrace/frame.h"
 #include "scene/exposure.h"
 #include "scene/stages.h"
 

@@ -4,7 +4,7 @@
 
 #include "compare/measure/image_sink.h"
 #include "raster/bands.h"
-#include "raytrace/band.h"
+#include "raytrace/frame.h"
 #include "scene/parallel.h"
 
 namespace gnomon::compare {

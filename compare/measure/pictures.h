@@ -6,7 +6,7 @@
 
 #include "compare/comparison.h"
 #include "scene/files/row_file.h"
-#include "scene/picture_rows.h"
+#include "scene/image.h"
 
 namespace gnomon::compare {
 

@@ -9,7 +9,7 @@
 #include "compare/metrics/ssim.h"
 #include "compare/result/shadow_cost.h"
 #include "compare/truth/cascades.h"
-#include "scene/sort_numbers.h"
+#include "scene/parallel.h"
 #include "scene/stages.h"
 
 namespace gnomon::compare {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "compare/comparison.h"
-#include "scene/picture_rows.h"
+#include "scene/image.h"
 
 namespace gnomon::compare {
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "scene/image.h"
-#include "scene/picture_rows.h"
 
 namespace gnomon::compare {
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "scene/one_line.h"
+#include "scene/expected.h"
 
 namespace gnomon::compare {
 

@@ -9,36 +9,17 @@
 #include "compare/result/output_parts.h"
 #include "compare/result/result_parts.h"
 #include "compare/result/shadow_cost.h"
-#include "scene/light.h"
-#include "scene/light_type_name.h"
-#include "scene/light_window.h"
+#include "scene/files/light_json.h"
+#include "scene/light_view.h"
 
 namespace gnomon::compare {
 namespace {
 
-Json extent_json(std::monostate) {
-  return nullptr;
-}
-Json extent_json(const SunDisc& sun) {
-  return {{"shape", "sun"}, {"angular_diameter_degrees", number(sun.angular_diameter * 180.0 / pi)}};
-}
-Json extent_json(const SphereLight& sphere) {
-  return {{"shape", "sphere"}, {"radius", number(sphere.radius)}};
-}
-Json extent_json(const DiscLight& disc) {
-  return {{"shape", "disc"}, {"radius", number(disc.radius)}, {"normal", vector3(disc.normal)}};
-}
-Json extent_json(const RectangleLight& r) {
-  return {
-      {"shape", "rectangle"}, {"half_width", vector3(r.half_width)}, {"half_height", vector3(r.half_height)}};
-}
-
 Json light_json(const Light& light) {
-  Json json{{"name", light.name}, {"type", light_type_name(light.type)}};
-  if (light.type != LightType::directional) json["position"] = vector3(light.position);
-  if (light.type != LightType::point) json["direction"] = vector3(light.direction);
-  if (has_size(light))
-    json["extent"] = std::visit([](const auto& e) { return extent_json(e); }, light.extent);
+  Json json = light_place_json(light);
+  if (!has_size(light)) return json;
+  json["extent"] = {{"shape", shape_name(light.extent)}};
+  json["extent"].update(shape_measures_json(light.extent, AngleForm::degrees));
   return json;
 }
 

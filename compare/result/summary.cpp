@@ -14,9 +14,9 @@
 #include "compare/result/shadow_cost.h"
 #include "compare/result/text_layout.h"
 #include "compare/result/verdict.h"
-#include "scene/light_type_name.h"
-#include "scene/light_window.h"
-#include "scene/one_line.h"
+#include "scene/expected.h"
+#include "scene/light.h"
+#include "scene/light_view.h"
 
 namespace gnomon::compare {
 namespace {

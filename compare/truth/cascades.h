@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/ladder/ladder.h"
-#include "scene/picture_rows.h"
+#include "scene/image.h"
 
 namespace gnomon::compare {
 

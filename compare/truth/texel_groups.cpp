@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "compare/metrics/pixel_list.h"
-#include "scene/sort_numbers.h"
+#include "scene/parallel.h"
 
 namespace gnomon::compare {
 

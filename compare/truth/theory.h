@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "compare/ladder/ladder.h"
-#include "scene/picture_rows.h"
+#include "scene/image.h"
 
 namespace gnomon::compare {
 

@@ -1,4 +1,4 @@
-#include "raytrace/bvh/wide_pack.h"
+#include "raytrace/bvh/wide_tree.h"
 
 #include <bit>
 #include <cmath>

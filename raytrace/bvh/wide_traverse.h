@@ -8,7 +8,7 @@
 
 #include "raytrace/bvh/wide_ray.h"
 #include "scene/function_ref.h"
-#include "scene/ray.h"
+#include "scene/math.h"
 
 namespace gnomon::raytrace {
 

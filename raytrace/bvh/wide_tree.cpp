@@ -6,7 +6,6 @@
 #include <span>
 
 #include "raytrace/bvh/wide_instances.h"
-#include "raytrace/bvh/wide_pack.h"
 #include "raytrace/given_up.h"
 #include "scene/parallel.h"
 

@@ -11,11 +11,6 @@ namespace gnomon::raytrace {
 
 inline constexpr int block_tiles = 4, block_pixels = tile_pixels * block_tiles;
 
-/// A tile's rectangle of pixels: at most 16 x 16.
-struct TileRect {
-  int x0, y0, x1, y1;
-};
-
 /// A block's rectangle of pixels begins at a multiple of 64 and holds at most 64 x 64.
 struct BlockRect {
   int x0, y0, x1, y1;

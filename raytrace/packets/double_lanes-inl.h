@@ -14,8 +14,8 @@
 #include <bit>
 
 #include "raytrace/mask_bits-inl.h"
-#include "raytrace/packets/quantised_tile.h"
 #include "raytrace/packets/tile.h"
+#include "raytrace/quantised_tile.h"
 #include "raytrace/tiles.h"
 #include "scene/camera.h"
 
@@ -35,8 +35,7 @@ inline unsigned bits_of(M mask) {
   return mask_bits(d, mask);
 }
 inline M mask_of(unsigned bits) {
-  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
-  return hn::LoadMaskBits(d, bytes);
+  return mask_from_bits(d, bits);
 }
 
 struct V3 {

@@ -12,7 +12,6 @@
 
 #include <hwy/highway.h>
 
-#include <cstring>
 #include <limits>
 
 #include "raytrace/mask_bits-inl.h"
@@ -44,9 +43,7 @@ inline unsigned bits_of(M mask) {
   return mask_bits(f, mask);
 }
 inline M mask_of(unsigned bits) {
-  std::uint8_t bytes[8] = {};
-  std::memcpy(bytes, &bits, sizeof bits);
-  return hn::LoadMaskBits(f, bytes);
+  return mask_from_bits(f, bits);
 }
 
 /// The order of operations that everything here shares.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "raytrace/packets/edge_setup.h"
+#include "raytrace/receiver_tiles.h"
 #include "raytrace/tracer.h"
 #include "scene/camera.h"
 
@@ -9,9 +10,6 @@ namespace gnomon::raytrace {
 
 /// |u| and |v| of a point's rays stay below this: the bounds of raytrace/packets/edge_setup_kernel.cpp.
 inline constexpr double widest_slope = 1.5;
-
-/// Whether the world has a tree to traverse and lengths that floats can hold.
-bool packets_apply(const Tracer& tracer);
 
 /// Whether the eye's rays go by blocks (raytrace/packets/view_block.h): packets apply, and one frame holds
 /// the whole field of view.

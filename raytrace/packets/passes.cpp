@@ -1,7 +1,6 @@
 #include "raytrace/packets/passes.h"
 
 #include "raytrace/packets/known_hit.h"
-#include "raytrace/packets/places.h"
 #include "raytrace/packets/receivers.h"
 #include "raytrace/packets/view_block.h"
 #include "raytrace/tiles.h"
@@ -43,7 +42,7 @@ TileRect in_picture(TileRect rect, int first_row) {
 TileHits those_of(const TileHits& hits, const LaneMask& bits) {
   TileHits some;
   for (std::size_t lane = 0; lane < tile_rays; ++lane)
-    some.leaf[lane] = (bits[lane / packet_rays] & bit_of(lane)) != 0 ? hits.leaf[lane] : nothing_hit;
+    some.leaf[lane] = has_lane(bits, lane) ? hits.leaf[lane] : nothing_hit;
   return some;
 }
 

@@ -5,10 +5,11 @@
 #include <span>
 #include <stop_token>
 
+#include "raytrace/huge_array.h"
 #include "raytrace/packets/blocks.h"
 #include "raytrace/packets/light_setup.h"
-#include "raytrace/packets/quantised_tile.h"
 #include "raytrace/packets/tile.h"
+#include "raytrace/quantised_tile.h"
 #include "raytrace/tracer.h"
 #include "scene/camera.h"
 #include "scene/image.h"
@@ -43,15 +44,18 @@ struct ReceiverSource {
   void fill(const TileRect& rect, const LaneMask& asked, SurfacePoint* points) const;
 };
 
-/// By primitive, its place as TileHits has it; nothing_hit for those that cannot be hit.
-std::vector<std::uint32_t> hit_places(const Tracer& tracer);
+// Receivers that a frame does not store: where only the picture is wanted, each tile's are found again from
+// the primitives that its pixels see, bit for bit as they were, and live no longer than the tile is worked
+// on. They are 96 bytes a pixel, which to clear and to page in takes longer than to find them twice.
 
-/// Fills the tile's receivers (row 0 of the images is first_row of the view's picture) from the primitives that its pixels are known to show (no_id: none), as
-/// primary_pass does where it finds the same ones. `leaf_of`: hit_places(). Returns the
-/// number of pixels whose ray misses their primitive; these get the nearest hit.
-std::uint64_t known_tile(const Tracer& tracer, const View& view, int first_row,
-                         std::span<const std::uint32_t> leaf_of, const TileRect& rect,
-                         const Image<std::uint32_t>& primitives, Image<SurfacePoint>& receivers,
-                         QuantisedTile& quantised);
+struct UnstoredReceivers {
+  HugeArray<TileHits> hits;  ///< by tile; empty: the receivers are stored
+  int first_row = 0;         ///< as PrimarySinks has it
+
+  bool apply() const { return hits.size() > 0; }
+  ReceiverSource source(const Tracer& tracer, const View& view, std::size_t tile) const {
+    return {.tracer = &tracer, .stored = nullptr, .view = &view, .hits = &hits[tile], .first_row = first_row};
+  }
+};
 
 }  // namespace gnomon::raytrace

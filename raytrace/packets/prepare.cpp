@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "raytrace/packets/double_lanes-inl.h"
-#include "raytrace/packets/prepare.h"
+#include "raytrace/packets/shadow_block.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "raytrace/packets/blocks.h"
-#include "raytrace/packets/quantised_tile.h"
 #include "raytrace/packets/tile.h"
+#include "raytrace/quantised_tile.h"
 #include "scene/camera.h"
 
 namespace gnomon::raytrace {
@@ -26,5 +26,15 @@ struct ReceiverSinks {
 /// most of the tile's or has exponent 1. `rect`: the tile in the picture that is seen.
 LaneMask store_receivers(const Structures& s, const View& view, const TileRect& rect, const TileHits& hits,
                          const ReceiverSinks& sinks);
+
+/// Bits per packet of the hits that are not on triangles, and of those whose triangle's plane is too ill to
+/// say where the receiver lies.
+struct DraftLeft {
+  LaneMask others, ill;
+};
+
+/// Writes a tile's receivers from the planes of their triangles alone: right to 2^-38 of their distance.
+DraftLeft draft_receivers(const Bvh& bvh, const View& view, int x0, int y0, const TileHits& hits,
+                          QuantisedTile& tile, TileDraft& draft);
 
 }  // namespace gnomon::raytrace

@@ -4,8 +4,6 @@
 #include <optional>
 
 #include "raytrace/packets/light_setup.h"
-#include "raytrace/packets/places.h"
-#include "raytrace/packets/prepare.h"
 #include "raytrace/packets/shadow_block.h"
 #include "scene/parallel.h"
 
@@ -171,7 +169,7 @@ class ShadowPass {
       auto& bits = !reached                            ? tile.lanes.unreached
                    : project(setup, point, rays, lane) ? rays.alive
                                                        : tile.lanes.apart;
-      bits[lane / packet_rays] |= bit_of(lane);
+      add_lane(bits, lane);
     });
   }
 
@@ -200,8 +198,9 @@ class ShadowPass {
       const SurfacePoint point = tile.source.at(tile.rect, lane);
       if (!light_cannot_reach(light_, point.position, point.normal)) return;
       const std::size_t p = lane / packet_rays;
-      const auto others = static_cast<std::uint16_t>(~bit_of(lane));
-      tile.rays.alive[p] &= others, tile.lanes.apart[p] &= others, tile.lanes.unreached[p] |= bit_of(lane);
+      const auto bit = static_cast<std::uint16_t>(1u << (lane % packet_rays));
+      const auto others = static_cast<std::uint16_t>(~bit);
+      tile.rays.alive[p] &= others, tile.lanes.apart[p] &= others, tile.lanes.unreached[p] |= bit;
     });
   }
 
@@ -218,7 +217,7 @@ class ShadowPass {
       store_visibility(tile.rect, dark, visibility_);
     } else {
       for_each_place(tile.rect, tile.asked, [&](int x, int y, std::size_t lane) {
-        const bool dark = (tile.shadows.shadowed[lane / packet_rays] & bit_of(lane)) != 0;
+        const bool dark = has_lane(tile.shadows.shadowed, lane);
         visibility_.at(x, y) = dark ? PointVisibility::shadowed : PointVisibility::lit;
       });
     }
@@ -235,7 +234,7 @@ class ShadowPass {
     for_each_place(tile.rect, left, [&](int x, int y, std::size_t lane) {
       const SurfacePoint& point =
           points[static_cast<std::size_t>(tile_pixels * (y - tile.rect.y0) + x - tile.rect.x0)];
-      const bool in_list = listed && (tile.lanes.apart[lane / packet_rays] & bit_of(lane)) == 0;
+      const bool in_list = listed && !has_lane(tile.lanes.apart, lane);
       scratch.rays.single += in_list ? 0 : 1;
       visibility_.at(x, y) = in_list ? visibility_among(tile.shadows, point, lane)
                                      : full_visibility(frame, point, scratch.blocker);
@@ -273,7 +272,7 @@ class ShadowPass {
 }  // namespace
 
 void store_visibility(const TileRect& rect, const LaneMask& dark, Image<PointVisibility>& visibility) {
-  if (is_whole(rect)) {
+  if (rect.is_whole()) {
     const auto stride = static_cast<std::size_t>(visibility.size.width);
     PointVisibility* first = &visibility.at(rect.x0, rect.y0);
     for (std::size_t y = 0; y < tile_pixels; ++y) {
@@ -288,8 +287,7 @@ void store_visibility(const TileRect& rect, const LaneMask& dark, Image<PointVis
     return;
   }
   for_each_place(rect, [&](int x, int y, std::size_t lane) {
-    visibility.at(x, y) =
-        (dark[lane / packet_rays] & bit_of(lane)) != 0 ? PointVisibility::shadowed : PointVisibility::lit;
+    visibility.at(x, y) = has_lane(dark, lane) ? PointVisibility::shadowed : PointVisibility::lit;
   });
 }
 

@@ -6,6 +6,7 @@
 #include <stop_token>
 
 #include "raytrace/packets/passes.h"
+#include "raytrace/receiver_tiles.h"
 
 namespace gnomon::raytrace {
 
@@ -43,8 +44,5 @@ ShadowRayCounts shadow_pass(const PictureReceivers& receivers, const Light& ligh
 /// others' are left as they are. The receivers are stored.
 void shadow_pass_of(const PictureReceivers& receivers, const Light& light, std::span<const LaneMask> asked,
                     Image<PointVisibility>& visibility);
-
-/// The whole tile: lit, or shadowed where the bit is set.
-void store_visibility(const TileRect& rect, const LaneMask& dark, Image<PointVisibility>& visibility);
 
 }  // namespace gnomon::raytrace

@@ -8,33 +8,9 @@
 #include <cstdint>
 
 #include "raytrace/packets/edge_setup.h"
+#include "raytrace/tiles.h"
 
 namespace gnomon::raytrace {
-
-inline constexpr std::size_t packet_rays = 16, tile_packets = 16, tile_rays = packet_rays * tile_packets;
-
-/// The place of a ray in its tile: packets are 4 x 4 pixels, so that they stay narrow both ways.
-constexpr std::size_t tile_lane(int x, int y) {
-  const int packet = (y >> 2) * 4 + (x >> 2), lane = (y & 3) * 4 + (x & 3);
-  return static_cast<std::size_t>(packet) * packet_rays + static_cast<std::size_t>(lane);
-}
-
-/// The pixel of a place.
-struct TilePixel {
-  int x, y;
-};
-constexpr TilePixel tile_pixel(std::size_t lane) {
-  const int packet = static_cast<int>(lane / packet_rays), i = static_cast<int>(lane % packet_rays);
-  return {4 * (packet % 4) + i % 4, 4 * (packet / 4) + i / 4};
-}
-
-/// Bit i of a packet's number: ray i of it.
-using LaneMask = std::array<std::uint16_t, tile_packets>;
-inline constexpr LaneMask every_lane = [] {
-  LaneMask all{};
-  for (std::uint16_t& bits : all) bits = 0xffff;
-  return all;
-}();
 
 /// Shadow rays.
 struct alignas(64) TileRays {

@@ -13,54 +13,14 @@ LightSamples::LightSamples(const Tracer& tracer, const SurfacePoint& from, const
                            std::uint64_t key)
     : tracer_(tracer),
       from_(from),
-      light_(light),
+      endless_(light.type == LightType::directional),
       count_(count),
-      square_(static_cast<std::uint32_t>(count), key) {
-  if (const auto* sun = std::get_if<SunDisc>(&light.extent)) {
-    kind_ = Kind::directions;
-    axis_ = -light.direction;
-    const double half_sine = std::sin(0.25 * sun->angular_diameter);
-    cap_ = 2.0 * half_sine * half_sine;
-    orthonormal_basis(axis_, u_, v_);
-  } else if (const auto* sphere = std::get_if<SphereLight>(&light.extent)) {
-    const Vec3 offset = light.position - from.position;
-    distance_ = glm::length(offset), radius_ = sphere->radius;
-    kind_ = distance_ > radius_ ? Kind::sphere : Kind::from_within;
-    if (kind_ == Kind::from_within) return;
-    axis_ = offset / distance_;
-    const double sine = radius_ / distance_;
-    cap_ = sine * sine / (1.0 + std::sqrt((1.0 - sine) * (1.0 + sine)));
-    orthonormal_basis(axis_, u_, v_);
-  } else if (const auto* disc = std::get_if<DiscLight>(&light.extent)) {
-    orthonormal_basis(disc->normal, u_, v_);
-    u_ *= disc->radius, v_ *= disc->radius;
-  } else if (const auto* rectangle = std::get_if<RectangleLight>(&light.extent)) {
-    round_ = false;
-    u_ = rectangle->half_width, v_ = rectangle->half_height;
-  }
-}
+      square_(static_cast<std::uint32_t>(count), key),
+      sampler_(light_sampler(light, from.position)) {}
 
 Ray LightSamples::ray(const Vec2& square) const {
-  if (kind_ == Kind::area) {
-    const Vec2 p = round_ ? concentric_disc(square) : 2.0 * square - 1.0;
-    return tracer_.shadow_ray(from_, light_.position + p.x * u_ + p.y * v_);
-  }
-  if (kind_ == Kind::from_within) {  // the whole sphere, evenly
-    const double z = 1.0 - 2.0 * square.x, angle = 2.0 * pi * square.y;
-    const double across = std::sqrt(std::max(0.0, (1.0 - z) * (1.0 + z)));
-    const Vec3 outwards(across * std::cos(angle), across * std::sin(angle), z);
-    return tracer_.shadow_ray(from_, light_.position + radius_ * outwards);
-  }
-  // A point of the disc lifted onto the cap of directions: 1 - cos grows as the disc's area does. No
-  // difference of nearly equal numbers enters, so a cone of any width keeps its shape.
-  const Vec2 p = concentric_disc(square);
-  const double versine = cap_ * glm::dot(p, p);
-  const double spread = std::sqrt(cap_ * (2.0 - versine));
-  const Vec3 direction = (1.0 - versine) * axis_ + spread * (p.x * u_ + p.y * v_);
-  if (kind_ == Kind::directions) return tracer_.spawn_ray(from_, direction);
-  const double off_axis = distance_ * spread * glm::length(p);
-  const double depth = std::sqrt(std::max(0.0, (radius_ - off_axis) * (radius_ + off_axis)));
-  return tracer_.shadow_ray(from_, from_.position + (distance_ * (1.0 - versine) - depth) * direction);
+  const Vec3 aim = sampler_.aim(sampler_, square);
+  return endless_ ? tracer_.spawn_ray(from_, aim) : tracer_.shadow_ray(from_, aim);
 }
 
 bool LightSamples::below_horizon(const Vec3& direction) const {

@@ -1,7 +1,6 @@
-// Rays from a surface point to a light with size. Sun and sphere are sampled by solid angle, disc and
-// rectangle by area (Shirley, Wang and Zimmerman 1996, "Monte Carlo Techniques for Direct Lighting
-// Calculations", sections 3 and 4), so the share of the rays that arrive is the share of the light's solid
-// angle, or of its area, that the point sees. What lies below the point's own horizon is not seen.
+// Rays from a surface point to a light with size, sampled as its shape says (scene/light_shape/), so that the share of the
+// rays that arrive is the share of the light's solid angle, or of its area, that the point sees. What lies below the point's
+// own horizon is not seen.
 #pragma once
 
 #include <optional>
@@ -23,20 +22,15 @@ class LightSamples {
   std::optional<Ray> operator[](int i) const;
 
  private:
-  enum class Kind : std::uint8_t { directions, sphere, from_within, area };
   Ray ray(const Vec2& square) const;
   bool below_horizon(const Vec3& direction) const;
 
   const Tracer& tracer_;
   const SurfacePoint& from_;
-  const Light& light_;
+  bool endless_;
   int count_;
   StratifiedSquare square_;
-  Kind kind_ = Kind::area;
-  bool round_ = true;                 // area: a disc, otherwise a rectangle
-  Vec3 axis_{0.0}, u_{0.0}, v_{0.0};  // directions, sphere: a basis; area: the half-axes u, v
-  double cap_ = 0.0;                  // 1 - cos of the cone's half-angle
-  double distance_ = 0.0, radius_ = 0.0;
+  LightSampler sampler_;
 };
 
 /// What one point sees of a light.

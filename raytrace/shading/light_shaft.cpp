@@ -3,7 +3,7 @@
 #include "raytrace/bvh/wide_shaft.h"
 #include "raytrace/bvh/wide_single.h"
 #include "raytrace/precision/ray_offset.h"
-#include "raytrace/single_rays.h"
+#include "raytrace/tracer.h"
 
 namespace gnomon::raytrace {
 namespace {
@@ -20,19 +20,6 @@ double sum_abs(const Vec3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-/// Half the light's box; of a sun's directions as they are.
-Vec3 half_extent(const Light& light) {
-  if (const auto* sun = std::get_if<SunDisc>(&light.extent)) {
-    const double angle = 0.5 * sun->angular_diameter;
-    return Vec3(2.0 * std::sin(0.5 * angle));  // the chord of the cone's half-angle
-  }
-  if (const auto* sphere = std::get_if<SphereLight>(&light.extent)) return Vec3(sphere->radius);
-  if (const auto* disc = std::get_if<DiscLight>(&light.extent))
-    return disc->radius * glm::sqrt(glm::max(Vec3(0.0), 1.0 - disc->normal * disc->normal));
-  const auto& rectangle = std::get<RectangleLight>(light.extent);
-  return glm::abs(rectangle.half_width) + glm::abs(rectangle.half_height);
-}
-
 /// All rays of LightSamples, if the light is above the horizon: then they share their origin.
 class LightShaft {
  public:
@@ -40,7 +27,7 @@ class LightShaft {
     const bool endless = light.type == LightType::directional;
     shaft_.origin = offset_origin(from, from.normal), shaft_.endless = endless;
     center_ = endless ? -light.direction : light.position - shaft_.origin;
-    half_ = half_extent(light);
+    half_ = shape_half_extent(light.extent);
     half_ += margin * (max_component(glm::abs(center_)) + max_component(half_) +
                        (endless ? 0.0 : max_component(glm::abs(shaft_.origin))));
     shaft_.low = center_ - half_, shaft_.high = center_ + half_;

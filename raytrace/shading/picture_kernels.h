@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "raytrace/packets/unstored.h"
+#include "raytrace/packets/passes.h"
 #include "raytrace/shading/shade.h"
 #include "raytrace/tiles.h"
 

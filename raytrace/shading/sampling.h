@@ -1,7 +1,7 @@
 // Seeded, stratified sample points. What a point is depends on the seed, the pixel and its number alone, so
 // pictures are the same for any number of threads. Kollig and Keller 2002, "Efficient Multidimensional
 // Sampling" (scrambled Hammersley points: of 2^m points each box of area 2^-m of the elementary grids holds
-// exactly one); Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square".
+// exactly one).
 #pragma once
 
 #include <bit>
@@ -53,16 +53,6 @@ class StratifiedSquare {
   std::uint64_t key_;
   std::uint32_t scramble_;
 };
-
-/// The unit square onto the unit disc, area to area (Shirley and Chiu 1997).
-inline Vec2 concentric_disc(const Vec2& square) {
-  const Vec2 p = 2.0 * square - 1.0;
-  if (p == Vec2(0.0)) return p;
-  const bool wide = std::abs(p.x) > std::abs(p.y);
-  const double radius = wide ? p.x : p.y;
-  const double angle = wide ? pi / 4.0 * (p.y / p.x) : pi / 2.0 - pi / 4.0 * (p.x / p.y);
-  return radius * Vec2(std::cos(angle), std::sin(angle));
-}
 
 /// A direction of the hemisphere around the unit vector n, as likely as its cosine with n: the disc lifted
 /// onto the hemisphere (Malley's method; PBR 4th ed., section A.5.3).

@@ -17,7 +17,7 @@
 #include <optional>
 
 #include "raytrace/bvh/bvh.h"
-#include "scene/ray.h"
+#include "scene/math.h"
 
 namespace gnomon::raytrace {
 

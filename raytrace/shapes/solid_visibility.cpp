@@ -1,4 +1,4 @@
-#include "raytrace/shapes/solid_visibility.h"
+#include "raytrace/precision/ambiguous_ray.h"
 
 #include "raytrace/shapes/along_ray.h"
 

@@ -9,6 +9,7 @@
 
 #include "raytrace/sheets.h"
 #include "raytrace/sheets/column.h"
+#include "scene/solid.h"
 
 namespace gnomon::raytrace {
 
@@ -41,5 +42,14 @@ class ColumnSheets {
   std::vector<Piece> queue_;  ///< of the last sheet: what was found of it, from the first one on
   std::size_t next_ = 0;      ///< of the queue, whose neighbours come next
 };
+
+// The sheets of a solid (scene/solid.h), which may be several on one side when it is not convex.
+
+/// Two points of a solid's surface surely lie on one sheet of it: between the light rays through them the
+/// surface is hit once by each ray, near the chord from one to the other. A convex solid's points on the side
+/// that faces the light always do; of the others the proof is by interval arithmetic, and false may mean that
+/// none was found. The directions are those of the light rays through a and b.
+bool hang_together(const ShapeGeometry& solid, const Vec3& a, const Vec3& b, const Vec3& direction_a,
+                   const Vec3& direction_b);
 
 }  // namespace gnomon::raytrace

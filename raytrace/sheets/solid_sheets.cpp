@@ -1,4 +1,4 @@
-#include "raytrace/sheets/solid_sheets.h"
+#include "raytrace/sheets/column_sheets.h"
 
 #include <algorithm>
 

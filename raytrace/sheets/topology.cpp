@@ -9,10 +9,8 @@
 #include "raytrace/choose_tracer.h"
 #include "raytrace/huge_array.h"
 #include "raytrace/sheets.h"
-#include "raytrace/sheets/position_hash.h"
 #include "raytrace/sheets/touching.h"
 #include "scene/parallel.h"
-#include "scene/sort_numbers.h"
 #include "scene/stages.h"
 
 namespace gnomon::raytrace {

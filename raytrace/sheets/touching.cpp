@@ -4,9 +4,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "raytrace/sheets/position_hash.h"
 #include "scene/parallel.h"
-#include "scene/sort_numbers.h"
 
 namespace gnomon::raytrace {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/files/deflate.h"
+#include "scene/files/encodings.h"
 
 namespace gnomon {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "scene/files/image_io.h"
-#include "scene/files/part_file.h"
-#include "scene/picture_rows.h"
+#include "scene/files/write_file.h"
+#include "scene/image.h"
 
 namespace gnomon {
 

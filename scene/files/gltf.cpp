@@ -17,8 +17,6 @@
 #include "scene/files/gltf_materials.h"
 #include "scene/files/gltf_meshes.h"
 #include "scene/files/gltf_model.h"
-#include "scene/files/gltf_packed.h"
-#include "scene/files/gltf_paths.h"
 #include "scene/files/gltf_transforms.h"
 #include "scene/files/gltf_value.h"
 #include "scene/files/read_file.h"

@@ -1,4 +1,4 @@
-#include "scene/files/gltf_container.h"
+#include "scene/files/gltf_data.h"
 
 #include <fmt/core.h>
 

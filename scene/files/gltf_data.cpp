@@ -6,9 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "scene/files/base64.h"
-#include "scene/files/gltf_container.h"
-#include "scene/files/gltf_packed.h"
+#include "scene/files/encodings.h"
 #include "scene/files/gltf_value.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"

@@ -4,15 +4,27 @@
 
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "scene/expected.h"
 #include "scene/files/gltf_model.h"
 #include "scene/files/mapped_file.h"
 #include "scene/load.h"
 
 namespace gnomon {
+
+// The GLB container (glTF 2.0, section 4).
+
+struct GlbChunks {
+  std::string_view json;
+  std::optional<std::string_view> binary;
+};
+
+bool is_glb(std::string_view bytes);
+Expected<GlbChunks> read_glb(std::string_view bytes, const std::string& file);
 
 /// An image as its file holds it, encoded.
 struct GltfImage {
@@ -64,5 +76,19 @@ class GltfData {
   std::vector<View> views_;
   std::vector<std::optional<GltfImage>> images_;
 };
+
+// What glTF files pack: primitives by Draco (KHR_draco_mesh_compression), bufferViews by meshoptimizer
+// (EXT_meshopt_compression and KHR_meshopt_compression).
+
+/// Unpacks such primitives and points their accessors to new views of plain data. Where the extension is not
+/// required and a primitive brings its geometry unpacked too, that is taken. Errors (bad_input): data that is
+/// damaged, or that claims more triangles or vertices than so many bytes can hold.
+Expected<void> unpack_draco(GltfDocument& document, GltfData& data);
+
+/// The bytes of the view, unpacked. `extension` is the view's object of that name; `buffers` are the file's;
+/// `byte_length` is the view's own. The Error holds the reason alone. A size that the packed bytes cannot
+/// fill is refused before anything is allocated.
+Expected<std::vector<char>> unpack_meshopt(const JsonValue& extension,
+                                           std::span<const std::string_view> buffers, double byte_length);
 
 }  // namespace gnomon

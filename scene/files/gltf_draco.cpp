@@ -1,4 +1,4 @@
-#include "scene/files/gltf_packed.h"
+#include "scene/files/gltf_data.h"
 
 #include <draco/compression/decode.h>
 #include <draco/compression/point_cloud/point_cloud_decoder.h>

@@ -2,6 +2,7 @@
 
 #include "scene/camera.h"
 #include "scene/files/gltf_writer_parts.h"
+#include "scene/files/light_json.h"
 
 namespace gnomon {
 namespace {
@@ -14,35 +15,9 @@ Json wrapped(Json gnomon) {
   return {{"gnomon", std::move(gnomon)}};
 }
 
-constexpr NumberRange light_radius_range{0.0, max_coordinate};
-
 int whole(const JsonObject& object, std::string_view key, int otherwise, NumberRange range) {
   range.whole = true;
   return static_cast<int>(object.number(key, otherwise, range));
-}
-
-LightExtent extent_of_extras(const JsonObject& object, const Light& light) {
-  if (light.type == LightType::directional) {
-    for (const std::string_view key : {"sphere", "disc", "rectangle"})
-      object.forbid(key, "does not apply to a directional light");
-    if (!object.has("angular_diameter")) return {};
-    return SunDisc{object.number("angular_diameter", 0.0, {0.0, 0.5 * pi})};
-  }
-  object.forbid("angular_diameter", "applies to a directional light only");
-  if (const auto node = object.find("sphere"))
-    return SphereLight{JsonObject(*node, {"radius"}).number("radius", 0.0, light_radius_range)};
-  if (const auto node = object.find("disc")) {
-    const JsonObject disc(*node, {"radius", "normal"});
-    const auto normal = disc.require("normal");
-    return DiscLight{disc.number("radius", 0.0, light_radius_range),
-                     normal ? normal->as_vec3() : Vec3(0.0, -1.0, 0.0)};
-  }
-  const auto node = object.find("rectangle");
-  if (!node) return {};
-  const JsonObject rectangle(*node, {"half_width", "half_height"});
-  const auto width = rectangle.require("half_width"), height = rectangle.require("half_height");
-  if (!width || !height) return {};
-  return RectangleLight{width->as_vec3(), height->as_vec3()};
 }
 
 /// Both see the same picture, up to the rounding of a node's matrix to floats by whoever moved it.
@@ -71,14 +46,7 @@ nlohmann::ordered_json camera_extras(const Camera& camera) {
 
 nlohmann::ordered_json light_extras(const Light& light) {
   Json out;
-  if (const auto* sun = std::get_if<SunDisc>(&light.extent)) out["angular_diameter"] = sun->angular_diameter;
-  if (const auto* sphere = std::get_if<SphereLight>(&light.extent))
-    out["sphere"] = {{"radius", sphere->radius}};
-  if (const auto* disc = std::get_if<DiscLight>(&light.extent))
-    out["disc"] = {{"radius", disc->radius}, {"normal", array(disc->normal)}};
-  if (const auto* rectangle = std::get_if<RectangleLight>(&light.extent))
-    out["rectangle"] = {{"half_width", array(rectangle->half_width)},
-                        {"half_height", array(rectangle->half_height)}};
+  add_shape(out, light.extent, AngleForm::radians);
   if (out.is_null()) return out;
   out["shadow_samples"] = light.shadow_samples;
   return wrapped(std::move(out));
@@ -149,8 +117,10 @@ void GltfExtras::read_camera(std::size_t index, Camera& camera) const {
 void GltfExtras::read_light(std::size_t index, Light& light) const {
   const auto node = of_item(lights_, index);
   if (!node) return;
-  const JsonObject object(*node, {"angular_diameter", "sphere", "disc", "rectangle", "shadow_samples"});
-  light.extent = extent_of_extras(object, light);
+  std::vector<std::string_view> keys = shape_keys(AngleForm::radians);
+  keys.push_back("shadow_samples");
+  const JsonObject object(*node, keys);
+  light.extent = read_shape(object, light, AngleForm::radians);
   light.shadow_samples = whole(object, "shadow_samples", light.shadow_samples, {1.0, max_shadow_samples});
 }
 

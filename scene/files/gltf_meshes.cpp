@@ -5,9 +5,9 @@
 
 #include <atomic>
 
-#include "scene/files/first_where.h"
 #include "scene/files/gltf_accessor.h"
 #include "scene/files/validate.h"
+#include "scene/parallel.h"
 
 namespace gnomon {
 namespace {

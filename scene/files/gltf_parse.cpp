@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/files/gltf_container.h"
+#include "scene/files/gltf_data.h"
 #include "scene/files/gltf_members.h"
 #include "scene/files/json_generate.h"
 #include "scene/files/read_file.h"

@@ -1,4 +1,3 @@
-#include "scene/files/gltf_paths.h"
 
 #include <fmt/core.h>
 

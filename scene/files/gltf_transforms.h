@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/expected.h"
+#include "scene/files/formats.h"
 #include "scene/files/gltf_data.h"
 #include "scene/math.h"
 
@@ -25,5 +26,17 @@ std::vector<Mat4> joint_transforms(const gltf::Skin& skin, const std::vector<Mat
 /// change nothing. The Error holds the reason alone.
 Expected<std::vector<Mat4>> gltf_instances(const gltf::Model& model, const GltfData& data,
                                            const JsonValue& extension);
+
+// Animations of a glTF file (glTF 2.0, section 3.11) as far as they move cameras and lights.
+
+/// Nodes that carry what the loaded file lists, in its order.
+struct CarriedNodes {
+  std::vector<std::size_t> cameras, lights;
+};
+
+/// One path for each animation that moves a camera, a light or a node above one; its name, or animation-I. What else
+/// it moves is said in a note. Error (bad input): a channel or a sampler that is not sound.
+Expected<std::vector<LoadedPath>> read_gltf_paths(const GltfDocument& document, const GltfData& data,
+                                                  const CarriedNodes& carried, Scene& scene);
 
 }  // namespace gnomon

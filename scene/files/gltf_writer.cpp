@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "scene/camera.h"
-#include "scene/files/base64.h"
 #include "scene/files/defaults.h"
+#include "scene/files/encodings.h"
 #include "scene/files/gltf_extras.h"
 #include "scene/files/gltf_writer_parts.h"
-#include "scene/light_type_name.h"
+#include "scene/light.h"
 
 namespace gnomon {
 namespace gltf_writer {
@@ -93,7 +93,7 @@ void write_lights(File& file, const Scene& scene) {
                        {"matrix", array(matrix)},
                        {"extensions", {{"KHR_lights_punctual", reference}}}});
     lights.push_back(light_json(light));
-    if (!std::holds_alternative<std::monostate>(light.extent))
+    if (!std::holds_alternative<PointShape>(light.extent))
       file.notes.push_back(fmt::format(
           "The size of the light '{}' stands in its extras: others take it for a hard light.", light.name));
   }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/files/image_decode.h"
 #include "scene/files/image_library.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"

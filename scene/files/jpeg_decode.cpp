@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "scene/files/image_decode.h"
 #include "scene/files/image_io.h"
+#include "scene/files/image_library.h"
 
 namespace gnomon {
 namespace {

@@ -1,12 +1,12 @@
 // Lights of a JSON scene.
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
 #include "scene/files/json_parts.h"
+#include "scene/files/light_json.h"
 #include "scene/files/read_file.h"
-#include "scene/light_type_name.h"
 
 namespace gnomon {
 namespace {
@@ -62,77 +62,30 @@ void read_spot(const JsonObject& object, Light& light) {
   light.outer_angle = outer * pi / 180.0;
 }
 
-constexpr NumberRange extent_range{0.0, max_coordinate};
-
-SphereLight read_sphere_light(const JsonNode& node) {
-  const JsonObject object(node, {"radius"});
-  const auto radius = object.require("radius");
-  return {radius ? radius->as_number(extent_range) : 0.0};
-}
-
-// A spot's disc or rectangle lies across its direction, a point's faces down, unless a normal is given.
-Vec3 read_normal(const JsonObject& object, const Light& light) {
-  if (const auto normal = object.find("normal")) return normal->as_direction();
-  return light.type == LightType::spot ? light.direction : Vec3(0.0, -1.0, 0.0);
-}
-
-DiscLight read_disc(const JsonNode& node, const Light& light) {
-  const JsonObject object(node, {"radius", "normal"});
-  const auto radius = object.require("radius");
-  return {radius ? radius->as_number(extent_range) : 0.0, read_normal(object, light)};
-}
-
-// The height runs along the part of `up` that lies in the rectangle's plane.
-RectangleLight read_rectangle(const JsonNode& node, const Light& light) {
-  const JsonObject object(node, {"width", "height", "normal", "up"});
-  const auto width = object.require("width"), height = object.require("height");
-  const Vec3 normal = read_normal(object, light);
-  Vec3 right, up;
-  orthonormal_basis(normal, right, up);
-  if (const auto given = object.find("up")) {
-    const Vec3 across = glm::cross(given->as_direction(), normal);
-    constexpr double narrowest = 1e-6;  // radians between up and the normal: below, it is mostly rounding
-    if (!(glm::length(across) > narrowest))
-      given->error("is parallel to the rectangle's normal (allowed: across it)");
-    else
-      right = glm::normalize(across), up = glm::cross(normal, right);
-  }
-  if (!width || !height) return {};
-  return {0.5 * width->as_number(extent_range) * right, 0.5 * height->as_number(extent_range) * up};
-}
-
-LightExtent read_extent(const JsonObject& object, const Light& light) {
-  const std::vector<std::string_view> keys{"sphere", "disc", "rectangle"};
-  if (light.type == LightType::directional) {
-    for (const std::string_view key : keys) object.forbid(key, "does not apply to a directional light");
-    const auto angle = object.find("angular_diameter_degrees");
-    if (!angle) return {};
-    return SunDisc{angle->as_number({0.0, 90.0}) * pi / 180.0};
-  }
-  object.forbid("angular_diameter_degrees", "applies to a directional light only");
-  if (std::none_of(keys.begin(), keys.end(), [&](std::string_view key) { return object.has(key); }))
-    return {};
-  const std::string_view given = object.exactly_one(keys);
-  if (given == "sphere") return read_sphere_light(*object.find(given));
-  if (given == "disc") return read_disc(*object.find(given), light);
-  if (given == "rectangle") return read_rectangle(*object.find(given), light);
-  return {};
-}
-
 void read_size(const JsonObject& object, Light& light) {
-  light.extent = read_extent(object, light);
-  if (std::holds_alternative<std::monostate>(light.extent))
-    object.forbid("shadow_samples",
-                  "applies to a light with a size only (angular_diameter_degrees, sphere, disc, rectangle)");
+  light.extent = read_shape(object, light, AngleForm::degrees);
+  if (std::holds_alternative<PointShape>(light.extent))
+    object.forbid("shadow_samples", fmt::format("applies to a light with a size only ({})",
+                                                fmt::join(shape_keys(AngleForm::degrees), ", ")));
   light.shadow_samples = static_cast<int>(
       object.number("shadow_samples", light.shadow_samples, {1.0, max_shadow_samples, false, false, true}));
 }
 
 Light read_light(const JsonNode& node) {
-  const JsonObject object(
-      node, {"name", "type", "position", "direction", "target", "elevation_degrees", "azimuth_degrees",
-             "intensity", "inner_angle_degrees", "outer_angle_degrees", "angular_diameter_degrees", "sphere",
-             "disc", "rectangle", "shadow_samples"});
+  std::vector<std::string_view> keys{"name",
+                                     "type",
+                                     "position",
+                                     "direction",
+                                     "target",
+                                     "elevation_degrees",
+                                     "azimuth_degrees",
+                                     "intensity",
+                                     "inner_angle_degrees",
+                                     "outer_angle_degrees",
+                                     "shadow_samples"};
+  const std::vector<std::string_view> shapes = shape_keys(AngleForm::degrees);
+  keys.insert(keys.end() - 1, shapes.begin(), shapes.end());
+  const JsonObject object(node, keys);
   Light light;
   light.name = object.string("name");
   light.intensity = object.color("intensity", Vec3f(1.0f));

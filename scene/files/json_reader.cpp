@@ -8,7 +8,7 @@
 
 #include "scene/files/image_io.h"
 #include "scene/files/read_file.h"
-#include "scene/nearest_name.h"
+#include "scene/option_text.h"
 
 namespace gnomon {
 namespace {

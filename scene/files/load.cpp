@@ -9,14 +9,13 @@
 #include <future>
 #include <new>
 
-#include "scene/builtin.h"
 #include "scene/files/defaults.h"
+#include "scene/files/encodings.h"
 #include "scene/files/formats.h"
 #include "scene/files/json_reader.h"
 #include "scene/files/mapped_file.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
-#include "scene/files/sha256.h"
 #include "scene/files/validate.h"
 #include "scene/threads.h"
 

@@ -9,8 +9,8 @@
 
 #include "scene/files/formats.h"
 #include "scene/files/mtl.h"
-#include "scene/files/obj_materials.h"
 #include "scene/files/obj_text.h"
+#include "scene/files/obj_textures.h"
 #include "scene/files/polygon.h"
 #include "scene/files/read_file.h"
 

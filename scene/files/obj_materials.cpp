@@ -1,4 +1,3 @@
-#include "scene/files/obj_materials.h"
 
 #include <fmt/core.h>
 

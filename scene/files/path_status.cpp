@@ -1,12 +1,14 @@
 #include "scene/files/path_status.h"
-#include "scene/files/failed_call.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -119,6 +121,12 @@ Expected<bool> are_one_path(const std::string& a, const std::string& b, ErrorKin
   const bool same = fs::equivalent(a, b, why);
   if (why) return path_error(error, a, cannot_look, why);
   return same;
+}
+
+tl::unexpected<Error> failed_call(ErrorKind kind, std::string file, std::string_view step, int error_number) {
+  const bool resource = error_number == EMFILE || error_number == ENFILE || error_number == ENOMEM;
+  return fail(Error{resource ? ErrorKind::graphics : kind,
+                    fmt::format("{}: {}", step, std::strerror(error_number)), std::move(file)});
 }
 
 }  // namespace gnomon

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/expected.h"
@@ -48,5 +49,11 @@ Expected<void> remove_all_of(const std::string& folder);
 /// Whether both are there and are one file or one folder.
 Expected<bool> are_one_path(const std::string& a, const std::string& b,
                             ErrorKind error = ErrorKind::bad_input);
+
+// How a failed call of the system is told.
+
+/// "FILE: STEP: what errno (`error_number`) means", of that kind; or of ErrorKind::graphics, which is for resources, too, where
+/// descriptors or memory are what is missing.
+tl::unexpected<Error> failed_call(ErrorKind kind, std::string file, std::string_view step, int error_number);
 
 }  // namespace gnomon

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <vector>
 
-#include "scene/files/image_decode.h"
 #include "scene/files/image_io.h"
+#include "scene/files/image_library.h"
 
 namespace gnomon {
 namespace {

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scene/files/deflate.h"
+#include "scene/files/encodings.h"
 #include "scene/files/image_io.h"
 
 namespace gnomon {

@@ -1,4 +1,4 @@
-#include "scene/files/publication.h"
+#include "scene/files/staged_folder.h"
 
 #include <fmt/core.h>
 #include <sys/stat.h>
@@ -16,7 +16,6 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/files/failed_call.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"

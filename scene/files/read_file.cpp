@@ -1,7 +1,6 @@
 #include "scene/files/read_file.h"
-#include "scene/files/failed_call.h"
+#include "scene/expected.h"
 #include "scene/files/path_status.h"
-#include "scene/one_line.h"
 
 #include <fmt/core.h>
 

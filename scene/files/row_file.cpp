@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "scene/files/failed_call.h"
 #include "scene/files/path_status.h"
 
 namespace gnomon {

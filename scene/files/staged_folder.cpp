@@ -18,10 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/files/descriptor.h"
-#include "scene/files/failed_call.h"
 #include "scene/files/path_status.h"
-#include "scene/files/publication.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon {

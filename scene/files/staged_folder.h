@@ -1,6 +1,6 @@
 // A folder of outputs that appears whole: its files are written beside it and then renamed. A new folder
 // appears by one rename. Into one that exists its files move one by one, after all of them have reached the
-// disk (scene/files/publication.h): the last of them (the page) is taken away first and put back last, so that a
+// disk (scene/files/staged_folder.h): the last of them (the page) is taken away first and put back last, so that a
 // folder which has it is never a mixture; when a step fails, or the process is killed, the older files come back;
 // processes that come at the same time take turns. What else lies in the folder stays. Nobody waits until the disk
 // has the new names too: after a cut of power the folder is the old one or the new one.
@@ -44,5 +44,22 @@ class StagedFolder {
   bool published_ = false;          ///< what is left in path_ is of no use
   int lock_ = -1;                   ///< of the staged folder, held while this process lives
 };
+
+// Finished files that move from a staged folder into a folder that has files already, all of them or none. What they
+// replace is kept aside in the staged folder until the last of them is in its place, and a list of them all is written
+// there first: when a step fails, every step before it is undone, and when the process is killed, the next one that
+// publishes into the folder reads the list and does that.
+
+/// Moves `files` (names in `staged`, `last` among them) into `folder`, on the same file system. What has the name of
+/// `last` there is taken away first, and `last` is put there last: a folder which has it is never a mixture. Errors are
+/// ErrorKind::cannot_write and say so where the older files could not be put back; is_unfinished_publication() then.
+Expected<void> publish_into(const std::string& folder, const std::string& staged,
+                            std::span<const std::string> files, const std::string& last);
+
+/// Whether the staged folder holds what belongs into its folder: older files that were not put back.
+bool is_unfinished_publication(const std::string& staged);
+
+/// Undoes what a killed process began. A file that somebody else has put in the place of one of its files stays.
+Expected<void> undo_publication(const std::string& folder, const std::string& staged);
 
 }  // namespace gnomon

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scene/files/first_where.h"
+#include "scene/parallel.h"
 #include "scene/solid.h"
 
 namespace gnomon {
@@ -182,22 +182,28 @@ Defect extent_defect(const Light& light, const std::string& path) {
   };
   if (light.shadow_samples < 1 || light.shadow_samples > max_shadow_samples)
     return bad("shadow_samples", fmt::format("1 to {}", max_shadow_samples));
-  if (std::holds_alternative<std::monostate>(light.extent)) return std::nullopt;
-  if (std::holds_alternative<SunDisc>(light.extent) != (light.type == LightType::directional))
+  const bool directional = light.type == LightType::directional;
+  if (!std::holds_alternative<PointShape>(light.extent) && is_sun_shape(light.extent) != directional)
     return defect(path, "a sun's disc is for directional lights, and they have no other extent");
-  if (const auto* sun = std::get_if<SunDisc>(&light.extent))
-    if (!(sun->angular_diameter >= 0.0 && sun->angular_diameter <= 0.5 * pi))
-      return bad("angular_diameter", "0 to 90 degrees");
-  const auto size = [](double v) { return v >= 0.0 && coordinate(v); };
-  if (const auto* sphere = std::get_if<SphereLight>(&light.extent))
-    if (!size(sphere->radius)) return bad("sphere.radius", ">= 0");
-  if (const auto* disc = std::get_if<DiscLight>(&light.extent)) {
-    if (!size(disc->radius)) return bad("disc.radius", ">= 0");
-    if (!is_unit(disc->normal)) return bad("disc.normal", "unit length");
+  LightExtent shape = light.extent;
+  for (const ShapeMeasure& measure : shape_measures(shape)) {
+    const std::string key =
+        directional ? std::string(measure.key) : fmt::format("{}.{}", shape_name(shape), measure.key);
+    switch (measure.kind) {
+      case ShapeMeasure::Kind::angle:
+        if (!(*measure.number >= 0.0 && *measure.number <= 0.5 * pi)) return bad(key, "0 to 90 degrees");
+        break;
+      case ShapeMeasure::Kind::length:
+        if (!(*measure.number >= 0.0 && coordinate(*measure.number))) return bad(key, ">= 0");
+        break;
+      case ShapeMeasure::Kind::normal:
+        if (!is_unit(*measure.vector)) return bad(key, "unit length");
+        break;
+      case ShapeMeasure::Kind::side:
+        if (!coordinates(*measure.vector)) return bad(key, "finite sides");
+        break;
+    }
   }
-  if (const auto* rectangle = std::get_if<RectangleLight>(&light.extent))
-    if (!coordinates(rectangle->half_width) || !coordinates(rectangle->half_height))
-      return bad("rectangle", "finite sides");
   return std::nullopt;
 }
 

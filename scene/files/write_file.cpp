@@ -1,8 +1,5 @@
 #include "scene/files/write_file.h"
 
-#include "scene/files/descriptor.h"
-#include "scene/files/failed_call.h"
-#include "scene/files/part_file.h"
 #include "scene/files/path_status.h"
 
 #include <fcntl.h>

@@ -1,8 +1,10 @@
 // Outputs appear whole under their final name or not at all.
 #pragma once
 
+#include <unistd.h>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "scene/expected.h"
 
@@ -34,5 +36,44 @@ Expected<void> make_output_folder(const std::string& path);
 Expected<void> check_takes_files(const std::string& folder);
 /// The file's name in an output's folder where it must have one, as abandoned_part_of() gives it.
 inline constexpr std::string_view probe_name = "probe";
+
+// A file descriptor that closes itself.
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+  /// For those who want to know whether that worked.
+  bool close() {
+    const int number = std::exchange(number_, -1);
+    return number < 0 || ::close(number) == 0;
+  }
+
+ private:
+  int number_;
+};
+
+// Files that something else writes, row by row.
+
+/// A file that others write, and that appears under its final name when it is published. It has no name before,
+/// where the file system knows such files, so that nothing is left of it when the process ends.
+class PartFile {
+ public:
+  /// Empty, beside `path`. ErrorKind::cannot_write, also where that is there and no plain file.
+  static Expected<PartFile> create(const std::string& path);
+  PartFile(PartFile&& other) noexcept { *this = std::move(other); }
+  PartFile& operator=(PartFile&& other) noexcept;
+  ~PartFile();
+  std::string path() const;  ///< to be written to
+  Expected<void> publish();
+
+ private:
+  PartFile() = default;
+  std::string target_, part_;
+  int descriptor_ = -1;
+};
 
 }  // namespace gnomon

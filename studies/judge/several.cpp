@@ -9,8 +9,8 @@
 #include "report/html.h"
 #include "report/sections.h"
 #include "report/shell.h"
+#include "scene/expected.h"
 #include "scene/files/write_file.h"
-#include "scene/one_line.h"
 #include "studies/judge/advice.h"
 
 namespace gnomon::compare {

@@ -4,7 +4,7 @@
 
 #include "compare/result/option_names.h"
 #include "compare/result/result_parts.h"
-#include "scene/light_type_name.h"
+#include "scene/light.h"
 #include "studies/shimmer/outputs.h"
 
 namespace gnomon::compare {

@@ -47,11 +47,7 @@ Camera moved_camera(const ShimmerPath& path, const Camera& first, double seconds
 Light orbited(Light light, const Vec3& centre, const Vec3& up, double angle) {
   light.position = centre + turned(light.position - centre, up, angle);
   light.direction = turned(light.direction, up, angle);
-  if (auto* disc = std::get_if<DiscLight>(&light.extent)) disc->normal = turned(disc->normal, up, angle);
-  if (auto* sides = std::get_if<RectangleLight>(&light.extent)) {
-    sides->half_width = turned(sides->half_width, up, angle);
-    sides->half_height = turned(sides->half_height, up, angle);
-  }
+  turn_shape(light.extent, [&](const Vec3& v) { return turned(v, up, angle); });
   return light;
 }
 

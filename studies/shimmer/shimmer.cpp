@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "compare/ladder/ladder.h"
-#include "raster/map_camera.h"
+#include "raster/renderer.h"
 #include "raster/technique_traits.h"
 #include "scene/cascade_fit.h"
 #include "scene/parallel.h"

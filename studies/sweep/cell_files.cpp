@@ -10,8 +10,8 @@
 
 #include "report/packing.h"
 #include "report/shell.h"
+#include "scene/files/encodings.h"
 #include "scene/files/path_status.h"
-#include "scene/files/sha256.h"
 #include "scene/files/write_file.h"
 #include "studies/sweep/journal.h"
 

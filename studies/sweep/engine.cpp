@@ -5,7 +5,6 @@
 
 #include "raster/technique_traits.h"
 #include "scene/parallel.h"
-#include "scene/sort_numbers.h"
 #include "studies/shimmer/shimmer.h"
 #include "studies/sweep/engine_impl.h"
 

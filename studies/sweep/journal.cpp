@@ -12,10 +12,9 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "scene/files/failed_call.h"
+#include "scene/files/encodings.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
-#include "scene/files/sha256.h"
 #include "scene/files/write_file.h"
 #include "scene/parallel.h"
 #include "studies/sweep/cell_files.h"

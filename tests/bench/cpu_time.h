@@ -1,7 +1,7 @@
 // CPU time, which other programs on the machine disturb little.
 #pragma once
 
-#include "scene/clock.h"
+#include "scene/stages.h"
 
 namespace gnomon::bench {
 

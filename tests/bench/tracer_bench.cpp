@@ -12,8 +12,8 @@
 #include "must.h"
 #include "raytrace/packets/edge_setup.h"
 #include "raytrace/packets/shadow_pass.h"
-#include "raytrace/single_rays.h"
 #include "raytrace/tiles.h"
+#include "raytrace/tracer.h"
 #include "scene/light_view.h"
 #include "tinybvh_peer.h"
 

@@ -8,7 +8,7 @@
 
 #include "app/view/panels/panels.h"
 #include "app/view/presets.h"
-#include "app/view/text_wrap.h"
+#include "app/view/style.h"
 #include "raster/settings.h"
 
 namespace gnomon::app {
