@@ -9,6 +9,7 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdarg>
 #include <cstdio>
@@ -20,7 +21,11 @@
 using namespace gnomon::faults;
 
 #define CALLER __builtin_return_address(0)
-#define NEXT(name) static const auto next = reinterpret_cast<decltype(&name)>(dlsym(RTLD_NEXT, #name))
+/// Nobody waits for another thread that asks dlsym(), which waits for the loader, under which a library's start may call this.
+#define NEXT(name)                                     \
+  static std::atomic<void*> kept;                      \
+  if (kept == nullptr) kept = dlsym(RTLD_NEXT, #name); \
+  auto* const next = reinterpret_cast<decltype(&name)>(kept.load())
 
 namespace {
 

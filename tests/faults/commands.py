@@ -23,6 +23,7 @@ class Command:
     words: list
     older: list = None
     resumes: bool = False  # a run that failed is taken up by the next, so that out/ may hold a part
+    grades: bool = False  # whom it could not grade it names, and gives all others their points
     window: bool = False
     share: float = 1.0  # of the points, where a run takes long or makes few calls
     code: int = 0
@@ -60,7 +61,7 @@ COMMANDS = [
     command("sweep resumed", "sweep", *SWEEP, "-o", "out", other=["copy", "in/half"], resumes=True),
     command("merge", "merge", "in/shard1", "in/shard2", "-o", "out", other=["merge", "in/shard1", "in/shard2", "-o", "out"]),
     command("grade", "grade", "in/rubric.json", "in/class", "--jobs", "1", "-o", "out",
-            other=["grade", "in/rubric.json", "in/class/ada", "-o", "out"]),
+            other=["grade", "in/rubric.json", "in/class/ada", "-o", "out"], grades=True),
     command("grade --new", "grade", "--new", "out"),
     command("shimmer", *SHIMMER, "-o", "out"),
     command("shimmer --film", *SHIMMER, "--film", "apng", "-o", "out"),
