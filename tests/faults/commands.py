@@ -39,8 +39,10 @@ def with_size(words, size):
 
 def command(name, *words, other=None, **more):
     words = list(words)
-    older = with_size(words, "40x24") if other is None else list(other)
-    return Command(name, words, None if older == words else older, **more)
+    if other is None:
+        older = with_size(words, "40x24")
+        return Command(name, words, None if older == words else older, **more)
+    return Command(name, words, list(other), **more)
 
 
 SHIMMER = ["shimmer", "acne-floor", "--size", "48x27", "--map-size", "64", "--frames", "3"]
