@@ -29,12 +29,17 @@ FUZZ_TARGETS = {
 RANDOMISED = ['raytrace_test', 'raytrace_solids_test', 'raytrace_packet_test', 'raytrace_wide_test', 'raytrace_cells_test',
               'raytrace_accel_test', 'raytrace_two_level_test', 'hybrid_test', 'effects_test']
 COMPARE = ['compare', 'floating-box', '--size', '96x54', '--map-size', '128', '--runs', '1', '-q']
+FAILING_CALLS = """## Single calls that fail
+
+One call of the C library fails in each run: the n-th write, fsync, rename, open, mkdir, unlink, read, listing of a folder, mmap,
+malloc, thread, process or pipe, n spread evenly and over all calls that publish. "Reached" are the points at which the program was
+the one to answer; calls of a graphics driver's own, of which `tests/faults/points.py` says why, are not."""
 SWEEP = ['sweep', 'floating-box', '--size', '96x54', '--map-size', '32,64,128', '--bias', '0:0.1:4', '--runs', '1', '-q']
 
 
 class Page:
     def __init__(self, build, scale):
-        self.build, self.scale, self.rows, self.notes = build, scale, [], []
+        self.build, self.scale, self.rows, self.notes, self.tables = build, scale, [], [], []
 
     def program(self):
         return os.path.join(self.build, 'app', 'gnomon')
@@ -140,13 +145,18 @@ def faults(page):
 
 def failing_calls(page):
     n = page.times(200)
-    done, seconds = page.run([sys.executable, FAULTS, page.program(), page.test('libfault_injector.so'), '--points', str(n)])
+    with tempfile.TemporaryDirectory() as here:
+        table = os.path.join(here, 'table.md')
+        done, seconds = page.run([sys.executable, FAULTS, page.program(), page.test('libfault_injector.so'), '--points', str(n),
+                                  '--jobs', str(os.cpu_count()), '--table', table])
+        if os.path.exists(table):
+            page.tables.append(open(table, encoding='utf-8').read())
     found = re.search(r'^(\d+) points of (\d+) commands, (\d+) reached: (.*)$', done.stdout, re.MULTILINE)
     if not found:
         sys.exit(f'campaign.py said something else:\n{done.stdout}{done.stderr}')
     page.add(f'Single calls that fail (files, memory, threads, processes) in {found[2]} commands: half outputs, older results or '
              "files of the user's harmed, wrong exit codes, crashes, hangs", int(found[3]), sum(numbers(found[4])), seconds,
-             f'`tests/faults/campaign.py BUILD/app/gnomon BUILD/tests/libfault_injector.so --points {n}`')
+             f'`tests/faults/campaign.py BUILD/app/gnomon BUILD/tests/libfault_injector.so --points {n} --table FILE`')
 
 
 def killed(page, words, folder, after):
@@ -202,6 +212,7 @@ def text_of(page):
         time_text = f'{seconds:.0f}' if seconds else ''
         lines.append(f'| {what} | {tried:,} | {failed} | {time_text} | {command} |')
     lines += ['', *page.notes] if page.notes else []
+    lines += ['', FAILING_CALLS, '', *(table.rstrip('\n') for table in page.tables)] if page.tables else []
     with open(PAGE, encoding='utf-8') as before:
         text = before.read()
     return '\n'.join(lines) + '\n' + text[text.index(BELOW):]

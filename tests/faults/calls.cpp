@@ -9,6 +9,8 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdarg>
 #include <cstdio>
@@ -20,9 +22,28 @@
 using namespace gnomon::faults;
 
 #define CALLER __builtin_return_address(0)
-#define NEXT(name) static const auto next = reinterpret_cast<decltype(&name)>(dlsym(RTLD_NEXT, #name))
+#define NEXT(name) auto* const next = reinterpret_cast<decltype(&name)>(Next<#name>::found())
 
 namespace {
+
+template <std::size_t size>
+struct Name {
+  constexpr Name(const char (&from)[size]) { std::copy_n(from, size, text); }
+  char text[size];
+};
+
+/// The call of that name that this one stands before, found while the library starts: dlsym() waits for whoever loads or unloads
+/// another, who may wait for a thread that makes its first call (a driver that is unloaded, for what it writes into its cache).
+template <Name name>
+struct Next {
+  static void* found() {
+    static_cast<void>(&early);
+    if (kept == nullptr) kept = dlsym(RTLD_NEXT, name.text);
+    return kept;
+  }
+  static inline std::atomic<void*> kept;
+  static inline void* const early = found();
+};
 
 bool opening_fails(int folder, const char* path, const void* caller) {
   return fails_at(open_, folder, path, caller) || fails_at(descriptor, folder, path, caller);

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Makes calls of the C library fail, one at a time, in every command of gnomon, and looks at what the command leaves behind.
 
-usage: tests/faults/campaign.py GNOMON INJECTOR [--points N] [--only COMMAND]... [--kind KIND]... [--table FILE]
+usage: tests/faults/campaign.py GNOMON INJECTOR [--points N] [--only COMMAND]... [--kind KIND]... [--jobs N] [--log FILE]
+                                [--table FILE]
 
 INJECTOR is the library made of tests/faults/injector.cpp. A point is one run in which the n-th call of one kind fails. Each
 command is run undisturbed first, which counts its calls; then the points are spread evenly over the kinds and over each kind's
@@ -11,17 +12,19 @@ older result where they write, and every run finds files of the user's there.
 Held at every point:
   - exit code 0 (or what the undisturbed run has): every output is there and is the undisturbed run's (outputs.py);
   - else each output (a folder, or a file that an option names) is the older one byte by byte, or all of the new, and nothing
-    else of the program's lies about;
+    else of the program's lies about. Two commands finish what they can: a sweep that failed is taken up by the
+    next and is then whole, and grade gives all points but those of students that it names;
   - files of the user's are what they were;
   - the exit code is 4 where an output failed, 3 where an input did, 5 where a resource did; the program does not crash, hang
     (limits: processor time, and a generous time besides) or call it an error of its own.
 Where a drawn process of grade fails, its parent has to answer as well.
 
 What is not counted as the program's is listed in points.py, by the library that made the failing call. The last line is
-"N points, ..."; the exit code is 1 when anything was wrong.
+"N points, ..."; the exit code is 1 when anything was wrong. --table writes points and failures by command, in Markdown.
 """
 import argparse
 import collections
+import concurrent.futures
 import errno
 import json
 import os
@@ -35,26 +38,25 @@ import sys
 import tempfile
 
 from commands import COMMANDS, make_inputs
-from outputs import files_below, same
+from outputs import files_below, same, same_but_drawn_anew, same_but_ungraded
 from points import EXCEPTIONS, KINDS, RESOURCES, points_of
 
 FOREIGN = {"out/movie.mp4.part": b"a film that a browser is loading", "out/notes.txt": b"notes", "out/cells/cell-7.png": b"a picture",
            "out/.gnomon-notes": b"more notes", "mine.part": b"mine"}
 
 class Campaign:
+    """The points of one command after another in `folder`, whose work/in holds the inputs."""
+
     def __init__(self, options, folder):
         self.program, self.injector = str(options.gnomon.resolve()), str(options.injector.resolve())
         self.kinds = options.kind or KINDS
-        self.table = open(options.table, "w", encoding="utf-8") if options.table else None
         self.folder, self.account = folder / "work", folder / "account"
-        self.counts = collections.Counter()
+        self.counts, self.rows = collections.Counter(), []
         self.environment = dict(
             os.environ, GLIBC_TUNABLES="glibc.malloc.hugetlb=0", TMPDIR=str(self.folder / "tmp"), HOME=str(folder / "home"),
             XDG_CACHE_HOME=str(folder / "home/cache"), LC_ALL="C.UTF-8", LANG="C.UTF-8")
-        for name in ("home/cache", "work"):
-            (folder / name).mkdir(parents=True)
-        make_inputs(self.program, self.folder, self.environment)
-        self.inputs = files_below(self.folder / "in")
+        (folder / "home/cache").mkdir(parents=True)
+        self.inputs = files_below(self.folder / "in") if (self.folder / "in").is_dir() else {}
 
     # -- One run.
 
@@ -164,11 +166,8 @@ class Campaign:
             print(f"{command.name}: {point.kind} {point.n}{' and on' if point.onward else ''} of process {point.process} "
                   f"({errno.errorcode.get(point.error, 'short')}, {path or 'not reached'}{', over an older result' if point.old else ''}): "
                   + "; ".join(text for _, text in found), flush=True)
-        if self.table:
-            row = {"command": command.name, **point._asdict(), "code": code, "path": path, "callers": callers, "said": said[-400:],
-                   "found": found}
-            self.table.write(json.dumps(row) + "\n")
-            self.table.flush()
+        self.rows.append({"command": command.name, **point._asdict(), "code": code, "path": path, "callers": callers,
+                          "said": said[-400:], "found": found})
 
     def judge(self, command, point, code, said, failed, before, base):
         found, after = [], self.outputs()
@@ -188,6 +187,9 @@ class Campaign:
         if code == command.code:
             if new:
                 found.append(("wrong", f"exit code {code}, but {self.listed(new)} missing or different"))
+        elif new and command.grades and "not graded: " in said:
+            wrong = same_but_ungraded(base, files)
+            found += [("half", f"somebody could not be graded, but {self.listed(wrong)} missing or different")] if wrong else []
         elif new and command.resumes:
             found += self.judge_resumed(command, said, after, base)
         elif new:
@@ -228,7 +230,7 @@ class Campaign:
         parts = [name for name in after if name.endswith((".part", ".part/")) and name not in FOREIGN]
         found = [("left over", f"left over: {self.listed(parts)}")] if parts else []
         code, said = self.run(command, {"CALL": "none"})
-        wrong = same(base, self.outputs())
+        wrong = same_but_drawn_anew(base, self.outputs())
         if code != command.code:
             found.append(("half", f"cannot be taken up again: exit code {code}: {said.strip()[-200:]}"))
         elif wrong:
@@ -291,6 +293,40 @@ def display():
     return server, f":{number}"
 
 
+def tried(options, inputs, command, budget):
+    """The counts and the rows of a command's points."""
+    with tempfile.TemporaryDirectory(prefix="gnomon-faults-") as folder:
+        shutil.copytree(inputs, pathlib.Path(folder) / "work/in", symlinks=True)
+        campaign = Campaign(options, pathlib.Path(folder))
+        campaign.try_command(command, budget)
+    counts = campaign.counts
+    print(f"{command.name}: {counts['points']} points, {sum(counts[key] for key in WRONG)} failures", file=sys.stderr, flush=True)
+    return counts, campaign.rows
+
+
+def all_tried(options, commands):
+    """Per command its counts and rows."""
+    shares = sum(command.share for command in commands)
+    budgets = [max(2, round(options.points * command.share / shares)) for command in commands]
+    with tempfile.TemporaryDirectory(prefix="gnomon-faults-") as folder:
+        maker = Campaign(options, pathlib.Path(folder))
+        make_inputs(maker.program, maker.folder, maker.environment)
+        with concurrent.futures.ProcessPoolExecutor(options.jobs) as pool:
+            jobs = [pool.submit(tried, options, maker.folder / "in", *job) for job in zip(commands, budgets)]
+            return [job.result() for job in jobs]
+
+
+def table_of(commands, results):
+    """Points and failures by command, as lines of Markdown."""
+    lines = ["| command | points | reached | " + " | ".join(WRONG.values()) + " |", "|---|" + "--:|" * (2 + len(WRONG))]
+    total = collections.Counter()
+    for command, (counts, _) in [*zip(commands, results), (None, (total, None))]:
+        name = "all" if command is None else f"`{command.name}`"
+        lines.append(f"| {name} | " + " | ".join(f"{counts[key]:,}" for key in ("points", "reached", *WRONG)) + " |")
+        total.update(counts)
+    return "\n".join(lines) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("gnomon", type=pathlib.Path)
@@ -298,25 +334,28 @@ def main():
     parser.add_argument("--points", type=int, default=120, help="over all commands (default %(default)s)")
     parser.add_argument("--only", action="append", default=[], metavar="COMMAND", help="of commands.py, by its name")
     parser.add_argument("--kind", action="append", choices=KINDS, help="of calls; default all")
-    parser.add_argument("--table", metavar="FILE", help="writes every point as a line of JSON")
+    parser.add_argument("--jobs", type=int, default=1, help="commands at a time (default %(default)s)")
+    parser.add_argument("--log", metavar="FILE", help="writes every point as a line of JSON")
+    parser.add_argument("--table", metavar="FILE", help="writes points and failures by command, in Markdown")
     options = parser.parse_args()
     commands = [c for c in COMMANDS if not options.only or c.name in options.only]
     server, number = display() if any(c.window for c in commands) else (None, None)
     if server is None:
         commands = [c for c in commands if not c.window]
+    else:
+        os.environ["DISPLAY"] = number
     try:
-        with tempfile.TemporaryDirectory(prefix="gnomon-faults-") as folder:
-            campaign = Campaign(options, pathlib.Path(folder))
-            if number:
-                campaign.environment["DISPLAY"] = number
-            shares = sum(command.share for command in commands)
-            for command in commands:
-                campaign.try_command(command, max(2, round(options.points * command.share / shares)))
-            counts = campaign.counts
+        results = all_tried(options, commands)
     finally:
         if server is not None:
             server.terminate()
             server.wait()
+    if options.log:
+        rows = [json.dumps(row) + "\n" for _, part in results for row in part]
+        pathlib.Path(options.log).write_text("".join(rows), encoding="utf-8")
+    if options.table:
+        pathlib.Path(options.table).write_text(table_of(commands, results), encoding="utf-8")
+    counts = sum((part for part, _ in results), collections.Counter())
     print(f"{counts['points']} points of {len(commands)} commands, {counts['reached']} reached: "
           + ", ".join(f"{counts[key]} {text}" for key, text in WRONG.items()))
     if counts["reached"] < counts["points"] / 2:

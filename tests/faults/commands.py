@@ -23,6 +23,7 @@ class Command:
     words: list
     older: list = None
     resumes: bool = False  # a run that failed is taken up by the next, so that out/ may hold a part
+    grades: bool = False  # whom it could not grade it names, and gives all others their points
     window: bool = False
     share: float = 1.0  # of the points, where a run takes long or makes few calls
     code: int = 0
@@ -38,8 +39,10 @@ def with_size(words, size):
 
 def command(name, *words, other=None, **more):
     words = list(words)
-    older = with_size(words, "40x24") if other is None else list(other)
-    return Command(name, words, None if older == words else older, **more)
+    if other is None:
+        older = with_size(words, "40x24")
+        return Command(name, words, None if older == words else older, **more)
+    return Command(name, words, list(other), **more)
 
 
 SHIMMER = ["shimmer", "acne-floor", "--size", "48x27", "--map-size", "64", "--frames", "3"]
@@ -60,7 +63,7 @@ COMMANDS = [
     command("sweep resumed", "sweep", *SWEEP, "-o", "out", other=["copy", "in/half"], resumes=True),
     command("merge", "merge", "in/shard1", "in/shard2", "-o", "out", other=["merge", "in/shard1", "in/shard2", "-o", "out"]),
     command("grade", "grade", "in/rubric.json", "in/class", "--jobs", "1", "-o", "out",
-            other=["grade", "in/rubric.json", "in/class/ada", "-o", "out"]),
+            other=["grade", "in/rubric.json", "in/class/ada", "-o", "out"], grades=True),
     command("grade --new", "grade", "--new", "out"),
     command("shimmer", *SHIMMER, "-o", "out"),
     command("shimmer --film", *SHIMMER, "--film", "apng", "-o", "out"),

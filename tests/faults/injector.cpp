@@ -9,8 +9,8 @@
 //   GNOMON_FAULT_NOT_FROM   A:B: calls made by libraries with such a part in their path are not counted
 //   GNOMON_FAULT_PROGRAM    the path of the program meant; processes of others are left alone; default all
 //   GNOMON_FAULT_PROCESS=K  the K-th process of that program alone, from 0; default all
-//   GNOMON_FAULT_ACCOUNT    FILE takes the counts, and FILE.calls a line for each counted call about a file and for the
-//                           failing one, with its path and its callers
+//   GNOMON_FAULT_ACCOUNT    FILE takes the counts, and FILE.calls a line for each counted call about a file, with its path
+//                           and the allocations before it, and for the failing one, with its path and its callers
 //
 // Callers are judged by the innermost frames up to the program's own: what a driver or a library asks for on the program's
 // behalf is that library's call. What a library does while the loader starts it (a static constructor) is not counted
@@ -137,7 +137,7 @@ bool is_the_programs(const Stack& stack) {
   return true;
 }
 
-/// A line for FILE.calls.
+/// A line for FILE.calls. Of a call that is counted it says last how many allocations were made before.
 void tell(const char* what, int kind, long n, const char* path, const Stack* stack) {
   if (plan.calls[0] == '\0') return;
   char line[4096];
@@ -154,6 +154,9 @@ void tell(const char* what, int kind, long n, const char* path, const Stack* sta
                       static_cast<unsigned long>(static_cast<const char*>(stack->frames[i]) -
                                                  reinterpret_cast<const char*>(found.dlfo_link_map->l_addr)));
   }
+  if (stack == nullptr)
+    length += std::snprintf(line + length, sizeof line - static_cast<std::size_t>(length), "\t%ld",
+                            account->counts[own_process][malloc_].load());
   line[length++] = '\n';
   const long file =
       syscall(SYS_openat, AT_FDCWD, plan.calls, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);

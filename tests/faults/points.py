@@ -38,12 +38,13 @@ Point = collections.namedtuple("Point", "process kind n error onward old")
 
 
 def points_of(counts, calls, kinds, old, budget):
-    """`counts` by (process, kind) and `calls` in their order. All calls around those that publish come first, then each kind's in
-    turn, spread evenly over its calls."""
+    """`counts` by (process, kind) and `calls` in their order. All calls around those that publish come first, with an allocation
+    between any two of those, then each kind's in turn, spread evenly over its calls."""
     final = [i for i, (_, _, kind, _, path, _) in enumerate(calls)
              if kind in ("rename", "link", "unlink") and "/out/" in path and ".part" not in path and ".gnomon" not in path]
     near = sorted({j for i in final for j in range(max(0, i - AROUND), min(len(calls), i + AROUND + 1))})
     wanted = [(calls[j][1], calls[j][2], calls[j][3]) for j in near if calls[j][2] not in ("stat", "descriptor", "short-write")]
+    wanted += allocations_between([calls[i] for i in final])
     share = max(1, budget // 2)
     if len(wanted) > share:
         wanted = [wanted[i * len(wanted) // share] for i in range(share)]
@@ -56,6 +57,12 @@ def points_of(counts, calls, kinds, old, budget):
     rounds = [chosen for turn in range(budget) for places in lists for chosen in places[turn:turn + 1]]
     seen = dict.fromkeys(chosen for chosen in wanted + rounds if chosen[1] in kinds)
     return [as_point(i, *chosen, old) for i, chosen in enumerate(list(seen)[:budget])]
+
+
+def allocations_between(final):
+    """For each call that publishes the allocation halfway to the next, when older files are away and new ones not there yet."""
+    pairs = [(one[1], int(one[5]), int(other[5])) for one, other in zip(final, final[1:]) if one[1] == other[1]]
+    return [(process, "malloc", (before + after + 1) // 2) for process, before, after in pairs if after > before]
 
 
 def place(places, kind, index):
