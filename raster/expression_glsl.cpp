@@ -21,20 +21,20 @@ constexpr Arithmetic arithmetics[] = {{"function_slope", "Slope", "s_", false},
                                       {"function_gradient", "vec4", "g_", true},
                                       {"function_gradient64", "dvec4", "d_", true, true}};
 
-std::string number(double value) {
+std::string glsl_number(double value) {
   const double largest = std::numeric_limits<float>::max();
   return fmt::format("{:.9e}", std::clamp(value, -largest, largest));
 }
 
 std::string constant(const Arithmetic& a, double value) {
   if (a.is_double) return fmt::format("d_constant({:.17e}LF)", value);
-  if (a.has_operators) return fmt::format("g_constant({})", number(value));
+  if (a.has_operators) return fmt::format("g_constant({})", glsl_number(value));
   const auto rounded = static_cast<float>(value);
   const bool exact = static_cast<double>(rounded) == value;
   const float below = exact ? rounded : std::nextafter(rounded, -std::numeric_limits<float>::max());
   const float above = exact ? rounded : std::nextafter(rounded, std::numeric_limits<float>::max());
-  return fmt::format("s_constant({}, {})", number(static_cast<double>(below)),
-                     number(static_cast<double>(above)));
+  return fmt::format("s_constant({}, {})", glsl_number(static_cast<double>(below)),
+                     glsl_number(static_cast<double>(above)));
 }
 
 std::string step_text(const Arithmetic& arithmetic, const ExpressionStep& s) {
