@@ -24,7 +24,7 @@ struct CascadeOptions {
   double blend = 0.0;
   /// The depth along the view at which each cascade ends, ascending, as the user gives them; empty: by `lambda`. There are
   /// `count` of them.
-  NumberList splits;
+  NumberList splits{};
   bool operator==(const CascadeOptions&) const = default;
 };
 

@@ -111,11 +111,12 @@ Mat4 light_clip_from_relative(const LightView& view, int face, const Vec3& refer
 /// The window of a light's map where a user gives it, as an engine has it; what is left empty is fitted. Places and sizes
 /// are world units. Of a spot or point light the depths alone can be given.
 struct LightWindow {
-  NumberList size;    ///< width and height of the whole window, above 0
-  NumberList origin;  ///< where the light's camera stands: the window's middle, from which depths are counted
+  NumberList size{};  ///< width and height of the whole window, above 0
+  NumberList
+      origin{};  ///< where the light's camera stands: the window's middle, from which depths are counted
   /// Near and far, near < far; counted from the origin, or from the middle of what is finite; of a spot or point light
   /// from the light, above 0.
-  NumberList depths;
+  NumberList depths{};
   bool empty() const { return size.empty() && origin.empty() && depths.empty(); }
   bool operator==(const LightWindow&) const = default;
 };
