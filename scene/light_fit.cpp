@@ -225,7 +225,9 @@ Expected<LightView> fit_directional(const World& world, const Light& light, cons
   const Vec3 reference = casters.reference(view);
   LightView out = window_over(casters, rect ? *rect : Rect{}, view, size, given);
   const Vec2 half = out.faces[0].half_extent;
-  const double origin_depth = to_light_space(casters.face, out.origin - reference).z;
+  // A fitted origin lies across the light from the reference, and rounding shall not say otherwise.
+  const double origin_depth =
+      given.origin.empty() ? 0.0 : to_light_space(casters.face, out.origin - reference).z;
   if (!given.depths.empty()) {
     // Without an origin, depths are counted from the middle of what is finite, as they are fitted.
     out.set_extent(half, given.depths[0], given.depths[1]);
