@@ -39,7 +39,7 @@ import tempfile
 
 from commands import COMMANDS, make_inputs
 from outputs import files_below, same, same_but_drawn_anew, same_but_ungraded
-from points import EXCEPTIONS, KINDS, RESOURCES, points_of
+from points import EXCEPTIONS, KINDS, RESOURCES, SHORT_IS_END, points_of
 
 FOREIGN = {"out/movie.mp4.part": b"a film that a browser is loading", "out/notes.txt": b"notes", "out/cells/cell-7.png": b"a picture",
            "out/.gnomon-notes": b"more notes", "mine.part": b"mine"}
@@ -251,6 +251,8 @@ class Campaign:
         return [] if said.strip() else [("exit codes", f"exit code {code} without a word")]
 
     def wanted_codes(self, point, failed):
+        if point.kind == "short-read" and failed and any(library in failed[0][5] for library in SHORT_IS_END):
+            return {3}
         if point.kind in ("short-write", "short-read") or not failed:
             return set()
         if point.kind in RESOURCES:
