@@ -307,7 +307,7 @@ def tried(options, inputs, command, budget):
 
 
 def all_tried(options, commands):
-    """Per command its counts and rows."""
+    """Per command its counts and rows, in their order; the files hold what is known so far."""
     shares = sum(command.share for command in commands)
     budgets = [max(2, round(options.points * command.share / shares)) for command in commands]
     with tempfile.TemporaryDirectory(prefix="gnomon-faults-") as folder:
@@ -315,7 +315,19 @@ def all_tried(options, commands):
         make_inputs(maker.program, maker.folder, maker.environment)
         with concurrent.futures.ProcessPoolExecutor(options.jobs) as pool:
             jobs = [pool.submit(tried, options, maker.folder / "in", *job) for job in zip(commands, budgets)]
-            return [job.result() for job in jobs]
+            results = []
+            for job in jobs:
+                results.append(job.result())
+                write_files(options, commands, results)
+            return results
+
+
+def write_files(options, commands, results):
+    if options.log:
+        rows = [json.dumps(row) + "\n" for _, part in results for row in part]
+        pathlib.Path(options.log).write_text("".join(rows), encoding="utf-8")
+    if options.table:
+        pathlib.Path(options.table).write_text(table_of(commands, results), encoding="utf-8")
 
 
 def table_of(commands, results):
@@ -352,11 +364,6 @@ def main():
         if server is not None:
             server.terminate()
             server.wait()
-    if options.log:
-        rows = [json.dumps(row) + "\n" for _, part in results for row in part]
-        pathlib.Path(options.log).write_text("".join(rows), encoding="utf-8")
-    if options.table:
-        pathlib.Path(options.table).write_text(table_of(commands, results), encoding="utf-8")
     counts = sum((part for part, _ in results), collections.Counter())
     print(f"{counts['points']} points of {len(commands)} commands, {counts['reached']} reached: "
           + ", ".join(f"{counts[key]} {text}" for key, text in WRONG.items()))
