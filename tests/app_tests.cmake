@@ -5,12 +5,16 @@ gnomon_test(app_test
   LIBS app_process gnomon::app gnomon::scene OpenImageIO::OpenImageIO nlohmann_json::nlohmann_json rapidcheck rapidcheck_gtest)
 add_dependencies(app_test gnomon_program fault_injector)
 
-# Every command, with a call of the C library failing here and there. A sanitizer has its own malloc().
+# The commands that take a tenth of a second, single files and whole folders, with a call of the C library failing here and there:
+# around those that publish, and of all kinds; then memory, threads and descriptors alone. A sanitizer has its own malloc().
 if(NOT GNOMON_SANITIZE)
-  add_test(NAME faults_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_SOURCE_DIR}/faults/campaign.py"
-    "$<TARGET_FILE:gnomon_program>" "$<TARGET_FILE:fault_injector>" --points 40
-    --only export --only plan --only scenes --only verify --only completion --only "man page" --only manual)
-  set_tests_properties(faults_test PROPERTIES TIMEOUT 1200)
+  set(campaign /usr/bin/python3 "${CMAKE_CURRENT_SOURCE_DIR}/faults/campaign.py" "$<TARGET_FILE:gnomon_program>"
+    "$<TARGET_FILE:fault_injector>")
+  add_test(NAME faults_test COMMAND ${campaign} --points 50
+    --only export --only merge --only shaders --only "grade --new" --only plan --only scenes --only completion --only "man page")
+  add_test(NAME faults_resources_test COMMAND ${campaign} --points 36 --kind malloc --kind large-malloc --kind thread --kind descriptor
+    --only export --only merge --only shaders)
+  set_tests_properties(faults_test faults_resources_test PROPERTIES TIMEOUT 1200)
 endif()
 
 # The lessons' own commands, and the fault that each of them shows.

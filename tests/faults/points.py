@@ -14,6 +14,9 @@ EXCEPTIONS = {
     "libX11": "ends the process by exit(1)",
     "libxcb": "as libX11",
 }
+# Libraries that take a short answer of read() for the end of the file, so that the file is none of its kind to them. Files on disks
+# give short answers at their end alone.
+SHORT_IS_END = {"libOpenImageIO": "IOFile::pread()"}
 KINDS = ["write", "short-write", "fsync", "close", "rename", "link", "open", "mkdir", "unlink", "truncate", "read", "short-read",
          "list", "stat", "descriptor", "mmap", "malloc", "large-malloc", "thread", "process", "pipe"]
 # How each kind fails: errno, and whether it goes on failing (a disk that stays full, no more threads, no more large pieces of
