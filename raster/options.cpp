@@ -53,6 +53,9 @@ MapOptions effective_options(const MapOptions& options) {
       options.bias.receiver_plane || (filters && options.filter.receiver_plane && !options.bias.adaptive);
   if (traits.contents == MapContents::back_depth) out.cull = Cull::front;
   if (options.cascades.fit_samples) out.cascades.snap = false;
+  // What is set for another technique stays set.
+  if (!reads_setting(options, "window-size")) out.window.size = out.window.origin = {};
+  if (!reads_setting(options, "window-depths")) out.window.depths = {};
   if (!options.cascades.splits.empty()) out.cascades.count = options.cascades.splits.count;
   return out;
 }

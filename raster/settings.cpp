@@ -40,6 +40,10 @@ bool can_stand_still(const Traits& t) {
 bool lies_still(const Traits& t) {
   return compares(t) && t.texels == TexelShape::of_light;
 }
+/// Only a directional light's window can be moved.
+bool has_a_window(const Traits& t) {
+  return lies_still(t) && t.lights.has(LightType::directional);
+}
 template <Technique only>
 bool is(const Traits& t) {
   return t.technique == only;
@@ -81,7 +85,7 @@ constexpr MapSetting rows[] = {
      .key = "size",
      .group = SettingGroup::window,
      .kind = list<of_window, &W::size>("world units", {0.0, 1e30, true}, 2, 2),
-     .read_by = lies_still,
+     .read_by = has_a_window,
      .type = "W,H",
      .help = "width and height of a directional light's map, as your engine has them",
      .title = "Window",
@@ -93,7 +97,7 @@ constexpr MapSetting rows[] = {
      .key = "origin",
      .group = SettingGroup::window,
      .kind = list<of_window, &W::origin>("world units", any_place, 3, 3),
-     .read_by = lies_still,
+     .read_by = has_a_window,
      .type = "X,Y,Z",
      .help =
          "where a directional light's camera stands: the window's middle, from which --window-depths counts",

@@ -32,7 +32,10 @@ struct Choice {
   const char* kernel = "box";  ///< of pcf
 };
 // filter-samples once for each kernel of pcf that it must and must not concern.
-constexpr Choice choices[] = {{"bias", "3texel"},
+constexpr Choice choices[] = {{"window-size", "9,8"},
+                              {"window-origin", "0.3,4,0.2"},
+                              {"window-depths", "0.5,9"},
+                              {"bias", "3texel"},
                               {"slope-bias", "2"},
                               {"normal-offset", "3"},
                               {"receiver-plane", "on"},
@@ -57,6 +60,7 @@ constexpr Choice choices[] = {{"bias", "3texel"},
                               {"moment-bias", "0.01"},
                               {"cascades", "2"},
                               {"cascade-lambda", "0.9"},
+                              {"cascade-splits", "2,3,5,9"},
                               {"no-snap", "on"},
                               {"cascade-fit", "on"},
                               {"cascade-blend", "0.3"},

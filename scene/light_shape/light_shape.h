@@ -63,7 +63,7 @@ struct ShaderArea {
 
 /// The centre alone: a hard light.
 struct PointShape {
-  static constexpr std::string_view name = "point", shader_define = "";
+  static constexpr std::string_view name = "point", shader_define{};
   static constexpr bool is_sun = false;
   bool operator==(const PointShape&) const = default;
   double size() const { return 0.0; }

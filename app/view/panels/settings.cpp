@@ -391,10 +391,10 @@ void settings_panel(PanelContext& context) {
   raster::MapOptions map = context.state.setup.map;
   bool changed = technique(context, map);
   changed |= group(context, map, raster::SettingGroup::map, "Map");
-  changed |= group(context, map, raster::SettingGroup::window, "Window");
   changed |= group(context, map, raster::SettingGroup::bias, "Bias");
   changed |= group(context, map, raster::SettingGroup::filter, "Filter");
   changed |= group(context, map, raster::SettingGroup::cascades, "Cascades");
+  changed |= group(context, map, raster::SettingGroup::window, "Window");
   if (changed && raster::check_map_options(map)) context.ask(Change{SetMap{map}});
   lights(context);
   film(context);
