@@ -8,6 +8,7 @@
 
 #include <embedded/lessons.h>
 
+#include "compare/ladder/labels.h"
 #include "report/html.h"
 
 namespace gnomon::compare {
@@ -83,30 +84,7 @@ const Lesson& lesson(std::string_view name) {
 }
 
 const Lesson& lesson_of(Label label) {
-  switch (label) {
-    case Label::acne:
-      return lesson("acne");
-    case Label::precision:
-      return lesson("precision");
-    case Label::peter_panning:
-      return lesson("peter-panning");
-    case Label::light_leak:
-      return lesson("light-leaks");
-    case Label::aliasing:
-    case Label::missed_feature:
-    case Label::false_feature:
-      return lesson("aliasing");
-    case Label::blur:
-      return lesson("filtering");
-    case Label::light_size:
-      return lesson("soft-shadows");
-    case Label::outside_map:
-      return lesson("cascades");
-    case Label::custom_shader:
-      return lesson("filtering");
-    default:
-      return lesson("error-budget");
-  }
+  return lesson(label_text(label).lesson);
 }
 
 std::string lesson_html(const Lesson& lesson) {

@@ -5,12 +5,12 @@
 
 #include "compare/bias/bias_advice.h"
 #include "compare/ladder/budget.h"
+#include "compare/ladder/labels.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
 #include "compare/result/palette.h"
 #include "report/charts.h"
-#include "report/explanations.h"
 #include "report/html.h"
 #include "report/lessons.h"
 #include "report/light_block.h"

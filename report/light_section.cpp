@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
+#include "compare/ladder/labels.h"
 #include "compare/result/judged.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
 #include "compare/result/palette.h"
 #include "compare/result/verdict.h"
-#include "report/explanations.h"
 #include "report/html.h"
 #include "report/lessons.h"
 #include "report/light_block.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compare/ladder/budget.h"
+#include "compare/ladder/labels.h"
 #include "compare/measure/reduced.h"
 #include "compare/result/judged.h"
 #include "compare/result/number_text.h"
@@ -13,7 +14,6 @@
 #include "compare/result/outputs.h"
 #include "compare/result/verdict.h"
 #include "report/charts.h"
-#include "report/explanations.h"
 #include "report/html.h"
 #include "report/sections.h"
 

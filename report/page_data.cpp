@@ -11,12 +11,12 @@
 #include <optional>
 #include <unordered_map>
 
+#include "compare/ladder/labels.h"
 #include "compare/result/outputs.h"
 #include "compare/result/result_parts.h"
 #include "compare/truth/shown_materials.h"
 #include "report/channels.h"
 #include "report/colour_numbers.h"
-#include "report/explanations.h"
 #include "report/html.h"
 #include "report/light_channels.h"
 #include "report/section_mesh.h"

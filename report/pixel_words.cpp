@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "compare/bias/bias_curve.h"
+#include "compare/ladder/labels.h"
 #include "compare/ladder/ladder.h"
 #include "compare/result/number_text.h"
 #include "compare/result/output_parts.h"
-#include "report/explanations.h"
 
 namespace gnomon::compare {
 namespace {

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "compare/ladder/labels.h"
 #include "compare/result/outputs.h"
-#include "report/explanations.h"
 #include "report/html.h"
 #include "report/page_head.h"
 #include "scene/files/path_status.h"

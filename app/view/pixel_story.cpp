@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "report/explanations.h"
+#include "compare/ladder/labels.h"
 #include "report/pixel_words.h"
 #include "scene/light_view.h"
 

@@ -3,6 +3,7 @@
 #include "compare/ladder/features.h"
 #include "compare/ladder/filter_parameters.h"
 #include "compare/ladder/filter_probe.h"
+#include "compare/ladder/labels.h"
 #include "compare/truth/stored_surface.h"
 
 namespace gnomon::compare {
@@ -76,26 +77,8 @@ Label label_wrong_pixel(const LadderInput& in, Column& column, const WrongPixel&
 }
 
 Cause step_of_label(Label label, const std::array<float, rung_count>& rungs) {
-  switch (label) {
-    case Label::acne:
-      return Cause::slope;
-    case Label::precision:
-      return Cause::precision;
-    case Label::peter_panning:
-      return Cause::bias;
-    case Label::aliasing:
-    case Label::missed_feature:
-    case Label::false_feature:
-    case Label::outside_map:
-      return Cause::sampling;
-    case Label::blur:
-    case Label::custom_shader:
-      return Cause::filter;
-    case Label::light_size:
-      return Cause::light_size;
-    default:
-      return deciding_step(rungs);
-  }
+  const std::optional<Cause>& step = label_text(label).step;
+  return step ? *step : deciding_step(rungs);
 }
 
 }  // namespace gnomon::compare

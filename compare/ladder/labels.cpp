@@ -1,96 +1,226 @@
-// Names and colours of causes and labels. The colours are Okabe and Ito's colour-blind-safe set (Okabe & Ito
-// 2008, "Color Universal Design") and, for the classes beyond its size, three of Paul Tol's "muted" scheme
-// (2021). Right and uncounted pixels stay grey, so that colour always means "wrong".
+// The rows of labels, steps and rungs. The colours are Okabe and Ito's colour-blind-safe set (Okabe & Ito 2008, "Color
+// Universal Design") and, for the labels beyond its size, some of Paul Tol's "muted" and "dark" schemes (2021). Right and
+// uncounted pixels stay grey, so that colour always means an error.
+#include "compare/ladder/labels.h"
+
 #include <array>
 
 #include "compare/result/outputs.h"
 
 namespace gnomon::compare {
+namespace {
+
+constexpr int first_label = static_cast<int>(Label::uncertain);
+
+// In the order of the label's values.
+constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
+    {"uncertain",
+     "uncertain",
+     "?",
+     {0xb5, 0xd3, 0xa8},
+     std::nullopt,
+     "error-budget",
+     "the exact answer lies within its own error bound",
+     "",
+     ""},
+    {"silhouette",
+     "silhouette",
+     "o",
+     {0x1c, 0x1e, 0x22},
+     std::nullopt,
+     "error-budget",
+     "the two renderers see different surfaces here",
+     "",
+     ""},
+    {"facing_away",
+     "facing away",
+     "/",
+     {0x8f, 0x93, 0x9b},
+     std::nullopt,
+     "error-budget",
+     "turned away from the light, or outside a spot light's cone: dark whatever shadows say",
+     "",
+     ""},
+    {"background",
+     "background",
+     "\u00b7",
+     {0x3c, 0x42, 0x4c},
+     std::nullopt,
+     "error-budget",
+     "no surface",
+     "",
+     ""},
+    {"right",
+     "right",
+     "\u2713",
+     {0xf2, 0xf2, 0xef},
+     std::nullopt,
+     "error-budget",
+     "both renderers agree",
+     "",
+     ""},
+    {"acne",
+     "acne",
+     "A",
+     {0xd5, 0x5e, 0x00},
+     Cause::slope,
+     "acne",  // vermillion
+     "the surface shadows itself",
+     "A texel holds one depth, but the surface slopes across it. The part of the surface that lies behind "
+     "that depth takes itself for an occluder, in stripes that follow the texels.",
+     "A bias of at least the depth by which the surface falls over half a texel; a slope bias of 1 is "
+     "exactly that on planes. A finer map needs proportionally less."},
+    {"precision",
+     "precision",
+     "P",
+     {0xf0, 0xe4, 0x42},
+     Cause::precision,
+     "precision",  // yellow
+     "the stored depth is not the depth the light sees",
+     "The depth was rounded to the map's format or interpolated across the triangle, or the fill rule gave "
+     "the texel to a neighbour: with the exact depth the same test, with the same bias, would be right.",
+     "A format with more bits (d32f), a depth range fitted closer to the scene, or a slightly larger bias."},
+    {"peter_panning",
+     "peter-panning",
+     "D",
+     {0x00, 0x72, 0xb2},
+     Cause::bias,
+     "peter-panning",  // blue
+     "the shadow has come loose from its caster",
+     "The bias reaches past a true occluder that lies close to the surface, so the shadow starts too late "
+     "and the object seems to float.",
+     "Less bias. A finer map, or a bias that grows only with the slope, makes less of it enough."},
+    {"light_leak",
+     "light leak",
+     "L",
+     {0x56, 0xb4, 0xe9},
+     std::nullopt,
+     "light-leaks",  // sky blue
+     "light gets through where the bias or the filter looked past the occluder",
+     "The map knows that something stands in the light's way, and the test let light through all the same: "
+     "typical behind thin walls and in corners.",
+     "Less bias, a narrower filter, or walls that are thicker than the bias."},
+    {"aliasing",
+     "aliasing",
+     "S",
+     {0xcc, 0x79, 0xa7},
+     Cause::sampling,
+     "aliasing",  // reddish purple
+     "the shadow's edge follows the texels",
+     "Beside a true shadow edge the texel's centre falls on the other side of the edge than the pixel does, "
+     "so the edge turns into stairs of about a texel. No bias mends that: where the map misses an occluder, "
+     "a surface that shadows itself may hide the gap until a bias cures its acne.",
+     "Smaller texels where the camera looks: a larger map or one fitted closer. A filter hides the stairs, "
+     "but blurs."},
+    {"missed_feature",
+     "missed feature",
+     "M",
+     {0x00, 0x9e, 0x73},
+     Cause::sampling,
+     "aliasing",  // bluish green
+     "the shadow of something thinner than a texel is missing",
+     "None of the four texel centres around the pixel meets the occluder, so the map does not know it there.",
+     "A larger map, or exact rays where texels hold more than one surface."},
+    {"false_feature",
+     "false feature",
+     "F",
+     {0xe6, 0x9f, 0x00},
+     Cause::sampling,
+     "aliasing",  // orange
+     "a thin occluder darkens a whole texel",
+     "The texel's centre happens to meet an occluder that ends before the next texels' centres; every pixel "
+     "that looks the texel up is dark.",
+     "A larger map, or exact rays where texels hold more than one surface."},
+    {"blur",
+     "blur",
+     "B",
+     {0x99, 0x99, 0x33},
+     Cause::filter,
+     "filtering",  // olive (Tol)
+     "the filter's penumbra is not the light's",
+     "The technique averages over neighbouring texels, which softens edges that are sharp.",
+     "A smaller filter radius."},
+    {"light_size",
+     "light size",
+     "Z",
+     {0x33, 0x22, 0x88},
+     Cause::light_size,
+     "soft-shadows",  // indigo (Tol)
+     "the light is larger than the point that the map takes it for",
+     "A depth map sees the scene from one point; a light with a size has a penumbra.",
+     "A technique that estimates the penumbra, or a smaller light."},
+    {"outside_map",
+     "outside the map",
+     "X",
+     {0x88, 0x22, 0x55},
+     Cause::sampling,
+     "cascades",  // wine (Tol)
+     "the depth map does not reach this far",
+     "The surface lies outside the part of the scene that the map covers.",
+     "A map fitted to the whole scene."},
+    {"custom_shader",
+     "custom shader",
+     "C",
+     {0x66, 0x33, 0x33},
+     Cause::filter,
+     "filtering",  // dark red (Tol, "dark")
+     "a shader of your own drew other than the map's test says",
+     "With --shader-dir a file of yours stands in for the program's own; up to its last step the ladder is "
+     "that of the hard test with the map, and the rest is the shader's.",
+     "Whatever the shader is meant to show."},
+    {"unexplained",
+     "unexplained",
+     "U",
+     {0x00, 0x00, 0x00},
+     std::nullopt,
+     "error-budget",
+     "another renderer drew this, and what the capture says of its map does not explain it",
+     "A capture without its depth map shows where the shadow is wrong, not which step of the depth test made "
+     "it so. With the map, the test that the capture describes is not the one that was drawn here, or the "
+     "map does not hold what the scene holds here.",
+     "A capture with the map, its matrix and its bias as they were drawn with; or, without a map, `gnomon "
+     "judge --identify`, which looks for the setting that comes nearest."},
+}};
+
+constexpr std::array<StepText, cause_count> steps{{
+    {"light_size", "light size", "the light shrinks to a point", Label::light_size},
+    {"sampling", "sampling", "one ray per texel instead of one per pixel", Label::aliasing},
+    {"slope", "slope", "one depth for the whole texel", Label::acne},
+    {"precision", "precision", "the depth as stored in the map", Label::precision},
+    {"bias", "bias", "the depth test with its bias", Label::peter_panning},
+    {"filter", "filter", "the technique's filter", Label::blur},
+}};
+
+constexpr std::array<RungText, rung_count> rungs{{
+    {"V0", "truth", "exact rays to the light as it is"},
+    {"V1", "point", "exact rays to the light's centre"},
+    {"V2", "texel", "the exact ray through the texel's centre"},
+    {"V3", "flat", "the same, with one depth for the whole texel"},
+    {"V4", "stored", "compared with the depth that the map stores"},
+    {"V5", "biased", "the same, with the bias"},
+    {"V6", "drawn", "what the rasterizer drew"},
+}};
+
+}  // namespace
+
+const LabelText& label_text(Label label) {
+  return labels[static_cast<std::size_t>(static_cast<int>(label) - first_label)];
+}
+const StepText& step_text(Cause cause) {
+  return steps[static_cast<std::size_t>(cause)];
+}
+const RungText& rung_text(Rung rung) {
+  return rungs[static_cast<std::size_t>(rung)];
+}
 
 std::string_view cause_name(Cause cause) {
-  constexpr std::array<std::string_view, cause_count> names{"light_size", "sampling", "slope",
-                                                            "precision",  "bias",     "filter"};
-  return names[static_cast<std::size_t>(cause)];
+  return step_text(cause).key;
 }
-
 std::string_view label_name(Label label) {
-  switch (label) {
-    case Label::uncertain:
-      return "uncertain";
-    case Label::silhouette:
-      return "silhouette";
-    case Label::facing_away:
-      return "facing_away";
-    case Label::background:
-      return "background";
-    case Label::right:
-      return "right";
-    case Label::acne:
-      return "acne";
-    case Label::precision:
-      return "precision";
-    case Label::peter_panning:
-      return "peter_panning";
-    case Label::light_leak:
-      return "light_leak";
-    case Label::aliasing:
-      return "aliasing";
-    case Label::missed_feature:
-      return "missed_feature";
-    case Label::false_feature:
-      return "false_feature";
-    case Label::blur:
-      return "blur";
-    case Label::light_size:
-      return "light_size";
-    case Label::outside_map:
-      return "outside_map";
-    case Label::custom_shader:
-      return "custom_shader";
-    case Label::unexplained:
-      return "unexplained";
-  }
-  return "unknown";
+  return label_text(label).key;
 }
-
 glm::u8vec3 label_colour(Label label) {
-  switch (label) {
-    case Label::uncertain:
-      return {0xb5, 0xd3, 0xa8};
-    case Label::silhouette:
-      return {0x1c, 0x1e, 0x22};
-    case Label::facing_away:
-      return {0x8f, 0x93, 0x9b};
-    case Label::background:
-      return {0x3c, 0x42, 0x4c};
-    case Label::right:
-      return {0xf2, 0xf2, 0xef};
-    case Label::acne:
-      return {0xd5, 0x5e, 0x00};  // vermillion
-    case Label::precision:
-      return {0xf0, 0xe4, 0x42};  // yellow
-    case Label::peter_panning:
-      return {0x00, 0x72, 0xb2};  // blue
-    case Label::light_leak:
-      return {0x56, 0xb4, 0xe9};  // sky blue
-    case Label::aliasing:
-      return {0xcc, 0x79, 0xa7};  // reddish purple
-    case Label::missed_feature:
-      return {0x00, 0x9e, 0x73};  // bluish green
-    case Label::false_feature:
-      return {0xe6, 0x9f, 0x00};  // orange
-    case Label::blur:
-      return {0x99, 0x99, 0x33};  // olive (Tol)
-    case Label::light_size:
-      return {0x33, 0x22, 0x88};  // indigo (Tol)
-    case Label::outside_map:
-      return {0x88, 0x22, 0x55};  // wine (Tol)
-    case Label::custom_shader:
-      return {0x66, 0x33, 0x33};  // dark red (Tol, "dark")
-    case Label::unexplained:
-      return {0x00, 0x00, 0x00};
-  }
-  return {0, 0, 0};
+  return label_text(label).colour;
 }
 
 }  // namespace gnomon::compare

@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "compare/ladder/labels.h"
 #include "compare/result/aov.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
@@ -13,9 +14,6 @@
 
 namespace gnomon::compare {
 namespace {
-
-constexpr std::array<const char*, rung_count> rung_channels{"truth.V",  "point.V",  "texel.V", "flat.V",
-                                                            "stored.V", "biased.V", "drawn.V"};
 
 // Collects channels of one size; `value` maps a pixel's index to its number.
 class AovChannels {
@@ -61,7 +59,8 @@ void add_ids(AovChannels& channels, const AovRows& c) {
 
 void add_ladder(AovChannels& channels, const AovRows& light) {
   for (std::size_t k = 0; k < rung_count; ++k)
-    channels.add(rung_channels[k], [&](std::size_t i) { return light.rungs[k].data[i]; });
+    channels.add(fmt::format("{}.V", rung_text(static_cast<Rung>(k)).name),
+                 [&](std::size_t i) { return light.rungs[k].data[i]; });
   channels.add("class.V", [&](std::size_t i) { return static_cast<double>(light.labels.data[i]); });
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "compare/ladder/filter_parameters.h"
+#include "compare/ladder/labels.h"
 #include "compare/result/engine_units_json.h"
 #include "compare/result/judged.h"
 #include "compare/result/option_names.h"
@@ -229,12 +230,10 @@ Json budget_json(const Comparison& c, const LightComparison& light) {
 }
 
 Json ladder_json(const LightComparison& light) {
-  constexpr std::array<const char*, rung_count> names{"truth",  "point",  "texel", "flat",
-                                                      "stored", "biased", "drawn"};
   const auto means = light.rung_mean;
   Json json = Json::array();
   for (std::size_t k = 0; k < rung_count; ++k)
-    json.push_back({{"rung", names[k]}, {"mean", number(means[k])}});
+    json.push_back({{"rung", rung_text(static_cast<Rung>(k)).name}, {"mean", number(means[k])}});
   return json;
 }
 

@@ -6,6 +6,7 @@
 
 #include "compare/ladder/budget.h"
 #include "compare/ladder/filter_parameters.h"
+#include "compare/ladder/labels.h"
 #include "compare/result/judged.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
@@ -143,7 +144,7 @@ std::string labels_line(const LightComparison& light) {
   std::string text;
   for (std::size_t k = 0; k < class_count; ++k)
     if (light.classes[k] > 0)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", spoken(label_name(static_cast<Label>(k + 1))),
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", label_text(static_cast<Label>(k + 1)).name,
                           grouped(light.classes[k]));
   return text.empty() ? "none" : text;
 }

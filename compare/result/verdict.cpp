@@ -8,6 +8,7 @@
 
 #include "compare/bias/bias_advice.h"
 #include "compare/bias/bias_curve.h"
+#include "compare/ladder/labels.h"
 #include "compare/result/judged.h"
 #include "compare/result/number_text.h"
 #include "compare/result/text_layout.h"
@@ -16,19 +17,15 @@
 namespace gnomon::compare {
 namespace {
 
-std::string spoken_label(Label label) {
-  std::string name(label_name(label));
-  std::replace(name.begin(), name.end(), '_', label == Label::peter_panning ? '-' : ' ');
-  return name;
-}
-
 // "all of them acne", "mostly acne", "mainly acne and aliasing".
 std::string main_reasons(const LightComparison& light) {
   std::array<std::size_t, class_count> order{};
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return light.classes[a] > light.classes[b]; });
-  const auto name = [&](std::size_t rank) { return spoken_label(static_cast<Label>(order[rank] + 1)); };
+  const auto name = [&](std::size_t rank) {
+    return std::string(label_text(static_cast<Label>(order[rank] + 1)).name);
+  };
   const auto count = [&](std::size_t rank) { return light.classes[order[rank]]; };
   const std::uint64_t wrong = light.error.wrong;
   if (count(0) == wrong) return wrong == 1 ? name(0) : "all of them " + name(0);

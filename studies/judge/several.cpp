@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compare/ladder/labels.h"
 #include "compare/result/number_text.h"
 #include "compare/result/output_parts.h"
 #include "report/html.h"
@@ -22,13 +23,13 @@ constexpr std::string_view no_figures = "nothing compared";
 std::string main_labels(const LightComparison& light) {
   std::vector<std::pair<std::uint64_t, std::string>> counts;
   for (std::size_t k = 0; k < class_count; ++k)
-    if (light.classes[k] > 0) counts.emplace_back(light.classes[k], label_name(static_cast<Label>(k + 1)));
+    if (light.classes[k] > 0)
+      counts.emplace_back(light.classes[k], label_text(static_cast<Label>(k + 1)).name);
   std::stable_sort(counts.begin(), counts.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
   for (std::size_t k = 0; k < std::min<std::size_t>(2, counts.size()); ++k)
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[k].second, grouped(counts[k].first));
-  std::replace(text.begin(), text.end(), '_', ' ');
   return text;
 }
 

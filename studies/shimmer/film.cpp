@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "compare/ladder/labels.h"
 #include "compare/result/outputs.h"
 #include "compare/result/palette.h"
 #include "scene/exposure.h"
@@ -33,10 +34,8 @@ std::uint8_t bits_of(const RungFrame& frame, std::size_t i) {
 }  // namespace
 
 glm::u8vec3 flip_colour(std::size_t label) {
-  constexpr std::array<Label, flip_label_count> of{Label::light_size, Label::aliasing,      Label::acne,
-                                                   Label::precision,  Label::peter_panning, Label::blur,
-                                                   Label::outside_map};
-  return label_colour(of[label]);
+  return label_colour(label == outside_map_flip ? Label::outside_map
+                                                : step_text(static_cast<Cause>(label)).label);
 }
 
 Expected<Rgb8Image> unshadowed_picture(Scene& scene, raster::Renderer& renderer,

@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "compare/comparison.h"
-#include "report/explanations.h"
+#include "compare/ladder/labels.h"
 
 namespace gnomon::compare {
 

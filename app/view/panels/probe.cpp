@@ -7,10 +7,10 @@
 
 #include "app/view/panels/panels.h"
 #include "app/view/pixel_story.h"
+#include "compare/ladder/labels.h"
 #include "compare/result/number_text.h"
 #include "compare/result/outputs.h"
 #include "compare/result/palette.h"
-#include "report/explanations.h"
 
 namespace gnomon::app {
 

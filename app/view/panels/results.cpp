@@ -7,10 +7,10 @@
 
 #include "app/view/panels/panels.h"
 #include "app/view/status.h"
+#include "compare/ladder/labels.h"
 #include "compare/result/number_text.h"
 #include "compare/result/outputs.h"
 #include "compare/result/palette.h"
-#include "report/explanations.h"
 
 namespace gnomon::app {
 
@@ -20,10 +20,7 @@ using compare::LightComparison;
 
 /// Of the steps that a wrong pixel is charged to.
 ImU32 step_colour(std::size_t step) {
-  constexpr compare::Label labels[] = {compare::Label::light_size,    compare::Label::aliasing,
-                                       compare::Label::acne,          compare::Label::precision,
-                                       compare::Label::peter_panning, compare::Label::blur};
-  return colour(compare::label_colour(labels[step]));
+  return colour(compare::label_colour(compare::step_text(static_cast<compare::Cause>(step)).label));
 }
 
 void right_aligned(const std::string& text) {
