@@ -48,9 +48,15 @@ void append_data(std::string& html, const PageShell& shell) {
 }
 
 std::size_t bytes_of(const PageShell& shell) {
-  std::size_t bytes = shell.main.size() + shell.result.size() + shell.data.size();
+  std::size_t bytes = shell.main.size() + 4 * shell.result.size() + shell.data.size();
+  for (const PagePicture& picture : shell.pictures) bytes += picture.source.size();
   for (const DataPart& part : shell.parts) bytes += shell.beside ? 0 : part.json.size();
   return bytes;
+}
+
+/// "Sweep of fence" of the title "Sweep of fence – Gnomon".
+std::string_view without_program(std::string_view title) {
+  return title.substr(0, title.rfind(" \u2013 "));
 }
 
 }  // namespace
@@ -83,7 +89,10 @@ BuiltPage build_page(const PageShell& shell) {
   out.html += R"(
 <header class="bar-top"><span class="brand">Gnomon</span>
 <nav aria-label="Sections"><ul>)" +
-              shell.links + "</ul></nav></header>\n<main id=\"main\">\n" + shell.main + "</main>\n";
+              shell.links + "</ul></nav></header>\n<main id=\"main\">\n";
+  out.html += shell.main.empty() ? plain_page(without_program(shell.title), shell.pictures, shell.result)
+                                 : shell.main;
+  out.html += "</main>\n";
   if (!shell.result.empty()) {
     out.html += R"(<script type="application/json" id="result">)";
     append_script_safe(out.html, shell.result);

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "report/plain_page.h"
+
 namespace gnomon::compare {
 
 /// A file beside report.html; the name is relative to its folder.
@@ -27,9 +29,10 @@ struct DataPart {
 };
 
 struct PageShell {
-  std::string title;            ///< not escaped
-  std::string links;            ///< <li> items of the bar on top
-  std::string main;             ///< what <main> holds
+  std::string title;  ///< not escaped
+  std::string links;  ///< <li> items of the bar on top; of a page without `main` the script makes them
+  std::string main;   ///< what <main> holds; empty: the script's sections, or the plain page without scripts
+  std::vector<PagePicture> pictures{};  ///< of a page without `main`
   std::string result;           ///< JSON text that other programs know, under id "result"; may be empty
   std::string data;             ///< JSON object that the script reads
   std::vector<DataPart> parts;  ///< added to it

@@ -176,6 +176,21 @@ async function checkReducedPage() {
   await close(page);
 }
 
+// Several captures: the worst first, each with a link to its own page, and the same without scripts.
+async function checkCaptures() {
+  const page = await open("captures"), rows = await page.locator(".captures tbody tr").allInnerTexts();
+  assert.deepEqual(rows.map((row) => row.replaceAll(/\s+/g, " ").trim()), [
+    "shot#1 <b> fence Another 2.0 12.5 % 25.0 % acne 12 1.5 0.0625 bias 0.002 instead of 0.001", "empty nothing compared", "refused not judged: no such file"]);
+  assert.deepEqual(await page.locator(".captures a").evaluateAll((all) => all.map((a) => a.getAttribute("href"))), ["shot%231%20%3Cb%3E/report.html", "empty/report.html"]);
+  assert.equal(await page.locator("nav a").getAttribute("href"), "#captures");
+  await close(page);
+  const plain = await open("captures", { javaScriptEnabled: false });
+  assert.equal(await plain.locator("tbody tr", { hasText: "shot#1 <b>" }).locator("data[data-key='captures.0.wrong']").textContent(), "0.125");
+  await close(plain);
+  await checkPhone(join(folder, "captures"));
+  await checkAccessibility(join(folder, "captures"));
+}
+
 try {
   for (const name of ["one", "three", "none"]) {
     const page = await open(name);
@@ -192,6 +207,7 @@ try {
   await checkTabs();
   await checkFirstScreen();
   await checkReducedPage();
+  await checkCaptures();
   console.log("viewer: keys, mouse and labels work; three lights in tabs; the first screen has the labelled picture, and says what it leaves out");
 } finally {
   await browser.close();

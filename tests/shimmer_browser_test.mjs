@@ -7,7 +7,7 @@ import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { inflateSync } from "node:zlib";
-import { browser, checkAccessibility, checkPhone, close, open } from "./browser/open_page.mjs";
+import { browser, checkAccessibility, checkPhone, checkPicture, close, open } from "./browser/open_page.mjs";
 
 const [program, folder] = process.argv.slice(2);
 const whole = join(folder, "whole"), parts = join(folder, "parts");
@@ -84,6 +84,22 @@ async function checkProbe(page) {
   assert.match(await page.locator(".film-probe .probe").textContent(), new RegExp(`^Pixel ${worst.x}, ${worst.y}: ${worst.flips} flips?, by `));
 }
 
+async function checkNumbers(page, least) {
+  const keyed = await page.locator("data[data-key]").evaluateAll((all) => all.map((e) => [e.dataset.key, Number(e.value)]));
+  assert.ok(keyed.length >= least, `${keyed.length} numbers`);
+  for (const [key, value] of keyed) assert.equal(value, at(key), key);
+}
+
+// The map of flips, and all that the result says.
+async function checkWithoutScripts() {
+  const plain = await open(whole, { javaScriptEnabled: false });
+  await checkNumbers(plain, 80);
+  await checkPicture(plain.locator("main img"));
+  assert.match(await plain.locator("main img").getAttribute("alt"), /^Flips of each receiver, .* \d+$/);
+  await close(plain);
+  await checkPhone(whole, { javaScriptEnabled: false });
+}
+
 // Once round, whatever the time it takes.
 async function checkPlay(page) {
   await page.click(".film-play");
@@ -96,10 +112,8 @@ async function checkPlay(page) {
 
 try {
   assert.ok(light.flips > 100, `flips ${light.flips}`);
-  const page = await open(whole), keyed = page.locator("data[data-key]");
-  assert.ok((await keyed.count()) >= 20);
-  for (const [key, value] of await keyed.evaluateAll((all) => all.map((e) => [e.dataset.key, Number(e.value)])))
-    assert.equal(value, at(key), key);
+  const page = await open(whole);
+  await checkNumbers(page, 20);
   await checkFilm(page);
   await checkProbe(page);
   await checkPlay(page);
@@ -112,6 +126,7 @@ try {
   assert.match(await lacking.locator(".shimmer-light .left-out").textContent(), /^The film and its probe are missing: /);
   assert.deepEqual(lacking.offences.splice(0).filter((text) => !text.includes("ERR_FILE_NOT_FOUND")), []);
   await close(lacking);
+  await checkWithoutScripts();
   await checkAccessibility(whole);
   await checkPhone(whole);
   console.log(`${light.flips} flips in ${frames} frames: page, films and result agree`);

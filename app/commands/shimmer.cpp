@@ -98,7 +98,7 @@ Expected<void> write_all(const ShimmerCommand& command, const Filmed& film, cons
   const OutputGuard whole_outputs;
   if (film.pictures) {
     const auto megabytes =
-        compare::write_shimmer(film.shimmer, *film.pictures, command.command_line, json,
+        compare::write_shimmer(film.shimmer, *film.pictures, json,
                                {command.folder, command.report_max_mb, files.inputs(), command.film_format});
     if (!megabytes) return fail(megabytes.error());
     if (*megabytes > command.report_max_mb) console.note(beside_note(*megabytes, command.report_max_mb));

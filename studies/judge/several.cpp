@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "compare/ladder/labels.h"
 #include "compare/result/number_text.h"
 #include "compare/result/output_parts.h"
 #include "report/html.h"
-#include "report/sections.h"
 #include "report/shell.h"
 #include "scene/expected.h"
 #include "scene/files/write_file.h"
@@ -16,6 +16,8 @@
 
 namespace gnomon::compare {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr std::string_view no_figures = "nothing compared";
 
@@ -44,24 +46,24 @@ std::vector<const JudgedRow*> worst_first(const JudgedSet& set) {
   return rows;
 }
 
-std::string page_row(const JudgedRow& row) {
-  if (!row.refused.empty())
-    return fmt::format(R"(<tr><th scope="row">{}</th><td colspan="7">not judged: {}</td></tr>
-)",
-                       escaped(row.name), escaped(row.refused));
-  const std::string head =
-      fmt::format(R"(<tr><th scope="row"><a href="{}/report.html">{}</a><small>{}</small></th><td>{}</td>)",
-                  url_segment(row.name), escaped(row.name), escaped(row.scene), escaped(row.renderer));
-  if (row.compared == 0)
-    return fmt::format(R"({}<td colspan="5">{}</td><td>{}</td></tr>
-)",
-                       head, no_figures, escaped(row.advice));
-  return fmt::format(
-      R"({}<td class="n">{}</td><td
-class="n">{}</td><td>{}</td><td class="n">{}</td><td class="n">{}</td><td>{}</td></tr>
-)",
-      head, percent(row.wrong), percent(row.mean_error), escaped(row.labels), plain_number(row.edge_pixels),
-      row.detachment_world ? plain_number(*row.detachment_world) : "\u2013", escaped(row.advice));
+/// What the page shows of a capture; a refused one has its name and the reason alone.
+Json row_json(const JudgedRow& row) {
+  Json json{{"name", row.name}};
+  if (!row.refused.empty()) {
+    json["refused"] = row.refused;
+    return json;
+  }
+  json.update({{"folder", url_segment(row.name)},
+               {"scene", row.scene},
+               {"renderer", row.renderer},
+               {"compared", row.compared},
+               {"wrong", row.wrong},
+               {"mean_error", row.mean_error},
+               {"labels", row.labels},
+               {"edge_pixels", row.edge_pixels},
+               {"detachment_world", row.detachment_world ? Json(*row.detachment_world) : Json(nullptr)},
+               {"advice", row.advice}});
+  return json;
 }
 
 std::string judged_line(const JudgedRow& row, std::size_t width) {
@@ -73,25 +75,12 @@ std::string judged_line(const JudgedRow& row, std::size_t width) {
 }
 
 std::string judged_page(const JudgedSet& set) {
-  std::string rows;
-  for (const JudgedRow* row : worst_first(set)) rows += page_row(*row);
+  Json captures = Json::array();
+  for (const JudgedRow* row : worst_first(set)) captures.push_back(row_json(*row));
   PageShell shell;
   shell.title = "Captures judged \u2013 Gnomon";
-  shell.links = R"(<li><a href="#captures">Captures</a></li>)";
-  shell.main =
-      R"(<section id="captures" aria-labelledby="captures-title"><h1 id="captures-title">Captures judged</h1>
-<p>The worst first. Each name opens that capture's own report. Edges: how far drawn shadow edges lie from the true
-ones, root mean square in pixels. Detached: how far shadows start from what casts them, mean in world units.</p>
-)" +
-      scroll_region(
-          "Captures",
-          R"(<table class="captures"><thead><tr><th scope="col">capture</th><th scope="col">drawn by</th><th
-scope="col" class="n">wrong</th><th scope="col" class="n">mean error</th><th scope="col">mostly</th><th
-scope="col" class="n">edges</th><th scope="col" class="n">detached</th><th scope="col">advice</th></tr></thead><tbody>
-)" + rows + "</tbody></table>") +
-      "</section>\n";
-  shell.data =
-      R"({"kind": "compare", "lights": 0, "labels": []})";  // the page's script finds no light to bring to life
+  shell.result = Json{{"captures", std::move(captures)}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  shell.data = R"({"kind": "judged", "labels": []})";
   return build_page(shell).html;
 }
 

@@ -30,10 +30,10 @@ Expected<void> write_films(const FilmKeeper& films, const std::string& folder, F
 
 }  // namespace
 
-Expected<double> write_shimmer(const Shimmer& shimmer, const FilmKeeper& films, const std::string& command,
-                               const std::string& json, const ShimmerFolder& output) {
+Expected<double> write_shimmer(const Shimmer& shimmer, const FilmKeeper& films, const std::string& json,
+                               const ShimmerFolder& output) {
   const TimedStage stage("page");
-  const auto page = shimmer_page(shimmer, films, command, json, output.report_max_mb, output.film);
+  const auto page = shimmer_page(shimmer, films, json, output.report_max_mb, output.film);
   if (!page) return fail(page.error());
   auto staged = StagedFolder::open(output.folder);
   if (!staged) return fail(staged.error());

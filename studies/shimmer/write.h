@@ -16,7 +16,7 @@ struct ShimmerFolder {
 
 /// result.json, report.html and, for each light, film-I-drawn, film-I-truth and film-I-flips (.png, animated, or .mp4),
 /// in a folder that appears whole (scene/files/staged_folder.h). Returns what the page weighs, megabytes.
-Expected<double> write_shimmer(const Shimmer& shimmer, const FilmKeeper& films, const std::string& command,
-                               const std::string& json, const ShimmerFolder& output);
+Expected<double> write_shimmer(const Shimmer& shimmer, const FilmKeeper& films, const std::string& json,
+                               const ShimmerFolder& output);
 
 }  // namespace gnomon::compare

@@ -3,7 +3,8 @@
 import { page, type Light } from "./data";
 import { backdropOf, recolour } from "./pictures";
 import { GapHistogram } from "./histogram";
-import { counted, grouped, html, number, percent, svg, texelsText } from "./svg";
+import { counted, grouped, percent, texelsText } from "./number_text";
+import { html, number, svg } from "./svg";
 import { otherParts } from "./words";
 
 interface Chart {

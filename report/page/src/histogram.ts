@@ -1,7 +1,8 @@
 // How the gaps are spread: of the truly lit pixels upwards, of the truly shadowed ones downwards. A bias is right for
 // the lit pixels on its left and for the shadowed ones on its right; where the two overlap no bias can be right.
 import type { Light } from "./data";
-import { counted, grouped, html, niceTicks, number, svg } from "./svg";
+import { counted, grouped } from "./number_text";
+import { html, niceTicks, number, svg } from "./svg";
 
 const width = 760, height = 260, left = 58, right = 14, top = 26, bottom = 40, bins = 120;
 

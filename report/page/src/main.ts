@@ -4,13 +4,15 @@
 import "./report.css";
 import { addCopyButtons } from "./clipboard";
 import { startComparison } from "./compare_page";
+import { main } from "./frame";
+import { startJudged } from "./judged_page";
 import { pageKind } from "./parts";
 import { startShimmer } from "./shimmer_page";
 import { startSweep } from "./sweep_page";
 
 async function start(): Promise<void> {
-  addCopyButtons();
-  await (pageKind === "sweep" ? startSweep() : pageKind === "shimmer" ? startShimmer() : startComparison());
+  if (!main.querySelector(".plain")) addCopyButtons();
+  await { compare: startComparison, judged: startJudged, shimmer: startShimmer, sweep: startSweep }[pageKind]();
   document.documentElement.dataset.ready = "true";
 }
 void start();

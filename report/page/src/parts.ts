@@ -2,7 +2,7 @@
 // that these files are scripts that leave their value in gnomonFiles (../../shell.h).
 
 interface Parted {
-  kind: "compare" | "shimmer" | "sweep";
+  kind: "compare" | "judged" | "shimmer" | "sweep";
   parts?: Record<string, unknown>;
   folder?: string;
 }

@@ -4,7 +4,8 @@
 import type { Geometry, Light, Pixel } from "./data";
 import { alongRay, halfSlopes, texelWidth } from "./light_view";
 import { sceneCut, type Curve } from "./scene_cut";
-import { counted, grouped, html, niceTicks, number, svg, tickTexts } from "./svg";
+import { counted, grouped } from "./number_text";
+import { html, niceTicks, number, svg, tickTexts } from "./svg";
 import { gapScale } from "./texel_drawing";
 import { otherParts } from "./words";
 

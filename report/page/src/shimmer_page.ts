@@ -1,18 +1,15 @@
 // The page of a film of shadows: each light's film with play, scrub and step, and the probe's strip chart.
 import { Decoder, FilmFrames, momentAt, type FilmJson, type Frame, type Moment } from "./film_frames";
 import { pageData, part } from "./parts";
-import { stripChart, stripX, type LabelJson } from "./strip_chart";
-import { counted, html } from "./svg";
+import { resultDocument } from "./document";
+import { showSections } from "./frame";
+import { shimmerSections, type ShimmerFacts, type ShimmerResult } from "./shimmer_sections";
+import { stripChart, stripX } from "./strip_chart";
+import { counted } from "./number_text";
+import { html } from "./svg";
 
-interface ShimmerJson {
-  width: number;
-  height: number;
-  frames: number;
-  fps: number;
-  anchors: number;
-  labels: LabelJson[];
-}
-const page = pageData<ShimmerJson>();
+const result = resultDocument<ShimmerResult>(), facts = pageData<ShimmerFacts>();
+const page = { ...result, ...result?.size, labels: facts.labels };
 const views = ["drawn", "truth", "flips"] as const;
 type View = (typeof views)[number];
 
@@ -179,6 +176,7 @@ class FilmPlayer {
 }
 
 export async function startShimmer(): Promise<void> {
+  showSections(shimmerSections(facts));
   const sections = [...document.querySelectorAll<HTMLElement>(".shimmer-light")];
   for (const [index, section] of sections.entries())
     try {

@@ -25,25 +25,6 @@ export function number(value: number, digits = 4): string {
   return text.replaceAll("-", "−");
 }
 
-export const grouped = (count: number): string => String(count).replace(/\B(?=(\d{3})+$)/g, ",");
-
-/** "1 pixel", "12,713 pixels" */
-export const counted = (count: number, unit: string, units = `${unit}s`): string => `${grouped(count)} ${count === 1 ? unit : units}`;
-
-/** "0.8 texel", "1 texel", "1.6 texels", "150 texels" (twin: ../../../number_text.cpp) */
-export function texelsText(texels: number): string {
-  const size = Math.abs(texels), shown = size < 99.5 ? Number(texels.toPrecision(2)) : Math.round(texels);
-  if (size > 0 && size < 0.001) return "less than 0.001 texel";
-  return `${number(shown, 15)} texel${Math.abs(shown) <= 1 ? "" : "s"}`;
-}
-
-/** "0.42 %", "4.1 %", "12.3 %"; never 100 % of less than all. */
-export function percent(share: number): string {
-  const p = 100 * share;
-  if (p > 99.99 && p < 100) return "more than 99.99 %";
-  return `${number(p, p > 99 ? 4 : p >= 10 ? 3 : 2)} %`;
-}
-
 /** Beside ticks: as many digits as tell them apart, and a power of ten where that is shorter. */
 export function tickTexts(ticks: number[]): string[] {
   const largest = Math.max(...ticks.map(Math.abs)), step = ticks.length > 1 ? ticks[1]! - ticks[0]! : largest;

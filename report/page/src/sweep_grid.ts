@@ -1,6 +1,7 @@
 // The grid of thumbnails, by any two axes; the others stand still at values that the reader chooses.
 import type { CellJson } from "./cell";
-import { html, percent } from "./svg";
+import { percent } from "./number_text";
+import { html } from "./svg";
 import type { SweepState } from "./state";
 
 interface Axis {

@@ -2,7 +2,8 @@
 // tells the same story (twin: ../../pixel_words.cpp), from the same phrases.
 import { page, wordsOf, type Light, type LightJson, type Pixel, type ShownMaterial } from "./data";
 import phrases from "../../phrases.json";
-import { number, texelsText } from "./svg";
+import { texelsText } from "./number_text";
+import { number } from "./svg";
 
 const precision = 2, precisionStep = 4, filterStep = 6;  // a label's value; rungs
 

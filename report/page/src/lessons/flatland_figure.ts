@@ -1,6 +1,7 @@
 // Light dragged over a section of one of the program's scenes: the sun's map, what its test draws wrong, and the closed form
 // where there is one; the shadow of a lamp with a size; a ball of flat faces with smooth normals.
-import { html, number, percent, texelsText } from "../svg";
+import { percent, texelsText } from "../number_text";
+import { html, number } from "../svg";
 import type { FigureJson } from "./figures";
 import { add, length, lengthOf, outcomeAt, piecesOf, sub, SunMap, type Circle, type Outcome, type Place, type Segment, type Vec2, type World2 } from "./flatland";
 import { penumbraFigure } from "./penumbra_figure";

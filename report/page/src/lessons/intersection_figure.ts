@@ -1,6 +1,7 @@
 // A ray dragged before a box, a ball and a surface that is given by a function, and the three areas that decide about a
 // triangle: the numbers of each test, as the lesson derives them.
-import { counted, html, number } from "../svg";
+import { counted } from "../number_text";
+import { html, number } from "../svg";
 import { add, cross, dot, meetCircle, sub, unit, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
 import { frame } from "./flatland_figure";

@@ -1,7 +1,8 @@
 // Choose the map's size: the same scene drawn by the program with each of them.
 import { Light, page } from "../data";
 import { backdropOf, recolour } from "../pictures";
-import { counted, grouped, html, niceTicks, number, percent, svg } from "../svg";
+import { counted, grouped, percent } from "../number_text";
+import { html, niceTicks, number, svg } from "../svg";
 import type { FigureJson } from "./figures";
 
 interface SizeJson {
@@ -25,7 +26,7 @@ function chart(sizes: SizeJson[], shown: number): SVGElement {
   const drawing = svg("svg", { class: "chart live-chart", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "Wrong pixels against the map's size, both on logarithmic axes" });
   for (const power of niceTicks(low, high, 4)) {
     if (!Number.isInteger(power)) continue;
-    drawing.append(svg("line", { class: "grid", x1: left, x2: width - right, y1: y(10 ** power), y2: y(10 ** power) }), svg("text", { class: "end", x: left - 6, y: y(10 ** power) + 4 }, percent(10 ** power)));
+    drawing.append(svg("line", { class: "grid", x1: left, x2: width - right, y1: y(10 ** power), y2: y(10 ** power) }), svg("text", { class: "end", x: left - 6, y: y(10 ** power) + 4 }, `${number(100 * 10 ** power)} %`));
   }
   for (const s of sizes) drawing.append(svg("text", { class: "middle", x: x(s.size), y: height - bottom + 18 }, String(s.size)));
   const end = shares[0]! * (first / last);

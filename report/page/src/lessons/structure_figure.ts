@@ -1,5 +1,6 @@
 // Watch a ray visit the cells of a structure: the program's own one of a whole scene, in the plane that cuts it.
-import { counted, grouped, html, number } from "../svg";
+import { counted, grouped } from "../number_text";
+import { html, number } from "../svg";
 import { pageData } from "../parts";
 import { add, length, sub, unit, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";

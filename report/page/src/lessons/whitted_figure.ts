@@ -1,6 +1,7 @@
 // Whitted's tree of rays, one ray after the other, in the upright plane through the centres of both balls of the scene: there
 // every ray that begins in the plane stays in it.
-import { counted, html, number, percent } from "../svg";
+import { counted, percent } from "../number_text";
+import { html, number } from "../svg";
 import { add, dot, length, meetCircle, meetSegment, sub, unit, type Circle, type Segment, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
 import { frame, world2, type FlatlandJson } from "./flatland_figure";

@@ -1,0 +1,115 @@
+#include "report/plain_page.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "compare/result/text_layout.h"
+#include "report/html.h"
+#include "report/sections.h"
+
+namespace gnomon::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string key_of(const std::string& above, const std::string& name) {
+  return above.empty() ? name : above + "." + name;
+}
+
+std::string cell_of(const std::string& key, const Json& value) {
+  if (value.is_string()) return escaped(value.get<std::string>());
+  if (value.is_number())
+    return fmt::format("<data value=\"{0}\" data-key=\"{1}\">{0}</data>", value.dump(), escaped(key));
+  if (!value.is_array()) return value.is_null() ? "\u2013" : value.dump();
+  std::string text;
+  for (std::size_t i = 0; i < value.size(); ++i)
+    text += (i > 0 ? ", " : "") + cell_of(key_of(key, std::to_string(i)), value[i]);
+  return text;
+}
+
+/// A single value, or a list of such.
+bool is_cell(const Json& value) {
+  return !value.is_object() &&
+         std::none_of(value.begin(), value.end(), [](const Json& one) { return one.is_structured(); });
+}
+
+bool is_flat(const Json& object) {
+  return object.is_object() && std::all_of(object.begin(), object.end(), is_cell);
+}
+
+/// Objects of cells, which make the rows of one table.
+bool is_table(const Json& list) {
+  return list.is_array() && list.size() > 1 && std::all_of(list.begin(), list.end(), is_flat);
+}
+
+class PlainTables {
+ public:
+  /// Everything below `value`, which stands at `key`.
+  void add(const std::string& key, const Json& value) {
+    if (is_table(value)) return add_table(key, value);
+    if (is_cell(value)) return add_row(key, cell_of(key, value));
+    std::size_t index = 0;
+    for (const auto& [name, below] : value.items())
+      add(key_of(key, value.is_array() ? std::to_string(index++) : name), below);
+  }
+
+  std::string text() && {
+    return "<table><caption>The result</caption><tbody>\n" + rows_ + "</tbody></table>\n" + tables_;
+  }
+
+ private:
+  void add_row(const std::string& key, const std::string& cell) {
+    if (cell.empty()) return;
+    rows_ += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(spoken(key)), cell);
+  }
+
+  static std::vector<std::string> columns_of(const Json& list) {
+    std::vector<std::string> columns;
+    for (const Json& row : list)
+      for (const auto& [name, value] : row.items())
+        if (std::find(columns.begin(), columns.end(), name) == columns.end()) columns.push_back(name);
+    return columns;
+  }
+
+  void add_table(const std::string& key, const Json& list) {
+    const std::vector<std::string> columns = columns_of(list);
+    tables_ += fmt::format("<table><caption>{}</caption><thead><tr>", escaped(spoken(key)));
+    for (const std::string& name : columns)
+      tables_ += fmt::format("<th scope=\"col\">{}</th>", escaped(spoken(name)));
+    tables_ += "</tr></thead><tbody>\n";
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      tables_ += "<tr>";
+      for (const std::string& name : columns)
+        tables_ +=
+            "<td>" +
+            (list[i].contains(name) ? cell_of(fmt::format("{}.{}.{}", key, i, name), list[i][name]) : "") +
+            "</td>";
+      tables_ += "</tr>\n";
+    }
+    tables_ += "</tbody></table>\n";
+  }
+
+  std::string rows_, tables_;
+};
+
+}  // namespace
+
+std::string plain_page(std::string_view title, const std::vector<PagePicture>& pictures,
+                       std::string_view document) {
+  std::string out =
+      fmt::format(R"(<section class="plain" aria-labelledby="plain-title"><h1 id="plain-title">{}</h1>
+)",
+                  escaped(title));
+  for (const PagePicture& picture : pictures)
+    out += fmt::format(
+        R"(<figure><img data-picture="{0}" src="{1}" width="{2}" height="{3}" alt="{4}"><figcaption>{4}</figcaption></figure>
+)",
+        picture.name, picture.source, picture.width, picture.height, escaped(picture.alt));
+  PlainTables tables;
+  tables.add("", Json::parse(document));
+  return out + scroll_region("The result as tables", std::move(tables).text()) + "</section>\n";
+}
+
+}  // namespace gnomon::compare
