@@ -94,6 +94,16 @@ class PlainTables {
   std::string rows_, tables_;
 };
 
+std::string figure_of(const PagePicture& picture) {
+  const std::string size =
+      picture.width > 0 ? fmt::format(R"( width="{}" height="{}")", picture.width, picture.height) : "";
+  return fmt::format(
+      R"(<figure><img data-picture="{}"{} src="{}"{} alt="{}"><figcaption>{}</figcaption></figure>
+)",
+      picture.name, picture.waits ? R"( loading="lazy")" : "", picture.source, size, escaped(picture.alt),
+      escaped(picture.caption.empty() ? picture.alt : picture.caption));
+}
+
 }  // namespace
 
 std::string plain_page(std::string_view title, const std::vector<PagePicture>& pictures,
@@ -102,11 +112,7 @@ std::string plain_page(std::string_view title, const std::vector<PagePicture>& p
       fmt::format(R"(<section class="plain" aria-labelledby="plain-title"><h1 id="plain-title">{}</h1>
 )",
                   escaped(title));
-  for (const PagePicture& picture : pictures)
-    out += fmt::format(
-        R"(<figure><img data-picture="{0}" src="{1}" width="{2}" height="{3}" alt="{4}"><figcaption>{4}</figcaption></figure>
-)",
-        picture.name, picture.source, picture.width, picture.height, escaped(picture.alt));
+  for (const PagePicture& picture : pictures) out += figure_of(picture);
   PlainTables tables;
   tables.add("", Json::parse(document));
   return out + scroll_region("The result as tables", std::move(tables).text()) + "</section>\n";

@@ -11,10 +11,12 @@ namespace gnomon::compare {
 
 /// A picture that stands once in the page.
 struct PagePicture {
-  std::string name;    ///< by which the page's sections ask for it
-  std::string source;  ///< a data URI, or the address of a file beside the page
-  int width = 0, height = 0;
-  std::string alt;  ///< what it shows; not escaped
+  std::string name;           ///< by which the page's sections ask for it
+  std::string source;         ///< a data URI, or the address of a file beside the page
+  int width = 0, height = 0;  ///< 0: not known
+  std::string alt{};          ///< what it shows; not escaped
+  std::string caption{};      ///< without scripts; empty: the same
+  bool waits = false;         ///< to be loaded until it is about to be seen
 };
 
 /// HTML with `title`, the pictures, and tables of all values of `document`, a JSON text. Numbers have their keys, as in the

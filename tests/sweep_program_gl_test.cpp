@@ -112,7 +112,7 @@ TEST_F(SweepProgram, CountsFlipsOfFilms) {
             "gnomon shimmer thin-wall --size 192x108 --map-size 64 --snap --frames 3 --path drift --drift "
             "0.5,0.5");
   EXPECT_NE(bytes(root / "films/sweep.csv").find("shimmer_flips_per_receiver_second"), std::string::npos);
-  EXPECT_NE(bytes(root / "films/report.html").find("flips per receiver and second"), std::string::npos);
+  EXPECT_EQ(bytes(root / "films/report.html").find("\"flips_per_second\":null"), std::string::npos);
   EXPECT_EQ(run(joined({"sweep"}, {setting, film, {"-o", folder}})), 2) << "a film's options without a film";
 }
 
@@ -160,8 +160,7 @@ TEST_F(SweepProgram, RayTracersPointsStandBesideTheCells) {
     EXPECT_GT(point["times_ms"]["median"], 0.0);
   }
   const std::string page = bytes(root / "merged/report.html");
-  EXPECT_NE(page.find("The ray tracer itself"), std::string::npos);
-  EXPECT_NE(page.find("boxes per ray"), std::string::npos);
+  EXPECT_NE(page.find(R"("rays":[{"name":"fast",)"), std::string::npos);
 }
 
 TEST_F(SweepProgram, ShardsMergeToTheSameBytes) {
@@ -211,7 +210,7 @@ TEST_F(SweepProgram, AnAxisThatATechniqueDoesNotReadIsNamed) {
   EXPECT_EQ(cells[3]["command"], base + "pcf --filter-radius 2");
   EXPECT_FALSE(cells[3].contains("no_effect"));
   EXPECT_NE(cells[2]["lights"], cells[3]["lights"]);
-  EXPECT_NE(bytes(root / "whole/report.html").find("2 (no effect)"), std::string::npos);
+  EXPECT_NE(bytes(root / "whole/report.html").find(R"("no_effect":["filter_radius"])"), std::string::npos);
   EXPECT_NE(bytes(root / "whole/sweep.csv").find(",no_effect,"), std::string::npos);
   ASSERT_EQ(sweep("part1", {"--shard", "1/2"}), 0) << said();
   ASSERT_EQ(sweep("part2", {"--shard", "2/2"}), 0) << said();
@@ -335,7 +334,9 @@ TEST_F(SweepProgram, SweepNamesItsBestCells) {
   const std::string out = said();
   EXPECT_NE(out.find("Cheapest with at most 100 % wrong: cell "), std::string::npos) << out;
   EXPECT_NE(out.find("Best for "), std::string::npos) << out;
-  EXPECT_NE(bytes(root / "whole/report.html").find("<ul class=\"headline\">"), std::string::npos);
+  EXPECT_NE(bytes(root / "whole/report.html")
+                .find(R"("headline":[{"title":"Cheapest with at most 100 % wrong","cell":)"),
+            std::string::npos);
   EXPECT_EQ(run(words("whole", {"--max-error", "0"})), 1) << said();
   EXPECT_NE(said().find("No cell has at most 0 % wrong"), std::string::npos) << said();
 }
@@ -364,7 +365,6 @@ TEST_F(SweepProgram, TablesOfSweepAndCompareHaveOneSetOfColumns) {
 TEST_F(SweepProgram, ShadowsAreTimedApartFromThePicture) {
   ASSERT_EQ(run(words("whole", {"--ray-tracer"})), 0) << said();
   const std::string page = bytes(root / "whole/report.html");
-  EXPECT_NE(page.find("shadows alone</th>"), std::string::npos);
   std::istringstream stream(bytes(root / "whole/sweep_times.jsonl"));
   for (std::string line; std::getline(stream, line);) {
     const nlohmann::json light = nlohmann::json::parse(line)["lights"][0];
@@ -375,7 +375,7 @@ TEST_F(SweepProgram, ShadowsAreTimedApartFromThePicture) {
     EXPECT_LE(light["shadow_lookups"]["low"], lookups);
     EXPECT_LE(lookups, light["shadow_lookups"]["high"]);
     const std::string shadows = nlohmann::json(map + lookups).dump();
-    EXPECT_NE(page.find("data-sort=\"" + shadows + "\""), std::string::npos) << shadows;
+    EXPECT_NE(page.find("," + shadows + ","), std::string::npos) << shadows;  // of low, median and high
   }
   const nlohmann::json points = nlohmann::json::parse(bytes(root / "whole/ray_tracer.json"))["points"];
   EXPECT_FALSE(points.empty());

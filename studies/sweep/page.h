@@ -1,5 +1,4 @@
-// The page of a sweep, from the same built page as that of a comparison: charts, a grid of thumbnails, the
-// cells in the viewer, and a table of all cells with the command of each. Readable without scripts.
+// The page of a sweep: its document, thumbnails of its cells, and the pictures that the page's viewer shows.
 #pragma once
 
 #include <map>
@@ -34,13 +33,8 @@ struct SweepPageInput {
 /// The page as one file, or with the folder's files beside it.
 std::string sweep_page(const SweepPageInput& input);
 
-/// Tables of thumbnails, one per combination of the other axes: rows by the first axis, columns by the last.
-/// `front` as below.
-std::string thumbnail_grids(const SweepPageInput& input, const std::vector<std::size_t>& front);
-/// The table of all cells; `front`: indices of those on the Pareto front.
-std::string cell_table(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front);
-/// What the page's script reads, and the parts of it that hold the cells' pictures.
-std::string sweep_page_data(const SweepPageInput& input, const std::vector<std::size_t>& front);
+/// What the page shows, as JSON text.
+std::string sweep_document(const SweepPageInput& input);
 
 struct WrittenPage {
   double page_mb = 0.0;  ///< what it weighs as one file

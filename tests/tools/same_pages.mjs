@@ -25,7 +25,8 @@ async function contents(file) {
     numbers: [...document.querySelectorAll("data[data-key]")].map((e) => /times_ms|time_budget|process\./.test(e.dataset.key) ? `${e.dataset.key}` : `${e.dataset.key} ${Number(e.value)} ${e.textContent}`),
     headings: [...document.querySelectorAll("main :is(h1, h2, h3, h4, summary, caption)")].map((e) => `${e.tagName} ${e.textContent}`),
     pictures: [...document.querySelectorAll("main img")].map((e) => `${e.id} ${e.className} ${e.alt} ${e.width} ${e.height} ${e.naturalWidth} ${e.closest("section").id}`),
-    charts: [...document.querySelectorAll("main svg[role=img]")].map((e) => `${e.getAttribute("class")} ${e.getAttribute("aria-label")} ${e.textContent}`),
+    charts: [...document.querySelectorAll("main svg:is(.chart, .bar, .scale) *, main svg.chart")].map((e) => `${e.tagName} ${[...e.attributes].map(({ name, value }) =>
+      `${name}=${value.replaceAll(/-?[\d.]+/g, (n) => String(Number(n)))}`).sort().join(" ")} ${e.children.length === 0 ? e.textContent : ""}`),
     swatches: [...document.querySelectorAll("main .swatch")].map((e) => `${e.firstChild.getAttribute("fill")} ${e.textContent}`),
     ids: [...document.querySelectorAll("main [id]")].map((e) => e.id),
     classes: [...new Set([...document.querySelectorAll("main [class]")].flatMap((e) => [...e.classList].map((c) => `${e.tagName}.${c}`)))].sort(),

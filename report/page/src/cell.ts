@@ -2,21 +2,10 @@
 // compared with, and its drawing where it was drawn.
 import { falseShadow, missedShadow, type Rgb } from "./colour_maps";
 import { wordsOf } from "./data";
+import type { SweepCell } from "./sweep_document";
 import { unpack, type Packed } from "./packed";
 import { isBeside, pageData, part } from "./parts";
 import { isolatedLabel, painted, rgbOf } from "./pictures";
-
-export interface CellJson {
-  cell: number;
-  values: string[];  // by axis
-  shown: string[];   // the same as people read them
-  wrong: number;
-  front: boolean;
-  line: string;
-  command: string;
-  pictures: boolean;
-  drawn: boolean;  // false: made from the gaps of another cell's drawing
-}
 
 const nameOf = (cell: number): string => `cell-${String(cell).padStart(6, "0")}`;
 
@@ -41,12 +30,12 @@ export class Cell {
   readonly labels: Int8Array;
   private readonly made = new Map<string, HTMLCanvasElement | ImageData>();
 
-  private constructor(readonly json: CellJson, readonly width: number, readonly height: number, private readonly codes: Int8Array,
+  private constructor(readonly json: SweepCell, readonly width: number, readonly height: number, private readonly codes: Int8Array,
                       readonly truth: HTMLImageElement, readonly drawing: HTMLImageElement | null) {
     this.labels = codes.map((code) => (code & labelMask) - 4);
   }
 
-  static async load(json: CellJson): Promise<Cell> {
+  static async load(json: SweepCell): Promise<Cell> {
     const data = await part<{ width: number; height: number; truth: string; classes: Packed }>(nameOf(json.cell));
     const [codes, truth, drawing] = await Promise.all([unpack(data.classes), pictureUrl(data.truth).then(loaded),
       json.drawn ? pictureUrl(nameOf(json.cell)).then(loaded) : null]);

@@ -15,8 +15,8 @@ export const picture = (name: string, id = "", kind = ""): Markup =>
 
 const pictures = new Map<string, HTMLImageElement>();
 
-/** Whether the page has that picture. */
-export const hasPicture = (name: string): boolean => pictures.has(name);
+/** A picture of the plain page, for a place of its own; none where the page has not got it. */
+export const pictureNamed = (name: string): HTMLImageElement | undefined => pictures.get(name);
 
 export const main = document.getElementById("main")!;
 for (const image of main.querySelectorAll<HTMLImageElement>(".plain img[data-picture]")) pictures.set(image.dataset.picture!, image);

@@ -58,6 +58,24 @@ export function milliseconds(ms: number): string {
   return `${seconds < firstOfFourDigits ? general(seconds, 3) : seconds.toFixed(0)} s`;
 }
 
+/** What a pass takes beyond another one, with the interval that its runs leave it (twin: scene/time_difference.h). */
+export interface TimeDifference {
+  low: number;
+  median: number;
+  high: number;
+  told: boolean;  // the interval does not hold 0
+}
+
+/** "4.9 to 8.2 ms", "0 to 30 ms", "900 ms to 1.2 s"; where the difference is told, "6 ms (4.9 to 8.2 ms)". */
+export function timeDifference({ low, median, high, told }: TimeDifference): string {
+  const to = milliseconds(high), unit = to.slice(to.indexOf(" "));
+  let from = low > 0 ? milliseconds(low) : "0";
+  if (from.endsWith(unit)) from = from.slice(0, -unit.length);
+  const middle = milliseconds(median);
+  if (!told) return `${from} to ${to}`;
+  return middle === milliseconds(low) && middle === to ? middle : `${middle} (${from} to ${to})`;
+}
+
 export function byteCount(bytes: number): string {
   const units = ["bytes", "kB", "MB", "GB", "TB"];
   let value = bytes, unit = 0;

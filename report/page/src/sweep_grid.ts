@@ -1,18 +1,16 @@
 // The grid of thumbnails, by any two axes; the others stand still at values that the reader chooses.
-import type { CellJson } from "./cell";
+import { pictureNamed } from "./frame";
 import { percent } from "./number_text";
 import { html } from "./svg";
 import type { SweepState } from "./state";
+import { inWords, type SweepCell } from "./sweep_document";
 
 interface Axis {
   name: string;
   values: string[];
 }
 
-/** "map_size": a key of the result; in words: "map size". */
-export const inWords = (axis: string): string => axis.replaceAll("_", " ");
-
-const distinct = (cells: CellJson[], k: number): string[] => [...new Set(cells.map((cell) => cell.values[k]!))];
+const distinct = (cells: SweepCell[], k: number): string[] => [...new Set(cells.map((cell) => cell.values[k]!))];
 
 function pick(label: string, values: string[], chosen: string, change: (value: string) => void): HTMLLabelElement {
   const select = html("select", { "aria-label": label }, ...values.map((value) => html("option", { value }, value === "" ? "(none)" : inWords(value))));
@@ -23,14 +21,13 @@ function pick(label: string, values: string[], chosen: string, change: (value: s
 
 export class SweepGrid {
   private readonly axes: Axis[];
-  private readonly links = new Map<number, HTMLAnchorElement>();  // with their thumbnails, as the writer made them
+  private readonly links = new Map<number, HTMLAnchorElement>();  // with their thumbnails
   private readonly bar = html("div", { class: "viewer-bar grid-bar", role: "group", "aria-label": "Which parameters the grid shows" });
   private readonly table = html("div", { class: "scroll", role: "region", tabindex: "0", "aria-label": "Grid of cells" });
 
-  constructor(host: HTMLElement, axes: string[], private readonly cells: CellJson[], private readonly state: SweepState,
+  constructor(host: HTMLElement, axes: string[], private readonly cells: SweepCell[], private readonly state: SweepState,
               private readonly changed: () => void) {
     this.axes = axes.map((name, k) => ({ name, values: distinct(cells, k) }));
-    for (const link of host.querySelectorAll<HTMLAnchorElement>("a[href^='#cell-']")) this.links.set(Number(link.hash.slice(6)), link);
     host.replaceChildren(this.bar, this.table);
   }
 
@@ -69,7 +66,7 @@ export class SweepGrid {
     if (used !== null) [...this.bar.querySelectorAll("select")].find((select) => select.getAttribute("aria-label") === used)?.focus();
   }
 
-  private grid(cells: CellJson[], rows: number, columns: number): HTMLTableElement {
+  private grid(cells: SweepCell[], rows: number, columns: number): HTMLTableElement {
     const across = this.axes[columns]!, down = rows >= 0 ? this.axes[rows]! : { name: "", values: [""] };
     const used = (axis: Axis, k: number) => axis.values.filter((value) => k < 0 || cells.some((cell) => cell.values[k] === value));
     const at = new Map(cells.map((cell) => [`${rows >= 0 ? cell.values[rows] : ""}|${cell.values[columns]}`, cell]));
@@ -87,10 +84,11 @@ export class SweepGrid {
     return this.cells.find((cell) => cell.values[axis] === value)!.shown[axis]!;
   }
 
-  private link(cell: CellJson): HTMLAnchorElement {
+  private link(cell: SweepCell): HTMLAnchorElement {
     let link = this.links.get(cell.cell);
     if (!link) {
-      link = html("a", { href: `#cell-${cell.cell}` }, html("span", {}, `${percent(cell.wrong)}${cell.front ? " ★" : ""}`));
+      const thumbnail = pictureNamed(`thumbnail-${cell.cell}`);
+      link = html("a", { href: `#cell-${cell.cell}` }, ...(thumbnail ? [thumbnail] : []), html("span", {}, `${percent(cell.wrong_fraction)}${cell.front ? " ★" : ""}`));
       this.links.set(cell.cell, link);
     }
     if (cell.cell === this.state.cell) link.setAttribute("aria-current", "true");

@@ -1,22 +1,21 @@
 // The page of a sweep: a grid by any two parameters, charts and a table whose every cell opens in the viewer, with a
 // second cell to hold beside it. The URL keeps all of it.
-import { Cell, type CellJson } from "./cell";
+import { Cell } from "./cell";
 import { wordsOf } from "./data";
+import { resultDocument } from "./document";
+import { showSections } from "./frame";
 import { pageData } from "./parts";
 import { initialSweep, readSweep, saveSweep, type SweepState } from "./state";
 import { grouped } from "./number_text";
 import { html } from "./svg";
-import { inWords, SweepGrid } from "./sweep_grid";
+import { settingWords, type SweepResult } from "./sweep_document";
+import { SweepGrid } from "./sweep_grid";
+import { cellLine, sweepSections } from "./sweep_sections";
 import { SweepTable } from "./sweep_table";
 import { Viewer, type Source } from "./viewer";
 
-interface SweepJson {
-  axes: string[];
-  cells: CellJson[];
-}
-
 class SweepPage {
-  private readonly json = pageData<SweepJson>();
+  private readonly json = resultDocument<SweepResult>();
   private readonly state: SweepState = { ...initialSweep };
   private readonly section = document.getElementById("cell")!;
   private readonly size = { width: 16, height: 9 };  // of the cell shown; set when there is one
@@ -78,10 +77,6 @@ class SweepPage {
     return this.loaded.get(number)!;
   }
 
-  private nameOf(cell: Cell): string {
-    return this.json.axes.map((axis, k) => `${inWords(axis)} ${cell.json.shown[k]}`).join(", ") || "the only cell";
-  }
-
   private async open(number: number, scroll = false): Promise<void> {
     const loading = this.load(number);
     if (!loading) return;
@@ -118,8 +113,8 @@ class SweepPage {
 
   private describe(cell: Cell): void {
     const text = (selector: string, content: string) => { this.section.querySelector(selector)!.textContent = content; };
-    text("h2", `Cell ${cell.json.cell}: ${this.nameOf(cell)}`);
-    text(".cell-line", cell.json.line);
+    text("h2", `Cell ${cell.json.cell}: ${settingWords(this.json.axes, cell.json)}`);
+    text(".cell-line", cellLine(cell.json));
     text(".cell-command", cell.json.command);
     const labels = this.section.querySelector(".cell-labels")!, counts = [...cell.counts()].filter(([label]) => label > 0).sort((a, b) => b[1] - a[1]);
     labels.replaceChildren(...counts.flatMap(([label, count]) => [this.labelButton(label, count), " "]));
@@ -186,5 +181,6 @@ class SweepPage {
 }
 
 export async function startSweep(): Promise<void> {
+  showSections(sweepSections());
   await new SweepPage().restore();
 }

@@ -1,0 +1,83 @@
+// The document of a sweep's page (studies/sweep/page_document.cpp): its cells, each over all lights together.
+import { percent, plainNumber } from "./number_text";
+
+export interface SweepCell {
+  cell: number;
+  values: string[];     // by axis
+  shown: string[];      // the same as people read them
+  no_effect: string[];  // axes that the technique does not read
+  front: boolean;       // worth having
+  command: string;
+  technique: string;
+  compared: number;
+  error: number;        // that the page is about
+  wrong_fraction: number;
+  false_shadow: number;
+  missed_shadow: number;
+  mean_absolute: number;
+  rms: number;
+  flip: number | null;
+  ssim: number | null;
+  edge_rms_texels: number | null;
+  flips_per_second: number | null;  // per receiver; null: no film was made
+  mostly: string;                   // the label of most wrong pixels
+  map_size: number;
+  map_texels: number;
+  map_bytes: number;
+  raster_ms: number | null;  // null: not timed
+  rays_ms: number | null;
+  exact_shadow_ms: number | null;
+  shadows_ms: [low: number, median: number, high: number] | [];  // empty: not timed
+  shadows_told: boolean;
+  derived: boolean;    // made from the gaps of another cell's drawing
+  pictures: boolean;
+  drawn: boolean;      // has a drawing of its own
+}
+
+export interface RayPoint {
+  name: string;
+  compared: number;
+  wrong: number;
+  uncertain: number;
+  mean_absolute: number;
+  times_ms: { median: number };
+  shadow_times_ms: { median: number; runs: number[] };
+  rays: number;
+  boxes_per_ray: number;
+  primitives_per_ray: number;
+  bytes: number;
+}
+
+/** What the sweep was asked to do, as it stands in the head of sweep.jsonl. */
+export interface Configuration {
+  scene: Record<string, string>;
+  options: Record<string, unknown>;
+  film?: Record<string, string>;
+  axes?: { name: string; values: string[] }[];
+  runs?: number | null;
+  seed?: number | null;
+  exposure?: number | null;
+}
+
+export interface SweepResult {
+  version: string;
+  configuration: Configuration;
+  axes: string[];
+  headline: { title: string; cell: number | null; setting: string; figures: string }[];
+  front: number[];  // cells worth having, cheapest first
+  cells: SweepCell[];
+  rays: RayPoint[];
+  reference_samples: number;
+}
+
+/** "map_size": a key of the result; in words: "map size". */
+export const inWords = (axis: string): string => axis.replaceAll("_", " ");
+
+export const isFilmed = (cell: SweepCell): boolean => cell.flips_per_second !== null;
+
+/** "1.2 %", or of films "0.012 flips per receiver and second". */
+export const errorWords = (cell: SweepCell): string =>
+  cell.flips_per_second === null ? percent(cell.error) : `${plainNumber(cell.flips_per_second)} flips per receiver and second`;
+
+/** "map size 64, bias 0.05" */
+export const settingWords = (axes: string[], cell: SweepCell): string => axes.map((axis, k) => `${inWords(axis)} ${cell.shown[k]}`).join(", ") || "the only cell";

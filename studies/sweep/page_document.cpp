@@ -1,0 +1,87 @@
+// What the sweep's page shows, as one document (page/src/sweep_document.ts): the sweep's own settings, its cells over all
+// lights together, those worth having, and the ray tracer's points. The cells' pictures are parts of the page's data, or
+// files beside the page (cell_files.h).
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "compare/result/option_names.h"
+#include "compare/result/result_parts.h"
+#include "studies/sweep/page.h"
+#include "studies/sweep/words.h"
+
+namespace gnomon::compare {
+namespace {
+
+Json shadows_json(const TimeDifference& shadows) {
+  if (!shadows.timed()) return Json::array();
+  return {number(shadows.low), number(shadows.median), number(shadows.high)};
+}
+
+Json cell_json(const SweepPageInput& in, const CellSummary& cell, bool on_front) {
+  Json values = Json::array(), shown = Json::array();
+  for (const auto& [name, value] : cell.axes) values.push_back(value), shown.push_back(value_words(value));
+  const auto pictures = in.pictures.find(cell.cell);
+  const bool is_pictured = pictures != in.pictures.end();
+  return {{"cell", cell.cell},
+          {"values", std::move(values)},
+          {"shown", std::move(shown)},
+          {"no_effect", cell.no_effect},
+          {"front", on_front},
+          {"command", cell.command},
+          {"technique", cell.technique},
+          {"compared", cell.compared},
+          {"error", number(cell.error())},
+          {"wrong_fraction", number(cell.wrong_fraction)},
+          {"false_shadow", cell.false_shadow},
+          {"missed_shadow", cell.missed_shadow},
+          {"mean_absolute", number(cell.mean_absolute)},
+          {"rms", number(cell.rms)},
+          {"flip", number(cell.flip)},
+          {"ssim", number(cell.ssim)},
+          {"edge_rms_texels", number(cell.edge_rms_texels)},
+          {"flips_per_second", number(cell.flips_per_second)},
+          {"mostly", label_words_of(cell.main_label)},
+          {"map_size", number(cell.map_size)},
+          {"map_texels", cell.map_texels},
+          {"map_bytes", cell.map_bytes},
+          {"raster_ms", number(cell.raster_ms)},
+          {"rays_ms", number(cell.rays_ms)},
+          {"exact_shadow_ms", number(cell.exact_shadow_ms)},
+          {"shadows_ms", shadows_json(cell.shadows)},
+          {"shadows_told", cell.shadows.told},
+          {"derived", cell.derived},
+          {"pictures", is_pictured && !pictures->second.data.empty()},
+          {"drawn", is_pictured && !pictures->second.drawing.empty()}};
+}
+
+Json headline_json(const Headline& headline) {
+  Json items = Json::array();
+  for (const HeadlineItem& item : headline.items)
+    items.push_back({{"title", item.title},
+                     {"cell", item.cell ? Json(*item.cell) : Json(nullptr)},
+                     {"setting", item.setting},
+                     {"figures", item.figures}});
+  return items;
+}
+
+}  // namespace
+
+std::string sweep_document(const SweepPageInput& in) {
+  const std::vector<std::size_t> front = pareto_front(in.cells);
+  Json axes = Json::array(), cells = Json::array(), best = Json::array();
+  for (const auto& [name, value] : in.cells.front().axes) axes.push_back(name);
+  for (const std::size_t i : front) best.push_back(in.cells[i].cell);
+  for (std::size_t i = 0; i < in.cells.size(); ++i)
+    cells.push_back(cell_json(in, in.cells[i], std::find(front.begin(), front.end(), i) != front.end()));
+  return Json{{"version", program_version()},
+              {"configuration", Json::parse(in.header.configuration)},
+              {"axes", std::move(axes)},
+              {"headline", headline_json(sweep_headline(in.cells, front, in.limit))},
+              {"front", std::move(best)},
+              {"rays", Json::parse(ray_points_json(in.rays)).at("points")},
+              {"reference_samples", reference_samples},
+              {"cells", std::move(cells)}}
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace gnomon::compare
