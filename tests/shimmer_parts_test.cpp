@@ -188,5 +188,55 @@ TEST(CascadeBudgets, AddUpToTheLights) {
   EXPECT_NEAR(bias / double(compared), light["budget"][4]["signed"].get<double>(), 1e-12);
 }
 
+// Receivers on a plane, whose neighbours to the right and below lie `right` and `down` away.
+compare::ReceiverSpacing plane_spacing(ImageSize size, const Vec2& right, const Vec2& down) {
+  const auto all = [&](double value) {
+    Image<float> out(size, static_cast<float>(value));
+    for (int k = 0; k < size.width; ++k) out.at(k, size.height - 1) = out.at(size.width - 1, k) = 0.0f;
+    return out;
+  };
+  return {all(glm::length(right)), all(glm::length(down)), all(right.x * down.y - right.y * down.x),
+          all(glm::dot(right, down))};
+}
+
+// The mean speed, world units a frame, of a straight shadow edge with the unit normal `n` that moves along it by
+// `speed` a frame, both in the plane.
+double speed_of_edge(const Vec2& right, const Vec2& down, const Vec2& n, double speed) {
+  const ImageSize size{160, 160};
+  const int frames = 9;
+  compare::TemporalBudget budget(size, frames, plane_spacing(size, right, down), 1);
+  for (int frame = 0; frame < frames; ++frame) {
+    compare::RungFrame rungs;
+    const Image<std::uint8_t> none(size, 0);
+    rungs.counted = Image<std::uint8_t>(size, 1), rungs.outside = rungs.face = none;
+    Image<float> lit(size, 0.0f);
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x)
+        lit.at(x, y) =
+            glm::dot(n, double(x - 80) * right + double(y - 80) * down) < speed * (frame - 4) ? 1.0f : 0.0f;
+    rungs.rungs.fill(lit);
+    budget.add(std::move(rungs));
+  }
+  return budget.total().true_swept / budget.total().edge_length;
+}
+
+// 5 %: the estimate of the length is within 3 % on these grids (4.5 % on the sheared one), and pixels that are crossed whole
+// leave the rest; in nine frames the edge passes a whole number of pixels of each grid.
+TEST(ShimmerPath, SpeedOfAnEdgeDoesNotDependOnItsDirection) {
+  struct Grid {
+    const char* name;
+    Vec2 right, down;
+  };
+  for (const Grid& grid :
+       {Grid{"square", {1.0, 0.0}, {0.0, 1.0}}, Grid{"seen at a slant", {1.0, 0.0}, {0.0, 3.0}},
+        Grid{"narrow", {2.0, 0.0}, {0.0, 1.0}}, Grid{"sheared", {1.0, 0.0}, {0.4, 1.2}}})
+    for (int degrees = 0; degrees <= 180; degrees += 5) {
+      const double angle = degrees * pi / 180.0, speed = 2.25;
+      const Vec2 n(std::cos(angle), std::sin(angle));
+      EXPECT_NEAR(speed_of_edge(grid.right, grid.down, n, speed) / speed, 1.0, 0.05)
+          << grid.name << ", edge turned by " << degrees << " degrees";
+    }
+}
+
 }  // namespace
 }  // namespace gnomon::test

@@ -41,10 +41,10 @@ struct TemporalSums {
   TemporalSums& operator+=(const TemporalSums& other);
 };
 
-/// What lies between a receiver and its neighbours to the right and below: world units; 0 where there is none on the
-/// same surface.
+/// The vectors in the world from a receiver to its neighbours to the right and below, as their lengths (world units),
+/// the area that they span and their dot product; all 0 where one of the two is not on the same surface.
 struct ReceiverSpacing {
-  Image<float> right, down, area;
+  Image<float> right, down, area, dot;
 };
 /// `step`: receivers stand at every so many pixels along both axes.
 ReceiverSpacing receiver_spacing(const Image<raytrace::SurfacePoint>& receivers, const World& world,
@@ -74,9 +74,12 @@ class TemporalBudget {
 
  private:
   void add_row(int y, const RungFrame& next, TemporalSums& sums);
-  void add_length(int x, int y, TemporalSums& sums) const;
+  Image<std::uint8_t> edge_steps() const;
+  double edge_length(int x, int y) const;
+  bool are_connected(int x, int y, int dx, int dy) const;
 
   ReceiverSpacing spacing_;
+  Image<std::uint8_t> edge_steps_;
   int step_;
   RungFrame last_;
   bool has_last_ = false;
