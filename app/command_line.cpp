@@ -10,9 +10,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
-#include <new>
 #include <optional>
-#include <system_error>
 #include <vector>
 
 #include "app/console.h"
@@ -334,20 +332,10 @@ int check_command_line(int argc, const char* const* argv) {
 int run_command_line(int argc, const char* const* argv) {
   try {
     return parse_and_run(argc, argv, true);
-  } catch (const std::bad_alloc&) {
-    print_error(Error{ErrorKind::graphics, "out of memory"});
-    return static_cast<int>(ErrorKind::graphics);
-  } catch (const std::system_error& error) {
-    print_error(Error{ErrorKind::graphics, fmt::format("the system refuses a resource: {}", error.what())});
-    return static_cast<int>(ErrorKind::graphics);
-  } catch (const std::exception& error) {
-    if (refused_threads() > 0) {  // oneTBB's exception has no type of its own
-      print_error(Error{ErrorKind::graphics,
-                        fmt::format("not enough threads can be started ({})", thread_limit_words)});
-      return static_cast<int>(ErrorKind::graphics);
-    }
-    print_error(Error{ErrorKind::internal, fmt::format("internal error: {}", error.what())});
-    return static_cast<int>(ErrorKind::internal);
+  } catch (const std::exception& exception) {
+    const Error error = unforeseen(exception);
+    print_error(error);
+    return static_cast<int>(error.kind);
   }
 }
 

@@ -285,6 +285,10 @@ void add_trace(CLI::App& command, std::string& path) {
             });
 }
 
+void add_verbose(CLI::App& command, bool& verbose, const char* what) {
+  command.add_flag("--verbose,-v", verbose, fmt::format("{} [default off]", what));
+}
+
 void add_quiet(CLI::App& command, bool& quiet) {
   command.add_flag("--quiet,-q", quiet, "print nothing but errors and what --json - asks for [default off]");
 }

@@ -70,6 +70,8 @@ void add_json(CLI::App& command, std::string& path, const char* what);
 /// --trace.
 void add_trace(CLI::App& command, std::string& path);
 void add_quiet(CLI::App& command, bool& quiet);
+/// -v; `what` the command says more.
+void add_verbose(CLI::App& command, bool& verbose, const char* what);
 
 // What every command takes that compares a picture with the truth.
 

@@ -1,6 +1,7 @@
 #include "app/tune_answer.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -140,7 +141,7 @@ std::string TuneAnswer::line(std::size_t family) const {
 std::vector<std::size_t> TuneAnswer::others() const {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < result.families.size(); ++i)
-    if (i != result.winner) order.push_back(i);
+    if (i != result.winner && result.families[i].is_tried()) order.push_back(i);
   const auto rank = [&](std::size_t i) {
     const compare::FamilyResult& f = result.families[i];
     const compare::Attempt& a = attempt_of(f);
@@ -151,15 +152,83 @@ std::vector<std::size_t> TuneAnswer::others() const {
   return order;
 }
 
+namespace {
+
+constexpr std::size_t rivals_shown = 2;
+
+// The best of those that engines draw first, of each technique one, then the best of the others.
+std::vector<std::size_t> rivals_of(const TuneAnswer& answer) {
+  std::vector<std::size_t> rivals;
+  const auto has_technique = [&](raster::Technique technique) {
+    return std::ranges::any_of(
+        rivals, [&](std::size_t i) { return answer.result.families[i].family.map.technique == technique; });
+  };
+  for (const bool of_engines : {true, false})
+    for (const std::size_t i : answer.others()) {
+      const raster::MapOptions& map = answer.result.families[i].family.map;
+      if (compare::any_engine_draws(map) != of_engines || has_technique(map.technique)) continue;
+      if (map.technique == answer.result.families[answer.result.winner].family.map.technique) continue;
+      if (rivals.size() < rivals_shown) rivals.push_back(i);
+    }
+  return rivals;
+}
+
+std::string row_text(const compare::FamilyResult& family, const compare::TuneGoal& goal) {
+  const compare::Attempt& a = family.attempt();
+  return fmt::format("  {:<34} {:>6} {:>10} {:>10}  {}\n", family.family.name, a.size,
+                     compare::milliseconds(a.time_ms), compare::byte_count(a.map_bytes),
+                     compare::figure_words(a.figures, goal.measure()));
+}
+
+// Those of the engine that was asked about, of the first light.
+std::string own_units(const TuneAnswer& answer) {
+  if (answer.question.engine == nullptr || answer.result.engine_units.empty()) return {};
+  std::string text;
+  for (const compare::EngineUnit& unit : answer.result.engine_units.front().units)
+    if (unit.engine == answer.question.engine->name)
+      text += unit.value ? fmt::format("  {} {}\n", unit.setting, compare::plain_number(*unit.value))
+                         : fmt::format("  {}: no number, {}\n", unit.setting, unit.formula);
+  return fmt::format("In {}, for a map of this size, width and depth:\n{}", answer.question.engine->name,
+                     text);
+}
+
+std::string untried_text(const TuneAnswer& answer) {
+  std::vector<std::string> names;
+  for (const compare::FamilyResult& family : answer.result.families)
+    if (!family.is_tried()) names.push_back(family.family.name);
+  if (names.empty()) return {};
+  return paragraph(fmt::format("Not tried within {} s of processor time (--time-limit): {}.",
+                               compare::plain_number(answer.question.most_seconds), fmt::join(names, "; ")),
+                   0);
+}
+
+std::string begin_of(const TuneAnswer& answer) {
+  const compare::FamilyResult& winner = answer.result.families[answer.result.winner];
+  std::string text = answer.line(answer.result.winner) + "\n\n";
+  if (!answer.result.feasible) text += "The goal cannot be met by what was tried.\n";
+  return text + paragraph(fmt::format("{}: {}.", winner.family.name, winner.why), 0);
+}
+
+}  // namespace
+
 std::string TuneAnswer::text() const {
-  const compare::FamilyResult& winner = result.families[result.winner];
-  std::string text = line(result.winner) + "\n\n";
-  if (!result.feasible) text += "The goal cannot be met.\n";
-  text += paragraph(fmt::format("{}: {}.", winner.family.name, winner.why), 0);
+  std::string text = begin_of(*this);
+  text += fmt::format("\n  {:<34} {:>6} {:>10} {:>10}  {}\n", "", "texels", "time", "map", "error");
+  text += row_text(result.families[result.winner], question.goal);
+  for (const std::size_t i : rivals_of(*this)) text += row_text(result.families[i], question.goal);
+  text += own_units(*this) + untried_text(*this);
+  return text + fmt::format("{} {}s; -v says why the others lost{}\n", result.renders,
+                            question.metric.is_filmed() ? "film" : "drawing",
+                            question.engine == nullptr ? ", and the bias in the units of engines" : "");
+}
+
+std::string TuneAnswer::whole_text() const {
+  std::string text = begin_of(*this);
   text +=
       fmt::format("{} {}{} made; the command's own {} gave the error.\n", result.renders,
                   question.metric.is_filmed() ? "film" : "drawing", result.renders == 1 ? " was" : "s were",
                   question.metric.is_filmed() ? "film" : "comparison");
+  text += untried_text(*this);
   text += units_text(result);
   const std::vector<std::size_t> order = others();
   if (!order.empty()) text += "\nThe others:\n";
@@ -175,6 +244,9 @@ std::string TuneAnswer::json() const {
   json["as_fast"] = result.families[result.winner].as_fast;
   json["just_over_limit"] = just_over_json(result);
   json["renders"] = result.renders;
+  json["untried"] = Json::array();
+  for (const compare::FamilyResult& family : result.families)
+    if (!family.is_tried()) json["untried"].push_back(family.family.name);
   json["engine_units"] = units_json(result);
   json["shaders"] = compare::shaders_json(question.shaders);
   json["others"] = Json::array();

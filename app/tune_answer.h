@@ -23,6 +23,8 @@ struct TuneQuestion {
   std::vector<raster::ReplacedShader> shaders;  ///< of shader_folder
   MetricOptions metric{};
   int max_lights = usual_max_lights;
+  const compare::TunedEngine* engine = nullptr;  ///< the one asked about
+  double most_seconds = 0.0;                     ///< of processor time
   raster::Backend backend = raster::Backend::automatic;
 };
 
@@ -44,8 +46,10 @@ struct TuneAnswer {
   std::string line(std::size_t family) const;
   /// The other families: of each technique the best first.
   std::vector<std::size_t> others() const;
-  /// At most 80 columns, but for commands.
+  /// At most 80 columns, but for commands: the answer and two rivals, in no more than some twelve lines.
   std::string text() const;
+  /// All families, and the bias in the units of all engines.
+  std::string whole_text() const;
   std::string json() const;
 };
 

@@ -25,11 +25,14 @@ bool is_named(const Values& values, const std::string& name) {
 
 /// What is tried of the options that nothing was said about.
 std::vector<Values> default_kinds() {
-  return {{{"bias", "1texel"}},
-          {{"slope-bias", "1"}},
-          {{"normal-offset", "1"}},
-          {{"receiver-plane", "on"}},
-          {{"cull", "front"}}};
+  return {{{"bias", "1texel"}},       {{"slope-bias", "1"}},     {{"normal-offset", "1"}},
+          {{"receiver-plane", "on"}}, {{"adaptive-bias", "on"}}, {{"cull", "front"}}};
+}
+
+/// Maps of moments and of depths between two surfaces are made so that no bias beside a constant is needed.
+bool needs_no_kind(raster::Technique technique) {
+  const raster::MapContents contents = raster::traits_of(technique).contents;
+  return contents != raster::MapContents::nearest_depth;
 }
 
 /// What keeps a map still.
@@ -46,7 +49,8 @@ std::string option_words(std::string option, const std::string& value) {
 }
 
 /// The options that say what kind of bias it is.
-constexpr std::array<const char*, 4> kind_options{"slope-bias", "normal-offset", "receiver-plane", "cull"};
+constexpr std::array<const char*, 5> kind_options{"slope-bias", "normal-offset", "receiver-plane",
+                                                  "adaptive-bias", "cull"};
 
 std::string family_name(const Values& values, const Values& fixed, raster::Technique technique, bool filmed) {
   std::string name;
@@ -96,7 +100,8 @@ bool is_given(const Values& fixed, const compare::Grid& grid, const std::string&
 }
 
 /// The combinations of what was given as lists, and of the defaults where nothing was given.
-Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, bool filmed) {
+Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, bool filmed,
+                                                  const compare::TunedEngine* engine) {
   const auto grid = options.grid(false);
   if (!grid) return fail(grid.error());
   const Values fixed = options.fixed();
@@ -107,8 +112,9 @@ Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, b
   std::vector<Values> kinds = filmed ? still_kinds() : default_kinds();
   const std::span<const char* const> said =
       filmed ? std::span<const char* const>(still_options) : std::span<const char* const>(kind_options);
+  bool kinds_given = filmed;
   for (const char* name : said)
-    if (is_given(fixed, *grid, name)) kinds = {{}};
+    if (is_given(fixed, *grid, name)) kinds = {{}}, kinds_given = true;
   const auto product = compare::Grid::make(axes, false);
   if (!product) return fail(product.error());
   std::vector<OptionFamily> families;
@@ -123,11 +129,17 @@ Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, b
       if (!family) return fail(family.error());
       const auto sound = raster::check_map_options(family->tuned.map);
       if (!sound) unsound = sound.error();
-      if (!sound) continue;                         // a bias that does not go with the technique
+      if (!sound) continue;  // a bias that does not go with the technique
+      if (!kinds_given && needs_no_kind(family->tuned.map.technique) && &kind != &kinds.front()) continue;
+      if (engine != nullptr && !engine->draws(family->tuned.map)) continue;
       if (has_family(families, *family)) continue;  // but for what the technique does not read
       families.push_back(std::move(*family));
     }
   if (families.empty() && unsound) return fail(*unsound);
+  if (families.empty())
+    return fail(ErrorKind::usage,
+                fmt::format("--engine {}: {} draws nothing of what the other options ask for", engine->key,
+                            engine->name));
   return families;
 }
 

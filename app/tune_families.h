@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/sweep/axes.h"
+#include "studies/tune/engines.h"
 #include "studies/tune/tune.h"
 
 namespace gnomon::app {
@@ -27,7 +28,9 @@ bool is_given(const OptionValues& fixed, const compare::Grid& grid, const std::s
 
 /// Every technique, with each kind of bias that goes with it, unless `options` say which; `filmed`: with the bias that
 /// each has anyway, snapped and not. Errors are ErrorKind::usage.
-Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, bool filmed = false);
+/// Of one engine only what it draws.
+Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, bool filmed = false,
+                                                  const compare::TunedEngine* engine = nullptr);
 
 /// Without the techniques that have no map for a light compared.
 Expected<std::vector<OptionFamily>> fitting_families(const std::vector<OptionFamily>& families,

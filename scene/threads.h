@@ -2,9 +2,12 @@
 // without one. Loops over all threads are those of scene/parallel.h.
 #pragma once
 
+#include <exception>
 #include <future>
 #include <memory>
 #include <utility>
+
+#include "scene/expected.h"
 
 namespace gnomon {
 
@@ -29,6 +32,13 @@ class RefusalIsHandled {
 /// (app/large_pages.h); where a library is all that is used of Gnomon, 0.
 int refused_threads();
 void count_refused_thread();
+
+/// Whether an exception says that memory, a thread or another resource of the system is missing. oneTBB's exception for a
+/// refused thread has no type of its own.
+bool is_of_resource(const std::exception& error);
+/// What is said of an exception that nothing nearer answers for: ErrorKind::graphics where a resource is missing, else
+/// ErrorKind::internal.
+Error unforeseen(const std::exception& error);
 
 /// work() on a thread of its own, or, where none can be started, on the one that asks for its result.
 template <class Work>

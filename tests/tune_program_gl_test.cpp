@@ -20,7 +20,7 @@ TEST_F(TuneProgram, AnswersWithACommandThatKeepsItsPromise) {
   EXPECT_TRUE(answer["feasible"]);
   EXPECT_LE(answer["error"].get<double>(), 0.02);
   EXPECT_GE(answer["others"].size(), 4u);
-  EXPECT_LE(answer["renders"].get<int>(), 3 * 5 + 1);  // a grid: 5 sizes, 5 kinds of bias, every bias
+  EXPECT_LE(answer["renders"].get<int>(), 3 * 6 + 1);  // a grid: 5 sizes, 6 kinds of bias, every bias
 
   // The same figures from compare itself.
   Words words{"compare", "floating-box", "-o", (root / "tuned").string()};
@@ -93,6 +93,34 @@ TEST_F(TuneProgram, FindsWhatHoldsStill) {
     const nlohmann::json film = nlohmann::json::parse(bytes(root / "film.json"));
     EXPECT_EQ(film["lights"][0]["flips_per_receiver_second"], (*family)["error"]);
   }
+}
+
+// Of one engine only what it draws is tried, and the answer names its settings alone; what the time did not suffice for is
+// named, too.
+TEST_F(TuneProgram, AsksForOneEngineAndWithinATime) {
+  const std::string json = (root / "answer.json").string();
+  const Words asked{"tune",       "floating-box", "--size", "96x54",  "--max-error", "5%",       "--map-size",
+                    "64,128,256", "--runs",       "1",      "--json", json,          "--engine", "godot"};
+  ASSERT_EQ(run(asked), 0) << said();
+  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  for (const auto& family : answer["others"])
+    EXPECT_TRUE(family["technique"] == "hard" || family["technique"] == "pcf" ||
+                family["technique"] == "pcss" || family["technique"] == "csm")
+        << family["command"];
+  EXPECT_NE(said().find("shadow_normal_bias"), std::string::npos) << said();
+  EXPECT_EQ(said().find("three.js"), std::string::npos) << said();
+  EXPECT_EQ(answer["untried"].size(), 0u);
+  const std::string text = said();
+  EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 20);  // with the lines of progress
+
+  Words hurried = asked;
+  hurried.insert(hurried.end(), {"--time-limit", "1e-9"});
+  ASSERT_EQ(run(hurried), 0) << said();
+  const nlohmann::json first = nlohmann::json::parse(bytes(json));
+  EXPECT_EQ(first["others"].size(), 0u);
+  EXPECT_EQ(first["untried"].size(), answer["others"].size());
+  EXPECT_NE(said().find("Not tried within 1e-09 s"), std::string::npos) << said();
+  EXPECT_EQ(run({"tune", "floating-box", "--max-error", "5%", "--engine", "quake"}), 2);
 }
 
 TEST_F(TuneProgram, SaysWhyNothingCanWork) {

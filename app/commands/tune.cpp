@@ -2,6 +2,7 @@
 #include "studies/tune/tune.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include "app/sweep/axes.h"
 #include "app/tune_answer.h"
 #include "app/values.h"
+#include "compare/result/number_text.h"
 #include "raster/shader_folder.h"
 #include "report/write_outputs.h"
 #include "scene/timing.h"
@@ -29,7 +31,23 @@ namespace {
 
 using Values = OptionValues;
 
-constexpr OptionRange time_range{0.0, 1e9, true};  // milliseconds
+constexpr OptionRange time_range{0.0, 1e9, true};     // milliseconds
+constexpr OptionRange seconds_range{0.0, 1e9, true};  // of processor time
+
+void add_engine(CLI::App& app, const compare::TunedEngine*& engine) {
+  std::vector<std::string_view> keys;
+  for (const compare::TunedEngine& known : compare::tuned_engines()) keys.push_back(known.key);
+  const std::string names = fmt::format("{}", fmt::join(keys, " or "));
+  add_value(app, "--engine", "NAME",
+            describe("try only what this engine draws, and give the answer in its settings", names,
+                     "all techniques"),
+            [&engine, keys](const std::string& text) -> Expected<void> {
+              engine = compare::find_engine(text);
+              if (engine != nullptr) return {};
+              return fail(ErrorKind::usage, fmt::format("unknown engine (got {}, allowed {}){}", text,
+                                                        fmt::join(keys, ", "), did_you_mean(text, keys)));
+            });
+}
 
 /// Drawings in turn of those that come near the best.
 constexpr int tuned_runs = 5;
@@ -45,7 +63,9 @@ struct TuneCommand {
   raster::Backend backend = raster::Backend::automatic;
   std::optional<int> runs;
   int threads = 0;
-  bool quiet = false;
+  bool quiet = false, verbose = false;
+  const compare::TunedEngine* engine = nullptr;
+  double most_seconds = 60.0;  ///< of processor time
 };
 
 /// --map-size as a list, or the powers of two from 64 to what the context allows.
@@ -123,7 +143,8 @@ Expected<void> write_page(const TuneCommand& command, const TuneAnswer& answer, 
 }
 
 Expected<void> hand_out(const TuneCommand& command, const TuneAnswer& answer) {
-  if (!command.quiet && command.json != "-") print_data(answer.text());
+  if (!command.quiet && command.json != "-")
+    print_data(command.verbose ? answer.whole_text() : answer.text());
   const OutputGuard whole_file;
   return hand_out_json(command.json, answer.json());
 }
@@ -177,6 +198,13 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   const bool perceptual = with_page || command.goal.measure() == compare::ErrorMeasure::flip;
   compare::Engine engine(*bench.loaded.scene, *bench.loaded.world, *bench.renderer, perceptual);
   if (bench.film) engine.film_with(*bench.film);
+  bench.options.most_seconds = command.most_seconds;
+  bench.options.found = [&](const compare::TuneFamily& family, const compare::Attempt& answer,
+                            std::uint64_t renders) {
+    console.message(fmt::format("good enough after {} drawing{}: {}, {} texels, {}", renders,
+                                renders == 1 ? "" : "s", family.name, answer.size,
+                                compare::milliseconds(answer.time_ms)));
+  };
   const auto result =
       compare::tune(engine, bench.setting, bench.options,
                     [&](const compare::TuneFamily& family, int size, std::uint64_t renders) {
@@ -188,7 +216,8 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   if (!shaders) return fail(shaders.error());
   const TuneQuestion question{command.scene,           command.camera,     command.shader_folder,
                               command.options.fixed(), command.goal,       shaders->replaced(),
-                              command.metric,          command.max_lights, command.backend};
+                              command.metric,          command.max_lights, command.engine,
+                              command.most_seconds,    command.backend};
   const TuneAnswer answer{question, bench.families, *result};
   if (with_page) {
     const auto setting = bench.options.as_given(result->winner, attempt_of(result->families[result->winner]));
@@ -224,7 +253,7 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   if (const auto fine = finish_metric(command.metric, command.goal.max_error); !fine)
     return fail(fine.error());
   if (command.metric.is_filmed()) command.goal.of_time = compare::ErrorMeasure::shimmer;
-  const auto families = make_families(command.options, command.metric.is_filmed());
+  const auto families = make_families(command.options, command.metric.is_filmed(), command.engine);
   if (!families) return fail(families.error());
   auto files = check_files(command);
   if (!files) return fail(files.error());
@@ -248,6 +277,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
       "gnomon tune fence --max-error 0.5%\n"
       "gnomon tune penumbra --max-error mean:0.5%      also wrong:1%, flip:0.05, edge:0.5texel\n"
       "gnomon tune courtyard --max-error shimmer:0.02 --path walk    the cheapest that holds still\n"
+      "gnomon tune fence --max-error 2% --engine godot    only what Godot draws, in its settings\n"
       "gnomon tune courtyard --max-time 20 --map-size 256:4096:x2 -o answer\n"
       "gnomon tune fence --technique hard --shader-dir mine --max-error 2%    with a shader of your own\n"
       "gnomon tune model.glb --max-error 1% --json - | jq -r .command");
@@ -280,6 +310,11 @@ void add_tune(CLI::App& program, Invocation& invocation) {
   add_shader_dir(*app, command->shader_folder);
   add_threads(*app, command->threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_runs(*app, command->runs, std::to_string(tuned_runs).c_str());
+  add_engine(*app, command->engine);
+  add_number(*app, "--time-limit", command->most_seconds, seconds_range, "seconds of processor time",
+             "begin no further family of settings after this, and say which are left");
+  add_verbose(*app, command->verbose,
+              "also say why each of the others lost, and the bias in the units of all engines");
   add_json(*app, command->json, "the answer");
   add_quiet(*app, command->quiet);
   bind_run(*app, invocation, command, run_tune);

@@ -39,9 +39,15 @@ std::string failure_words(const Outcome& outcome, const Limits& limits) {
   return error.empty() ? fmt::format("the drawing process ended with exit code {}", outcome.code) : error;
 }
 
-/// Ends that somebody else than the shader may have caused: the system, which takes a process's memory for others, or
-/// whoever sends signals (whose exit codes these are). A shader that asks for more than it may have ends with
-/// ErrorKind::graphics as well.
+/// Drawn again with nothing beside it, such an end is the shader's doing: it has a mistake, or asked for too much.
+bool is_shaders_fault(const Outcome& outcome) {
+  return outcome.end == Outcome::End::exited && (outcome.code == static_cast<int>(ErrorKind::graphics) ||
+                                                 outcome.code == static_cast<int>(ErrorKind::bad_input));
+}
+
+/// Ends that somebody else than the shader may have caused: a file that could not be read, the system, which takes a
+/// process's memory for others, or whoever sends signals (whose exit codes these are). A shader that has a mistake ends with
+/// ErrorKind::bad_input as well, and one that asks for more than it may have with ErrorKind::graphics.
 bool may_be_disturbed(const Outcome& outcome) {
   constexpr std::array signals{SIGKILL, SIGTERM, SIGINT, SIGHUP, SIGQUIT};
   const auto is_from_outside = [&](int signal) {
@@ -53,17 +59,12 @@ bool may_be_disturbed(const Outcome& outcome) {
     case Outcome::End::killed:
       return is_from_outside(outcome.code);
     case Outcome::End::exited:
-      return outcome.code == static_cast<int>(ErrorKind::graphics) ||
-             outcome.code == static_cast<int>(ErrorKind::internal) || is_from_outside(outcome.code - 128);
+      return is_shaders_fault(outcome) || outcome.code == static_cast<int>(ErrorKind::internal) ||
+             is_from_outside(outcome.code - 128);
     case Outcome::End::out_of_time:
       break;
   }
   return false;
-}
-
-/// Drawn again with nothing beside it, such an end is the shader's doing where it asked for too much.
-bool is_shaders_fault(const Outcome& outcome) {
-  return outcome.end == Outcome::End::exited && outcome.code == static_cast<int>(ErrorKind::graphics);
 }
 
 }  // namespace

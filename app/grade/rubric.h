@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -71,13 +72,14 @@ std::string run_text(const Run& run);
 // What was handed in: one folder for each student.
 
 struct Student {
-  std::string name;    ///< the folder's own: any bytes
-  std::string folder;  ///< as given
+  std::string name;                   ///< the folder's own: any bytes
+  std::string folder;                 ///< as given
+  std::optional<Error> unreadable{};  ///< why nobody can say what the folder holds
 };
 
 /// Each path is a student's folder, or a folder of such folders (those in it, by name, links among them, which refusal()
 /// names). A folder with a shader in it, or with no folder in it, is a student's own, and so is one that cannot be read.
-/// Errors (usage): no such folder; two students of one name.
+/// Errors: no such folder, two students of one name (usage); none of the folders can be read (bad_input).
 Expected<std::vector<Student>> find_students(const std::vector<std::string>& paths);
 
 /// Why nothing of the folder is drawn with; empty where all is well: the folder or something in it is a link (which could

@@ -91,14 +91,19 @@ Expected<std::vector<Student>> students_at(const std::string& path) {
   const bool is_lost_link = kind && *kind == FileKind::none && is_link(place_of(path));
   if (kind && *kind != FileKind::folder && !is_lost_link)
     return fail(ErrorKind::usage, fmt::format("no such folder (got {})", path));
+  const auto unreadable = [&](const Error& error) {
+    return std::vector<Student>{{name_of(path), path, error}};
+  };
+  const std::vector<Student> one{{name_of(path), path}};
+  if (!kind) return unreadable(kind.error());
+  if (is_lost_link) return one;
+  const auto inner = folders_in(path);
+  if (!inner) return unreadable(inner.error());
+  const auto own = holds_shader(path);
+  if (!own) return unreadable(own.error());
+  if (*own || inner->empty()) return one;
   std::vector<Student> students;
-  if (kind && !is_lost_link) {
-    const auto inner = folders_in(path);
-    const auto own = holds_shader(path);
-    if (inner && own && !*own)
-      for (const std::string& folder : *inner) students.push_back({name_of(folder), folder});
-  }
-  if (students.empty()) students.push_back({name_of(path), path});
+  for (const std::string& folder : *inner) students.push_back({name_of(folder), folder});
   return students;
 }
 
@@ -194,6 +199,9 @@ Expected<std::vector<Student>> find_students(const std::vector<std::string>& pat
     if (!some) return fail(some.error());
     students.insert(students.end(), some->begin(), some->end());
   }
+  if (!students.empty() &&
+      std::ranges::all_of(students, [](const Student& s) { return s.unreadable.has_value(); }))
+    return fail(*students.front().unreadable);
   std::set<std::string> names;
   for (const Student& student : students)
     if (!names.insert(student.name).second)
@@ -203,6 +211,7 @@ Expected<std::vector<Student>> find_students(const std::vector<std::string>& pat
 }
 
 Expected<std::string> refusal(const Student& student, const Rubric& rubric) {
+  if (student.unreadable) return fail(*student.unreadable);
   if (is_link(place_of(student.folder)))
     return std::string(
         "the folder is a link; name the folder itself, for a link may lead to another student's");

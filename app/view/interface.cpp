@@ -93,6 +93,9 @@ Expected<std::unique_ptr<Interface>> Interface::open(const Window& window) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   std::unique_ptr<Interface> interface(new Interface);
+  auto font = read_font();
+  if (!font) return fail(font.error());
+  interface->font_ = std::move(*font);
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // nothing is remembered from one run to the next
   io.LogFilename = nullptr;
@@ -112,7 +115,7 @@ void Interface::use_type(const Look& look, const TypeSize& type) {
   if (font_scale_ != type.scale) {
     const bool again = font_scale_ != 0.0;
     if (again) ImGui_ImplOpenGL3_DestroyFontsTexture();
-    load_font(type);
+    load_font(type, font_);
     if (again) ImGui_ImplOpenGL3_CreateFontsTexture();
     font_scale_ = type.scale;
   }

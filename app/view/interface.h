@@ -44,6 +44,7 @@ class Interface {
  private:
   Interface() = default;
   std::optional<std::pair<Theme, double>> styled_;
+  std::string font_;  ///< the file's bytes
   double font_scale_ = 0.0;
   std::optional<Key> script_key_;  ///< held down in the last frame
 };

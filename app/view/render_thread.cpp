@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "app/view/priority.h"
+#include "scene/threads.h"
 
 namespace gnomon::app {
 
@@ -118,7 +119,7 @@ void RenderThread::run() {
       if (last_order_ && studio_) carry_out(*last_order_);
     }
   } catch (const std::exception& error) {
-    now_.unreadable = Error{ErrorKind::internal, fmt::format("internal error: {}", error.what())};
+    now_.unreadable = unforeseen(error);
     publish();
   }
   studio_.reset();  // while its context is current here

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "scene/files/path_status.h"
+#include "scene/files/read_file.h"
 
 namespace gnomon::app {
 
@@ -67,13 +68,21 @@ void apply_style(Theme theme, const TypeSize& type) {
   style.FramePadding.y = static_cast<float>(type.padding);
 }
 
-void load_font(const TypeSize& type) {
+Expected<std::string> read_font() {
+  for (const char* file : fonts)
+    if (file_kind_or_none(file) == FileKind::file) return read_file(file);
+  return std::string();
+}
+
+void load_font(const TypeSize& type, std::string& bytes) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
-  for (const char* file : fonts)
-    if (file_kind_or_none(file) == FileKind::file &&
-        atlas.AddFontFromFileTTF(file, static_cast<float>(type.font), nullptr, glyphs.data()) != nullptr)
-      return;
+  ImFontConfig given;
+  given.FontDataOwnedByAtlas = false;
+  if (!bytes.empty() &&
+      atlas.AddFontFromMemoryTTF(bytes.data(), static_cast<int>(bytes.size()), static_cast<float>(type.font),
+                                 &given, glyphs.data()) != nullptr)
+    return;
   ImFontConfig own;
   own.SizePixels = static_cast<float>(type.font);
   atlas.AddFontDefault(&own);

@@ -7,6 +7,7 @@
 
 #include "app/view/layout.h"
 #include "app/view/look.h"
+#include "scene/expected.h"
 
 struct ImVec4;
 
@@ -14,8 +15,10 @@ namespace gnomon::app {
 
 /// Gives Dear ImGui's current context its colours and sizes.
 void apply_style(Theme theme, const TypeSize& type);
-/// Loads the text's font in this size: DejaVu Sans, or Dear ImGui's own where that is not installed.
-void load_font(const TypeSize& type);
+/// The bytes of the text's font, DejaVu Sans; empty where it is not installed.
+Expected<std::string> read_font();
+/// Makes it the font in this size, or Dear ImGui's own where `bytes` is empty. The bytes have to outlive the context.
+void load_font(const TypeSize& type, std::string& bytes);
 
 /// Colours that the panels' own drawings use, as 0xAABBGGRR.
 struct Ink {

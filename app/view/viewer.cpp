@@ -186,7 +186,10 @@ Expected<void> Viewer::take_snapshot() {
   busy_frames_ = 3;
   if (!shown_->scene)
     return shown_->unreadable ? Expected<void>(fail(*shown_->unreadable)) : Expected<void>();
-  if (shown_->unreadable && shown_->unreadable->message() != told) note(*shown_->unreadable);
+  if (shown_->unreadable && shown_->unreadable->message() != told) {
+    if (has_script() && shown_->unreadable->kind != ErrorKind::bad_input) return fail(*shown_->unreadable);
+    note(*shown_->unreadable);
+  }
   if (!shown_->unreadable && !told.empty() && note_ == one_line(told)) note_.clear();  // it was mended
   if (shown_->scene->number != scene_) show_scene(*shown_->scene);
   if (shown_->is_drawn(state_)) {

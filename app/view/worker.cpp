@@ -7,6 +7,7 @@
 
 #include "app/view/priority.h"
 #include "compare/result/outputs.h"
+#include "scene/threads.h"
 
 namespace gnomon::app {
 
@@ -114,10 +115,8 @@ void CompareWorker::run() {
     try {
       prepare_tracer(request.precision);
       outcome = compare(std::move(request), *job);
-    } catch (const std::bad_alloc&) {
-      outcome = fail(ErrorKind::graphics, "out of memory");
     } catch (const std::exception& error) {
-      outcome = fail(ErrorKind::internal, fmt::format("internal error: {}", error.what()));
+      outcome = fail(unforeseen(error));
     }
     {
       const std::lock_guard lock(mutex_);

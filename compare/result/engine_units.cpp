@@ -110,6 +110,17 @@ void add_babylon(const Symbols& q, LightType light, Units& out) {
   out.push_back({"Babylon.js", "normalBias", q.n * q.w, "n w"});
 }
 
+void add_playcanvas(const Symbols& q, Units& out) {
+  out.push_back({"PlayCanvas", "shadowBias", q.s / 10.0,
+                 "s / 10: a polygon offset of factor and units 10 each; it has no constant of its own"});
+}
+
+void add_filament(const Symbols& q, Units& out) {
+  out.push_back({"Filament", "constantBias", q.b, "b"});
+  out.push_back(
+      {"Filament", "normalBias", std::nullopt, "multiplies an error that Filament works out itself"});
+}
+
 void add_polygon_offset(const Symbols& q, raster::DepthFormat format, Units& out) {
   out.push_back({"polygon offset", "factor", q.s, "s"});
   const bool floats = format == raster::DepthFormat::d32f || format == raster::DepthFormat::d32f_reversed;
@@ -137,10 +148,12 @@ std::vector<EngineUnit> engine_units(const raster::Bias& bias, double constant_w
   add_godot(q, light, out);
   add_bevy(q, light, out);
   add_babylon(q, light, out);
+  add_playcanvas(q, out);
+  add_filament(q, out);
   add_polygon_offset(q, record.map.format, out);
   const bool sloped = bias.slope != 0.0;
   if (sloped)
-    for (const char* engine : {"three.js", "Unity (URP)", "Godot", "Bevy", "Babylon.js"})
+    for (const char* engine : {"three.js", "Unity (URP)", "Godot", "Bevy", "Babylon.js", "Filament"})
       out.push_back({engine, "slope", std::nullopt, no_slope});
   for (EngineUnit& unit : out)
     if (unit.value && *unit.value == 0.0) unit.value = 0.0;  // no -0

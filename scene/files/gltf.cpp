@@ -21,6 +21,7 @@
 #include "scene/files/gltf_value.h"
 #include "scene/files/read_file.h"
 #include "scene/files/validate.h"
+#include "scene/threads.h"
 
 namespace gnomon {
 namespace {
@@ -371,9 +372,8 @@ Expected<LoadedFile> read_gltf(std::string_view bytes, const std::string& file, 
   if (const auto unpacked = unpack_draco(*document, *data); !unpacked) return fail(unpacked.error());
   if (auto defect = empty_accessor_defect(document->model, file)) return fail(std::move(*defect));
   return build(*document, *data, options.paths != nullptr);
-} catch (const std::bad_alloc&) {
-  throw;                             // load_scene answers for memory
 } catch (const std::exception& e) {  // the libraries' own, on what the checks forget
+  if (is_of_resource(e)) throw;      // whoever asked answers for memory and threads
   return fail(gltf_error(file, "", printable(e.what(), 200)));
 }
 

@@ -11,6 +11,7 @@
 #include "scene/files/mtl.h"
 #include "scene/files/obj_text.h"
 #include "scene/files/obj_textures.h"
+#include "scene/files/path_status.h"
 #include "scene/files/polygon.h"
 #include "scene/files/read_file.h"
 
@@ -38,6 +39,7 @@ class LibraryReader {
       return fail(std::move(error));
     }
     const auto bytes = read_file(*path);
+    if (!bytes && file_kind_or_none(*path) == FileKind::file) return fail(bytes.error());
     if (!bytes) return bytes.error().reason;
     if (bytes->find('\0') != std::string::npos) return "it is not UTF-8 text";
     auto library = parse_mtl(*bytes, *path);

@@ -1,7 +1,10 @@
 #include "studies/sweep/engine.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "raster/technique_traits.h"
 #include "scene/parallel.h"
@@ -212,6 +215,16 @@ std::vector<ErrorFigures> Engine::Impl::figures(ErrorMeasure measure) const {
   return out;
 }
 
+namespace {
+
+// What people type: no figure of a comparison depends on more.
+raster::Bias with_three_digits(raster::Bias bias) {
+  bias.constant = std::stod(fmt::format("{:.3g}", bias.constant));
+  return bias;
+}
+
+}  // namespace
+
 // What the drawing would be wrong by with the bias that its gaps say is best, asked for once for all lights: where the
 // constant scales it is a number of texels, and each light has its own.
 void Engine::Impl::probe_best_bias(const raster::MapOptions& map, ErrorMeasure measure, Probe& probe) {
@@ -222,7 +235,7 @@ void Engine::Impl::probe_best_bias(const raster::MapOptions& map, ErrorMeasure m
   sort_numbers(std::span(probe.gaps.lit));
   sort_numbers(std::span(probe.gaps.shadowed));
   probe.best = find_best_bias(probe.gaps);
-  probe.bias_at_best = with_constant(map, probe.best->constant_world, probe.texel_world);
+  probe.bias_at_best = with_three_digits(with_constant(map, probe.best->constant_world, probe.texel_world));
   for (raster::LightRecord& record : frame.lights)
     rebias(frame.primitive,
            raster::constant_bias_world(probe.bias_at_best, record.rounding, record.map.view, world), record);

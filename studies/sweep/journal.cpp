@@ -110,9 +110,22 @@ std::string header_json(const SweepHeader& header) {
   return json.dump(2) + "\n";
 }
 
-Expected<SweepHeader> read_header(const std::string& folder) {
+namespace {
+
+/// A file's bytes; that it cannot be read is an error of `kind`, which is cannot_write for a folder that is being written.
+Expected<std::string> read_as(ErrorKind kind, const std::string& path) {
+  auto bytes = read_file(path);
+  if (bytes) return bytes;
+  Error error = bytes.error();
+  error.kind = kind;
+  return fail(std::move(error));
+}
+
+}  // namespace
+
+Expected<SweepHeader> read_header(const std::string& folder, ErrorKind unreadable) {
   const std::string path = path_in(folder, "sweep.json");
-  const auto bytes = read_file(path);
+  const auto bytes = read_as(unreadable, path);
   if (!bytes) return fail(bytes.error());
   const Json json = Json::parse(*bytes, nullptr, false);
   const auto bad = [&path](std::string reason) {
@@ -192,7 +205,7 @@ std::string differences(const std::string& a, const std::string& b) {
 Expected<bool> has_header(const std::string& folder, const SweepHeader& header) {
   const auto exists = is_there(path_in(folder, "sweep.json"), ErrorKind::cannot_write);
   if (!exists || !*exists) return exists;
-  const auto there = read_header(folder);
+  const auto there = read_header(folder, ErrorKind::cannot_write);
   if (!there) return fail(there.error());
   if (there->hash != header.hash)
     return fail(ErrorKind::usage,
@@ -246,7 +259,8 @@ struct GoodLines {
 
 Expected<GoodLines> read_lines(const std::string& line_path, const std::string& time_path,
                                const std::vector<std::string>& axes) {
-  const auto bytes = read_file(line_path), bytes_of_times = read_file(time_path);
+  const auto bytes = read_as(ErrorKind::cannot_write, line_path),
+             bytes_of_times = read_as(ErrorKind::cannot_write, time_path);
   if (!bytes) return fail(bytes.error());
   if (!bytes_of_times) return fail(bytes_of_times.error());
   GoodLines found{whole_lines(*bytes), whole_lines(*bytes_of_times), false};

@@ -39,8 +39,9 @@ struct SweepHeader {
 };
 SweepHeader make_header(std::string configuration, std::size_t cells, Shard shard);
 std::string header_json(const SweepHeader& header);
-/// Reads DIR/sweep.json. Errors are ErrorKind::bad_input.
-Expected<SweepHeader> read_header(const std::string& folder);
+/// Reads DIR/sweep.json. A file that cannot be read is an error of the kind `unreadable`, one that is no sweep's
+/// bad_input.
+Expected<SweepHeader> read_header(const std::string& folder, ErrorKind unreadable = ErrorKind::bad_input);
 
 /// The line that a cell must have: its values by axis, as JSON text of the object "axes".
 using ExpectedAxes = std::vector<std::string>;

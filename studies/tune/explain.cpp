@@ -119,7 +119,9 @@ void Tuner::explain(TuneResult& result) const {
   const FamilyResult& winner = result.families[result.winner];
   for (std::size_t i = 0; i < result.families.size(); ++i) {
     FamilyResult& family = result.families[i];
-    if (i != result.winner)
+    if (!family.is_tried())
+      family.why = "not tried: the time was over";
+    else if (i != result.winner)
       family.why = reason(family, winner);
     else if (result.feasible)
       family.why = (options_.goal.max_error ? "the cheapest that is good enough: "

@@ -15,6 +15,7 @@ constexpr double near_the_best = 2.5, still_near = 1.25;
 }  // namespace
 
 bool Tuner::better(const FamilyResult& a, const FamilyResult& b) const {
+  if (a.is_tried() != b.is_tried()) return a.is_tried();
   if (a.answer.has_value() != b.answer.has_value()) return a.answer.has_value();
   const Attempt &x = a.attempt(), &y = b.attempt();
   const bool answered = a.answer.has_value();

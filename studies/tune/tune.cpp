@@ -14,6 +14,10 @@ namespace {
 constexpr double hope = 1.5;
 // How far above the goal an estimate must lie to be believed.
 constexpr double clearly = 2.0;
+// What an error may be less by than halving with every doubling of the map says, and still be looked for.
+constexpr double lucky = 1.3;
+// How much dearer than the best answer an exact technique may be at the size first tried before its other sizes are left.
+constexpr double exact_hope = 3.0;
 // Of two estimates the later may be less by this factor: texels wider than what casts the shadows do not yet
 // halve their errors.
 constexpr double agreed = 0.8;
@@ -33,6 +37,21 @@ bool cost_the_same(raster::MapOptions a, raster::MapOptions b) {
 // An error of a + b / size, told by two sizes: a.
 double error_left(const Attempt& small, const Attempt& large) {
   return (large.error * large.size - small.error * small.size) / (large.size - small.size);
+}
+
+// Costs of a + b * size^2, told by two sizes, at a third; of one size, or where the larger cost less, no more than that one's.
+double cost_at(int size, const std::vector<Attempt>& tried) {
+  const Attempt& last = tried.back();
+  if (tried.size() < 2) return last.cost;
+  const Attempt& before = tried[tried.size() - 2];
+  const auto area = [](int side) { return double(side) * side; };
+  const double grown = (last.cost - before.cost) / (area(last.size) - area(before.size));
+  return last.cost + std::max(0.0, grown) * (area(size) - area(last.size));
+}
+
+// The error that halving with every doubling of the map would leave.
+double error_at(int size, const Attempt& attempt) {
+  return attempt.error * attempt.size / size;
 }
 
 }  // namespace
@@ -193,17 +212,33 @@ void Tuner::stop_early(const Attempt& attempt, FamilyResult& result) const {
     result.stop = TuneStop::levels_off, result.floor = left;
 }
 
+// The next size worth drawing after one that is not good enough: the first at which the error could be, at most one is passed
+// over.
+std::size_t Tuner::next_size(std::size_t from, std::size_t end, const Attempt& attempt) const {
+  const bool passed_over =
+      from + 1 < end && error_at(options_.sizes[from], attempt) > lucky * options_.goal.max_error->limit;
+  return passed_over ? from + 1 : from;
+}
+
 // The least size that is good enough, or the largest that is cheap enough: both goals change once along the
-// sizes. Where the middle one is not good enough the next larger ones come one by one, for the larger a map
-// the dearer the drawing, and the sooner a family can be left.
+// sizes. Where the middle one is not good enough the larger ones come from the smallest that could be, for the larger a
+// map the dearer the drawing, and the sooner a family can be left.
 Expected<FamilyResult> Tuner::bisect(const TuneFamily& family) {
   FamilyResult result;
   result.family = family;
   const bool want_least = options_.goal.max_error.has_value();
   std::size_t low = 0, high = sizes_for(family, result);  // the change lies in [low, high]
+  std::optional<Attempt> too_wrong;                       // the last one
   while (low < high) {
-    const bool upwards = want_least && low > 0;
-    const std::size_t middle = upwards ? low : low + (high - low) / 2;
+    std::size_t middle = low + (high - low) / 2;
+    if (too_wrong) middle = next_size(low, high, *too_wrong);
+    if (too_wrong && result.answer &&
+        error_at(options_.sizes[middle], *too_wrong) > lucky * options_.goal.max_error->limit)
+      break;
+    if (too_wrong && cost_at(options_.sizes[middle], result.tried) > hope * least_cost_) {
+      result.stop = TuneStop::too_dear;
+      break;
+    }
     const auto attempt = this->attempt(family, options_.sizes[middle]);
     if (!attempt) return fail(attempt.error());
     take(result, *attempt);
@@ -213,7 +248,9 @@ Expected<FamilyResult> Tuner::bisect(const TuneFamily& family) {
       continue;
     }
     low = middle + 1;
-    if (!want_least || low >= high || result.answer) continue;
+    if (!want_least) continue;
+    too_wrong = *attempt;
+    if (low >= high || result.answer) continue;
     const TuneStop before = result.stop;
     stop_early(*attempt, result);
     if (result.stop != before) break;
@@ -238,6 +275,7 @@ Expected<FamilyResult> Tuner::walk_down(const TuneFamily& family) {
     return less;
   };
   if (const auto first = cheaper(start); !first) return fail(first.error());
+  if (least > exact_hope * least_cost_) return result;
   for (const std::ptrdiff_t step : {+1, -1}) {
     for (std::ptrdiff_t i = start + step; !(moved && step < 0) && i >= 0 && i < count; i += step) {
       const auto less = cheaper(i);
@@ -252,20 +290,27 @@ Expected<FamilyResult> Tuner::walk_down(const TuneFamily& family) {
 Expected<FamilyResult> Tuner::search(const TuneFamily& family) {
   tried_before_ = false;
   auto found = !raster::compares_depths(family.map.technique) ? walk_down(family) : bisect(family);
-  if (found && found->answer) least_cost_ = std::min(least_cost_, found->answer->cost);
+  if (!found || !found->answer) return found;
+  if (options_.found && options_.goal.max_error && found->answer->cost < least_cost_)
+    options_.found(family, *found->answer, renders_);
+  least_cost_ = std::min(least_cost_, found->answer->cost);
   return found;
 }
 
-// Exact techniques first: they set the price that the others have to beat.
+// Exact techniques last: they are good at any size, so that what they cost is all there is to learn of them.
 Expected<void> Tuner::search_all(TuneResult& result) {
   result.families.resize(options_.families.size());
-  for (const bool exact : {true, false})
+  for (const bool exact : {false, true})
     for (std::size_t i = 0; i < options_.families.size(); ++i) {
       if (raster::compares_depths(options_.families[i].map.technique) == exact) continue;
+      FamilyResult& family = result.families[i];
+      family.family = options_.families[i];
+      if (searched_ && begun_.elapsed_ms() > 1e3 * options_.most_seconds) continue;
       auto found = search(options_.families[i]);
       if (!found) return fail(found.error());
-      result.families[i] = std::move(*found);
-      if (result.families[i].answer) answered_.push_back(&result.families[i]);
+      searched_ = true;
+      family = std::move(*found);
+      if (family.answer) answered_.push_back(&family);
     }
   return {};
 }

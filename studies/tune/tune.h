@@ -17,6 +17,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,11 @@ struct TuneOptions {
   std::vector<TuneFamily> families;
   std::vector<int> sizes;  ///< ascending, texels
   TuneCost cost;           ///< empty: milliseconds
+  /// Processor time after which no further family is begun, seconds, from the call of tune() on; one is searched whatever it
+  /// takes.
+  double most_seconds = std::numeric_limits<double>::infinity();
+  /// Told of each family whose answer is cheaper than those before, where the goal is an error.
+  std::function<void(const TuneFamily& family, const struct Attempt& answer, std::uint64_t renders)> found;
   /// The setting that a family's answer is given as; empty: the one that it was drawn with. The answer's
   /// error is measured by the comparison at this setting.
   std::function<Expected<Setting>(std::size_t family, const struct Attempt& answer)> as_given;
@@ -102,6 +108,9 @@ struct FamilyResult {
   std::vector<std::string> as_fast;
   bool by_cost = false;
   std::string why;  ///< why it lost, or won
+
+  /// Drawn at least once: not left for lack of time.
+  bool is_tried() const { return !tried.empty(); }
 
   /// The answer, or what comes nearest to one.
   const Attempt& attempt() const { return answer ? *answer : closest; }

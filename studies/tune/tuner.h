@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "scene/timing.h"
 #include "studies/tune/tune.h"
 
 namespace gnomon::compare {
@@ -30,6 +31,7 @@ class Tuner {
   bool hopeless(const Attempt& a) const;
   /// Sizes worth looking at: those below the answer of a family that costs the same, at least one.
   std::size_t sizes_for(const TuneFamily& family, FamilyResult& result) const;
+  std::size_t next_size(std::size_t from, std::size_t end, const Attempt& attempt) const;
   void stop_early(const Attempt& attempt, FamilyResult& result) const;
 
   Setting setting_of(const TuneFamily& family, int size, const raster::Bias& bias) const;
@@ -63,6 +65,8 @@ class Tuner {
   const TuneOptions& options_;
   const TuneProgress& progress_;
   std::uint64_t renders_ = 0;
+  ProcessorStopwatch begun_;
+  bool searched_ = false;                      ///< one family at least
   std::vector<const FamilyResult*> answered_;  ///< those that are good enough, as far as they are searched
   std::size_t best_trial_ = 0;       ///< which of the biases tried was best at the family's last size
   bool tried_before_ = false;        ///< whether that is known

@@ -12,8 +12,9 @@ older result where they write, and every run finds files of the user's there.
 Held at every point:
   - exit code 0 (or what the undisturbed run has): every output is there and is the undisturbed run's (outputs.py);
   - else each output (a folder, or a file that an option names) is the older one byte by byte, or all of the new, and nothing
-    else of the program's lies about. Two commands finish what they can: a sweep that failed is taken up by the
-    next and is then whole, and grade gives all points but those of students that it names;
+    else of the program's lies about. Three commands finish what they can: a sweep that failed is taken up by the
+    next and is then whole, grade gives all points but those of students that it names, and of several captures judge
+    refuses the one that it cannot read;
   - files of the user's are what they were;
   - the exit code is 4 where an output failed, 3 where an input did, 5 where a resource did; the program does not crash, hang
     (limits: processor time, and a generous time besides) or call it an error of its own.
@@ -38,7 +39,7 @@ import sys
 import tempfile
 
 from commands import COMMANDS, make_inputs
-from outputs import files_below, same, same_but_drawn_anew, same_but_ungraded
+from outputs import files_below, same, same_but_drawn_anew, same_but_refused, same_but_ungraded
 from points import EXCEPTIONS, KINDS, RESOURCES, SHORT_IS_END, points_of
 
 FOREIGN = {"out/movie.mp4.part": b"a film that a browser is loading", "out/notes.txt": b"notes", "out/cells/cell-7.png": b"a picture",
@@ -190,6 +191,9 @@ class Campaign:
         elif new and command.grades and "not graded: " in said:
             wrong = same_but_ungraded(base, files)
             found += [("half", f"somebody could not be graded, but {self.listed(wrong)} missing or different")] if wrong else []
+        elif new and command.refuses and code == 3:
+            wrong = same_but_refused(base, files, before)
+            found += [("half", f"a capture was refused, but {self.listed(wrong)} missing or different")] if wrong else []
         elif new and command.resumes:
             found += self.judge_resumed(command, said, after, base)
         elif new:
@@ -251,7 +255,7 @@ class Campaign:
         return [] if said.strip() else [("exit codes", f"exit code {code} without a word")]
 
     def wanted_codes(self, point, failed):
-        if point.kind == "short-read" and failed and any(library in failed[0][5] for library in SHORT_IS_END):
+        if point.kind == "short-read" and failed and any(library in call[5] for call in failed for library in SHORT_IS_END):
             return {3}
         if point.kind in ("short-write", "short-read") or not failed:
             return set()

@@ -24,6 +24,7 @@ class Command:
     older: list = None
     resumes: bool = False  # a run that failed is taken up by the next, so that out/ may hold a part
     grades: bool = False  # whom it could not grade it names, and gives all others their points
+    refuses: bool = False  # of several inputs it judges those that it can read
     window: bool = False
     share: float = 1.0  # of the points, where a run takes long or makes few calls
     code: int = 0
@@ -58,7 +59,7 @@ COMMANDS = [
             "-o", "out", "--aov", "out/values.exr", other=["compare", "acne-floor", *SMALL, "-o", "out"]),
     command("judge", "judge", "in/capture/capture.json", "-o", "out", other=["judge", "in/other/capture.json", "-o", "out"]),
     command("judge several", "judge", "in/capture/capture.json", "in/other/other.json", "-o", "out",
-            other=["judge", "in/other/other.json", "in/other/capture.json", "-o", "out"]),
+            other=["judge", "in/other/other.json", "in/other/capture.json", "-o", "out"], refuses=True),
     command("sweep", "sweep", *SWEEP, "-o", "out", other=["sweep", *SWEEP, "-o", "out"], resumes=True),
     command("sweep resumed", "sweep", *SWEEP, "-o", "out", other=["copy", "in/half"], resumes=True),
     command("merge", "merge", "in/shard1", "in/shard2", "-o", "out", other=["merge", "in/shard1", "in/shard2", "-o", "out"]),

@@ -128,3 +128,27 @@ def same_but_ungraded(base, new):
              if student not in ungraded and rows["new"].get(student) != row]
     told = {"out/grades.csv", "out/grades.json", "out/index.html", *(f"out/{student}.html" for student in ungraded)}
     return wrong + [name for name in same(base, new) if name not in told or name not in new] + ([] if ungraded else ["the ungraded"])
+
+
+def same_but_refused(base, new, before):
+    """The same of several captures of which some could not be read, as judge says of them: the others are judged as ever, and
+    who was refused has no line; where it had a folder before, that is left alone."""
+    def judged(files):
+        lines = files.get("out/judge.jsonl", b"").splitlines()
+        return {json.loads(line)["axes"]["capture"]: line for line in lines}
+    def table(files):
+        rows = table_of(files["out/judge.csv"])
+        capture = rows[0].index("cell")
+        return [row[:capture] + row[capture + 1:] for row in rows]
+    names, refused = judged(base), set(judged(base)) - set(judged(new))
+    wrong = [f"the line of {name}" for name, line in judged(new).items()
+             if name not in names or lines_differ("judge.jsonl", names[name], line)]
+    kept = [i for i, name in enumerate(names) if name not in refused]
+    if "out/judge.csv" in new and table(new) != [table(base)[i] for i in (0, *(1 + i for i in kept))]:
+        wrong.append("the table")
+    for name in same(base, new):
+        if any(name.startswith(f"out/{who}/") for who in refused):
+            wrong += [name] if new.get(name) != before.get(name) else []
+        elif name not in ("out/judge.jsonl", "out/judge.csv", "out/report.html", "said/stdout") or name not in new:
+            wrong.append(name)
+    return wrong + ([] if refused else ["the refused"])

@@ -11,6 +11,7 @@ EXCEPTIONS = {
     "libEGL": "as libOSMesa",
     "libGL": "as libOSMesa",
     "libgbm": "as libOSMesa",
+    "libglfw": "uses what it could not allocate",
     "libX11": "ends the process by exit(1)",
     "libxcb": "as libX11",
 }
