@@ -168,7 +168,7 @@ Expected<void> read_all(const std::string& folder) {
   if (!names) return fail(names.error());
   for (const std::string& name : *names) {
     if (!raster::is_shader(name)) continue;
-    if (const auto read = read_file(folder + "/" + name); !read) return fail(read.error());
+    if (const auto read = read_file(fmt::format("{}/{}", folder, name)); !read) return fail(read.error());
   }
   return {};
 }

@@ -8,7 +8,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 
@@ -18,7 +17,7 @@ namespace gnomon {
 namespace {
 
 constexpr int max_channels = 1024;
-constexpr std::uintmax_t longest_begin = std::uintmax_t{1} << 20;  // of an EXR's header and table, bytes
+constexpr std::size_t longest_begin = std::size_t{1} << 20;  // of an EXR's header and table, bytes
 
 tl::unexpected<Error> image_error(ErrorKind kind, const std::string& file, std::string reason) {
   std::replace(reason.begin(), reason.end(), '\n', ' ');
@@ -184,12 +183,13 @@ class OpenExrRows final : public ExrRows {
   }
   Expected<void> close() override {
     if (const auto closed = checked(output_->close()); !closed) return closed;
-    std::error_code unknown;
-    std::string begin(std::min(longest_begin, std::filesystem::file_size(path_, unknown)), '\0');
     std::ifstream file(path_, std::ios::binary);
-    if (unknown || !file.read(begin.data(), static_cast<std::streamsize>(begin.size())))
+    std::string begin(longest_begin, '\0');
+    file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    if (file.bad() || file.gcount() <= 0)
       return not_written(path_, "cannot write",
                          fmt::format("what was written cannot be read back: {}", std::strerror(errno)));
+    begin.resize(static_cast<std::size_t>(file.gcount()));
     return has_all_blocks(begin) ? Expected<void>() : rows_are_missing(path_);
   }
 
