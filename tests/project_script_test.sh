@@ -109,6 +109,7 @@ expect_end 2 '--only needs names' test --only
 expect_end 2 'no such preset (got nosuch' build nosuch
 expect_end 2 'no such preset (got ../x' build ../x
 expect_end 2 'no such preset (got nosuch' test --preset nosuch
+expect_end 2 '--quick or --only, not both' test --quick --only one_test
 
 # Another ./gnomon that builds.
 exec 8>"$work/copy/build/.lock"
