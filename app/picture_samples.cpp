@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 
 #include "app/options.h"
 #include "app/values.h"
@@ -42,6 +44,21 @@ void apply_picture_samples(const PictureSamples& samples, Scene& scene) {
   if (samples.per_pixel) scene.camera.samples_per_pixel = *samples.per_pixel;
   if (samples.glossy) scene.glossy_samples = *samples.glossy;
   if (samples.indirect) scene.indirect_samples = *samples.indirect;
+}
+
+std::string many_rays_note(const Scene& scene, const EffectPlan& plan, double min_contribution,
+                           const ImageSize& size) {
+  constexpr double many = 1e11;  // an hour or more on any machine
+  if (!plan.simulates(Effect::refraction)) return {};
+  const double split = std::pow(2.0, scene.max_depth), kept = 1.0 / min_contribution;  // infinite at 0
+  const double rays =
+      std::min(split, kept) * static_cast<double>(size.pixels()) * scene.camera.samples_per_pixel;
+  if (rays < many) return {};
+  return fmt::format(
+      "Glass may take up to {:.1g} rays: it splits a ray in two at each surface, to the scene's max_depth of "
+      "{}; a "
+      "larger --min-contribution than {} ends them sooner.",
+      rays, scene.max_depth, min_contribution);
 }
 
 }  // namespace gnomon::app

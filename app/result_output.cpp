@@ -155,21 +155,24 @@ Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison&
   auto written = write_all(output, comparison, files, console, introduction, parts.get());
   parts.reset();
   if (!written) return fail(written.error());
-  std::string summary = compare::summary_table(comparison, stdout_takes_colour());
+  const std::string& folder = output.shown_folder.empty() ? output.folder : output.shown_folder;
+  const std::string place = (output.no_report ? "Result: " : "Report: ") + folder +
+                            (output.no_report ? "/result.json" : "/report.html");
+  const bool colour = stdout_takes_colour(), prints = !output.quiet && output.json != "-";
+  std::string summary = output.verbose ? compare::summary_table(comparison, colour)
+                                       : compare::summary_in_short(comparison, place, colour);
   const ExitCode code = judge_lights(output, comparison, console);
   give_back(comparison, loaded);
   if (const auto result = compare::write_result(*written); !result) return fail(result.error());
   if (const auto json = write_json(output); !json) return fail(json.error());
   whole_outputs.reset();
-  if (const StageLog* log = StageLog::current())
-    summary += compare::time_budget_text(log->budget(), stdout_takes_colour());
-  if (!output.quiet && output.json != "-") print_data(summary);
+  if (const StageLog* log = StageLog::current(); log != nullptr && output.verbose)
+    summary += compare::time_budget_text(log->budget(), colour);
+  if (prints) print_data(summary);
   if (output.no_report) note_old_report(output.folder, console);
-  const std::string& folder = output.shown_folder.empty() ? output.folder : output.shown_folder;
-  console.message(fmt::format("{}/{} ({:.1f} s, {:.0f} MB of memory at most)",
-                              output.no_report ? "result: " + folder : "report: " + folder,
-                              output.no_report ? "result.json" : "report.html", total.elapsed_ms() / 1000.0,
-                              static_cast<double>(peak_memory_bytes()) / 1e6));
+  const std::string took = fmt::format("{:.1f} s, {:.0f} MB of memory at most", total.elapsed_ms() / 1000.0,
+                                       static_cast<double>(peak_memory_bytes()) / 1e6);
+  console.message(prints && !output.verbose ? took : fmt::format("{} ({})", place, took));
   return code;
 }
 
@@ -187,6 +190,7 @@ void add_result_limits(CLI::App& app, ResultOutput& output) {
   add_output(app, "--aov", output.aov, "FILE.exr",
              "also write every per-pixel number as 32-bit channels, one file per light [default off]");
   add_json(app, output.json, "the result");
+  add_verbose(app, output.verbose, "also print the budget and all other figures");
   add_quiet(app, output.quiet);
 }
 

@@ -20,12 +20,12 @@ struct ResultOutput {
   std::optional<compare::Threshold> fail_above;
   double report_max_mb = compare::default_report_max_mb;
   bool no_report = false;  ///< no page; all other files as ever
-  bool quiet = false;
+  bool quiet = false, verbose = false;
 };
 
 /// -o; `default_folder` as its help says it.
 void add_result_output(CLI::App& app, ResultOutput& output, const std::string& default_folder);
-/// --report-max-mb, --fail-above, --aov, --json, --quiet.
+/// --report-max-mb, --fail-above, --aov, --json, --verbose, --quiet.
 void add_result_limits(CLI::App& app, ResultOutput& output);
 
 /// Adds them to what the run writes. Error where one cannot be written or would take another file's place,

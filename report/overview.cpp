@@ -150,7 +150,7 @@ std::string_view step_words(const Comparison& c, std::size_t k) {
 std::string verdict_block(const Verdict& verdict) {
   std::string out = fmt::format(R"(<p class="verdict">{}</p>
 )",
-                                flowing(verdict.headline));
+                                flowing(verdict.headline()));
   if (!verdict.detail.empty())
     out += fmt::format(R"(<p class="verdict-detail">{}</p>
 )",

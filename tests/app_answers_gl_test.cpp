@@ -128,6 +128,23 @@ constexpr const char* looks_away = R"({"schema": "gnomon/scene/1",
     "instances": [{"mesh": "floor", "material": "m"}]})";
 
 // The camera looks away from all there is: nothing is compared, and nothing is wrong with the scene.
+// Each of 64 surfaces of glass may split a ray in two: somebody has to say so before the picture is begun. The camera looks
+// away, so that there is none to wait for.
+TEST(Answers, RaytraceSaysThatGlassMayTakeDays) {
+  const TemporaryFolder folder;
+  write_text(
+      folder / "glass.json",
+      R"({"schema": "gnomon/scene/1", "max_depth": 64, "camera": {"eye": [0, 1, 5], "target": [0, 1, 9]},
+                 "lights": [{"name": "sun", "type": "directional", "direction": [-1, -2, -1]}],
+                 "materials": [{"name": "glass", "transmission": 0.9}],
+                 "shapes": [{"name": "ball", "sphere": {"center": [0, 1, 0], "radius": 1}, "material": "glass"}]})");
+  const Words words{"raytrace", folder / "glass.json", "--size", "16x9", "-o", folder / "glass.png"};
+  const ProcessResult all = run_gnomon(words + Words{"--min-contribution", "0"});
+  EXPECT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_NE(all.err.find("Glass may take up to 3e+21 rays"), std::string::npos) << all.err;
+  EXPECT_EQ(run_gnomon(words).err.find("Glass may take"), std::string::npos);
+}
+
 TEST(Answers, ACameraThatSeesNothing) {
   const TemporaryFolder folder;
   write_text(folder / "away.json", looks_away);

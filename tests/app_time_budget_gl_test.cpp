@@ -121,7 +121,7 @@ TEST(TimeBudget, AddsUpToTheProcessOnATerrain) {
 TEST(TimeBudget, TraceHoldsTheStages) {
   const TemporaryFolder folder;
   const ProcessResult run =
-      run_gnomon(Words{"compare", "acne-floor", "-o", "out", "--trace", "trace.json"} + small,
+      run_gnomon(Words{"compare", "acne-floor", "-v", "-o", "out", "--trace", "trace.json"} + small,
                  {.folder = folder.path()});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(run.out.find("process   "), std::string::npos) << run.out;

@@ -11,6 +11,7 @@
 #include "compare/result/outputs.h"
 #include "compare/result/shadow_cost.h"
 #include "compare/result/text_layout.h"
+#include "compare/result/verdict.h"
 #include "report/html.h"
 #include "report/lessons.h"
 #include "report/log_chart.h"
@@ -165,6 +166,24 @@ TEST(Summary, FitsEightyColumnsAndColoursOnlyWhenAsked) {
   for (const char* part :
        {"the map: 12 ms", "exact shadows: 95 ms for 41,234 rays", "acne", "budget", "peak memory 188 MB"})
     EXPECT_NE(plain.find(part), std::string::npos) << part << "\n" << plain;
+}
+
+// What a reader has ten seconds for: what is wrong, what to do, where the report is; of each light one line where there are
+// several. The rest is asked for.
+TEST(Summary, BeginsWithVerdictAdviceAndPlace) {
+  const auto made = make_synthetic();
+  made->comparison.lights.resize(1);
+  const Verdict verdict = verdict_on(made->comparison, made->comparison.lights[0]);
+  const std::string text = summary_in_short(made->comparison, "Report: out/report.html", false);
+  std::string expected;
+  for (const std::string& sentence : {verdict.error, verdict.advice})
+    for (const std::string& line : wrapped(sentence, 80)) expected += line + "\n";
+  expected += "Report: out/report.html\n";
+  EXPECT_EQ(text.substr(0, expected.size()), expected);
+  EXPECT_NE(text.find("\n  labels    "), std::string::npos) << text;
+  EXPECT_NE(text.find("\n  time      "), std::string::npos) << text;
+  EXPECT_EQ(text.find("\n  theory    "), std::string::npos) << text;
+  EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 18) << text;
 }
 
 /// Steps that cancel out but for what adding them up leaves.

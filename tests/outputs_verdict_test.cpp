@@ -121,7 +121,7 @@ TEST(Verdict, LeavesReasonsToItsDetail) {
   c.light.bias_kinds = {slope, constant};
   const Verdict verdict = verdict_on(c.made->comparison, c.light);
   EXPECT_EQ(
-      verdict.headline,
+      verdict.headline(),
       "1.6 % of the lit-or-shadowed pixels are wrong, all of them acne. A constant bias of no more than "
       "rounding needs beside the slope bias of 1 (--slope-bias 1 --bias auto) would leave 1.0 %.");
   EXPECT_EQ(

@@ -81,6 +81,10 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   for (const std::string& note :
        command.heatmap ? idle_in_heatmap(command.given) : idle_options(command.given, loaded->plan))
     console.note(note);
+  if (const std::string note = many_rays_note(*loaded->scene, loaded->plan, command.options.min_contribution,
+                                              command.options.size);
+      !note.empty() && !command.heatmap)
+    console.note(note);
   command.options.records = command.wants_records();
   command.options.samples_per_pixel = loaded->scene->camera.samples_per_pixel;
   console.progress("ray tracing", 0.2);

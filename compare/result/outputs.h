@@ -15,8 +15,10 @@ namespace gnomon::compare {
 std::string result_json(const Comparison& comparison);
 /// One row per light: the numbers and times of result.json as a table (result_table.h).
 std::string result_csv(const Comparison& comparison);
-/// The summary for stdout, at most 80 columns wide; colour only when asked for.
+/// Everything that a terminal is told of a comparison, at most 80 columns wide; colour only when asked for.
 std::string summary_table(const Comparison& comparison, bool colour);
+/// The same in short: what is wrong, what would help, `place` (where the report is), and a few lines of figures.
+std::string summary_in_short(const Comparison& comparison, std::string_view place, bool colour);
 
 /// Fixed, labelled, colour-blind-safe colours; the same in every image, page and window.
 glm::u8vec3 label_colour(Label label);

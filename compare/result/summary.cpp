@@ -35,6 +35,9 @@ class Page {
   void paragraph(std::string_view text) {
     for (const std::string& part : wrapped(text, columns - 2)) text_ += "  " + part + '\n';
   }
+  void line(std::string_view text) {
+    for (const std::string& part : wrapped(one_line(text), columns)) text_ += part + '\n';
+  }
   // A name and its value; longer values go on below the first.
   void field(std::string_view name, std::string_view value) {
     std::string label = right_padded(name, field_column - 2);
@@ -327,7 +330,49 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
   add_times(page, c, light);
 }
 
+// "sun: " where several are compared.
+std::string whose(const Comparison& c, const LightComparison& light) {
+  return c.lights.size() > 1 ? light_of(c, light).name + ": " : std::string();
+}
+
+void add_figures_in_short(Page& page, const Comparison& c, const LightComparison& light) {
+  page.blank();
+  if (c.lights.size() > 1) page.paragraph(one_line(light_of(c, light).name));
+  page.field("map", map_line(c, light));
+  if (const std::string filter = filter_text(c.raster.options.map); !filter.empty())
+    page.field("filter", filter);
+  if (light.pixels.compared > 0) {
+    page.field("wrong", wrong_line(light.error));
+    page.field("labels", labels_line(light));
+  }
+  const raster::LightRecord& drawn = drawn_record(c, light);
+  const std::string exact = exact_shadows_line(true_record(c, light));
+  if (c.judged || drawn.unshadowed_pass.runs.empty()) return page.field("time", exact);
+  const bool hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
+  page.field("time", fmt::format("shadows by the {}: {}, and {}", hybrid ? "hybrid" : "map",
+                                 median_text(drawn.map_pass), lookups_text(shadow_lookups(drawn), hybrid)));
+  page.field("", exact);
+}
+
 }  // namespace
+
+std::string summary_in_short(const Comparison& c, std::string_view place, bool colour) {
+  Page page(colour);
+  for (const LightComparison& light : c.lights) {
+    const Verdict verdict = verdict_on(c, light);
+    page.heading(whose(c, light) + verdict.error);
+    if (!verdict.advice.empty()) page.line(verdict.advice);
+  }
+  page.line(place);
+  if (c.judged) {
+    page.blank();
+    for (const auto& [name, value] : judged_lines(c)) page.field(name, value);
+  }
+  for (const LightComparison& light : c.lights) add_figures_in_short(page, c, light);
+  if (!c.judged && is_software(c.raster.context)) page.field("", std::string(software_note));
+  page.field("", "-v prints the budget and all other figures");
+  return page.take();
+}
 
 std::string summary_table(const Comparison& c, bool colour) {
   Page page(colour);

@@ -130,21 +130,24 @@ std::string judged_advice(const Judged& judged, const LightComparison& light) {
 
 }  // namespace
 
+std::string Verdict::headline() const {
+  return joined_sentences({error, advice});
+}
+
 std::string Verdict::whole() const {
-  return joined_sentences({headline, detail});
+  return joined_sentences({error, advice, detail});
 }
 
 Verdict verdict_on(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0)
-    return {nothing_compared(light.pixels, c.world->scene->lights[light.light].type), {}};
+    return {.error = nothing_compared(light.pixels, c.world->scene->lights[light.light].type)};
   const std::string error = error_part(light), uncertain = uncertain_part(light.pixels);
-  if (c.judged) return {joined_sentences({error, judged_advice(*c.judged, light)}), uncertain};
-  if (lacks_light_size(c.raster, light))
-    return {joined_sentences({error, soft_technique_advice()}), uncertain};
+  if (c.judged) return {error, judged_advice(*c.judged, light), uncertain};
+  if (lacks_light_size(c.raster, light)) return {error, soft_technique_advice(), uncertain};
   // What other biases would do follows from the gaps of a hard test alone.
-  if (!biases_follow_from_gaps(c.raster)) return {error, uncertain};
+  if (!biases_follow_from_gaps(c.raster)) return {.error = error, .detail = uncertain};
   const BiasAdvice advice = bias_advice(light, c.raster.options.map);
-  return {joined_sentences({error, advice.best}), joined_sentences({uncertain, advice.more})};
+  return {error, advice.best, joined_sentences({uncertain, advice.more})};
 }
 
 }  // namespace gnomon::compare

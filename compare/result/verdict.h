@@ -10,8 +10,11 @@ namespace gnomon::compare {
 
 /// What is said of one light, in plain sentences.
 struct Verdict {
-  std::string headline;  ///< how many pixels are wrong, mostly why, and what the best bias would leave
-  std::string detail;    ///< what is uncertain, and why no constant bias does better; may be empty
+  std::string error;     ///< how many pixels are wrong, and mostly why
+  std::string advice{};  ///< what would help, and what that would leave; may be empty
+  std::string detail{};  ///< what is uncertain, and why no constant bias does better; may be empty
+  /// The error and the advice.
+  std::string headline() const;
   std::string whole() const;
 };
 Verdict verdict_on(const Comparison& comparison, const LightComparison& light);

@@ -115,7 +115,7 @@ void results_panel(PanelContext& context) {
   const ComparisonOutcome* outcome = context.outcome();
   if (outcome == nullptr) return faint("Comparing ...");
   const LightComparison& light = outcome->comparison.lights.front();
-  wrapped(outcome->verdict.headline);
+  wrapped(outcome->verdict.headline());
   if (!outcome->verdict.detail.empty()) faint(outcome->verdict.detail);
   if (!context.is_current()) {
     faint("Of the setting before; the new one is being compared.");
