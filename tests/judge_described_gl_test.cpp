@@ -48,9 +48,10 @@ TEST(JudgeAdvice, LowersANormalOffsetThatIsTooLarge) {
   EXPECT_EQ(advice[1].setting, "bias.normal_offset_world");
   EXPECT_LT(advice[1].instead, 0.15);
   EXPECT_LT(advice[1].wrong_instead, 0.5 * judged.result->lights[0].error.wrong_fraction);
-  EXPECT_NE(
-      compare::verdict_on(*judged.result, judged.result->lights[0]).headline().find("bias.normal_offset_world"),
-      std::string::npos);
+  EXPECT_NE(compare::verdict_on(*judged.result, judged.result->lights[0])
+                .headline()
+                .find("bias.normal_offset_world"),
+            std::string::npos);
   // What the advice promises is what the other renderer then draws.
   picture.draw_with(advised(picture.capture, advice));
   const JudgeOutcome again = picture.judged();
