@@ -64,6 +64,7 @@ CameraPose camera_pose(const Camera& camera) {
 Camera posed_camera(const Camera& given, const CameraPose& pose) {
   Camera camera = given;
   camera.up = pose.up.value_or(given.up);
+  camera.orthographic_height = pose.height.value_or(given.orthographic_height);
   const LocalFrame local = local_frame(frame_about(camera.up), pose.azimuth_degrees, pose.elevation_degrees);
   camera.target = pose.target.value_or(given.target);
   camera.eye = camera.target + pose.distance * local.outwards;

@@ -11,11 +11,13 @@
 
 namespace gnomon::app {
 
-/// The eye as seen from the camera's target; distance in world units.
+/// The eye as seen from the camera's target; lengths in world units.
 struct CameraPose {
   double azimuth_degrees = 0.0, elevation_degrees = 0.0, distance = 1.0;
   std::optional<Vec3> target{};  ///< none: the camera's own
   std::optional<Vec3> up{};      ///< what azimuth and elevation are counted about; none: the camera's own
+  std::optional<double>
+      height{};  ///< of an orthographic picture, which it makes of any; none: the camera's own
   bool operator==(const CameraPose&) const = default;
 };
 
@@ -32,7 +34,7 @@ inline constexpr double max_camera_elevation_degrees = 89.0;
 inline constexpr double max_light_elevation_degrees = 90.0;
 
 CameraPose camera_pose(const Camera& camera);
-/// `given` with its eye and, where the pose has them, its target and its up vector moved; its angle stays.
+/// `given` with its eye and, where the pose has them, its target, its up vector and its height changed; its angle stays.
 Camera posed_camera(const Camera& given, const CameraPose& pose);
 
 LightPose light_pose(const Light& light, const Vec3& centre);

@@ -106,6 +106,10 @@ void add_pose_options(CLI::App& command, PoseOptions& poses) {
                              range_text(coordinate_range)),
                  parse_up);
   add_pose_number(
+      command, "--camera-height", "H", poses.camera_height, distance_range,
+      "what the picture's height covers, through an orthographic camera, whatever the scene's own is",
+      "world units");
+  add_pose_number(
       command, "--light-azimuth", "DEG", poses.light_azimuth, azimuth_range,
       "where the light comes from: 0 is +z, 90 is +x; of the light named by --light, where there are several",
       "degrees");
@@ -126,7 +130,8 @@ void add_pose_options(CLI::App& command, PoseOptions& poses) {
 Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light, const Scene& scene,
                                       const World& world) {
   ResolvedPoses resolved;
-  if (poses.camera_orbit || poses.camera_distance || poses.camera_target || poses.camera_up) {
+  if (poses.camera_orbit || poses.camera_distance || poses.camera_target || poses.camera_up ||
+      poses.camera_height) {
     Camera camera = scene.camera;
     camera.up = poses.camera_up.value_or(camera.up);
     CameraPose pose = camera_pose(camera);
@@ -135,6 +140,7 @@ Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::strin
     pose.distance = poses.camera_distance.value_or(pose.distance);
     pose.target = poses.camera_target;
     pose.up = poses.camera_up;
+    pose.height = poses.camera_height;
     if (const auto defect = find_camera_defect(posed_camera(scene.camera, pose)))
       return fail(ErrorKind::usage, fmt::format("the camera's pose: {} {}", defect->field, defect->reason));
     resolved.camera = pose;

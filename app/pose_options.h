@@ -1,5 +1,5 @@
-// --camera-orbit, --camera-distance, --camera-target, --camera-up, --light-azimuth, --light-elevation, --light-distance,
-// --light-size: another camera and another light than the scene's own, for every command that draws.
+// --camera-orbit, --camera-distance, --camera-target, --camera-up, --camera-height, --light-azimuth, --light-elevation,
+// --light-distance, --light-size: another camera and another light than the scene's own, for every command that draws.
 #pragma once
 
 #include <optional>
@@ -32,6 +32,7 @@ struct PoseOptions {
   std::optional<double> camera_distance;                 ///< world units
   std::optional<Vec3> camera_target;                     ///< world
   std::optional<Vec3> camera_up;                         ///< not zero
+  std::optional<double> camera_height;                   ///< world units
   std::optional<double> light_azimuth, light_elevation;  ///< degrees
   std::optional<double> light_distance;                  ///< world units, of a lamp
   std::optional<double> light_size;                      ///< light_size()

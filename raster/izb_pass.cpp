@@ -13,7 +13,7 @@ namespace {
 
 /// The twin of the uniform block in shaders/izb/izb.glsl.
 struct IzbBlock {
-  Vec4 eye, right_and_tan_x, up_and_tan_y, forward, light, reference, origin;
+  Vec4 eye, right_and_tan_x, up_and_tan_y, forward, half_extent, light, reference, origin;
   std::array<Vec4, 6> face_right, face_up, face_forward;
   glm::ivec4 size;
 };
@@ -159,10 +159,11 @@ Expected<void> IzbPass::prepare(const MapJob& job) {
 }
 
 void IzbPass::write_block(const MapJob& job) {
-  const View& camera = *job.camera;
+  const View camera = drawn_view(job.world.world(), *job.camera);  // from which solids' distances count
   const LightView& view = job.view;
   IzbBlock block{};
   block.eye = Vec4(camera.eye, 0.0);
+  block.half_extent = Vec4(camera.half_x, camera.half_y, 0.0, 0.0);
   block.right_and_tan_x = Vec4(camera.right, camera.tan_half_x);
   block.up_and_tan_y = Vec4(camera.up, camera.tan_half_y);
   block.forward = Vec4(camera.forward, 0.0);

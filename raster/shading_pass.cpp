@@ -12,10 +12,9 @@
 namespace gnomon::raster {
 namespace {
 
-Mat4 clip_from_relative(const View& view, const World& world, const Vec3& reference) {
-  const Mat4 relative_to_eye = glm::translate(Mat4(1.0), reference - view.eye);
-  return clip_from_view(view, near_distance(world, view.eye)) * view_from_eye_relative(view) *
-         relative_to_eye;
+Mat4 clip_from_relative(const View& drawn, const World& world, const Vec3& reference) {
+  const Mat4 relative_to_eye = glm::translate(Mat4(1.0), reference - drawn.eye);
+  return clip_from_view(drawn, depth_reach(world, drawn)) * view_from_eye_relative(drawn) * relative_to_eye;
 }
 
 LightFace axes(const Vec3& right, const Vec3& up, const Vec3& forward) {
@@ -24,15 +23,15 @@ LightFace axes(const Vec3& right, const Vec3& up, const Vec3& forward) {
   return frame;
 }
 
-CameraBlock camera_block(const View& view, const World& world, const Vec3& reference) {
-  const double near = near_distance(world, view.eye);
+CameraBlock camera_block(const View& drawn, const World& world, const Vec3& reference) {
   CameraBlock block{};
-  block.clip_from_relative = Mat4f(clip_from_relative(view, world, reference));
-  block.eye_and_near = Vec4f(Vec4(view.eye - reference, near));
-  block.right_and_tan_x = Vec4f(Vec4(view.right, view.tan_half_x));
-  block.up_and_tan_y = Vec4f(Vec4(view.up, view.tan_half_y));
-  block.forward = Vec4f(Vec4(view.forward, 0.0));
-  block.size = Vec4f(view.size.width, view.size.height, 0.0f, 0.0f);
+  block.clip_from_relative = Mat4f(clip_from_relative(drawn, world, reference));
+  block.eye_and_reach = Vec4f(Vec4(drawn.eye - reference, depth_reach(world, drawn)));
+  block.right_and_tan_x = Vec4f(Vec4(drawn.right, drawn.tan_half_x));
+  block.up_and_tan_y = Vec4f(Vec4(drawn.up, drawn.tan_half_y));
+  block.forward = Vec4f(Vec4(drawn.forward, 0.0));
+  block.size = Vec4f(drawn.size.width, drawn.size.height, 0.0f, 0.0f);
+  block.half_extent = Vec4f(drawn.half_x, drawn.half_y, 0.0f, 0.0f);
   block.counts = glm::uvec4(world.triangle_count(), 0, 0, 0);
   block.ambient = Vec4f(world.scene->ambient, 0.0f);
   block.background = Vec4f(world.scene->background, 0.0f);
@@ -115,7 +114,7 @@ Expected<void> ShadingPass::prepare_trial() {
 }
 
 void ShadingPass::set_camera(const WorldBuffers& world, const View& view) {
-  CameraBlock block = camera_block(view, world.world(), world.reference());
+  CameraBlock block = camera_block(drawn_view(world.world(), view), world.world(), world.reference());
   block.size.z = static_cast<float>(rows_.first);
   camera_block_.write_one(block);
   camera_block_.bind(GL_UNIFORM_BUFFER, shaders::camera_block);
@@ -135,22 +134,25 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
   gl->Disable(GL_SCISSOR_TEST);
   gl->Disable(GL_CULL_FACE);
   gl->Enable(GL_DEPTH_TEST);
-  gl->Enable(GL_DEPTH_CLAMP);
+  // What lies behind a pinhole is cut away whatever its depth; what lies behind an orthographic eye, by its depth alone.
+  const View drawn_by = drawn_view(world.world(), view);
+  view.orthographic() ? gl->Disable(GL_DEPTH_CLAMP) : gl->Enable(GL_DEPTH_CLAMP);
   gl->DepthMask(GL_TRUE);
   gl->DepthFunc(GL_GREATER);
   gl->BindFramebuffer(GL_FRAMEBUFFER, visibility_target_.id());
   const float clear_depth = shaders::camera_clear_depth;
   gl->ClearNamedFramebufferfv(visibility_target_.id(), GL_DEPTH, 0, &clear_depth);
   gl->ClearNamedFramebufferuiv(visibility_target_.id(), GL_COLOR, 0, &no_id);
-  world.draw_triangles(*programs, clip_from_relative(view, world.world(), world.reference()),
+  world.draw_triangles(*programs, clip_from_relative(drawn_by, world.world(), world.reference()),
                        programs_->features().single_sided);
-  if (auto shapes = draw_shapes(world, view); !shapes) return shapes;
+  if (auto shapes = draw_shapes(world, drawn_by); !shapes) return shapes;
   if (!world.draws_little()) seen_ = seen_by(world, view);
   return {};
 }
 
 ShadingPass::Seen ShadingPass::seen_by(const WorldBuffers& world, const View& view) {
-  return {view.eye, view.right, view.up, view.forward, world.reference(), {view.tan_half_x, view.tan_half_y}};
+  return {view.eye,     view.right,        view.up,
+          view.forward, world.reference(), {view.tan_half_x, view.tan_half_y, view.half_x, view.half_y}};
 }
 
 bool ShadingPass::shows(const WorldBuffers& world, const View& view) const {
@@ -163,10 +165,12 @@ Times& ShadingPass::times(const WorldBuffers& world, const View& view) {
   return times_;
 }
 
-Expected<void> ShadingPass::draw_shapes(const WorldBuffers& buffers, const View& view) {
-  const Projection projection{view.eye, axes(view.right, view.up, view.forward),
-                              Vec2(view.tan_half_x, view.tan_half_y), true,
-                              Vec2(2.0 / size_.width, 2.0 / size_.height)};
+Expected<void> ShadingPass::draw_shapes(const WorldBuffers& buffers, const View& drawn) {
+  const bool parallel = drawn.orthographic();
+  const Projection projection{
+      drawn.eye, axes(drawn.right, drawn.up, drawn.forward),
+      parallel ? Vec2(drawn.half_x, drawn.half_y) : Vec2(drawn.tan_half_x, drawn.tan_half_y), !parallel,
+      Vec2(2.0 / size_.width, 2.0 / size_.height)};
   const LightFace world_axes = axes(Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1));
   return draw_impostors(*gl_, *programs_, buffers.world(), projection, world_axes,
                         {.camera = true, .perspective = true});
@@ -224,14 +228,16 @@ void ShadingPass::read_color(ColorImage& out) const {
 std::vector<Vec3> ShadingPass::read_positions(const World& world, const View& view) const {
   Image<float> depth(size_);
   depth_.read(GL_DEPTH_COMPONENT, GL_FLOAT, std::as_writable_bytes(std::span(depth.data)));
-  const double near = near_distance(world, view.eye);
+  const View drawn = drawn_view(world, view);
+  const double reach = depth_reach(world, drawn);
   std::vector<Vec3> positions;
   for (int y = 0; y < size_.height; ++y) {
     for (int x = 0; x < size_.width; ++x) {
       const double stored = depth.at(x, y);
       if (!(stored > 0.0)) continue;
-      const Ray ray = pixel_ray(view, x + 0.5, y + 0.5);
-      positions.push_back(ray.at(near / stored / glm::dot(ray.direction, view.forward)));
+      const Ray ray = pixel_ray(drawn, x + 0.5, y + 0.5);
+      const double along = drawn.orthographic() ? reach * (1.0 - stored) : reach / stored;
+      positions.push_back(ray.at(along / glm::dot(ray.direction, drawn.forward)));
     }
   }
   return positions;

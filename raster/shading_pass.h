@@ -45,12 +45,12 @@ class ShadingPass {
   /// Where records go, and the light's share of the picture into `radiance`.
   Framebuffer record_target(const Texture2D& radiance) const;
   Expected<void> prepare_trial();
-  Expected<void> draw_shapes(const WorldBuffers& world, const View& view);
+  Expected<void> draw_shapes(const WorldBuffers& world, const View& drawn);
 
   /// All that the visibility buffer's contents hang on, its size apart.
   struct Seen {
     Vec3 eye, right, up, forward, reference;
-    Vec2 tan_half;
+    Vec4 extent;  ///< the tangents, and half of an orthographic picture
     bool operator==(const Seen&) const = default;
   };
   static Seen seen_by(const WorldBuffers& world, const View& view);

@@ -35,9 +35,10 @@ struct TexelPages {
 
 struct CameraBlock {
   Mat4f clip_from_relative;
-  Vec4f eye_and_near, right_and_tan_x, up_and_tan_y, forward, size;
+  Vec4f eye_and_reach, right_and_tan_x, up_and_tan_y, forward, size;
   glm::uvec4 counts;
   Vec4f ambient, background;
+  Vec4f half_extent;
 };
 
 struct ShapeData {
@@ -57,9 +58,13 @@ static_assert(sizeof(MaterialData) == shaders::material_texel_count * sizeof(Vec
 /// The reference point for a camera: its eye, or the nearest point to it of the finite scene's box.
 Vec3 reference_point(const World& world, const Vec3& eye);
 
-/// The near distance of the camera's reversed depth. Nothing is cut away there (depth clamp); nearer surfaces
-/// only share one depth.
-double near_distance(const World& world, const Vec3& eye);
+/// The view that is drawn. An orthographic one's eye moves along its rays to where the world begins: what it sees is the same,
+/// and floats, which count depths from there, are as precise as the world is deep.
+View drawn_view(const World& world, const View& view);
+
+/// The near distance of a drawn view's reversed depth, of an orthographic one the far distance (scene/camera.h). A pinhole
+/// camera cuts nothing away there (depth clamp); nearer surfaces only share one depth.
+double depth_reach(const World& world, const View& drawn);
 
 class WorldBuffers {
  public:

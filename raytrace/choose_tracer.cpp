@@ -22,6 +22,9 @@ void choose_primary(const Tracer& tracer, const View& view, TracerPlan& plan) {
   const std::string_view obstacle = why_no_packets(tracer);
   if (!obstacle.empty()) {
     plan.primary = PrimaryWay::single_rays, plan.primary_reason = obstacle;
+  } else if (view.orthographic()) {
+    plan.primary = PrimaryWay::single_rays;
+    plan.primary_reason = "an orthographic camera's rays start at no common point";
   } else if (!blocks_apply(tracer, view)) {
     plan.primary = PrimaryWay::single_rays;
     plan.primary_reason = "the field of view is too wide for one frame to hold it";

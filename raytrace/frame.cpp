@@ -172,17 +172,15 @@ namespace {
 
 /// The same rays through a few pixels in the middle of the picture: code, hierarchy and threads are then as they will
 /// be, at the cost of some thousand rays and of what these see.
-void warm_up(const Tracer& tracer, const EffectPlan& plan, Camera camera,
+void warm_up(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
              std::span<const std::uint32_t> lights, RaytraceOptions options) {
   constexpr int most_pixels_across = 64;
   const TimedStage stage(primary_stages.repeats, TimedStage::Inner::included);
   const ImageSize picture = options.size;
   options.size = {std::min(picture.width, most_pixels_across), std::min(picture.height, most_pixels_across)};
-  camera.vertical_fov =
-      2.0 * std::atan(std::tan(0.5 * camera.vertical_fov) * options.size.height / picture.height);
   options.runs = options.shadow_samples = 1;
   options.picture = options.warm_up = false;
-  trace_frame(tracer, plan, camera, lights, options);
+  trace_frame(tracer, plan, narrowed(camera, double(options.size.height) / picture.height), lights, options);
 }
 
 }  // namespace

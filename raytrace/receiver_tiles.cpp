@@ -69,7 +69,7 @@ std::uint64_t ReceiverFinder::find_tile(const View& view, int first_row, const T
   TileDraft draft;
   quantised.clear();
   const Structures& s = tracer_.structures();
-  if (rect.is_whole() && packets_apply(tracer_) && !s.has_masks) {
+  if (rect.is_whole() && packets_apply(tracer_) && !view.orthographic() && !s.has_masks) {
     TileHits known;
     for_each_place(rect, [&](int x, int y, std::size_t lane) {
       const std::uint32_t id = primitives.at(x, y);

@@ -77,6 +77,13 @@ std::array<std::uint32_t, 3> predicted(const PixelSurfaces& s, const LightView& 
 }  // namespace
 
 PixelRays pixel_rays(const View& view) {
+  // Parallel rays, as those of a point so far behind that they spread by less than a map position's step.
+  if (view.orthographic()) {
+    const double far = 1e6 * (view.half_x + view.half_y);
+    const Vec3 corner = view.forward * far - view.right * view.half_x + view.up * view.half_y;
+    return {view.eye - view.forward * far, corner, view.right * (2.0 * view.half_x / view.size.width),
+            view.up * (-2.0 * view.half_y / view.size.height)};
+  }
   const Vec3 across = view.right * (2.0 * view.tan_half_x / view.size.width);
   const Vec3 down = view.up * (-2.0 * view.tan_half_y / view.size.height);
   return {view.eye, view.forward - view.right * view.tan_half_x + view.up * view.tan_half_y, across, down};

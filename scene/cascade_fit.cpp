@@ -15,6 +15,8 @@ using light_fit::to_light_space;
 constexpr double nearest_share = 0.01;
 // Shadows on infinite planes are followed no farther than so many times the scene's size and distance.
 constexpr double farthest_shadow = 20.0;
+// What moves by steps goes by so many to its size.
+constexpr double steps_per_side = 16.0;
 
 struct Fit {
   const World& world;
@@ -29,8 +31,8 @@ double view_depth(const Fit& fit, const Vec3& p) {
   return glm::dot(p - fit.view.eye, fit.view.forward);
 }
 
-// Farthest depth at which the camera can see a finite thing or its shadow on an infinite plane, and the
-// nearest depth of a finite thing.
+// Farthest depth at which the camera can see a finite thing or its shadow on an infinite plane, and the nearest depth of a
+// finite thing; of an orthographic camera, whose first slice begins there, the nearest of their shadows too.
 Interval seen_depths(const Fit& fit) {
   const Aabb& box = fit.world.finite_bounds;
   const double limit = farthest_shadow * (box.diagonal() + glm::length(box.center() - fit.view.eye));
@@ -46,6 +48,7 @@ Interval seen_depths(const Fit& fit) {
       if (!(t > 0.0)) continue;
       const double depth = std::isfinite(t) ? view_depth(fit, p + t * fit.towards) : 0.0;
       seen.max = std::max(seen.max, std::min(depth, limit));
+      if (fit.view.orthographic()) seen.min = std::min(seen.min, std::max(depth, -limit));
     }
   }
   return seen;
@@ -102,7 +105,7 @@ double nearest_seen(const World& world, const View& view, double limit) {
   for (const Shape& shape : world.shapes) {
     if (const auto* plane = std::get_if<Plane>(&shape.geometry)) {
       for (const Vec2 s : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
-        const Vec3 d = view.forward + s.x * view.tan_half_x * view.right + s.y * view.tan_half_y * view.up;
+        const Vec3 d = view.ray_direction(s);
         const double t = glm::dot(plane->normal, plane->point - view.eye) / glm::dot(plane->normal, d);
         if (t > 0.0) nearest = std::min(nearest, t);
       }
@@ -122,18 +125,30 @@ double nearest_seen(const World& world, const View& view, double limit) {
   return nearest;
 }
 
+// Between the nearest and the farthest depth that an orthographic camera sees, but not behind its eye. `stepped`: begins at whole
+// sixteenths, and is as long wherever the eye stands.
+Interval orthographic_range(const Interval& seen, bool stepped) {
+  if (!stepped) return {std::max(0.0, seen.min), seen.max};
+  const double step = up_to_size_step(seen.max - seen.min) / steps_per_side;
+  const double begin = std::floor(seen.min / step) * step,
+               length = std::ceil((seen.max - seen.min) / step) + 1.0;
+  return {std::max(0.0, begin), begin + length * step};
+}
+
 // The practical split scheme (Zhang et al. 2006, equation 9). Slice i lies between splits i and i + 1; the
-// first begins at the eye.
-std::vector<double> split_depths(const Interval& seen, const CascadeOptions& options) {
+// first begins at the eye, of an orthographic camera at the nearest depth that is seen.
+std::vector<double> split_depths(Interval seen, bool orthographic, const CascadeOptions& options) {
   if (!options.splits.empty()) {
     std::vector<double> given{0.0};
     given.insert(given.end(), options.splits.begin(), options.splits.end());
     return given;
   }
-  const double far = options.snap && !options.fit_samples ? up_to_size_step(seen.max) : seen.max;
+  const bool stepped = options.snap && !options.fit_samples;
+  if (orthographic) seen = orthographic_range(seen, stepped);
+  const double far = stepped && !orthographic ? up_to_size_step(seen.max) : seen.max;
   double near = std::max(seen.min, nearest_share * far);
-  if (options.snap && !options.fit_samples) near = 0.5 * up_to_size_step(near);
-  std::vector<double> splits{0.0};
+  if (stepped && !orthographic) near = 0.5 * up_to_size_step(near);
+  std::vector<double> splits{orthographic ? seen.min : 0.0};
   for (int i = 1; i <= options.count; ++i) {
     const double share = double(i) / options.count;
     const double even = near + (far - near) * share, logarithmic = near * std::pow(far / near, share);
@@ -144,15 +159,7 @@ std::vector<double> split_depths(const Interval& seen, const CascadeOptions& opt
 }
 
 std::vector<Vec2> slice_corners(const Fit& fit, double from, double to) {
-  std::vector<Vec2> corners;
-  for (const double depth : {from, to}) {
-    for (const Vec2 s : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
-      const Vec3 d = fit.view.forward + s.x * fit.view.tan_half_x * fit.view.right +
-                     s.y * fit.view.tan_half_y * fit.view.up;
-      corners.push_back(Vec2(to_light_space(fit.frame, fit.view.eye + depth * d - fit.reference)));
-    }
-  }
-  return corners;
+  return light_fit::frustum_corners(fit.view, from, to, fit.frame, fit.reference);
 }
 
 Rect around(const std::vector<Vec2>& points) {
@@ -176,12 +183,24 @@ Rect sample_rect(const Fit& fit, double from, double to, std::span<const Vec3> v
   return rect;
 }
 
-// The smallest sphere around the slice, in light space: centred on the view's axis. As a square of whole
-// texels of a size that only the slice's depths decide.
-Rect snapped_square(const Fit& fit, double from, double to, int size) {
-  const double k = fit.view.tan_half_x * fit.view.tan_half_x + fit.view.tan_half_y * fit.view.tan_half_y;
+struct SliceSphere {
+  double middle, radius;  // where along the view's axis
+};
+
+// The smallest one around the slice.
+SliceSphere sphere_around(const View& view, double from, double to) {
+  if (view.orthographic()) {
+    const double half = 0.5 * (to - from);
+    return {from + half, std::sqrt(half * half + view.half_x * view.half_x + view.half_y * view.half_y)};
+  }
+  const double k = view.tan_half_x * view.tan_half_x + view.tan_half_y * view.tan_half_y;
   const double middle = std::min(to, 0.5 * (from + to) * (1.0 + k));
-  const double radius = std::sqrt((to - middle) * (to - middle) + k * to * to);
+  return {middle, std::sqrt((to - middle) * (to - middle) + k * to * to)};
+}
+
+// That sphere in light space, as a square of whole texels of a size that only the slice's depths decide.
+Rect snapped_square(const Fit& fit, double from, double to, int size) {
+  const auto [middle, radius] = sphere_around(fit.view, from, to);
   const double half = radius * size / std::max(1.0, size - 4.0);  // room for the snap and for a border
   const double texel = 2.0 * half / size;
   const Vec2 center(to_light_space(fit.frame, fit.view.eye + middle * fit.view.forward - fit.reference));
@@ -278,7 +297,6 @@ Warp narrowest(const std::vector<Vec2>& polygon, const Rect& rect, double warp) 
 
 // Of a warped map that stands still between steps (fit_warped).
 constexpr double angle_step = 2.0 * pi / 64.0;
-constexpr double steps_per_side = 16.0;
 
 // The view's direction across the light, turned to the nearest step from a frame that the light alone decides.
 Vec3 stepped_up(const Vec3& towards, const Vec3& ahead) {
@@ -313,7 +331,7 @@ Expected<LightView> fit_cascades(const World& world, const Light& light, const C
   const Interval seen =
       options.fit_samples && !visible.empty() ? sample_depths(fit, visible) : seen_depths(fit);
   if (!(seen.max > 0.0)) return fit_light_view(world, light, camera, aspect, size);
-  const std::vector<double> splits = split_depths(seen, options);
+  const std::vector<double> splits = split_depths(seen, fit.view.orthographic(), options);
   LightView out = orthographic_view(fit, size);
   out.face_count = options.count;
   for (int i = 0; i < options.count; ++i) {
@@ -330,7 +348,7 @@ Expected<LightView> fit_warped(const World& world, const Light& light, const Cam
                                int size, bool snap) {
   const View view = light_fit::view_of(camera, aspect);
   const double sine = glm::length(glm::cross(view.forward, light.direction));
-  if (world.finite_bounds.empty() || sine < least_sine)
+  if (world.finite_bounds.empty() || sine < least_sine || view.orthographic())
     return fit_light_view(world, light, camera, aspect, size);
   const Vec3 up = snap ? stepped_up(light.direction, view.forward) : view.forward;
   const Fit fit = make_fit(world, light, view, light_fit::face_along(light.direction, up));

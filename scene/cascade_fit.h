@@ -29,12 +29,14 @@ struct CascadeOptions {
 };
 
 /// `visible`: surface points that the camera sees; read only when options.fit_samples. The last cascade
-/// reaches as far as any shadow of a finite caster that the camera can see. Error (graphics) when nothing can
+/// reaches as far as any shadow of a finite caster that the camera can see. Of an orthographic camera all slices are as wide: they
+/// gain only where its depth is much greater than its picture. Error (graphics) when nothing can
 /// be fitted.
 Expected<LightView> fit_cascades(const World& world, const Light& light, const Camera& camera, double aspect,
                                  int size, const CascadeOptions& options, std::span<const Vec3> visible);
 
-/// One face, warped by n_opt (section 4 of the paper). With the light along the view direction, no warp.
+/// One face, warped by n_opt (section 4 of the paper). With the light along the view direction, and of an orthographic camera,
+/// whose texels are as large on the screen near as far, no warp.
 /// `snap`: all that the map depends on goes by steps, each of them outwards: a 64th of a turn, a quarter octave of
 /// warp and width, a 16th of the sides. Between two steps the map stands still in the world to the last bit, which is
 /// all that a warp allows: its texels differ in size, so that no way moves each of them onto another.

@@ -67,13 +67,10 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
 Rect visible_part(const Rect& rect, const LightFace& face, const Vec3& reference, const View& view,
                   double reach) {
   if (!(reach > 0.0)) return rect;
-  std::vector<Vec2> corners{Vec2(to_light_space(face, view.eye - reference))};
-  for (const Vec2 s : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
-    const Vec3 d = view.forward + s.x * view.tan_half_x * view.right + s.y * view.tan_half_y * view.up;
-    corners.push_back(Vec2(to_light_space(face, view.eye + reach * d - reference)));
-  }
   Rect out;
-  for (const Vec2& p : light_fit::hull_in_rect(std::move(corners), rect)) out.grow(p);
+  for (const Vec2& p :
+       light_fit::hull_in_rect(light_fit::frustum_corners(view, 0.0, reach, face, reference), rect))
+    out.grow(p);
   return out.empty() ? rect : out;
 }
 
@@ -318,6 +315,16 @@ Interval depths_over(const World& world, const LightFace& face, const Vec3& refe
   const Rect everything{Vec2(-infinity), Vec2(infinity)};
   return casters.min.x == -infinity ? Interval{0.0, 1.0}
                                     : depths_over(world, face, reference, everything, rect);
+}
+
+std::vector<Vec2> frustum_corners(const View& view, double from, double to, const LightFace& face,
+                                  const Vec3& reference) {
+  std::vector<Vec2> corners;
+  for (const double depth : {from, to})
+    for (const Vec2 s : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
+      corners.push_back(
+          Vec2(to_light_space(face, view.ray_origin(s) + depth * view.ray_direction(s) - reference)));
+  return corners;
 }
 
 std::vector<Vec2> hull_in_rect(std::vector<Vec2> points, const Rect& rect) {

@@ -161,13 +161,16 @@ struct Light {
   bool operator==(const Light&) const = default;
 };
 
-/// Pinhole camera.
+/// A pinhole camera, or an orthographic one: its rays are parallel, and start in the plane through the eye.
 struct Camera {
   Vec3 eye{0.0, 1.0, 5.0};
   Vec3 target{0.0};
   Vec3 up{0.0, 1.0, 0.0};
-  double vertical_fov = pi / 4.0;  ///< full angle, in (0, pi)
-  int samples_per_pixel = 1;       ///< antialiasing of the ray-traced picture; 1: the pixel's centre
+  double vertical_fov = pi / 4.0;  ///< full angle, in (0, pi); of a pinhole camera
+  /// What the picture's height covers, world units; 0: a pinhole camera. Distance changes nothing's size then.
+  double orthographic_height = 0.0;
+  int samples_per_pixel = 1;  ///< antialiasing of the ray-traced picture; 1: the pixel's centre
+  bool orthographic() const { return orthographic_height > 0.0; }
   bool operator==(const Camera&) const = default;
 };
 

@@ -24,29 +24,30 @@ bool usable(vec3 direction, float t) {
   if (!(t > 0.0) || isinf(t)) return false;
 #ifdef ALPHA_MASK
   ShapeData shape = shape_at(shape_index);
-  if (is_hole(material_at(shape.material), shape_uv(shape, camera.eye_and_near.xyz + t * direction))) return false;
+  if (is_hole(material_at(shape.material), shape_uv(shape, pixel_origin(gl_FragCoord.xy) + t * direction))) return false;
 #endif
   return true;
 }
 
 void main() {
-  vec3 direction = pixel_direction(gl_FragCoord.xy);
+  vec3 from_eye = pixel_offset(gl_FragCoord.xy), direction = pixel_direction(gl_FragCoord.xy);
 #ifdef SOLID
   ShapeData shape = shape_at(shape_index);
+  vec3 local_origin = mat3(solid_from_frame) * from_eye + solid_from_frame[3].xyz;
   vec3 local_direction = mat3(solid_from_frame) * direction;
   float t, from = 0.0;
   bool found = false;
   for (int side = 0; side < most_sides && !found; ++side) {
-    if (!solid_next(shape, solid_from_frame[3].xyz, local_direction, from, t)) discard;
+    if (!solid_next(shape, local_origin, local_direction, from, t)) discard;
     found = usable(direction, t);
     from = solid_after(shape, local_direction, t);
   }
 #elif defined(SPHERE)
   float t, t_far;
-  if (!sphere_crossings(vec3(0.0), direction, shape_in_frame.xyz, shape_in_frame.w, t, t_far)) discard;
+  if (!sphere_crossings(from_eye, direction, shape_in_frame.xyz, shape_in_frame.w, t, t_far)) discard;
   if (!usable(direction, t)) t = t_far;
 #else
-  float t = shape_in_frame.w / dot(shape_in_frame.xyz, direction);
+  float t = (shape_in_frame.w - dot(shape_in_frame.xyz, from_eye)) / dot(shape_in_frame.xyz, direction);
 #endif
   if (!usable(direction, t)) discard;
   primitive_id = shape_at(shape_index).primitive;

@@ -6,9 +6,8 @@ layout(binding = moments_unit) uniform sampler2DArray moment_map;
 
 // Where the receiver's plane shows at another window position, in texels from the receiver's own.
 vec2 texels_to(Texel at, vec3 position, vec3 normal, vec2 window) {
-  vec3 direction = pixel_direction(window);
-  vec3 eye = camera.eye_and_near.xyz;
-  vec3 there = eye + direction * (dot(normal, position - eye) / dot(normal, direction));
+  vec3 origin = pixel_origin(window), direction = pixel_direction(window);
+  vec3 there = origin + direction * (dot(normal, position - origin) / dot(normal, direction));
   return project_to_face(at.face, there).uv - at.uv;
 }
 

@@ -153,6 +153,34 @@ TEST(Camera, PixelRayAndProjectionAreInverse) {
   }
 }
 
+TEST(Camera, ParallelRaysAndProjectionAreInverse) {
+  const Camera camera{.eye = {1, 2, 3}, .target = {-4, 0, 1}, .up = {0.1, 1, 0}, .orthographic_height = 5.0};
+  const View view = make_view(camera, {640, 360});
+  const double reach = 250.0;
+  EXPECT_EQ(picture_height(camera, 3.0), 5.0);
+  EXPECT_EQ(pixel_footprint(view, 77.0), 5.0 / 360);
+  Random random(42);
+  for (int i = 0; i < 10000; ++i) {
+    const double x = random.between(0, 640), y = random.between(0, 360), t = random.between(0.1, 100);
+    const Ray ray = pixel_ray(view, x, y);
+    EXPECT_EQ(ray.direction, view.forward);
+    EXPECT_NEAR(glm::dot(ray.origin - view.eye, view.forward), 0.0, 1e-12);
+    EXPECT_NEAR(glm::dot(ray.origin - view.eye, view.right), (x - 320) * 5.0 / 360, 1e-12);
+    EXPECT_NEAR(glm::dot(ray.origin - view.eye, view.up), (180 - y) * 5.0 / 360, 1e-12);
+    const Vec3 p = ray.at(t), pixel = project_to_pixels(view, p);
+    EXPECT_NEAR(pixel.x, x, 1e-8);
+    EXPECT_NEAR(pixel.y, y, 1e-8);
+    EXPECT_NEAR(pixel.z, t, 1e-10);
+    EXPECT_NEAR(view.distance(p), t, 1e-10);
+    EXPECT_NEAR(glm::distance(ray_to(view, p).origin, ray.origin), 0.0, 1e-10);
+    const Vec4 clip = clip_from_view(view, reach) * view_from_eye_relative(view) * Vec4(p - view.eye, 1.0);
+    EXPECT_EQ(clip.w, 1.0);
+    EXPECT_NEAR((clip.x + 1) * 320, x, 1e-8);
+    EXPECT_NEAR((1 - clip.y) * 180, y, 1e-8);
+    EXPECT_NEAR(clip.z, 1.0 - pixel.z / reach, 1e-12);
+  }
+}
+
 TEST(FacingAway, LightInThePlaneOfTheReceiverIsUnlit) {
   Light light = light_of(LightType::point);
   light.position = {5, 0, 0};

@@ -170,6 +170,55 @@ TEST_F(JudgeCameraDepths, AlongTheRayForThoseAlongTheAxisAreNamed) {
       << reason(judge(wrong, *drawn_.scene));
 }
 
+/// A sun's scene through an orthographic camera, far away.
+Scene parallel_scene() {
+  Scene scene = scene_under("sun");
+  const double distance = glm::length(scene.camera.target - scene.camera.eye);
+  scene.camera.orthographic_height = picture_height(scene.camera, distance);
+  scene.camera.eye += 3.0 * (scene.camera.eye - scene.camera.target);
+  return scene;
+}
+
+TEST(JudgeOrthographic, CapturesGiveTheLadderOfGnomonsOwn) {
+  const Compared drawn = draw_scene(parallel_scene(), small_picture, hard_map(256));
+  const CapturedDepth even{"", PixelDepth::zero_to_one, 0.1, 200.0},
+      reversed{"", PixelDepth::reversed, 0.1, 200.0}, along{"", PixelDepth::view_z, {}, {}},
+      ray{"", PixelDepth::distance, {}, {}};
+  for (const CapturedDepth* depth :
+       {static_cast<const CapturedDepth*>(nullptr), &even, &reversed, &along, &ray}) {
+    const CaptureParts parts{.positions = depth == nullptr, .map = true, .depth = depth};
+    const JudgeOutcome judged = judge(self_capture(drawn, folder_for("parallel"), parts), *drawn.scene);
+    ASSERT_TRUE(judged.result) << reason(judged);
+    EXPECT_GT(share_as_drawn(judged), 1.0 - border_share);
+    for (const compare::Agreement& one : judged.result->judged->agreement)
+      EXPECT_GT(one.share, 0.99) << one.what;
+    EXPECT_NEAR(double(judged.result->lights[0].error.wrong), double(drawn.light().error.wrong),
+                border_share * double(drawn.light().pixels.compared));
+  }
+  Capture capture = self_capture(drawn, folder_for("parallel"), {.positions = false, .depth = &reversed});
+  capture.depth->far.reset();
+  EXPECT_NE(reason(judge(capture, *drawn.scene)).find("depth.far: is missing"), std::string::npos);
+}
+
+// Engines name half of the height (Unity, glTF) or all of it (Godot).
+TEST(JudgeOrthographic, HalfTheHeightForTheWholeIsNamedAndMended) {
+  for (const double factor : {0.5, 2.0}) {
+    Scene other = parallel_scene();
+    other.camera.orthographic_height *= factor;
+    const Compared drawn = draw_scene(other, small_picture, hard_map(256));
+    const Capture capture = self_capture(drawn, folder_for("half"), {});
+    const JudgeOutcome refused = judge(capture, parallel_scene());
+    ASSERT_FALSE(refused.result);
+    EXPECT_NE(reason(refused).find(factor < 1.0 ? "for half of it" : "for the whole"), std::string::npos)
+        << reason(refused);
+    compare::JudgeOptions fixing;
+    fixing.fix = true;
+    const JudgeOutcome mended = judge(capture, parallel_scene(), fixing);
+    ASSERT_TRUE(mended.result) << reason(mended);
+    EXPECT_NEAR(mended.scene->camera.orthographic_height, other.camera.orthographic_height, 1e-9);
+  }
+}
+
 TEST(JudgeRatios, OfTwoPicturesAreTheirLightsVisibility) {
   const Compared drawn = draw_scene(scene_under("sun"), small_picture, hard_map(256));
   for (const bool positions : {true, false}) {

@@ -18,12 +18,14 @@ Scene street() {
 
 struct Kind {
   const char* name;
-  bool warped, reversed, snap;
+  bool warped, reversed, snap, parallel = false;
 };
 
 class Shapes : public testing::TestWithParam<Kind> {
  protected:
-  Shapes() : scene_(street()), world_(make_world(scene_)) {}
+  Shapes() : scene_(street()), world_(make_world(scene_)) {
+    if (GetParam().parallel) scene_.camera.orthographic_height = 9.0;
+  }
   LightView fitted(int size) const {
     const Kind k = GetParam();
     auto view = k.warped
@@ -109,13 +111,13 @@ TEST_P(Shapes, NothingThatTheCameraSeesIsCutOff) {
   EXPECT_GT(seen, 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Shapes,
-                         testing::Values(Kind{"cascades", false, false, true},
-                                         Kind{"tight", false, true, false},
-                                         Kind{"warped", true, false, false},
-                                         Kind{"warped_snapped", true, false, true},
-                                         Kind{"warped_reversed", true, true, false}),
-                         [](const auto& chosen) { return std::string(chosen.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    All, Shapes,
+    testing::Values(Kind{"cascades", false, false, true}, Kind{"tight", false, true, false},
+                    Kind{"orthographic", false, false, true, true},
+                    Kind{"orthographic_tight", false, false, false, true}, Kind{"warped", true, false, false},
+                    Kind{"warped_snapped", true, false, true}, Kind{"warped_reversed", true, true, false}),
+    [](const auto& chosen) { return std::string(chosen.param.name); });
 
 // Zhang et al. 2006, equation 9: even and logarithmic splits, and their mean.
 TEST(Splits, LambdaMovesTexelsTowardsTheEye) {
@@ -132,6 +134,41 @@ TEST(Splits, LambdaMovesTexelsTowardsTheEye) {
   }
 }
 
+// Of a camera whose rays are parallel slices are boxes of one width: between them lie even splits of what is seen, each
+// face holds its own slice, and the given splits are where they are said to be.
+TEST(Splits, AnOrthographicCamerasSlicesBeginWhereSomethingIsSeen) {
+  Scene scene = street();
+  scene.camera.eye *= 10.0;
+  scene.camera.orthographic_height = 8.0;
+  const World world = make_world(scene);
+  const View eye = make_view(scene.camera, {160, 100});
+  const auto view = fit_cascades(world, scene.lights[0], scene.camera, 1.6, 256,
+                                 {.count = 3, .lambda = 0.0, .snap = false}, {});
+  ASSERT_TRUE(view.has_value());
+  Interval seen{infinity, -infinity};
+  for (const double x : {-20.0, 20.0})
+    for (const double z : {-20.0, 20.0})
+      for (const double y : {0.0, 1.5}) {
+        const double depth = project_to_pixels(eye, {x, y, z}).z;
+        seen.min = std::min(seen.min, depth), seen.max = std::max(seen.max, depth);
+      }
+  Random random(7);
+  std::array<int, 3> in_slice{};
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 p{random.between(-20, 20), 0.0, random.between(-20, 20)};
+    const Vec3 pixel = project_to_pixels(eye, p);
+    if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.x < 160 && pixel.y < 100)) continue;
+    const auto slice = static_cast<int>(3.0 * (pixel.z - seen.min) / (seen.max - seen.min));
+    const TexelCoordinate t = project_to_face(*view, slice, p);
+    ASSERT_TRUE(t.inside) << slice;
+    ++in_slice[static_cast<std::size_t>(slice)];
+  }
+  for (const int count : in_slice) EXPECT_GT(count, 20);
+  const auto whole = fit_light_view(world, scene.lights[0], scene.camera, 1.6, 256);
+  ASSERT_TRUE(whole.has_value());
+  for (int i = 0; i < 3; ++i) EXPECT_LT(texel_world_size(*view, i, 1.0), texel_world_size(*whole, 0, 1.0));
+}
+
 // A light along the view has no warp to give (Wimmer et al. 2004, section 3).
 TEST(Warp, VanishesWhereTheLightFollowsTheView) {
   Scene scene = street();
@@ -143,11 +180,16 @@ TEST(Warp, VanishesWhereTheLightFollowsTheView) {
 }
 
 // The square of a snapped cascade stands on a grid that does not move with the camera.
-TEST(Snap, CascadesMoveByWholeTexels) {
+class Snap : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(PinholeAndOrthographic, Snap, testing::Values(0.0, 6.0));
+
+TEST_P(Snap, CascadesMoveByWholeTexels) {
   Scene scene = street();
+  scene.camera.orthographic_height = GetParam();
   const World world = make_world(scene);
+  const CascadeOptions options{.lambda = scene.camera.orthographic() ? 0.0 : 0.5};
   const auto fitted = [&] {
-    return fit_cascades(world, scene.lights[0], scene.camera, 1.6, 256, {}, {}).value();
+    return fit_cascades(world, scene.lights[0], scene.camera, 1.6, 256, options, {}).value();
   };
   const LightView first = fitted();
   for (int k = 0; k < 50; ++k) {

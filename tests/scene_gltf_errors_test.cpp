@@ -101,7 +101,7 @@ TEST_F(Gltf, MistakesHaveTheirPath) {
        [](Builder& b) {
          b.json["cameras"][0] = {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", "x"}}}};
        },
-       "cameras[0].orthographic.ymag: wrong type (got \"x\", allowed a number)"},
+       "cameras[0].orthographic.ymag: wrong type (got \"x\", allowed a number > 0)"},
       {"light without type",
        [](Builder& b) { b.json["extensions"]["KHR_lights_punctual"]["lights"][0]["name"] = "sun"; },
        "extensions.KHR_lights_punctual.lights[0]: type is missing"},

@@ -217,14 +217,14 @@ TEST_F(Gltf, CamerasAreChosenByNameOrNumber) {
   Builder b = simple();
   b.json["cameras"] = Json::array(
       {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}},
-       {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 9}, {"znear", 0.1}}}},
+       {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 3}, {"zfar", 9}, {"znear", 0.1}}}},
        {{"type", "perspective"}, {"name", "wide"}, {"perspective", {{"yfov", 1.5}, {"znear", 0.1}}}}});
   const auto add = [&](const Json& node) {
     b.json["scenes"][0]["nodes"].push_back(b.json["nodes"].size());
     b.json["nodes"].push_back(node);
   };
   add({{"camera", 0}, {"name", "front"}, {"translation", {0, 0, 5}}});
-  add({{"camera", 1}, {"translation", {0, 0, 6}}});
+  add({{"camera", 1}, {"name", "plan"}, {"translation", {0, 0, 6}}});
   add({{"camera", 2}, {"translation", {0, 0, 7}}});
   const auto through = [&](const std::string& camera) {
     loaded(b);  // writes the file
@@ -232,15 +232,19 @@ TEST_F(Gltf, CamerasAreChosenByNameOrNumber) {
   };
   const Scene first = *through("");
   EXPECT_EQ(first.camera.eye, Vec3(0, 0, 5));
-  EXPECT_TRUE(has_note(first, "The camera front is used; --camera takes front, wide, or 0 to 1."));
+  EXPECT_TRUE(has_note(first, "The camera front is used; --camera takes front, plan, wide, or 0 to 2."));
   EXPECT_EQ(through("wide")->camera.eye, Vec3(0, 0, 7));
-  EXPECT_NEAR(through("1")->camera.vertical_fov, 1.5, 1e-9);
+  EXPECT_NEAR(through("2")->camera.vertical_fov, 1.5, 1e-9);
+  EXPECT_EQ(first.camera.orthographic_height, 0.0);
+  EXPECT_EQ(through("plan")->camera.orthographic_height, 6.0);
+  EXPECT_EQ(through("plan")->camera.eye, Vec3(0, 0, 6));
   const auto unknown = through("wied");
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().kind, ErrorKind::usage);
-  EXPECT_EQ(unknown.error().reason,
-            "--camera: the scene has no such camera (got wied, allowed front, wide, or 0 to 1); did you mean "
-            "\"wide\"?");
+  EXPECT_EQ(
+      unknown.error().reason,
+      "--camera: the scene has no such camera (got wied, allowed front, plan, wide, or 0 to 2); did you mean "
+      "\"wide\"?");
 }
 
 TEST_F(Gltf, Extensions) {

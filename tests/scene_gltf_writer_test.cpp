@@ -181,6 +181,20 @@ TEST(GltfWriter, TheSameSceneGivesTheSameBytes) {
   EXPECT_EQ(bytes.size() % 4, 0u);
 }
 
+TEST(GltfWriter, AnOrthographicCameraComesBack) {
+  for (const Vec3& eye : {Vec3(1, 2, 5), Vec3(1, 2, 500), Vec3(0.1, 0.1, 0.3)}) {
+    Scene scene = small();
+    scene.camera = {.eye = eye, .target = {0, 0.5, 0}, .orthographic_height = 3.5};
+    EXPECT_EQ(reread(scene, true).camera, scene.camera);
+    const Json json = json_of(scene)["cameras"][0];
+    EXPECT_EQ(json["type"], "orthographic");
+    EXPECT_FALSE(json.contains("perspective"));
+    EXPECT_EQ(json["orthographic"]["ymag"], 1.75);
+    EXPECT_GE(double(json["orthographic"]["znear"]), 0.0);
+    EXPECT_GT(double(json["orthographic"]["zfar"]), double(json["orthographic"]["znear"]));
+  }
+}
+
 TEST(GltfWriter, InstancesShareTheirMesh) {
   Scene scene = small();
   scene.instances.push_back({"two", 0, glm::translate(Mat4(1.0), Vec3(0.1, 0.2, 0.3)), 0});

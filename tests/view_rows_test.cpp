@@ -91,30 +91,37 @@ TEST(ViewLayout, TheViewsOfASwipeShareAPane) {
 }
 
 TEST(ViewProjection, WhatIsProjectedComesBack) {
-  const ViewState state = two_light_state();
-  const ScreenCamera camera{posed_camera(state), {100, 20, 640, 480}};
-  const Vec3 place{0.4, 0.3, -0.2};
-  const auto pixel = camera.project(place);
-  ASSERT_TRUE(pixel);
-  const Vec3 way = camera.direction(*pixel), to = place - camera.camera.eye;
-  EXPECT_LT(glm::length(glm::normalize(way) - glm::normalize(to)), 1e-12);
-  EXPECT_FALSE(camera.project(camera.camera.eye - to));
+  for (const bool parallel : {false, true}) {
+    ViewState state = two_light_state();
+    if (parallel) carry_out(state, HeightTo{3.0});
+    const ScreenCamera camera{posed_camera(state), {100, 20, 640, 480}};
+    const Vec3 place{0.4, 0.3, -0.2};
+    const auto pixel = camera.project(place);
+    ASSERT_TRUE(pixel);
+    const Ray ray = camera.ray(*pixel);
+    const Vec3 to = place - ray.origin;
+    EXPECT_LT(glm::length(glm::normalize(ray.direction) - glm::normalize(to)), 1e-12);
+    EXPECT_FALSE(camera.project(camera.camera.eye - to));
+  }
 }
 
 TEST(ViewProjection, TheHandleFollowsThePointer) {
-  for (const bool lamp : {false, true}) {
-    ViewState state = two_light_state();
-    if (lamp) carry_out(state, NextLight{});
-    carry_out(state, LightElevationTo{50.0});
-    const ScreenCamera camera{posed_camera(state), {0, 0, 640, 480}};
-    const auto from = camera.project(light_handle(state).place);
-    ASSERT_TRUE(from);
-    const Vec2 wanted = *from + Vec2{9.0, 6.0};
-    carry_out(state, drag_handle(state, light_handle(state), camera, wanted));
-    const auto now = camera.project(light_handle(state).place);
-    ASSERT_TRUE(now);
-    EXPECT_LT(glm::length(*now - wanted), 0.01) << (lamp ? "lamp" : "sun");  // pixels; poses keep nine digits
-  }
+  for (const bool parallel : {false, true})
+    for (const bool lamp : {false, true}) {
+      ViewState state = two_light_state();
+      if (lamp) carry_out(state, NextLight{});
+      if (parallel) carry_out(state, HeightTo{4.0});
+      carry_out(state, LightElevationTo{50.0});
+      const ScreenCamera camera{posed_camera(state), {0, 0, 640, 480}};
+      const auto from = camera.project(light_handle(state).place);
+      ASSERT_TRUE(from);
+      const Vec2 wanted = *from + Vec2{9.0, 6.0};
+      carry_out(state, drag_handle(state, light_handle(state), camera, wanted));
+      const auto now = camera.project(light_handle(state).place);
+      ASSERT_TRUE(now);
+      EXPECT_LT(glm::length(*now - wanted), 0.01)
+          << (lamp ? "lamp" : "sun");  // pixels; poses keep nine digits
+    }
 }
 
 }  // namespace

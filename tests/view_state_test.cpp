@@ -58,6 +58,18 @@ TEST(ViewState, ZoomIsBoundedByTheFilesOwnDistance) {
   EXPECT_EQ(after(two_light_state(), {DistanceTo{12.0}}).setup.camera->distance, 12.0);
 }
 
+TEST(ViewState, ZoomChangesAnOrthographicPicturesHeight) {
+  ViewState state = two_light_state();
+  state.given.camera.orthographic_height = 3.0;
+  const ViewState nearer = after(state, {ZoomBy{0.5}});
+  EXPECT_NEAR(posed_camera(nearer).orthographic_height, 1.5, 1e-12);
+  EXPECT_EQ(nearer.setup.camera->distance, 5.0);
+  EXPECT_EQ(posed_camera(after(state, {ZoomBy{1e9}})).orthographic_height, 3.0 * max_zoom);
+  EXPECT_EQ(posed_camera(after(state, {OrbitBy{30.0, 5.0}})).orthographic_height, 3.0);
+  // A pinhole camera becomes one where its height is said.
+  EXPECT_EQ(posed_camera(after(two_light_state(), {HeightTo{2.0}})).orthographic_height, 2.0);
+}
+
 TEST(ViewState, OnlyTheChosenLightTurns) {
   const ViewState state = after(two_light_state(), {NextLight{}, TurnLightBy{90.0, 30.0}});
   EXPECT_FALSE(state.setup.lights[0]);

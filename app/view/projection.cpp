@@ -8,21 +8,12 @@ namespace gnomon::app {
 
 namespace {
 
-struct Frame {
-  Vec3 right, up, forward;
-  double height = 1.0;  ///< half of the picture's, at distance 1
-};
-
-Frame frame_of(const Camera& camera) {
-  Frame frame;
-  frame.forward = glm::normalize(camera.target - camera.eye);
-  frame.right = glm::normalize(glm::cross(frame.forward, camera.up));
-  frame.up = glm::cross(frame.right, frame.forward);
-  frame.height = std::tan(0.5 * camera.vertical_fov);
-  return frame;
-}
-
 constexpr double least_depth = 1e-3;  // of the distance to the target: what is nearer is behind the eye
+
+/// As wide as it is high: what lies beside it has coordinates beyond -1 and 1.
+View square_view(const Camera& camera) {
+  return make_view(camera, {1, 1});
+}
 
 Vec3 corner_of(const LightView& view, const LightFace& face, double x, double y, double depth) {
   if (view.projection == LightProjection::perspective)
@@ -35,23 +26,23 @@ Vec3 corner_of(const LightView& view, const LightFace& face, double x, double y,
 /// So that the dome lies inside the picture.
 double sun_radius(const ViewState& state) {
   const Camera camera = posed_camera(state);
-  return 0.65 * glm::length(camera.target - camera.eye) * std::tan(0.5 * camera.vertical_fov);
+  return 0.65 * 0.5 * picture_height(camera, glm::length(camera.target - camera.eye));
 }
 
 }  // namespace
 
 std::optional<Vec2> ScreenCamera::project(const Vec3& world) const {
-  const Frame frame = frame_of(camera);
+  const View view = square_view(camera);
   const Vec3 v = world - camera.eye;
-  const double depth = glm::dot(v, frame.forward);
+  const double depth = glm::dot(v, view.forward);
   if (depth < least_depth * glm::length(camera.target - camera.eye)) return std::nullopt;
-  const double scale = 0.5 * place.height / (depth * frame.height);
-  return Vec2{place.x + 0.5 * place.width + scale * glm::dot(v, frame.right),
-              place.y + 0.5 * place.height - scale * glm::dot(v, frame.up)};
+  const double scale = 0.5 * place.height / (view.half_y + depth * view.tan_half_y);
+  return Vec2{place.x + 0.5 * place.width + scale * glm::dot(v, view.right),
+              place.y + 0.5 * place.height - scale * glm::dot(v, view.up)};
 }
 
 std::optional<std::pair<Vec2, Vec2>> ScreenCamera::project(const Vec3& from, const Vec3& to) const {
-  const Vec3 forward = frame_of(camera).forward;
+  const Vec3 forward = square_view(camera).forward;
   const double least = 1.01 * least_depth * glm::length(camera.target - camera.eye);
   Vec3 a = from, b = to;
   const double da = glm::dot(a - camera.eye, forward), db = glm::dot(b - camera.eye, forward);
@@ -63,11 +54,11 @@ std::optional<std::pair<Vec2, Vec2>> ScreenCamera::project(const Vec3& from, con
   return std::pair{*pa, *pb};
 }
 
-Vec3 ScreenCamera::direction(Vec2 pixel) const {
-  const Frame frame = frame_of(camera);
-  const double scale = 2.0 * frame.height / place.height;
-  return frame.forward + scale * (pixel.x - place.x - 0.5 * place.width) * frame.right -
-         scale * (pixel.y - place.y - 0.5 * place.height) * frame.up;
+Ray ScreenCamera::ray(Vec2 pixel) const {
+  const View view = square_view(camera);
+  const double half = 0.5 * place.height;
+  const Vec2 at((pixel.x - place.x - 0.5 * place.width) / half, -(pixel.y - place.y - half) / half);
+  return {view.ray_origin(at), view.ray_direction(at)};
 }
 
 LightHandle light_handle(const ViewState& state) {
@@ -79,8 +70,9 @@ LightHandle light_handle(const ViewState& state) {
 
 Change drag_handle(const ViewState& state, const LightHandle& handle, const ScreenCamera& camera,
                    Vec2 pixel) {
-  const Vec3 direction = camera.direction(pixel), eye = camera.camera.eye;
-  const Vec3 forward = glm::normalize(camera.camera.target - eye);
+  const Ray ray = camera.ray(pixel);
+  const Vec3 direction = ray.direction, eye = ray.origin;
+  const Vec3 forward = glm::normalize(camera.camera.target - camera.camera.eye);
   if (!handle.sun) {
     const double t = glm::dot(handle.place - eye, forward) / glm::dot(direction, forward);
     return PlaceLamp{eye + t * direction};

@@ -8,6 +8,7 @@
 
 #include "app/view/layout.h"
 #include "app/view/state.h"
+#include "scene/camera.h"
 #include "scene/light_view.h"
 
 namespace gnomon::app {
@@ -20,8 +21,8 @@ struct ScreenCamera {
   std::optional<Vec2> project(const Vec3& world) const;
   /// The part of a line that lies before the eye.
   std::optional<std::pair<Vec2, Vec2>> project(const Vec3& from, const Vec3& to) const;
-  /// From the eye through a pixel: a direction, not unit.
-  Vec3 direction(Vec2 pixel) const;
+  /// Through a pixel; its direction is not unit.
+  Ray ray(Vec2 pixel) const;
 };
 
 /// The handle of the light that is compared: of a lamp its own place, of a sun a point on a dome over the scene's

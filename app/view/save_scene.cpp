@@ -28,8 +28,11 @@ using Json = nlohmann::ordered_json;
 Json camera_json(const Camera& camera) {
   Json json{{"eye", compare::vector3(camera.eye)},
             {"target", compare::vector3(camera.target)},
-            {"up", compare::vector3(camera.up)},
-            {"vertical_fov_degrees", degrees(camera.vertical_fov)}};
+            {"up", compare::vector3(camera.up)}};
+  if (camera.orthographic())
+    json["orthographic_height"] = camera.orthographic_height;
+  else
+    json["vertical_fov_degrees"] = degrees(camera.vertical_fov);
   if (camera.samples_per_pixel != 1) json["samples_per_pixel"] = camera.samples_per_pixel;
   return json;
 }

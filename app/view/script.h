@@ -16,7 +16,7 @@
 //   quit                  ends the program; so does the end of the script
 //
 // Keys: view NAME, size WxH (of the window), light NAME, light-azimuth DEG, light-elevation DEG, light-distance
-// D, light-size S, time-of-day HOURS, film NAME|off, film-time S, film-play on|off, camera-orbit AZIMUTH ELEVATION, camera-distance D, camera-target X Y Z, precision NAME;
+// D, light-size S, time-of-day HOURS, film NAME|off, film-time S, film-play on|off, camera-orbit AZIMUTH ELEVATION, camera-distance D, camera-height H, camera-target X Y Z, precision NAME;
 // layout NAME, pane N VIEW, swipe SHARE, zoom FACTOR, probe X Y, theme NAME, ui-scale FACTOR, and on or off for
 // panels, settings, results, help and large-type. A script is read and checked as a whole before the window opens.
 #pragma once

@@ -101,6 +101,7 @@ constexpr ScriptKey keys[] = {
     {"time-of-day", 1, "set time-of-day HOURS", number<SunHour, hour_range>},
     {"camera-orbit", 2, "set camera-orbit AZIMUTH ELEVATION", orbit},
     {"camera-distance", 1, "set camera-distance D", number<DistanceTo, distance_range>},
+    {"camera-height", 1, "set camera-height H", number<HeightTo, distance_range>},
     {"camera-target", 3, "set camera-target X Y Z", target},
     {"precision", 1, "set precision NAME", precision},
     {"layout", 1, "set layout NAME",

@@ -30,6 +30,7 @@ CameraPose tidy(CameraPose pose) {
     *number = tidy(*number);
   if (pose.target) pose.target = tidy(*pose.target);
   if (pose.up) pose.up = tidy(*pose.up);
+  if (pose.height) pose.height = tidy(*pose.height);
   return pose;
 }
 
@@ -77,10 +78,24 @@ struct SetupChange {
   }
   void operator()(const OrbitTo& c) const { turn_camera(c.azimuth, c.elevation); }
   void operator()(const ZoomBy& c) const {
+    if (posed_camera(s).orthographic()) return zoom_height(c.factor);
     const double own = camera_pose(s.given.camera).distance;
     move_camera(tidy(std::clamp(current_camera(s).distance * c.factor, own / max_zoom, own * max_zoom)));
   }
+  /// Of an orthographic picture, which distance does not change.
+  void zoom_height(double factor) const {
+    const CameraPose first = s.initial.camera.value_or(camera_pose(s.given.camera));
+    const double now = posed_camera(s).orthographic_height;
+    const double own =
+        first.height.value_or(s.given.camera.orthographic() ? s.given.camera.orthographic_height : now);
+    (*this)(HeightTo{tidy(std::clamp(now * factor, own / max_zoom, own * max_zoom))});
+  }
   void operator()(const DistanceTo& c) const { move_camera(c.distance); }
+  void operator()(const HeightTo& c) const {
+    CameraPose pose = current_camera(s);
+    pose.height = c.height;
+    s.setup.camera = pose;
+  }
   void operator()(const TurnLightBy& c) const {
     const LightPose pose = current_light(s);
     turn_light(tidy(pose.azimuth_degrees + c.azimuth), tidy(pose.elevation_degrees + c.elevation));
@@ -145,7 +160,7 @@ struct SetupChange {
     const Camera camera = posed_camera(s);
     const Vec3 forward = glm::normalize(camera.target - camera.eye);
     const Vec3 right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
-    const double height = 2.0 * glm::length(camera.target - camera.eye) * std::tan(0.5 * camera.vertical_fov);
+    const double height = picture_height(camera, glm::length(camera.target - camera.eye));
     const Vec3 target = camera.target + height * (c.right * right + c.up * up);
     (*this)(TargetTo{{tidy(target.x), tidy(target.y), tidy(target.z)}});
   }

@@ -78,9 +78,13 @@ struct OrbitTo {
 };
 struct ZoomBy {
   double factor;
-};  ///< of the camera's distance
+};  ///< of the camera's distance, or an orthographic picture's height
 struct DistanceTo {
   double distance;
+};
+/// What the picture's height covers, through an orthographic camera.
+struct HeightTo {
+  double height;
 };
 struct TurnLightBy {
   double azimuth, elevation;
@@ -218,13 +222,13 @@ struct MoveProbe {
 };
 
 using Change =
-    std::variant<Show, ShowPrevious, OrbitBy, OrbitTo, ZoomBy, DistanceTo, TurnLightBy, LightAzimuthTo,
-                 LightElevationTo, NextLight, PickLight, StepBias, StepSlopeBias, StepNormalOffset, DoubleMap,
-                 HalveMap, NextDepthFormat, NextCull, SetMapOption, SetMap, SetPrecision, Resize, Reset,
-                 PanBy, TargetTo, LightDistanceTo, PlaceLamp, LightSizeTo, PickFilm, FilmTo, FilmGoesOn,
-                 SunHour, PlayFilm, TogglePlay, SetLayout, NextLayout, SetTheme, NextTheme, SetUiScale,
-                 ScaleUi, SetFlag, ToggleFlag, SwipeTo, SwipeBy, SetPane, ZoomPicture, ZoomPictureTo,
-                 MovePicture, StepPicture, ProbePixel, MoveProbe>;
+    std::variant<Show, ShowPrevious, OrbitBy, OrbitTo, ZoomBy, DistanceTo, HeightTo, TurnLightBy,
+                 LightAzimuthTo, LightElevationTo, NextLight, PickLight, StepBias, StepSlopeBias,
+                 StepNormalOffset, DoubleMap, HalveMap, NextDepthFormat, NextCull, SetMapOption, SetMap,
+                 SetPrecision, Resize, Reset, PanBy, TargetTo, LightDistanceTo, PlaceLamp, LightSizeTo,
+                 PickFilm, FilmTo, FilmGoesOn, SunHour, PlayFilm, TogglePlay, SetLayout, NextLayout, SetTheme,
+                 NextTheme, SetUiScale, ScaleUi, SetFlag, ToggleFlag, SwipeTo, SwipeBy, SetPane, ZoomPicture,
+                 ZoomPictureTo, MovePicture, StepPicture, ProbePixel, MoveProbe>;
 
 void carry_out(ViewState& state, const Change& change);
 

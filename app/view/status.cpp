@@ -66,6 +66,7 @@ void add_poses(Words& words, const Setup& setup) {
     };
     vector("--camera-target", pose.target);
     vector("--camera-up", pose.up);
+    if (pose.height) add_if(words, true, "--camera-height", number_text(*pose.height));
   }
   if (const std::optional<LightPose>& pose = setup.lights[setup.light]) {
     add_if(words, true, "--light-azimuth", number_text(pose->azimuth_degrees));

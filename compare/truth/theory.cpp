@@ -64,7 +64,7 @@ class Predictor {
       : in_(in),
         labels_(labels),
         camera_(in.world().scene->camera),
-        pixel_side_(2.0 * std::tan(0.5 * camera_.vertical_fov) / picture_height),
+        pixel_side_(gnomon::picture_height(camera_, 1.0) / picture_height),
         forward_(glm::normalize(camera_.target - camera_.eye)) {}
 
   PixelTheory at(int x, int y) const {
@@ -74,7 +74,7 @@ class Predictor {
     const TexelCoordinate texel = project_to_face(view, in_.record().face.data[pixel], receiver.position);
     PixelTheory out;
     out.acne_free_bias = texel_depth_slope(view, texel, receiver.position, receiver.normal);
-    const Vec3 from_eye = receiver.position - camera_.eye;
+    const Vec3 from_eye = camera_.orthographic() ? forward_ : receiver.position - camera_.eye;
     const double distance = glm::length(from_eye), cos_axis = glm::dot(from_eye, forward_) / distance;
     const double pixel_area = distance * distance * pixel_solid_angle(cos_axis);
     const double cos_eye = -glm::dot(from_eye, receiver.normal) / distance;
@@ -107,7 +107,8 @@ class Predictor {
   const LadderInput& in_;
   const Image<Label>& labels_;
   const Camera& camera_;
-  double pixel_side_;  ///< on the plane at distance 1
+  double
+      pixel_side_;  ///< on the plane at distance 1, where an orthographic camera's rays may as well be taken to end
   Vec3 forward_;
 };
 

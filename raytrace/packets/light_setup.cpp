@@ -28,7 +28,8 @@ bool packets_apply(const Tracer& tracer) {
 }
 
 bool blocks_apply(const Tracer& tracer, const View& view) {
-  return packets_apply(tracer) && view.tan_half_x < widest_frame && view.tan_half_y < widest_frame;
+  return packets_apply(tracer) && !view.orthographic() && view.tan_half_x < widest_frame &&
+         view.tan_half_y < widest_frame;
 }
 
 EdgeSetup edge_setup_of_eye(const Tracer& tracer, const View& view) {

@@ -11,8 +11,8 @@ namespace gnomon::raytrace {
 /// |u| and |v| of a point's rays stay below this: the bounds of raytrace/packets/edge_setup_kernel.cpp.
 inline constexpr double widest_slope = 1.5;
 
-/// Whether the eye's rays go by blocks (raytrace/packets/view_block.h): packets apply, and one frame holds
-/// the whole field of view.
+/// Whether the eye's rays go by blocks (raytrace/packets/view_block.h): packets apply, all
+/// rays start at one point, and one frame holds the whole field of view.
 bool blocks_apply(const Tracer& tracer, const View& view);
 
 /// The eye's frame, for such a view.

@@ -114,7 +114,9 @@ void shade_picture(const Tracer& tracer, const EffectPlan& plan, const View& vie
                      .effects = ShadedEffects(plan),
                      .unstored = unstored,
                      .first_row = first_row};
-  if (plan.simulates(Effect::refraction)) input.eye = interior_at(tracer, view.eye, frame.rays.interior);
+  // The rays of an orthographic camera start outside all glass.
+  if (plan.simulates(Effect::refraction) && !view.orthographic())
+    input.eye = interior_at(tracer, view.eye, frame.rays.interior);
   if (plan.simulates(Effect::soft_shadow))
     prepare_light_shafts(tracer, most_samples(*tracer.world().scene, options));
   kernel_for(plan, options)(input, frame);

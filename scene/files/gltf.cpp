@@ -79,7 +79,6 @@ class SceneBuilder {
   Expected<void> run() {
     for (const std::size_t root : roots())
       if (const auto visited = visit_from(root); !visited) return visited;
-    if (orthographic_) note("An orthographic camera was skipped: only perspective is supported.");
     if (flattened_ > 0)
       note(fmt::format("{} node(s) that leave a line or a point of their mesh (scales of 0) were skipped.",
                        flattened_));
@@ -220,10 +219,6 @@ class SceneBuilder {
 
   void add_camera(const gltf::Node& node, std::size_t index, const Mat4& world) {
     const gltf::Camera& from = model_.cameras[static_cast<std::size_t>(node.camera)];
-    if (!from.is_perspective) {
-      orthographic_ = true;
-      return;
-    }
     const Vec3 forward = Vec3(world * Vec4(0.0, 0.0, -1.0, 0.0));
     const Vec3 up = Vec3(world * Vec4(0.0, 1.0, 0.0, 0.0));
     if (!(glm::length(forward) > 0.0) || !(glm::length(up) > 0.0))
@@ -235,7 +230,10 @@ class SceneBuilder {
     named.camera.eye = Vec3(world[3]);
     named.camera.target = named.camera.eye + unit_vector(forward);
     named.camera.up = unit_vector(up);
-    named.camera.vertical_fov = from.vertical_fov;
+    if (from.is_perspective)
+      named.camera.vertical_fov = from.vertical_fov;
+    else
+      named.camera.orthographic_height = 2.0 * from.half_height;
     loaded_.cameras.push_back(std::move(named));
     gltf_cameras_.push_back(static_cast<std::size_t>(node.camera));
     carried_.cameras.push_back(index);
@@ -314,7 +312,7 @@ class SceneBuilder {
   std::set<std::string> light_names_;
   std::map<std::string, int> next_number_;  // behind a light's name that is taken
   int flattened_ = 0;
-  bool orthographic_ = false, ranged_ = false;
+  bool ranged_ = false;
 };
 
 /// Where a primitive's accessor has no data, not even packed, it is all zeros: not without limit.

@@ -77,6 +77,7 @@ struct Camera {
   std::string name;
   bool is_perspective = true;
   double vertical_fov = 0.0;  ///< radians
+  double half_height = 0.0;   ///< of an orthographic picture
 };
 /// A light of KHR_lights_punctual.
 struct Light {

@@ -105,8 +105,10 @@ class NodeReader {
     const auto own = node.child(type->value().text);
     if (!own) return node.error(fmt::format("{} is missing", printable(type->value().text))), out;
     check_object(*own);
-    if (!out.is_perspective)
-      for (const std::string_view key : {"xmag", "ymag", "zfar", "znear"}) required_number(*own, key, 1.0);
+    if (out.is_perspective) return out;
+    required_number(*own, "xmag", 1.0);
+    out.half_height = required_number(*own, "ymag", 1.0, positive_number);
+    for (const std::string_view key : {"zfar", "znear"}) required_number(*own, key, 1.0);
     return out;
   }
 

@@ -50,17 +50,24 @@ Json clip_distances(const Scene& scene, const View& view) {
     const double depth = glm::dot(p - view.eye, view.forward);
     near = std::min(near, depth), far = std::max(far, depth);
   }
+  if (scene.camera.orthographic()) {
+    if (!(far > 0.0) || !std::isfinite(far)) far = 100.0, near = 0.0;
+    return {{"znear", std::max(0.0, near - 0.01 * far)}, {"zfar", 1.01 * far}};
+  }
   if (!(far > 0.0) || !std::isfinite(far)) return {{"znear", 0.01}};
   return {{"znear", std::max(1e-3 * far, 0.5 * near)}, {"zfar", 1.01 * far}};
 }
 
 void write_camera(File& file, const Scene& scene) {
   const View view = make_view(scene.camera, {1, 1});
-  Json perspective = clip_distances(scene, view);
-  perspective["yfov"] = scene.camera.vertical_fov;
-  const std::size_t camera = file.add("cameras", {{"type", "perspective"},
-                                                  {"perspective", std::move(perspective)},
-                                                  {"extras", camera_extras(scene.camera)}});
+  const char* type = scene.camera.orthographic() ? "orthographic" : "perspective";
+  Json own = clip_distances(scene, view);
+  if (scene.camera.orthographic())
+    own["xmag"] = own["ymag"] = 0.5 * scene.camera.orthographic_height;
+  else
+    own["yfov"] = scene.camera.vertical_fov;
+  const std::size_t camera =
+      file.add("cameras", {{"type", type}, {type, std::move(own)}, {"extras", camera_extras(scene.camera)}});
   const Mat4 matrix{Vec4(view.right, 0.0), Vec4(view.up, 0.0), Vec4(-view.forward, 0.0), Vec4(view.eye, 1.0)};
   file.add("nodes", {{"name", "camera"}, {"camera", camera}, {"matrix", array(matrix)}});
 }

@@ -217,13 +217,20 @@ std::string SceneReader::resolve(const JsonNode& named) {
 }
 
 NamedCamera read_camera(SceneReader& reader, const JsonNode& node) {
-  const JsonObject object(node, {"name", "eye", "target", "up", "vertical_fov_degrees", "samples_per_pixel"});
+  const JsonObject object(node, {"name", "eye", "target", "up", "vertical_fov_degrees", "orthographic_height",
+                                 "samples_per_pixel"});
   NamedCamera named{object.string("name", ""), {}};
   Camera& camera = named.camera;
   if (const auto eye = object.require("eye")) camera.eye = eye->as_vec3();
   if (const auto target = object.require("target")) camera.target = target->as_vec3();
   if (const auto up = object.find("up")) camera.up = up->as_vec3();
-  camera.vertical_fov = object.number("vertical_fov_degrees", 40.0, {0.0, 180.0, true, true}) * pi / 180.0;
+  if (const auto height = object.find("orthographic_height")) {
+    camera.orthographic_height = height->as_number({0.0, 1e12, true, false});
+    if (object.find("vertical_fov_degrees"))
+      height->error("does not go with vertical_fov_degrees: an orthographic camera has no angle");
+  } else {
+    camera.vertical_fov = object.number("vertical_fov_degrees", 40.0, {0.0, 180.0, true, true}) * pi / 180.0;
+  }
   camera.samples_per_pixel = static_cast<int>(object.number("samples_per_pixel", 1.0, sample_range));
   if (reader.failed()) return named;
   if (const auto defect = find_camera_defect(camera)) {

@@ -249,6 +249,10 @@ std::optional<Error> find_camera_defect(const Camera& camera) {
     return defect("camera.vertical_fov",
                   fmt::format("out of range (got {:g} degrees, allowed 0 to 180, both excluded)",
                               camera.vertical_fov * 180.0 / pi));
+  if (!(camera.orthographic_height >= 0.0) || !(camera.orthographic_height <= 1e12))
+    return defect(
+        "camera.orthographic_height",
+        fmt::format("out of range (got {:g}, allowed above 0, to 1e12)", camera.orthographic_height));
   return std::nullopt;
 }
 

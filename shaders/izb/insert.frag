@@ -27,11 +27,18 @@ dvec3 pixel_direction64(dvec2 window) {
   return izb.forward.xyz + x * izb.right_and_tan_x.xyz + y * izb.up_and_tan_y.xyz;
 }
 
-Receiver64 triangle_receiver(uint id, dvec3 direction) {
+// Where that ray starts.
+dvec3 pixel_origin64(dvec2 window) {
+  double x = (2.0LF * window.x / double(izb.size.x) - 1.0LF) * izb.half_extent.x;
+  double y = (1.0LF - 2.0LF * window.y / double(izb.size.y)) * izb.half_extent.y;
+  return izb.eye.xyz + x * izb.right_and_tan_x.xyz + y * izb.up_and_tan_y.xyz;
+}
+
+Receiver64 triangle_receiver(uint id, dvec3 origin, dvec3 direction) {
   TriangleData triangle = triangle_at(id);
   dvec3 a = vertex(triangle.a), b = vertex(triangle.b), c = vertex(triangle.c);
   Crossing at;
-  sheared_crossing(izb.eye.xyz, direction, a, b, c, true, at);
+  sheared_crossing(origin, direction, a, b, c, true, at);
   dvec2 w = at.weights;
   double first = 1.0LF - w.x - w.y;
   dvec3 pa = first * a, pb = w.x * b, pc = w.y * c;
@@ -44,18 +51,18 @@ Receiver64 triangle_receiver(uint id, dvec3 direction) {
   return r;
 }
 
-Receiver64 sphere_receiver(uint index, dvec3 direction) {
+Receiver64 sphere_receiver(uint index, dvec3 origin, dvec3 direction) {
   dvec4 sphere = double_shape_at(index).center_and_radius;
   dvec3 center = sphere.xyz;
   double radius = sphere.w;
   double t_near, t_far;
-  sphere_crossings64(izb.eye.xyz, direction, center, radius, t_near, t_far);
+  sphere_crossings64(origin, direction, center, radius, t_near, t_far);
   double t = t_near > 0.0LF ? t_near : t_far;
 #ifdef ALPHA_MASK
-  vec3 near_point = vec3(izb.eye.xyz + t * direction - izb.reference.xyz);
+  vec3 near_point = vec3(origin + t * direction - izb.reference.xyz);
   if (masked_hole(shape_at(index).material, shape_uv(shape_at(index), near_point))) t = t_far;
 #endif
-  dvec3 offset = izb.eye.xyz + t * direction - center;
+  dvec3 offset = origin + t * direction - center;
   dvec3 on_sphere = offset * (radius / sqrt(dot(offset, offset)));
   Receiver64 r;
   r.position = center + on_sphere;
@@ -64,10 +71,10 @@ Receiver64 sphere_receiver(uint index, dvec3 direction) {
   return r;
 }
 
-Receiver64 plane_receiver(uint index, dvec3 direction) {
+Receiver64 plane_receiver(uint index, dvec3 origin, dvec3 direction) {
   DoubleShape plane = double_shape_at(index);
   dvec3 point = plane.center_and_radius.xyz, n = plane.normal.xyz;
-  dvec3 p = izb.eye.xyz + dot(n, point - izb.eye.xyz) / dot(n, direction) * direction;
+  dvec3 p = origin + dot(n, point - origin) / dot(n, direction) * direction;
   Receiver64 r;
   r.position = p - dot(n, p - point) * n;
   r.error = error_gamma(8) * dot(abs(n), abs(p) + abs(point)) * abs(n) + error_gamma(2) * abs(r.position);
@@ -78,10 +85,10 @@ Receiver64 plane_receiver(uint index, dvec3 direction) {
 #ifdef SOLIDS
 // The impostor's crossing, followed along the ray to double precision, then put onto the surface (raytrace/shapes/solid.cpp,
 // solid_point).
-Receiver64 solid_receiver(uint index, dvec3 direction, double t) {
+Receiver64 solid_receiver(uint index, dvec3 origin, dvec3 direction, double t) {
   ShapeData shape = shape_at(index);
   DoubleShape s = double_shape_at(index);
-  dvec3 o = to_solid64(s, izb.eye.xyz - s.center_and_radius.xyz), d = to_solid64(s, direction);
+  dvec3 o = to_solid64(s, origin - s.center_and_radius.xyz), d = to_solid64(s, direction);
   double diagonal = box_diagonal64(s), cap, steepness = 0.0LF;
   int axis = -1;
   dvec3 p = o + t * d;
@@ -176,19 +183,21 @@ void main() {
   uint primitive = texelFetch(visible_primitive, ivec2(window_position(gl_FragCoord)), 0).r;
   shadows[pixel] = 0u;
   if (primitive == no_id) return;
-  dvec3 direction = pixel_direction64(floor(dvec2(window_position(gl_FragCoord))) + 0.5LF);
+  dvec2 window = floor(dvec2(window_position(gl_FragCoord))) + 0.5LF;
+  dvec3 origin = pixel_origin64(window), direction = pixel_direction64(window);
   double length = sqrt(dot(direction, direction));
   direction /= length;
   Receiver64 r;
-  if (primitive < triangle_count) r = triangle_receiver(primitive, direction);
-  else if (shape_at(primitive - triangle_count).kind == uint(shape_plane)) r = plane_receiver(primitive - triangle_count, direction);
+  if (primitive < triangle_count) r = triangle_receiver(primitive, origin, direction);
+  else if (shape_at(primitive - triangle_count).kind == uint(shape_plane))
+    r = plane_receiver(primitive - triangle_count, origin, direction);
 #ifdef SOLIDS
   else if (shape_at(primitive - triangle_count).kind >= uint(shape_quadric)) {
     double t = double(texelFetch(solid_distance, ivec2(window_position(gl_FragCoord)), 0).r) * length;
-    r = solid_receiver(primitive - triangle_count, direction, t);
+    r = solid_receiver(primitive - triangle_count, origin, direction, t);
   }
 #endif
-  else r = sphere_receiver(primitive - triangle_count, direction);
+  else r = sphere_receiver(primitive - triangle_count, origin, direction);
   if (dot(r.normal, direction) > 0.0LF) r.normal = -r.normal;
   r.primitive = primitive;
   if (faces_away(r)) return;

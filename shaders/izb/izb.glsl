@@ -9,6 +9,7 @@ layout(std140, binding = izb_block) uniform Izb {
   dvec4 right_and_tan_x;
   dvec4 up_and_tan_y;
   dvec4 forward;
+  dvec4 half_extent;   // of an orthographic picture; 0 of a pinhole camera
   dvec4 light;         // position, or (directional) the way that light travels
   dvec4 reference;     // of what the other shaders see
   dvec4 origin;        // of the grid

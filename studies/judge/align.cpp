@@ -81,10 +81,13 @@ std::optional<Camera> camera_of(const Camera& camera, const View& view) {
   Camera out = camera;
   const double reach = std::max(1e-6, glm::length(camera.target - camera.eye));
   out.eye = view.eye, out.target = view.eye + reach * view.forward, out.up = view.up;
-  out.vertical_fov = 2.0 * std::atan(view.tan_half_y);
+  if (view.orthographic())
+    out.orthographic_height = 2.0 * view.half_y;
+  else
+    out.vertical_fov = 2.0 * std::atan(view.tan_half_y);
   const View made = make_view(out, view.size);
-  const bool same = glm::dot(made.right, view.right) > 1.0 - 1e-9 &&
-                    std::abs(made.tan_half_x - view.tan_half_x) < 1e-9 * view.tan_half_x;
+  const double width = made.half_x + made.tan_half_x, wanted = view.half_x + view.tan_half_x;
+  const bool same = glm::dot(made.right, view.right) > 1.0 - 1e-9 && std::abs(width - wanted) < 1e-9 * wanted;
   if (!same) return std::nullopt;
   return out;
 }
@@ -267,7 +270,8 @@ void Aligner::note_resolution() {
 
 }  // namespace
 
-Expected<void> check_order(const Capture& capture, bool fix, CapturedPictures& pictures, Judged& judged) {
+Expected<void> check_order(const Capture& capture, bool orthographic, bool fix, CapturedPictures& pictures,
+                           Judged& judged) {
   const auto brighter = static_cast<double>(pictures.brighter), darker = static_cast<double>(pictures.darker);
   if (pictures.brighter < least_brighter) return {};
   if (brighter < times_darker * darker) {
@@ -283,7 +287,7 @@ Expected<void> check_order(const Capture& capture, bool fix, CapturedPictures& p
   if (const auto accepted = accept_mended(capture, fix, mended, judged); !accepted) return accepted;
   Capture other = capture;
   std::swap(other.shadowed, other.unshadowed);
-  auto read = read_pictures(other);
+  auto read = read_pictures(other, orthographic);
   if (!read) return fail(read.error());
   pictures = std::move(*read);
   return {};

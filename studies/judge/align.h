@@ -29,7 +29,8 @@ Expected<Aligned> align(const AlignInput& input, Scene& scene, Sight& sight, Cap
 
 /// Of a ratio: whether the picture with shadows is the one that is named as the one without, as it is where it is often
 /// brighter and hardly ever darker. An error without `fix`; with it the pictures are read anew, in the other order.
-Expected<void> check_order(const Capture& capture, bool fix, CapturedPictures& pictures, Judged& judged);
+Expected<void> check_order(const Capture& capture, bool orthographic, bool fix, CapturedPictures& pictures,
+                           Judged& judged);
 
 /// What the visibility's values were encoded with for a display.
 struct Encoding {

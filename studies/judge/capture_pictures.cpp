@@ -211,7 +211,11 @@ Expected<void> read_positions(const Capture& capture, CapturedPictures& out) {
 }
 
 /// World units along the view's axis or the ray; 0 where nothing was drawn.
-double world_depth(const CapturedDepth& depth, double value) {
+double world_depth(const CapturedDepth& depth, bool orthographic, double value) {
+  if (orthographic && depth.near) {
+    const double share = *depth.convention == PixelDepth::reversed ? 1.0 - value : value;
+    return share < 0.0 || share >= 1.0 ? 0.0 : *depth.near + share * (*depth.far - *depth.near);
+  }
   switch (*depth.convention) {
     case PixelDepth::view_z:
     case PixelDepth::distance:
@@ -228,8 +232,11 @@ double world_depth(const CapturedDepth& depth, double value) {
   return *depth.near * *depth.far / (*depth.near + value * (*depth.far - *depth.near));
 }
 
-Expected<void> read_depths(const Capture& capture, CapturedPictures& out) {
+Expected<void> read_depths(const Capture& capture, bool orthographic, CapturedPictures& out) {
   const CapturedDepth& depth = *capture.depth;
+  if (orthographic && depth.near && !depth.far)
+    return capture_error(capture, "depth.far",
+                         "is missing; the depth buffer of an orthographic camera has one");
   ImageSize size = capture.size;
   const auto channel = read_single_channel(capture, depth.file, "depth.file", depth_names, size);
   if (!channel) return fail(channel.error());
@@ -239,7 +246,7 @@ Expected<void> read_depths(const Capture& capture, CapturedPictures& out) {
   out.drawn = Image<std::uint8_t>(capture.size, 0);
   out.depth_is_distance = *depth.convention == PixelDepth::distance;
   for (std::size_t i = 0; i < out.depth.data.size(); ++i) {
-    out.depth.data[i] = world_depth(depth, double{channel->values[i]});
+    out.depth.data[i] = world_depth(depth, orthographic, double{channel->values[i]});
     out.drawn.data[i] = out.depth.data[i] > 0.0;
   }
   return {};
@@ -270,7 +277,7 @@ Expected<void> check_picture_sizes(const Capture& capture) {
   return check_layer_sizes(capture);
 }
 
-Expected<CapturedPictures> read_pictures(const Capture& capture) {
+Expected<CapturedPictures> read_pictures(const Capture& capture, bool orthographic) {
   CapturedPictures out;
   out.visibility = Image<float>(capture.size, 1.0f);
   out.reached = Image<std::uint8_t>(capture.size, 1);
@@ -280,7 +287,7 @@ Expected<CapturedPictures> read_pictures(const Capture& capture) {
   if (!capture.position.empty())
     if (const auto positions = read_positions(capture, out); !positions) return fail(positions.error());
   if (capture.depth)
-    if (const auto depths = read_depths(capture, out); !depths) return fail(depths.error());
+    if (const auto depths = read_depths(capture, orthographic, out); !depths) return fail(depths.error());
   return out;
 }
 

@@ -31,8 +31,9 @@ struct CapturedPictures {
 Expected<void> check_picture_sizes(const Capture& capture);
 
 /// Errors (bad input) name picture and field: a file that is missing, of another size, with more channels
-/// than wanted, or with values that are not finite or not in their range.
-Expected<CapturedPictures> read_pictures(const Capture& capture);
+/// than wanted, or with values that are not finite or not in their range. `orthographic`: the camera, whose depth buffer goes
+/// evenly from near to far.
+Expected<CapturedPictures> read_pictures(const Capture& capture, bool orthographic);
 
 /// One channel of a picture by the first of these names, or its only one. `field`: for messages.
 Expected<Channel> read_single_channel(const Capture& capture, const std::string& file,

@@ -114,8 +114,7 @@ Gatherer::Shown Gatherer::look(std::uint32_t pixel) const {
 void Gatherer::place(std::uint32_t pixel, const Shown& shown, Tally& out) const {
   const Vec3 there = suspect_.place_from_captured * in_.pictures.position.data[pixel];
   const Vec3 seen = project_to_pixels(sight_.view, there);
-  const double along = glm::length(there - sight_.view.eye);
-  const double own = glm::length(shown.point.position - sight_.view.eye);
+  const double along = sight_.view.distance(there), own = sight_.view.distance(shown.point.position);
   const Vec2 off = glm::abs(Vec2(seen) - Vec2(shown.x + 0.5, shown.y + 0.5) - sight_.shift);
   ++out.count;
   out.agree += seen.z > 0.0 && std::max(off.x, off.y) < place_slack && std::abs(along - own) < 0.05 * own;
@@ -126,7 +125,7 @@ void Gatherer::depth(std::uint32_t pixel, const Shown& shown, Tally& out) const 
   const double own = glm::length(shown.point.position - shown.ray.origin);
   const bool distance = in_.pictures.depth_is_distance != suspect_.other_depth;
   const double given = in_.pictures.depth.data[pixel] * suspect_.depth_scale / (distance ? 1.0 : axis);
-  const double footprint = 2.0 * sight_.view.tan_half_y * own / sight_.view.size.height;
+  const double footprint = pixel_footprint(sight_.view, own);
   const double facing = std::max(0.02, std::abs(glm::dot(shown.point.normal, shown.ray.direction)));
   ++out.count;
   out.agree += std::abs(given - own) < place_slack * footprint / facing + depth_slack * own;

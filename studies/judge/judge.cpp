@@ -131,10 +131,11 @@ Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const W
   if (!light) return fail(light.error());
   report("reading the capture", 0.0);
   TimedStage reading("read capture");
-  auto pictures = read_pictures(capture);
+  auto pictures = read_pictures(capture, scene.camera.orthographic());
   if (!pictures) return fail(pictures.error());
   Judged judged = describe_capture(capture);
-  if (const auto order = check_order(capture, options.fix, *pictures, judged); !order)
+  if (const auto order = check_order(capture, scene.camera.orthographic(), options.fix, *pictures, judged);
+      !order)
     return fail(order.error());
   std::optional<CapturedMap> map;
   if (!capture.map.empty()) {

@@ -34,12 +34,12 @@ struct Retracer {
     const SurfacePoint& point = frame.receiver.at(x, y);
     const auto place = captured_place(sight, pictures, x, y);
     if (!place || point.primitive == no_id) return false;
-    const Vec3 direction = glm::normalize(point.position - sight.view.eye);
-    const double distance = glm::length(*place - sight.view.eye);
-    const double footprint = 2.0 * sight.view.tan_half_y * distance / sight.view.size.height;
+    const View& view = sight.view;
+    const Vec3 direction = view.orthographic() ? view.forward : glm::normalize(point.position - view.eye);
+    const double distance = view.distance(*place), footprint = pixel_footprint(view, distance);
     const double facing = std::max(0.05, std::abs(glm::dot(point.normal, direction)));
     const double reach = std::max(reach_pixels * footprint / facing, scene_reach);
-    return std::abs(glm::length(point.position - sight.view.eye) - distance) > reach;
+    return std::abs(view.distance(point.position) - distance) > reach;
   }
 
   void truth_at(std::size_t i) const {
@@ -76,7 +76,7 @@ std::optional<Vec3> captured_place(const Sight& sight, const CapturedPictures& p
 
 Ray sight_ray(const Sight& sight, const CapturedPictures& pictures, int x, int y) {
   if (!pictures.position.data.empty() && pictures.drawn.at(x, y) != 0)
-    return {sight.view.eye, glm::normalize(pictures.position.at(x, y) - sight.view.eye)};
+    return ray_to(sight.view, pictures.position.at(x, y));
   return pixel_ray(sight.view, x + 0.5 + sight.shift.x, y + 0.5 + sight.shift.y);
 }
 

@@ -35,24 +35,33 @@ void add_shifts(double step, int steps, std::vector<Suspect>& out) {
 
 void add_views(const SuspectInput& in, std::vector<Suspect>& out) {
   const View view = make_view(in.camera, in.size);
-  const auto add = [&](std::string what, double tan_x, double tan_y) {
+  const bool parallel = view.orthographic();
+  const double half_x = parallel ? view.half_x : view.tan_half_x,
+               half_y = parallel ? view.half_y : view.tan_half_y;
+  const auto add = [&](std::string what, double x, double y) {
     Suspect suspect;
     suspect.what = std::move(what);
     suspect.view = view;
-    suspect.view->tan_half_x = tan_x, suspect.view->tan_half_y = tan_y;
+    (parallel ? suspect.view->half_x : suspect.view->tan_half_x) = x;
+    (parallel ? suspect.view->half_y : suspect.view->tan_half_y) = y;
     out.push_back(suspect);
   };
-  const double aspect = view.tan_half_x / view.tan_half_y;
+  const double aspect = half_x / half_y;
   if (std::abs(aspect - 1.0) > 0.01) {
-    add("the vertical field of view was taken for the horizontal one", view.tan_half_y,
-        view.tan_half_y / aspect);
-    add("the horizontal field of view was taken for the vertical one", view.tan_half_x * aspect,
-        view.tan_half_x);
+    const auto name = [&](const char* which) {
+      return fmt::format("the {} {}", which, parallel ? "size of the orthographic picture" : "field of view");
+    };
+    add(name("vertical") + " was taken for the horizontal one", half_y, half_y / aspect);
+    add(name("horizontal") + " was taken for the vertical one", half_x * aspect, half_x);
+  }
+  if (parallel) {
+    add("half the orthographic picture's height was taken for the whole", 2.0 * half_x, 2.0 * half_y);
+    add("the orthographic picture's height was taken for half of it", 0.5 * half_x, 0.5 * half_y);
   }
   for (const double other : {1.0, 4.0 / 3.0, 1.5, 1.6, 16.0 / 9.0, 2.0, 21.0 / 9.0, 1.0 / aspect})
     if (std::abs(other / aspect - 1.0) > 0.01)
       add(fmt::format("the picture was drawn for an aspect of {:.4g}, not {:.4g}", other, aspect),
-          other * view.tan_half_y, view.tan_half_y);
+          other * half_y, half_y);
 }
 
 struct Axes {
@@ -77,6 +86,7 @@ View transformed(const Camera& camera, const ImageSize& size, const Mat3& axes) 
   const double scale = std::cbrt(std::abs(glm::determinant(axes)));
   view.right = axes * view.right / scale, view.up = axes * view.up / scale;
   view.forward = axes * view.forward / scale;
+  view.half_x *= scale, view.half_y *= scale;
   return view;
 }
 

@@ -163,8 +163,8 @@ class MinimalProgram::Passes {
     camera_block_ = static_cast<GLuint>(block);
     const Mat4 relative = Mat4(Vec4(1, 0, 0, 0), Vec4(0, 1, 0, 0), Vec4(0, 0, 1, 0),
                                Vec4(buffers_->reference() - view_.eye, 1.0));
-    camera_clip_ = clip_from_view(view_, raster::near_distance(world_, view_.eye)) *
-                   view_from_eye_relative(view_) * relative;
+    camera_clip_ =
+        clip_from_view(view_, raster::depth_reach(world_, view_)) * view_from_eye_relative(view_) * relative;
     visible_ = Texture2D(gl, GL_R32UI, options_.size);
     camera_depth_ = Texture2D(gl, GL_DEPTH_COMPONENT32F, options_.size);
     color_ = Texture2D(gl, GL_RGBA32F, options_.size);

@@ -110,8 +110,13 @@ void capture_ratio(const Compared& drawn, const std::vector<float>& visibility, 
 }
 
 /// A number of the camera's depth buffer (docs/judge.md).
-double buffer_value(const compare::CapturedDepth& depth, double along_axis, double along_ray) {
+double buffer_value(const compare::CapturedDepth& depth, bool orthographic, double along_axis,
+                    double along_ray) {
   const double n = depth.near.value_or(0.0), z = along_axis;
+  if (orthographic && depth.near) {
+    const double share = (z - n) / (*depth.far - n);
+    return *depth.convention == compare::PixelDepth::reversed ? 1.0 - share : share;
+  }
   switch (*depth.convention) {
     case compare::PixelDepth::view_z:
       return z;
@@ -133,8 +138,10 @@ void capture_depth(const Compared& drawn, const compare::CapturedDepth& depth, c
     const Vec3 off = point.position - view.eye;
     const bool hit = point.primitive != no_id;
     const double nothing = *depth.convention == compare::PixelDepth::zero_to_one ? 1.0 : 0.0;
-    channels[0].values.push_back(static_cast<float>(
-        hit ? buffer_value(depth, glm::dot(off, view.forward), glm::length(off)) : nothing));
+    channels[0].values.push_back(
+        static_cast<float>(hit ? buffer_value(depth, view.orthographic(), glm::dot(off, view.forward),
+                                              view.distance(point.position))
+                               : nothing));
   }
   out.depth = depth;
   out.depth->file = folder + "/depth.exr";
