@@ -52,7 +52,8 @@ void add_scene(CLI::App& command, SceneArgument& scene) {
       "is faster and takes more memory; the results are the same. auto takes what gnomon plan says");
   command
       .add_option("SCENE", scene.name,
-                  "a scene file (.json .gltf .glb .obj .ply), or the name of a built-in scene or lesson "
+                  "a scene file (.json .gltf .glb .obj .ply; .stl .fbx .dae .3ds .x3d .3mf by way of "
+                  "assimp), or the name of a built-in scene or lesson "
                   "(gnomon scenes)")
       ->required();
   command.parse_complete_callback([&] { scene.settings = use_of_settings(command); });

@@ -1,6 +1,6 @@
 # The loaders, and everything that reads or writes a file.
 target_sources(gnomon_scene PRIVATE
-  texture_sample.cpp files/apng.cpp files/encodings.cpp files/defaults.cpp files/gltf_accessor.cpp
+  texture_sample.cpp files/apng.cpp files/encodings.cpp files/foreign.cpp files/defaults.cpp files/gltf_accessor.cpp
   files/gltf_container.cpp files/gltf_data.cpp files/gltf_draco.cpp files/gltf_meshes.cpp files/gltf_meshopt.cpp
   files/gltf_transforms.cpp files/gltf_writer_meshes.cpp files/image_io.cpp files/image_library.cpp files/interior.cpp
   files/png_encode.cpp files/mapped_file.cpp files/merge.cpp files/obj.cpp files/obj_text.cpp

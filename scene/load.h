@@ -1,5 +1,5 @@
 // Scene files: the project's own JSON (scene/files/scene.schema.json), glTF 2.0 / GLB, OBJ+MTL and PLY, and
-// the built-in scenes by name. The format is told by the extension (.json .gltf .glb .obj .ply); a name
+// the built-in scenes by name. The format is told by the extension (.json .gltf .glb .obj .ply, and what assimp makes glTF of: .stl .fbx .dae .3ds .x3d .3mf); a name
 // without one is a built-in scene.
 #pragma once
 

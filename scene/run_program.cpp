@@ -30,13 +30,14 @@ struct Running {
   Running& operator=(const Running&) = delete;
 };
 
-/// What posix_spawnp() is told of the child: no stdin, stdout to stderr, no signal blocked, a process group of its own.
+/// What posix_spawnp() is told of the child: no stdin, stdout and stderr to `output`, no signal blocked, a process group of its own.
 class ChildSettings {
  public:
-  ChildSettings() {
+  explicit ChildSettings(int output) {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
     posix_spawnattr_init(&attributes);
     sigset_t none;
     sigemptyset(&none);
@@ -84,7 +85,7 @@ void end_programs() {
   while (running > 0 && watch.elapsed_ms() < 3.0 * grace_ms) usleep(pause_us);
 }
 
-Expected<int> run_program(std::vector<std::string> words, std::optional<double> longest_s) {
+Expected<int> run_program(std::vector<std::string> words, std::optional<double> longest_s, int output) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -93,7 +94,7 @@ Expected<int> run_program(std::vector<std::string> words, std::optional<double> 
   };
   const Running counted;
   if (process_ends) return failed("is not started any more");
-  const ChildSettings settings;
+  const ChildSettings settings(output);
   pid_t child = 0;
   if (const int error = posix_spawnp(&child, arguments[0], &settings.actions, &settings.attributes,
                                      arguments.data(), environ);

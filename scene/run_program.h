@@ -9,12 +9,14 @@
 
 namespace gnomon {
 
-/// Runs a program of the PATH with these words, of which the first is its name, and waits for its end. Its stdout goes where
-/// messages go, because this program's is for data, and signals reach it though this program's threads block some.
+/// Runs a program of the PATH with these words, of which the first is its name, and waits for its end. What it says goes to
+/// the descriptor `output`, where messages go unless another is named: this program's stdout is for data. Signals reach it
+/// though this program's threads block some.
 /// It has no stdin, and is with all that it starts a process group of its own, which is ended when it takes longer than
 /// `longest_s` seconds. Returns its exit code, or 128 and the signal that ended it. ErrorKind::graphics: it cannot be
 /// started, it was ended.
-Expected<int> run_program(std::vector<std::string> words, std::optional<double> longest_s = std::nullopt);
+Expected<int> run_program(std::vector<std::string> words, std::optional<double> longest_s = std::nullopt,
+                          int output = 2);
 
 /// Programs that run are ended, which is waited for some seconds at most, and no other is started any more: this process is
 /// about to end.

@@ -11,6 +11,7 @@
 
 #include "scene/files/defaults.h"
 #include "scene/files/encodings.h"
+#include "scene/files/foreign.h"
 #include "scene/files/formats.h"
 #include "scene/files/json_reader.h"
 #include "scene/files/mapped_file.h"
@@ -156,7 +157,7 @@ std::vector<SceneSetting> scene_settings(const std::string& path_or_name) {
 }
 
 std::string_view known_extensions() {
-  return ".json .gltf .glb .obj .ply";
+  return ".json .gltf .glb .obj .ply .stl .fbx .dae .3ds .x3d .3mf";
 }
 
 Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string& path,
@@ -167,8 +168,11 @@ Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string
   if (extension == ".gltf" || extension == ".glb") return read_gltf(bytes, path, folder, options);
   if (extension == ".obj") return read_obj(bytes, path, folder, options);
   if (extension == ".ply") return read_ply(bytes, path);
-  Error error{ErrorKind::bad_input, fmt::format("unknown extension (got \"{}\", allowed {})",
-                                                printable(extension), known_extensions())};
+  if (is_foreign(extension)) return read_foreign(path, folder, options);
+  const std::string_view hint = foreign_hint(extension);
+  Error error{ErrorKind::bad_input,
+              fmt::format("unknown extension (got \"{}\", allowed {}){}{}", printable(extension),
+                          known_extensions(), hint.empty() ? "" : "; ", hint)};
   error.file = path;
   return fail(std::move(error));
 }
