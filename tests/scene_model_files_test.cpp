@@ -26,7 +26,9 @@ const std::map<std::string_view, Outcome> expected_outcomes{
     {"malformed_assimp/OBJ/number_formats.obj", {false, ":11:14: not a finite number (got 3.1+e2"}},
     {"malformed_assimp/OBJ/point_cloud.obj", {false, ": the file has no triangles"}},
     {"malformed_assimp/OFF/invalid.off",
-     {false, ": unknown extension (got \".off\", allowed .json .gltf .glb .obj .ply .stl .fbx .dae .3ds .x3d .3mf)"}},
+     {false,
+      ": unknown extension (got \".off\", allowed .json .gltf .glb .obj .ply .stl .fbx .dae .3ds .x3d "
+      ".3mf)"}},
     {"malformed_assimp/glTF2/BoxBadNormals-glTF-Binary/BoxBadNormals.glb", {true, ""}},
     {"malformed_assimp/glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb",
      {false, ": meshes[0].primitives[0].attributes.POSITION[0]: position (got [-inf"}},
