@@ -4,6 +4,7 @@
 
 #include "app/lesson_scene.h"
 #include "app/option_kinds.h"
+#include "compare/result/figures.h"
 #include "scene/files/path_status.h"
 #include "scene/tessellate.h"
 
@@ -243,7 +244,7 @@ void add_threshold(CLI::App& command, const std::string& name, std::optional<com
             [&threshold, filmed](const std::string& value) -> Expected<void> {
               const auto parsed = parse_threshold(value);
               if (!parsed) return fail(parsed.error());
-              if (parsed->measure == compare::ErrorMeasure::shimmer && !filmed)
+              if (parsed->measure->needs == compare::FigureNeeds::film && !filmed)
                 return fail(
                     ErrorKind::usage,
                     fmt::format("a still picture has no flips (got {}; gnomon shimmer counts them)", value));

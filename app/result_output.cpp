@@ -70,11 +70,11 @@ Expected<compare::WrittenOutputs> write_all(const ResultOutput& output, const co
 
 /// Holds one light against --fail-above; the words say what is too much.
 bool passes(const compare::Threshold& threshold, const std::string& light,
-            const compare::ErrorFigures& figures, Console& console) {
+            const compare::LightFigures& figures, Console& console) {
   const std::string limit = compare::threshold_text(threshold);
   if (compare::exceeds(threshold, figures)) {
     console.message(fmt::format("light {}: {}; that is more than --fail-above {}", light,
-                                compare::figure_words(figures, threshold.measure), limit));
+                                compare::figure_words(figures, *threshold.measure), limit));
     return false;
   }
   if (!compare::too_uncertain(threshold, figures)) return true;
@@ -82,8 +82,8 @@ bool passes(const compare::Threshold& threshold, const std::string& light,
       "light {}: {} of {} pixels that show a lit or shadowed surface are uncertain, more than --fail-above "
       "{} allows to be wrong: the truth there lies within its own error bound (--precision exact decides "
       "rays; lights with size want more --samples, or a limit of the mean error, such as mean:1%)",
-      light, compare::grouped(compare::unknown_pixels(figures, threshold.measure)),
-      compare::grouped(figures.compared + figures.uncertain), limit));
+      light, compare::grouped(compare::unknown_pixels(figures, *threshold.measure)),
+      compare::grouped(figures.pixels.compared + figures.pixels.uncertain), limit));
   return false;
 }
 
@@ -92,7 +92,7 @@ ExitCode judge_lights(const ResultOutput& output, const compare::Comparison& com
   if (!output.fail_above) return code;
   if (output.fail_above->bare_one)
     console.note("--fail-above 1 is a limit of 100 %, which no share exceeds; one per cent is 1% or 0.01");
-  const std::vector<compare::ErrorFigures> lights = compare::figures_of(comparison);
+  const std::vector<compare::LightFigures> lights = compare::judged_lights(comparison);
   if (compare::says_nothing(*output.fail_above, lights)) {
     const bool empty = comparison.world->scene->is_empty_model;
     console.message(fmt::format("{}, so nothing holds against --fail-above {}",

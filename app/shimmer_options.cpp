@@ -264,10 +264,10 @@ void add_metric_options(CLI::App& app, MetricOptions& options) {
 }
 
 Expected<void> finish_metric(MetricOptions& options, std::optional<compare::Threshold>& threshold) {
-  using enum compare::ErrorMeasure;
+  const compare::Figure* shimmer = compare::find_measure("shimmer");
   if (threshold && threshold->measure == shimmer) options.metric = Metric::shimmer;
   if (options.is_filmed() && threshold) {
-    if (threshold->measure == wrong_and_mean) threshold->measure = shimmer;
+    if (threshold->measure == &compare::wrong_and_mean()) threshold->measure = shimmer;
     if (threshold->measure != shimmer)
       return fail(ErrorKind::usage,
                   fmt::format("--max-error: --metric shimmer counts flips (got {}, allowed shimmer:0.1)",

@@ -11,6 +11,7 @@
 #include "app/setting.h"
 #include "app/values.h"
 #include "compare/result/engine_units_json.h"
+#include "compare/result/figures.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
 #include "compare/result/result_parts.h"
@@ -78,7 +79,7 @@ Json just_over_json(const compare::TuneResult& result) {
 Json goal_json(const compare::TuneGoal& goal) {
   if (!goal.max_error) return {{"max_time_ms", *goal.max_time_ms}};
   return {{"threshold", compare::threshold_text(*goal.max_error)},
-          {"measure", compare::measure_name(goal.max_error->measure)},
+          {"measure", goal.max_error->measure->measure.name},
           {"limit", goal.max_error->limit}};
 }
 
@@ -88,22 +89,21 @@ Json family_json(const TuneAnswer& answer, std::size_t i) {
   Json options = Json::object();
   for (const auto& [name, value] : answer_values(answer.question.fixed, answer.families[i], attempt))
     options[name] = value;
-  return {{"command", answer.line(i)},
-          {"technique", options.value("technique", std::string("hard"))},
-          {"options", options},
-          {"error", attempt.error},
-          {"wrong_fraction", attempt.figures.wrong_fraction},
-          {"mean_absolute", attempt.figures.mean_absolute},
-          {"flips_per_receiver_second", std::isfinite(attempt.figures.flips_per_second)
-                                            ? Json(attempt.figures.flips_per_second)
-                                            : Json(nullptr)},
-          {"time_ms", attempt.time_ms},
-          {"runs_ms", attempt.times.runs},
-          {"costs",
-           {{"map_texels", attempt.map_texels}, {"map_bytes", attempt.map_bytes}, {"rays", attempt.rays}}},
-          {"custom_shader", attempt.custom_shader},
-          {"feasible", family.answer.has_value()},
-          {"why", family.why}};
+  return {
+      {"command", answer.line(i)},
+      {"technique", options.value("technique", std::string("hard"))},
+      {"options", options},
+      {"error", attempt.error},
+      {"wrong_fraction", attempt.figures.error.wrong_fraction},
+      {"mean_absolute", attempt.figures.error.mean_absolute},
+      {"flips_per_receiver_second", compare::number(compare::find_measure("shimmer")->of(attempt.figures))},
+      {"time_ms", attempt.time_ms},
+      {"runs_ms", attempt.times.runs},
+      {"costs",
+       {{"map_texels", attempt.map_texels}, {"map_bytes", attempt.map_bytes}, {"rays", attempt.rays}}},
+      {"custom_shader", attempt.custom_shader},
+      {"feasible", family.answer.has_value()},
+      {"why", family.why}};
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "compare/result/figures.h"
+
 namespace gnomon::app {
 
 Expected<ImageSize> parse_size(std::string_view text) {
@@ -26,31 +28,22 @@ Expected<double> parse_share(std::string_view text) {
 }
 
 Expected<compare::Threshold> parse_threshold(std::string_view text) {
-  using compare::ErrorMeasure;
   compare::Threshold out;
   std::string_view number = text;
   if (const std::size_t colon = text.find(':'); colon != std::string_view::npos) {
-    const std::string_view name = text.substr(0, colon);
+    out.measure = compare::find_measure(text.substr(0, colon));
+    if (out.measure == nullptr) return wrong_value("not a limit", text, threshold_range);
     number.remove_prefix(colon + 1);
-    for (const ErrorMeasure m : {ErrorMeasure::wrong, ErrorMeasure::mean, ErrorMeasure::flip,
-                                 ErrorMeasure::edge, ErrorMeasure::shimmer})
-      if (name == measure_name(m)) out.measure = m;
-    if (out.measure == ErrorMeasure::wrong_and_mean) return wrong_value("not a limit", text, threshold_range);
   }
-  if (out.measure == ErrorMeasure::edge) {
-    constexpr OptionRange texels{0.0, 1e6};
-    take_texels(number);
+  const compare::Figure& measure = *out.measure;
+  if (measure.unit != "share") {
+    if (measure.unit == "texels") take_texels(number);
     const std::optional<double> value = whole_number(number);
-    if (!value || !texels.contains(*value))
-      return wrong_value("not a limit", text, "edge: and texels, 0 to 1e6");
+    if (!value || !OptionRange{0.0, *whole_number(measure.measure.most)}.contains(*value))
+      return wrong_value(
+          "not a limit", text,
+          fmt::format("{}: and {}, 0 to {}", measure.measure.name, measure.unit, measure.measure.most));
     out.limit = *value;
-    return out;
-  }
-  if (out.measure == ErrorMeasure::shimmer) {
-    const Expected<double> flips = parse_number(std::string(number), {0.0, 1e9});
-    if (!flips)
-      return wrong_value("not a limit", text, "shimmer: and flips per receiver and second, 0 to 1e9");
-    out.limit = *flips;
     return out;
   }
   const Expected<double> share = parse_share(number);

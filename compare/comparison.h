@@ -220,21 +220,28 @@ struct CascadeFigures {
   std::array<BudgetStep, cause_count> budget{};
 };
 
-struct LightComparison {
-  std::uint32_t light = 0;  ///< index in Scene::lights
-  std::size_t record = 0;   ///< index in RasterFrame::lights and RayTracedFrame::lights
+/// Every number of one light; result/figures.cpp has a row for each.
+struct LightFigures {
   PixelCounts pixels;
   ErrorStats error;
   std::array<BudgetStep, cause_count> budget{};
-  std::array<std::uint64_t, class_count> classes{};  ///< acne … unexplained; they sum to error.wrong
   RightByAccident accidents;
   EdgeStats edges;
   Detachment detachment;
   BleedingStats bleeding;
   std::optional<PenumbraStats> penumbra;  ///< of a light with size
   std::optional<SeamCount> seams;         ///< of technique csm
-  std::vector<CascadeFigures> cascades;   ///< of technique csm, the finest first; else empty
   std::optional<ShimmerFigures> shimmer;  ///< where a film was asked for, too
+  std::array<double, 3> texel_world{};    ///< min, median, max over compared receivers
+  std::optional<std::uint64_t> lookups;   ///< LightRecord::lookups of the compared pixels; none: not counted
+  RayWork ray_work;                       ///< nothing where not counted
+};
+
+struct LightComparison : LightFigures {
+  std::uint32_t light = 0;  ///< index in Scene::lights
+  std::size_t record = 0;   ///< index in RasterFrame::lights and RayTracedFrame::lights
+  std::array<std::uint64_t, class_count> classes{};  ///< acne … unexplained; they sum to error.wrong
+  std::vector<CascadeFigures> cascades;              ///< of technique csm, the finest first; else empty
   /// Empty, and best_bias without meaning, where the drawing does not say what another bias would draw.
   std::vector<BiasCurvePoint> bias_curve;
   std::string_view bias_curve_withheld;  ///< why, as a sentence; else empty
@@ -242,10 +249,7 @@ struct LightComparison {
   std::vector<BiasKind> bias_kinds;  ///< the best first; empty where not made
   TheoryStats theory;
   std::array<double, rung_count> rung_mean{};  ///< mean visibility over compared pixels, V0 … V6
-  std::array<double, 3> texel_world{};         ///< min, median, max over compared receivers
   double bias_texel_world = 0.0;               ///< what a bias in texels is a multiple of
-  std::optional<std::uint64_t> lookups;  ///< LightRecord::lookups of the compared pixels; none: not counted
-  RayWork ray_work;                      ///< nothing where not counted
   Times classify;
 
   std::array<Image<float>, rung_count>

@@ -45,16 +45,15 @@ TEST(Values, IntegersDoNotWrap) {
 }
 
 TEST(Values, Thresholds) {
-  using compare::ErrorMeasure;
-  using compare::Threshold;
+  using compare::find_measure, compare::Threshold, compare::wrong_and_mean;
   for (const auto& [text, wanted] :
-       std::vector<std::pair<const char*, Threshold>>{{"1%", {ErrorMeasure::wrong_and_mean, 0.01}},
-                                                      {"0.25", {ErrorMeasure::wrong_and_mean, 0.25}},
-                                                      {"wrong:1%", {ErrorMeasure::wrong, 0.01}},
-                                                      {"mean:0.5%", {ErrorMeasure::mean, 0.005}},
-                                                      {"flip:0.05", {ErrorMeasure::flip, 0.05}},
-                                                      {"edge:0.5texel", {ErrorMeasure::edge, 0.5}},
-                                                      {"edge:2texels", {ErrorMeasure::edge, 2.0}}}) {
+       std::vector<std::pair<const char*, Threshold>>{{"1%", {&wrong_and_mean(), 0.01}},
+                                                      {"0.25", {&wrong_and_mean(), 0.25}},
+                                                      {"wrong:1%", {find_measure("wrong"), 0.01}},
+                                                      {"mean:0.5%", {find_measure("mean"), 0.005}},
+                                                      {"flip:0.05", {find_measure("flip"), 0.05}},
+                                                      {"edge:0.5texel", {find_measure("edge"), 0.5}},
+                                                      {"edge:2texels", {find_measure("edge"), 2.0}}}) {
     const auto parsed = parse_threshold(text);
     ASSERT_TRUE(parsed) << text;
     EXPECT_EQ(*parsed, wanted) << text;

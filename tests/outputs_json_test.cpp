@@ -37,7 +37,7 @@ TEST(ResultJson, NamesTheThresholdThatErrorsWereHeldAgainst) {
   const auto made = make_synthetic();
   EXPECT_FALSE(Json::parse(result_json(made->comparison)).contains("fail_above"));
   for (const double limit : {0.0, 1.0}) {
-    made->comparison.fail_above = Threshold{ErrorMeasure::mean, limit};
+    made->comparison.fail_above = Threshold{find_measure("mean"), limit};
     const Json json = Json::parse(result_json(made->comparison));
     EXPECT_EQ(joined(SchemaCheck(load_schema()).violations(json)), "");
     EXPECT_EQ(json["fail_above"]["threshold"], limit == 0.0 ? "mean:0%" : "mean:100%");

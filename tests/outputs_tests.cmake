@@ -1,6 +1,6 @@
 # What a comparison is written as.
 gnomon_test(outputs_test
-  SOURCES outputs_text_test.cpp outputs_time_difference_test.cpp outputs_verdict_test.cpp outputs_json_test.cpp outputs_pictures_test.cpp outputs_flip_test.cpp
+  SOURCES outputs_text_test.cpp outputs_time_difference_test.cpp outputs_verdict_test.cpp outputs_json_test.cpp outputs_figures_test.cpp outputs_pictures_test.cpp outputs_flip_test.cpp
   LIBS gnomon::studies nlohmann_json::nlohmann_json OpenImageIO::OpenImageIO TBB::tbb)
 
 # The report page in a real browser: sample pages are written first, then looked at.

@@ -117,32 +117,35 @@ TEST(ShadowCost, IsWhatIsLeftRunByRun) {
 // A filter as wide as a shadow's stripes leaves grey: nothing is wrong by more than one half, and nothing
 // right.
 TEST(Threshold, IsHeldAgainstItsOwnFigure) {
-  ErrorFigures grey{0.0, 0.35, 0.2, 1.5, 5000, 0, 0};
-  const auto fails = [&grey](ErrorMeasure measure, double limit) {
+  LightFigures grey;
+  grey.pixels.compared = 5000, grey.error.mean_absolute = 0.35, grey.error.flip = 0.2;
+  grey.edges.rms_texels = 1.5;
+  const auto fails = [&grey](const Figure* measure, double limit) {
     return exceeds({measure, limit}, grey) || too_uncertain({measure, limit}, grey);
   };
-  EXPECT_FALSE(fails(ErrorMeasure::wrong, 0.0));
-  EXPECT_TRUE(fails(ErrorMeasure::wrong_and_mean, 0.34));
-  EXPECT_FALSE(fails(ErrorMeasure::wrong_and_mean, 0.35));
-  EXPECT_TRUE(fails(ErrorMeasure::mean, 0.1));
-  EXPECT_TRUE(fails(ErrorMeasure::flip, 0.1));
-  EXPECT_FALSE(fails(ErrorMeasure::edge, 1.5));
-  EXPECT_TRUE(fails(ErrorMeasure::edge, 1.4));
-  grey.uncertain = 5000, grey.uncertain_by_samples = 4000;
-  EXPECT_TRUE(fails(ErrorMeasure::wrong, 0.4)) << "half of the pixels may be wrong";
-  EXPECT_FALSE(fails(ErrorMeasure::mean, 0.4)) << "the visibility of all but a tenth is known";
-  EXPECT_TRUE(fails(ErrorMeasure::mean, 0.09));
-  grey.flip = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(fails(ErrorMeasure::flip, 1.0)) << "not computed is not passed";
+  EXPECT_FALSE(fails(find_measure("wrong"), 0.0));
+  EXPECT_TRUE(fails(&wrong_and_mean(), 0.34));
+  EXPECT_FALSE(fails(&wrong_and_mean(), 0.35));
+  EXPECT_TRUE(fails(find_measure("mean"), 0.1));
+  EXPECT_TRUE(fails(find_measure("flip"), 0.1));
+  EXPECT_FALSE(fails(find_measure("edge"), 1.5));
+  EXPECT_TRUE(fails(find_measure("edge"), 1.4));
+  grey.pixels.uncertain = 5000, grey.pixels.uncertain_by_samples = 4000;
+  EXPECT_TRUE(fails(find_measure("wrong"), 0.4)) << "half of the pixels may be wrong";
+  EXPECT_FALSE(fails(find_measure("mean"), 0.4)) << "the visibility of all but a tenth is known";
+  EXPECT_TRUE(fails(find_measure("mean"), 0.09));
+  grey.error.flip = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(fails(find_measure("flip"), 1.0)) << "not computed is not passed";
 }
 
 // It has nothing that could be wrong; lights that all have nothing keep no limit.
 TEST(Threshold, OneOfSeveralLightsMayFaceAwayFromAllThatIsSeen) {
-  const Threshold limit{ErrorMeasure::wrong, 0.01};
-  const ErrorFigures nothing;
-  ErrorFigures right, wrong, open;
-  right.compared = wrong.compared = 100, wrong.wrong_fraction = 0.5, open.uncertain = 5;
-  const auto kept = [&](const std::vector<ErrorFigures>& lights) { return is_kept(limit, lights); };
+  const Threshold limit{find_measure("wrong"), 0.01};
+  const LightFigures nothing;
+  LightFigures right, wrong, open;
+  right.pixels.compared = wrong.pixels.compared = 100, wrong.error.wrong_fraction = 0.5;
+  open.pixels.uncertain = 5;
+  const auto kept = [&](const std::vector<LightFigures>& lights) { return is_kept(limit, lights); };
   EXPECT_TRUE(kept({right}));
   EXPECT_TRUE(kept({right, nothing}));
   EXPECT_FALSE(kept({right, nothing, wrong}));
@@ -269,8 +272,8 @@ TEST(CellSummary, WeighsEdgesByTheirNumber) {
   const auto cell = summarise(result_line(made->comparison, {{"map_size", "64"}}),
                               times_line(made->comparison, 0, false, 1.0));
   ASSERT_TRUE(cell) << cell.error().message();
-  EXPECT_EQ(cell->edges, 40u);
-  EXPECT_NEAR(cell->edge_rms_texels, std::sqrt((10.0 * 16.0 + 30.0 * 4.0) / 40.0), 1e-12);
+  EXPECT_EQ(cell->figures.edges.edges, 40u);
+  EXPECT_NEAR(cell->figures.edges.rms_texels, std::sqrt((10.0 * 16.0 + 30.0 * 4.0) / 40.0), 1e-12);
 }
 
 TEST(Lessons, EachIsTitledAndBeginsWithWordsAndACommand) {

@@ -332,7 +332,7 @@ TEST(Verdict, CountsWhatIsUncertain) {
 
 std::string tuned_page(double needs_more_than, double needs_less_than) {
   TuneGoal goal;
-  goal.max_error = Threshold{ErrorMeasure::wrong, 1e-6};
+  goal.max_error = Threshold{find_measure("wrong"), 1e-6};
   TuneResult result;
   FamilyResult& family = result.families.emplace_back();
   family.family.name = "slope bias 1";

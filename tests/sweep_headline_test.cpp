@@ -11,9 +11,9 @@ CellSummary cell(std::size_t index, double error, double ms, double spread, std:
   CellSummary out;
   out.cell = index;
   out.axes = {{"map_size", std::to_string(texels)}};
-  out.compared = 1000;
-  out.wrong_fraction = out.mean_absolute = error;
-  out.lights = {{error, error, 0.0, 0.0, 1000, 0, 0}};
+  out.figures.pixels.compared = 1000;
+  out.figures.error.wrong_fraction = out.figures.error.mean_absolute = error;
+  out.lights = {out.figures};
   out.raster_ms = ms, out.raster.runs = {ms - 0.5 * spread, ms, ms + 0.5 * spread};
   out.map_texels = texels;
   return out;
@@ -49,7 +49,7 @@ TEST(ParetoFront, UntimedCellsAreOnNone) {
 TEST(SweepHeadline, NamesTheBestForErrorForTimeAndForBoth) {
   const std::vector<CellSummary> cells{cell(0, 0.10, 10.0, 1.0, 64), cell(1, 0.02, 12.0, 1.0, 128),
                                        cell(2, 0.01, 90.0, 1.0, 256)};
-  const Headline said = sweep_headline(cells, pareto_front(cells), Threshold{ErrorMeasure::wrong, 0.05});
+  const Headline said = sweep_headline(cells, pareto_front(cells), Threshold{find_measure("wrong"), 0.05});
   const std::vector<std::string> lines = said.lines();
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(lines[0],
@@ -59,7 +59,7 @@ TEST(SweepHeadline, NamesTheBestForErrorForTimeAndForBoth) {
   EXPECT_TRUE(lines[2].starts_with("Best for time: cell 0 ")) << lines[2];
   EXPECT_TRUE(lines[3].starts_with("Best for both (least product of error and time): cell 1 ")) << lines[3];
   EXPECT_TRUE(said.limit_met);
-  EXPECT_FALSE(sweep_headline(cells, pareto_front(cells), Threshold{ErrorMeasure::mean, 0.005}).limit_met);
+  EXPECT_FALSE(sweep_headline(cells, pareto_front(cells), Threshold{find_measure("mean"), 0.005}).limit_met);
 }
 
 TEST(SweepHeadline, SaysThatTimesWithinTheirSpreadAreEqual) {

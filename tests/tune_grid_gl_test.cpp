@@ -62,7 +62,7 @@ GridCheck check(const std::string& scene_name, double max_error) {
   compare::Engine engine(world.scene, world.world, *world.renderer, false);
   const Setting base = small_setting(world);
   TuneOptions options;
-  options.goal.max_error = compare::Threshold{compare::ErrorMeasure::wrong, max_error};
+  options.goal.max_error = compare::Threshold{compare::find_measure("wrong"), max_error};
   options.sizes = {32, 64, 128, 256, 512};
   options.families = {family("constant", Technique::hard), family("slope", Technique::hard, 1.0),
                       family("pcf", Technique::pcf), family("izb", Technique::izb)};
@@ -122,7 +122,7 @@ compare::FamilyResult measured(const char* name, double error, std::vector<doubl
 
 compare::TuneGoal error_goal(double limit) {
   compare::TuneGoal goal;
-  goal.max_error = compare::Threshold{compare::ErrorMeasure::wrong, limit};
+  goal.max_error = compare::Threshold{compare::find_measure("wrong"), limit};
   return goal;
 }
 
@@ -158,26 +158,26 @@ TEST(TuneTies, SettingsJustOverTheLimitAreTold) {
 
 // The grid and the tuner ask this.
 TEST(Tune, WhatIsUncertainOrNotKnownIsNotGood) {
-  compare::ErrorFigures known;
-  known.compared = 1000;
+  compare::LightFigures known;
+  known.pixels.compared = 1000;
   compare::Attempt attempt;
-  compare::set_figures({known}, compare::ErrorMeasure::wrong, attempt);
+  compare::set_figures({known}, *compare::find_measure("wrong"), attempt);
   EXPECT_TRUE(is_good(error_goal(0.001), attempt));
-  compare::ErrorFigures doubtful = known;
-  doubtful.uncertain = 100;
-  compare::set_figures({doubtful}, compare::ErrorMeasure::wrong, attempt);
+  compare::LightFigures doubtful = known;
+  doubtful.pixels.uncertain = 100;
+  compare::set_figures({doubtful}, *compare::find_measure("wrong"), attempt);
   EXPECT_FALSE(is_good(error_goal(0.001), attempt));
-  compare::ErrorFigures unknown = known;
-  unknown.wrong_fraction = std::numeric_limits<double>::quiet_NaN();
-  compare::set_figures({known, unknown}, compare::ErrorMeasure::wrong, attempt);
+  compare::LightFigures unknown = known;
+  unknown.error.wrong_fraction = std::numeric_limits<double>::quiet_NaN();
+  compare::set_figures({known, unknown}, *compare::find_measure("wrong"), attempt);
   EXPECT_FALSE(is_good(error_goal(0.001), attempt));
   // Of several lights the one with the largest error need not be the one that is uncertain.
-  compare::ErrorFigures wrong = known;
-  wrong.wrong_fraction = 0.01;
-  compare::set_figures({wrong, known}, compare::ErrorMeasure::wrong, attempt);
+  compare::LightFigures wrong = known;
+  wrong.error.wrong_fraction = 0.01;
+  compare::set_figures({wrong, known}, *compare::find_measure("wrong"), attempt);
   EXPECT_TRUE(is_good(error_goal(0.02), attempt));
   for (const auto& lights : {std::vector{wrong, doubtful}, std::vector{doubtful, wrong}}) {
-    compare::set_figures(lights, compare::ErrorMeasure::wrong, attempt);
+    compare::set_figures(lights, *compare::find_measure("wrong"), attempt);
     EXPECT_EQ(attempt.error, 0.01);
     EXPECT_FALSE(is_good(error_goal(0.02), attempt));
   }
@@ -192,7 +192,7 @@ TEST(Tune, WhatLevelsOffIsNotGoodEnoughAtTheLargestMap) {
   const Setting base = small_setting(world);
   TuneOptions options;
   options.goal.max_error =
-      compare::Threshold{compare::ErrorMeasure::wrong, 0.02};  // hard shadows reach it at the largest size
+      compare::Threshold{compare::find_measure("wrong"), 0.02};  // hard shadows reach it at the largest size
   options.sizes = {64, 128, 256, 512, 1024, 2048, 4096};
   options.families = {family("hard", Technique::hard), family("hard, front faces", Technique::hard),
                       family("vsm", Technique::vsm)};

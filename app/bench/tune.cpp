@@ -52,7 +52,7 @@ Expected<compare::GridCheck> check_scene(const LoadedScene& loaded, const TuneBe
   const auto fitting = fitting_families(*all, *loaded.scene, base.compared);
   if (!fitting) return fail(fitting.error());
   compare::TuneOptions options;
-  options.goal.max_error = compare::Threshold{compare::ErrorMeasure::wrong, bench.max_error};
+  options.goal.max_error = compare::Threshold{compare::find_measure("wrong"), bench.max_error};
   options.sizes = grid_sizes((*renderer)->info().max_map_size);
   for (const OptionFamily& family : *fitting) {
     const std::string technique(raster::technique_name(family.tuned.map.technique));

@@ -17,6 +17,7 @@
 #include "app/sweep/command.h"
 #include "app/sweep/make_cells.h"
 #include "app/values.h"
+#include "compare/result/figures.h"
 #include "raster/shader_folder.h"
 #include "scene/expected.h"
 #include "scene/files/path_status.h"
@@ -156,7 +157,7 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
 
 Expected<ExitCode> run_sweep(SweepCommand& command) {
   const Stopwatch total;
-  if (command.max_error && command.max_error->measure == compare::ErrorMeasure::flip)
+  if (command.max_error && command.max_error->measure->needs == compare::FigureNeeds::perception)
     command.perceptual = true;
   if (const auto fine = finish_metric(command.metric, command.max_error); !fine) return fail(fine.error());
   if (command.folder.empty()) command.folder = default_output(command.scene.name) + "-sweep";

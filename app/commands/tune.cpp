@@ -19,6 +19,7 @@
 #include "app/sweep/axes.h"
 #include "app/tune_answer.h"
 #include "app/values.h"
+#include "compare/result/figures.h"
 #include "compare/result/number_text.h"
 #include "raster/shader_folder.h"
 #include "report/write_outputs.h"
@@ -195,7 +196,7 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
     return setting_as_given(command, bench.families[family], attempt, bench.given, *bench.loaded.world,
                             bench.setting);
   };
-  const bool perceptual = with_page || command.goal.measure() == compare::ErrorMeasure::flip;
+  const bool perceptual = with_page || command.goal.measure().needs == compare::FigureNeeds::perception;
   compare::Engine engine(*bench.loaded.scene, *bench.loaded.world, *bench.renderer, perceptual);
   if (bench.film) engine.film_with(*bench.film);
   bench.options.most_seconds = command.most_seconds;
@@ -252,7 +253,7 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   if (const auto checked = check_lists(command); !checked) return fail(checked.error());
   if (const auto fine = finish_metric(command.metric, command.goal.max_error); !fine)
     return fail(fine.error());
-  if (command.metric.is_filmed()) command.goal.of_time = compare::ErrorMeasure::shimmer;
+  if (command.metric.is_filmed()) command.goal.of_time = compare::find_measure("shimmer");
   const auto families = make_families(command.options, command.metric.is_filmed(), command.engine);
   if (!families) return fail(families.error());
   auto files = check_files(command);

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/bias/bias_curve.h"
+#include "compare/ladder/budget.h"
+#include "compare/result/figures.h"
 #include "scene/files/image_io.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
@@ -17,21 +19,16 @@ namespace {
 
 using nlohmann::json;
 
-/// Null stands where nothing is compared: nothing is off there.
-double size_or_none(const json& size) {
-  return size.is_null() ? 0.0 : size.get<double>();
-}
-
-double figure_of_light(const json& light, std::string_view name) {
+/// As a share of the compared pixels what is counted. Null stands where nothing is compared: nothing is off there.
+double figure_of_light(const json& light, const Measure& measure) {
+  const json& value =
+      measure.figure == nullptr
+          ? light.at("classes").at(std::string(measure.name))
+          : light.at(std::string(measure.figure->block())).at(std::string(measure.figure->name()));
+  if (value.is_null()) return 0.0;
+  const bool is_count = measure.figure == nullptr || measure.figure->form() == compare::FigureForm::count;
   const double compared = std::max(1.0, light.at("pixels").at("compared").get<double>());
-  const json& error = light.at("error");
-  if (name == "wrong") return error.at("wrong_fraction").get<double>();
-  if (name == "false_shadow") return error.at("false_shadow").get<double>() / compared;
-  if (name == "missed_shadow") return error.at("missed_shadow").get<double>() / compared;
-  if (name == "mean_error") return error.at("mean_absolute").get<double>();
-  if (name == "detachment") return size_or_none(light.at("detachment").at("mean_texels"));
-  if (name == "edge") return size_or_none(light.at("edges").at("rms_texels"));
-  return light.at("classes").at(std::string(name)).get<double>() / compared;
+  return value.get<double>() / (is_count ? compared : 1.0);
 }
 
 RunResult figures_in(const json& result, const std::string& folder) {
@@ -39,7 +36,7 @@ RunResult figures_in(const json& result, const std::string& folder) {
   for (const json& light : result.at("lights")) {
     run.ties += light.at("error").at("ties").get<std::uint64_t>();
     for (std::size_t i = 0; i < run.figures.size(); ++i)
-      run.figures[i] = std::max(run.figures[i], figure_of_light(light, measures()[i].name));
+      run.figures[i] = std::max(run.figures[i], figure_of_light(light, measures()[i]));
     const auto runs = light.at("times_ms").at("shade_pass").at("runs").get<std::vector<double>>();
     run.shading_ms += *std::min_element(runs.begin(), runs.end());
   }
@@ -60,12 +57,6 @@ struct TwoErrors {
   double false_shadow = 0.0, missed_shadow = 0.0;
 };
 
-/// What is exactly one half off counts by half.
-double weight_of(double difference) {
-  if (std::abs(difference) == 0.5) return 0.5;
-  return std::abs(difference) > 0.5 ? 1.0 : 0.0;
-}
-
 Expected<TwoErrors> errors_with_ties(const std::string& values) {
   const auto image = read_channels(values);
   if (!image) return fail(image.error());
@@ -73,15 +64,20 @@ Expected<TwoErrors> errors_with_ties(const std::string& values) {
                 *label = image->find("class.V");
   if (drawn == nullptr || truth == nullptr || label == nullptr)
     return fail(Error{ErrorKind::internal, "holds no visibility to compare", values});
-  double too_dark = 0.0, too_light = 0.0, compared = 0.0;
+  struct Count {
+    std::uint64_t wrong = 0, ties = 0;
+  } too_dark, too_light;
+  std::uint64_t compared = 0;
   for (std::size_t i = 0; i < drawn->values.size(); ++i) {
     if (label->values[i] < 0.0f) continue;
-    compared += 1.0;
-    const double difference = double(drawn->values[i]) - double(truth->values[i]);
-    (difference < 0.0 ? too_dark : too_light) += weight_of(difference);
+    ++compared;
+    const double difference = double(drawn->values[i]) - double(truth->values[i]),
+                 size = std::abs(difference);
+    Count& count = difference < 0.0 ? too_dark : too_light;
+    count.wrong += size > 0.5 ? 1 : 0, count.ties += size == 0.5 ? 1 : 0;
   }
-  compared = std::max(1.0, compared);
-  return TwoErrors{too_dark / compared, too_light / compared};
+  return TwoErrors{compare::wrong_share(too_dark.wrong, too_dark.ties, compared),
+                   compare::wrong_share(too_light.wrong, too_light.ties, compared)};
 }
 
 /// Adds one light's compared pixels, by what was drawn.

@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/setting.h"
 #include "compare/comparison.h"
+#include "compare/result/figures.h"
 #include "raster/shader_folder.h"
 #include "raster/technique_traits.h"
 #include "scene/files/json_reader.h"
@@ -181,19 +182,18 @@ Rubric read_root(const JsonNode& node, const std::string& folder) {
 const std::vector<Measure>& measures() {
   static const std::vector<Measure> all = [] {
     using enum Measure::Unit;
-    std::vector<Measure> list = {{"wrong", share, "wrong pixels"},
-                                 {"false_shadow", share, "false shadows"},
-                                 {"missed_shadow", share, "missed shadows"},
-                                 {"mean_error", share, "a mean error"},
-                                 {"detachment", texels, "shadows that start too far away"},
-                                 {"edge", texels, "shadow edges off their place (root mean square)"}};
+    std::vector<Measure> list;
+    for (const compare::Figure& figure : compare::figures())
+      if (!figure.mark.name.empty())
+        list.push_back(
+            {figure.mark.name, figure.unit == "texels" ? texels : share, figure.mark.words, &figure});
     for (std::size_t i = 1; i <= compare::class_count; ++i) {
       const auto label = static_cast<compare::Label>(i);
       if (label == compare::Label::unexplained) continue;  // of pictures that the program did not draw
       const bool decided_before = label == compare::Label::light_size ||
                                   label == compare::Label::outside_map ||
                                   label == compare::Label::custom_shader;
-      list.push_back({compare::label_name(label), share, "pixels with this label", !decided_before});
+      list.push_back({compare::label_name(label), share, "pixels with this label", nullptr, !decided_before});
     }
     return list;
   }();

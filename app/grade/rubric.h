@@ -10,6 +10,10 @@
 
 #include "scene/expected.h"
 
+namespace gnomon::compare {
+struct Figure;
+}
+
 namespace gnomon::app::grade {
 
 /// One comparison that a check looks at: a scene and options of `gnomon compare`.
@@ -31,6 +35,7 @@ struct Measure {
   std::string_view name;
   enum class Unit : std::uint8_t { share, texels } unit;  ///< of the pixels compared; texels of the map
   std::string_view words;                                 ///< "false shadows"
+  const compare::Figure* figure = nullptr;                ///< null: a label
   bool may_be_unknown = false;  ///< a label that pixels labelled custom_shader may hide
 };
 /// wrong, false_shadow, missed_shadow, mean_error, detachment, edge, and every label.

@@ -26,7 +26,7 @@ std::vector<CascadeSums> sums_of_cascades(const raster::RasterFrame& drawn,
   return sums;
 }
 
-std::vector<CascadeFigures> figures_of(const std::vector<CascadeSums>& sums) {
+std::vector<CascadeFigures> cascade_figures(const std::vector<CascadeSums>& sums) {
   std::vector<CascadeFigures> figures;
   for (const CascadeSums& cascade : sums)
     figures.push_back(

@@ -20,5 +20,5 @@ struct CascadeSums {
 /// One for each cascade of a map of technique csm that was drawn here; else none.
 std::vector<CascadeSums> sums_of_cascades(const raster::RasterFrame& drawn,
                                           const raster::LightRecord& record);
-std::vector<CascadeFigures> figures_of(const std::vector<CascadeSums>& sums);
+std::vector<CascadeFigures> cascade_figures(const std::vector<CascadeSums>& sums);
 }  // namespace gnomon::compare

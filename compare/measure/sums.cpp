@@ -180,7 +180,7 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
   out.pixels = sums_.pixels();
   sums_.terms().put(out);
   if (options_.perceptual) perception_.put(out.error);
-  out.cascades = figures_of(cascades_);
+  out.cascades = cascade_figures(cascades_);
   out.edges = edges_.stats();
   out.detachment = detachment_.stats();
   out.bleeding = bleeding_.stats();

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "compare/ladder/by_cascade.h"
+#include "compare/result/figures.h"
 #include "compare/result/judged.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
@@ -38,9 +39,9 @@ Json costs_json(const Comparison& c) {
 // What --fail-above was held against; absent where nothing was asked for.
 void add_threshold(const Comparison& c, Json& json) {
   if (!c.fail_above) return;
-  const std::vector<ErrorFigures> lights = figures_of(c);
+  const std::vector<LightFigures> lights = judged_lights(c);
   json["fail_above"] = {{"threshold", threshold_text(*c.fail_above)},
-                        {"measure", measure_name(c.fail_above->measure)},
+                        {"measure", c.fail_above->measure->measure.name},
                         {"limit", number(c.fail_above->limit)},
                         {"failed", !is_kept(*c.fail_above, lights)}};
 }
@@ -202,8 +203,7 @@ std::string result_json(const Comparison& c, double report_ms, double total_ms) 
   for (std::size_t i = 0; i < c.lights.size(); ++i) {
     if (!c.judged && !c.lights[i].cascades.empty())
       json["lights"][i]["by_cascade"] = by_cascade_json(c.lights[i].cascades);
-    if (const auto& seams = c.lights[i].seams)
-      json["lights"][i]["seams"] = {{"at_border", seams->at_border}, {"changed", seams->changed}};
+    if (c.lights[i].seams) json["lights"][i]["seams"] = block_json("seams", c.lights[i]);
   }
   if (c.judged) json["judged"] = judged_json(*c.judged);
   add_threshold(c, json);

@@ -5,6 +5,7 @@
 #include "compare/ladder/filter_parameters.h"
 #include "compare/ladder/labels.h"
 #include "compare/result/engine_units_json.h"
+#include "compare/result/figures.h"
 #include "compare/result/judged.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
@@ -183,37 +184,9 @@ Json map_json(const Comparison& c, const LightComparison& light) {
             {"cascades", cascades_json(map, record.map.view)},
             {"warp", number(record.map.view.face(0).warp * record.map.view.face(0).half_extent.y)},
             {"filter", filter_json(map)},
-            {"texel_world",
-             {{"min", number(light.texel_world[0])},
-              {"median", number(light.texel_world[1])},
-              {"max", number(light.texel_world[2])}}}};
+            {"texel_world", block_json("map.texel_world", light)}};
   if (record.external) json["hybrid"] = hybrid_json(*record.external);
   return json;
-}
-
-Json pixels_json(const PixelCounts& p) {
-  return {{"total", p.total},
-          {"background", p.background},
-          {"facing_away", p.facing_away},
-          {"silhouette", p.silhouette},
-          {"uncertain", p.uncertain},
-          {"uncertain_by_samples", p.uncertain_by_samples},
-          {"compared", p.compared}};
-}
-
-Json error_json(const ErrorStats& e) {
-  return {{"wrong", e.wrong},
-          {"wrong_fraction", number(e.wrong_fraction)},
-          {"false_shadow", e.false_shadow},
-          {"missed_shadow", e.missed_shadow},
-          {"ties", e.ties},
-          {"fractional", e.fractional},
-          {"mean_absolute", number(e.mean_absolute)},
-          {"rms", number(e.rms)},
-          {"flip", number(e.flip)},
-          {"ssim", number(e.ssim)},
-          {"flip_compared", number(e.flip_compared)},
-          {"ssim_compared", number(e.ssim_compared)}};
 }
 
 Json budget_json(const Comparison& c, const LightComparison& light) {
@@ -242,30 +215,6 @@ Json classes_json(const LightComparison& light) {
   for (std::size_t k = 0; k < class_count; ++k)
     json[std::string(label_name(static_cast<Label>(k + 1)))] = light.classes[k];
   return json;
-}
-
-Json bleeding_json(const LightComparison& light) {
-  const double filter = light.budget[static_cast<std::size_t>(Cause::filter)].absolute_mean;
-  const BleedingStats& b = light.bleeding;
-  return {{"pixels", b.pixels},
-          {"mean", number(b.mean)},
-          {"max", number(b.max)},
-          {"share_of_filter", number(filter > 0.0 ? b.mean / filter : 0.0)}};
-}
-
-Json penumbra_json(const PenumbraStats& p) {
-  return {{"edges", p.edges},
-          {"true_penumbra_world", number(p.true_penumbra_world)},
-          {"drawn_penumbra_world", number(p.drawn_penumbra_world)},
-          {"umbra_edges", p.umbra_edges},
-          {"true_umbra_world", number(p.true_umbra_world)},
-          {"drawn_umbra_world", number(p.drawn_umbra_world)},
-          {"true_umbra_pixels", p.true_umbra_pixels},
-          {"true_penumbra_pixels", p.true_penumbra_pixels},
-          {"drawn_umbra_pixels", p.drawn_umbra_pixels},
-          {"drawn_penumbra_pixels", p.drawn_penumbra_pixels},
-          {"standard_error_mean", number(p.standard_error_mean)},
-          {"standard_error_max", number(p.standard_error_max)}};
 }
 
 Json bias_curve_json(const LightComparison& light) {
@@ -326,29 +275,6 @@ Json theory_json(const TheoryStats& t) {
           {"measured_aliasing", distribution_json(t.measured_aliasing)}};
 }
 
-// null where no receiver has a texel.
-Json in_texels(double world, const LightComparison& light) {
-  const double texel = light.texel_world[1];
-  return texel > 0.0 ? number(world / texel) : Json(nullptr);
-}
-
-// Of the compared pixels; null where the technique looks up no map, or a shader of the user's own does.
-Json lookups_json(const LightComparison& light) {
-  if (!light.lookups) return {{"total", nullptr}, {"per_pixel", nullptr}};
-  const auto pixels = static_cast<double>(std::max<std::uint64_t>(light.pixels.compared, 1));
-  return {{"total", *light.lookups}, {"per_pixel", number(static_cast<double>(*light.lookups) / pixels)}};
-}
-
-Json ray_tests_json(const RayWork& work) {
-  const auto per_ray = [&work](std::uint64_t tests) {
-    return work.rays > 0 ? number(static_cast<double>(tests) / static_cast<double>(work.rays))
-                         : Json(nullptr);
-  };
-  return {{"rays", work.rays},
-          {"boxes_per_ray", per_ray(work.boxes)},
-          {"primitives_per_ray", per_ray(work.primitives)}};
-}
-
 }  // namespace
 
 Json light_times_json(const Comparison& c, const LightComparison& light) {
@@ -369,45 +295,42 @@ Json light_times_json(const Comparison& c, const LightComparison& light) {
   return json;
 }
 
-namespace {
-
-Json shimmer_figures_json(const ShimmerFigures& film) {
-  return {{"frames", film.frames},
-          {"fps", number(film.fps)},
-          {"receiver_steps", film.receiver_steps},
-          {"flips", film.flips},
-          {"flips_per_receiver_second", number(film.flips_per_receiver_second)},
-          {"mean_absolute", number(film.mean_absolute)}};
+Json block_json(std::string_view block, const LightFigures& light) {
+  Json json = Json::object();
+  for (const Figure& figure : figures()) {
+    if (figure.block() != block) continue;
+    const double value = figure.place.get(light);
+    const bool is_count = figure.form() == FigureForm::count && std::isfinite(value);
+    json[std::string(figure.name())] = is_count ? Json(static_cast<std::uint64_t>(value)) : number(value);
+  }
+  return json;
 }
 
-}  // namespace
+LightFigures read_pooled_figures(const Json& light) {
+  LightFigures out;
+  for (const Figure& figure : figures()) {
+    const std::string block(figure.block());
+    if (figure.pooling.kind == Pooling::Kind::none || (figure.place.optional && !light.contains(block)))
+      continue;
+    const Json& value = light.at(block).at(std::string(figure.name()));
+    const bool known = value.is_number() || figure.form() == FigureForm::count;
+    figure.place.set(out, known ? value.get<double>() : std::numeric_limits<double>::quiet_NaN());
+  }
+  return out;
+}
 
 Json light_block(const Comparison& c, const LightComparison& light) {
   const raytrace::LightTruth& truth = true_record(c, light);
   Json block{{"light", light_json(light_of(c, light))},
              {"map", map_json(c, light)},
-             {"pixels", pixels_json(light.pixels)},
-             {"error", error_json(light.error)},
+             {"pixels", block_json("pixels", light)},
+             {"error", block_json("error", light)},
              {"budget", budget_json(c, light)},
              {"ladder", ladder_json(light)},
              {"classes", classes_json(light)},
-             {"right_by_accident", {{"shadowed", light.accidents.shadowed}, {"lit", light.accidents.lit}}},
-             {"edges",
-              {{"count", light.edges.edges},
-               {"mean_texels", number(light.edges.mean_texels)},
-               {"rms_texels", number(light.edges.rms_texels)},
-               {"rms_pixels", number(light.edges.rms_pixels)},
-               {"mean_absolute_texels", number(light.edges.mean_absolute_texels)},
-               {"mean_world", number(light.edges.mean_world)},
-               {"mean_absolute_world", number(light.edges.mean_absolute_world)},
-               {"rms_world", number(light.edges.rms_world)}}},
-             {"detachment",
-              {{"pixels", light.detachment.pixels},
-               {"mean_world", number(light.detachment.mean_world)},
-               {"max_world", number(light.detachment.max_world)},
-               {"rms_world", number(light.detachment.rms_world)},
-               {"mean_texels", in_texels(light.detachment.mean_world, light)},
-               {"max_texels", in_texels(light.detachment.max_world, light)}}},
+             {"right_by_accident", block_json("right_by_accident", light)},
+             {"edges", block_json("edges", light)},
+             {"detachment", block_json("detachment", light)},
              {"bias_curve", bias_curve_json(light)},
              {"bias_curve_withheld",
               light.bias_curve_withheld.empty() ? Json(nullptr) : Json(light.bias_curve_withheld)},
@@ -416,12 +339,12 @@ Json light_block(const Comparison& c, const LightComparison& light) {
              {"engine_units", engine_units_json(engine_units(c, light))},
              {"theory", theory_json(light.theory)},
              {"shadow_rays", truth.rays},
-             {"lookups", lookups_json(light)},
-             {"ray_tests", ray_tests_json(light.ray_work)},
+             {"lookups", block_json("lookups", light)},
+             {"ray_tests", block_json("ray_tests", light)},
              {"times_ms", light_times_json(c, light)}};
-  if (raster::uses_moments(c.raster.options.map.technique)) block["bleeding"] = bleeding_json(light);
-  if (light.shimmer) block["shimmer"] = shimmer_figures_json(*light.shimmer);
-  if (light.penumbra) block["penumbra"] = penumbra_json(*light.penumbra);
+  if (raster::uses_moments(c.raster.options.map.technique)) block["bleeding"] = block_json("bleeding", light);
+  if (light.shimmer) block["shimmer"] = block_json("shimmer", light);
+  if (light.penumbra) block["penumbra"] = block_json("penumbra", light);
   if (truth.is_soft()) {
     block["shadow_samples"] = truth.samples;
     block["soft_shadow_rays"] = truth.soft_rays;

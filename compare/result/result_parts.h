@@ -51,6 +51,11 @@ inline std::string dumped(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+/// The figures of a block ("error", "map.texel_world") by their names.
+Json block_json(std::string_view block, const LightFigures& light);
+/// Every figure that is pooled over lights, from an entry of "lights". Throws Json::exception where one is missing.
+LightFigures read_pooled_figures(const Json& light);
+
 /// One entry of "lights".
 Json light_block(const Comparison& comparison, const LightComparison& light);
 /// The budget of each cascade by itself, finest first; null of other techniques.

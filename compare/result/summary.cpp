@@ -7,6 +7,7 @@
 #include "compare/ladder/budget.h"
 #include "compare/ladder/filter_parameters.h"
 #include "compare/ladder/labels.h"
+#include "compare/result/figures.h"
 #include "compare/result/judged.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
@@ -137,10 +138,14 @@ std::string wrong_line(const ErrorStats& e) {
                      percent(e.wrong_fraction), ties, grouped(e.false_shadow), grouped(e.missed_shadow));
 }
 
-std::string error_line(const ErrorStats& e) {
-  const auto flip = [](double value) { return std::isfinite(value) ? plain_number(value) : "none"; };
-  return fmt::format("mean {}, RMS {}; FLIP {}, over compared pixels alone {}", plain_number(e.mean_absolute),
-                     plain_number(e.rms), flip(e.flip), flip(e.flip_compared));
+std::string error_line(const LightFigures& light) {
+  std::string text;
+  for (const Figure& figure : figures())
+    if (!figure.in_summary.empty()) {
+      const double value = figure.of(light);
+      text += std::string(figure.in_summary) + (std::isfinite(value) ? plain_number(value) : "none");
+    }
+  return text;
 }
 
 std::string labels_line(const LightComparison& light) {
@@ -316,7 +321,7 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
   page.field("pixels", pixels_line(light.pixels));
   if (light.pixels.compared > 0) {
     page.field("wrong", wrong_line(light.error));
-    page.field("error", error_line(light.error));
+    page.field("error", error_line(light));
     page.field("labels", labels_line(light));
     if (light.accidents.shadowed + light.accidents.lit > 0)
       page.field("by chance", accidents_line(light.accidents));

@@ -107,7 +107,7 @@ Json path_json(const ShimmerOptions& options) {
 }  // namespace
 
 double flips_per_receiver_second(const ShimmerOptions& options, const ShimmerLight& light) {
-  return figures_of(options, light).flips_per_receiver_second;
+  return shimmer_figures(options, light).flips_per_receiver_second;
 }
 
 EdgeSpeed edge_speed(const ShimmerOptions& options, const ShimmerLight& light) {

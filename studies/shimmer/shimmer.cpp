@@ -268,7 +268,7 @@ Expected<Shimmer> film_shimmer(const World& world, Scene& scene, raster::Rendere
   return Film(world, scene, renderer, lights, options, tracer, topology).run(sink, progress);
 }
 
-ShimmerFigures figures_of(const FilmPlan& plan, const ShimmerLight& light) {
+ShimmerFigures shimmer_figures(const FilmPlan& plan, const ShimmerLight& light) {
   const TemporalSums& total = light.temporal.total();
   const double steps = static_cast<double>(std::max<std::uint64_t>(total.receivers, 1));
   return {.frames = plan.time.frames,
@@ -291,7 +291,7 @@ Expected<std::vector<ShimmerFigures>> count_flips(const FilmTools& tools, const 
   const auto made = film.run({}, {});
   if (!made) return fail(made.error());
   std::vector<ShimmerFigures> out;
-  for (const ShimmerLight& light : made->lights) out.push_back(figures_of(plain, light));
+  for (const ShimmerLight& light : made->lights) out.push_back(shimmer_figures(plain, light));
   return out;
 }
 

@@ -59,7 +59,7 @@ struct FilmTools {
   const raytrace::Topology& topology;
   const raytrace::RayTracedFrame& truth;  ///< of the scene as it stands, by the same options
 };
-ShimmerFigures figures_of(const FilmPlan& plan, const ShimmerLight& light);
+ShimmerFigures shimmer_figures(const FilmPlan& plan, const ShimmerLight& light);
 /// The figures alone, of each light in turn; nothing is explained.
 Expected<std::vector<ShimmerFigures>> count_flips(const FilmTools& tools, const World& world, Scene& scene,
                                                   raster::Renderer& renderer,

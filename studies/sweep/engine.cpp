@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "compare/result/figures.h"
 #include "raster/technique_traits.h"
 #include "scene/parallel.h"
 #include "studies/shimmer/shimmer.h"
@@ -208,10 +209,10 @@ Expected<double> Engine::Impl::time_drawing(const Setting& setting) {
   return raster_ms(comparison.raster);
 }
 
-std::vector<ErrorFigures> Engine::Impl::figures(ErrorMeasure measure) const {
-  std::vector<ErrorFigures> out;
+std::vector<LightFigures> Engine::Impl::figures(const Figure& measure) const {
+  std::vector<LightFigures> out;
   for (std::size_t i = 0; i < comparison.raster.lights.size(); ++i)
-    out.push_back(figures_of(input(comparison.raster, i), measure));
+    out.push_back(measure_ends(input(comparison.raster, i), measure));
   return out;
 }
 
@@ -227,7 +228,7 @@ raster::Bias with_three_digits(raster::Bias bias) {
 
 // What the drawing would be wrong by with the bias that its gaps say is best, asked for once for all lights: where the
 // constant scales it is a number of texels, and each light has its own.
-void Engine::Impl::probe_best_bias(const raster::MapOptions& map, ErrorMeasure measure, Probe& probe) {
+void Engine::Impl::probe_best_bias(const raster::MapOptions& map, const Figure& measure, Probe& probe) {
   raster::RasterFrame& frame = comparison.raster;
   const bool scales = raster::scales_bias(map);
   for (std::size_t i = 0; i < frame.lights.size(); ++i)
@@ -242,7 +243,7 @@ void Engine::Impl::probe_best_bias(const raster::MapOptions& map, ErrorMeasure m
   probe.lights_at_best = figures(measure);
 }
 
-Expected<Probe> Engine::Impl::probe(const Setting& setting, ErrorMeasure measure) {
+Expected<Probe> Engine::Impl::probe(const Setting& setting, const Figure& measure) {
   trace(setting);
   Setting without_map = setting;
   without_map.raster.map_contents = false;
@@ -252,13 +253,12 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting, ErrorMeasure measure
   for (const raster::LightRecord& light : frame.lights)
     if (light.external) probe.rays += light.external->rays;
   probe.lights = figures(measure);
-  if (film && measure == ErrorMeasure::shimmer) {
+  if (film && measure.needs == FigureNeeds::film) {
     const auto flips = count_flips(setting);
     if (!flips) return fail(flips.error());
-    for (std::size_t i = 0; i < flips->size(); ++i)
-      probe.lights[i].flips_per_second = (*flips)[i].flips_per_receiver_second;
+    for (std::size_t i = 0; i < flips->size(); ++i) probe.lights[i].shimmer = (*flips)[i];
   }
-  for (const ErrorFigures& light : probe.lights) probe.compared += light.compared;
+  for (const LightFigures& light : probe.lights) probe.compared += light.pixels.compared;
   probe.raster_ms = raster_ms(frame);
   probe.map_texels = frame.map_texels;
   probe.map_bytes = frame.map_bytes;
@@ -268,7 +268,7 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting, ErrorMeasure measure
   }
   probe.custom_shader = frame.custom_shader.has_value();
   probe.reads_bias = !frame.custom_shader || frame.custom_shader->reads_bias;
-  if (biases_follow_from_gaps(frame) && measure != ErrorMeasure::shimmer)
+  if (biases_follow_from_gaps(frame) && measure.needs != FigureNeeds::film)
     probe_best_bias(setting.raster.map, measure, probe);
   return probe;
 }
@@ -278,7 +278,7 @@ Engine::Engine(Scene& scene, const World& world, raster::Renderer& renderer, boo
 
 Engine::~Engine() = default;
 
-Expected<Probe> Engine::probe(const Setting& setting, ErrorMeasure measure) {
+Expected<Probe> Engine::probe(const Setting& setting, const Figure& measure) {
   return impl_->probe(setting, measure);
 }
 

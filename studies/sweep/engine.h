@@ -36,7 +36,7 @@ struct EngineWork {
 /// What the tuner needs of a drawing: its errors at every constant bias, and its times; nothing is climbed.
 struct Probe {
   std::uint64_t compared = 0;        ///< pixels, all lights together
-  std::vector<ErrorFigures> lights;  ///< of each light, as drawn
+  std::vector<LightFigures> lights;  ///< of each light, as drawn
   /// Of all lights together, as the first light's texel has them where the constant scales; empty where biases do not
   /// follow from gaps.
   GapLists gaps;
@@ -44,7 +44,7 @@ struct Probe {
   /// not follow from gaps.
   std::optional<BestBias> best;
   raster::Bias bias_at_best;  ///< with that constant, in the unit that draws it
-  std::vector<ErrorFigures> lights_at_best;
+  std::vector<LightFigures> lights_at_best;
   double bias_world = 0.0;   ///< the constant bias drawn with, of the first light
   double texel_world = 0.0;  ///< the width that biases in texels are taken in, of the first light
   double raster_ms = 0.0;    ///< median times of the map and the shading passes, all lights
@@ -68,7 +68,7 @@ class Engine {
   void expect_biases(std::vector<raster::Bias> biases);
 
   /// From now on a film of each setting is made as well, beginning with its picture: LightComparison::shimmer and
-  /// ErrorMeasure::shimmer.
+  /// the measure "shimmer".
   void film_with(const FilmPlan& plan);
 
   /// The comparison at a setting, as compare_world would make it, times aside; valid until the next call, and
@@ -81,7 +81,7 @@ class Engine {
   /// Draws at a setting and measures what `measure` needs (FLIP, edges and flips are left NaN otherwise; where it is
   /// flips, no other bias is looked for). A
   /// comparison that stood before is no longer valid.
-  Expected<Probe> probe(const Setting& setting, ErrorMeasure measure = ErrorMeasure::wrong_and_mean);
+  Expected<Probe> probe(const Setting& setting, const Figure& measure = wrong_and_mean());
 
   /// Draws at a setting for Probe::raster_ms alone. A comparison that stood before is no longer valid.
   Expected<double> time_drawing(const Setting& setting);

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "compare/measure/figures.h"
+#include "compare/measure/ends.h"
 #include "studies/sweep/bias_axis.h"
 #include "studies/sweep/engine.h"
 
@@ -37,7 +37,7 @@ struct Engine::Impl {
       : scene(s), world(w), renderer(r), perceptual(p), topology(w) {}
 
   Expected<void> compare(const Setting& setting, Detail detail);
-  Expected<Probe> probe(const Setting& setting, ErrorMeasure measure);
+  Expected<Probe> probe(const Setting& setting, const Figure& measure);
   Expected<double> time_drawing(const Setting& setting);
   /// Of every light of a setting that was traced.
   Expected<std::vector<ShimmerFigures>> count_flips(const Setting& setting) const;
@@ -53,8 +53,8 @@ struct Engine::Impl {
   Image<std::uint8_t> codes_of_images() const;
   LadderInput input(const raster::RasterFrame& frame, std::size_t i) const;
   /// Of every light of the last drawing.
-  std::vector<ErrorFigures> figures(ErrorMeasure measure) const;
-  void probe_best_bias(const raster::MapOptions& map, ErrorMeasure measure, Probe& probe);
+  std::vector<LightFigures> figures(const Figure& measure) const;
+  void probe_best_bias(const raster::MapOptions& map, const Figure& measure, Probe& probe);
   void trace(const Setting& setting);
   Expected<void> draw(const Setting& setting);
   Expected<void> draw_alone(const Setting& setting);

@@ -11,12 +11,8 @@
 namespace gnomon::compare {
 namespace {
 
-HeadlineItem item(std::string title, const CellSummary& cell, ErrorMeasure measure) {
-  ErrorFigures pooled;
-  pooled.wrong_fraction = cell.wrong_fraction, pooled.mean_absolute = cell.mean_absolute;
-  pooled.flip = cell.flip, pooled.edge_rms_texels = cell.edge_rms_texels;
-  pooled.flips_per_second = cell.flips_per_second;
-  std::string figures = figure_words(pooled, measure);
+HeadlineItem item(std::string title, const CellSummary& cell, const Figure& measure) {
+  std::string figures = figure_words(cell.figures, measure);
   if (std::isfinite(cell.raster_ms)) figures += ", " + milliseconds(cell.raster_ms);
   if (cell.shadows.timed()) figures += fmt::format(", {} of it for shadows", milliseconds(cell.shadows));
   return {std::move(title), cell.cell, axes_words(cell), std::move(figures)};
@@ -33,7 +29,8 @@ std::string time_title(const std::vector<CellSummary>& cells, std::size_t fastes
 // doubles the other is neither gain nor loss. Half a pixel stands for no error.
 std::size_t balanced(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front) {
   const auto product = [&](std::size_t i) {
-    const double least = 0.5 / static_cast<double>(std::max<std::uint64_t>(cells[i].compared, 1));
+    const double least =
+        0.5 / static_cast<double>(std::max<std::uint64_t>(cells[i].figures.pixels.compared, 1));
     return std::max(cells[i].error(), least) * cells[i].raster_ms;
   };
   return *std::min_element(front.begin(), front.end(),
@@ -41,7 +38,7 @@ std::size_t balanced(const std::vector<CellSummary>& cells, const std::vector<st
 }
 
 bool says_nothing_of(const CellSummary& cell) {
-  return (cell.measure() == ErrorMeasure::shimmer ? cell.receiver_steps : cell.compared) == 0;
+  return (cell.is_filmed() ? cell.figures.shimmer->receiver_steps : cell.figures.pixels.compared) == 0;
 }
 
 // Least time of those within the limit; of untimed cells the fewest texels.
@@ -60,7 +57,7 @@ void add_limit(const std::vector<CellSummary>& cells, const Threshold& limit, He
   const CellSummary* best = cheapest_within(cells, limit);
   out.limit_met = best != nullptr;
   if (best != nullptr)
-    out.items.push_back(item(fmt::format("Cheapest with {}", limit_words(limit)), *best, limit.measure));
+    out.items.push_back(item(fmt::format("Cheapest with {}", limit_words(limit)), *best, *limit.measure));
   else
     out.items.push_back({fmt::format("No cell has {}", limit_words(limit)), {}, {}, {}});
 }
@@ -92,8 +89,8 @@ Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector
   }
   if (limit) add_limit(cells, *limit, out);
   if (cells.size() < 2) return out;
-  const ErrorMeasure measure = cells.front().measure();
-  const std::string error = measure == ErrorMeasure::shimmer ? "flips" : "error";
+  const Figure& measure = cells.front().measure();
+  const std::string error = measure.needs == FigureNeeds::film ? "flips" : "error";
   if (front.empty()) {
     const auto least = std::min_element(cells.begin(), cells.end(),
                                         [](const auto& a, const auto& b) { return a.error() < b.error(); });

@@ -59,7 +59,7 @@ Expected<std::map<std::size_t, CellPictures>> read_pictures(const std::string& f
 namespace {
 
 PagePicture thumbnail(const SweepPageInput& in, const CellSummary& cell, const CellPictures& pictures) {
-  const std::string share = percent(cell.wrong_fraction) + " wrong";
+  const std::string share = percent(cell.figures.error.wrong_fraction) + " wrong";
   return {.name = fmt::format("thumbnail-{}", cell.cell),
           .source = in.beside ? fmt::format("thumbnails/{}.png", cell_name(cell.cell))
                               : data_uri("image/png", pictures.thumbnail),

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
-#include "compare/ladder/budget.h"
 #include "compare/result/number_text.h"
+#include "compare/result/result_parts.h"
 #include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
 
-using Json = nlohmann::ordered_json;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 double number(const Json& value) {
@@ -24,54 +22,18 @@ std::string value_text(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// Sums over lights: counts, means weighted by compared pixels, and those of edges by the edges.
 void add_light(const Json& light, CellSummary& sum, Json& classes) {
-  const Json& error = light.at("error");
-  const auto compared = light.at("pixels").at("compared").get<std::uint64_t>();
-  const auto weight = static_cast<double>(compared);
-  sum.compared += compared;
-  sum.wrong += error.at("wrong").get<std::uint64_t>();
-  sum.ties += error.at("ties").get<std::uint64_t>();
-  sum.false_shadow += error.at("false_shadow").get<std::uint64_t>();
-  sum.missed_shadow += error.at("missed_shadow").get<std::uint64_t>();
-  sum.mean_absolute += weight * number(error.at("mean_absolute"));
-  sum.rms += weight * number(error.at("rms")) * number(error.at("rms"));
-  sum.flip += weight * number(error.at("flip"));
-  sum.ssim += weight * number(error.at("ssim"));
-  const auto edges = light.at("edges").at("count").get<std::uint64_t>();
-  const double edge_rms = number(light.at("edges").at("rms_texels"));
-  sum.edges += edges;
-  sum.edge_rms_texels += static_cast<double>(edges) * edge_rms * edge_rms;
-  if (light.contains("shimmer")) {
-    const Json& film = light.at("shimmer");
-    sum.flips += film.at("flips").get<std::uint64_t>();
-    sum.receiver_steps += film.at("receiver_steps").get<std::uint64_t>();
-    sum.flips_per_second = number(film.at("fps"));  // of one flip a step; finish_means() makes it the mean
-  }
-  const Json& pixels = light.at("pixels");
-  sum.lights.push_back(
-      {number(error.at("wrong_fraction")), number(error.at("mean_absolute")), number(error.at("flip")),
-       edge_rms, compared, pixels.at("uncertain").get<std::uint64_t>(),
-       pixels.at("uncertain_by_samples").get<std::uint64_t>(),
-       light.contains("shimmer") ? number(light.at("shimmer").at("flips_per_receiver_second")) : not_known});
+  sum.lights.push_back(read_pooled_figures(light));
   for (const auto& [name, count] : light.at("classes").items())
     classes[name] = classes.value(name, std::uint64_t{0}) + count.get<std::uint64_t>();
 }
 
-void finish_means(CellSummary& sum, const Json& classes) {
-  const auto weight = static_cast<double>(std::max<std::uint64_t>(sum.compared, 1));
-  sum.wrong_fraction = wrong_share(sum.wrong, sum.ties, sum.compared);
-  sum.mean_absolute /= weight;
-  sum.rms = std::sqrt(sum.rms / weight);
-  sum.flip /= weight;
-  sum.ssim /= weight;
-  sum.edge_rms_texels =
-      std::sqrt(sum.edge_rms_texels / static_cast<double>(std::max<std::uint64_t>(sum.edges, 1)));
-  sum.flips_per_second *=
-      static_cast<double>(sum.flips) / static_cast<double>(std::max<std::uint64_t>(sum.receiver_steps, 1));
+std::string most_frequent(const Json& classes) {
   std::uint64_t most = 0;
+  std::string label;
   for (const auto& [name, count] : classes.items())
-    if (count.get<std::uint64_t>() > most) most = count.get<std::uint64_t>(), sum.main_label = name;
+    if (count.get<std::uint64_t>() > most) most = count.get<std::uint64_t>(), label = name;
+  return label;
 }
 
 Times times_of(const Json& times) {
@@ -120,7 +82,7 @@ Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
       sum.technique = light.at("map").at("technique").get<std::string>();
       sum.map_size = number(light.at("map").at("size"));
     }
-    finish_means(sum, classes);
+    sum.figures = pool_lights(sum.lights), sum.main_label = most_frequent(classes);
     sum.map_texels = json.at("costs").at("map_texels").get<std::uint64_t>();
     sum.map_bytes = json.at("costs").at("map_bytes").get<std::uint64_t>();
     add_times(Json::parse(times), sum);
@@ -142,8 +104,7 @@ Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep) {
 }
 
 std::string error_words(const CellSummary& cell) {
-  return cell.is_filmed() ? plain_number(cell.flips_per_second) + " flips per receiver and second"
-                          : percent(cell.error());
+  return cell.is_filmed() ? figure_words(cell.figures, cell.measure()) : percent(cell.error());
 }
 
 bool clearly_faster(const CellSummary& a, const CellSummary& b) {

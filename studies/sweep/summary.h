@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "compare/comparison.h"
+#include "compare/result/figures.h"
 #include "scene/time_difference.h"
 #include "studies/sweep/journal.h"
 
@@ -20,15 +21,8 @@ struct CellSummary {
   std::vector<std::pair<std::string, std::string>> axes;  ///< names as in "axes", values as text
   std::vector<std::string> no_effect;  ///< of those names: the technique does not read them
   std::string command, technique;
-  // Errors over the compared pixels of all lights; NaN where not computed.
-  std::uint64_t compared = 0, wrong = 0, ties = 0, false_shadow = 0, missed_shadow = 0;
-  double wrong_fraction = 0.0, mean_absolute = 0.0, rms = 0.0, flip = 0.0, ssim = 0.0;
-  std::uint64_t edges = 0;                      ///< measured, of all lights
-  double edge_rms_texels = 0.0;                 ///< over all of them
-  std::uint64_t flips = 0, receiver_steps = 0;  ///< of the films; none where none was made
-  /// Per receiver, over all lights; NaN without films.
-  double flips_per_second = std::numeric_limits<double>::quiet_NaN();
-  std::vector<ErrorFigures> lights;  ///< of each: thresholds are held against the worst
+  LightFigures figures;              ///< of all lights together
+  std::vector<LightFigures> lights;  ///< of each: thresholds are held against the worst
   std::string main_label;            ///< of most wrong pixels; empty when none is wrong
   double map_size = 0.0;             ///< texels on a side
   std::uint64_t map_texels = 0, map_bytes = 0;
@@ -44,9 +38,9 @@ struct CellSummary {
   bool derived = false;  ///< the times are those of the drawing that it was made from
   /// Share of wrong pixels or mean error, whichever is more: of yes-or-no shadows they are equal. With films what they
   /// are about: flips per receiver and second.
-  double error() const { return is_filmed() ? flips_per_second : std::max(wrong_fraction, mean_absolute); }
-  bool is_filmed() const { return std::isfinite(flips_per_second); }
-  ErrorMeasure measure() const { return is_filmed() ? ErrorMeasure::shimmer : ErrorMeasure::wrong_and_mean; }
+  double error() const { return measure().of(figures); }
+  bool is_filmed() const { return figures.shimmer.has_value(); }
+  const Figure& measure() const { return is_filmed() ? *find_measure("shimmer") : wrong_and_mean(); }
 };
 
 /// "1.2 %", or of films "0.012 flips per receiver and second".

@@ -29,10 +29,10 @@ Expected<void> Tuner::verify(TuneResult& result) {
   ++renders_;
   const auto compared = engine_.compare(*setting);
   if (!compared) return fail(compared.error());
-  std::vector<ErrorFigures> lights;
+  std::vector<LightFigures> lights;
   result.engine_units.clear();
   for (const LightComparison& light : (*compared)->lights) {
-    lights.push_back(figures_of(light));
+    lights.push_back(light);
     if (auto units = engine_units(**compared, light); !units.empty())
       result.engine_units.push_back({light_of(**compared, light).name, std::move(units)});
   }

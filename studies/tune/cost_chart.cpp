@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "compare/result/figures.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
 #include "report/html.h"
@@ -18,7 +19,7 @@ struct Point {
   const FamilyResult* family;
   int size;
   double error, time_ms;
-  ErrorFigures figures;
+  LightFigures figures;
   bool answer;
 };
 
@@ -71,8 +72,7 @@ LogPlot plot_of(const std::vector<Point>& points, const TuneGoal& goal) {
     shares.push_back(goal.max_error->limit), most = std::max(most, goal.max_error->limit);
   const double least = least_error(shares);
   return {low / 1.15, high * 1.15, least, std::max(4.0 * least, 1.3 * most),
-          goal.measure() != ErrorMeasure::edge && goal.measure() != ErrorMeasure::flip &&
-              goal.measure() != ErrorMeasure::shimmer};
+          goal.measure().form() == FigureForm::percent};
 }
 
 std::string goal_line(const LogPlot& plot, const TuneGoal& goal) {
@@ -90,7 +90,7 @@ std::string goal_line(const LogPlot& plot, const TuneGoal& goal) {
   return line(left, y, right, y) + chart_text(right, y - 5, "note end", "wanted");
 }
 
-std::string dot(const LogPlot& plot, const Point& p, ErrorMeasure measure, bool best) {
+std::string dot(const LogPlot& plot, const Point& p, const Figure& measure, bool best) {
   return fmt::format(
       R"(<circle class="dot{}" cx="{:.1f}" cy="{:.1f}" r="{}"><title>{}, {} texels: {}; {}</title></circle>)",
       best ? " best-dot" : "", plot.x(p.time_ms), plot.y(p.error),

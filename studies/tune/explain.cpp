@@ -4,13 +4,14 @@
 #include <algorithm>
 
 #include "compare/bias/bias_advice.h"
+#include "compare/result/figures.h"
 #include "compare/result/number_text.h"
 #include "studies/tune/tuner.h"
 
 namespace gnomon::compare {
 namespace {
 
-std::string setting_text(const Attempt& a, ErrorMeasure measure) {
+std::string setting_text(const Attempt& a, const Figure& measure) {
   return fmt::format("{} in {} with {} texels{}", figure_words(a.figures, measure), milliseconds(a.time_ms),
                      a.size, a.custom_shader ? ", by the shader of --shader-dir" : "");
 }
@@ -37,7 +38,7 @@ std::string close_race(const FamilyResult& winner, const TuneGoal& goal) {
                      winner.by_cost ? ", and this one costs less on any machine (texels, bytes, rays)" : "");
 }
 
-std::string just_over_text(const TuneResult& result, ErrorMeasure measure) {
+std::string just_over_text(const TuneResult& result, const Figure& measure) {
   std::string text;
   for (const JustOver& over : result.just_over)
     text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", result.families[over.family].family.name,
@@ -54,48 +55,32 @@ std::string doubtful_time(const Attempt& answer, const TuneGoal& goal) {
              : "";
 }
 
-std::string floor_text(double floor, ErrorMeasure measure) {
-  switch (measure) {
-    case ErrorMeasure::flip:
-      return "a mean FLIP of " + plain_number(floor);
-    case ErrorMeasure::edge:
-      return texels_text(floor) + " of displacement";
-    case ErrorMeasure::shimmer:
-      return plain_number(floor) + " flips per receiver and second";
-    case ErrorMeasure::mean:
-      return "a mean error of " + percent(floor);
-    case ErrorMeasure::wrong:
-      return percent(floor) + " wrong";
-    default:
-      return "an error of " + percent(floor);
-  }
-}
-
 // Pixels of a light that no setting can be judged by.
-std::string doubt(const std::optional<Threshold>& goal, const std::vector<ErrorFigures>& lights) {
+std::string doubt(const std::optional<Threshold>& goal, const std::vector<LightFigures>& lights) {
   if (!goal) return {};
   const auto light = std::find_if(lights.begin(), lights.end(),
-                                  [&](const ErrorFigures& figures) { return too_uncertain(*goal, figures); });
+                                  [&](const LightFigures& figures) { return too_uncertain(*goal, figures); });
   if (light == lights.end()) return {};
   return fmt::format(
       "; {} of {} pixels{} are uncertain, more than the goal allows to be wrong (more --samples "
       "of lights with size, or a goal for the mean error, such as mean:1%)",
-      grouped(unknown_pixels(*light, goal->measure)), grouped(light->compared + light->uncertain),
-      lights.size() > 1 ? " of one light" : "");
+      grouped(unknown_pixels(*light, *goal->measure)),
+      grouped(light->pixels.compared + light->pixels.uncertain), lights.size() > 1 ? " of one light" : "");
 }
 
 }  // namespace
 
 std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner) const {
   const bool by_error = options_.goal.max_error.has_value();
-  const ErrorMeasure measure = options_.goal.measure();
+  const Figure& measure = options_.goal.measure();
   if (!loser.answer) {
     const std::string nearest = setting_text(loser.closest, measure);
     if (loser.stop == TuneStop::too_dear)
       return "slower before it is good enough: " + nearest + proof(loser, loser.closest);
     if (loser.stop == TuneStop::levels_off)
-      return fmt::format("levels off near {}: {}{}", floor_text(loser.floor, measure), nearest,
-                         proof(loser, loser.closest));
+      return fmt::format("levels off near {}: {}{}",
+                         fmt::format(fmt::runtime(measure.measure.level), figure_text(measure, loser.floor)),
+                         nearest, proof(loser, loser.closest));
     if (loser.stop == TuneStop::no_smaller)
       return fmt::format("needs a map no smaller than {}: {}{}", loser.like, nearest,
                          proof(loser, loser.closest));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compare/bias/bias_advice.h"
+#include "compare/result/figures.h"
 #include "compare/result/number_text.h"
 #include "raster/technique_traits.h"
 #include "report/html.h"
@@ -58,19 +59,17 @@ std::string proof(const TunePageInput& in) {
 }
 
 // Wrong pixels, mean error, and what the goal is about besides.
-std::string figure_cells(ErrorMeasure measure, const ErrorFigures& f) {
-  std::string cells = fmt::format(R"(<td class="n">{}</td><td class="n">{}</td>)", percent(f.wrong_fraction),
-                                  percent(f.mean_absolute));
-  if (measure == ErrorMeasure::flip || measure == ErrorMeasure::edge || measure == ErrorMeasure::shimmer)
-    cells += fmt::format(R"(<td class="n">{}</td>)", plain_number(figure(f, measure)));
+std::string figure_cells(const Figure& measure, const LightFigures& f) {
+  std::string cells = fmt::format(R"(<td class="n">{}</td><td class="n">{}</td>)",
+                                  percent(f.error.wrong_fraction), percent(f.error.mean_absolute));
+  if (measure.form() != FigureForm::percent)
+    cells += fmt::format(R"(<td class="n">{}</td>)", plain_number(measure.of(f)));
   return cells;
 }
-std::string figure_heads(ErrorMeasure measure) {
+std::string figure_heads(const Figure& measure) {
   std::string heads = R"(<th scope="col" class="n">wrong</th><th scope="col" class="n">mean error</th>)";
-  if (measure == ErrorMeasure::flip) heads += R"(<th scope="col" class="n">FLIP</th>)";
-  if (measure == ErrorMeasure::shimmer)
-    heads += R"(<th scope="col" class="n">flips per receiver and second</th>)";
-  if (measure == ErrorMeasure::edge) heads += R"(<th scope="col" class="n">edge RMS, texels</th>)";
+  if (measure.form() != FigureForm::percent)
+    heads += fmt::format(R"(<th scope="col" class="n">{}</th>)", figure_head(measure));
   return heads;
 }
 
@@ -123,7 +122,7 @@ PageIntroduction tune_introduction(const TunePageInput& in) {
 <p>{} {}. The star is the answer; beside each of the others stands why it is not.</p>
 {})",
                   in.result.renders,
-                  in.goal.measure() == ErrorMeasure::shimmer
+                  in.goal.measure().needs == FigureNeeds::film
                       ? "films: each technique was searched over map sizes, with the bias that it has where "
                         "none is asked for"
                       : "drawings: each kind of bias was searched over map sizes, and one drawing tells the "

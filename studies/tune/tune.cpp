@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "compare/result/figures.h"
 #include "raster/technique_traits.h"
 #include "studies/tune/tuner.h"
 
@@ -77,7 +78,7 @@ Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::
   ++renders_;
   auto probe = engine_.probe(setting, options_.goal.measure());
   if (!probe) return fail(probe.error());
-  if (says_nothing({options_.goal.measure()}, probe->lights))
+  if (says_nothing({&options_.goal.measure()}, probe->lights))
     return fail(ErrorKind::bad_input,
                 "no pixel can be compared: the camera sees no surface that a light could reach");
   Attempt attempt;
@@ -102,11 +103,11 @@ Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::
   return attempt;
 }
 
-void set_figures(const std::vector<ErrorFigures>& lights, ErrorMeasure measure, Attempt& attempt) {
+void set_figures(const std::vector<LightFigures>& lights, const Figure& measure, Attempt& attempt) {
   attempt.lights = lights;
   attempt.error = 0.0;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const double error = figure(lights[i], measure);
+    const double error = measure.of(lights[i]);
     if (i == 0 || !(error <= attempt.error)) attempt.error = error, attempt.figures = lights[i];
   }
 }
@@ -175,7 +176,7 @@ Expected<Attempt> Tuner::attempt_by_trial(const TuneFamily& family, int size) {
 Expected<Attempt> Tuner::attempt(const TuneFamily& family, int size) {
   // What a bias does to flips does not follow from one drawing: they are counted with the family's own.
   const bool own_bias =
-      !raster::compares_depths(family.map.technique) || options_.goal.measure() == ErrorMeasure::shimmer;
+      !raster::compares_depths(family.map.technique) || options_.goal.measure().needs == FigureNeeds::film;
   if (own_bias) return draw(family, size, family.map.bias, nullptr);
   return biases_follow_from_gaps(family.map) ? attempt_from_gaps(family, size)
                                              : attempt_by_trial(family, size);

@@ -29,10 +29,10 @@ namespace gnomon::compare {
 
 struct TuneGoal {
   std::optional<Threshold> max_error;
-  std::optional<double> max_time_ms;                    ///< map and shading; exactly one of the two is given
-  ErrorMeasure of_time = ErrorMeasure::wrong_and_mean;  ///< what is to be small within max_time_ms
+  std::optional<double> max_time_ms;          ///< map and shading; exactly one of the two is given
+  const Figure* of_time = &wrong_and_mean();  ///< what is to be small within max_time_ms
   /// What errors are counted in.
-  ErrorMeasure measure() const { return max_error ? max_error->measure : of_time; }
+  const Figure& measure() const { return max_error ? *max_error->measure : *of_time; }
 };
 
 /// A technique with everything but map size and constant bias.
@@ -66,8 +66,8 @@ struct Attempt {
   raster::Bias bias;                 ///< as it was tried, and as the attempt's command asks for it
   double bias_world = 0.0;           ///< its constant, of the first light
   double error = 0.0;                ///< what TuneGoal::measure() says, of the worst light
-  ErrorFigures figures;              ///< of that light
-  std::vector<ErrorFigures> lights;  ///< of all that are compared
+  LightFigures figures;              ///< of that light
+  std::vector<LightFigures> lights;  ///< of all that are compared
   double time_ms = 0.0;              ///< least of `times`, or of the search's one drawing
   double cost = 0.0;                 ///< by TuneOptions::cost
   Times times;                       ///< measured in turn with the others; empty: not among the best

@@ -10,7 +10,7 @@
 namespace gnomon::compare {
 
 /// Sets `lights`, and `error` and `figures` of the worst of them.
-void set_figures(const std::vector<ErrorFigures>& lights, ErrorMeasure measure, Attempt& attempt);
+void set_figures(const std::vector<LightFigures>& lights, const Figure& measure, Attempt& attempt);
 /// Whether an attempt meets the goal: where that is an error, with every light.
 bool is_good(const TuneGoal& goal, const Attempt& attempt);
 

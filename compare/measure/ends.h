@@ -6,6 +6,6 @@
 namespace gnomon::compare {
 
 /// What `measure` needs of one light of a whole picture; figures that cost more are left NaN.
-ErrorFigures figures_of(const LadderInput& input, ErrorMeasure measure);
+LightFigures measure_ends(const LadderInput& input, const Figure& measure);
 
 }  // namespace gnomon::compare

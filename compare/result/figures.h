@@ -1,0 +1,88 @@
+// Every number that a comparison says of one light, one row each: its key in result.json, unit and words, which way is
+// better, how it is printed, and what it is of several lights together. The blocks of result.json and with them the columns
+// of CSV files, what sweeps read back from their lines and show, and the facts of the pages are made from these rows.
+// A new figure is a field of LightFigures and a row in figures.cpp.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace gnomon::compare {
+
+struct LightFigures;
+
+enum class FigureForm : std::uint8_t { count, percent, number };
+enum class Better : std::uint8_t { neither, less, more };
+/// What a figure takes that not every comparison makes.
+enum class FigureNeeds : std::uint8_t { nothing, edges, perception, film };
+
+/// Where a figure stands. Counts are below 2^53, so that a double holds them.
+struct FigurePlace {
+  double (*get)(const LightFigures&);            ///< NaN where it was not made
+  void (*set)(LightFigures&, double) = nullptr;  ///< null: it follows from other figures
+  FigureForm form = FigureForm::number;
+  bool optional = false;  ///< not every light has the block
+};
+
+/// What a figure is of several lights together.
+struct Pooling {
+  enum class Kind : std::uint8_t { none, sum, mean, root_mean_square, same, derived } kind = Kind::none;
+  /// Of means the weight of a light, of `derived` what the other pooled figures make.
+  double (*function)(const LightFigures&) = nullptr;
+};
+
+/// What a threshold calls a figure, and how it is said, "{}" being its value.
+struct MeasureWords {
+  std::string_view name{};   ///< "flip"; "" where no threshold is held against it
+  std::string_view said{};   ///< "mean FLIP {}"
+  std::string_view limit{};  ///< "a mean FLIP of at most {}"
+  std::string_view level{};  ///< "a mean FLIP of {}"
+  std::string_view most{};   ///< the largest limit, as people write it; of a share ""
+  bool by_halves = false;    ///< it asks on which side of one half a visibility lies, not how much it is
+};
+
+/// What a rubric calls a figure, and what it is about.
+struct MarkWords {
+  std::string_view name{}, words{};
+};
+
+struct Figure {
+  std::string_view key;   ///< in a light of result.json: "error.wrong_fraction"
+  std::string_view unit;  ///< "pixels", "texels"; "share": of one
+  FigurePlace place;
+  Better better = Better::neither;
+  Pooling pooling{};
+  std::string_view words{};  ///< for people; "" where those of the key do
+  enum class Table : std::uint8_t { none, sweep } table = Table::none;  ///< has a column of it
+  FigureNeeds needs = FigureNeeds::nothing;
+  MeasureWords measure{};
+  MarkWords mark{};
+  std::string_view
+      in_summary{};  ///< what stands before it in the terminal's line of errors; "" where it is not there
+
+  FigureForm form() const { return place.form; }
+  double of(const LightFigures& light) const { return place.get(light); }
+  /// The part of the key before its last point: "error".
+  std::string_view block() const { return key.substr(0, key.rfind('.')); }
+  /// The part of the key after its last point: "wrong_fraction".
+  std::string_view name() const { return key.substr(key.rfind('.') + 1); }
+};
+
+/// All of them; those of a block in the order of result.json.
+std::span<const Figure> figures();
+
+/// The figures of all lights together.
+LightFigures pool_lights(std::span<const LightFigures> lights);
+
+/// "edge error"
+std::string figure_name(const Figure& figure);
+/// A table's head: "edge error, texels".
+std::string figure_head(const Figure& figure);
+/// A table's cell: "1,234", "4.1 %", "0.0123", a dash where there is no value.
+std::string figure_number(const Figure& figure, double value);
+/// The same with its unit in running text: "1.6 texels".
+std::string figure_text(const Figure& figure, double value);
+
+}  // namespace gnomon::compare
