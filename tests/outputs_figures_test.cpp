@@ -51,6 +51,25 @@ TEST(Figures, ResultJsonAndCsvHaveEach) {
   }
 }
 
+TEST(Figures, TheListForPagesSaysOfEachHowItIsReadAndPrinted) {
+  const Json list = Json::parse(figures_json());
+  ASSERT_EQ(list.size(), figures().size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    EXPECT_EQ(list[i]["key"], figures()[i].key);
+    EXPECT_FALSE(list[i]["words"].get<std::string>().empty() || list[i]["unit"].get<std::string>().empty());
+  }
+  const auto of = [&](std::string_view key) {
+    return *std::find_if(list.begin(), list.end(), [&](const Json& entry) { return entry["key"] == key; });
+  };
+  EXPECT_EQ(of("error.wrong_fraction"), Json({{"key", "error.wrong_fraction"},
+                                              {"unit", "share"},
+                                              {"words", "wrong"},
+                                              {"better", "less"},
+                                              {"form", "percent"}}));
+  EXPECT_EQ(of("error.ssim")["better"], "more");
+  EXPECT_TRUE(of("pixels.compared")["better"].is_null());
+}
+
 TEST(Figures, ARowSetsItsOwnFieldAlone) {
   std::vector<const Figure*> settable;
   for (const Figure& figure : figures())

@@ -183,7 +183,7 @@ KindSettings settings_of_kinds(const LadderInput& in, const Image<float>& truth,
   return out;
 }
 
-void put_into_lists(const std::vector<float>& settings, const std::vector<char>& lit, GapLists& lists) {
+void append_to_lists(const std::vector<float>& settings, const std::vector<char>& lit, GapLists& lists) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
     if (lit[i] != 0 && !(settings[i] > 0.0f))
       ++lists.lit_left_out;

@@ -33,7 +33,7 @@ struct KindSettings {
 bool kinds_apply(const raster::RasterFrame& drawn, const raster::LightRecord& record);
 KindSettings settings_of_kinds(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels);
 /// Lists of one kind from its settings; the lit ones that no setting harms are only counted.
-void put_into_lists(const std::vector<float>& settings, const std::vector<char>& lit, GapLists& lists);
+void append_to_lists(const std::vector<float>& settings, const std::vector<char>& lit, GapLists& lists);
 /// From sorted lists.
 BiasKind kind_of_bias(KindOfBias kind, const LadderInput& in, const GapLists& lists);
 /// The best first.

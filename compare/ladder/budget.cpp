@@ -134,7 +134,7 @@ std::array<BudgetStep, cause_count> PixelTerms::budget() const {
   return budget;
 }
 
-void PixelTerms::put(LightComparison& light) const {
+void PixelTerms::write_to(LightComparison& light) const {
   light.error = error(), light.classes = classes(), light.budget = budget();
   light.accidents = accidents(), light.rung_mean = rung_means();
 }

@@ -33,7 +33,7 @@ class PixelTerms {
   /// Means of the six steps, and the wrong pixels that each is to blame for.
   std::array<BudgetStep, cause_count> budget() const;
   /// All of these; FLIP and SSIM of the light become NaN.
-  void put(LightComparison& light) const;
+  void write_to(LightComparison& light) const;
 
  private:
   struct Step {

@@ -25,7 +25,7 @@ LightFigures measure_ends(const LadderInput& in, const Figure& measure) {
     Perception perception;
     FinishedMaps maps;
     perception.add({truth, drawn, labels, climbed}, 0, all, all.count, maps);
-    perception.put(light.error);
+    perception.write_to(light.error);
   }
   light.edges.rms_texels = std::numeric_limits<double>::quiet_NaN();
   if (measure.needs == FigureNeeds::edges) {

@@ -71,7 +71,7 @@ void StandardErrors::add(const raytrace::LightTruth& truth, const Image<Label>& 
   }
 }
 
-void StandardErrors::put(PenumbraStats& out) const {
+void StandardErrors::write_to(PenumbraStats& out) const {
   out.standard_error_max = max_;
   if (count_ > 0) out.standard_error_mean = sum_ / static_cast<double>(count_);
 }

@@ -37,7 +37,7 @@ class ComparedMean {
 class StandardErrors {
  public:
   void add(const raytrace::LightTruth& truth, const Image<Label>& labels);
-  void put(PenumbraStats& out) const;
+  void write_to(PenumbraStats& out) const;
 
  private:
   std::uint64_t count_ = 0;

@@ -50,7 +50,7 @@ void Perception::add(const NearLight& light, int first_row, const PictureRows& r
   flip_compared_.add(maps.flip, light.labels, first), ssim_compared_.add(maps.ssim, light.labels, first);
 }
 
-void Perception::put(ErrorStats& out) const {
+void Perception::write_to(ErrorStats& out) const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   out.flip = flips_ == 0 ? 0.0 : flip_sum_ / static_cast<double>(flips_);
   out.ssim = ssims_ == 0 ? none : ssim_sum_ / static_cast<double>(ssims_);
@@ -164,7 +164,7 @@ Expected<void> LightSums::add_lists(const LadderInput& in, const Climb& climb) {
   for (std::size_t k = 0; has_kinds_ && k < kind_count; ++k)
     steps.emplace_back([this, &found, k]() -> Expected<void> {
       GapLists lists;
-      put_into_lists(found.settings[k], found.lit, lists);
+      append_to_lists(found.settings[k], found.lit, lists);
       kinds_left_out_[k] += lists.lit_left_out;
       if (const auto added = kinds_[k][0].append(options_.spill, std::move(lists.shadowed)); !added)
         return added;
@@ -178,8 +178,8 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
   out.light = in.record().light;
   out.record = in.index;
   out.pixels = sums_.pixels();
-  sums_.terms().put(out);
-  if (options_.perceptual) perception_.put(out.error);
+  sums_.terms().write_to(out);
+  if (options_.perceptual) perception_.write_to(out.error);
   out.cascades = cascade_figures(cascades_);
   out.edges = edges_.stats();
   out.detachment = detachment_.stats();
@@ -187,7 +187,7 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
   if (soft_) {
     out.pixels.uncertain_by_samples = climbed_compared_ - out.pixels.compared;
     out.penumbra = penumbra_.stats();
-    standard_errors_.put(*out.penumbra);
+    standard_errors_.write_to(*out.penumbra);
   }
   out.bias_texel_world = in.record().texel_world;
   out.seams = seams_;

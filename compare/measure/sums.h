@@ -43,7 +43,7 @@ class Perception {
  public:
   /// Rows of a picture of so many rows; those around them that are near by lie in `light`, whose row 0 is first_row.
   void add(const NearLight& light, int first_row, const PictureRows& rows, int height, FinishedMaps& maps);
-  void put(ErrorStats& out) const;
+  void write_to(ErrorStats& out) const;
 
  private:
   double flip_sum_ = 0.0, ssim_sum_ = 0.0;

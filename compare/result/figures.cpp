@@ -346,9 +346,4 @@ std::string figure_text(const Figure& figure, double value) {
   return figure.unit == "texels" ? texels_text(value) : plain_number(value);
 }
 
-std::string figure_number(const Figure& figure, double value) {
-  if (!std::isfinite(value)) return "\u2013";
-  return figure.form() == FigureForm::number ? plain_number(value) : figure_text(figure, value);
-}
-
 }  // namespace gnomon::compare

@@ -76,13 +76,15 @@ std::span<const Figure> figures();
 /// The figures of all lights together.
 LightFigures pool_lights(std::span<const LightFigures> lights);
 
+/// As the text of a JSON list what pages and other programs may know of each figure: its key, unit, words, which way is better (null: neither) and
+/// its form ("count", "percent", "number").
+std::string figures_json();
+
 /// "edge error"
 std::string figure_name(const Figure& figure);
 /// A table's head: "edge error, texels".
 std::string figure_head(const Figure& figure);
-/// A table's cell: "1,234", "4.1 %", "0.0123", a dash where there is no value.
-std::string figure_number(const Figure& figure, double value);
-/// The same with its unit in running text: "1.6 texels".
+/// In running text, with texels as its unit: "4.1 %", "1.6 texels".
 std::string figure_text(const Figure& figure, double value);
 
 }  // namespace gnomon::compare

@@ -306,6 +306,21 @@ Json block_json(std::string_view block, const LightFigures& light) {
   return json;
 }
 
+std::string figures_json() {
+  Json list = Json::array();
+  for (const Figure& figure : figures()) {
+    const bool known = figure.better != Better::neither;
+    list.push_back({{"key", figure.key},
+                    {"unit", figure.unit},
+                    {"words", figure_name(figure)},
+                    {"better", known ? Json(figure.better == Better::less ? "less" : "more") : Json(nullptr)},
+                    {"form", figure.form() == FigureForm::count     ? "count"
+                             : figure.form() == FigureForm::percent ? "percent"
+                                                                    : "number"}});
+  }
+  return dumped(list, -1);
+}
+
 LightFigures read_pooled_figures(const Json& light) {
   LightFigures out;
   for (const Figure& figure : figures()) {

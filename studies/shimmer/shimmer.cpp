@@ -76,7 +76,7 @@ class Film {
   Film& operator=(const Film&) = delete;
 
   /// Where a truth of the lights as they stand is known.
-  void take_truth(const raytrace::RayTracedFrame& truth) {
+  void set_truth(const raytrace::RayTracedFrame& truth) {
     if (receivers_of_ == first_.camera) truth_ = &truth, truth_lights_ = first_.lights;
   }
   Expected<Shimmer> run(const FrameSink& sink, const Progress& progress);
@@ -287,7 +287,7 @@ Expected<std::vector<ShimmerFigures>> count_flips(const FilmTools& tools, const 
   ShimmerOptions plain = options;
   plain.explain = false;
   Film film(world, scene, renderer, lights, plain, tools.tracer, tools.topology);
-  film.take_truth(tools.truth);
+  film.set_truth(tools.truth);
   const auto made = film.run({}, {});
   if (!made) return fail(made.error());
   std::vector<ShimmerFigures> out;

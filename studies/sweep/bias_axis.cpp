@@ -189,7 +189,7 @@ BiasTable compare_biases(const LowerClimb& lower, const LadderInput& in, const L
   parallel_for(asked.size(), [&](std::size_t i) {
     const std::size_t place = axis.biases().place[i];
     lights[i] = without_images(drawn);
-    axis.terms(place).put(lights[i]);
+    axis.terms(place).write_to(lights[i]);
     lights[i].detachment = axis.detachment(place);
     lights[i].edges = edges.at(static_cast<float>(asked[i]));
     lights[i].bias_curve = draw_bias_curve(gaps, drawn.bias_texel_world, asked[i],

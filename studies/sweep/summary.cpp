@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/result/number_text.h"
 #include "compare/result/result_parts.h"
 #include "scene/parallel.h"
 
@@ -101,10 +100,6 @@ Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep) {
     cells.push_back(std::move(*cell));
   }
   return cells;
-}
-
-std::string error_words(const CellSummary& cell) {
-  return cell.is_filmed() ? figure_words(cell.figures, cell.measure()) : percent(cell.error());
 }
 
 bool clearly_faster(const CellSummary& a, const CellSummary& b) {

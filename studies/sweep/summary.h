@@ -43,9 +43,6 @@ struct CellSummary {
   const Figure& measure() const { return is_filmed() ? *find_measure("shimmer") : wrong_and_mean(); }
 };
 
-/// "1.2 %", or of films "0.012 flips per receiver and second".
-std::string error_words(const CellSummary& cell);
-
 /// a takes less time than b by more than their runs leave open (time_difference.h).
 bool clearly_faster(const CellSummary& a, const CellSummary& b);
 

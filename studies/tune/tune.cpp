@@ -182,7 +182,7 @@ Expected<Attempt> Tuner::attempt(const TuneFamily& family, int size) {
                                              : attempt_by_trial(family, size);
 }
 
-void Tuner::take(FamilyResult& result, const Attempt& attempt) const {
+void Tuner::consider(FamilyResult& result, const Attempt& attempt) const {
   result.tried.push_back(attempt);
   result.tried.back().curve.clear();
   if (result.closest.size == 0 || shortfall(attempt) < shortfall(result.closest)) result.closest = attempt;
@@ -242,7 +242,7 @@ Expected<FamilyResult> Tuner::bisect(const TuneFamily& family) {
     }
     const auto attempt = this->attempt(family, options_.sizes[middle]);
     if (!attempt) return fail(attempt.error());
-    take(result, *attempt);
+    consider(result, *attempt);
     if (good(*attempt) == want_least) {
       high = middle;
       if (want_least) result.answer = *attempt;  // the smaller the cheaper, whatever one rough time says
@@ -270,7 +270,7 @@ Expected<FamilyResult> Tuner::walk_down(const TuneFamily& family) {
   const auto cheaper = [&](std::ptrdiff_t i) -> Expected<bool> {
     const auto attempt = this->attempt(family, options_.sizes[static_cast<std::size_t>(i)]);
     if (!attempt) return fail(attempt.error());
-    take(result, *attempt);
+    consider(result, *attempt);
     const bool less = i == start || attempt->cost < least;
     if (less) least = attempt->cost;
     return less;

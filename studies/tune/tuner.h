@@ -41,7 +41,7 @@ class Tuner {
   Expected<Attempt> attempt_from_gaps(const TuneFamily& family, int size);
   Expected<Attempt> attempt_by_trial(const TuneFamily& family, int size);
   std::vector<raster::Bias> biases_to_try(const TuneFamily& family, int size) const;
-  void take(FamilyResult& result, const Attempt& attempt) const;  ///< of the next size tried
+  void consider(FamilyResult& result, const Attempt& attempt) const;  ///< of the next size tried
   Expected<FamilyResult> search(const TuneFamily& family);
   Expected<FamilyResult> bisect(const TuneFamily& family);
   Expected<FamilyResult> walk_down(const TuneFamily& family);
