@@ -137,6 +137,8 @@ def same_but_refused(base, new, before):
         lines = files.get("out/judge.jsonl", b"").splitlines()
         return {json.loads(line)["axes"]["capture"]: line for line in lines}
     def table(files):
+        if not files["out/judge.csv"]:  # every capture was refused
+            return []
         rows = table_of(files["out/judge.csv"])
         capture = rows[0].index("cell")
         return [row[:capture] + row[capture + 1:] for row in rows]
@@ -144,7 +146,7 @@ def same_but_refused(base, new, before):
     wrong = [f"the line of {name}" for name, line in judged(new).items()
              if name not in names or lines_differ("judge.jsonl", names[name], line)]
     kept = [i for i, name in enumerate(names) if name not in refused]
-    if "out/judge.csv" in new and table(new) != [table(base)[i] for i in (0, *(1 + i for i in kept))]:
+    if "out/judge.csv" in new and table(new) != [table(base)[i] for i in (0, *(1 + i for i in kept)) if kept]:
         wrong.append("the table")
     for name in same(base, new):
         if any(name.startswith(f"out/{who}/") for who in refused):
