@@ -45,9 +45,7 @@ SoftEdges::SoftEdges(const World& world, const raytrace::Topology& topology, con
   parallel_for(world.triangle_count(), [&](std::uint32_t t) {
     const auto corners = world.corners(t);
     side[t] = static_cast<std::int8_t>(side_of_light(corners, hull, position_error));
-    const Material& material = world.scene->materials[world.material_of(t)];
-    whole[t] =
-        material.alpha_mode == AlphaMode::mask || (side[t] == 0 && may_touch_light(corners, hull)) ? 1 : 0;
+    whole[t] = world.is_masked(t) || (side[t] == 0 && may_touch_light(corners, hull)) ? 1 : 0;
   });
   for (std::uint32_t t = 0; t < world.triangle_count(); ++t) {
     const auto corners = world.corners(t);

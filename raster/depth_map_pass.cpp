@@ -97,7 +97,8 @@ Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& vi
     gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     const float clear_depth = view.reversed ? 0.0f : shaders::map_clear_depth;
     gl->ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &clear_depth);
-    world.draw_triangles(*programs, light_clip_from_relative(view, face, world.reference()));
+    world.draw_triangles(*programs, light_clip_from_relative(view, face, world.reference()),
+                         WorldBuffers::Drawn::casters);
     gl->Disable(GL_CULL_FACE);
     if (auto ok = draw_shapes(world, drawing, face); !ok) return ok;
     if (cull != Cull::none) gl->Enable(GL_CULL_FACE);

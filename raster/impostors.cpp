@@ -8,6 +8,7 @@ Expected<void> draw_impostors(const Gl& gl, ProgramCache& programs, const World&
                               const std::function<void(const ImpostorProgram&)>& set) {
   for (std::size_t i = 0; i < world.shapes.size(); ++i) {
     const Shape& shape = world.shapes[i];
+    if (!permutation.camera && !world.scene->materials[shape.material].casts_shadow) continue;
     const auto bounds = shape_bounds(projection, shape);
     if (!bounds) continue;
     const auto found = programs.impostor(world, i, permutation);

@@ -224,6 +224,7 @@ Expected<const Program*> IzbPass::program(Stage stage, LightType light, std::uin
   add(!text.empty(), "IMPLICIT");
   add(!text.empty(), text);
   add(features.alpha_mask, "ALPHA_MASK");
+  add(features.non_casters, "NON_CASTERS");
   add(features.alpha_mask && features.textures, "TEXTURES");
   add(features.alpha_mask && features.vertex_colors, "VERTEX_COLORS");
   const std::string_view vertex = insert                      ? "fullscreen.vert"
@@ -311,6 +312,7 @@ Expected<void> IzbPass::block_shapes(const MapJob& job, int face) {
   for (std::size_t i = 0; i < world.shapes.size(); ++i) {
     const Shape& shape = world.shapes[i];
     if (std::holds_alternative<Plane>(shape.geometry)) continue;
+    if (!world.scene->materials[shape.material].casts_shadow) continue;
     const auto bounds = shape_bounds(projection, shape);
     if (!bounds) continue;
     const auto found = program(stage_of(shape), job.light.type, cache_->features().functions.of_shape[i]);

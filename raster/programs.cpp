@@ -48,6 +48,10 @@ SceneFeatures scene_features(const EffectPlan& plan, const World& world) {
   features.unlit = plan.simulates(Effect::unlit);
   features.single_sided = plan.simulates(Effect::single_sided);
   features.smooth_normals = world.has_normals();
+  for (const Material& m : world.scene->materials) {
+    features.non_casters = features.non_casters || !m.casts_shadow;
+    features.non_receivers = features.non_receivers || !m.receives_shadow;
+  }
   features.instances = world.keeps_instances();
   for (const Shape& shape : world.shapes) {
     features.quadrics = features.quadrics || std::holds_alternative<Quadric>(shape.geometry);
@@ -179,6 +183,7 @@ Expected<Program> link_shade_program(const Gl& gl, const ShadePermutation& p, co
                      .add(features.emission, "EMISSION")
                      .add(features.vertex_colors, "VERTEX_COLORS")
                      .add(features.unlit, "UNLIT")
+                     .add(features.non_receivers, "NON_RECEIVERS")
                      .add(features.smooth_normals, "SMOOTH_NORMALS")
                      .add(features.solids(), "SOLIDS")
                      .add(features.instances, "INSTANCES")

@@ -25,6 +25,7 @@ std::string functions_define(const FunctionTable& table, std::size_t first, std:
 struct SceneFeatures {
   bool textures = false, alpha_mask = false, specular = false, emission = false, smooth_normals = false;
   bool vertex_colors = false, unlit = false, single_sided = false;
+  bool non_casters = false, non_receivers = false;
   bool quadrics = false, tori = false;
   bool instances = false;     ///< some parts of the world are kept instances
   FunctionTable functions{};  ///< of the implicit surfaces

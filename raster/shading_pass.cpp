@@ -144,7 +144,7 @@ Expected<void> ShadingPass::draw_visibility(const WorldBuffers& world, const Vie
   gl->ClearNamedFramebufferfv(visibility_target_.id(), GL_DEPTH, 0, &clear_depth);
   gl->ClearNamedFramebufferuiv(visibility_target_.id(), GL_COLOR, 0, &no_id);
   world.draw_triangles(*programs, clip_from_relative(drawn_by, world.world(), world.reference()),
-                       programs_->features().single_sided);
+                       WorldBuffers::Drawn::seen);
   if (auto shapes = draw_shapes(world, drawn_by); !shapes) return shapes;
   if (!world.draws_little()) seen_ = seen_by(world, view);
   return {};

@@ -40,6 +40,7 @@ TriangleRuns::TriangleRuns(const World& world, const StoredMeshes& meshes, const
               .part = part.kept() ? block.part : no_id,
               .masked = features.alpha_mask && material.alpha_mode == AlphaMode::mask,
               .single_sided = features.single_sided && !shows_back(material),
+              .casts = material.casts_shadow,
               .inside_out = part.is_inside_out()},
              first_of_block, runs_);
     }
@@ -47,11 +48,12 @@ TriangleRuns::TriangleRuns(const World& world, const StoredMeshes& meshes, const
   first_run_.push_back(static_cast<std::uint32_t>(runs_.size()));
 }
 
-std::vector<TriangleRun> TriangleRuns::within(const ClipSides& sides) const {
+std::vector<TriangleRun> TriangleRuns::within(const ClipSides& sides, bool casters_alone) const {
   std::vector<TriangleRun> seen;
   for (std::size_t b = 0; b < world_->blocks.size(); ++b) {
     if (sides.surely_outside(world_->blocks[b].bounds)) continue;
-    for (std::uint32_t r = first_run_[b]; r < first_run_[b + 1]; ++r) append(runs_[r], 0, seen);
+    for (std::uint32_t r = first_run_[b]; r < first_run_[b + 1]; ++r)
+      if (runs_[r].casts || !casters_alone) append(runs_[r], 0, seen);
   }
   return seen;
 }

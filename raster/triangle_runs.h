@@ -38,10 +38,12 @@ struct TriangleRun {
   std::uint32_t part = no_id;          ///< of a kept part: its number
   bool masked = false;
   bool single_sided = false;
+  bool casts = true;        ///< shadows
   bool inside_out = false;  ///< of a mirrored part: fronts run clockwise
   bool follows(const TriangleRun& run) const {
-    return masked == run.masked && single_sided == run.single_sided && inside_out == run.inside_out &&
-           part == run.part && first == run.first + run.count && at == run.at + run.count;
+    return masked == run.masked && single_sided == run.single_sided && casts == run.casts &&
+           inside_out == run.inside_out && part == run.part && first == run.first + run.count &&
+           at == run.at + run.count;
   }
 };
 
@@ -50,8 +52,8 @@ class TriangleRuns {
   TriangleRuns() = default;
   /// All three must outlive this.
   TriangleRuns(const World& world, const StoredMeshes& meshes, const SceneFeatures& features);
-  /// Those of blocks that may be seen, in the world's order.
-  std::vector<TriangleRun> within(const ClipSides& sides) const;
+  /// Those of blocks that may be seen, in the world's order; of a map what casts shadows alone.
+  std::vector<TriangleRun> within(const ClipSides& sides, bool casters_alone) const;
 
  private:
   void add(const TriangleRun& run, std::size_t block);

@@ -38,6 +38,9 @@ MaterialData material_data(const Material& m) {
   out.emission_uv_matrix = uv_matrix(m.emission_transform);
   out.emission_uv_offset_and_unlit = Vec4f(Vec2f(m.emission_transform.offset), m.unlit ? 1.0f : 0.0f, 0.0f);
   out.diffuse_texture = m.diffuse_texture, out.emission_texture = m.emission_texture;
+  const int flags =
+      (m.casts_shadow ? 0 : shaders::casts_none) | (m.receives_shadow ? 0 : shaders::receives_none);
+  out.shadow_flags = static_cast<std::uint32_t>(flags);
   return out;
 }
 
@@ -394,8 +397,10 @@ void WorldBuffers::bind() const {
 }
 
 void WorldBuffers::draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
-                                  bool culls) const {
-  const std::vector<TriangleRun> runs = runs_.within(ClipSides(clip_from_relative, *reference_));
+                                  const Drawn& drawn) const {
+  const bool culls = drawn == Drawn::seen;
+  const std::vector<TriangleRun> runs =
+      runs_.within(ClipSides(clip_from_relative, *reference_), drawn == Drawn::casters);
   if (culls) (*gl_)->CullFace(GL_BACK);
   for (const bool with_mask : {false, true}) {
     const TriangleProgram* used = nullptr;

@@ -49,7 +49,7 @@ struct ShapeData {
 struct MaterialData {
   Vec4f diffuse_and_alpha, specular_and_shininess, emission_and_matte, uv_matrix, uv_offset_and_cutoff,
       emission_uv_matrix, emission_uv_offset_and_unlit;
-  std::uint32_t diffuse_texture, emission_texture, unused0, unused1;
+  std::uint32_t diffuse_texture, emission_texture, shadow_flags, unused;
 };
 
 static_assert(sizeof(ShapeData) == shaders::shape_texel_count * sizeof(Vec4f));
@@ -68,6 +68,10 @@ double depth_reach(const World& world, const View& drawn);
 
 class WorldBuffers {
  public:
+  enum class Drawn : std::uint8_t {
+    seen,    ///< by the eye
+    casters  ///< of shadows, into a map
+  };
   /// Error (graphics): more data than the context's buffers hold.
   static Expected<WorldBuffers> upload(Gl& gl, const World& world, const SceneFeatures& features);
 
@@ -82,11 +86,11 @@ class WorldBuffers {
   bool draws_little() const { return most_ != all_triangles; }
   ImageSize drawn_part(ImageSize of) const;
   /// Draws every triangle with the program of its kind; all get the matrix. Blocks that it surely shows nothing of are left
-  /// out; depths must be clamped (GL_DEPTH_CLAMP). `culls`: single-sided triangles are not drawn
+  /// out; depths must be clamped (GL_DEPTH_CLAMP). seen: single-sided triangles are not drawn
   /// where their back is seen (GL_CULL_FACE is off before and after); else the caller's state holds for all. A front is
   /// that of the mesh in its own space, of mirrored parts, too.
   void draw_triangles(const TrianglePrograms& programs, const Mat4& clip_from_relative,
-                      bool culls = false) const;
+                      const Drawn& drawn) const;
 
  private:
   friend class SmallDrawing;

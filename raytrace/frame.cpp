@@ -119,7 +119,7 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
       if (point.primitive == no_id) return;
       const bool reached = reaches(light, point);
       truth.centre.at(x, y) = reached ? tracer.centre_visibility(point, light) : PointVisibility::shadowed;
-      rays[tile] += reached ? 1 : 0;
+      rays[tile] += reached && tracer.receives_shadow(point) ? 1 : 0;
     });
     truth.rays = truth.single_rays = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
   });

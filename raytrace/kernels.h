@@ -29,7 +29,8 @@ struct Structures {
   std::vector<std::uint32_t> planes;           ///< primitive ids, ascending
   Precision precision = Precision::robust;
   std::vector<FastPrimitive> fast;  ///< in leaf order, for Precision::fast alone
-  bool has_masks = false;
+  bool has_masks = false;           ///< or what casts no shadow
+  bool has_non_casters = false, has_non_receivers = false;
   std::vector<MaskCells> masks;  ///< by material; none where no material has one
   bool hides_backs = false;      ///< some triangle's back is not seen
   bool has_shapes = false;       ///< spheres or solids among the leaves
@@ -125,9 +126,14 @@ inline bool is_hidden_back(const Structures& s, const Vec3& direction, std::uint
   return hides_back(s, primitive) && is_back(*s.world, direction, primitive);
 }
 
-/// Whether what is looked for may be a triangle met on this side.
+inline bool casts_shadow(const Structures& s, std::uint32_t primitive) {
+  return !s.has_non_casters || s.world->casts_shadow(primitive);
+}
+
+/// Whether what is looked for may be a primitive met on this side.
 inline bool is_on_side(const Structures& s, const Vec3& direction, std::uint32_t primitive, Sides sides) {
-  if (sides == Sides::both || !s.world->is_triangle(primitive)) return true;
+  if (sides >= Sides::casting && !casts_shadow(s, primitive)) return false;
+  if (sides == Sides::both || sides == Sides::casting || !s.world->is_triangle(primitive)) return true;
   if (sides == Sides::seen) return !is_hidden_back(s, direction, primitive);
   const bool inside_out = s.world->part_of(primitive).is_inside_out();
   return (is_back(*s.world, direction, primitive) != inside_out) == (sides == Sides::backs);
@@ -203,7 +209,7 @@ bool any(const Structures& s, const RayFrame& ray, Stats stats) {
   const Arithmetic arithmetic(s, ray);
   Hit hit;
   const auto blocks = [&]() {
-    if constexpr (masks) return passes_alpha_test(s, ray, hit);
+    if constexpr (masks) return casts_shadow(s, hit.primitive) && passes_alpha_test(s, ray, hit);
     return true;
   };
   for (const std::uint32_t plane : s.planes) {

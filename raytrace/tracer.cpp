@@ -63,6 +63,9 @@ Structures make_structures(const World& world, Accel accel, Precision precision)
       s.fast.push_back(fast_primitive(leaf_at(s, i), world.is_triangle(s.bvh.ids[i])));
   s.has_masks = any_material(world, [](const Material& m) { return m.alpha_mode == AlphaMode::mask; });
   if (s.has_masks) s.masks = mask_cells(*world.scene);
+  s.has_non_casters = any_material(world, [](const Material& m) { return !m.casts_shadow; });
+  s.has_non_receivers = any_material(world, [](const Material& m) { return !m.receives_shadow; });
+  s.has_masks = s.has_masks || s.has_non_casters;
   s.hides_backs = any_triangle_material(world, [](const Material& m) { return !shows_back(m); });
   return s;
 }
@@ -153,12 +156,13 @@ template <class Stats>
 
 /// Few hits are backs that are not seen, so the search that knows of sides comes second.
 template <class Stats>
-std::optional<Hit> closest_on_side(const Structures& s, const Ray& ray, Sides sides, Stats stats) {
-  const std::optional<Hit> hit = closest_of(s, ray, no_id, stats);
+std::optional<Hit> closest_on_side(const Structures& s, const Ray& ray, Sides sides, Stats stats,
+                                   std::uint32_t skip = no_id) {
+  const std::optional<Hit> hit = closest_of(s, ray, skip, stats);
   if (!hit || is_on_side(s, ray.direction, hit->primitive, sides)) return hit;
   const std::optional<RayFrame> frame = make_ray_frame(ray);
   return specialise(
-      s, [&]<bool, class Arithmetic>() { return closest<true, Arithmetic>(s, *frame, no_id, stats, sides); });
+      s, [&]<bool, class Arithmetic>() { return closest<true, Arithmetic>(s, *frame, skip, stats, sides); });
 }
 
 template <class Stats>
@@ -307,8 +311,13 @@ Ray Tracer::shadow_ray(const SurfacePoint& from, const Vec3& target) const {
   return {origin, offset / distance, {0.0, distance - error}};
 }
 
+bool Tracer::receives_shadow(const SurfacePoint& point) const {
+  return !impl_->structures.has_non_receivers || world().receives_shadow(point.primitive);
+}
+
 PointVisibility Tracer::centre_visibility(const SurfacePoint& from, const Light& light,
                                           LastBlocker* last) const {
+  if (!receives_shadow(from)) return PointVisibility::lit;
   const Ray ray = shadow_ray(from, light);
   switch (precision()) {
     case Precision::fast:
@@ -342,6 +351,7 @@ bool Tracer::occluded_among(const Ray& ray, std::span<const std::uint32_t> leave
 
 PointVisibility Tracer::centre_visibility_among(const SurfacePoint& from, const Light& light,
                                                 std::span<const std::uint32_t> leaves) const {
+  if (!receives_shadow(from)) return PointVisibility::lit;
   const Ray ray = shadow_ray(from, light);
   return precision() == Precision::exact ? certified_visibility(impl_->structures, from, ray, light, &leaves)
                                          : point_visibility(impl_->structures, from, ray, &leaves);
@@ -351,7 +361,8 @@ std::optional<Hit> Tracer::nearest_occluder(const SurfacePoint& from, const Ligh
   const World& w = world();
   const bool planar =
       w.is_triangle(from.primitive) || std::holds_alternative<Plane>(w.shape(from.primitive).geometry);
-  return closest_of(impl_->structures, shadow_ray(from, light), planar ? from.primitive : no_id, NoStats{});
+  return closest_on_side(impl_->structures, shadow_ray(from, light), Sides::casting, NoStats{},
+                         planar ? from.primitive : no_id);
 }
 
 }  // namespace gnomon::raytrace

@@ -61,9 +61,9 @@ std::string_view precision_name(Precision precision);
 /// answer.
 enum class PointVisibility : std::uint8_t { shadowed = 0, lit = 1, uncertain = 2 };
 
-/// Of triangles; shapes are met on both. fronts: as the mesh has them, of mirrored instances too. seen: both, but for
-/// backs of single-sided materials (scene/scene.h, shows_back).
-enum class Sides : std::uint8_t { both, seen, fronts, backs };
+/// Of triangles; shapes are met on both. seen: both, but for backs of single-sided materials (scene/scene.h, shows_back). casting:
+/// both, of what casts shadows; fronts and backs of that: as the mesh has them, of mirrored instances too.
+enum class Sides : std::uint8_t { both, seen, casting, fronts, backs };
 
 struct AccelStats {
   double build_ms = 0.0;
@@ -121,8 +121,11 @@ class Tracer {
   /// The same to any point, such as one of a light with size.
   Ray shadow_ray(const SurfacePoint& from, const Vec3& target) const;
 
+  /// Whether anything can shadow the point: its material receives shadows.
+  bool receives_shadow(const SurfacePoint& point) const;
+
   /// Exact visibility of the light's centre, with the error bound's ambiguity made visible. Any unmasked surface
-  /// occludes, glass too. The point's own triangle or plane never does; its own sphere only when seen from
+  /// that casts shadows occludes, glass too, but what receives none is lit. The point's own triangle or plane never does; its own sphere only when seen from
   /// within. `last`: null, or what is kept from one ray for the next one.
   PointVisibility centre_visibility(const SurfacePoint& from, const Light& light,
                                     LastBlocker* last = nullptr) const;

@@ -402,8 +402,10 @@ WindowCasters window_casters(const World& world, const LightView& view) {
   const auto count_blocks = [&](std::size_t first, std::size_t last, WindowCasters sum) {
     for (std::size_t b = first; b < last; ++b) {
       const TriangleBlock& block = world.blocks[b];
-      for (std::uint32_t i = 0; i < block.count; ++i)
-        count(sum, extent_of(world.parts[block.part], block.first + i, face, view.origin));
+      const WorldPart& part = world.parts[block.part];
+      for (std::uint32_t i = block.first; i < block.first + block.count; ++i)
+        if (world.scene->materials[part.material_of(i)].casts_shadow)
+          count(sum, extent_of(part, i, face, view.origin));
     }
     return sum;
   };
@@ -414,7 +416,8 @@ WindowCasters window_casters(const World& world, const LightView& view) {
                                         return a;
                                       });
   for (const Shape& shape : world.shapes)
-    if (!std::holds_alternative<Plane>(shape.geometry)) count(sum, extent_of(shape, face, view.origin));
+    if (!std::holds_alternative<Plane>(shape.geometry) && world.scene->materials[shape.material].casts_shadow)
+      count(sum, extent_of(shape, face, view.origin));
   return sum;
 }
 

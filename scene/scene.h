@@ -61,6 +61,8 @@ struct Material {
   TextureTransform emission_transform{};
   bool unlit = false;  ///< its local shading is its diffuse colour; no light changes it, and it casts shadows
   bool double_sided = true;  ///< false: its back does not stop what sees (see shows_back)
+  bool casts_shadow = true;  ///< false: it is in no map, and no shadow ray meets it; it is seen all the same
+  bool receives_shadow = true;  ///< false: all light that it faces arrives, in both renderers
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha = 1.0f;         ///< times the texture's alpha and the vertex colour's
   float alpha_cutoff = 0.5f;  ///< mask: a hit with alpha < cutoff is no hit, in both renderers' shadows too

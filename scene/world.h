@@ -93,9 +93,16 @@ struct World {
     return is_triangle(primitive) ? triangle_ranges.of(primitive)
                                   : static_cast<std::uint32_t>(parts.size()) + (primitive - triangle_count());
   }
-  /// Whether hits may be none: its material has an alpha mask.
+  /// Whether shadow rays may pass where they hit it: its material has an alpha mask, or casts no shadow.
   bool is_masked(std::uint32_t primitive) const {
-    return scene->materials[material_of(primitive)].alpha_mode == AlphaMode::mask;
+    const Material& material = scene->materials[material_of(primitive)];
+    return material.alpha_mode == AlphaMode::mask || !material.casts_shadow;
+  }
+  bool casts_shadow(std::uint32_t primitive) const {
+    return scene->materials[material_of(primitive)].casts_shadow;
+  }
+  bool receives_shadow(std::uint32_t primitive) const {
+    return scene->materials[material_of(primitive)].receives_shadow;
   }
   /// Of a triangle.
   const WorldPart& part_of(std::uint32_t triangle) const { return parts[triangle_ranges.of(triangle)]; }

@@ -13,10 +13,15 @@ struct MaterialData {
   vec4 emission_uv_matrix;
   vec4 emission_uv_offset_and_unlit; // z: not 0 for a colour that no light changes
   uint diffuse_texture, emission_texture;
-  uint unused0, unused1;
+  uint shadow_flags;         // casts_none, receives_none
+  uint unused;
 };
 
 layout(binding = materials_unit) uniform usamplerBuffer material_texels;
+
+bool casts_shadow(uint material) {
+  return (texelFetch(material_texels, int(material) * material_texel_count + 7).z & uint(casts_none)) == 0u;
+}
 
 vec4 material_texel(int at) { return uintBitsToFloat(texelFetch(material_texels, at)); }
 

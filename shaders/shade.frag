@@ -67,12 +67,18 @@ void main() {
   ShadowTest test = shadow_test(r.position, r.normal, at.to_light);
 #endif
   float visibility = technique_visibility(test, r.position, r.normal, at.to_light);
+#ifdef NON_RECEIVERS
+  bool lit_always = (material.shadow_flags & uint(receives_none)) != 0u;  // as if the map ended before it
+  if (lit_always) visibility = 1.0;
+#else
+  const bool lit_always = false;
+#endif
   if (visibility > 0.0 && dot(r.normal, at.to_light) > 0.0)
     radiance.rgb += visibility * blinn_phong(diffuse, material.specular_and_shininess, at.irradiance, r.shading,
                                              at.to_light, r.to_eye);
 #ifdef RECORDS
-  record = vec4(test.own.uv, test.own.distance, test.gap);
-  flags = uint((test.outside ? flag_outside_map : 0) | (test.own.face << flag_face_shift));
+  record = vec4(lit_always ? vec2(-1.0) : test.own.uv, test.own.distance, test.gap);
+  flags = uint((test.outside || lit_always ? flag_outside_map : 0) | (test.own.face << flag_face_shift));
   visibility_record = vec2(visibility, lookups);
 #endif
 #endif

@@ -34,7 +34,7 @@ struct Rows {
 
   /// From x = `from` to `to`.
   std::vector<raster::TriangleRun> shown(double from, double to) const {
-    return runs.within(raster::ClipSides(glm::ortho(from, to, -2.0, 2.0), Vec3(0.0)));
+    return runs.within(raster::ClipSides(glm::ortho(from, to, -2.0, 2.0), Vec3(0.0)), false);
   }
 };
 

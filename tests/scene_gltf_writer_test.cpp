@@ -181,6 +181,32 @@ TEST(GltfWriter, TheSameSceneGivesTheSameBytes) {
   EXPECT_EQ(bytes.size() % 4, 0u);
 }
 
+TEST(GltfWriter, WhatCastsOrReceivesNoShadowComesBack) {
+  Scene scene = small();
+  scene.materials[0].casts_shadow = false;
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].casts_shadow = true, scene.materials[1].receives_shadow = false;
+  scene.instances.push_back({"two", 0, Mat4(1.0), 1});
+  Json json = json_of(scene);
+  const Scene again = reread(scene, false);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Material& m = again.materials[again.instances[i].material];
+    EXPECT_EQ(m.casts_shadow, i == 1);
+    EXPECT_EQ(m.receives_shadow, i == 0);
+  }
+  // Of other programs' files too: a node's own extras, as a truth value or as 0.
+  json["asset"]["generator"] = "another";
+  for (Json& material : json["materials"]) material.erase("extras");
+  for (Json& node : json["nodes"])
+    if (node.contains("mesh")) node["extras"] = {{"casts_shadow", 0}, {"receives_shadow", false}};
+  const TemporaryFolder folder;
+  const auto other = load_scene(folder.put("other.gltf", json.dump()));
+  ASSERT_TRUE(other);
+  for (const MeshInstance& instance : other->instances)
+    EXPECT_FALSE(other->materials[instance.material].casts_shadow ||
+                 other->materials[instance.material].receives_shadow);
+}
+
 TEST(GltfWriter, AnOrthographicCameraComesBack) {
   for (const Vec3& eye : {Vec3(1, 2, 5), Vec3(1, 2, 500), Vec3(0.1, 0.1, 0.3)}) {
     Scene scene = small();

@@ -377,5 +377,35 @@ TEST(JsonScene, SettingsAreReadWhateverTheCaseOfTheExtension) {
   }
 }
 
+TEST(JsonScene, ObjectsThatCastOrReceiveNoShadowHaveMaterialsOfTheirOwn) {
+  const auto scene = load_json_scene(R"({"schema": "gnomon/scene/1",
+    "camera": {"eye": [0, 0, 9], "target": [0, 0, 0]}, "lights": [{"type": "point", "position": [0, 9, 0]}],
+    "materials": [{"name": "grey"}, {"name": "sky", "receives_shadow": false}],
+    "meshes": [{"name": "tri", "vertices": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,2]]}],
+    "instances": [{"name": "usual", "mesh": "tri", "material": "grey"},
+                  {"name": "pane", "mesh": "tri", "material": "grey", "casts_shadow": false},
+                  {"name": "rail", "mesh": "tri", "material": "grey", "casts_shadow": false},
+                  {"name": "dome", "mesh": "tri", "material": "sky", "casts_shadow": false}],
+    "shapes": [{"name": "ball", "sphere": {"center": [0,0,0], "radius": 1}, "material": "grey", "receives_shadow": false}]})",
+                                     "s.json", "", {});
+  ASSERT_TRUE(scene) << scene.error().message();
+  const auto of = [&](std::size_t i) { return scene->materials[scene->instances[i].material]; };
+  EXPECT_TRUE(of(0).casts_shadow && of(0).receives_shadow);
+  EXPECT_EQ(of(0).name, "grey");
+  EXPECT_FALSE(of(1).casts_shadow);
+  EXPECT_TRUE(of(1).receives_shadow);
+  EXPECT_EQ(of(1).name, "grey (casts no shadow)");
+  EXPECT_EQ(scene->instances[1].material, scene->instances[2].material);
+  EXPECT_FALSE(of(3).casts_shadow || of(3).receives_shadow);
+  const Material& ball = scene->materials[scene->shapes[0].material];
+  EXPECT_TRUE(ball.casts_shadow && !ball.receives_shadow);
+  EXPECT_TRUE(test::has_note(*scene,
+                             "3 objects cast no shadow: they are in no map, and no shadow ray meets them "
+                             "(pane, rail, dome)."));
+  EXPECT_TRUE(test::has_note(*scene,
+                             "2 objects receive no shadow: both renderers light them, and they count as lit "
+                             "(dome, ball)."));
+}
+
 }  // namespace
 }  // namespace gnomon

@@ -223,6 +223,27 @@ map_Kd missing.png
   EXPECT_EQ(material(6).name, "default");
 }
 
+// What is said of 21 materials is one note.
+TEST(Obj, NotesOfManyMaterialsAreOne) {
+  const TemporaryFolder folder;
+  std::string library, text = "mtllib m.mtl\n" + std::string(quad);
+  for (int i = 0; i < 21; ++i) {
+    library += fmt::format("newmtl m{0}\nmap_Bump b{0}.png\nmap_Kd c{0}.png\nKd 2 0 0\n", i);
+    text += fmt::format("usemtl m{}\nf 1 2 3\n", i);
+  }
+  folder.put("m.mtl", library);
+  const auto scene = load_text(folder, text);
+  ASSERT_TRUE(scene) << scene.error().message();
+  const auto count = [&](std::string_view part) {
+    return std::count_if(scene->notes.begin(), scene->notes.end(),
+                         [&](const std::string& note) { return note.find(part) != note.npos; });
+  };
+  for (const char* part : {"are not used", "not there", "clipped"}) EXPECT_EQ(count(part), 1) << part;
+  EXPECT_EQ(count("Maps that are not used: m0 (bump), m1 (bump), m2 (bump) and 18 more."), 1);
+  EXPECT_EQ(count("Colours were clipped to [0, 1]: m0 (Kd), m1 (Kd), m2 (Kd) and 18 more."), 1);
+  EXPECT_EQ(count("Textures are not there; plain colours are used: m0 ("), 1);
+}
+
 TEST(Obj, CorruptTextureIsAnError) {
   const TemporaryFolder folder;
   folder.put("m.mtl", "newmtl a\nmap_Kd bad.png\n");

@@ -4,3 +4,5 @@ gnomon_test(technique_gl_test TIMEOUT 900
   LIBS compare_support)
 # Orthographic cameras, in both renderers and every technique.
 gnomon_test(orthographic_gl_test SOURCES orthographic_gl_test.cpp LIBS compare_support gnomon::hybrid)
+# Objects that cast no shadow, or receive none.
+gnomon_test(casting_gl_test SOURCES casting_gl_test.cpp LIBS compare_support gnomon::hybrid)

@@ -23,7 +23,7 @@ TexelCentre trace_centre(const LadderInput& in, TexelKey key) {
   TexelCentre out;
   out.face = key.face();
   out.ray = caster_ray(view, key.face(), key.column() + 0.5, key.row() + 0.5);
-  out.hit = in.tracer.closest_hit(out.ray);
+  out.hit = in.tracer.closest_hit(out.ray, raytrace::Sides::casting);
   if (out.hit) {
     const Vec3& forward = view.face(out.face).forward;
     out.depth =

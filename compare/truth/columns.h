@@ -49,7 +49,7 @@ std::optional<raytrace::Hit> first_on_ray(const raytrace::Tracer& tracer, const 
                                           const Wanted& wanted) {
   std::optional<raytrace::Hit> found;
   visit_hits(
-      ray, [&](const Ray& from) { return tracer.closest_hit(from); },
+      ray, [&](const Ray& from) { return tracer.closest_hit(from, raytrace::Sides::casting); },
       [&](const raytrace::Hit& hit) {
         if (!(hit.t < t_end)) return false;
         if (wanted(hit)) found = hit;

@@ -100,7 +100,7 @@ class Blockers {
     return arithmetic_.has_value();
   }
   bool is_opaque_there() {
-    if constexpr (masks) return passes_alpha_test(s_, frame_, hit_);
+    if constexpr (masks) return casts_shadow(s_, hit_.primitive) && passes_alpha_test(s_, frame_, hit_);
     return true;
   }
 

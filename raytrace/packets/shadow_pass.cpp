@@ -138,15 +138,26 @@ class ShadowPass {
     } else {
       prepare_one_by_one(setup, tile);
     }
-    LaneMask traced;
-    for (std::size_t p = 0; p < tile_packets; ++p) {
-      if (reached) {  // what floats hold to be facing away is asked in double
+    if (reached)  // what floats hold to be facing away is asked in double
+      for (std::size_t p = 0; p < tile_packets; ++p) {
         tile.rays.alive[p] &= tile.asked[p];
         tile.lanes.apart[p] = static_cast<std::uint16_t>(tile.asked[p] & ~tile.rays.alive[p]);
       }
-      traced[p] = tile.rays.alive[p] | tile.lanes.apart[p];
-    }
+    if (receivers_.tracer.structures().has_non_receivers) leave_out_non_receivers(tile);
+    LaneMask traced;
+    for (std::size_t p = 0; p < tile_packets; ++p) traced[p] = tile.rays.alive[p] | tile.lanes.apart[p];
     return number_of(traced);
+  }
+
+  /// They are lit, and no ray is cast for them.
+  void leave_out_non_receivers(Tile& tile) const {
+    const World& world = receivers_.tracer.world();
+    for_each_place(tile.rect, [&](int, int, std::size_t lane) {
+      const bool has_ray = has_lane(tile.rays.alive, lane) || has_lane(tile.lanes.apart, lane);
+      if (!has_ray || world.receives_shadow(tile.rays.source[lane])) return;
+      const auto others = static_cast<std::uint16_t>(~(1u << (lane % packet_rays)));
+      tile.rays.alive[lane / packet_rays] &= others, tile.lanes.apart[lane / packet_rays] &= others;
+    });
   }
 
   /// Whether floats from the tile's origin are near enough to its receivers.

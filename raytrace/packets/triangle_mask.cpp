@@ -55,6 +55,7 @@ Vec2 larger(const Vec2& a, const Vec2& b) {
 // double kernels see it to 2^-42 of the largest coordinate (edge_setup_kernel.cpp), and each other corner's error adds its own.
 TriangleMask triangle_mask(const Structures& s, const EdgeSetupPass& pass, std::uint32_t id,
                            const CornerPointers& corners) {
+  if (!casts_shadow(s, id)) return {};
   const MaskCells& cells = s.masks[s.world->material_of(id)];
   const std::array<Vec3, 3> p = in_plane(pass, corners);
   std::array<Vec2, 3> texels;

@@ -109,6 +109,7 @@ class Query {
   bool is_opaque_here(std::uint32_t id) const {
     const World& world = *s_.world;
     const RayFrame& ray = ambiguous_.frame();
+    if (!casts_shadow(s_, id)) return false;
     if (!world.is_masked(id)) return true;
     Hit hit;
     hit.primitive = id;

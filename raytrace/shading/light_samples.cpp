@@ -82,6 +82,7 @@ double stratified_standard_error(std::span<const std::uint8_t> samples) {
 
 SampledVisibility light_visibility(const Tracer& tracer, const SurfacePoint& from, const Light& light,
                                    int samples, std::uint64_t key) {
+  if (!tracer.receives_shadow(from)) return {};
   const LightBlockers blockers = find_light_blockers(tracer, from, light, samples);
   if (blockers.none()) return {1.0, 0.0, 0};
   const LightSamples rays(tracer, from, light, samples, key);

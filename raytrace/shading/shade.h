@@ -165,6 +165,7 @@ class Shader {
   /// Share of the light that arrives along straight lines.
   Vec3f transmittance(const SurfacePoint& point, const Path& path, std::uint32_t light_index) {
     const Light& light = scene_.lights[light_index];
+    if (!tracer_.receives_shadow(point)) return Vec3f(1.0f);
     if (on_.soft && has_size(light)) return soft_transmittance(point, path, light, light_index);
     if constexpr (Kind::refracts)
       return through_glass(tracer_.shadow_ray(point, light), path.inside, counts_.shadow);
@@ -371,7 +372,7 @@ class Shader {
     Vec3f share(1.0f);
     for (int surfaces = 0; surfaces < max_glass_surfaces; ++surfaces) {
       ++count;
-      const std::optional<Hit> hit = tracer_.closest_hit(ray);
+      const std::optional<Hit> hit = tracer_.closest_hit(ray, Sides::casting);
       if (!hit) return share * to_the_light(ray, inside);
       const std::uint32_t id = world_.material_of(hit->primitive);
       const Material& material = scene_.materials[id];

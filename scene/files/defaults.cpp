@@ -8,7 +8,9 @@
 
 #include "scene/closed_mesh.h"
 #include "scene/files/image_io.h"
+#include "scene/files/material_notes.h"
 #include "scene/files/placed_triangles.h"
+#include "scene/files/shadow_variants.h"
 #include "scene/solid.h"
 
 namespace gnomon {
@@ -234,15 +236,6 @@ void note_open_glass(Scene& scene) {
 
 namespace {
 
-/// Names of up to three materials, and how many more there are.
-std::string some_names(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 3;
-  const std::span<const std::string> shown(names.data(), std::min(most, names.size()));
-  std::string text = fmt::format("{}", fmt::join(shown, ", "));
-  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
-  return text;
-}
-
 /// Glowing surfaces are seen, and are no lights.
 void note_emission(Scene& scene) {
   const auto glows = [&](std::uint32_t m) { return scene.materials[m].emission != Vec3f(0.0f); };
@@ -261,7 +254,7 @@ void note_emission(Scene& scene) {
                              ? "only the indirect light of the ray-traced picture gathers it"
                              : "nothing is lit by it";
   scene.notes.push_back(fmt::format("Emission is seen and casts no shadows: {} (material{} {}).", gathered,
-                                    names.size() > 1 ? "s" : "", some_names(names)));
+                                    names.size() > 1 ? "s" : "", some_of(names)));
 }
 
 /// Shadows of such a light darken nothing, and are compared all the same.
@@ -271,7 +264,7 @@ void note_dark_lights(Scene& scene) {
     if (light.intensity == Vec3f(0.0f)) names.push_back(light.name);
   if (names.empty()) return;
   scene.notes.push_back(fmt::format("{} no intensity: shadows are compared that no picture shows ({}).",
-                                    names.size() > 1 ? "Lights have" : "A light has", some_names(names)));
+                                    names.size() > 1 ? "Lights have" : "A light has", some_of(names)));
 }
 
 /// The scene's bounds; of planes alone something like a room at the first one.
@@ -308,6 +301,7 @@ Scene add_defaults(LoadedFile loaded) {
   if (scene.materials.empty()) scene.materials.push_back(model_material("default"));
   note_open_glass(scene);
   note_emission(scene);
+  note_shadow_flags(scene);
   note_dark_lights(scene);
   return std::move(scene);
 }

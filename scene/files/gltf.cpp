@@ -20,6 +20,7 @@
 #include "scene/files/gltf_transforms.h"
 #include "scene/files/gltf_value.h"
 #include "scene/files/read_file.h"
+#include "scene/files/shadow_variants.h"
 #include "scene/files/validate.h"
 #include "scene/threads.h"
 
@@ -178,12 +179,21 @@ class SceneBuilder {
     if (!mesh) return fail(mesh.error());
     if (mesh->mesh == no_id) return {};
     const std::string name = !node.name.empty() ? node.name : fmt::format("node-{}", index);
+    const std::size_t first = scene_.instances.size();
+    const auto placed = place_mesh(node, index, name, *mesh, world);
+    for (std::size_t i = first; i < scene_.instances.size(); ++i)
+      shadow_variants_.apply({node.casts_shadow, node.receives_shadow}, scene_, scene_.instances[i]);
+    return placed;
+  }
+
+  Expected<void> place_mesh(const gltf::Node& node, std::size_t index, const std::string& name,
+                            const PosedMesh& mesh, const Mat4& world) {
     if (skin_of(node) >= 0)  // in the world already
-      add_instance(name, *mesh, Mat4(1.0));
+      add_instance(name, mesh, Mat4(1.0));
     else if (const JsonValue* instancing = extension(node.extensions, "EXT_mesh_gpu_instancing"))
-      return add_instances(name, *mesh, world, *instancing, index);
+      return add_instances(name, mesh, world, *instancing, index);
     else
-      add_instance(name, *mesh, world);
+      add_instance(name, mesh, world);
     return {};
   }
 
@@ -313,6 +323,7 @@ class SceneBuilder {
   std::map<std::string, int> next_number_;  // behind a light's name that is taken
   int flattened_ = 0;
   bool ranged_ = false;
+  ShadowVariants shadow_variants_;
 };
 
 /// Where a primitive's accessor has no data, not even packed, it is all zeros: not without limit.

@@ -5,7 +5,8 @@
 //               half_height}, all in the world; shadow_samples
 //   a material  the numbers of Blinn-Phong, mirror and transmission, as a JSON scene has them; these replace
 //               what the glTF material would be mapped to
-// They are read only where asset.generator is Gnomon: another program that has rewritten the file may have
+// Besides, in the extras themselves and whatever the generator, a node and a material have casts_shadow and receives_shadow
+// (gltf_value.h). The others are read only where asset.generator is Gnomon: another program that has rewritten the file may have
 // changed what they belong to.
 #pragma once
 

@@ -70,7 +70,8 @@ class MaterialReader {
     note_single_sided();
     for (const auto& [what, names] : unused_)
       scene_.notes.push_back(fmt::format("{} not used (material{} {}).", what, names.size() > 1 ? "s" : "",
-                                         fmt::join(names, ", ")));
+                                         some_of({names.begin(), names.end()})));
+    textures_.put_notes();
     return sets_;
   }
 
@@ -122,6 +123,8 @@ class MaterialReader {
     m.roughness = m.mirror > 0.0f || m.transmission > 0.0f ? fraction(roughness) : 0.0f;
     if (material_extension(from, "KHR_materials_unlit") != nullptr) make_unlit(from, m);
     m.double_sided = flag_of(&from, "doubleSided", false);
+    m.casts_shadow = shadow_flag(from, "casts_shadow"),
+    m.receives_shadow = shadow_flag(from, "receives_shadow");
     note_unused(from, m.name);
     return m;
   }

@@ -90,6 +90,7 @@ struct Node {
   std::string name;
   int mesh = -1, camera = -1, skin = -1, light = -1, parent = -1;
   bool visible = true;
+  bool casts_shadow = true, receives_shadow = true;  ///< by its extras
   std::vector<std::size_t> children;
   std::vector<double> weights;
   std::optional<Mat4> matrix;  ///< where it is given, the three parts are not

@@ -152,6 +152,8 @@ class NodeReader {
     read_children(node, at);
     read_transform(node, out);
     out.extensions = object(node, "extensions");
+    out.casts_shadow = shadow_flag(node.value(), "casts_shadow");
+    out.receives_shadow = shadow_flag(node.value(), "receives_shadow");
     const auto extensions = node.child("extensions");
     if (!extensions) return;
     if (const auto light = extensions->child("KHR_lights_punctual"))

@@ -133,11 +133,6 @@ Expected<std::optional<Vec3f>> GltfTextures::linear_mean(int index, const std::s
   return linear_means_.emplace((*image)->index, statistics_of(*texture).mean).first->second;
 }
 
-void GltfTextures::note_once(std::string note) {
-  if (std::find(scene_.notes.begin(), scene_.notes.end(), note) == scene_.notes.end())
-    scene_.notes.push_back(std::move(note));
-}
-
 Expected<std::optional<GltfImage>> GltfTextures::find_image(int index, const std::string& material) {
   const JsonValue& texture = texture_at(index);
   std::string why = extension(member(&texture, "extensions"), "KHR_texture_basisu") != nullptr
@@ -158,7 +153,8 @@ Expected<std::optional<GltfImage>> GltfTextures::find_image(int index, const std
     if (!image->bytes.empty()) return std::move(*image);
     why = image->uri.empty() ? "is empty" : fmt::format("{} is not there", printable(image->uri, 80));
   }
-  note_once(fmt::format("Material '{}': the texture {}; its plain colour is used.", material, why));
+  notes_.add(material, "the texture {}; its plain colour is used",
+             "Textures are missing; plain colours are used", why);
   return std::nullopt;
 }
 

@@ -8,6 +8,7 @@
 
 #include "scene/expected.h"
 #include "scene/files/gltf_data.h"
+#include "scene/files/material_notes.h"
 #include "scene/scene.h"
 
 namespace gnomon {
@@ -44,6 +45,8 @@ class GltfTextures {
   const TextureStatistics& statistics(std::uint32_t texture) const { return statistics_[texture]; }
   /// The mean of a texture that holds no colours, in [0, 1]; none where it is not there.
   Expected<std::optional<Vec3f>> linear_mean(int index, const std::string& material);
+  /// Notes on textures that are not there.
+  void put_notes() { notes_.put(scene_); }
 
  private:
   struct Decoded {
@@ -60,9 +63,9 @@ class GltfTextures {
   Expected<Texture> decode(const GltfImage& image, bool srgb) const;
   const JsonValue& texture_at(int index) const;
   void apply_sampler(int index, Texture& texture, const std::string& material);
-  void note_once(std::string note);
 
   Scene& scene_;
+  MaterialNotes notes_;
   const JsonDocument& json_;
   GltfData& data_;
   UnusedParts& unused_;

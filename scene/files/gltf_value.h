@@ -65,6 +65,12 @@ inline bool flag_of(const JsonValue* object, std::string_view key, bool otherwis
   return value != nullptr && value->type == JsonValue::Type::boolean ? value->boolean : otherwise;
 }
 
+/// What an object's extras say of casting or receiving shadows, as a truth value or, as some programs write these, 0 or 1.
+inline bool shadow_flag(const JsonValue& object, std::string_view key) {
+  const JsonValue* extras = member(&object, "extras");
+  return flag_of(extras, key, true) && number_of(extras, key, 1.0) != 0.0;
+}
+
 /// One of the extensions that an object's member of that name holds; nullptr where it is not there or no object.
 inline const JsonValue* extension(const JsonValue* extensions, std::string_view name) {
   const JsonValue* found = member(extensions, name);

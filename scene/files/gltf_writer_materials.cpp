@@ -126,6 +126,8 @@ void add_material(File& file, const Material& m) {
   add_transmission(file, extensions, m);
   if (!extensions.empty()) material["extensions"] = std::move(extensions);
   material["extras"] = material_extras(m);
+  if (!m.casts_shadow) material["extras"]["casts_shadow"] = false;
+  if (!m.receives_shadow) material["extras"]["receives_shadow"] = false;
   file.add("materials", std::move(material));
 }
 

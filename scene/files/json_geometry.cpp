@@ -267,9 +267,29 @@ void check_triangles(const SceneReader& reader, const JsonNode& repeat, const Na
                              max_repeated_triangles));
 }
 
+void place_instances(SceneReader& reader, const JsonNode& node, const JsonObject& object,
+                     const NamedMesh& mesh, const PartMaterials& materials, MeshInstance instance) {
+  const auto repeat = object.find("repeat");
+  if (!repeat) return place_parts(reader, node, mesh, materials, instance);
+  const std::vector<RepeatedPlace> places = read_repeat(*repeat);
+  if (!reader.failed()) check_triangles(reader, *repeat, mesh, places.size());
+  const MeshInstance model = instance;
+  for (std::size_t i = 0; i < places.size() && !reader.failed(); ++i) {
+    instance.name = fmt::format("{}-{}", model.name, i + 1);
+    instance.world_from_object =
+        glm::translate(Mat4(1.0), places[i].offset) * model.world_from_object * places[i].own;
+    place_parts(reader, node, mesh, materials, instance);
+  }
+}
+
+ShadowFlags read_shadow_flags(const JsonObject& object) {
+  return {object.boolean("casts_shadow", true), object.boolean("receives_shadow", true)};
+}
+
 void read_instance(SceneReader& reader, const JsonNode& node) {
-  const JsonObject object(
-      node, {"name", "mesh", "material", "materials", "translate", "rotate", "scale", "matrix", "repeat"});
+  const JsonObject object(node, {"name", "mesh", "material", "materials", "translate", "rotate", "scale",
+                                 "matrix", "repeat", "casts_shadow", "receives_shadow"});
+  const ShadowFlags flags = read_shadow_flags(object);
   const auto mesh_name = object.require("mesh");
   if (reader.failed()) return;
   NamedMesh* mesh = find_mesh(reader, *mesh_name);
@@ -279,17 +299,10 @@ void read_instance(SceneReader& reader, const JsonNode& node) {
   instance.name = object.string("name", mesh_name->value().text);
   instance.world_from_object = read_transform(object);
   const PartMaterials materials = read_part_materials(reader, object, *mesh);
-  const auto repeat = object.find("repeat");
-  if (!repeat) return place_parts(reader, node, *mesh, materials, instance);
-  const std::vector<RepeatedPlace> places = read_repeat(*repeat);
-  if (!reader.failed()) check_triangles(reader, *repeat, *mesh, places.size());
-  const MeshInstance model = instance;
-  for (std::size_t i = 0; i < places.size() && !reader.failed(); ++i) {
-    instance.name = fmt::format("{}-{}", model.name, i + 1);
-    instance.world_from_object =
-        glm::translate(Mat4(1.0), places[i].offset) * model.world_from_object * places[i].own;
-    place_parts(reader, node, *mesh, materials, instance);
-  }
+  const std::size_t first = reader.scene.instances.size();
+  place_instances(reader, node, object, *mesh, materials, instance);
+  for (std::size_t i = first; i < reader.scene.instances.size() && !reader.failed(); ++i)
+    reader.shadow_variants.apply(flags, reader.scene, reader.scene.instances[i]);
 }
 
 // ---- shapes ----
@@ -314,7 +327,7 @@ Plane read_plane(const JsonNode& node) {
 Shape read_shape(SceneReader& reader, const JsonNode& node) {
   const std::vector<std::string_view> kinds{"sphere",     "plane",       "ellipsoid", "cylinder", "cone",
                                             "paraboloid", "hyperboloid", "torus",     "implicit"};
-  std::vector<std::string_view> keys{"name", "material"};
+  std::vector<std::string_view> keys{"name", "material", "casts_shadow", "receives_shadow"};
   keys.insert(keys.end(), kinds.begin(), kinds.end());
   const JsonObject object(node, keys);
   Shape shape;
@@ -327,6 +340,8 @@ Shape read_shape(SceneReader& reader, const JsonNode& node) {
     shape.geometry = read_solid(kind, *object.find(kind));
   shape.name = object.string("name", fmt::format("{}-{}", kind, reader.scene.shapes.size() + 1));
   if (const auto material = object.require("material")) shape.material = find_material(reader, *material);
+  const ShadowFlags flags = read_shadow_flags(object);
+  if (!reader.failed()) shape.material = reader.shadow_variants.material(flags, reader.scene, shape.material);
   return shape;
 }
 

@@ -57,9 +57,10 @@ void read_texture_of(SceneReader& reader, const JsonNode& node, std::uint32_t& t
 
 Material read_material(SceneReader& reader, const JsonNode& node) {
   const JsonObject object(
-      node, {"name", "diffuse", "specular", "shininess", "emission", "mirror", "transmission", "ior",
-             "absorption", "roughness", "priority", "thin", "texture", "alpha", "alpha_mode", "alpha_cutoff",
-             "emission_texture", "unlit", "double_sided"});
+      node, {"name",         "diffuse",      "specular",       "shininess",    "emission",         "mirror",
+             "transmission", "ior",          "absorption",     "roughness",    "priority",         "thin",
+             "texture",      "alpha",        "alpha_mode",     "alpha_cutoff", "emission_texture", "unlit",
+             "double_sided", "casts_shadow", "receives_shadow"});
   const auto number = [&](std::string_view key, float otherwise, const NumberRange& range) {
     return static_cast<float>(object.number(key, static_cast<double>(otherwise), range));
   };
@@ -86,6 +87,8 @@ Material read_material(SceneReader& reader, const JsonNode& node) {
         fmt::format("mirror + transmission (got {:g} + {:g}, allowed up to 1)", m.mirror, m.transmission));
   m.unlit = object.boolean("unlit", m.unlit);
   m.double_sided = object.boolean("double_sided", m.double_sided);
+  m.casts_shadow = object.boolean("casts_shadow", m.casts_shadow);
+  m.receives_shadow = object.boolean("receives_shadow", m.receives_shadow);
   if (const auto texture = object.find("texture"))
     read_texture_of(reader, *texture, m.diffuse_texture, m.texture_transform);
   if (const auto texture = object.find("emission_texture"))

@@ -7,6 +7,7 @@
 
 #include "scene/files/formats.h"
 #include "scene/files/json_reader.h"
+#include "scene/files/shadow_variants.h"
 #include "scene/keyed_path.h"
 
 namespace gnomon {
@@ -21,6 +22,7 @@ struct SceneReader {
   FileNames names{};
   std::map<std::string, std::uint32_t> textures{};        ///< of files, by what was asked for
   std::map<std::uint32_t, std::uint32_t> plain_meshes{};  ///< copies without triangle_materials
+  ShadowVariants shadow_variants{};
 
   bool failed() const { return errors.first.has_value(); }
   /// Passes on an error that another file or a generator made; one without a file gets this node's position.

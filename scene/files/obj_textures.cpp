@@ -86,10 +86,6 @@ Texture with_alpha_of(Texture colours, Texture mask) {
 
 }  // namespace
 
-void ObjTextures::note(const std::string& material, const std::string& words) {
-  scene_.notes.push_back(fmt::format("Material '{}': {}.", material, words));
-}
-
 Expected<std::string> ObjTextures::find_file(const std::string& name, const std::string& material,
                                              const std::string& statement) {
   auto path = resolve_path(folder_, with_slashes(name), options_);
@@ -109,7 +105,8 @@ Expected<ObjTextures::Files> ObjTextures::find_files(const MtlMaterial& from) {
     if (*there)
       files.colours = std::move(*path);
     else
-      note(from.name, fmt::format("the texture {} is not there; its plain colour is used", *path));
+      notes_.add(from.name, "the texture {} is not there; its plain colour is used",
+                 "Textures are not there; plain colours are used", *path);
   }
   if (!from.mask.file.empty()) {
     auto path = find_file(from.mask.file, from.name, "map_d");
@@ -117,7 +114,8 @@ Expected<ObjTextures::Files> ObjTextures::find_files(const MtlMaterial& from) {
     const auto there = is_there(*path);
     if (!there) return fail(there.error());
     if (!*there) {
-      note(from.name, fmt::format("the mask {} is not there; map_d is not used", *path));
+      notes_.add(from.name, "the mask {} is not there; map_d is not used",
+                 "Masks are not there; map_d is not used", *path);
     } else {
       const auto one = are_one_path(*path, files.colours);
       if (!one) return fail(one.error());
@@ -177,13 +175,15 @@ void ObjTextures::give(const MtlMaterial& from, std::size_t number, Material& ma
   material.texture_transform = transform_of(files.colours.empty() ? from.mask : from.colours);
   if (files.mask.empty()) return;
   if (known.mask == Mask::none)
-    return note(from.name,
-                fmt::format("map_d is not used: {} has colours and no alpha channel", from.mask.file));
+    return notes_.add(from.name, "map_d is not used: {} has colours and no alpha channel",
+                      "map_d is not used where it has colours and no alpha channel", from.mask.file);
   material.alpha_mode = AlphaMode::mask;
   if (known.mask == Mask::grey && !files.has_mask_of_its_own())
-    note(from.name, fmt::format("map_d is the grey of {}, which has no alpha channel", from.mask.file));
+    notes_.add(from.name, "map_d is the grey of {}, which has no alpha channel",
+               "map_d is a file's grey where that has no alpha channel", from.mask.file);
   if (!files.colours.empty() && !lie_alike(from.colours, from.mask))
-    note(from.name, "map_d lies as map_Kd does: its own -s, -o and -clamp are not used");
+    notes_.add(from.name, "map_d lies as map_Kd does: its own -s, -o and -clamp are not used",
+               "map_d lies as map_Kd does: its own -s, -o and -clamp are not used");
 }
 
 }  // namespace gnomon

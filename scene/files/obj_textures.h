@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scene/files/image_io.h"
+#include "scene/files/material_notes.h"
 #include "scene/files/mtl.h"
 #include "scene/load.h"
 
@@ -21,8 +22,8 @@ namespace gnomon {
 class ObjTextures {
  public:
   /// Names of files are relative to `folder`.
-  ObjTextures(Scene& scene, const std::string& folder, const LoadOptions& options)
-      : scene_(scene), folder_(folder), options_(options) {}
+  ObjTextures(Scene& scene, MaterialNotes& notes, const std::string& folder, const LoadOptions& options)
+      : scene_(scene), notes_(notes), folder_(folder), options_(options) {}
 
   /// Brings in what the materials name, decoded in parallel. A file that is not there is a note; one that cannot be
   /// read is an error.
@@ -55,9 +56,9 @@ class ObjTextures {
                                   const std::string& statement);
   Expected<Files> find_files(const MtlMaterial& from);
   static Expected<Made> make(const Files& files);
-  void note(const std::string& material, const std::string& words);
 
   Scene& scene_;
+  MaterialNotes& notes_;
   const std::string& folder_;
   const LoadOptions& options_;
   std::vector<Files> files_;  ///< of each material

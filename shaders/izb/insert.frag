@@ -161,6 +161,9 @@ bool planes_block(Receiver64 r) {
   ShadowRay ray = shadow_ray(r);
   for (uint i = 0u; i < uint(izb.size.w); ++i) {
     if (shape_at(i).kind != uint(shape_plane) || shape_at(i).primitive == r.primitive) continue;
+#ifdef NON_CASTERS
+    if (!casts_shadow(shape_at(i).material)) continue;
+#endif
     if (plane_blocks(i, r, ray)) return true;
   }
   return false;

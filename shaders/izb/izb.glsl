@@ -193,8 +193,10 @@ dvec3 on_grid(int face, dvec3 position) {
   return dvec3(0.5LF * (shown + 1.0LF) * double(izb.size.z), z);
 }
 
-#ifdef ALPHA_MASK
+#if defined(ALPHA_MASK) || defined(NON_CASTERS)
 #include "material.glsl"
+#endif
+#ifdef ALPHA_MASK
 bool masked_hole(uint material, vec2 uv, float vertex_alpha) { return is_hole(material_at(material), uv, vertex_alpha); }
 bool masked_hole(uint material, vec2 uv) { return masked_hole(material, uv, 1.0); }
 #endif

@@ -61,5 +61,8 @@ void main() {
   bool right = corner == 1 || corner == 4 || corner == 5, top = corner == 2 || corner == 3 || corner == 5;
   dvec2 at = dvec2(right ? high.x : low.x, top ? high.y : low.y);
   bool empty = low.x >= high.x || low.y >= high.y || !has_surface(a, b, c);
+#ifdef NON_CASTERS
+  empty = empty || !casts_shadow(t.material);
+#endif
   gl_Position = empty ? vec4(0.0, 0.0, 0.0, 1.0) : vec4(vec2(2.0LF * at / double(izb.size.z) - 1.0LF), 0.5, 1.0);
 }

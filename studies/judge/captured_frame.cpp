@@ -112,7 +112,7 @@ bool is_culled(const FrameInput& in, const raster::MapOptions& map, const raster
     const StoredSurface found = stored_surface(in.tracer, record, map, key);
     if (found.primitive == no_id) continue;
     const Ray ray = caster_ray(record.map.view, key.face(), key.column() + 0.5, key.row() + 0.5);
-    const auto first = in.tracer.closest_hit(ray);
+    const auto first = in.tracer.closest_hit(ray, raytrace::Sides::casting);
     ++seen, later += first && first->t < found.t ? 1 : 0;
   }
   return seen > 0 && static_cast<double>(later) > culled_share * static_cast<double>(seen);
@@ -162,10 +162,11 @@ void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRe
     const SurfacePoint& point = in.traced.receiver.data[i];
     if (point.primitive == no_id) return;
     const TexelCoordinate at = project_to_texel(record.map.view, point.position);
-    record.texel_uv.data[i] = Vec2f(at.u, at.v);
+    const bool looks_up = in.tracer.receives_shadow(point);  // else it is lit, whatever a map holds
+    record.texel_uv.data[i] = looks_up ? Vec2f(at.u, at.v) : Vec2f(-1.0f);
     record.face.data[i] = static_cast<std::uint8_t>(at.face);
     record.distance.data[i] = static_cast<float>(at.distance);
-    record.outside_map.data[i] = at.inside ? 0 : 1;
+    record.outside_map.data[i] = at.inside && looks_up ? 0 : 1;
     if (raster::lacks_map(record)) return;
     record.gap.data[i] =
         static_cast<float>(biased_gap(record, bias, light_at(light, point.position).to_light, point, i));

@@ -109,7 +109,7 @@ bool Checker::may_draw(std::size_t pixel, float visibility, bool any_cascade) co
 std::optional<Checker::Exact> Checker::exact_depth(raytrace::TexelKey key) const {
   const LightView& view = record_.map.view;
   const Ray ray = caster_ray(view, key.face(), key.column() + 0.5, key.row() + 0.5);
-  auto hit = in_.tracer.closest_hit(ray);
+  auto hit = in_.tracer.closest_hit(ray, raytrace::Sides::casting);
   if (hit && map_.cull != raster::Cull::none) {
     const StoredSurface stored = stored_surface(in_.tracer, record_, map_, key);
     if (stored.primitive != no_id) hit->primitive = stored.primitive, hit->t = stored.t;

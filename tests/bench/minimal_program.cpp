@@ -61,7 +61,7 @@ class MinimalProgram::Passes {
     const float back = shaders::camera_clear_depth;
     gl->ClearNamedFramebufferfv(visibility_target_.id(), GL_DEPTH, 0, &back);
     gl->ClearNamedFramebufferuiv(visibility_target_.id(), GL_COLOR, 0, &no_id);
-    buffers_->draw_triangles(camera_programs_, camera_clip_);
+    buffers_->draw_triangles(camera_programs_, camera_clip_, raster::WorldBuffers::Drawn::seen);
     if (izb_) draw_lists();
     fullscreen(color_target_, options_.size, *shade_program_);
     gl->Finish();
@@ -219,7 +219,7 @@ class MinimalProgram::Passes {
     for (std::size_t face = 0; face < targets.size(); ++face) {
       begin(GL_LOWER_LEFT, targets[face], options_.map.size, options_.map.size, GL_LESS);
       (*gl_)->ClearNamedFramebufferfv(targets[face].id(), GL_DEPTH, 0, &far);
-      buffers_->draw_triangles(programs, map_clips_[face]);
+      buffers_->draw_triangles(programs, map_clips_[face], raster::WorldBuffers::Drawn::casters);
     }
   }
 
