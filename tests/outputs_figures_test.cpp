@@ -64,6 +64,7 @@ TEST(Figures, TheListForPagesSaysOfEachHowItIsReadAndPrinted) {
   EXPECT_EQ(of("error.wrong_fraction"), Json({{"key", "error.wrong_fraction"},
                                               {"unit", "share"},
                                               {"words", "wrong"},
+                                              {"in_tables", true},
                                               {"better", "less"},
                                               {"form", "percent"}}));
   EXPECT_EQ(of("error.ssim")["better"], "more");

@@ -76,7 +76,8 @@ std::span<const Figure> figures();
 /// The figures of all lights together.
 LightFigures pool_lights(std::span<const LightFigures> lights);
 
-/// As the text of a JSON list what pages and other programs may know of each figure: its key, unit, words, which way is better (null: neither) and
+/// As the text of a JSON list what pages and other programs may know of each figure: its key, unit, words, whether tables
+/// of several settings have a column of it ("in_tables"), which way is better (null: neither) and
 /// its form ("count", "percent", "number").
 std::string figures_json();
 

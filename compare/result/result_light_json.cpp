@@ -313,6 +313,7 @@ std::string figures_json() {
     list.push_back({{"key", figure.key},
                     {"unit", figure.unit},
                     {"words", figure_name(figure)},
+                    {"in_tables", figure.table == Figure::Table::sweep},
                     {"better", known ? Json(figure.better == Better::less ? "less" : "more") : Json(nullptr)},
                     {"form", figure.form() == FigureForm::count     ? "count"
                              : figure.form() == FigureForm::percent ? "percent"
