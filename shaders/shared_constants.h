@@ -96,7 +96,8 @@ const int visibility_output = 3;
 // Bits of the flags output: lookup outside the map, and the cube face above it
 const int flag_outside_map = 1;
 // A material's shadow_flags
-const int casts_none = 1, receives_none = 2;
+const int casts_none = 1;
+const int receives_none = 2;
 const int flag_face_shift = 1;
 
 // Shapes

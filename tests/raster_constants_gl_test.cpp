@@ -64,6 +64,8 @@ constexpr Named constants[] = {
     GNOMON_NAMED(flags_output),
     GNOMON_NAMED(visibility_output),
     GNOMON_NAMED(flag_outside_map),
+    GNOMON_NAMED(casts_none),
+    GNOMON_NAMED(receives_none),
     GNOMON_NAMED(flag_face_shift),
     GNOMON_NAMED(shape_sphere),
     GNOMON_NAMED(shape_plane),
