@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
-#include "compare/result/number_text.h"
 #include "scene/expected.h"
 #include "scene/files/encodings.h"
 
@@ -101,23 +99,6 @@ void append_script_safe(std::string& html, std::string_view text) {
     copied = at + 1;
   }
   html.append(json, copied);
-}
-
-std::string keyed(std::string_view key, double value, std::string_view text) {
-  const std::string exact = std::isfinite(value) ? fmt::format("{}", value) : "null";
-  return fmt::format("<data value=\"{}\" data-key=\"{}\">{}</data>", exact, key, escaped(text));
-}
-
-std::string keyed_decrease(std::string_view key, double value) {
-  return (value > 0.0 ? "\u2212" : "") + keyed(key, value, unsigned_number(value));
-}
-
-std::string keyed_count(std::string_view key, std::uint64_t count) {
-  return fmt::format("<data value=\"{}\" data-key=\"{}\">{}</data>", count, key, grouped(count));
-}
-
-std::string keyed_things(std::string_view key, std::uint64_t count, std::string_view thing) {
-  return fmt::format("{} {}{}", keyed_count(key, count), thing, count == 1 ? "" : "s");
 }
 
 std::string hex_colour(std::uint8_t r, std::uint8_t g, std::uint8_t b) {

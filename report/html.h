@@ -1,5 +1,4 @@
-// The few things that writing HTML needs: escaping, data URIs, and numbers that know their key in
-// result.json.
+// The few things that writing HTML needs: escaping, data URIs, colours.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +20,6 @@ std::string data_uri(std::string_view mime, std::string_view bytes);
 /// Appends JSON text that may stand inside <script>: no '<' is left in it, and no character in its strings that changes the
 /// order in which they are shown.
 void append_script_safe(std::string& html, std::string_view json);
-
-/// <data value="0.041" data-key="lights.0.error.wrong_fraction">4.1 %</data>; `text` is escaped.
-std::string keyed(std::string_view key, double value, std::string_view text);
-/// What something is less by, a number >= 0: shown with a minus sign before it.
-std::string keyed_decrease(std::string_view key, double value);
-std::string keyed_count(std::string_view key, std::uint64_t count);
-/// The same with what is counted: "1 pixel", "12,713 pixels".
-std::string keyed_things(std::string_view key, std::uint64_t count, std::string_view thing);
 
 /// A small square of a colour with a letter on it, as legends show it; decoration, hidden from screen
 /// readers.

@@ -100,12 +100,4 @@ std::string lesson_html(const Lesson& lesson) {
   return out;
 }
 
-std::string lesson_details(const Lesson& lesson) {
-  return fmt::format(R"(<details class="lesson" data-lesson="{}"><summary>Lesson: {}</summary>
-{}<p>Try <code>{}</code>; the whole lesson is docs/lessons/{}.md.</p></details>
-)",
-                     lesson.name, escaped(lesson.title), lesson_html(lesson), escaped(lesson.command),
-                     lesson.name);
-}
-
 }  // namespace gnomon::compare

@@ -26,7 +26,4 @@ const Lesson& lesson_of(Label label);
 
 /// The short form as HTML paragraphs.
 std::string lesson_html(const Lesson& lesson);
-/// The short form, to be opened by the reader: <details>.
-std::string lesson_details(const Lesson& lesson);
-
 }  // namespace gnomon::compare

@@ -16,7 +16,7 @@
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/result_parts.h"
-#include "report/sections.h"
+#include "report/facts.h"
 #include "scene/parallel.h"
 
 namespace gnomon::compare {

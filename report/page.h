@@ -1,7 +1,7 @@
 // The report page: one HTML file that needs nothing but itself, or, where it would grow too large, the files
-// beside it. What can be read without scripts is written in C++ (sections, charts) into the built page
-// (shell.h); page_data.h adds what the scripts read. Every number on the page carries its key in result.json
-// (<data data-key="lights.0.error.wrong">), which the browser test compares.
+// beside it. It holds the result document (result.json), what the program knows beside it (facts.h), the pictures, and
+// the pixels' numbers (page_data.h); its sections are made of these by page/src/report_sections.ts. Every number on the
+// page carries its key in result.json (<data data-key="lights.0.error.wrong">), which the browser test compares.
 #pragma once
 
 #include <string>
@@ -10,15 +10,13 @@
 #include "compare/comparison.h"
 #include "compare/result/picture_set.h"
 #include "report/shell.h"
-#include "scene/stages.h"
 
 namespace gnomon::compare {
 
 /// What stands before a comparison on a page that is about more than that: the page of the tuner.
 struct PageIntroduction {
   std::string title;  ///< of the document, not escaped
-  std::string links;  ///< <li> items
-  std::string html;   ///< sections
+  std::string facts;  ///< what it says, JSON text (page/src/tune_sections.ts)
 };
 
 struct PageData;  // page_data.h
@@ -28,10 +26,8 @@ struct PageInput {
   const PictureSet& pictures;
   std::string_view json;  ///< result.json's text so far, embedded in the page and offered for saving
   std::string_view csv;
-  double total_ms = 0.0;
   const PageIntroduction* introduction = nullptr;
-  const TimeBudget* budget = nullptr;  ///< as in `json`, where it has one
-  bool beside = false;                 ///< pictures and pixels are files beside the page; set by report_page
+  bool beside = false;  ///< pictures and pixels are files beside the page; set by report_page
 };
 
 /// The whole page, which takes what is in `data`; of more than `max_mb` megabytes its data, and the set's

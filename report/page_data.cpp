@@ -11,13 +11,12 @@
 #include <optional>
 #include <unordered_map>
 
-#include "compare/ladder/labels.h"
 #include "compare/result/outputs.h"
 #include "compare/result/result_parts.h"
 #include "compare/truth/shown_materials.h"
 #include "report/channels.h"
 #include "report/colour_numbers.h"
-#include "report/html.h"
+#include "report/facts.h"
 #include "report/light_channels.h"
 #include "report/section_mesh.h"
 #include "scene/parallel.h"
@@ -28,35 +27,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double corner_bits = 20.0;
-
-// --- words ---
-
-Json labels_json() {
-  Json list = Json::array();
-  for (int k = static_cast<int>(Label::uncertain); k <= static_cast<int>(class_count); ++k) {
-    const auto label = static_cast<Label>(k);
-    const LabelText& text = label_text(label);
-    const glm::u8vec3 c = label_colour(label);
-    list.push_back({{"value", k},
-                    {"name", text.name},
-                    {"what", text.what},
-                    {"cause", text.cause},
-                    {"cure", text.cure},
-                    {"colour", hex_colour(c.r, c.g, c.b)}});
-  }
-  return list;
-}
-
-Json rungs_json() {
-  Json list = Json::array();
-  for (std::size_t k = 0; k < rung_count; ++k) {
-    const RungText& rung = rung_text(static_cast<Rung>(k));
-    Json json{{"name", rung.name}, {"what", rung.what}};
-    if (k > 0) json["step"] = step_text(static_cast<Cause>(k - 1)).name;
-    list.push_back(std::move(json));
-  }
-  return list;
-}
 
 // --- what is seen at each pixel ---
 
@@ -202,16 +172,12 @@ Json geometry_json(const World& world, const Geometry& geometry, Packer& packer)
 
 }  // namespace
 
-std::string label_words() {
-  return labels_json().dump();
-}
-
 PageData page_data(const PageInput& in) {
   const Comparison& c = in.comparison;
   PageData out;
   Json head{{"kind", "compare"},
-            {"labels", labels_json()},
-            {"rungs", rungs_json()},
+            {"labels", label_facts()},
+            {"rungs", rung_facts()},
             {"width", c.raytraced.color.size.width},
             {"height", c.raytraced.color.size.height},
             {"position_steps", position_steps},

@@ -16,7 +16,4 @@ struct PageData {
 };
 PageData page_data(const PageInput& input);
 
-/// What the script says of the labels: a JSON array.
-std::string label_words();
-
 }  // namespace gnomon::compare

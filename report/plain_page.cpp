@@ -7,7 +7,6 @@
 
 #include "compare/result/text_layout.h"
 #include "report/html.h"
-#include "report/sections.h"
 
 namespace gnomon::compare {
 namespace {
@@ -18,15 +17,18 @@ std::string key_of(const std::string& above, const std::string& name) {
   return above.empty() ? name : above + "." + name;
 }
 
-std::string cell_of(const std::string& key, const Json& value) {
+std::string bare(const Json& value) {
   if (value.is_string()) return escaped(value.get<std::string>());
-  if (value.is_number())
-    return fmt::format("<data value=\"{0}\" data-key=\"{1}\">{0}</data>", value.dump(), escaped(key));
   if (!value.is_array()) return value.is_null() ? "\u2013" : value.dump();
   std::string text;
-  for (std::size_t i = 0; i < value.size(); ++i)
-    text += (i > 0 ? ", " : "") + cell_of(key_of(key, std::to_string(i)), value[i]);
+  for (const Json& one : value) text += (text.empty() ? "" : ", ") + bare(one);
   return text;
+}
+
+/// A number with its key.
+std::string cell_of(const std::string& key, const Json& value) {
+  if (!value.is_number()) return bare(value);
+  return fmt::format("<data value=\"{0}\" data-key=\"{1}\">{0}</data>", value.dump(), escaped(key));
 }
 
 /// A single value, or a list of such.
@@ -79,13 +81,10 @@ class PlainTables {
     for (const std::string& name : columns)
       tables_ += fmt::format("<th scope=\"col\">{}</th>", escaped(spoken(name)));
     tables_ += "</tr></thead><tbody>\n";
-    for (std::size_t i = 0; i < list.size(); ++i) {
+    for (const Json& row : list) {
       tables_ += "<tr>";
       for (const std::string& name : columns)
-        tables_ +=
-            "<td>" +
-            (list[i].contains(name) ? cell_of(fmt::format("{}.{}.{}", key, i, name), list[i][name]) : "") +
-            "</td>";
+        tables_ += "<td>" + (row.contains(name) ? bare(row[name]) : "") + "</td>";
       tables_ += "</tr>\n";
     }
     tables_ += "</tbody></table>\n";
@@ -106,16 +105,22 @@ std::string figure_of(const PagePicture& picture) {
 
 }  // namespace
 
-std::string plain_page(std::string_view title, const std::vector<PagePicture>& pictures,
-                       std::string_view document) {
+std::string plain_page(const PlainPage& page) {
   std::string out =
       fmt::format(R"(<section class="plain" aria-labelledby="plain-title"><h1 id="plain-title">{}</h1>
 )",
-                  escaped(title));
-  for (const PagePicture& picture : pictures) out += figure_of(picture);
+                  escaped(page.title));
+  for (const std::string& sentence : page.said) out += "<p>" + flowing(sentence) + "</p>\n";
+  for (const PagePicture& picture : page.pictures) out += figure_of(picture);
   PlainTables tables;
-  tables.add("", Json::parse(document));
-  return out + scroll_region("The result as tables", std::move(tables).text()) + "</section>\n";
+  tables.add("", Json::parse(page.document));
+  out += R"(<div class="scroll" role="region" tabindex="0" aria-label="The result as tables">)" +
+         std::move(tables).text() + "</div>\n";
+  std::string links;
+  for (const PageLink& link : page.saved)
+    links += fmt::format(R"({}<a class="button" download="{}" href="{}">Save {}</a>)",
+                         links.empty() ? "" : " ", link.name, link.source, link.name);
+  return out + (links.empty() ? "" : "<p class=\"save\">" + links + "</p>\n") + "</section>\n";
 }
 
 }  // namespace gnomon::compare

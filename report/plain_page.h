@@ -19,9 +19,23 @@ struct PagePicture {
   bool waits = false;         ///< to be loaded until it is about to be seen
 };
 
-/// HTML with `title`, the pictures, and tables of all values of `document`, a JSON text. Numbers have their keys, as in the
-/// sections: <data value="4" data-key="lights.0.error.wrong">.
-std::string plain_page(std::string_view title, const std::vector<PagePicture>& pictures,
-                       std::string_view document);
+/// A file to be saved from the page.
+struct PageLink {
+  std::string name;    ///< of the file
+  std::string source;  ///< a data URI, or its address
+};
+
+struct PlainPage {
+  std::string_view title;                ///< not escaped
+  const std::vector<std::string>& said;  ///< sentences to be read first, not escaped
+  const std::vector<PagePicture>& pictures;
+  const std::vector<PageLink>& saved;
+  std::string_view document;  ///< JSON text
+};
+
+/// HTML with the title, the pictures, links to the files, and tables of all values of the document. Numbers have their
+/// keys, as in the sections, <data value="4" data-key="lights.0.error.wrong">, but for those of lists, which have a table
+/// of their own.
+std::string plain_page(const PlainPage& page);
 
 }  // namespace gnomon::compare

@@ -90,8 +90,11 @@ BuiltPage build_page(const PageShell& shell) {
 <header class="bar-top"><span class="brand">Gnomon</span>
 <nav aria-label="Sections"><ul>)" +
               shell.links + "</ul></nav></header>\n<main id=\"main\">\n";
-  out.html += shell.main.empty() ? plain_page(without_program(shell.title), shell.pictures, shell.result)
-                                 : shell.main;
+  out.html +=
+      shell.main.empty()
+          ? plain_page({without_program(shell.title), shell.said, shell.pictures, shell.saved, shell.result})
+
+          : shell.main;
   out.html += "</main>\n";
   if (!shell.result.empty()) {
     out.html += R"(<script type="application/json" id="result">)";

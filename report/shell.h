@@ -32,7 +32,9 @@ struct PageShell {
   std::string title;  ///< not escaped
   std::string links;  ///< <li> items of the bar on top; of a page without `main` the script makes them
   std::string main;   ///< what <main> holds; empty: the script's sections, or the plain page without scripts
-  std::vector<PagePicture> pictures{};  ///< of a page without `main`
+  std::vector<std::string> said{};  ///< of a page without `main`: what is to be read first without scripts
+  std::vector<PagePicture> pictures{};  ///< the same
+  std::vector<PageLink> saved{};        ///< the same
   std::string result;           ///< JSON text that other programs know, under id "result"; may be empty
   std::string data;             ///< JSON object that the script reads
   std::vector<DataPart> parts;  ///< added to it

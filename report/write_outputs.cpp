@@ -79,7 +79,7 @@ Texts make_texts(const Comparison& comparison, const BandedParts* parts, const P
   const int step = parts != nullptr ? 1 : image_step(comparison.raster.options.size);
   std::optional<Comparison> reduced;
   if (output.page && step > 1) reduced = reduced_images(comparison, step);
-  PageInput input{reduced ? *reduced : comparison, pictures, {}, {}, 0.0, output.introduction};
+  PageInput input{reduced ? *reduced : comparison, pictures, {}, {}, output.introduction};
   PageData data;
   if (output.page) data = page_data(input);
   // What the files say about the time of their own making: up to the point where their text is fixed.
@@ -89,10 +89,8 @@ Texts make_texts(const Comparison& comparison, const BandedParts* parts, const P
   out.csv = result_csv(out.result);
   if (!output.page) return out;
   const StageLog* log = StageLog::current();
-  const TimeBudget budget = log != nullptr ? log->budget() : TimeBudget{};
-  const std::string json = log != nullptr ? with_time_budget(out.result, budget) : out.result;
-  input.json = json, input.csv = out.csv, input.total_ms = total_ms;
-  input.budget = log != nullptr ? &budget : nullptr;
+  const std::string json = log != nullptr ? with_time_budget(out.result, log->budget()) : out.result;
+  input.json = json, input.csv = out.csv;
   out.page = report_page(input, data, output.report_max_mb);
   return out;
 }

@@ -198,15 +198,6 @@ TEST(WriteOutputs, WritesEveryFileAndNothingElse) {
   fs::remove_all(folder);
 }
 
-TEST(WriteOutputs, TimesOfSeveralLightsAreAddedUp) {
-  const auto made = make_synthetic(3);
-  const fs::path folder = fresh_folder("times");
-  ASSERT_TRUE(write_outputs(made->comparison, {.folder = folder.string()}));
-  const std::string page = file_text(folder / "report.html");
-  EXPECT_NE(page.find("36 ms for the maps, 93 ms to shade with them"), std::string::npos);
-  fs::remove_all(folder);
-}
-
 TEST(WriteOutputs, WithoutAPageAllElseIsAsEver) {
   const auto made = make_synthetic();
   const fs::path with = fresh_folder("with-page"), without = fresh_folder("without-page");

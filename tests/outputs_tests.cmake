@@ -5,7 +5,7 @@ gnomon_test(outputs_test
 
 # The report page in a real browser: sample pages are written first, then looked at.
 add_executable(outputs_sample "${CMAKE_CURRENT_LIST_DIR}/outputs_sample_main.cpp")
-target_link_libraries(outputs_sample PRIVATE gnomon_flags gnomon_warnings gnomon::studies)
+target_link_libraries(outputs_sample PRIVATE gnomon_flags gnomon_warnings gnomon::studies nlohmann_json::nlohmann_json)
 
 # A test in JavaScript; skipped visibly where node, or what the test needs besides, is not there.
 find_program(GNOMON_NODE node)
@@ -19,6 +19,7 @@ function(gnomon_node_test name)
   set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
 endfunction()
 gnomon_node_test(report_browser_test $<TARGET_FILE:outputs_sample> "${CMAKE_CURRENT_BINARY_DIR}/report_browser")
+gnomon_node_test(report_numbers_test $<TARGET_FILE:outputs_sample> "${CMAKE_CURRENT_BINARY_DIR}/report_numbers")
 gnomon_node_test(report_probe_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/report_probe")
 gnomon_node_test(report_views_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/report_views")
 gnomon_node_test(report_section_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/report_section")

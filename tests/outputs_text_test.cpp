@@ -14,7 +14,6 @@
 #include "compare/result/verdict.h"
 #include "report/html.h"
 #include "report/lessons.h"
-#include "report/log_chart.h"
 #include "report/shell.h"
 #include "report/write_outputs.h"
 #include "studies/sweep/summary.h"
@@ -206,13 +205,6 @@ TEST(Summary, WritesNoFigureForTheRoundingOfSums) {
   EXPECT_NE(light.rung_mean.back(), light.rung_mean.front());
   EXPECT_NE(summary_table(made->comparison, false).find("sum 0\n"), std::string::npos)
       << summary_table(made->comparison, false);
-  const std::string page = report_html(made->comparison).value(),
-                    sum = "<tr class=\"sum\"><th scope=\"row\">sum";
-  std::size_t at = 0, rows = 0;
-  for (; (at = page.find(sum, at)) != std::string::npos; ++at, ++rows)
-    EXPECT_NE(page.substr(at, page.find("</tr>", at) - at).find(">0</td>"), std::string::npos)
-        << page.substr(at, 400);
-  EXPECT_EQ(rows, 2u);
   light.budget[5].signed_mean = -0.3 - 2e-9;  // half of a pixel of the largest picture
   EXPECT_NE(summary_table(made->comparison, false).find("\u22120.000000002\n"), std::string::npos)
       << summary_table(made->comparison, false);
@@ -346,14 +338,6 @@ TEST(Lessons, HaveTheirParts) {
     const std::string_view next = lessons[(i + 1) % lessons.size()].name;
     EXPECT_EQ(times(last_paragraph(text), std::string("(").append(next).append(".md)")), 1u) << name;
   }
-}
-
-TEST(LogChart, TicksAreWrittenWithoutExponents) {
-  const LogPlot plot{.min_x = 1000.0, .max_x = 20000.0, .min_y = 10.0, .max_y = 50000.0, .shares = false};
-  const std::string svg = chart_frame(plot, {1024.0, 16384.0, 0.5}, "texels");
-  for (const char* tick : {">1024<", ">16384<", ">0.5<", ">10000<"})
-    EXPECT_NE(svg.find(tick), std::string::npos) << tick << " in " << svg;
-  EXPECT_EQ(svg.find("e+"), std::string::npos);
 }
 
 TEST(PageShell, DataFilesHoldWhatWasPutIn) {

@@ -15,13 +15,11 @@
 #include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/result_output.h"
-#include "report/page.h"
 #include "scene/files/path_status.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 #include "scene/stages.h"
 #include "studies/judge/identify.h"
-#include "studies/judge/page.h"
 #include "studies/judge/several.h"
 
 namespace gnomon::app {
@@ -135,9 +133,7 @@ Expected<ExitCode> judge_single(JudgeCommand& command, const std::string& path, 
   console.progress("writing", 1.0);
   if (only_prints_json(command.output))
     return print_result(command.output, judged->comparison, judged->loaded, console);
-  const compare::PageIntroduction introduction = compare::judge_introduction(judged->comparison);
-  return write_folder(command.output, judged->comparison, judged->loaded, files, total, console,
-                      &introduction);
+  return write_folder(command.output, judged->comparison, judged->loaded, files, total, console);
 }
 
 /// One of several.
@@ -197,8 +193,7 @@ Expected<ExitCode> judge_next(JudgeCommand& command, const NamedCapture& named, 
   judged->comparison.total_ms = total.elapsed_ms();
   making.set.add(named.name, judged->comparison);
   making.inputs.insert(making.inputs.end(), files.inputs().begin(), files.inputs().end());
-  const compare::PageIntroduction introduction = compare::judge_introduction(judged->comparison);
-  return write_folder(output, judged->comparison, judged->loaded, files, total, console, &introduction);
+  return write_folder(output, judged->comparison, judged->loaded, files, total, console);
 }
 
 Expected<void> publish_set(SetInTheMaking& making) {

@@ -10,7 +10,7 @@
 #include "app/options.h"
 #include "app/session.h"
 #include "app/setting.h"
-#include "report/charts.h"
+#include "compare/result/result_parts.h"
 #include "report/page_data.h"
 
 namespace gnomon::app::lessons {
@@ -64,10 +64,17 @@ Json part_of(const Json& head, std::initializer_list<const char*> keys) {
   return part;
 }
 
+/// What the chart of every bias shows (page/src/bias_chart.ts).
+Json curve_of(const Json& light) {
+  Json part = part_of(light, {"pixels", "error", "best_bias", "bias_curve"});
+  part["map"] = {{"bias", light.at("map").at("bias")}};
+  return part;
+}
+
 }  // namespace
 
 Expected<SmallComparison> compare_small(const std::string& scene, const Settings& settings,
-                                        const std::string& id, Console& console) {
+                                        Console& console) {
   Words words;
   if (const auto read = read_settings(scene, settings, words); !read) return fail(read.error());
   RunFiles files;
@@ -86,8 +93,7 @@ Expected<SmallComparison> compare_small(const std::string& scene, const Settings
                              "colour_steps", "darkest_octave"});
   out.shared = part_of(head, {"exposure", "rays", "materials"});
   out.parts = std::move(data.parts);
-  out.chart = compare::bias_chart(light, comparison->raster.lights.front().bias_constant_world, id);
-  out.best_bias = light.best_bias.constant_world;
+  out.light = curve_of(compare::light_block(*comparison, light));
   out.wrong_fraction = light.error.wrong_fraction;
   out.texel_world = light.texel_world[1];
   return out;

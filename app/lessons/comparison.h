@@ -23,14 +23,12 @@ struct SmallComparison {
   nlohmann::ordered_json words;          ///< what all comparisons of a page share: labels, sizes, steps
   nlohmann::ordered_json shared;         ///< exposure, rays, materials
   std::vector<compare::DataPart> parts;  ///< "pixels", "geometry", "light-0"
-  std::string chart;                     ///< wrong pixels at every bias, SVG; empty where there is none
-  double best_bias = 0.0;                ///< world units
+  nlohmann::ordered_json light;          ///< of its result what the chart of every bias shows
   double wrong_fraction = 0.0;           ///< as drawn
   double texel_world = 0.0;              ///< width of a texel, world units: the median
 };
 
-/// `id`: of the chart's title. Errors: of the scene, of its settings, of the graphics.
-Expected<SmallComparison> compare_small(const std::string& scene, const Settings& settings,
-                                        const std::string& id, Console& console);
+/// Errors: of the scene, of its settings, of the graphics.
+Expected<SmallComparison> compare_small(const std::string& scene, const Settings& settings, Console& console);
 
 }  // namespace gnomon::app::lessons

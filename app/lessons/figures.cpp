@@ -46,15 +46,14 @@ std::string PageFigures::keep(const std::string& key, SmallComparison&& comparis
 }
 
 Expected<SmallComparison> PageFigures::compare(const LiveMark& mark, const Settings& settings) {
-  return compare_small(mark.setting("scene"), settings, fmt::format("figure-{}-chart", figures_.size()),
-                       console_);
+  return compare_small(mark.setting("scene"), settings, console_);
 }
 
 Expected<PageFigures::Json> PageFigures::bias(const LiveMark& mark) {
   const Settings settings = for_comparison(mark);
   auto made = compare(mark, settings);
   if (!made) return fail(made.error());
-  Json json{{"chart", made->chart}, {"best", made->best_bias}};
+  Json json{{"light", made->light}};
   json["comparison"] = keep(key_of(mark, settings), std::move(*made), 0);
   return json;
 }

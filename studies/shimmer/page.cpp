@@ -76,6 +76,7 @@ Expected<BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmKeeper& films
   for (std::size_t i = 0; i < shimmer.lights.size(); ++i) {
     auto picture = heat_map(shimmer.lights[i], i);
     if (!picture) return fail(picture.error());
+    shell.said.push_back(shimmer_sentence(shimmer, shimmer.lights[i]));
     shell.pictures.push_back(std::move(*picture));
     shell.parts.push_back({fmt::format("film-{}", i), film_data(films.lights()[i])});
   }

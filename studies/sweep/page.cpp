@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/result/number_text.h"
+#include "report/facts.h"
 #include "report/html.h"
-#include "report/page_data.h"
 #include "report/shell.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
@@ -82,9 +82,10 @@ std::string sweep_page(const SweepPageInput& in) {
   PageShell shell;
   shell.title = "Sweep of " + Json::parse(in.header.configuration).value("/scene/name"_json_pointer, "") +
                 " \u2013 Gnomon";
+  shell.said = sweep_headline(in.cells, pareto_front(in.cells), in.limit).lines();
   shell.pictures = thumbnails(in);
   shell.result = sweep_document(in);
-  shell.data = fmt::format(R"({{"kind":"sweep","labels":{}}})", label_words());
+  shell.data = fmt::format(R"({{"kind":"sweep","labels":{}}})", label_facts().dump());
   shell.beside = in.beside;
   shell.folder = "cells";
   if (!in.beside) {

@@ -1,6 +1,5 @@
-// The page of the tuner: the answer and what it was measured to give, what accuracy costs, the runners-up
-// with the reasons, how the error of each kind of bias hangs on the bias; then the comparison at the answer,
-// with everything that the page of a comparison has.
+// What the page of the tuner says before the comparison at the answer: the answer and what it was measured to give, what
+// accuracy costs, the runners-up with the reasons, how the error of each kind of bias depends on the bias.
 #pragma once
 
 #include <string>
@@ -20,12 +19,5 @@ struct TunePageInput {
 };
 
 PageIntroduction tune_introduction(const TunePageInput& input);
-
-/// The error that the goal is about against milliseconds, both on logarithmic scales: every map tried, and
-/// the goal. Empty where nothing was timed.
-std::string tune_cost_chart(const TuneGoal& goal, const TuneResult& result);
-
-/// Wrong pixels against the constant bias, in texels, of every family whose gaps tell it.
-std::string tune_chart(const TuneResult& result);
 
 }  // namespace gnomon::compare

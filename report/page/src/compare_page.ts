@@ -2,7 +2,10 @@
 // when the reader comes near the light that it belongs to.
 import { Light, page } from "./data";
 import { LightPanel } from "./light_panel";
+import { showSections } from "./frame";
 import { isBeside } from "./parts";
+import { result } from "./report_document";
+import { reportSections } from "./report_sections";
 import { readLight } from "./state";
 import { html } from "./svg";
 import { LightTabs } from "./tabs";
@@ -10,9 +13,9 @@ import { LightTabs } from "./tabs";
 const panels: (Promise<LightPanel | null> | undefined)[] = [];
 
 async function load(index: number): Promise<LightPanel | null> {
-  const result = JSON.parse(document.getElementById("result")!.textContent!), section = document.getElementById(`light-${index}`)!;
+  const section = document.getElementById(`light-${index}`)!;
   try {
-    return new LightPanel(await Light.load(index), index, section, result.lights[index].best_bias.constant_world ?? 0);
+    return new LightPanel(await Light.load(index), index, section, result.lights[index]!.best_bias.constant_world ?? 0);
   } catch (error) {
     section.querySelector(".viewer")!.after(html("p", { class: "left-out" }, `The viewer and the pixel probe of this light are missing: ${(error as Error).message}.`));
     return null;
@@ -49,6 +52,7 @@ declare global {
 }
 
 export async function startComparison(): Promise<void> {
+  showSections(reportSections());
   // For the browser's console, and for tests: a light's numbers, unpacked.
   globalThis.gnomon = { light: Light.load };
   const sections = Array.from({ length: page.lights }, (_, i) => document.getElementById(`light-${i}`)!);

@@ -21,6 +21,10 @@ export const pictureNamed = (name: string): HTMLImageElement | undefined => pict
 export const main = document.getElementById("main")!;
 for (const image of main.querySelectorAll<HTMLImageElement>(".plain img[data-picture]")) pictures.set(image.dataset.picture!, image);
 
+const save = main.querySelector(".plain .save");
+/** Where the links to the page's files go, if it has any. */
+export const saveLinks = save && markup`<p class="save"></p>`;
+
 export function showSections(sections: Section[]): void {
   document.querySelector("nav ul")!.innerHTML = sections.filter(({ link }) => link !== "").map(({ id, link }) => markup`<li><a href="#${id}">${link}</a></li>`.text).join("");
   main.innerHTML = sections.map(({ html }) => html.text).join("");
@@ -31,5 +35,6 @@ export function showSections(sections: Section[]): void {
     image.removeAttribute("data-picture");
     place.replaceWith(image);
   }
+  if (save) main.querySelector(".save")!.replaceWith(save);
   addCopyButtons();
 }

@@ -2,16 +2,13 @@
 // reads a pixel and draws it in light space, a bias to drag, labels to show alone, views to link to. Of a sweep: a grid
 // by any two parameters, cells that open in the viewer, a table to sort. Of shadows in time: the film and its probe. Without it everything is still on the page.
 import "./report.css";
-import { addCopyButtons } from "./clipboard";
 import { startComparison } from "./compare_page";
-import { main } from "./frame";
 import { startJudged } from "./judged_page";
 import { pageKind } from "./parts";
 import { startShimmer } from "./shimmer_page";
 import { startSweep } from "./sweep_page";
 
 async function start(): Promise<void> {
-  if (!main.querySelector(".plain")) addCopyButtons();
   await { compare: startComparison, judged: startJudged, shimmer: startShimmer, sweep: startSweep }[pageKind]();
   document.documentElement.dataset.ready = "true";
 }

@@ -1,6 +1,7 @@
 // Drag the bias: the picture with what it draws wrong, counted from the gaps as on the report's page, and one pixel in light
 // space.
 import { BiasPanel } from "../bias";
+import { biasChart, type BiasCurve } from "../bias_chart";
 import { Light, type Pixel } from "../data";
 import { examplePixel } from "../example_pixel";
 import { html } from "../svg";
@@ -10,14 +11,13 @@ import type { FigureJson } from "./figures";
 
 interface BiasJson {
   comparison: string;
-  chart: string;  // SVG
-  best: number;
+  light: BiasCurve;
 }
 
 export async function biasFigure({ data }: FigureJson, id: string): Promise<HTMLElement> {
-  const { comparison, chart, best } = data as BiasJson, light = await Light.load(0, comparison);
+  const { comparison, light: result } = data as BiasJson, light = await Light.load(0, comparison);
   const curve = html("div", { class: "scroll", role: "region", tabindex: "0", "aria-label": `Wrong pixels at every bias, ${id}` });
-  curve.innerHTML = chart;
+  curve.innerHTML = biasChart(result, `${id}-chart`)!.text;
   const drawing = html("div", { class: "live-drawing" }), words = html("p", { class: "story" }), figure = html("div", {}, curve);
   let bias = light.json.bias.constant, shown: Pixel = examplePixel(light), frame = 0;
   const update = () => {
@@ -27,7 +27,7 @@ export async function biasFigure({ data }: FigureJson, id: string): Promise<HTML
     drawing.replaceChildren(...(shown.seen ? [texelDrawing(light, shown, bias, `${id}-texel`)] : []));
   };
   const later = () => { frame ||= requestAnimationFrame(() => { frame = 0; update(); }); };
-  const panel = BiasPanel.of(light, curve.querySelector("svg")!, best, (b) => { bias = b; later(); }, (x, y) => { shown = light.pixel(x, y); later(); })!;
+  const panel = BiasPanel.of(light, curve.querySelector("svg")!, result.best_bias.constant_world, (b) => { bias = b; later(); }, (x, y) => { shown = light.pixel(x, y); later(); })!;
   figure.replaceChildren(panel.bar, panel.said, html("div", { class: "live-pair" }, panel.picture, drawing), words, curve,
     html("p", { class: "hint" }, "Drag the bias, or the line in the chart; click a pixel to see it in light space. Orange: false shadow. Light blue: missed shadow."));
   update();

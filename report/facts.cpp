@@ -1,0 +1,184 @@
+#include "report/facts.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "compare/bias/bias_advice.h"
+#include "compare/ladder/labels.h"
+#include "compare/measure/reduced.h"
+#include "compare/result/judged.h"
+#include "compare/result/number_text.h"
+#include "compare/result/option_names.h"
+#include "compare/result/output_parts.h"
+#include "compare/result/outputs.h"
+#include "compare/result/palette.h"
+#include "compare/result/shadow_cost.h"
+#include "compare/result/verdict.h"
+#include "report/html.h"
+#include "report/lessons.h"
+
+namespace gnomon::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string hex(const glm::u8vec3& colour) {
+  return hex_colour(colour.r, colour.g, colour.b);
+}
+
+Json colour_facts() {
+  return {{"false_shadow", hex(false_shadow_colour)},
+          {"missed_shadow", hex(missed_shadow_colour)},
+          {"surely_lit", hex(surely_lit_colour)},
+          {"surely_shadowed", hex(surely_shadowed_colour)},
+          {"traced", hex(traced_colour)}};
+}
+
+/// Evenly spaced, from far to near.
+Json viridis_facts() {
+  constexpr int stops = 8;
+  Json colours = Json::array();
+  for (int i = 0; i <= stops; ++i) colours.push_back(hex(viridis(double(i) / stops)));
+  return colours;
+}
+
+/// Those that the page shows: of the errors that occur, and of its own parts.
+Json lesson_facts(const Comparison& c) {
+  std::set<std::string_view> shown{"error-budget", "bias"};
+  for (const LightComparison& light : c.lights) {
+    if (drawn_record(c, light).external) shown.insert("hybrid");
+    for (std::size_t k = 0; k < class_count; ++k)
+      if (light.classes[k] > 0) shown.insert(lesson_of(static_cast<Label>(k + 1)).name);
+  }
+  Json lessons = Json::object();
+  for (const std::string_view name : shown) {
+    const Lesson& one = lesson(name);
+    lessons[std::string(name)] = {{"title", one.title}, {"html", lesson_html(one)}, {"command", one.command}};
+  }
+  return lessons;
+}
+
+/// "pcf shadows, map 1024 × 1024 d32f, bias 0.012 (0.5 texel), slope bias 1"
+std::string map_words(const Comparison& c) {
+  const raster::MapOptions& map = c.raster.options.map;
+  if (lacks_map(c)) return "a shadow whose map is not known";
+  const std::string_view how = c.judged && c.judged->identified ? "inferred: " : "";
+  std::string text = fmt::format("{}{} shadows, map {}\u202f\u00d7\u202f{}", how,
+                                 technique_name(map.technique), map.size, map.size);
+  if (!compares_depths(map.technique)) return text;
+  text += fmt::format(" {}", depth_format_name(map.depth_format));
+  if (!draws_bias(c)) return text + ", shader of --shader-dir";
+  if (c.lights.size() == 1) {
+    const double bias = drawn_record(c, c.lights[0]).bias_constant_world,
+                 texel = c.lights[0].bias_texel_world;
+    text += fmt::format(", bias {}", plain_number(bias));
+    if (texel > 0.0) text += fmt::format(" ({})", texels_text(bias / texel));
+  }
+  return text + beside_constant(map);
+}
+
+Json depth_facts(const PageInput& in, std::size_t index) {
+  const Comparison& c = in.comparison;
+  if (lacks_map(c)) return nullptr;
+  const LightView& view = drawn_record(c, c.lights[index]).map.view;
+  return {{"near", view.depth_range().min},
+          {"far", view.depth_range().max},
+          {"perspective", view.projection == LightProjection::perspective},
+          {"texels_per_pixel", in.pictures.lights[index].depth_map_small_step}};
+}
+
+Json smaller_facts(const BestBias& best) {
+  if (!best.smaller) return nullptr;
+  return {{"constant_world", best.smaller->constant_world}, {"wrong_fraction", best.smaller->wrong_fraction}};
+}
+
+Json light_facts(const PageInput& in, std::size_t index) {
+  const Comparison& c = in.comparison;
+  const LightComparison& light = c.lights[index];
+  const Verdict verdict = verdict_on(c, light);
+  const bool has_curve = light.bias_curve_withheld.empty() && !light.bias_curve.empty();
+  return {
+      {"name", shown_light_name(c, index)},
+      {"verdict", {{"headline", verdict.headline()}, {"detail", verdict.detail}, {"whole", verdict.whole()}}},
+      {"contradiction",
+       has_curve && !light.best_bias.feasible
+           ? contradiction(light.best_bias, light.bias_texel_world, c.raster.options.map.bias)
+           : std::string()},
+      {"smaller", smaller_facts(light.best_bias)},
+      {"depth", depth_facts(in, index)}};
+}
+
+}  // namespace
+
+Json label_facts() {
+  Json list = Json::array();
+  for (int k = static_cast<int>(Label::uncertain); k <= static_cast<int>(class_count); ++k) {
+    const LabelText& text = label_text(static_cast<Label>(k));
+    list.push_back({{"value", k},
+                    {"key", text.key},
+                    {"name", text.name},
+                    {"letter", text.letter},
+                    {"what", text.what},
+                    {"cause", text.cause},
+                    {"cure", text.cure},
+                    {"colour", hex(text.colour)},
+                    {"lesson", text.lesson}});
+  }
+  return list;
+}
+
+Json rung_facts() {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < rung_count; ++k) {
+    const RungText& rung = rung_text(static_cast<Rung>(k));
+    Json json{{"name", rung.name}, {"what", rung.what}};
+    if (k > 0) json["step"] = step_text(static_cast<Cause>(k - 1)).name;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+Json report_facts(const PageInput& in) {
+  const Comparison& c = in.comparison;
+  Json lights = Json::array();
+  for (std::size_t i = 0; i < c.lights.size(); ++i) lights.push_back(light_facts(in, i));
+  Json facts{{"colours", colour_facts()},
+             {"viridis", viridis_facts()},
+             {"lessons", lesson_facts(c)},
+             {"map", map_words(c)},
+             {"bias_parts", bias_parts(c.raster.options.map.bias)},
+             {"compares_depths", compares_depths(c)},
+             {"edge_scale_texels", edge_scale_texels},
+             {"detachment_scale_texels", detachment_scale_texels},
+             {"reduced", reduced_words(c)},
+             {"peak_memory_bytes", c.peak_memory_bytes},
+             {"software_note", software_note},
+             {"light_facts", std::move(lights)}};
+  if (c.judged) facts["judged"] = judged_lines(c);
+  if (in.introduction != nullptr) facts["tune"] = Json::parse(in.introduction->facts);
+  return facts;
+}
+
+std::string reduced_words(const Comparison& c) {
+  const int step = image_step(c.raster.options.size);
+  if (step == 1) return {};
+  return fmt::format(
+      "This page shows one pixel of every {0} \u00d7 {0} (a place is counted in these); its numbers, and the "
+      "pictures in its folder, are of all pixels.",
+      step);
+}
+
+std::string shown_light_name(const Comparison& c, std::size_t index) {
+  const std::string& name = light_of(c, c.lights[index]).name;
+  const std::uint32_t number = c.lights[index].light + 1;
+  if (name.empty()) return fmt::format("light {}", number);
+  for (std::size_t i = 0; i < c.lights.size(); ++i)
+    if (i != index && light_of(c, c.lights[i]).name == name)
+      return fmt::format("{} (light {})", name, number);
+  return name;
+}
+
+}  // namespace gnomon::compare

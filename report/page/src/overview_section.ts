@@ -1,0 +1,101 @@
+// The first screen: both pictures with their times, and for each light the verdict beside its error budget.
+import { twoSidedBar } from "./bars";
+import { beyondRounding, keyed, keyedCount, keyedDecrease } from "./document";
+import { picture } from "./frame";
+import { milliseconds, signedNumber } from "./number_text";
+import { isBeside } from "./parts";
+import { facts, result, stepName, timed, verdictBlock, type LightResult } from "./report_document";
+import { markup, type Markup } from "./template";
+
+/** The light whose labelled picture stands on the first screen: that with the most wrong pixels. */
+export const labelledLight = (): number =>
+  result.lights.reduce((most, { error }, i) => (error.wrong > result.lights[most]!.error.wrong ? i : most), 0);
+
+export function labelFigure(i: number): Markup {
+  return markup`<figure>${picture(`labels-${i}`, `picture-labels-${i}`)}<figcaption><b>Labels</b>${
+    result.lights.length > 1 && `, light ${facts.light_facts[i]!.name}`}: each wrong pixel in the colour of its cause; grey is right.</figcaption></figure>\n`;
+}
+
+// One light's time under its key, or the sum of several; `name`: of the one's, where it has another.
+function shadowTime(pass: string, name = pass): Markup {
+  if (result.lights.length === 1) return timed(`lights.0.times_ms.${name}`, result.lights[0]!.times_ms[name]!);
+  return markup`${milliseconds(result.lights.reduce((sum, { times_ms }) => sum + (times_ms[pass]!.median ?? 0), 0))}`;
+}
+
+function rasterCaption(): Markup {
+  const { lights, judged } = result, several = lights.length > 1;
+  if (lights.length === 0) return markup`<b>Rasterizer</b>, shadow maps`;
+  if (judged)
+    return markup`<b>${judged.renderer.name}</b>${judged.renderer.version && ` ${judged.renderer.version}`}${
+      judged.ratio ? ", with its shadow" : ": what it drew of the light, white lit and black shadowed"}`;
+  const hybrid = lights[0]!.map.technique === "hybrid";
+  return markup`<b>${hybrid ? "Hybrid" : "Rasterizer"}</b>, ${hybrid ? "sheets and rays" : `shadow map${several ? "s" : ""}`}: ${shadowTime("map_pass")} for the ${
+    hybrid ? "sheet" : "map"}${(several || hybrid) && "s"}, ${shadowTime("shade_pass")} to shade with ${several || hybrid ? "them" : "it"}`;
+}
+
+function raytracedCaption(): Markup {
+  const [first] = result.lights;
+  if (!first) return markup`<b>Ray tracer</b>, exact shadows`;
+  return markup`<b>Ray tracer</b>, exact shadows: ${shadowTime("exact_shadows", first.shadow_samples === undefined ? "shadow_rays" : "soft_shadow_rays")} for shadow rays, ${
+    timed("times_ms.primary_rays", result.times_ms.primary_rays!)} for primary rays`;
+}
+
+const simulates = (effect: string): boolean => result.effects.some((entry) => entry.effect === effect && entry.simulated);
+
+// What the two pictures show differently by design.
+function rasterRemark(): Markup | null {
+  if (result.judged) return null;
+  if (simulates("refraction"))
+    return markup`<small class="remark">Drawn plainly: what reflects or is seen through is matte grey here, and to the shadow map glass is opaque.</small>`;
+  return simulates("reflection") ? markup`<small class="remark">Drawn plainly: what reflects is matte grey here.</small>` : null;
+}
+const raytracedRemark = (): Markup | null => (simulates("refraction") ? markup`<small class="remark">Light passes through glass here. The comparison counts glass as opaque, as the
+map does: where glass alone casts a shadow, this picture is bright all the same.</small>` : null);
+
+function settingLines(): Markup {
+  const { width, height } = result.size, { triangles, shapes } = result.scene, dot = markup`<span aria-hidden="true">·</span>`;
+  return markup`<p class="setting">${width} × ${height} pixels ${dot} ${facts.map} ${dot} ${keyedCount("scene.triangles")} triangle${triangles !== 1 && "s"}, ${
+    keyedCount("scene.shapes")} shape${shapes !== 1 && "s"}</p>
+${facts.reduced && markup`<p class="setting">${facts.reduced}</p>\n`}${isBeside && markup`<p class="setting beside">The pixels would make this page too large for one file: its
+pictures and data lie beside it, in its folder and in <code>report-data</code>. Keep them together.</p>
+`}`;
+}
+
+/** The budget as a waterfall that adds up: one row per step that changes anything, and the sum. */
+function budgetTable(light: LightResult, i: number): Markup {
+  const { compared } = light.pixels, sides = (of: { false_shadow: number; missed_shadow: number }) => ({ darker: of.false_shadow / compared, lighter: of.missed_shadow / compared });
+  const whole = sides(light.error), scale = Math.max(whole.darker, whole.lighter, 1e-9, ...light.budget.flatMap(({ darkened, lightened }) => [darkened, lightened]));
+  const first = light.ladder[0]!.mean, last = light.ladder.at(-1)!.mean;
+  const rows = light.budget.map((step, k) => (step.absolute > 0 || step.false_shadow + step.missed_shadow > 0)
+    && markup`<tr><th scope="row">${stepName(k)}</th><td class="wide">${twoSidedBar({ darker: step.darkened, lighter: step.lightened }, sides(step), scale)}</td><td
+class="n">${keyedDecrease(`lights.${i}.budget.${k}.darkened`)}</td><td class="n">${keyed(`lights.${i}.budget.${k}.lightened`, signedNumber)}</td></tr>\n`);
+  return markup`<table class="budget"><thead><tr><th scope="col">step</th><td class="wide"></td><th
+scope="col" class="n">darker</th><th scope="col" class="n">lighter</th></tr></thead><tbody>
+${rows}<tr class="sum"><th scope="row">sum</th><td class="wide">${twoSidedBar({ darker: 0, lighter: 0 }, whole, scale)}</td><td
+class="n" colspan="2">${signedNumber(beyondRounding(last - first, last + first))}</td></tr></tbody></table>
+`;
+}
+
+function card(light: LightResult, i: number): Markup {
+  const { name, verdict } = facts.light_facts[i]!;
+  return markup`<div class="card"><div>${result.lights.length > 1 && markup`<p class="eyebrow">Light: <a href="#light-${i}">${name}</a></p>
+`}${verdictBlock(verdict)}</div>${light.pixels.compared > 0 && markup`<div class="card-budget"><p class="eyebrow">Where the error comes from: how far each step
+darkens the picture and lightens it, as mean visibility. Pale: what later steps undo. Full colour: the wrong
+pixels that are left.</p>
+${budgetTable(light, i)}</div>
+`}</div>
+`;
+}
+
+const figure = (name: string, caption: Markup, remark: Markup | null): Markup =>
+  markup`<figure>${picture(name, `picture-${name}`)}<figcaption>${caption}${remark}</figcaption></figure>\n`;
+
+export function overviewSection(): Markup {
+  const { lights, scene } = result;
+  return markup`<section id="overview" aria-labelledby="title">
+<h1 id="title">${scene.name || "Scene without a name"}</h1>
+${settingLines()}<div class="${lights.length === 0 ? "pair" : "trio"}">
+${figure("raster", rasterCaption(), rasterRemark())}${figure("raytraced", raytracedCaption(), raytracedRemark())}${lights.length > 0 && labelFigure(labelledLight())}</div>
+${lights.map(card)}${lights.length === 0 && markup`<p class="verdict">The scene has no light: there is no shadow to compare.</p>\n`}</section>
+`;
+}

@@ -1,0 +1,169 @@
+// The document of a comparison, result.json (compare/result/result.schema.json), and what the program says beside it
+// (../../facts.cpp).
+import { keyed, resultDocument } from "./document";
+import { milliseconds, percent, plainNumber, type TimeDifference } from "./number_text";
+import { pageData } from "./parts";
+import { flowing, markup, Markup } from "./template";
+import type { TuneFacts } from "./tune_sections";
+
+export interface Times {
+  median: number | null;
+  runs: number[];
+}
+
+interface Unit {
+  engine: string;
+  setting: string;
+  value: number | null;
+  formula: string;
+}
+
+interface BiasKind {
+  kind: string;
+  options: string;
+  wrong_fraction: number;
+  range_of: string;
+  from: number;
+  to: number | null;
+}
+
+export interface BiasPoint {
+  bias: number;
+  false_shadow: number;
+  missed_shadow: number;
+}
+
+export interface BestBias {
+  constant_world: number;
+  constant_texels: number | null;
+  wrong_fraction: number;
+  feasible: boolean;
+  needs_more_than: number | null;
+  needs_less_than: number | null;
+}
+
+export interface LightResult {
+  light: { type: string; position?: number[]; direction?: number[] };
+  map: {
+    technique: string;
+    size: number | null;  // null: not known
+    inferred: boolean;
+    faces: number;
+    bias: { constant_world: number | null; texel_world: number };
+    hybrid?: { receivers: number; surely_lit: number; surely_shadowed: number; rays: number; all_rays: number; bytes: number };
+    texel_world: { min: number; median: number; max: number };
+  };
+  pixels: Record<string, number> & { compared: number };
+  error: { wrong: number; wrong_fraction: number; false_shadow: number; missed_shadow: number; ties: number; ssim: number | null; flip_compared: number | null; ssim_compared: number | null };
+  budget: { signed: number; absolute: number; darkened: number; lightened: number; false_shadow: number; missed_shadow: number }[];
+  ladder: { mean: number }[];
+  classes: Record<string, number>;
+  edges: { count: number; mean_texels: number };
+  detachment: { pixels: number };
+  bleeding?: { pixels: number };
+  penumbra?: { edges: number; umbra_edges: number; drawn_penumbra_world: number; drawn_umbra_world: number };
+  seams?: object;
+  theory: { acne_free_bias: { count: number }; aliasing: { count: number }; measured_aliasing: { count: number } };
+  bias_curve: BiasPoint[];
+  bias_curve_withheld: string | null;
+  best_bias: BestBias;
+  bias_kinds: BiasKind[];
+  engine_units: Unit[];
+  lookups: { total: number | null };
+  times_ms: Record<string, Times> & { shadow_lookups: Times & { low: number | null; high: number | null } };
+  shadow_samples?: number;  // of a light with size
+}
+
+export interface Result {
+  command: string;
+  version: string;
+  size: { width: number; height: number };
+  scene: { path: string; sha256: string; triangles: number; shapes: number; name: string; notes: string[] };
+  machine: { cpu: string; cores: number; os: string };
+  shaders: { replaced: string; sha256: string }[];
+  effects: { effect: string; called_for: boolean; simulated: boolean; reason: string }[];
+  timing: { software_rasterizer: boolean };
+  costs: Record<string, number>;
+  times_ms: Record<string, Times>;
+  lights: LightResult[];
+  time_budget?: { stage: string; wall_ms: number }[];
+  judged?: { renderer: { name: string; version: string }; ratio: boolean; identified: object | null };
+}
+
+export interface LabelFacts {
+  key: string;    // of the document
+  value: number;  // 1 and more: an error
+  name: string;
+  letter: string;
+  what: string;
+  cause: string;
+  cure: string;
+  colour: string;
+  lesson: string;
+}
+
+export interface LessonFacts {
+  title: string;
+  html: string;
+  command: string;
+}
+
+interface LightFacts {
+  name: string;
+  verdict: { headline: string; detail: string; whole: string };
+  contradiction: string;  // of a best bias that is not right everywhere
+  smaller: { constant_world: number; wrong_fraction: number } | null;  // a constant that leaves hardly more than the best
+  depth: { near: number; far: number; perspective: boolean; texels_per_pixel: number } | null;
+}
+
+export interface Facts {
+  labels: LabelFacts[];
+  rungs: { symbol: string; name: string; what: string; step?: string }[];
+  colours: Record<"false_shadow" | "missed_shadow" | "surely_lit" | "surely_shadowed" | "traced", string>;
+  viridis: string[];
+  lessons: Record<string, LessonFacts>;
+  map: string;            // what shadows are drawn with
+  bias_parts: string[];   // beside the constant
+  compares_depths: boolean;
+  edge_scale_texels: number;
+  detachment_scale_texels: number;
+  reduced: string;           // what the page leaves out of a large picture
+  peak_memory_bytes: number;
+  software_note: string;
+  light_facts: LightFacts[];
+  judged?: [name: string, value: string][];
+  tune?: TuneFacts;
+}
+
+export const result = resultDocument<Result>(), facts = pageData<Facts>();
+
+/** Another renderer's picture, whose depth map is not known: two steps are told apart, light size and all the rest. */
+export const lacksMap = (): boolean => result.lights.some(({ map }) => map.size === null);
+/** Of the step that leads from rung k to the next. */
+export const stepName = (k: number): string => (lacksMap() && k === 1 ? "unexplained" : facts.rungs[k + 1]!.step!);
+
+/** ", NAME" where there are several lights. */
+export const ofLight = (i: number): string => (result.lights.length > 1 ? `, ${facts.light_facts[i]!.name}` : "");
+
+/** A pass by its key, or that it was not timed. */
+export const timed = (key: string, { runs }: Times): Markup => (runs.length === 0 ? markup`not timed` : keyed(`${key}.median`, milliseconds));
+
+export const shareOf = (part: number, whole: number): string => percent(part / Math.max(whole, 1));
+
+/** What looking the map up adds to shading, or null where it was not timed. */
+export function lookupTimes({ times_ms: { shadow_lookups: { low, median, high, runs } } }: LightResult): TimeDifference | null {
+  return runs.length === 0 ? null : { low: low!, median: median!, high: high!, told: low! > 0 };
+}
+
+export function lessonDetails(name: string): Markup {
+  const { title, html, command } = facts.lessons[name]!;
+  return markup`<details class="lesson" data-lesson="${name}"><summary>Lesson: ${title}</summary>
+${new Markup(html)}<p>Try <code>${command}</code>; the whole lesson is docs/lessons/${name}.md.</p></details>
+`;
+}
+
+/** The headline large, what else there is to say below it. */
+export const verdictBlock = ({ headline, detail }: LightFacts["verdict"]): Markup =>
+  markup`<p class="verdict">${flowing(headline)}</p>\n${detail && markup`<p class="verdict-detail">${flowing(detail)}</p>\n`}`;
+
+export const plain = (key: string): Markup => keyed(key, plainNumber);
