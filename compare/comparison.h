@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -27,8 +28,16 @@ enum class Rung : std::uint8_t { truth, point, texel, flat, stored, biased, draw
 inline constexpr std::size_t rung_count = 7;
 
 /// The step down to rung k + 1 is charged to cause k.
-enum class Cause : std::uint8_t { light_size, sampling, slope, precision, bias, filter };
-inline constexpr std::size_t cause_count = 6;
+enum class Cause : std::uint8_t {
+  light_size,
+  sampling,
+  slope,
+  precision,
+  bias,
+  filter,
+  caster  ///< of another renderer's map whose casters are not the scene's: it has no rung of its own
+};
+inline constexpr std::size_t cause_count = 6;  ///< those with a rung
 std::string_view cause_name(Cause cause);
 
 /// Values are those of the class.V channel.
@@ -49,11 +58,18 @@ enum class Label : std::int8_t {
   light_size,
   outside_map,
   custom_shader,
-  unexplained
+  unexplained,
+  caster_bias,
+  missing_caster,
+  moved_caster,
+  clipped_caster,
+  culled_caster,
+  ignored_alpha
 };
-inline constexpr std::size_t class_count = 12;  ///< the wrong ones, acne … unexplained
+inline constexpr std::size_t class_count = 18;  ///< the wrong ones, acne … ignored_alpha
 std::string_view label_name(Label label);  ///< as in result.json; "right", "background", … for the others
-inline bool is_wrong(Label label) {
+/// Of a pixel with an error: its label is what caused it. It is wrong where that is more than one half (is_wrong).
+inline bool has_cause(Label label) {
   return static_cast<int>(label) > 0;
 }
 inline bool is_compared(Label label) {
@@ -82,7 +98,7 @@ struct ErrorStats {
 };
 
 struct BudgetStep {
-  double signed_mean = 0.0;    ///< mean of V[k+1] - V[k] over compared pixels; the six sum to mean(V6 - V0)
+  double signed_mean = 0.0;    ///< mean of V[k+1] - V[k] over compared pixels; together mean(V6 - V0)
   double absolute_mean = 0.0;  ///< mean of |V[k+1] - V[k]|
   /// The wrong pixels whose label stands for this step (step_of_label); over the steps they sum to
   /// ErrorStats::false_shadow and missed_shadow.
@@ -91,6 +107,9 @@ struct BudgetStep {
   double darkened() const { return 0.5 * (absolute_mean - signed_mean); }
   double lightened() const { return 0.5 * (absolute_mean + signed_mean); }
 };
+
+/// By cause; the last entry is that of casters, to which the deciding step of a pixel with such a label is charged.
+using Budget = std::array<BudgetStep, cause_count + 1>;
 
 /// Pixels drawn right though the sampling step had made them wrong: a later error undid the first.
 struct RightByAccident {
@@ -217,14 +236,14 @@ struct SeamCount {
 struct CascadeFigures {
   std::uint64_t compared = 0;
   ErrorStats error;
-  std::array<BudgetStep, cause_count> budget{};
+  Budget budget{};
 };
 
 /// Every number of one light; result/figures.cpp has a row for each.
 struct LightFigures {
   PixelCounts pixels;
   ErrorStats error;
-  std::array<BudgetStep, cause_count> budget{};
+  Budget budget{};
   RightByAccident accidents;
   EdgeStats edges;
   Detachment detachment;
@@ -240,8 +259,11 @@ struct LightFigures {
 struct LightComparison : LightFigures {
   std::uint32_t light = 0;  ///< index in Scene::lights
   std::size_t record = 0;   ///< index in RasterFrame::lights and RayTracedFrame::lights
-  std::array<std::uint64_t, class_count> classes{};  ///< acne … unexplained; they sum to error.wrong
-  std::vector<CascadeFigures> cascades;              ///< of technique csm, the finest first; else empty
+  std::array<std::uint64_t, class_count> classes{};  ///< acne … ignored_alpha; they sum to error.wrong
+  /// Mean |V6 - V0| of the pixels with each label, over all compared ones; they sum to error.mean_absolute but for
+  /// errors below least_labelled_error.
+  std::array<double, class_count> class_errors{};
+  std::vector<CascadeFigures> cascades;  ///< of technique csm, the finest first; else empty
   /// Empty, and best_bias without meaning, where the drawing does not say what another bias would draw.
   std::vector<BiasCurvePoint> bias_curve;
   std::string_view bias_curve_withheld;  ///< why, as a sentence; else empty
@@ -253,8 +275,8 @@ struct LightComparison : LightFigures {
   Times classify;
 
   std::array<Image<float>, rung_count>
-      rungs;  ///< 1 lit, 0 shadowed, between: soft or filtered; 1 where not climbed (ladder.h)
-  Image<Label> labels;
+      rungs;            ///< 1 lit, 0 shadowed, between: soft or filtered; 1 where not climbed (ladder.h)
+  Image<Label> labels;  ///< of every error of least_labelled_error and more, of one half and less, too
   /// Displacement of shadow edges in texels, and detachment in world units (edges.h); NaN where there is
   /// none, empty where not made.
   Image<float> edge_map, detachment_map;
@@ -264,6 +286,17 @@ struct LightComparison : LightFigures {
   Image<std::uint32_t>
       stored_glass;  ///< shown_materials.h; empty where no material is glass, and where not made
 };
+
+/// A smaller error has no label: not even a picture of eight bits shows it.
+inline constexpr float least_labelled_error = 1.0f / 255.0f;
+/// Whether what is drawn is off enough to be charged to a cause.
+inline bool has_error(float drawn, float truth) {
+  return std::abs(drawn - truth) >= least_labelled_error;
+}
+/// Whether V6 is off V0 by more than one half.
+inline bool is_wrong(const std::array<float, rung_count>& rungs) {
+  return std::abs(rungs[6] - rungs[0]) > 0.5f;
+}
 
 /// A pixel's rungs.
 inline std::array<float, rung_count> rungs_at(const std::array<Image<float>, rung_count>& rungs,

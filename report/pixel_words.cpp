@@ -56,12 +56,17 @@ struct Story {
 
   std::string what() const { return std::string(label_text(pixel.label).what); }
 
+  /// What the step changes; of a caster that is not the scene's that is the caster.
+  const StepText& change(Cause step) const {
+    return step_text(label_text(pixel.label).step == Cause::caster ? Cause::caster : step);
+  }
+
   std::string went_wrong() const {
     if (pixel.label == Label::precision) return say("went_wrong_by_precision", {{"what", what()}});
     const int step = deciding_rung(pixel);
     return say("went_wrong", {{"before", std::to_string(step - 1)},
                               {"step", std::to_string(step)},
-                              {"change", std::string(step_text(static_cast<Cause>(step - 1)).name)},
+                              {"change", std::string(change(static_cast<Cause>(step - 1)).name)},
                               {"what", what()}});
   }
   std::string brightness(double v) const {
@@ -149,11 +154,14 @@ struct Story {
 }  // namespace
 
 int deciding_rung(const PixelFacts& pixel) {
-  if (!is_wrong(pixel.label)) return 0;
-  if (pixel.label == Label::precision) return 4;
+  if (!has_cause(pixel.label)) return 0;
+  const auto rung_of = [](Cause step) { return static_cast<int>(step) + 1; };
+  if (pixel.label == Label::precision) return rung_of(Cause::precision);
   std::array<float, rung_count> rungs{};
   for (std::size_t k = 0; k < rung_count; ++k) rungs[k] = static_cast<float>(pixel.rungs[k]);
-  return static_cast<int>(deciding_step(rungs)) + 1;
+  if (!is_wrong(rungs) && (pixel.label == Label::blur || pixel.label == Label::light_size))
+    return rung_of(*label_text(pixel.label).step);
+  return rung_of(deciding_step(rungs));
 }
 
 std::string pixel_words(const Comparison& comparison, const LightComparison& light, const PixelFacts& pixel) {

@@ -24,7 +24,7 @@ struct PixelFacts {
   std::optional<std::uint8_t> decision{};       ///< of the hybrid: 0 surely in shadow, 1 surely lit, 2 traced
 };
 
-/// The step that the label of a wrong pixel names (docs/labels.md), by the rung it leads to, 1 to 6; 0: it is right, or
+/// The step that the label of an error names (docs/labels.md), by the rung it leads to, 1 to 6; 0: it is right, or
 /// not compared.
 int deciding_rung(const PixelFacts& pixel);
 

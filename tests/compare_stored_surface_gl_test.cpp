@@ -83,7 +83,7 @@ TEST_P(StoredSurfaces, AreTheFirstThatCullingLeaves) {
         }
         ASSERT_EQ(found.primitive, wanted->primitive) << column << ", " << row;
         ASSERT_NEAR(found.depth, depth_of(view, 0, ray, wanted->t), 1e-9);
-        const Vec3 place = compare::caster_ray(view, 0, column + 0.5, row + 0.5).at(found.t);
+        const Vec3 place = compare::caster_ray(*drawn.world, view, 0, column + 0.5, row + 0.5).at(found.t);
         ASSERT_LT(glm::distance(place, ray.at(wanted->t)), 1e-9);
         ++stored, later += wanted != hits->begin() ? 1 : 0;
       }

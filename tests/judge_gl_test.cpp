@@ -87,7 +87,7 @@ TEST(JudgeOutputs, AreWholeWithAMapAndWithout) {
     const nlohmann::json result = nlohmann::json::parse(std::ifstream(folder + "/result.json"));
     EXPECT_EQ(SchemaCheck(schema).violations(result), std::vector<std::string>{});
     EXPECT_EQ(result["judged"]["map"], map);
-    EXPECT_EQ(result["lights"][0]["budget"].size(), map ? 6U : 2U);
+    EXPECT_EQ(result["lights"][0]["budget"].size(), map ? 7U : 2U);
     EXPECT_EQ(result["judged"]["advice"].empty(), !map);
     EXPECT_EQ(result["lights"][0]["map"]["inferred"], false);
     const std::string page = *read_file(folder + "/report.html");

@@ -37,20 +37,24 @@ TEST(Palette, EveryLabelHasItsOwnColour) {
     colours.insert(packed(label_colour(static_cast<Label>(label))));
     names.insert(label_name(static_cast<Label>(label)));
   }
-  EXPECT_EQ(colours.size(), 18u);
-  EXPECT_EQ(names.size(), 17u);
+  EXPECT_EQ(colours.size(), 6 + class_count);
+  EXPECT_EQ(names.size(), 5 + class_count);
   EXPECT_EQ(names.count("unknown"), 0u);
 }
 
-TEST(Pictures, LabelPictureShowsEachPixelInItsLabelsColour) {
+TEST(Pictures, LabelPictureShowsEachErrorInItsLabelsColourAsStrongAsItIs) {
   const auto made = make_synthetic();
   const LightComparison& light = made->comparison.lights[0];
   const Rgb8Image image = label_picture(light);
   for (std::size_t i = 0; i < image.data.size(); ++i) {
     const Label label = light.labels.data[i];
-    const bool dark = label == Label::right && light.rungs[0].data[i] < 0.5f;
-    ASSERT_EQ(packed(image.data[i]), packed(dark ? right_in_shadow_colour : label_colour(label)))
-        << "pixel " << i;
+    const bool dark = light.rungs[0].data[i] < 0.5f;
+    const glm::u8vec3 right = dark ? right_in_shadow_colour : label_colour(Label::right);
+    // Blurred pixels are off by 3/4, all others wholly.
+    const glm::u8vec3 wrong =
+        label == Label::blur ? glm::u8vec3(0.25f * Vec3f(right) + 0.75f * Vec3f(label_colour(label)) + 0.5f)
+                             : label_colour(label);
+    ASSERT_EQ(packed(image.data[i]), packed(label == Label::right ? right : wrong)) << "pixel " << i;
   }
 }
 
@@ -129,20 +133,24 @@ TEST(Aov, HasTheChannelsOfTheContract) {
   const fs::path folder = fresh_folder("aov");
   fs::create_directories(folder);
   const std::string path = (folder / "aov.exr").string();
+  LightComparison& light = made->comparison.lights[0];
+  const std::size_t grey = 7;  // an error of no more than one half has a cause, and is not wrong
+  light.labels.data[grey] = Label::blur;
+  for (std::size_t k = 0; k < rung_count; ++k) light.rungs[k].data[grey] = k < 6 ? 1.0f : 0.75f;
   const auto written = write_aov(made->comparison, path);
   ASSERT_TRUE(written) << written.error().message();
   const auto image = read_channels(path);
   ASSERT_TRUE(image) << image.error().message();
   EXPECT_EQ(image->size, synthetic::image_size);
   const std::vector<std::string> names{
-      "position.X", "position.Y", "position.Z", "normal.X", "normal.Y", "normal.Z", "truth.V",  "point.V",
-      "texel.V",    "flat.V",     "stored.V",   "biased.V", "drawn.V",  "class.V",  "object.V", "primitive.V",
-      "texel_uv.U", "texel_uv.V", "gap.V",      "R",        "G",        "B"};
+      "position.X",  "position.Y", "position.Z", "normal.X", "normal.Y", "normal.Z", "truth.V", "point.V",
+      "texel.V",     "flat.V",     "stored.V",   "biased.V", "drawn.V",  "class.V",  "cause.V", "object.V",
+      "primitive.V", "texel_uv.U", "texel_uv.V", "gap.V",    "R",        "G",        "B"};
   EXPECT_EQ(image->channels.size(), names.size());
   for (const std::string& name : names) ASSERT_NE(image->find(name), nullptr) << name;
-  const LightComparison& light = made->comparison.lights[0];
   for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
-    ASSERT_EQ(image->find("class.V")->values[i], static_cast<float>(light.labels.data[i]));
+    ASSERT_EQ(image->find("cause.V")->values[i], static_cast<float>(light.labels.data[i]));
+    ASSERT_EQ(image->find("class.V")->values[i], i == grey ? 0.0f : static_cast<float>(light.labels.data[i]));
     ASSERT_EQ(image->find("flat.V")->values[i], light.rungs[3].data[i]);
     ASSERT_EQ(image->find("R")->values[i], made->comparison.raytraced.color.data[i].r);
   }

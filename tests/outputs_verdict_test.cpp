@@ -16,6 +16,8 @@ struct Case {
   Case(std::uint64_t compared, std::array<std::uint64_t, class_count> classes) {
     light.pixels = {compared, 0, 0, 0, 0, compared};
     light.classes = classes;
+    for (std::size_t k = 0; k < class_count; ++k)
+      light.class_errors[k] = static_cast<double>(classes[k]) / static_cast<double>(compared);
     light.error.wrong = 0;
     for (const std::uint64_t n : classes) light.error.wrong += n;
     light.error.ties = light.error.fractional = 0;
@@ -143,6 +145,19 @@ TEST(Verdict, OffersAnotherRenderersSettingOnlyForAGain) {
     judged->advice[0].wrong_instead = left;
     EXPECT_EQ(c.verdict().find("would leave"), std::string::npos) << c.verdict();
   }
+  judged->advice[0] = {"bias.normal_offset_world",
+                       0.3,
+                       0.1,
+                       "world units",
+                       0.016,
+                       0.002,
+                       false,
+                       AdvisedSetting{"bias.constant_depth", 0.0, 0.5, "stored depth"}};
+  EXPECT_NE(c.verdict().find(
+                " bias.normal_offset_world 0.1 instead of 0.3 and bias.constant_depth 0.5 instead of 0 would "
+                "leave 0.2 %."),
+            std::string::npos)
+      << c.verdict();
 }
 
 TEST(Verdict, NamesAConstantBesideAKindOfBias) {
@@ -272,13 +287,22 @@ TEST(Verdict, LeadsWithTheMeanErrorWhereSomethingIsPartlyLit) {
   EXPECT_EQ(grey.verdict(),
             "The mean error is 35.0 % over 5,000 lit-or-shadowed pixels; none of them is wrong by more than "
             "one half.");
+  grey.light.class_errors[static_cast<std::size_t>(Label::acne) - 1] = 0.35;
+  EXPECT_EQ(
+      grey.verdict(),
+      "The mean error is 35.0 % over 5,000 lit-or-shadowed pixels, all of it acne; none of them is wrong by "
+      "more than one half.");
+  grey.light.class_errors[static_cast<std::size_t>(Label::acne) - 1] = 0.2;
+  grey.light.class_errors[static_cast<std::size_t>(Label::blur) - 1] = 0.15;
+  EXPECT_NE(grey.verdict().find("pixels, mostly acne; none"), std::string::npos) << grey.verdict();
   Case soft(5000, {0, 0, 0, 0, 100, 0, 0, 0, 0, 0});
   soft.light.error.fractional = 900;
   soft.light.error.mean_absolute = 0.03;
   soft.light.best_bias = {0.01, 0.02, true, 0, 1, 0, 0};
   EXPECT_EQ(soft.verdict(),
-            "The mean error is 3.0 % over 5,000 lit-or-shadowed pixels; 2.0 % of them are wrong by more than "
-            "one half, all of them aliasing. No other constant bias does better.");
+            "The mean error is 3.0 % over 5,000 lit-or-shadowed pixels, all of it aliasing; 2.0 % of them "
+            "are wrong by "
+            "more than one half. No other constant bias does better.");
   soft.light.error.ties = 50,
   soft.light.error.wrong_fraction = 0.025;  // no more than one half, and not among them
   EXPECT_NE(soft.verdict().find("; 2.0 % of them are wrong by more than one half"), std::string::npos)
@@ -297,8 +321,9 @@ TEST(Verdict, NamesSoftTechniquesWhereTheLightsSizeIsMostOfTheError) {
       "Most of the mean error is the light's size: no bias gives the shadow of its centre a penumbra, a "
       "technique for soft shadows does (--technique pcss or --technique hybrid).";
   EXPECT_EQ(c.verdict(),
-            "The mean error is 3.0 % over 5,000 lit-or-shadowed pixels; 2.0 % of them are wrong by more than "
-            "one half, all of them light size. " +
+            "The mean error is 3.0 % over 5,000 lit-or-shadowed pixels, all of it light size; 2.0 % of them "
+            "are wrong "
+            "by more than one half. " +
                 advice);
   raster::RasterFrame& drawn = c.made->comparison.raster;
   drawn.options.map.technique = raster::Technique::pcss;
@@ -317,7 +342,7 @@ TEST(Verdict, NamesSoftTechniquesWhereTheLightsSizeIsMostOfTheError) {
   EXPECT_EQ(c.verdict().find("Most of"), std::string::npos) << c.verdict();
   filter.absolute_mean = 0.019;
   EXPECT_NE(c.verdict().find(advice), std::string::npos) << c.verdict();
-  c.light.classes[static_cast<std::size_t>(Label::blur) - 1] = 101;
+  c.light.class_errors[static_cast<std::size_t>(Label::blur) - 1] = 101.0 / 5000.0;
   EXPECT_EQ(c.verdict().find("Most of"), std::string::npos) << c.verdict();
 }
 

@@ -150,7 +150,9 @@ inline void count(LightComparison& light) {
       light.budget[k].signed_mean += step;
       light.budget[k].absolute_mean += std::abs(step);
     }
-    if (!is_wrong(label)) continue;
+    if (!has_cause(label)) continue;
+    light.class_errors[static_cast<std::size_t>(label) - 1] += std::abs(error);
+    if (!(std::abs(error) > 0.5)) continue;
     ++light.classes[static_cast<std::size_t>(label) - 1];
     BudgetStep& blamed = light.budget[blamed_step(label)];
     ++(error < 0.0 ? blamed.false_shadow : blamed.missed_shadow);
@@ -162,6 +164,7 @@ inline void count(LightComparison& light) {
   light.error.mean_absolute /= n;
   light.error.rms = std::sqrt(light.error.rms / n);
   for (double& mean : light.rung_mean) mean /= n;
+  for (double& mean : light.class_errors) mean /= n;
   for (BudgetStep& step : light.budget) step.signed_mean /= n, step.absolute_mean /= n;
 }
 

@@ -29,10 +29,10 @@ compare::Setting setting_for(const LoadedScene& loaded, const raster::RasterOpti
   return setting;
 }
 
-std::string main_label(const std::array<std::uint64_t, compare::class_count>& classes) {
-  const auto most = std::max_element(classes.begin(), classes.end());
-  if (*most == 0) return {};
-  return std::string(label_name(static_cast<compare::Label>(most - classes.begin() + 1)));
+std::string main_label(const std::array<double, compare::class_count>& errors) {
+  const auto most = std::max_element(errors.begin(), errors.end());
+  if (!(*most > 0.0)) return {};
+  return std::string(label_name(static_cast<compare::Label>(most - errors.begin() + 1)));
 }
 
 TechniqueRow measure(const std::string& technique, const compare::Comparison& comparison) {
@@ -40,12 +40,13 @@ TechniqueRow measure(const std::string& technique, const compare::Comparison& co
   row.technique = technique;
   double absolute = 0.0;
   std::uint64_t lookups = 0;
-  std::array<std::uint64_t, compare::class_count> classes{};
+  std::array<double, compare::class_count> errors{};
   for (const compare::LightComparison& light : comparison.lights) {
     row.compared += light.pixels.compared;
     row.wrong += light.error.wrong;
     absolute += light.error.mean_absolute * static_cast<double>(light.pixels.compared);
-    for (std::size_t k = 0; k < classes.size(); ++k) classes[k] += light.classes[k];
+    for (std::size_t k = 0; k < errors.size(); ++k)
+      errors[k] += light.class_errors[k] * static_cast<double>(light.pixels.compared);
     const raster::LightRecord& record = comparison.raster.lights[light.record];
     row.map_ms += record.map_pass.median();
     row.lookups += compare::shadow_lookups(record);
@@ -58,7 +59,7 @@ TechniqueRow measure(const std::string& technique, const compare::Comparison& co
   }
   row.texels = comparison.raster.map_texels;
   row.bytes = comparison.raster.map_bytes;
-  row.main_label = main_label(classes);
+  row.main_label = main_label(errors);
   return row;
 }
 

@@ -24,7 +24,7 @@ struct TechniqueRow {
   TimeDifference lookups;
   double lookups_per_pixel = 0.0;  ///< 0: none are counted
   std::uint64_t texels = 0, bytes = 0;
-  std::string main_label;  ///< of most wrong pixels
+  std::string main_label;  ///< of most of the error
 };
 
 struct TechniqueTable {

@@ -23,10 +23,10 @@ using nlohmann::json;
 double figure_of_light(const json& light, const Measure& measure) {
   const json& value =
       measure.figure == nullptr
-          ? light.at("classes").at(std::string(measure.name))
+          ? light.at("class_errors").at(std::string(measure.name))
           : light.at(std::string(measure.figure->block())).at(std::string(measure.figure->name()));
   if (value.is_null()) return 0.0;
-  const bool is_count = measure.figure == nullptr || measure.figure->form() == compare::FigureForm::count;
+  const bool is_count = measure.figure != nullptr && measure.figure->form() == compare::FigureForm::count;
   const double compared = std::max(1.0, light.at("pixels").at("compared").get<double>());
   return value.get<double>() / (is_count ? compared : 1.0);
 }

@@ -42,9 +42,9 @@ Judgement judge_figure(const Check& check, const RunResult& result) {
   const double value = figure_of(result, check.measure.name);
   const double unknown = check.measure.may_be_unknown ? figure_of(result, "custom_shader") : 0.0;
   const bool passed = value + unknown <= check.limit;
-  const bool is_label = check.measure.words == "pixels with this label";
+  const bool is_label = check.measure.words == "an error with this label";
   const std::string words =
-      is_label ? fmt::format("{} pixels", check.measure.name) : std::string(check.measure.words);
+      is_label ? fmt::format("{} error", check.measure.name) : std::string(check.measure.words);
   const std::string more =
       unknown > 0.0
           ? fmt::format(", and {} of the shader's own making (custom_shader), which may be that as well",

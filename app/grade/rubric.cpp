@@ -189,11 +189,12 @@ const std::vector<Measure>& measures() {
             {figure.mark.name, figure.unit == "texels" ? texels : share, figure.mark.words, &figure});
     for (std::size_t i = 1; i <= compare::class_count; ++i) {
       const auto label = static_cast<compare::Label>(i);
-      if (label == compare::Label::unexplained) continue;  // of pictures that the program did not draw
+      if (label >= compare::Label::unexplained) continue;  // of pictures that the program did not draw
       const bool decided_before = label == compare::Label::light_size ||
                                   label == compare::Label::outside_map ||
                                   label == compare::Label::custom_shader;
-      list.push_back({compare::label_name(label), share, "pixels with this label", nullptr, !decided_before});
+      list.push_back(
+          {compare::label_name(label), share, "an error with this label", nullptr, !decided_before});
     }
     return list;
   }();

@@ -1,6 +1,7 @@
 #include "compare/ladder/budget.h"
 
 #include "compare/ladder/labelling.h"
+#include "compare/ladder/labels.h"
 #include "scene/parallel.h"
 
 namespace gnomon::compare {
@@ -68,11 +69,16 @@ void PixelTerms::add(const std::array<float, rung_count>& v, Label label, double
   absolute_ += times * std::abs(difference), squared_ += times * (difference * difference);
   for (std::size_t k = 0; k < rung_count; ++k) rungs_[k] += times * double{v[k]};
   if (is_accident(v)) accidents_[v[2] > v[0] ? 0 : 1] += times;
+  const bool of_caster = has_cause(label) && label_text(label).step == Cause::caster;
+  const auto moved = of_caster ? static_cast<std::size_t>(deciding_step(v)) : cause_count;
   for (std::size_t k = 0; k < cause_count; ++k) {
-    const double step = double{v[k + 1]} - double{v[k]};
-    steps_[k].signed_sum += times * step, steps_[k].absolute_sum += times * std::abs(step);
+    const double change = double{v[k + 1]} - double{v[k]};
+    Step& step = steps_[k == moved ? cause_count : k];
+    step.signed_sum += times * change, step.absolute_sum += times * std::abs(change);
   }
-  if (!is_wrong(label)) return;
+  if (!has_cause(label)) return;
+  class_errors_[static_cast<std::size_t>(label) - 1] += times * std::abs(difference);
+  if (!is_wrong(v)) return;
   classes_[static_cast<std::size_t>(label) - 1] += times;
   Step& blamed = steps_[static_cast<std::size_t>(step_of_label(label, v))];
   (v[6] < v[0] ? blamed.false_shadow : blamed.missed_shadow) += times;
@@ -84,8 +90,9 @@ void PixelTerms::add(const PixelTerms& other) {
   absolute_ += other.absolute_, squared_ += other.squared_;
   for (std::size_t k = 0; k < rung_count; ++k) rungs_[k] += other.rungs_[k];
   for (std::size_t k = 0; k < accidents_.size(); ++k) accidents_[k] += other.accidents_[k];
-  for (std::size_t k = 0; k < class_count; ++k) classes_[k] += other.classes_[k];
-  for (std::size_t k = 0; k < cause_count; ++k) {
+  for (std::size_t k = 0; k < class_count; ++k)
+    classes_[k] += other.classes_[k], class_errors_[k] += other.class_errors_[k];
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
     Step& step = steps_[k];
     const Step& more = other.steps_[k];
     step.signed_sum += more.signed_sum, step.absolute_sum += more.absolute_sum;
@@ -113,6 +120,12 @@ std::array<std::uint64_t, class_count> PixelTerms::classes() const {
   return classes;
 }
 
+std::array<double, class_count> PixelTerms::class_errors() const {
+  std::array<double, class_count> means{};
+  for (std::size_t k = 0; k < class_count && compared_ > 0.0; ++k) means[k] = class_errors_[k] / compared_;
+  return means;
+}
+
 RightByAccident PixelTerms::accidents() const {
   return {static_cast<std::uint64_t>(accidents_[0]), static_cast<std::uint64_t>(accidents_[1])};
 }
@@ -123,9 +136,9 @@ std::array<double, rung_count> PixelTerms::rung_means() const {
   return means;
 }
 
-std::array<BudgetStep, cause_count> PixelTerms::budget() const {
-  std::array<BudgetStep, cause_count> budget{};
-  for (std::size_t k = 0; k < cause_count && compared_ > 0.0; ++k) {
+Budget PixelTerms::budget() const {
+  Budget budget{};
+  for (std::size_t k = 0; k < budget.size() && compared_ > 0.0; ++k) {
     const Step& step = steps_[k];
     budget[k] = {step.signed_sum / compared_, step.absolute_sum / compared_,
                  static_cast<std::uint64_t>(step.false_shadow),
@@ -135,7 +148,8 @@ std::array<BudgetStep, cause_count> PixelTerms::budget() const {
 }
 
 void PixelTerms::write_to(LightComparison& light) const {
-  light.error = error(), light.classes = classes(), light.budget = budget();
+  light.error = error(), light.budget = budget();
+  light.classes = classes(), light.class_errors = class_errors();
   light.accidents = accidents(), light.rung_mean = rung_means();
 }
 

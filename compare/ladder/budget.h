@@ -27,11 +27,12 @@ class PixelTerms {
   /// wrong, false and missed shadow, ties, fractional, mean |V6 - V0| and RMS; FLIP and SSIM are NaN.
   ErrorStats error() const;
   std::array<std::uint64_t, class_count> classes() const;
+  std::array<double, class_count> class_errors() const;  ///< means over the compared pixels
   RightByAccident accidents() const;
   /// Mean visibility of each rung; 0 of no pixels.
   std::array<double, rung_count> rung_means() const;
-  /// Means of the six steps, and the wrong pixels that each is to blame for.
-  std::array<BudgetStep, cause_count> budget() const;
+  /// Means of the steps, and the wrong pixels that each is to blame for.
+  Budget budget() const;
   /// All of these; FLIP and SSIM of the light become NaN.
   void write_to(LightComparison& light) const;
 
@@ -43,8 +44,8 @@ class PixelTerms {
   double absolute_ = 0.0, squared_ = 0.0;
   std::array<double, rung_count> rungs_{};
   std::array<double, 2> accidents_{};
-  std::array<double, class_count> classes_{};
-  std::array<Step, cause_count> steps_{};
+  std::array<double, class_count> classes_{}, class_errors_{};
+  std::array<Step, cause_count + 1> steps_{};
 };
 
 /// The sums of a picture that comes in parts, each of whole rows, from the top: the same as those of the whole.

@@ -7,7 +7,7 @@
 namespace gnomon::compare {
 namespace {
 
-Json steps_json(const std::array<BudgetStep, cause_count>& budget) {
+Json steps_json(const Budget& budget) {
   Json steps = Json::array();
   for (std::size_t k = 0; k < cause_count; ++k)
     steps.push_back({{"cause", cause_name(static_cast<Cause>(k))},

@@ -21,7 +21,7 @@ class Nearby {
   const raytrace::SurfacePoint& receiver() const { return receiver_; }
   Vec2 place() const { return {at_.u, at_.v}; }
   Ray ray(const Vec2& uv) const {
-    return caster_ray(in_.record().map.view, column_.key().face(), uv.x, uv.y);
+    return caster_ray(in_.world(), in_.record().map.view, column_.key().face(), uv.x, uv.y);
   }
 
   // Where the ray meets the receiver's tangent plane; infinite where it does not meet it from the front.

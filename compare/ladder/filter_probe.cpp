@@ -1,9 +1,12 @@
 #include "compare/ladder/filter_probe.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "compare/ladder/biased_test.h"
 #include "compare/ladder/filter_parameters.h"
+#include "compare/truth/columns.h"
 #include "scene/camera.h"
 
 namespace gnomon::compare {
@@ -83,6 +86,55 @@ double pixel_level(const LadderInput& in, std::size_t pixel) {
   return level > 0.0 ? std::min(level, most) : 0.0;  // not a number becomes 0
 }
 
+/// The exact rays through texels' centres against the receiver's plane. Those of texels that pixels look up are known.
+class TrueTexels {
+ public:
+  TrueTexels(const LowerClimb& lower, const LadderInput& in, std::size_t pixel)
+      : lower_(lower),
+        in_(in),
+        receiver_(in.traced.receiver.data[pixel]),
+        face_(in.record().face.data[pixel]),
+        at_(project_to_face(in.record().map.view, face_, receiver_.position)) {}
+
+  Vec2 place() const { return {at_.u, at_.v}; }
+
+  /// Lit too where the ray does not reach the plane from the front.
+  bool is_lit(int column, int row) const {
+    const LightView& view = in_.record().map.view;
+    const double plane =
+        plane_depth(view, face_, column + 0.5, row + 0.5, receiver_.position, receiver_.normal);
+    if (std::isinf(plane)) return true;
+    const Ray ray = caster_ray(in_.world(), view, face_, column + 0.5, row + 0.5);
+    return !(depth_on(ray, column, row) < plane - plane_rounding(ray, receiver_));
+  }
+
+ private:
+  /// Of the first thing that the ray through a texel's centre meets.
+  double depth_on(const Ray& ray, int column, int row) const {
+    const LightView& view = in_.record().map.view;
+    if (std::min(column, row) >= 0 && std::max(column, row) < view.size) {
+      const auto& keys = lower_.groups.keys;
+      const auto key = raytrace::TexelKey::pack(face_, column, row);
+      const auto found = std::lower_bound(keys.begin(), keys.end(), key);
+      if (found != keys.end() && *found == key)
+        return lower_.centres[static_cast<std::size_t>(found - keys.begin())];
+    }
+    const auto hit = in_.tracer.closest_hit(ray, raytrace::Sides::casting);
+    return hit ? glm::dot(ray.at(hit->t) - view.origin, view.face(face_).forward) : infinity;
+  }
+
+  const LowerClimb& lower_;
+  const LadderInput& in_;
+  const raytrace::SurfacePoint& receiver_;
+  int face_;
+  TexelCoordinate at_;
+};
+
+/// The k-th of most_probes places along the side of a square that reaches so far around a receiver.
+double tap_within(double reach, double at, int k) {
+  return at + (2.0 * (k + 0.5) / most_probes - 1.0) * reach;
+}
+
 // The k-th of n places along a kernel's side around a receiver at `at`: the centre of the texel there.
 double tap_centre(const raster::FilterOptions& filter, double at, int k, int n) {
   const double share = (k + 0.5) / n;
@@ -110,23 +162,32 @@ bool shadowed_within_reach(const LadderInput& in, std::size_t pixel) {
   return any_within_reach(in, pixel, raytrace::PointVisibility::shadowed);
 }
 
-double true_average(const LadderInput& in, std::size_t pixel) {
-  const ReceiverPlane plane(in, pixel);
-  const raster::FilterOptions& filter = in.drawn.options.map.filter;
-  const bool disc = filter.kernel == raster::FilterKernel::vogel;
+double true_average(const LowerClimb& lower, const LadderInput& in, std::size_t pixel) {
+  const TrueTexels texels(lower, in, pixel);
+  const raster::MapOptions& map = in.drawn.options.map;
+  const bool compares = map.technique == raster::Technique::pcf;
+  const bool disc = compares && map.filter.kernel == raster::FilterKernel::vogel;
+  const double reach = compares ? 0.0 : pixel_reach_texels(in, pixel);
+  const auto texel = [&](double at, int k) {
+    const double tap = compares ? tap_centre(map.filter, at, k, most_probes) : tap_within(reach, at, k);
+    return static_cast<int>(std::floor(tap));
+  };
+  std::array<int, most_probes> columns{};
+  for (int i = 0; i < most_probes; ++i) columns[static_cast<std::size_t>(i)] = texel(texels.place().x, i);
   int lit = 0, met = 0;
   for (int j = 0; j < most_probes; ++j) {
+    const int row = texel(texels.place().y, j);
+    int last = columns.front() - 1;
+    bool is_lit = false;
     for (int i = 0; i < most_probes; ++i) {
       const double x = 2.0 * (i + 0.5) / most_probes - 1.0, y = 2.0 * (j + 0.5) / most_probes - 1.0;
       if (disc && x * x + y * y > 1.0) continue;
-      const Vec2 place = plane.place();
-      const auto found = plane.visibility(
-          {tap_centre(filter, place.x, i, most_probes), tap_centre(filter, place.y, j, most_probes)});
-      lit += found == raytrace::PointVisibility::lit ? 1 : 0;
-      met += found != raytrace::PointVisibility::uncertain ? 1 : 0;
+      const int column = columns[static_cast<std::size_t>(i)];
+      if (column != last) is_lit = texels.is_lit(column, row), last = column;
+      lit += is_lit ? 1 : 0, ++met;
     }
   }
-  return met > 0 ? static_cast<double>(lit) / met : 1.0;
+  return static_cast<double>(lit) / met;
 }
 
 }  // namespace gnomon::compare

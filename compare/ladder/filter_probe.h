@@ -16,7 +16,8 @@ bool lit_within_reach(const LadderInput& input, std::size_t pixel);
 bool shadowed_within_reach(const LadderInput& input, std::size_t pixel);
 
 /// What pcf would draw if each of its comparisons were the truth about the receiver's tangent plane at the
-/// centre of the texel compared: probed at 9 x 9 points of its kernel. 1 where the plane is met nowhere.
-double true_average(const LadderInput& input, std::size_t pixel);
+/// centre of the texel compared: probed at 9 x 9 points of its kernel. Of other filters the same over the square of
+/// texels that they read. `lower` knows what the rays through most of these centres meet.
+double true_average(const LowerClimb& lower, const LadderInput& input, std::size_t pixel);
 
 }  // namespace gnomon::compare

@@ -180,15 +180,73 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "map does not hold what the scene holds here.",
      "A capture with the map, its matrix and its bias as they were drawn with; or, without a map, `gnomon "
      "judge --identify`, which looks for the setting that comes nearest."},
+    {"caster_bias",
+     "caster bias",
+     "H",
+     {0x44, 0xaa, 0x99},
+     Cause::caster,
+     "peter-panning",  // teal (Tol)
+     "the map holds its casters farther from the light than they are",
+     "The renderer moved or shrank what it drew into the map: a polygon offset, a depth or normal bias of "
+     "casters. The shadow test then has that much bias, whatever it adds itself.",
+     "Less of that offset, or a bias of the opposite sign in the test."},
+    {"missing_caster",
+     "missing caster",
+     "N",
+     {0x11, 0x77, 0x33},
+     Cause::caster,
+     "shadow-map",  // green (Tol)
+     "what casts the shadow is not in the map",
+     "At this texel the light first meets an object that the map does not hold: it was not drawn into the "
+     "map.",
+     "Draw the object into the map: let it cast shadows, and do not leave it out by what the camera sees."},
+    {"moved_caster",
+     "moved caster",
+     "V",
+     {0xaa, 0x44, 0x99},
+     Cause::caster,
+     "shadow-map",  // purple (Tol)
+     "the map holds a caster where the scene has none",
+     "The map was drawn before something moved, or with something that the scene does not have.",
+     "Draw the map again when a caster or the light moves."},
+    {"clipped_caster",
+     "clipped caster",
+     "K",
+     {0x66, 0x11, 0x00},
+     Cause::caster,
+     "cascades",  // brown (Tol)
+     "the caster lies before the map's near plane, or behind its far one",
+     "What lies outside the map's depths is not drawn into it, and casts no shadow.",
+     "A nearer near plane (or a farther far one), or depths clamped to the planes."},
+    {"culled_caster",
+     "culled caster",
+     "Q",
+     {0xdd, 0xcc, 0x77},
+     Cause::caster,
+     "shadow-map",  // sand (Tol)
+     "the side of the caster that faces the light was culled",
+     "Faces of one side are left out of the map, and here the caster has no other side behind them.",
+     "Draw both sides of such objects into the map, or give them a thickness."},
+    {"ignored_alpha",
+     "ignored alpha",
+     "T",
+     {0x88, 0xcc, 0xee},
+     Cause::caster,
+     "shadow-map",  // cyan (Tol)
+     "a hole of the caster's alpha mask is filled in the map",
+     "The pass that draws the map does not test alpha, so that the whole triangle casts a shadow.",
+     "Test alpha in the map's pass, too."},
 }};
 
-constexpr std::array<StepText, cause_count> steps{{
+constexpr std::array<StepText, cause_count + 1> steps{{
     {"light_size", "light size", "the light shrinks to a point", Label::light_size},
     {"sampling", "sampling", "one ray per texel instead of one per pixel", Label::aliasing},
     {"slope", "slope", "one depth for the whole texel", Label::acne},
     {"precision", "precision", "the depth as stored in the map", Label::precision},
     {"bias", "bias", "the depth test with its bias", Label::peter_panning},
     {"filter", "filter", "the technique's filter", Label::blur},
+    {"caster", "caster", "casters that the map does not hold where the scene has them",
+     Label::missing_caster},
 }};
 
 constexpr std::array<RungText, rung_count> rungs{{

@@ -70,14 +70,19 @@ float true_visibility(const LadderInput& in, std::size_t pixel) {
   return in.truth().centre.data[pixel] == PointVisibility::lit ? 1.0f : 0.0f;
 }
 
+bool is_off_at(const std::array<float, rung_count>& v, std::size_t k) {
+  const float error = v[6] - v[0];
+  const float most = std::abs(error) > 0.5f ? 0.5f : 0.5f * std::abs(error);
+  return (error < 0.0f ? v[0] - v[k] : v[k] - v[0]) > most;
+}
+
 Cause deciding_step(const std::array<float, rung_count>& v) {
-  const auto wrong = [&](std::size_t k) { return std::abs(v[k] - v[0]) > 0.5f; };
-  if (!wrong(5)) return Cause::filter;
+  if (!is_off_at(v, 5)) return Cause::filter;
   std::size_t step = 4;
   if (v[6] > v[0])
-    for (step = 0; !wrong(step + 1);) ++step;
+    for (step = 0; !is_off_at(v, step + 1);) ++step;
   else
-    while (wrong(step)) --step;
+    while (is_off_at(v, step)) --step;
   return static_cast<Cause>(step);
 }
 
@@ -160,7 +165,7 @@ void climb_outside(const LadderInput& in, std::size_t pixel, Climb& out) {
   const float drawn = in.record().visibility.data[pixel];
   out.rungs[1].data[pixel] = point_rung(in, pixel);
   for (std::size_t k = 2; k < rung_count; ++k) out.rungs[k].data[pixel] = drawn;
-  if (is_compared(out.labels.data[pixel]) && std::abs(drawn - truth) > 0.5f)
+  if (is_compared(out.labels.data[pixel]) && has_error(drawn, truth))
     out.labels.data[pixel] = Label::outside_map;
 }
 
@@ -186,9 +191,9 @@ void climb_lower(Column& column, const TexelCentre& centre, raytrace::TexelKey k
   out.rungs[4].data[pixel] = stored_rung(in, centre, key, stores_first, own, flat);
 }
 
-bool drawn_wrong(const LadderInput& in, const Climb& climbed, std::size_t pixel) {
+bool drawn_off(const LadderInput& in, const Climb& climbed, std::size_t pixel) {
   return is_compared(climbed.labels.data[pixel]) &&
-         std::abs(in.record().visibility.data[pixel] - climbed.rungs[0].data[pixel]) > 0.5f;
+         has_error(in.record().visibility.data[pixel], climbed.rungs[0].data[pixel]);
 }
 
 // V5 and V6 of one texel's pixels, and the labels of those that are wrong. `out` holds the lower rungs.
@@ -214,9 +219,8 @@ Climb climb_unexplained(const LadderInput& in, Climb out) {
     out.rungs[1].data[i] = point_rung(in, i);
     const float drawn = in.record().visibility.data[i];
     for (std::size_t k = 2; k < rung_count; ++k) out.rungs[k].data[i] = drawn;
-    if (!drawn_wrong(in, out, i)) return;
-    const bool of_point = std::abs(drawn - out.rungs[1].data[i]) <= 0.5f;
-    out.labels.data[i] = of_point ? Label::light_size : Label::unexplained;
+    if (drawn_off(in, out, i))
+      out.labels.data[i] = is_off_at(rungs_at(out.rungs, i), 1) ? Label::light_size : Label::unexplained;
   });
   return out;
 }
@@ -235,7 +239,7 @@ Climb climb_without_map(const LadderInput& in, Climb out) {
     if (!is_compared(climbed.data[i])) continue;
     for (std::size_t k = 0; k < rung_count; ++k)
       out.rungs[k].data[i] = k < first_drawn ? true_visibility(in, i) : in.record().visibility.data[i];
-    if (drawn_wrong(in, out, i)) out.labels.data[i] = label;
+    if (drawn_off(in, out, i)) out.labels.data[i] = label;
   }
   return out;
 }

@@ -75,9 +75,13 @@ Climb climb_up(const LowerClimb& lower, const LadderInput& input);
 /// Climbs the compared pixels (label `right` on entry) and labels the wrong ones.
 Climb climb(const LadderInput& input, Image<Label> sorted);
 
-/// The step that made a wrong pixel wrong. Of a false shadow, the step at which V0 - V last rose above one
-/// half. Of a missed shadow the filter where V5 is right, else the step at which V - V0 first rose above one
-/// half: what darkens it in between by accident, and is taken away again, is not what it lacks.
+/// Whether a pixel with an error is off at rung k, too: on the side of its error, by more than one half where it is wrong,
+/// else by more than half of its error.
+bool is_off_at(const std::array<float, rung_count>& rungs, std::size_t k);
+
+/// The step that put a pixel off. Of one too dark, the step at which it last came to be off (is_off_at). Of one too light
+/// the filter where V5 is right, else the step at which it first came to be off: what darkens it in between by accident,
+/// and is taken away again, is not what it lacks.
 Cause deciding_step(const std::array<float, rung_count>& rungs);
 
 }  // namespace gnomon::compare

@@ -123,7 +123,7 @@ Expected<Image<float>> LightSums::add_pixels(const LadderInput& in, const Climb&
     standard_errors_.add(in.truth(), labels);
     penumbra_.add(in, climb.rungs.front(), labels_climbed);
   }
-  Image<float> detached = detachment_map(in.tracer, in.light(), in.traced.receiver, labels);
+  Image<float> detached = detachment_map(in.tracer, in.light(), in.traced.receiver, labels, climb.rungs);
   for (const float distance : detached.data)
     if (!std::isnan(distance)) detachment_.add(double{distance});
   bleeding_.add(in, climb.rungs, labels);

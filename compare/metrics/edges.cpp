@@ -323,10 +323,11 @@ Detachment DetachmentSum::stats() const {
 }
 
 Image<float> detachment_map(const raytrace::Tracer& tracer, const Light& light,
-                            const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels) {
+                            const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels,
+                            const std::array<Image<float>, rung_count>& rungs) {
   Image<float> map(labels.size, std::numeric_limits<float>::quiet_NaN());
   parallel_for(labels.data.size(), [&](std::size_t i) {
-    if (labels.data[i] != Label::peter_panning) return;
+    if (labels.data[i] != Label::peter_panning || !is_wrong(rungs_at(rungs, i))) return;
     if (const auto distance = detachment_distance(tracer, light, receivers.data[i]))
       map.data[i] = static_cast<float>(*distance);
   });

@@ -68,9 +68,10 @@ class EdgePaths {
 /// (peter_panning) and the occluder that should shadow it: t sin(angle between light and normal) for the
 /// nearest occluder at t.
 Detachment measure_detachment(const Image<float>& map);
-/// The distances by pixel, world units; NaN where there is none.
+/// The distances by pixel, world units; NaN where there is none. Of wrong pixels alone.
 Image<float> detachment_map(const raytrace::Tracer& tracer, const Light& light,
-                            const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels);
+                            const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels,
+                            const std::array<Image<float>, rung_count>& rungs);
 /// Adds distances up one by one, in the order of the pixels.
 class DetachmentSum {
  public:

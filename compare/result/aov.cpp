@@ -1,5 +1,5 @@
 // The EXR file of per-pixel numbers (docs/design.md, section 6). Where the pixel shows no surface every channel is
-// 0 except R,G,B (the background), the ladder (1: lit) and class.V, object.V and primitive.V (-1). gap.V is
+// 0 except R,G,B (the background), the ladder (1: lit) and class.V, cause.V, object.V and primitive.V (-1). gap.V is
 // not finite where the receiver's texel holds nothing or its bias has no bound (LightRecord::gap). Ids are exact up to
 // 2^24, as far as 32-bit floats count.
 #include <fmt/core.h>
@@ -61,7 +61,11 @@ void add_ladder(AovChannels& channels, const AovRows& light) {
   for (std::size_t k = 0; k < rung_count; ++k)
     channels.add(fmt::format("{}.V", rung_text(static_cast<Rung>(k)).name),
                  [&](std::size_t i) { return light.rungs[k].data[i]; });
-  channels.add("class.V", [&](std::size_t i) { return static_cast<double>(light.labels.data[i]); });
+  const auto label = [&](std::size_t i) { return static_cast<double>(light.labels.data[i]); };
+  channels.add("class.V", [&](std::size_t i) {
+    return has_cause(light.labels.data[i]) && !is_wrong(rungs_at(light.rungs, i)) ? 0.0 : label(i);
+  });
+  channels.add("cause.V", label);
 }
 
 void add_lookup(AovChannels& channels, const AovRows& c) {

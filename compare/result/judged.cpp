@@ -43,11 +43,19 @@ std::string ladder_text(const Comparison& c) {
 }  // namespace
 
 std::string advice_text(const Advice& a) {
-  if (a.instead == a.now)
-    return fmt::format("{} stays {:.4g} ({}): {:.3g} % of the pixels wrong, hardly more than with any other",
-                       a.setting, a.now, a.unit, 100.0 * a.wrong_instead);
-  return fmt::format("{} {:.4g} instead of {:.4g} ({}): {:.3g} % of the pixels wrong, with this one {:.3g} %",
-                     a.setting, a.instead, a.now, a.unit, 100.0 * a.wrong_instead, 100.0 * a.wrong_now);
+  const auto stays = [](const auto& one) { return one.instead == one.now; };
+  const auto text = [&](const auto& one) {
+    return stays(one)
+               ? fmt::format("{} stays {:.4g} ({})", one.setting, one.now, one.unit)
+               : fmt::format("{} {:.4g} instead of {:.4g} ({})", one.setting, one.instead, one.now, one.unit);
+  };
+  std::string settings = text(a);
+  if (a.with) settings += " and " + text(*a.with);
+  if (stays(a) && (!a.with || stays(*a.with)))
+    return fmt::format("{}: {:.3g} % of the pixels wrong, hardly more than with any other", settings,
+                       100.0 * a.wrong_instead);
+  return fmt::format("{}: {:.3g} % of the pixels wrong, as captured {:.3g} %", settings,
+                     100.0 * a.wrong_instead, 100.0 * a.wrong_now);
 }
 
 std::string renderer_text(const Judged& j) {

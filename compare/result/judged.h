@@ -33,12 +33,19 @@ struct Identified {
 };
 
 /// A number that the renderer's user can type in, in the renderer's own units.
-struct Advice {
+struct AdvisedSetting {
   std::string setting;  ///< "bias.constant_depth"
   double now = 0.0, instead = 0.0;
-  std::string unit;                             ///< "stored depth", "world units"
-  double wrong_now = 0.0, wrong_instead = 0.0;  ///< shares of the compared pixels
-  bool feasible = false;                        ///< with it every compared pixel is right
+  std::string unit;  ///< "stored depth", "world units"
+};
+struct Advice {
+  std::string setting;
+  double now = 0.0, instead = 0.0;
+  std::string unit;
+  double wrong_now = 0.0,
+         wrong_instead = 0.0;  ///< shares of all compared pixels, those outside the map among them
+  bool feasible = false;       ///< with it every compared pixel is right
+  std::optional<AdvisedSetting> with = {};  ///< what is to be set together with it
 };
 
 struct Judged {

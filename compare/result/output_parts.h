@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/comparison.h"
+#include "compare/result/judged.h"
 #include "compare/result/option_names.h"
 
 namespace gnomon::compare {
@@ -33,9 +34,9 @@ inline bool draws_bias(const Comparison& c) {
   const auto& custom = c.raster.custom_shader;
   return compares_depths(c) && (!custom || custom->reads_bias);
 }
-/// Without the map there are two steps: light size, and all the rest.
+/// Without the map there are two steps: light size, and all the rest. Casters of another renderer's map are one more.
 inline std::size_t known_steps(const Comparison& c) {
-  return lacks_map(c) ? 2 : cause_count;
+  return lacks_map(c) ? 2 : c.judged && c.judged->has_map ? cause_count + 1 : cause_count;
 }
 inline std::string_view step_name(const Comparison& c, Cause cause) {
   return lacks_map(c) && cause == Cause::sampling ? "unexplained" : cause_name(cause);

@@ -29,6 +29,7 @@ Rgb8Image raytraced_picture(const Comparison& comparison);
 Rgb8Image difference_picture(const Comparison& comparison, const LightComparison& light);
 /// From raster_picture(), where that has been made.
 Rgb8Image difference_picture(const Rgb8Image& drawn, const LightComparison& light);
+/// Each error in the colour of its label, as strong as it is; grey where all is right.
 Rgb8Image label_picture(const LightComparison& light);
 /// |V6 - V0|, FLIP and 1 - SSIM of the visibility pictures, each on magma from 0 to 1; black where nothing is
 /// compared. FLIP and SSIM need the light's maps.

@@ -74,14 +74,17 @@ Json judged_json(const Judged& j) {
                       {"evidence", m.evidence},
                       {"before", number(m.before)},
                       {"after", number(m.after)}});
-  for (const Advice& a : j.advice)
-    advice.push_back({{"setting", a.setting},
-                      {"now", number(a.now)},
-                      {"instead", number(a.instead)},
-                      {"unit", a.unit},
-                      {"wrong_now", number(a.wrong_now)},
-                      {"wrong_instead", number(a.wrong_instead)},
-                      {"feasible", a.feasible}});
+  const auto setting = [](const auto& a) {
+    return Json{
+        {"setting", a.setting}, {"now", number(a.now)}, {"instead", number(a.instead)}, {"unit", a.unit}};
+  };
+  for (const Advice& a : j.advice) {
+    Json one = setting(a);
+    one["wrong_now"] = number(a.wrong_now), one["wrong_instead"] = number(a.wrong_instead);
+    one["feasible"] = a.feasible;
+    one["with"] = a.with ? setting(*a.with) : Json(nullptr);
+    advice.push_back(std::move(one));
+  }
   return {{"capture", j.capture},
           {"renderer", {{"name", j.renderer}, {"version", j.version}, {"settings", std::move(settings)}}},
           {"map", j.has_map},

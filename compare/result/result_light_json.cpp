@@ -217,6 +217,13 @@ Json classes_json(const LightComparison& light) {
   return json;
 }
 
+Json class_errors_json(const LightComparison& light) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < class_count; ++k)
+    json[std::string(label_name(static_cast<Label>(k + 1)))] = number(light.class_errors[k]);
+  return json;
+}
+
 Json bias_curve_json(const LightComparison& light) {
   Json json = Json::array();
   for (const BiasCurvePoint& p : light.bias_curve)
@@ -344,6 +351,7 @@ Json light_block(const Comparison& c, const LightComparison& light) {
              {"budget", budget_json(c, light)},
              {"ladder", ladder_json(light)},
              {"classes", classes_json(light)},
+             {"class_errors", class_errors_json(light)},
              {"right_by_accident", block_json("right_by_accident", light)},
              {"edges", block_json("edges", light)},
              {"detachment", block_json("detachment", light)},

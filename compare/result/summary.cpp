@@ -148,12 +148,15 @@ std::string error_line(const LightFigures& light) {
   return text;
 }
 
+// "acne 12,345, blur 300"; where something is partly lit, with what each label has of the mean error.
 std::string labels_line(const LightComparison& light) {
   std::string text;
-  for (std::size_t k = 0; k < class_count; ++k)
-    if (light.classes[k] > 0)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", label_text(static_cast<Label>(k + 1)).name,
-                          grouped(light.classes[k]));
+  for (std::size_t k = 0; k < class_count; ++k) {
+    if (!(light.class_errors[k] > 0.0) && light.classes[k] == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", label_text(static_cast<Label>(k + 1)).name,
+                        grouped(light.classes[k]));
+    if (light.error.fractional > 0) text += fmt::format(" (error {})", percent(light.class_errors[k]));
+  }
   return text.empty() ? "none" : text;
 }
 
@@ -171,7 +174,7 @@ std::string seams_line(const SeamCount& seams) {
 std::string budget_line(const Comparison& c, const LightComparison& light) {
   std::string text;
   double sum = 0.0, sizes = 0.0;
-  for (std::size_t k = 0; k < cause_count; ++k) {
+  for (std::size_t k = 0; k < light.budget.size(); ++k) {
     const BudgetStep& step = light.budget[k];
     sum += step.signed_mean, sizes += step.absolute_mean;
     if (!(step.absolute_mean > 0.0)) continue;

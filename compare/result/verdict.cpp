@@ -17,20 +17,21 @@
 namespace gnomon::compare {
 namespace {
 
-// "all of them acne", "mostly acne", "mainly acne and aliasing".
-std::string main_reasons(const LightComparison& light) {
+/// "all of them acne", "mostly acne", "mainly acne and aliasing": the labels with most of what is off, by count or by size.
+template <class Amount>
+std::string main_reasons(const std::array<Amount, class_count>& amounts, std::string_view all_of) {
   std::array<std::size_t, class_count> order{};
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return light.classes[a] > light.classes[b]; });
+                   [&](std::size_t a, std::size_t b) { return amounts[a] > amounts[b]; });
   const auto name = [&](std::size_t rank) {
     return std::string(label_text(static_cast<Label>(order[rank] + 1)).name);
   };
-  const auto count = [&](std::size_t rank) { return light.classes[order[rank]]; };
-  const std::uint64_t wrong = light.error.wrong;
-  if (count(0) == wrong) return wrong == 1 ? name(0) : "all of them " + name(0);
-  if (2 * count(0) > wrong) return "mostly " + name(0);
-  if (2 * (count(0) + count(1)) > wrong) return fmt::format("mainly {} and {}", name(0), name(1));
+  const auto amount = [&](std::size_t rank) { return amounts[order[rank]]; };
+  const Amount sum = std::accumulate(amounts.begin(), amounts.end(), Amount{});
+  if (!(amount(1) > Amount{})) return fmt::format("{}{}", all_of, name(0));
+  if (2 * amount(0) > sum) return "mostly " + name(0);
+  if (2 * (amount(0) + amount(1)) > sum) return fmt::format("mainly {} and {}", name(0), name(1));
   return fmt::format("mainly {}, {} and {}", name(0), name(1), name(2));
 }
 
@@ -43,22 +44,24 @@ std::string yes_or_no_part(const LightComparison& light) {
   const std::string share = few ? fmt::format("{} of {}", grouped(wrong), grouped(compared))
                                 : fmt::format("{} of the", percent(light.error.wrong_fraction));
   return fmt::format("{} lit-or-shadowed pixels {} wrong, {}.", share, few && wrong == 1 ? "is" : "are",
-                     main_reasons(light));
+                     main_reasons(light.classes, wrong == 1 ? "" : "all of them "));
 }
 
 // Where something is partly lit, in truth or as drawn, counts of what is more than one half off say little.
 std::string fractional_part(const LightComparison& light) {
   const std::uint64_t wrong = light.error.wrong, compared = light.pixels.compared;
+  const auto& errors = light.class_errors;
+  const bool labelled = std::any_of(errors.begin(), errors.end(), [](double error) { return error > 0.0; });
   const std::string lead =
-      fmt::format("The mean error is {} over {} lit-or-shadowed pixel{}; ",
-                  percent(light.error.mean_absolute), grouped(compared), compared == 1 ? "" : "s");
+      fmt::format("The mean error is {} over {} lit-or-shadowed pixel{}{}; ",
+                  percent(light.error.mean_absolute), grouped(compared), compared == 1 ? "" : "s",
+                  labelled ? ", " + main_reasons(errors, "all of it ") : std::string());
   if (wrong == 0) return lead + "none of them is wrong by more than one half.";
   // Without those that are off by exactly one half, of which the figure of the error counts half.
   const double share = static_cast<double>(wrong) / static_cast<double>(compared);
   const bool few = share < few_fraction;
-  return lead + fmt::format("{} of them {} wrong by more than one half, {}.",
-                            few ? grouped(wrong) : percent(share), few && wrong == 1 ? "is" : "are",
-                            main_reasons(light));
+  return lead + fmt::format("{} of them {} wrong by more than one half.",
+                            few ? grouped(wrong) : percent(share), few && wrong == 1 ? "is" : "are");
 }
 
 std::string uncertain_part(const PixelCounts& p) {
@@ -70,7 +73,7 @@ std::string uncertain_part(const PixelCounts& p) {
 }
 
 // Most of the error is that a light with size was taken for its centre: no filter makes up for most of that, and no other
-// step stands for more of the error, or for more of the wrong pixels.
+// step or label stands for more of the error.
 bool lacks_light_size(const raster::RasterFrame& drawn, const LightComparison& light) {
   if (drawn.custom_shader || raster::traits_of(drawn.options.map.technique).soft) return false;
   const auto step = [&](Cause cause) { return light.budget[static_cast<std::size_t>(cause)]; };
@@ -80,8 +83,9 @@ bool lacks_light_size(const raster::RasterFrame& drawn, const LightComparison& l
       step(Cause::slope).signed_mean + step(Cause::precision).signed_mean + step(Cause::bias).signed_mean;
   const double others =
       std::max({step(Cause::filter).absolute_mean, step(Cause::sampling).absolute_mean, std::abs(biased)});
-  const std::uint64_t by_size = light.classes[static_cast<std::size_t>(Label::light_size) - 1];
-  return shrunk > others && by_size == *std::max_element(light.classes.begin(), light.classes.end());
+  const double by_size = light.class_errors[static_cast<std::size_t>(Label::light_size) - 1];
+  return shrunk > others &&
+         by_size >= *std::max_element(light.class_errors.begin(), light.class_errors.end());
 }
 
 std::string soft_technique_advice() {
@@ -109,8 +113,9 @@ std::string nothing_compared(const PixelCounts& p, LightType light) {
       p.uncertain == 1 ? "is" : "are");
 }
 
-std::string instead_text(const Advice& advice, std::string_view setting) {
-  return fmt::format("{} {:.4g} instead of {:.4g}", setting, advice.instead, advice.now);
+template <class Setting>
+std::string instead_text(const Setting& one) {
+  return fmt::format("{} {:.4g} instead of {:.4g}", one.setting, one.instead, one.now);
 }
 
 // Of another renderer's picture, in that renderer's own units; no option of Gnomon's own can be set there. First comes
@@ -121,9 +126,9 @@ std::string judged_advice(const Judged& judged, const LightComparison& light) {
   const double drawn = light.error.wrong_fraction;
   if (last.wrong_instead >= drawn || percent(last.wrong_instead) == percent(drawn)) return {};
   std::string settings;
-  if (judged.advice.size() > 1) settings = instead_text(judged.advice[1], judged.advice[1].setting);
-  if (last.instead != last.now)
-    settings += (settings.empty() ? "" : " and ") + instead_text(last, "bias.constant_depth");
+  if (last.instead != last.now) settings = instead_text(last);
+  if (last.with && last.with->instead != last.with->now)
+    settings += (settings.empty() ? "" : " and ") + instead_text(*last.with);
   if (settings.empty()) return {};
   return fmt::format("{} would leave {}.", settings, percent(last.wrong_instead));
 }

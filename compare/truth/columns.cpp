@@ -8,13 +8,26 @@ namespace gnomon::compare {
 
 using raytrace::TexelKey;
 
-Ray caster_ray(const LightView& view, int face_index, double u, double v) {
+namespace {
+
+/// The depth along a face's axis at which what is finite of the world begins.
+double first_depth(const World& world, const LightView& view, const LightFace& face) {
+  const Aabb& box = world.finite_bounds;
+  if (box.empty()) return infinity;
+  const Vec3 half = 0.5 * (box.max - box.min);
+  return glm::dot(box.center() - view.origin, face.forward) - glm::dot(half, glm::abs(face.forward));
+}
+
+}  // namespace
+
+Ray caster_ray(const World& world, const LightView& view, int face_index, double u, double v) {
   Ray ray = texel_ray(view, face_index, u, v);
   if (view.projection == LightProjection::perspective) return ray;
   const LightFace& face = view.face(face_index);
   const double before = face.far_depth - face.near_depth;
   ray.origin += (face.near_depth - before) * ray.direction;
-  ray.t = {before, infinity};
+  const double first = first_depth(world, view, face);
+  ray.t = {before - std::max(0.0, face.near_depth - first), infinity};
   return ray;
 }
 
@@ -22,7 +35,7 @@ TexelCentre trace_centre(const LadderInput& in, TexelKey key) {
   const LightView& view = in.record().map.view;
   TexelCentre out;
   out.face = key.face();
-  out.ray = caster_ray(view, key.face(), key.column() + 0.5, key.row() + 0.5);
+  out.ray = caster_ray(in.world(), view, key.face(), key.column() + 0.5, key.row() + 0.5);
   out.hit = in.tracer.closest_hit(out.ray, raytrace::Sides::casting);
   if (out.hit) {
     const Vec3& forward = view.face(out.face).forward;

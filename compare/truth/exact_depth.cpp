@@ -28,7 +28,8 @@ std::optional<BiasedLookup> lookup_of(const LadderInput& in, std::size_t pixel) 
 double gap_before_exact(const LadderInput& in, const BiasedLookup& lookup,
                         const raytrace::SurfacePoint& receiver, double depth) {
   const raytrace::TexelKey key = lookup.key;
-  const Ray ray = caster_ray(in.record().map.view, key.face(), key.column() + 0.5, key.row() + 0.5);
+  const Ray ray =
+      caster_ray(in.world(), in.record().map.view, key.face(), key.column() + 0.5, key.row() + 0.5);
   return gap_before(in.record(), in.drawn.options.map.bias, receiver.normal, lookup, depth) -
          plane_rounding(ray, receiver);
 }
@@ -68,10 +69,6 @@ float lit_with(double gap, double bias_world) {
   return gap > bias_world ? 0.0f : 1.0f;
 }
 
-bool is_off(float visibility, float truth) {
-  return std::abs(visibility - truth) > 0.5f;
-}
-
 }  // namespace
 
 UpperPixel::UpperPixel(const LowerClimb& lower, const LadderInput& in, Column& column, std::size_t group,
@@ -90,22 +87,24 @@ const std::optional<double>& UpperPixel::exact_gap() {
   return *exact_;
 }
 
-/// The exact depth in place of the stored one would have made the biased test right.
-bool UpperPixel::right_with_exact_depth(float biased, float truth, double bias_world) {
-  if (!is_off(biased, truth)) return false;
+/// V5 is off, and the exact depth in place of the stored one would have made the biased test right.
+bool UpperPixel::right_with_exact_depth(Levels v, double bias_world) {
+  if (!is_off_at(v, 5)) return false;
   const auto& exact = exact_gap();
-  return exact && !is_off(lit_with(*exact, bias_world), truth);
+  if (!exact) return false;
+  v[5] = lit_with(*exact, bias_world);
+  return !is_off_at(v, 5);
 }
 
 UpperPixel::Verdict UpperPixel::verdict_at(double bias_world, float drawn, bool labelled) {
   const float truth = rungs_[0].data[pixel_];
   Verdict out{tests_bias(in_) ? lit_with(gap_, bias_world) : rungs_[4].data[pixel_]};
-  if (!labelled || !is_off(drawn, truth)) return out;
-  std::array<float, rung_count> v = rungs_at(rungs_, pixel_);
+  if (!labelled || !has_error(drawn, truth)) return out;
+  Levels v = rungs_at(rungs_, pixel_);
   v[5] = out.biased, v[6] = drawn;
-  const bool exact = right_with_exact_depth(out.biased, truth, bias_world);
-  out.label =
-      label_wrong_pixel(in_, column_, {pixel_, lookup_, deciding_step(v), drawn < truth, exact, truth});
+  const bool exact = right_with_exact_depth(v, bias_world);
+  out.label = label_of_error(lower_, in_, column_,
+                             {pixel_, lookup_, deciding_step(v), drawn < truth, exact, truth}, v);
   return out;
 }
 

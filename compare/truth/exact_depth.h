@@ -40,7 +40,8 @@ class UpperPixel {
   Verdict verdict_at(double bias_world, float drawn, bool labelled = true);
 
  private:
-  bool right_with_exact_depth(float biased, float truth, double bias_world);
+  using Levels = std::array<float, rung_count>;
+  bool right_with_exact_depth(Levels v, double bias_world);
 
   const LowerClimb& lower_;
   const LadderInput& in_;

@@ -44,7 +44,7 @@ StoredSurface stored_surface(const raytrace::Tracer& tracer, const raster::Light
       raster::traits_of(options.technique).contents == raster::MapContents::midpoint_depth;
   const double slack = takes_first ? infinity : rounding_at(record, key);
   const raytrace::Sides sides = sides_left(record, options.cull);
-  const Ray ray = caster_ray(view, key.face(), key.column() + 0.5, key.row() + 0.5);
+  const Ray ray = caster_ray(tracer.world(), view, key.face(), key.column() + 0.5, key.row() + 0.5);
   StoredSurface best;
   double nearest = infinity;
   visit_hits(

@@ -6,25 +6,77 @@
 
 #include "compare/bias/bias_kinds.h"
 #include "compare/ladder/biased_test.h"
+#include "compare/ladder/budget.h"
+#include "compare/result/number_text.h"
 #include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {
 
-/// An offset is worth changing for when it leaves less than this share of what the constant leaves.
+/// Another setting is worth changing for when it leaves less than this share of what the simpler one leaves.
 constexpr double worth = 0.9;
+/// Hardly worse than the best: by one compared pixel in 100,000, or by one wrong pixel in fifty.
+constexpr double few_pixels = 1e-5, few_wrong = 0.02;
 
-/// A constant that is hardly wrong more often than the best one: the present one if it is, else the smallest.
+/// What the test draws with every constant: of pixels inside the map by their gaps; those outside stay as they are.
+struct Tried {
+  GapLists gaps;
+  std::uint64_t outside = 0, outside_wrong = 0, outside_ties = 0;
+
+  double pixels() const { return static_cast<double>(gaps.count() + outside); }
+  double wrong(std::uint64_t inside) const {
+    return (double(inside + outside_wrong) + 0.5 * double(gaps.ties + outside_ties)) /
+           std::max(1.0, pixels());
+  }
+  std::uint64_t inside_at(double bias) const {
+    const BiasCurvePoint point = gaps.at(bias);
+    return point.false_shadow + point.missed_shadow;
+  }
+  double wrong_at(double bias) const { return wrong(inside_at(bias)); }
+};
+
+/// A constant below 0 that is hardly wrong more often than the best of those, the one nearest to 0.
+std::optional<BiasRange> good_range_below_zero(const GapLists& gaps) {
+  std::vector<float> starts;  // ascending: between two of them nothing changes
+  for (const std::vector<float>* list : {&gaps.lit, &gaps.shadowed})
+    for (const float gap : *list)
+      if (gap < 0.0f && std::isfinite(gap)) starts.push_back(gap);
+  std::sort(starts.begin(), starts.end());
+  starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+  std::vector<std::uint64_t> wrong(starts.size());
+  parallel_for(starts.size(), [&](std::size_t i) {
+    const BiasCurvePoint point = gaps.at(double{starts[i]});
+    wrong[i] = point.false_shadow + point.missed_shadow;
+  });
+  if (starts.empty()) return std::nullopt;
+  const auto least = static_cast<double>(*std::min_element(wrong.begin(), wrong.end()));
+  const double allowed = least + std::max(few_pixels * double(gaps.count()), few_wrong * least);
+  std::size_t last = starts.size() - 1;
+  while (double(wrong[last]) > allowed) --last;
+  std::size_t first = last;
+  while (first > 0 && double(wrong[first - 1]) <= allowed) --first;
+  return BiasRange{starts[first], last + 1 < starts.size() ? starts[last + 1] : 0.0f};
+}
+
+/// A constant that is hardly wrong more often than the best one: the present one if it is, else the one nearest to 0.
 struct Constant {
   double stored = 0.0;  ///< in the map's own numbers
   double wrong = 0.0;   ///< share of the compared pixels
 };
 
-Constant good_constant(const GapLists& gaps, double unit_world, double now) {
-  const BiasRange range = smallest_good_range(gaps);
-  const bool stays = now * unit_world >= range.from && now * unit_world < range.to;
-  const double stored = stays ? now : short_number_in(range.from / unit_world, range.to / unit_world);
-  return {stored, gaps.wrong_fraction_at(stored * unit_world)};
+Constant good_constant(const Tried& tried, double unit_world, double now) {
+  const BiasRange range = smallest_good_range(tried.gaps);
+  const auto at = [&](double stored) { return Constant{stored, tried.wrong_at(stored * unit_world)}; };
+  Constant best = at(short_number_in(range.from / unit_world, range.to / unit_world));
+  if (const auto below = good_range_below_zero(tried.gaps)) {
+    const double most = -double{below->from} / unit_world;
+    const double least = std::max(std::nextafter(-double{below->to} / unit_world, infinity), 1e-3 * most);
+    const Constant negative = at(-short_number_in(least, most));
+    if (negative.wrong < worth * best.wrong) best = negative;
+  }
+  const Constant present = at(now);
+  const double hardly = std::max(few_pixels, few_wrong * best.wrong);
+  return present.wrong <= best.wrong + hardly ? present : best;
 }
 
 /// World units, ascending: none, half of the present one, one texel and two. The present one is not among them.
@@ -36,12 +88,42 @@ std::vector<double> offsets_to_try(double now, double texel_world) {
   return out;
 }
 
-GapLists gaps_with_offset(const FrameInput& in, const raster::Bias& bias, const LightComparison& light,
-                          const raster::LightRecord& drawn, double offset) {
+Tried try_constants(const raster::LightRecord& record, const LightComparison& light) {
+  Tried out;
+  Image<Label> inside = light.labels;
+  for (std::size_t i = 0; i < inside.data.size(); ++i) {
+    if (!is_compared(inside.data[i]) || record.outside_map.data[i] == 0) continue;
+    inside.data[i] = Label::background;
+    const float off = std::abs(light.rungs[6].data[i] - light.rungs[0].data[i]);
+    ++out.outside, out.outside_wrong += off > 0.5f ? 1 : 0, out.outside_ties += off == 0.5f ? 1 : 0;
+  }
+  out.gaps = sort_gaps(record, light.rungs[0], inside);
+  return out;
+}
+
+Tried try_with_offset(const FrameInput& in, const raster::Bias& bias, const LightComparison& light,
+                      const raster::LightRecord& drawn, double offset) {
   raster::LightRecord record = drawn;
   record.captured->test->normal_offset_world = offset;
   fill_record(in, bias, record);
-  return sort_gaps(record, light.rungs[0], light.labels);
+  return try_constants(record, light);
+}
+
+/// How far receivers reach that the picture shows, across a parallel map's window.
+std::string window_words(const FrameInput& in, const LightComparison& light, const LightView& view) {
+  const LightFace& face = view.face(0);
+  Vec2 reach(0.0);
+  for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
+    if (!is_compared(light.labels.data[i])) continue;
+    const Vec3 place = in.traced.receiver.data[i].position - view.origin;
+    const Vec2 at(glm::dot(place, face.right), glm::dot(place, face.up));
+    reach = glm::max(reach, glm::abs(at - face.center));
+  }
+  return fmt::format(
+      "a window of {:.3g} x {:.3g} world units about the same middle (now {:.3g} x {:.3g}) holds all that "
+      "the picture shows",
+      2.0 * std::max(reach.x, face.half_extent.x), 2.0 * std::max(reach.y, face.half_extent.y),
+      2.0 * face.half_extent.x, 2.0 * face.half_extent.y);
 }
 
 }  // namespace
@@ -50,27 +132,38 @@ std::vector<Advice> give_advice(const FrameInput& in, const raster::Bias& bias, 
                                 const raster::LightRecord& record) {
   std::vector<Advice> out;
   const raster::CapturedTest& test = *record.captured->test;
-  const bool distances = test.distances;
-  const std::string unit = distances ? "world units" : "stored depth";
-  const GapLists gaps = sort_gaps(record, light.rungs[0], light.labels);
-  if (gaps.lit.empty() && gaps.shadowed.empty()) return out;
+  const std::string unit = test.distances ? "world units" : "stored depth";
+  const Tried tried = try_constants(record, light);
+  if (tried.gaps.lit.empty() && tried.gaps.shadowed.empty()) return out;
   const double now = record.bias_constant_world / test.unit_world;
-  const double wrong_now = gaps.wrong_fraction_at(record.bias_constant_world);
-  const Constant best = good_constant(gaps, test.unit_world, now);
+  const double wrong_now = tried.wrong_at(record.bias_constant_world);
+  const Constant best = good_constant(tried, test.unit_world, now);
   out.push_back({"bias.constant_depth", now, best.stored, unit, wrong_now, best.wrong, best.wrong == 0.0});
   double least = best.wrong;
   for (const double offset : offsets_to_try(test.normal_offset_world, record.texel_world)) {
-    const GapLists moved = gaps_with_offset(in, bias, light, record, offset);
+    const Tried moved = try_with_offset(in, bias, light, record, offset);
     const Constant there = good_constant(moved, test.unit_world, now);
     if (!(there.wrong < worth * least)) continue;
     least = there.wrong;
     out.resize(1);
     out.push_back({"bias.normal_offset_world", test.normal_offset_world, offset, "world units", wrong_now,
-                   there.wrong, there.wrong == 0.0});
-    out.push_back({"bias.constant_depth, with that offset", now, there.stored, unit, wrong_now, there.wrong,
-                   there.wrong == 0.0});
+                   there.wrong, there.wrong == 0.0,
+                   AdvisedSetting{"bias.constant_depth", now, there.stored, unit}});
   }
   return out;
+}
+
+std::vector<std::string> outside_map_notes(const FrameInput& in, const LightComparison& light,
+                                           const raster::LightRecord& record) {
+  const std::uint64_t outside = light.classes[static_cast<std::size_t>(Label::outside_map) - 1];
+  if (2 * outside <= light.error.wrong || outside == 0) return {};
+  const LightView& view = record.map.view;
+  const bool parallel = view.projection == LightProjection::orthographic && view.face_count == 1;
+  return {fmt::format(
+      "{} of {} wrong pixels lie outside the map, where no bias changes anything: {}light what lies "
+      "outside",
+      grouped(outside), grouped(light.error.wrong),
+      parallel ? window_words(in, light, view) + ", or " : std::string())};
 }
 
 }  // namespace gnomon::compare

@@ -7,9 +7,15 @@
 
 namespace gnomon::compare {
 
-/// The best constant with the renderer's own normal offset, and the best normal offset of a few with the best
-/// constant beside it: smaller ones than the present one, none among them, and larger ones. Shares are what the hard test with that bias draws wrong.
+/// The best constant with the renderer's own normal offset, below 0, too, and the best normal offset of a few with the
+/// best constant beside it: smaller ones than the present one, none among them, and larger ones. Shares are what the hard
+/// test with that bias draws wrong, of all compared pixels: those outside the map stay as they were drawn. Nothing is
+/// advised that is worse than the present setting.
 std::vector<Advice> give_advice(const FrameInput& input, const raster::Bias& bias,
                                 const LightComparison& light, const raster::LightRecord& record);
+
+/// Where most wrong pixels lie outside the map: what helps.
+std::vector<std::string> outside_map_notes(const FrameInput& input, const LightComparison& light,
+                                           const raster::LightRecord& record);
 
 }  // namespace gnomon::compare

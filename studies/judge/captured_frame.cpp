@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "compare/ladder/biased_test.h"
-#include "compare/truth/columns.h"
-#include "compare/truth/stored_surface.h"
 #include "compare/truth/texel_groups.h"
 #include "scene/parallel.h"
 #include "scene/stages.h"
+#include "studies/judge/stored_depths.h"
 
 namespace gnomon::compare {
 namespace {
@@ -100,20 +99,26 @@ ColorImage shown_colour(const FrameInput& in) {
   return out;
 }
 
-/// A quarter of the texels with another surface than the first: the renderer left the first ones out.
+/// A quarter of the texels with the depth of a later surface than the first: the renderer left the first ones out.
 constexpr double culled_share = 0.25;
 
-bool is_culled(const FrameInput& in, const raster::MapOptions& map, const raster::LightRecord& record) {
+/// Whether back faces are stored in the place of the front faces before them, which it takes to explain the depths.
+bool is_culled(const FrameInput& in, const raster::LightRecord& record) {
+  const StoredDepths depths(in, record);
   std::size_t seen = 0, later = 0;
   const std::size_t step = std::max<std::size_t>(1, in.traced.receiver.data.size() / 4096);
   for (std::size_t i = 0; i < in.traced.receiver.data.size(); i += step) {
     raytrace::TexelKey key;
     if (in.traced.receiver.data[i].primitive == no_id || !texel_of_pixel(record, i, key)) continue;
-    const StoredSurface found = stored_surface(in.tracer, record, map, key);
-    if (found.primitive == no_id) continue;
-    const Ray ray = caster_ray(record.map.view, key.face(), key.column() + 0.5, key.row() + 0.5);
-    const auto first = in.tracer.closest_hit(ray, raytrace::Sides::casting);
-    ++seen, later += first && first->t < found.t ? 1 : 0;
+    if (depths.is_empty(key)) continue;
+    const std::vector<SurfaceOnRay> met = depths.all(key, 8);
+    const auto back = std::find_if(met.begin(), met.end(), [](const SurfaceOnRay& s) { return !s.front; });
+    ++seen;
+    if (back == met.end() || back == met.begin()) continue;
+    later += depths.is_stored(key, back->depth, 0.5 * back->across) &&
+                     !depths.is_stored(key, met.front().depth, 0.5 * met.front().across)
+                 ? 1
+                 : 0;
   }
   return seen > 0 && static_cast<double>(later) > culled_share * static_cast<double>(seen);
 }
@@ -146,7 +151,7 @@ void fill_light(const FrameInput& in, bool known, bool distances, raster::Raster
   test.normal_offset_world = bias.normal_offset_world;
   record.bias_constant_world = map.bias.constant = bias.constant_depth * test.unit_world;
   fill_record(in, map.bias, record);
-  if (is_culled(in, map, record)) map.cull = raster::Cull::front;
+  if (is_culled(in, record)) map.cull = raster::Cull::front;
 }
 
 }  // namespace

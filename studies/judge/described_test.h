@@ -1,5 +1,5 @@
-// Whether the shadow test that a capture describes (map, matrix, bias, filter) is the one that was drawn, and whether the
-// map holds what the scene holds. Where not, the ladder's reasons are those of something else.
+// Whether the shadow test that a capture describes (map, matrix, bias, filter) is the one that was drawn. Where not, the
+// ladder's reasons are those of something else. (What the map holds: map_content.h.)
 #pragma once
 
 #include "compare/comparison.h"
@@ -12,13 +12,11 @@ struct DescribedTest {
   /// Compared pixels that the described test does not draw as they were drawn, whatever rounding does, whichever texel
   /// within the filter's reach decides, and whichever cascade that holds the place is looked up.
   std::size_t not_drawn = 0;
-  /// Wrong pixels where the map's texel does not hold the depth of what the light meets first there.
-  std::size_t other_content = 0;
 
   bool is_drawn() const;  ///< but for a few pixels
 };
 
-/// Wrong pixels that the described test and a map of this scene cannot have made get the label `unexplained`. Needs a
+/// Wrong pixels that the described test cannot have made get the label `unexplained`. Needs a
 /// map. `light` is that of `drawn`'s only record.
 DescribedTest check_described_test(const FrameInput& input, const raster::RasterFrame& drawn,
                                    LightComparison& light);
@@ -38,7 +36,7 @@ inline bool advice_holds(const DescribedTest& test, const std::optional<OtherTes
   return test.is_drawn() || (other && other->of_constant);
 }
 
-/// One sentence each: that the test is not the one drawn, and that the map holds something else.
+/// That the test is not the one drawn, as a sentence.
 std::vector<std::string> described_test_notes(const DescribedTest& test,
                                               const std::optional<OtherTest>& other);
 

@@ -67,6 +67,13 @@ bool stretch_depths(raster::LightRecord& record, double times) {
   });
 }
 
+/// As a renderer looks it up that takes one side of the window for the other's.
+bool take_side_for(raster::LightRecord& record, int axis) {
+  const LightFace& face = record.map.view.face(0);
+  if (std::abs(face.half_extent.x - face.half_extent.y) < 0.01 * face.half_extent.x) return false;
+  return change_faces(record, [axis](LightFace& f) { f.half_extent[axis] = f.half_extent[1 - axis]; });
+}
+
 constexpr TestSuspect test_suspects[] = {
     {"`rows` of the map is the other one", "the renderer reads its map upside down (v runs the other way)",
      turn_rows},
@@ -76,7 +83,13 @@ constexpr TestSuspect test_suspects[] = {
     {"the matrix makes depths of -1 to 1 (`minus_one_to_one`)", nullptr,
      [](raster::LightRecord& record) { return stretch_depths(record, 2.0); }},
     {"the matrix makes depths of 0 to 1 (`zero_to_one`)", nullptr,
-     [](raster::LightRecord& record) { return stretch_depths(record, 0.5); }}};
+     [](raster::LightRecord& record) { return stretch_depths(record, 0.5); }},
+    {"the matrix has the window's height for its width",
+     "the renderer takes the window's height for its width",
+     [](raster::LightRecord& record) { return take_side_for(record, 0); }},
+    {"the matrix has the window's width for its height",
+     "the renderer takes the window's width for its height",
+     [](raster::LightRecord& record) { return take_side_for(record, 1); }}};
 
 /// Shares of the compared pixels.
 struct Fit {
@@ -115,24 +128,60 @@ std::optional<OtherTest> find_other_constant(const raster::LightRecord& describe
                    fit.drawn, true};
 }
 
+/// Mistakes made one by one and together; the best explanation, of equally good ones the one with the fewest.
+class Search {
+ public:
+  Search(const FrameInput& in, const raster::RasterFrame& drawn, const LightComparison& light)
+      : in_(in),
+        bias_(drawn.options.map.bias),
+        described_(drawn.lights.front()),
+        light_(light),
+        now_(fit_of(described_, light)) {}
+
+  void try_suspects(std::initializer_list<const TestSuspect*> suspects) {
+    raster::LightRecord record = described_;
+    for (const TestSuspect* suspect : suspects)
+      if (!suspect->change(record)) return;
+    fill_record(in_, bias_, record);
+    const Fit fit = fit_of(record, light_);
+    if (!fits(fit, now_) || (best_ && best_->share >= fit.drawn - clearly)) return;
+    OtherTest found{"", fit.drawn, suspects.size() == 1};
+    for (const TestSuspect* suspect : suspects) {
+      const bool renderer = suspect->of_renderer != nullptr && fit.wrong > now_.wrong;
+      found.what += (found.what.empty() ? "" : ", and ") +
+                    std::string(renderer ? suspect->of_renderer : suspect->of_capture);
+      found.of_constant &= suspect->change == turn_sign && !renderer;
+    }
+    best_ = std::move(found);
+  }
+  void try_constant() {
+    auto found = find_other_constant(described_, light_, now_);
+    if (found && (!best_ || found->share > best_->share + clearly)) best_ = std::move(found);
+  }
+  const std::optional<OtherTest>& best() const { return best_; }
+
+ private:
+  static constexpr double clearly = 2e-4;  ///< share of the pixels: borders of texels differ by rounding
+
+  const FrameInput& in_;
+  const raster::Bias& bias_;
+  const raster::LightRecord& described_;
+  const LightComparison& light_;
+  Fit now_;
+  std::optional<OtherTest> best_;
+};
+
 }  // namespace
 
 std::optional<OtherTest> find_drawn_test(const FrameInput& in, const raster::RasterFrame& drawn,
                                          const LightComparison& light) {
-  const raster::LightRecord& described = drawn.lights.front();
-  const Fit now = fit_of(described, light);
-  std::optional<OtherTest> best;
-  for (const TestSuspect& suspect : test_suspects) {
-    raster::LightRecord record = described;
-    if (!suspect.change(record)) continue;
-    fill_record(in, drawn.options.map.bias, record);
-    const Fit fit = fit_of(record, light);
-    if (!fits(fit, now) || (best && best->share >= fit.drawn)) continue;
-    const bool renderer = suspect.of_renderer != nullptr && fit.wrong > now.wrong;
-    best = OtherTest{renderer ? suspect.of_renderer : suspect.of_capture, fit.drawn,
-                     suspect.change == turn_sign && !renderer};
-  }
-  return best ? best : find_other_constant(described, light, now);
+  Search search(in, drawn, light);
+  for (const TestSuspect& one : test_suspects) search.try_suspects({&one});
+  search.try_constant();
+  for (const TestSuspect& one : test_suspects)
+    for (const TestSuspect* other = &one + 1; other != std::end(test_suspects); ++other)
+      search.try_suspects({&one, other});
+  return search.best();
 }
 
 }  // namespace gnomon::compare

@@ -28,6 +28,8 @@ constexpr std::size_t sizes_refined = 3;
 /// A setting with one part more must explain clearly more than one without.
 constexpr double simpler = 0.9;
 constexpr int bias_steps = 12;
+/// Of the error: a model that explains less labels nothing, and below the second one labels are guesses.
+constexpr double least_explained = 0.5, well_explained = 0.8;
 
 std::size_t index_of_size(int map_size) {
   return static_cast<std::size_t>(std::find(map_sizes.begin(), map_sizes.end(), map_size) -
@@ -290,8 +292,11 @@ Expected<void> put_below(Comparison& judged, raster::RasterFrame model, const Id
 void mark_unexplained(const Image<float>& drawn_by_model, LightComparison& light) {
   mark_unexplained(pixels_where(light.labels.data.size(),
                                 [&](std::size_t i) {
-                                  return is_wrong(light.labels.data[i]) &&
-                                         std::abs(drawn_by_model.data[i] - light.rungs[6].data[i]) > 0.5f;
+                                  const float drawn = light.rungs[6].data[i];
+                                  const float error = std::abs(drawn - light.rungs[0].data[i]);
+                                  return has_cause(light.labels.data[i]) &&
+                                         std::abs(drawn_by_model.data[i] - drawn) >
+                                             (error > 0.5f ? 0.5f : 0.5f * error);
                                 }),
                    light);
 }
@@ -301,10 +306,14 @@ void mark_unexplained(const std::vector<std::uint32_t>& pixels, LightComparison&
     light.labels.data[i] = Label::unexplained;
     light.detachment_map.data[i] = std::numeric_limits<float>::quiet_NaN();
   }
-  // Other reasons for the same wrong pixels: what truth and picture alone decide, FLIP and SSIM among it, stays.
+  count_labels_again(light);
+}
+
+void count_labels_again(LightComparison& light) {
   PixelSums sums;
   sums.add(light.rungs, light.labels);
-  light.classes = sums.terms().classes(), light.budget = sums.terms().budget();
+  light.classes = sums.terms().classes(), light.class_errors = sums.terms().class_errors();
+  light.budget = sums.terms().budget();
   light.detachment = measure_detachment(light.detachment_map);
 }
 
@@ -328,8 +337,16 @@ Expected<void> identify(Comparison& judged, raster::Renderer& renderer, const Id
   if (found.picture_error > 0.0)
     found.explained = std::clamp(1.0 - found.model_error / found.picture_error, 0.0, 1.0);
   found.renders = identifier.renders();
+  const auto explained = fmt::format("the nearest setting ({}) explains {} of the error", found.options,
+                                     percent(found.explained));
+  const bool labels = found.explained >= least_explained;
+  if (!labels)
+    told->notes.push_back(explained + ": too little to label anything by it");
+  else if (found.explained < well_explained)
+    told->notes.push_back(explained + ": labels and steps are guesses");
+  if (!labels) told->identified.reset();
   judged.judged = std::move(told);
-  return put_below(judged, std::move(*model), options);
+  return labels ? put_below(judged, std::move(*model), options) : Expected<void>{};
 }
 
 }  // namespace gnomon::compare

@@ -10,6 +10,7 @@
 #include "studies/judge/align.h"
 #include "studies/judge/captured_frame.h"
 #include "studies/judge/described_test.h"
+#include "studies/judge/map_content.h"
 
 namespace gnomon::compare {
 namespace {
@@ -95,7 +96,11 @@ void finish(Judging& in, const raytrace::Tracer& tracer, Comparison& out) {
     const DescribedTest test = check_described_test(frame, out.raster, light);
     const auto other = test.is_drawn() ? std::nullopt : find_drawn_test(frame, out.raster, light);
     for (std::string& note : described_test_notes(test, other)) judged->notes.push_back(std::move(note));
-    if (advice_holds(test, other))
+    const MapContent content = label_map_content(frame, out.raster, light, advice_holds(test, other));
+    for (std::string& note : map_content_notes(content, record)) judged->notes.push_back(std::move(note));
+    for (std::string& note : outside_map_notes(frame, light, record))
+      judged->notes.push_back(std::move(note));
+    if (advice_holds(test, other) && !content.is_main_cause(light))
       judged->advice = give_advice(frame, out.raster.options.map.bias, light, record);
   }
   if (!judged->has_map) forget_texels(light);

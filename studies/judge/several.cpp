@@ -21,17 +21,17 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view no_figures = "nothing compared";
 
-/// The two labels with the most wrong pixels.
+/// The two labels with most of the error.
 std::string main_labels(const LightComparison& light) {
-  std::vector<std::pair<std::uint64_t, std::string>> counts;
+  std::vector<std::pair<double, std::string>> shares;
   for (std::size_t k = 0; k < class_count; ++k)
-    if (light.classes[k] > 0)
-      counts.emplace_back(light.classes[k], label_text(static_cast<Label>(k + 1)).name);
-  std::stable_sort(counts.begin(), counts.end(),
+    if (light.class_errors[k] > 0.0)
+      shares.emplace_back(light.class_errors[k], label_text(static_cast<Label>(k + 1)).name);
+  std::stable_sort(shares.begin(), shares.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
-  for (std::size_t k = 0; k < std::min<std::size_t>(2, counts.size()); ++k)
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[k].second, grouped(counts[k].first));
+  for (std::size_t k = 0; k < std::min<std::size_t>(2, shares.size()); ++k)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", shares[k].second, percent(shares[k].first));
   return text;
 }
 

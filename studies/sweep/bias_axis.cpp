@@ -100,7 +100,7 @@ class BiasAxis {
     Share& share = shares_.local();
     share.changes[from].add(v, label);
     share.changes[to].add(v, label, -1.0);
-    if (is_wrong(label)) share.spans.push_back({pixel, from, to, label, v[6] < v[0]});
+    if (has_cause(label)) share.spans.push_back({pixel, from, to, label, v[6] < v[0]});
   }
 
   void add_outside(std::uint32_t pixel) {

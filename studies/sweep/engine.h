@@ -95,8 +95,8 @@ class Engine {
   /// frame that it was made from.
   Rgb8Image drawing(int width) const;
 
-  /// The last comparison's labels, all lights together: the first wrong label of a pixel, else right where a
-  /// light is compared, else why it is not. Codes as below.
+  /// The last comparison's labels, all lights together: the label of the first light that is wrong at a pixel, else of
+  /// the first that is off by less, else right where a light is compared, else why it is not. Codes as below.
   Image<std::uint8_t> class_codes() const;
 
   /// The last comparison was derived.
@@ -112,5 +112,6 @@ class Engine {
 inline constexpr std::uint8_t code_label_mask = 0x1f;
 inline constexpr std::uint8_t code_true_shadow = 0x20;   ///< truly in shadow, of the light that counts
 inline constexpr std::uint8_t code_false_shadow = 0x40;  ///< drawn darker than the truth
+inline constexpr std::uint8_t code_small_error = 0x80;   ///< by one half or less: the pixel is not wrong
 
 }  // namespace gnomon::compare

@@ -51,6 +51,8 @@ struct Engine::Impl {
 
  private:
   Image<std::uint8_t> codes_of_images() const;
+  /// Of one light at a pixel: with images of the last comparison as it is, without them as if it were right.
+  std::uint8_t code_of_light(std::size_t i, std::size_t pixel) const;
   LadderInput input(const raster::RasterFrame& frame, std::size_t i) const;
   /// Of every light of the last drawing.
   std::vector<LightFigures> figures(const Figure& measure) const;

@@ -33,8 +33,12 @@ std::uint8_t code_of(Label label) {
   return static_cast<std::uint8_t>(static_cast<int>(label) - static_cast<int>(Label::uncertain));
 }
 
-bool is_wrong_code(std::uint8_t code) {
+bool has_cause_code(std::uint8_t code) {
   return (code & code_label_mask) > code_of(Label::right);
+}
+
+bool is_wrong_code(std::uint8_t code) {
+  return has_cause_code(code) && (code & code_small_error) == 0;
 }
 
 /// Drawn minus true visibility where the test is hard.
@@ -85,20 +89,28 @@ glm::u8vec3 Engine::Impl::mean_colour(const Image<std::uint8_t>* codes, int x0, 
   return glm::u8vec3((Vec3f(whole) + marked) / static_cast<float>((x1 - x0) * (y1 - y0)) + 0.5f);
 }
 
+std::uint8_t Engine::Impl::code_of_light(std::size_t i, std::size_t pixel) const {
+  const float truth = lower[i]->rungs[0].data[pixel];
+  const std::uint8_t shadow = truth < 0.5f ? code_true_shadow : std::uint8_t{0};
+  if (!has_images) return static_cast<std::uint8_t>(code_of(Label::right) | shadow);
+  const LightComparison& light = comparison.lights[i];
+  const Label label = light.labels.data[pixel];
+  std::uint8_t code = static_cast<std::uint8_t>(code_of(label) | shadow);
+  if (!has_cause(label)) return code;
+  const auto rungs = rungs_at(light.rungs, pixel);
+  if (rungs[6] < truth) code |= code_false_shadow;
+  if (!is_wrong(rungs)) code |= code_small_error;
+  return code;
+}
+
 Image<std::uint8_t> Engine::Impl::codes_of_images() const {
   Image<std::uint8_t> codes(comparison.raytraced.receiver.size);
   parallel_for(codes.data.size(), [&](std::size_t p) {
     std::uint8_t code = code_of(lower.empty() ? Label::background : lower.front()->sorted.data[p]);
     for (std::size_t i = 0; i < lower.size(); ++i) {
-      if (!is_compared(lower[i]->sorted.data[p])) continue;
-      if (!is_wrong_code(code)) {
-        const float truth = lower[i]->rungs[0].data[p];
-        const Label label = has_images ? comparison.lights[i].labels.data[p] : Label::right;
-        const std::uint8_t shadow = truth < 0.5f ? code_true_shadow : std::uint8_t{0};
-        const bool darker = has_images && comparison.lights[i].rungs[6].data[p] < truth;
-        code = static_cast<std::uint8_t>(code_of(label) | shadow |
-                                         (is_wrong(label) && darker ? code_false_shadow : 0));
-      }
+      if (!is_compared(lower[i]->sorted.data[p]) || is_wrong_code(code)) continue;
+      const std::uint8_t own = code_of_light(i, p);
+      if (is_wrong_code(own) || !has_cause_code(code)) code = own;
     }
     codes.data[p] = code;
   });

@@ -21,17 +21,28 @@ std::string value_text(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-void add_light(const Json& light, CellSummary& sum, Json& classes) {
-  sum.lights.push_back(read_pooled_figures(light));
-  for (const auto& [name, count] : light.at("classes").items())
-    classes[name] = classes.value(name, std::uint64_t{0}) + count.get<std::uint64_t>();
+// By label, the share of the mean error. Sweeps made before have counts of wrong pixels alone.
+Json label_shares(const Json& light) {
+  if (light.contains("class_errors")) return light.at("class_errors");
+  const double compared = std::max(1.0, light.at("pixels").at("compared").get<double>());
+  Json shares = light.at("classes");
+  for (Json& share : shares) share = share.get<double>() / compared;
+  return shares;
 }
 
-std::string most_frequent(const Json& classes) {
-  std::uint64_t most = 0;
+void add_light(const Json& light, CellSummary& sum, Json& classes) {
+  sum.lights.push_back(read_pooled_figures(light));
+  const auto compared = light.at("pixels").at("compared").get<double>();
+  const Json shares = label_shares(light);
+  for (const auto& [name, share] : shares.items())
+    classes[name] = classes.value(name, 0.0) + share.get<double>() * compared;
+}
+
+std::string main_label(const Json& classes) {
+  double most = 0.0;
   std::string label;
-  for (const auto& [name, count] : classes.items())
-    if (count.get<std::uint64_t>() > most) most = count.get<std::uint64_t>(), label = name;
+  for (const auto& [name, error] : classes.items())
+    if (error.get<double>() > most) most = error.get<double>(), label = name;
   return label;
 }
 
@@ -81,7 +92,7 @@ Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
       sum.technique = light.at("map").at("technique").get<std::string>();
       sum.map_size = number(light.at("map").at("size"));
     }
-    sum.figures = pool_lights(sum.lights), sum.main_label = most_frequent(classes);
+    sum.figures = pool_lights(sum.lights), sum.main_label = main_label(classes);
     sum.map_texels = json.at("costs").at("map_texels").get<std::uint64_t>();
     sum.map_bytes = json.at("costs").at("map_bytes").get<std::uint64_t>();
     add_times(Json::parse(times), sum);

@@ -23,7 +23,7 @@ struct CellSummary {
   std::string command, technique;
   LightFigures figures;              ///< of all lights together
   std::vector<LightFigures> lights;  ///< of each: thresholds are held against the worst
-  std::string main_label;            ///< of most wrong pixels; empty when none is wrong
+  std::string main_label;            ///< of most of the error; empty when there is none
   double map_size = 0.0;             ///< texels on a side
   std::uint64_t map_texels = 0, map_bytes = 0;
   /// Median times of the map and the shading passes, all lights; NaN when not timed.

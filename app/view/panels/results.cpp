@@ -74,9 +74,9 @@ void budget(const PanelContext& context, const LightComparison& light) {
 }
 
 void labels(const LightComparison& light) {
-  if (!ImGui::CollapsingHeader("Wrong pixels", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  if (!ImGui::CollapsingHeader("Labels", ImGuiTreeNodeFlags_DefaultOpen)) return;
   for (std::size_t i = 0; i < compare::class_count; ++i) {
-    if (light.classes[i] == 0) continue;
+    if (light.classes[i] == 0 && !(light.class_errors[i] > 0.0)) continue;
     const auto label = static_cast<compare::Label>(i + 1);
     const compare::LabelText& words = compare::label_text(label);
     swatch(colour(compare::label_colour(label)));
@@ -88,9 +88,13 @@ void labels(const LightComparison& light) {
       wrapped(fmt::format("Cure: {}", words.cure), 26.0f * ImGui::GetFontSize());
       ImGui::EndTooltip();
     }
-    right_aligned(compare::grouped(light.classes[i]));
+    right_aligned(light.error.fractional > 0 ? fmt::format("{} ({})", compare::grouped(light.classes[i]),
+                                                           compare::percent(light.class_errors[i]))
+                                             : compare::grouped(light.classes[i]));
   }
-  ImGui::TextDisabled("of %s pixels compared", compare::grouped(light.pixels.compared).c_str());
+  ImGui::TextDisabled("wrong pixels%s, of %s compared",
+                      light.error.fractional > 0 ? " (share of the mean error)" : "",
+                      compare::grouped(light.pixels.compared).c_str());
 }
 
 void row(const char* what, double ms) {

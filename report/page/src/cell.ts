@@ -24,7 +24,7 @@ function loaded(url: string): Promise<HTMLImageElement> {
   });
 }
 
-const trueShadow = 0x20, darker = 0x40, labelMask = 0x1f, rightInShadow: Rgb = [198, 198, 194];
+const trueShadow = 0x20, darker = 0x40, small = 0x80, labelMask = 0x1f, rightInShadow: Rgb = [198, 198, 194];
 
 export class Cell {
   readonly labels: Int8Array;
@@ -42,17 +42,19 @@ export class Cell {
     return new Cell(json, data.width, data.height, codes as Int8Array, truth, drawing);
   }
 
-  /** Pixels by label. */
+  /** Wrong pixels by label. */
   counts(): Map<number, number> {
     const counts = new Map<number, number>();
-    for (const label of this.labels) counts.set(label, (counts.get(label) ?? 0) + 1);
+    this.labels.forEach((label, i) => {
+      if (!(this.codes[i]! & small)) counts.set(label, (counts.get(label) ?? 0) + 1);
+    });
     return counts;
   }
 
   /** "acne, false shadow" */
   nameAt(index: number): string {
     const label = this.labels[index]!, words = wordsOf(label);
-    return label > 0 ? `${words.name}, ${this.codes[index]! & darker ? "false" : "missed"} shadow` : words.name;
+    return label > 0 ? `${words.name}, ${this.codes[index]! & small ? `drawn too ${this.codes[index]! & darker ? "dark" : "light"}` : `${this.codes[index]! & darker ? "false" : "missed"} shadow`}` : words.name;
   }
 
   labelPicture(alone: number | null): ImageData {
@@ -63,8 +65,12 @@ export class Cell {
       return painted((i) => {
         const code = this.codes[i]!, label = this.labels[i]!;
         if (label === 0 && code & trueShadow) return rightInShadow;
-        if (!colours.has(label)) colours.set(label, rgbOf(wordsOf(label).colour));
-        return colours.get(label)!;
+        const key = code & (labelMask | small | trueShadow);
+        if (!colours.has(key)) {
+          const whole = rgbOf(wordsOf(label).colour), right = code & trueShadow ? rightInShadow : rgbOf(wordsOf(0).colour);
+          colours.set(key, code & small ? (whole.map((c, k) => (c + 2 * right[k]!) / 3) as unknown as Rgb) : whole);
+        }
+        return colours.get(key)!;
       }, size);
     }) as ImageData;
   }
@@ -78,7 +84,7 @@ export class Cell {
       this.codes.forEach((code, i) => {
         if (this.labels[i]! <= 0) return;
         const colour = code & darker ? falseShadow : missedShadow;
-        errors.data.set([...colour, 255], 4 * i);
+        errors.data.set([...colour, code & small ? 85 : 255], 4 * i);
       });
       marks.getContext("2d")!.putImageData(errors, 0, 0);
       context.filter = "grayscale(1) brightness(0.66)";

@@ -24,26 +24,26 @@ const differenceFigure = (i: number): Markup => markup`<figure>${picture(`differ
   swatch(facts.colours.false_shadow, "−")} <b>False shadow</b>: drawn dark, truly lit, ${keyedThings(`lights.${i}.error.false_shadow`, "pixel")}. ${
   swatch(facts.colours.missed_shadow, "+")} <b>Missed shadow</b>: drawn lit, truly dark, ${keyedThings(`lights.${i}.error.missed_shadow`, "pixel")}.</figcaption></figure>\n`;
 
-/** The errors that occur, those of most pixels first. */
-const occurring = ({ classes }: LightResult): LabelFacts[] =>
-  facts.labels.filter(({ key, value }) => value > 0 && classes[key]! > 0).sort((a, b) => classes[b.key]! - classes[a.key]!);
+/** The errors that occur, those with most of the mean error first. */
+const occurring = ({ classes, class_errors: errors }: LightResult): LabelFacts[] =>
+  facts.labels.filter(({ key, value }) => value > 0 && (classes[key]! > 0 || errors[key]! > 0)).sort((a, b) => errors[b.key]! - errors[a.key]!);
 
-const labelRow = ({ name, letter, colour, what }: LabelFacts, pixels: Markup, share: string): Markup =>
+const labelRow = ({ name, letter, colour, what }: LabelFacts, pixels: Markup, share: string, error: Markup | string = ""): Markup =>
   markup`<tr data-colour="${colour}" data-label="${name}"><td>${swatch(colour, letter)}</td><th scope="row">${name}<small>${what}</small></th><td
-class="n">${pixels}</td><td class="n">${share}</td></tr>\n`;
+class="n">${pixels}</td><td class="n">${share}</td><td class="n">${error}</td></tr>\n`;
 
 function labelTable(light: LightResult, i: number): Markup {
   const { pixels, error, classes } = light, { compared } = pixels, right = compared - error.wrong - error.ties;
   const labelled = (wanted: string): LabelFacts => facts.labels.find(({ key }) => key === wanted)!;
   const others = ["uncertain", "silhouette", "facing_away", "background"].filter((key) => pixels[key]! > 0);
   return markup`<table class="labels"><caption>Labels</caption><thead><tr><td></td><th scope="col">label</th><th
-scope="col" class="n">pixels</th><th scope="col" class="n">share</th></tr></thead><tbody>
-${occurring(light).map((label) => labelRow(label, keyedCount(`lights.${i}.classes.${label.key}`), shareOf(classes[label.key]!, compared)))}<tr class="sum"><td></td><th
-scope="row">wrong</th><td class="n">${keyedCount(`lights.${i}.error.wrong`)}</td><td class="n">${keyed(`lights.${i}.error.wrong_fraction`, percent)}</td></tr>
+scope="col" class="n">pixels</th><th scope="col" class="n">share</th><th scope="col" class="n" title="What the label has of the mean absolute error">error</th></tr></thead><tbody>
+${occurring(light).map((label) => labelRow(label, keyedCount(`lights.${i}.classes.${label.key}`), shareOf(classes[label.key]!, compared), keyed(`lights.${i}.class_errors.${label.key}`, percent)))}<tr class="sum"><td></td><th
+scope="row">wrong</th><td class="n">${keyedCount(`lights.${i}.error.wrong`)}</td><td class="n">${keyed(`lights.${i}.error.wrong_fraction`, percent)}</td><td class="n">${keyed(`lights.${i}.error.mean_absolute`, percent)}</td></tr>
 ${error.ties > 0 && markup`<tr><td></td><th scope="row">off by exactly one half (two count as one wrong)</th><td
-class="n">${keyedCount(`lights.${i}.error.ties`)}</td><td class="n">${shareOf(error.ties, compared)}</td></tr>
+class="n">${keyedCount(`lights.${i}.error.ties`)}</td><td class="n">${shareOf(error.ties, compared)}</td><td></td></tr>
 `}${labelRow(labelled("right"), markup`${grouped(right)}`, shareOf(right, compared))}<tr class="sum"><td></td><th scope="row">compared</th><td
-class="n">${keyedCount(`lights.${i}.pixels.compared`)}</td><td class="n">${compared > 0 && "100 %"}</td></tr>
+class="n">${keyedCount(`lights.${i}.pixels.compared`)}</td><td class="n">${compared > 0 && "100 %"}</td><td></td></tr>
 ${others.map((key) => labelRow(labelled(key), keyedCount(`lights.${i}.pixels.${key}`), ""))}</tbody></table>
 `;
 }

@@ -13,7 +13,7 @@ export const labelledLight = (): number =>
 
 export function labelFigure(i: number): Markup {
   return markup`<figure>${picture(`labels-${i}`, `picture-labels-${i}`)}<figcaption><b>Labels</b>${
-    result.lights.length > 1 && `, light ${facts.light_facts[i]!.name}`}: each wrong pixel in the colour of its cause; grey is right.</figcaption></figure>\n`;
+    result.lights.length > 1 && `, light ${facts.light_facts[i]!.name}`}: each error in the colour of its cause, as strong as it is; grey is right.</figcaption></figure>\n`;
 }
 
 // One light's time under its key, or the sum of several; `name`: of the one's, where it has another.

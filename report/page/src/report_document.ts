@@ -58,6 +58,7 @@ export interface LightResult {
   budget: { signed: number; absolute: number; darkened: number; lightened: number; false_shadow: number; missed_shadow: number }[];
   ladder: { mean: number }[];
   classes: Record<string, number>;
+  class_errors: Record<string, number>;  // by label, of the mean error
   edges: { count: number; mean_texels: number };
   detachment: { pixels: number };
   bleeding?: { pixels: number };

@@ -5,13 +5,15 @@ import phrases from "../../phrases.json";
 import { texelsText } from "./number_text";
 import { number } from "./svg";
 
-const precision = 2, precisionStep = 4, filterStep = 6;  // a label's value; rungs
+const precision = 2, blur = 8, lightSize = 9, precisionStep = 4, filterStep = 6;  // labels' values; rungs
 
-/** The step that the label of a wrong pixel names (docs/labels.md), by the rung it leads to; 0: the pixel is right. */
+/** The step that the label of an error names (docs/labels.md), by the rung it leads to; 0: the pixel is right. */
 export function decidingStep({ label, rungs }: Pixel): number {
   if (label <= 0) return 0;
   if (label === precision) return precisionStep;
-  const wrong = (k: number) => Math.abs(rungs[k]! - rungs[0]!) > 0.5;
+  const error = rungs[6]! - rungs[0]!, most = Math.abs(error) > 0.5 ? 0.5 : Math.abs(error) / 2;
+  if (Math.abs(error) <= 0.5 && (label === blur || label === lightSize)) return label === blur ? filterStep : 1;
+  const wrong = (k: number) => (error < 0 ? rungs[0]! - rungs[k]! : rungs[k]! - rungs[0]!) > most;
   const rises = rungs.flatMap((_, k) => (k > 0 && wrong(k) && !wrong(k - 1) ? [k] : []));
   if (rungs[6]! < rungs[0]!) return rises.at(-1) ?? 0;
   return wrong(5) ? rises[0] ?? 0 : filterStep;

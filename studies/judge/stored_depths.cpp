@@ -1,0 +1,129 @@
+#include "studies/judge/stored_depths.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "compare/ladder/biased_test.h"
+
+namespace gnomon::compare {
+namespace {
+
+constexpr double arithmetic =
+    0x1p-22;  ///< of stored numbers: a matrix and a depth between 1/2 and 1, in floats
+constexpr double steps_allowed = 0.75;     ///< of the format; rounding takes half of one
+constexpr double scene_reach = 1.0 / 8.0;  ///< texels: a rasterizer's sample places are kept in 1/256 of one
+
+/// The step of whole numbers of so many bits, if that is what all values are.
+bool are_whole_numbers(const std::vector<float>& values, double most) {
+  return std::all_of(values.begin(), values.end(), [most](float v) {
+    const double scaled = most * double{v};
+    return std::abs(scaled - std::round(scaled)) < 0x1p-20 * most;
+  });
+}
+
+/// Of numbers between 1/2 and 1 that have no bits below those that all values have.
+double step_of_bits(const std::vector<float>& values) {
+  int zeros = 23;
+  for (const float v : values)
+    if (v != 0.0f) zeros = std::min(zeros, std::countr_zero(std::bit_cast<std::uint32_t>(v)));
+  return std::exp2(zeros - 24);
+}
+
+/// What the map's numbers have in common, each counted once in so many.
+double find_format_step(const raster::ShadowMap& map) {
+  std::vector<float> values;
+  const std::size_t step = std::max<std::size_t>(1, map.depth.size() / 65536);
+  for (std::size_t i = 0; i < map.depth.size(); i += step)
+    if (holds_caster(map.view, double{map.depth[i]})) values.push_back(map.depth[i]);
+  constexpr std::size_t few = 64;  // numbers tell nothing
+  if (values.size() < few) return 0x1p-24;
+  for (const double most : {255.0, 65535.0})
+    if (are_whole_numbers(values, most)) return 1.0 / most;
+  return step_of_bits(values);
+}
+
+}  // namespace
+
+StoredDepths::StoredDepths(const FrameInput& in, const raster::LightRecord& record)
+    : in_(in), record_(record), view_(record.map.view), format_step_(find_format_step(record.map)) {}
+
+double StoredDepths::stored(raytrace::TexelKey key) const {
+  return record_.map.depth[record_.map.texel_index(key.face(), key.column(), key.row())];
+}
+
+double StoredDepths::depth(raytrace::TexelKey key) const {
+  return depth_from_stored(view_, key.face(), key.row() + 0.5, stored(key));
+}
+
+SurfaceOnRay StoredDepths::surface(const Ray& ray, const raytrace::Hit& hit, int face,
+                                   const Vec2& place) const {
+  const raytrace::SurfacePoint point = in_.tracer.surface_point(ray, hit);
+  const Vec3 outward = outward_normal(in_.world, hit.primitive, point.position);
+  const bool front = glm::dot(outward, ray.direction) < 0.0;
+  const Vec3 normal = glm::dot(point.normal, ray.direction) > 0.0 ? -point.normal : point.normal;
+  const auto change = [&](double du, double dv) {
+    const double below = plane_depth(view_, face, place.x - du, place.y - dv, point.position, normal);
+    const double above = plane_depth(view_, face, place.x + du, place.y + dv, point.position, normal);
+    return std::isinf(below) || std::isinf(above) ? infinity : 0.5 * std::abs(above - below);
+  };
+  return {hit.primitive, glm::dot(ray.at(hit.t) - view_.origin, view_.face(face).forward),
+          change(0.5, 0.0) + change(0.0, 0.5), front};
+}
+
+std::optional<SurfaceOnRay> StoredDepths::first(int face, const Vec2& place) const {
+  const Ray ray = caster_ray(in_.world, view_, face, place.x, place.y);
+  const auto hit = in_.tracer.closest_hit(ray, raytrace::Sides::casting);
+  if (!hit) return std::nullopt;
+  return surface(ray, *hit, face, place);
+}
+
+std::vector<SurfaceOnRay> StoredDepths::all(raytrace::TexelKey key, std::size_t most) const {
+  std::vector<SurfaceOnRay> out;
+  const Vec2 place(key.column() + 0.5, key.row() + 0.5);
+  const Ray ray = caster_ray(in_.world, view_, key.face(), place.x, place.y);
+  visit_hits(
+      ray, [&](const Ray& from) { return in_.tracer.closest_hit(from, raytrace::Sides::casting); },
+      [&](const raytrace::Hit& hit) {
+        out.push_back(surface(ray, hit, key.face(), place));
+        return out.size() < most;
+      });
+  return out;
+}
+
+bool StoredDepths::is_stored(raytrace::TexelKey key, double depth, double slack) const {
+  if (is_empty(key) || std::isinf(depth)) return false;
+  if (std::isinf(slack)) return true;
+  const LightFace& face = view_.face(key.face());
+  const auto number = [&](double d) {
+    return stored_from_depth(view_, key.face(), key.row() + 0.5,
+                             std::clamp(d, face.near_depth, face.far_depth));
+  };
+  const auto [low, high] = std::minmax({number(depth - slack), number(depth + slack)});
+  const double allowed = steps_allowed * format_step_ + arithmetic, own = stored(key);
+  return own >= low - allowed && own <= high + allowed;
+}
+
+bool StoredDepths::holds_within(raytrace::TexelKey key, double reach, int steps, double slope_texels) const {
+  const Vec2 centre(key.column() + 0.5, key.row() + 0.5);
+  for (int j = -steps; j <= steps; ++j)
+    for (int i = -steps; i <= steps; ++i) {
+      const auto met = first(key.face(), centre + reach / steps * Vec2(i, j));
+      // Nothing is stored where nothing lies within the map's depths.
+      if (is_empty(key) && (!met || met->depth >= view_.face(key.face()).far_depth)) return true;
+      if (met && is_stored(key, met->depth, 2.0 * slope_texels * met->across)) return true;
+    }
+  return false;
+}
+
+bool StoredDepths::holds_scene(raytrace::TexelKey key) const {
+  const auto centre = first(key.face(), {key.column() + 0.5, key.row() + 0.5});
+  if (!is_empty(key) && centre && is_stored(key, centre->depth, 2.0 * scene_reach * centre->across))
+    return true;
+  return holds_within(key, scene_reach, 1, scene_reach);
+}
+
+bool StoredDepths::holds_neighbours(raytrace::TexelKey key) const {
+  return holds_within(key, 1.0, 2, 0.25);
+}
+
+}  // namespace gnomon::compare

@@ -1,0 +1,54 @@
+// How precise a captured map's numbers are, and whether one of them is the depth of what the light meets first at its texel.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "compare/truth/columns.h"
+#include "studies/judge/captured_frame.h"
+
+namespace gnomon::compare {
+
+/// A surface on the ray through a place of the map.
+struct SurfaceOnRay {
+  std::uint32_t primitive = no_id;
+  double depth = infinity;  ///< along the map's forward axis
+  double across = 0.0;      ///< what its depth changes by over half a texel along both axes, added up
+  bool front = true;        ///< its front faces the light
+};
+
+class StoredDepths {
+ public:
+  StoredDepths(const FrameInput& input, const raster::LightRecord& record);
+
+  /// Smallest difference of stored numbers of the map's format, near 1.
+  double format_step() const { return format_step_; }
+  double stored(raytrace::TexelKey key) const;
+  bool is_empty(raytrace::TexelKey key) const { return !holds_caster(view_, stored(key)); }
+  /// The stored number as a depth along the map's forward axis.
+  double depth(raytrace::TexelKey key) const;
+
+  /// What the light meets first on the ray through a place, texels from the face's corner.
+  std::optional<SurfaceOnRay> first(int face, const Vec2& place) const;
+  /// All that it meets there, nearest first, at most so many.
+  std::vector<SurfaceOnRay> all(raytrace::TexelKey key, std::size_t most) const;
+
+  /// Whether the stored number is this depth, but for `slack` (a depth), 3/4 of a step of the format and 2^-22 of
+  /// arithmetic. A depth before the near plane or behind the far one counts as one on it.
+  bool is_stored(raytrace::TexelKey key, double depth, double slack) const;
+  /// Whether the map holds the first surface of the texel's centre, or of a place within 1/8 texel of it.
+  bool holds_scene(raytrace::TexelKey key) const;
+  /// The same within one texel: a neighbour's depth.
+  bool holds_neighbours(raytrace::TexelKey key) const;
+
+ private:
+  bool holds_within(raytrace::TexelKey key, double reach, int steps, double slope_texels) const;
+  SurfaceOnRay surface(const Ray& ray, const raytrace::Hit& hit, int face, const Vec2& place) const;
+
+  const FrameInput& in_;
+  const raster::LightRecord& record_;
+  const LightView& view_;
+  double format_step_ = 0.0;
+};
+
+}  // namespace gnomon::compare
