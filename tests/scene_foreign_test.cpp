@@ -95,7 +95,8 @@ TEST(Foreign, WhatCannotBeReadIsSaidInAssimpsWords) {
 
 TEST(Foreign, WithoutAssimpTheMessageNamesItsPackage) {
   const TemporaryFolder folder;
-  const std::string path = folder.put("square.stl", stl_square), before = std::getenv("PATH") != nullptr ? std::getenv("PATH") : "";
+  const std::string path = folder.put("square.stl", stl_square),
+                    before = std::getenv("PATH") != nullptr ? std::getenv("PATH") : "";
   const TemporaryFolder programs;
   std::filesystem::create_symlink("/usr/bin/prlimit", programs.file("prlimit"));
   setenv("PATH", programs.path().c_str(), 1);
