@@ -55,7 +55,7 @@ class Pictures {
     const auto name = [i](std::string_view kind) { return fmt::format("{}-{}", kind, i); };
     add(name("difference"), of.difference,
         "The picture in grey; pixels with a false shadow in orange, with a missed shadow in light blue.");
-    add(name("labels"), of.labels, "Every wrong pixel in the colour of its label.");
+    add(name("labels"), of.labels, "Every error in the colour of its label, as strong as it is.");
     add(name("decisions"), of.decisions,
         "The picture in grey, tinted where the map decides alone; traced pixels stand out.");
     add(name("edges"), of.edges,

@@ -223,8 +223,9 @@ TEST(Answers, TheWorkOfALightIsThatOfItsOwnMap) {
     "meshes": [{"name": "floor", "generate": {"kind": "floor", "size": [8, 8]}},
                {"name": "box", "generate": {"kind": "box"}}],
     "instances": [{"mesh": "floor", "material": "m"}, {"mesh": "box", "material": "m"}]})");
-  const ProcessResult result = run_gnomon({"compare", folder / "two.json", "--size", "64x36", "--map-size",
-                                           "128", "--runs", "1", "--no-report", "-o", folder / "out"});
+  const ProcessResult result =
+      run_gnomon({"compare", "-v", folder / "two.json", "--size", "64x36", "--map-size", "128", "--runs", "1",
+                  "--no-report", "-o", folder / "out"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find(" 16,384 texels drawn"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find(" 98,304 texels drawn"), std::string::npos) << result.out;

@@ -101,7 +101,8 @@ TEST(Streams, TableOnStdoutMessagesOnStderrNothingWhenQuiet) {
   const ProcessResult loud = run_gnomon(words, {.folder = folder.path()});
   EXPECT_EQ(loud.exit_code, 0);
   EXPECT_NE(loud.out, "");
-  EXPECT_NE(loud.err.find("out/acne-floor/report.html"), std::string::npos);
+  EXPECT_NE(loud.out.find("\nReport: out/acne-floor/report.html\n"), std::string::npos) << loud.out;
+  EXPECT_NE(loud.err.find(" MB of memory at most"), std::string::npos) << loud.err;
   EXPECT_EQ(loud.err.find('\r'), std::string::npos) << "a progress line off a terminal";
   EXPECT_EQ(loud.out.find('\033'), std::string::npos) << "colour off a terminal";
   const ProcessResult quiet = run_gnomon(words + Words{"--quiet"}, {.folder = folder.path()});

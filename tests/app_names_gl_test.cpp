@@ -56,7 +56,7 @@ TEST(Names, OfLightsAreEscapedInSummariesAndErrors) {
     "materials": [{"name": "grey"}],
     "meshes": [{"name": "floor", "generate": {"kind": "floor", "size": [24, 20]}}],
     "instances": [{"mesh": "floor", "material": "grey"}]})");
-  const Words compare = Words{"compare", folder / "lamp.json", "-o", folder / "out"} + small;
+  const Words compare = Words{"compare", "-v", folder / "lamp.json", "-o", folder / "out"} + small;
   const ProcessResult result = run_gnomon(compare + Words{"--fail-above", "0%", "--bias", "0"});
   EXPECT_EQ(result.exit_code, 1) << result.err;
   expect_plain(result.out);

@@ -178,7 +178,7 @@ TEST(Summary, BeginsWithVerdictAdviceAndPlace) {
   const Verdict verdict = verdict_on(made->comparison, made->comparison.lights[0]);
   const std::string text = summary_in_short(made->comparison, "Report: out/report.html", false);
   std::string expected;
-  for (const std::string& sentence : {verdict.error, verdict.advice})
+  for (const std::string& sentence : {joined_sentences({verdict.error, verdict.uncertain}), verdict.advice})
     for (const std::string& line : wrapped(sentence, 80)) expected += line + "\n";
   expected += "Report: out/report.html\n";
   EXPECT_EQ(text.substr(0, expected.size()), expected);

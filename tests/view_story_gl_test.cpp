@@ -51,7 +51,7 @@ TEST(PixelStory, IsToldOfEveryPixel) {
         const PixelStory story = tell_story(*done->outcome, {x, y}, lab_size);
         ASSERT_FALSE(story.words.empty());
         ASSERT_EQ(story.words.find_first_of("{}"), std::string::npos) << story.words;
-        ASSERT_EQ(story.deciding > 0, compare::is_wrong(story.label));
+        ASSERT_EQ(story.deciding > 0, compare::has_cause(story.label));
         told.insert(story.words);
       }
   }

@@ -368,7 +368,7 @@ std::string summary_in_short(const Comparison& c, std::string_view place, bool c
   Page page(colour);
   for (const LightComparison& light : c.lights) {
     const Verdict verdict = verdict_on(c, light);
-    page.heading(whose(c, light) + verdict.error);
+    page.heading(whose(c, light) + joined_sentences({verdict.error, verdict.uncertain}));
     if (!verdict.advice.empty()) page.line(verdict.advice);
   }
   page.line(place);

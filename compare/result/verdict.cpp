@@ -147,12 +147,13 @@ Verdict verdict_on(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0)
     return {.error = nothing_compared(light.pixels, c.world->scene->lights[light.light].type)};
   const std::string error = error_part(light), uncertain = uncertain_part(light.pixels);
-  if (c.judged) return {error, judged_advice(*c.judged, light), uncertain};
-  if (lacks_light_size(c.raster, light)) return {error, soft_technique_advice(), uncertain};
+  if (c.judged) return {error, judged_advice(*c.judged, light), uncertain, uncertain};
+  if (lacks_light_size(c.raster, light)) return {error, soft_technique_advice(), uncertain, uncertain};
   // What other biases would do follows from the gaps of a hard test alone.
-  if (!biases_follow_from_gaps(c.raster)) return {.error = error, .detail = uncertain};
+  if (!biases_follow_from_gaps(c.raster))
+    return {.error = error, .uncertain = uncertain, .detail = uncertain};
   const BiasAdvice advice = bias_advice(light, c.raster.options.map);
-  return {error, advice.best, joined_sentences({uncertain, advice.more})};
+  return {error, advice.best, uncertain, joined_sentences({uncertain, advice.more})};
 }
 
 }  // namespace gnomon::compare
