@@ -15,8 +15,6 @@ namespace {
 constexpr double hope = 1.5;
 // How far above the goal an estimate must lie to be believed.
 constexpr double clearly = 2.0;
-// What an error may be less by than halving with every doubling of the map says, and still be looked for.
-constexpr double lucky = 1.3;
 // How much dearer than the best answer an exact technique may be at the size first tried before its other sizes are left.
 constexpr double exact_hope = 3.0;
 // Of two estimates the later may be less by this factor: texels wider than what casts the shadows do not yet
@@ -48,11 +46,6 @@ double cost_at(int size, const std::vector<Attempt>& tried) {
   const auto area = [](int side) { return double(side) * side; };
   const double grown = (last.cost - before.cost) / (area(last.size) - area(before.size));
   return last.cost + std::max(0.0, grown) * (area(size) - area(last.size));
-}
-
-// The error that halving with every doubling of the map would leave.
-double error_at(int size, const Attempt& attempt) {
-  return attempt.error * attempt.size / size;
 }
 
 }  // namespace
@@ -213,30 +206,18 @@ void Tuner::stop_early(const Attempt& attempt, FamilyResult& result) const {
     result.stop = TuneStop::levels_off, result.floor = left;
 }
 
-// The next size worth drawing after one that is not good enough: the first at which the error could be, at most one is passed
-// over.
-std::size_t Tuner::next_size(std::size_t from, std::size_t end, const Attempt& attempt) const {
-  const bool passed_over =
-      from + 1 < end && error_at(options_.sizes[from], attempt) > lucky * options_.goal.max_error->limit;
-  return passed_over ? from + 1 : from;
-}
-
 // The least size that is good enough, or the largest that is cheap enough: both goals change once along the
-// sizes. Where the middle one is not good enough the larger ones come from the smallest that could be, for the larger a
-// map the dearer the drawing, and the sooner a family can be left.
+// sizes. Where the middle one is not good enough the next larger ones come one by one, for the larger a map
+// the dearer the drawing, and the sooner a family can be left: before the drawing, where the two last tell its cost.
 Expected<FamilyResult> Tuner::bisect(const TuneFamily& family) {
   FamilyResult result;
   result.family = family;
   const bool want_least = options_.goal.max_error.has_value();
   std::size_t low = 0, high = sizes_for(family, result);  // the change lies in [low, high]
-  std::optional<Attempt> too_wrong;                       // the last one
   while (low < high) {
-    std::size_t middle = low + (high - low) / 2;
-    if (too_wrong) middle = next_size(low, high, *too_wrong);
-    if (too_wrong && result.answer &&
-        error_at(options_.sizes[middle], *too_wrong) > lucky * options_.goal.max_error->limit)
-      break;
-    if (too_wrong && cost_at(options_.sizes[middle], result.tried) > hope * least_cost_) {
+    const bool upwards = want_least && low > 0;
+    const std::size_t middle = upwards ? low : low + (high - low) / 2;
+    if (upwards && !result.answer && cost_at(options_.sizes[middle], result.tried) > hope * least_cost_) {
       result.stop = TuneStop::too_dear;
       break;
     }
@@ -249,9 +230,7 @@ Expected<FamilyResult> Tuner::bisect(const TuneFamily& family) {
       continue;
     }
     low = middle + 1;
-    if (!want_least) continue;
-    too_wrong = *attempt;
-    if (low >= high || result.answer) continue;
+    if (!want_least || low >= high || result.answer) continue;
     const TuneStop before = result.stop;
     stop_early(*attempt, result);
     if (result.stop != before) break;

@@ -31,7 +31,6 @@ class Tuner {
   bool hopeless(const Attempt& a) const;
   /// Sizes worth looking at: those below the answer of a family that costs the same, at least one.
   std::size_t sizes_for(const TuneFamily& family, FamilyResult& result) const;
-  std::size_t next_size(std::size_t from, std::size_t end, const Attempt& attempt) const;
   void stop_early(const Attempt& attempt, FamilyResult& result) const;
 
   Setting setting_of(const TuneFamily& family, int size, const raster::Bias& bias) const;
