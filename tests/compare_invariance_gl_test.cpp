@@ -119,15 +119,31 @@ std::vector<int> truth(const Comparison& c) {
   return out;
 }
 
+float error_of(const Comparison& c, std::size_t pixel) {
+  const auto& rungs = c.lights[0].rungs;
+  return std::abs(rungs.back().data[pixel] - rungs.front().data[pixel]);
+}
+
+/// What averages moments is moved by rounding (msm's visibility by a tenth at most), and with it the cause of what is off by one
+/// half at most: whether there is one, and which.
+bool is_moved_by_rounding(const Comparison& a, const Comparison& b, std::size_t pixel) {
+  const float x = error_of(a, pixel), y = error_of(b, pixel);
+  return x != y && std::max(x, y) <= 0.5f;
+}
+
 std::vector<std::size_t> other_labels(const Comparison& a, const Comparison& b) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < a.lights[0].labels.data.size(); ++i)
-    if (a.lights[0].labels.data[i] != b.lights[0].labels.data[i]) out.push_back(i);
+    if (a.lights[0].labels.data[i] != b.lights[0].labels.data[i] && !is_moved_by_rounding(a, b, i))
+      out.push_back(i);
   return out;
 }
 
 void expect_labels(const Comparison& given, const Comparison& changed, const std::string& what) {
-  EXPECT_EQ(other_labels(given, changed), std::vector<std::size_t>()) << what;
+  for (const std::size_t i : other_labels(given, changed))
+    ADD_FAILURE() << what << ", pixel " << i << ": " << label_name(given.lights[0].labels.data[i]) << " and "
+                  << label_name(changed.lights[0].labels.data[i]) << ", errors " << error_of(given, i)
+                  << " and " << error_of(changed, i);
 }
 
 /// The sheets of the hybrid are as sure of as many pixels, so that it asks for as many rays.

@@ -45,7 +45,7 @@ async function checkCells(page) {
     await settled(page);
     const labels = await canvasOf(page, 0), difference = await canvasOf(page, 1);
     for (const [name, count] of Object.entries(light.classes))
-      assert.equal(countColour(labels, colours.get(named[name] ?? name)), count, `${name} in cell ${cell}`);
+      assert.equal(countColour(labels, colours.get(named[name] ?? name.replaceAll("_", " "))), count, `${name} in cell ${cell}`);
     assert.equal(countColour(difference, [213, 94, 0]), light.error.false_shadow, `false shadow in cell ${cell}`);
     assert.equal(countColour(difference, [86, 180, 233]), light.error.missed_shadow, `missed shadow in cell ${cell}`);
     assert.equal(await page.locator(".cell-command").textContent(), command);
