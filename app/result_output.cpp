@@ -44,13 +44,11 @@ Expected<void> check_aov(const ResultOutput& output, const compare::Comparison& 
 /// All but result.json.
 Expected<compare::WrittenOutputs> write_all(const ResultOutput& output, const compare::Comparison& comparison,
                                             const RunFiles& files, Console& console,
-                                            const compare::PageIntroduction* introduction,
                                             compare::BandedParts* parts) {
   if (const auto apart = check_aov(output, comparison, files); !apart) return fail(apart.error());
   auto written = compare::write_all_but_result(comparison, parts,
                                                {.folder = output.folder,
                                                 .report_max_mb = output.report_max_mb,
-                                                .introduction = introduction,
                                                 .page = !output.no_report,
                                                 .inputs = files.inputs()});
   if (!written) return fail(written.error());
@@ -149,10 +147,9 @@ ExitCode print_result(const ResultOutput& output, compare::Comparison& compariso
 
 Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison& comparison,
                                 LoadedScene& loaded, const RunFiles& files, const Stopwatch& total,
-                                Console& console, const compare::PageIntroduction* introduction,
-                                std::unique_ptr<compare::BandedParts> parts) {
+                                Console& console, std::unique_ptr<compare::BandedParts> parts) {
   std::optional<OutputGuard> whole_outputs(std::in_place);
-  auto written = write_all(output, comparison, files, console, introduction, parts.get());
+  auto written = write_all(output, comparison, files, console, parts.get());
   parts.reset();
   if (!written) return fail(written.error());
   const std::string& folder = output.shown_folder.empty() ? output.folder : output.shown_folder;

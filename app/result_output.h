@@ -38,10 +38,9 @@ bool only_prints_json(const ResultOutput& output);
 /// time budget is taken.
 ExitCode print_result(const ResultOutput& output, compare::Comparison& comparison, LoadedScene& loaded,
                       Console& console);
-/// `introduction`: what stands before the comparison on the page. `parts`: of a comparison in bands.
+/// `parts`: of a comparison in bands.
 Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison& comparison,
                                 LoadedScene& loaded, const RunFiles& files, const Stopwatch& total,
-                                Console& console, const compare::PageIntroduction* introduction = nullptr,
-                                std::unique_ptr<compare::BandedParts> parts = nullptr);
+                                Console& console, std::unique_ptr<compare::BandedParts> parts = nullptr);
 
 }  // namespace gnomon::app

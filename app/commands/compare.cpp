@@ -192,7 +192,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   console.progress("writing", 1.0);
   if (only_prints_json(command.output))
     return print_result(command.output, compared->comparison, *loaded, console);
-  return write_folder(command.output, compared->comparison, *loaded, files, total, console, nullptr,
+  return write_folder(command.output, compared->comparison, *loaded, files, total, console,
                       std::move(compared->parts));
 }
 
