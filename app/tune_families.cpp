@@ -167,6 +167,13 @@ Expected<std::vector<OptionFamily>> fitting_families(const std::vector<OptionFam
     });
     if (drawn) out.push_back(family);
   }
+  // Under lights without size it is the hard test, which is tried by its own name.
+  const bool sizeless = std::none_of(lights.begin(), lights.end(),
+                                     [&](std::uint32_t light) { return has_size(scene.lights[light]); });
+  const auto is_pcss = [](const OptionFamily& family) {
+    return family.tuned.map.technique == raster::Technique::pcss;
+  };
+  if (sizeless && !std::all_of(out.begin(), out.end(), is_pcss)) std::erase_if(out, is_pcss);
   if (out.empty() && !families.empty())
     return fail(ErrorKind::usage,
                 fmt::format("--technique: has no map for a light of this scene ({})", technique_limits()));

@@ -95,7 +95,7 @@ TEST_F(TuneProgram, FindsWhatHoldsStill) {
   }
 }
 
-// Of one engine only what it draws is tried, and the answer names its settings alone; what the time did not suffice for is
+// Of one engine only what it draws is tried (not pcss, which is the hard test under a light without size), and the answer names its settings alone; what the time did not suffice for is
 // named, too.
 TEST_F(TuneProgram, AsksForOneEngineAndWithinATime) {
   const std::string json = (root / "answer.json").string();
@@ -104,8 +104,7 @@ TEST_F(TuneProgram, AsksForOneEngineAndWithinATime) {
   ASSERT_EQ(run(asked), 0) << said();
   const nlohmann::json answer = nlohmann::json::parse(bytes(json));
   for (const auto& family : answer["others"])
-    EXPECT_TRUE(family["technique"] == "hard" || family["technique"] == "pcf" ||
-                family["technique"] == "pcss" || family["technique"] == "csm")
+    EXPECT_TRUE(family["technique"] == "hard" || family["technique"] == "pcf" || family["technique"] == "csm")
         << family["command"];
   EXPECT_NE(said().find("shadow_normal_bias"), std::string::npos) << said();
   EXPECT_EQ(said().find("three.js"), std::string::npos) << said();
