@@ -14,21 +14,21 @@
 #include <vector>
 
 #include "app/console.h"
-#include "app/interrupt.h"
+#include "app/help/manual.h"
 #include "app/invocation.h"
-#include "app/lesson_scene.h"
-#include "app/manual.h"
-#include "app/options.h"
-#include "app/output_path.h"
+#include "app/lessons/lesson_scene.h"
+#include "app/options/options.h"
+#include "app/options/setting.h"
+#include "app/outputs/output_path.h"
+#include "app/process/interrupt.h"
 #include "app/session.h"
-#include "app/setting.h"
 #include "compare/result/option_names.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
+#include "scene/base/option_text.h"
+#include "scene/base/stages.h"
+#include "scene/base/threads.h"
 #include "scene/files/write_file.h"
 #include "scene/load.h"
-#include "scene/option_text.h"
-#include "scene/stages.h"
-#include "scene/threads.h"
 
 namespace gnomon::app {
 

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app {
 

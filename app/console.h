@@ -4,12 +4,12 @@
 #include <string>
 #include <string_view>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app {
 
 /// Onto stdout: lines of text, or JSON. Control characters that came with names are escaped (plain_lines() in
-/// scene/expected.h), but for the program's own styles where stdout takes colour.
+/// scene/base/expected.h), but for the program's own styles where stdout takes colour.
 void print_data(std::string_view text);
 
 /// Lines on stderr, escaped likewise; a line break is added where there is none.
@@ -25,7 +25,7 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  /// One line; control characters in it are escaped (scene/expected.h).
+  /// One line; control characters in it are escaped (scene/base/expected.h).
   void message(const std::string& text);
   /// Lines of the program's own, with no word from a file.
   void lines(const std::string& text);

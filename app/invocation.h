@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace CLI {
 class App;

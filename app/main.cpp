@@ -2,10 +2,10 @@
 #include <csignal>
 
 #include "app/command_line.h"
-#include "app/interrupt.h"
-#include "app/large_pages.h"
-#include "scene/freed_memory.h"
-#include "scene/stages.h"
+#include "app/process/interrupt.h"
+#include "app/process/large_pages.h"
+#include "scene/base/freed_memory.h"
+#include "scene/base/stages.h"
 
 int main(int argc, char** argv) {
   gnomon::app::start_with_large_pages(argv);

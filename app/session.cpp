@@ -9,18 +9,18 @@
 #include <optional>
 #include <thread>
 
-#include "app/lesson_scene.h"
-#include "app/machine.h"
+#include "app/lessons/lesson_scene.h"
+#include "app/process/machine.h"
 #include "hybrid/visibility.h"
-#include "raster/shader_folder.h"
+#include "raster/programs/shader_folder.h"
 #include "raster/technique_traits.h"
 #include "raytrace/choose_tracer.h"
+#include "scene/base/option_text.h"
+#include "scene/base/stages.h"
+#include "scene/base/threads.h"
+#include "scene/base/timing.h"
 #include "scene/load.h"
-#include "scene/option_text.h"
-#include "scene/stages.h"
-#include "scene/tessellate.h"
-#include "scene/threads.h"
-#include "scene/timing.h"
+#include "scene/shapes/tessellate.h"
 
 namespace gnomon::app {
 namespace {

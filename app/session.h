@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "app/console.h"
-#include "app/run_files.h"
+#include "app/outputs/run_files.h"
 #include "raster/renderer.h"
+#include "scene/base/expected.h"
 #include "scene/effects.h"
-#include "scene/expected.h"
 #include "scene/keyed_path.h"
 #include "scene/world.h"
 
@@ -31,7 +31,7 @@ struct LoadedScene {
 };
 
 /// A file, a built-in scene or a lesson. Prints the loader's notes. `tessellate`: shapes become triangles
-/// (scene/tessellate.h); 0: they stay exact. `camera`: LoadOptions::camera. `files` learns what the scene
+/// (scene/shapes/tessellate.h); 0: they stay exact. `camera`: LoadOptions::camera. `files` learns what the scene
 /// consists of; ErrorKind::usage when an output is among it.
 Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Console& console,
                            int tessellate = 0, const std::string& camera = {}, bool with_paths = false,

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "app/option_kinds.h"
+#include "app/options/option_kinds.h"
 #include "raytrace/frame.h"
+#include "scene/base/stages.h"
 #include "scene/light.h"
-#include "scene/stages.h"
 
 namespace gnomon::app {
 namespace {

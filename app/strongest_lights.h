@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/pose_options.h"
+#include "app/options/pose_options.h"
 #include "app/session.h"
 
 namespace CLI {

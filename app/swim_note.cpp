@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "raster/technique_traits.h"
-#include "scene/light_view.h"
+#include "scene/light_map/light_view.h"
 
 namespace gnomon::app {
 

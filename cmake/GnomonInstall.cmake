@@ -1,14 +1,14 @@
 # cmake --install BUILD [--prefix P]: the program, its licence, the manual, lessons, pictures and schemas, and what the
 # program prints of itself: its manual page, completion for bash, zsh and fish.
 install(TARGETS gnomon_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-# Where scene/files/image_library.cpp looks for it from the folder of the program.
+# Where scene/files/pictures/image_library.cpp looks for it from the folder of the program.
 install(TARGETS gnomon_images LIBRARY DESTINATION lib/gnomon)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/CITATION.cff" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 # The manual, lessons and pictures, with the folders that their links name; the schemas; the shaders as examples.
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/manual" "${PROJECT_SOURCE_DIR}/docs/lessons" "${PROJECT_SOURCE_DIR}/docs/images" DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 file(GLOB documents CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/*.md")
 install(FILES ${documents} DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
-install(FILES "${PROJECT_SOURCE_DIR}/compare/result/result.schema.json" "${PROJECT_SOURCE_DIR}/scene/files/scene.schema.json" "${PROJECT_SOURCE_DIR}/app/render.schema.json"
+install(FILES "${PROJECT_SOURCE_DIR}/compare/result/result.schema.json" "${PROJECT_SOURCE_DIR}/scene/files/scene.schema.json" "${PROJECT_SOURCE_DIR}/app/outputs/render.schema.json"
   "${PROJECT_SOURCE_DIR}/app/grade/rubric.schema.json" "${PROJECT_SOURCE_DIR}/app/grade/grade.schema.json"
   "${PROJECT_SOURCE_DIR}/studies/judge/capture.schema.json" "${PROJECT_SOURCE_DIR}/studies/shimmer/shimmer.schema.json"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/gnomon/schema")

@@ -16,9 +16,9 @@
 #include "compare/truth/seen_surfaces.h"
 #include "raster/frame.h"
 #include "raytrace/frame.h"
+#include "scene/base/timing.h"
 #include "scene/effects.h"
 #include "scene/image.h"
-#include "scene/timing.h"
 #include "scene/world.h"
 
 namespace gnomon::compare {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "hybrid/light_sheets.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::hybrid {
 namespace {

@@ -1,7 +1,7 @@
 #include "hybrid/light_facing.h"
 
-#include "raytrace/error_bounds.h"
-#include "scene/parallel.h"
+#include "raytrace/precision/error_bounds.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::hybrid {
 namespace {

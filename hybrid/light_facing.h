@@ -1,12 +1,12 @@
 // What a light's place alone decides about every triangle: which way it faces, and which of its edges can be
-// the boundary of a sheet (raytrace/sheets.h). Made once per light; the map's texels then ask nothing but
+// the boundary of a sheet (raytrace/sheets/sheets.h). Made once per light; the map's texels then ask nothing but
 // where edges lie. Rounding only ever adds boundary.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "raytrace/sheets.h"
+#include "raytrace/sheets/sheets.h"
 
 namespace gnomon::hybrid {
 

@@ -1,8 +1,8 @@
 #include "hybrid/light_sheets.h"
 
-#include "raytrace/error_bounds.h"
-#include "scene/parallel.h"
-#include "scene/timing.h"
+#include "raytrace/precision/error_bounds.h"
+#include "scene/base/parallel.h"
+#include "scene/base/timing.h"
 
 namespace gnomon::hybrid {
 namespace {

@@ -4,7 +4,7 @@
 // Proof that what is sure is right. Let C be the column of light rays through one texel and x a receiver in
 // it, on the surface of the scene. Every piece of surface that meets C is in C's list, for the list is made
 // conservatively; so x lies on a piece of it. A *sheet* is a connected part of equally facing triangles
-// inside C (raytrace/sheets.h); if no edge that ends it crosses C, then its projection along the rays onto
+// inside C (raytrace/sheets/sheets.h); if no edge that ends it crosses C, then its projection along the rays onto
 // C's cross-section is a proper local homeomorphism (a branched one at vertices whose fan winds twice), hence
 // a covering of some degree d >= 1, the same over every point of the texel. It is counted over one point.
 //  - Surely shadowed: a sheet without boundary lies wholly nearer to the light than x. d >= 1, so x's own ray
@@ -27,7 +27,7 @@
 #include <optional>
 
 #include "hybrid/tile_sheets.h"
-#include "raytrace/error_bounds.h"
+#include "raytrace/precision/error_bounds.h"
 #include "raytrace/quantised_tile.h"
 
 namespace gnomon::hybrid {

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "hybrid/light_facing.h"
-#include "scene/light_view.h"
+#include "scene/light_map/light_view.h"
 
 namespace gnomon::hybrid {
 

@@ -2,7 +2,7 @@
 
 #include "hybrid/tile_shapes.h"
 
-#include "raytrace/error_bounds.h"
+#include "raytrace/precision/error_bounds.h"
 #include "raytrace/shading/light_samples.h"
 #include "raytrace/shading/light_shaft.h"
 #include "raytrace/shading/picture.h"

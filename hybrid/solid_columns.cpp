@@ -1,6 +1,6 @@
 #include "hybrid/solid_columns.h"
 
-#include "raytrace/error_bounds.h"
+#include "raytrace/precision/error_bounds.h"
 #include "raytrace/shapes/along_ray.h"
 
 namespace gnomon::hybrid {

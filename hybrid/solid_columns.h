@@ -1,4 +1,4 @@
-// Solids (scene/solid.h) as one tile of the map sees them: what interval arithmetic proves of each texel's
+// Solids (scene/shapes/solid.h) as one tile of the map sees them: what interval arithmetic proves of each texel's
 // column (Moore 1966; Mitchell 1990). The column is cut into slabs of depth, and the solid's function is
 // bounded over each. Where it is surely above 0 there is no surface; where it is surely below 0 every ray is
 // inside a closed body, and has come in through its surface before. Of an open surface, two slabs of surely

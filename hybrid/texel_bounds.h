@@ -2,7 +2,7 @@
 // that the column meets.
 //
 // Pieces of one facing whose reciprocal depth intervals overlap form a group. Triangles that share an edge crossing
-// the column overlap there, so every sheet (raytrace/sheets.h) lies in one group. In a group that no boundary
+// the column overlap there, so every sheet (raytrace/sheets/sheets.h) lies in one group. In a group that no boundary
 // edge crosses, the projection along the rays is a covering whose degree is the number of pieces over any one
 // point of the texel that lies on no edge. Degree 1: the group is one sheet without boundary and cannot
 // shadow itself. Degree >= 1: every ray of the column meets it. Degree 0: it lies beside the column, and only

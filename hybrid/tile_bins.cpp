@@ -1,6 +1,6 @@
 #include "hybrid/tile_sheets.h"
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::hybrid {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "hybrid/tile_triangle.h"
-#include "scene/solid.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon::hybrid {
 

@@ -1,6 +1,6 @@
 #include "hybrid/tile_triangle.h"
 
-#include "raytrace/error_bounds.h"
+#include "raytrace/precision/error_bounds.h"
 
 namespace gnomon::hybrid {
 namespace {

@@ -6,7 +6,7 @@
 #include "hybrid/hard_shadows.h"
 #include "hybrid/soft_shadows.h"
 #include "raster/bands.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::hybrid {
 namespace {

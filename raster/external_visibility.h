@@ -4,11 +4,11 @@
 
 #include <cstdint>
 
+#include "scene/base/expected.h"
+#include "scene/base/timing.h"
 #include "scene/camera.h"
-#include "scene/expected.h"
 #include "scene/image.h"
-#include "scene/light_view.h"
-#include "scene/timing.h"
+#include "scene/light_map/light_view.h"
 
 namespace gnomon::raster {
 

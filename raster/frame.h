@@ -8,9 +8,9 @@
 
 #include "raster/external_visibility.h"
 #include "raster/options.h"
+#include "scene/base/timing.h"
 #include "scene/image.h"
-#include "scene/light_view.h"
-#include "scene/timing.h"
+#include "scene/light_map/light_view.h"
 
 namespace gnomon::raster {
 

@@ -7,12 +7,12 @@
 #include <set>
 
 #include "raster/bands.h"
-#include "raster/depth_map_pass.h"
-#include "raster/external_pass.h"
+#include "raster/passes/depth_map_pass.h"
+#include "raster/passes/external_pass.h"
+#include "raster/passes/shading_pass.h"
+#include "raster/passes/technique_pass.h"
 #include "raster/renderer.h"
-#include "raster/shading_pass.h"
-#include "raster/technique_pass.h"
-#include "scene/stages.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::raster {
 

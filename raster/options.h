@@ -4,15 +4,15 @@
 
 #include <cstdint>
 
-#include "scene/cascade_fit.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
+#include "scene/base/timing.h"
 #include "scene/image.h"
-#include "scene/timing.h"
+#include "scene/light_map/cascade_fit.h"
 
 namespace gnomon::raster {
 
 enum class Backend : std::uint8_t { automatic, osmesa, egl, egl_software, egl_hardware };
-/// app/options.cpp offers those that are finished.
+/// app/options/options.cpp offers those that are finished.
 enum class Technique : std::uint8_t {
   hard,
   pcf,

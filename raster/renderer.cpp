@@ -9,12 +9,12 @@
 #include <new>
 
 #include "raster/gl_renderer.h"
-#include "raster/light_block.h"
-#include "raster/map_shape.h"
 #include "raster/options_check.h"
-#include "raster/shader_folder.h"
+#include "raster/passes/light_block.h"
+#include "raster/passes/map_shape.h"
+#include "raster/programs/shader_folder.h"
 #include "raster/technique_traits.h"
-#include "scene/stages.h"
+#include "scene/base/stages.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <span>
 
-#include "raster/context.h"
 #include "raster/frame.h"
+#include "raster/gl/context.h"
+#include "scene/base/expected.h"
 #include "scene/effects.h"
-#include "scene/expected.h"
 #include "scene/world.h"
 
 namespace gnomon::raster {

@@ -3,14 +3,14 @@
 #include <cstring>
 #include <utility>
 
-#include "raster/context.h"
+#include "raster/gl/context.h"
 #include "raster/gl_renderer.h"
-#include "raster/izb_pass.h"
-#include "raster/map_shape.h"
-#include "raster/shader_folder.h"
-#include "raster/technique_shader.h"
+#include "raster/passes/izb_pass.h"
+#include "raster/passes/map_shape.h"
+#include "raster/programs/shader_folder.h"
+#include "raster/programs/technique_shader.h"
 #include "raster/technique_traits.h"
-#include "scene/stages.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::raster {
 namespace {

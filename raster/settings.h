@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "raster/technique_traits.h"
-#include "scene/option_text.h"
+#include "scene/base/option_text.h"
 
 namespace gnomon::raster {
 

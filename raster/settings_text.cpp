@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "raster/settings.h"
-#include "scene/option_text.h"
+#include "scene/base/option_text.h"
 
 namespace gnomon::raster {
 namespace {

@@ -10,7 +10,7 @@
 #include "raytrace/shading/light_shaft.h"
 #include "raytrace/shading/picture.h"
 #include "raytrace/tiles.h"
-#include "scene/stages.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::raytrace {
 namespace {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "raytrace/tracer.h"
+#include "scene/base/timing.h"
 #include "scene/camera.h"
 #include "scene/effects.h"
 #include "scene/image.h"
-#include "scene/timing.h"
 
 namespace gnomon::raytrace {
 

@@ -4,7 +4,7 @@
 
 #include <exception>
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <stop_token>
 
+#include "scene/base/parallel.h"
 #include "scene/image.h"
-#include "scene/parallel.h"
 
 namespace gnomon::raytrace {
 

@@ -9,8 +9,8 @@
 #include "raytrace/precision/fast.h"
 #include "raytrace/precision/ray_offset.h"
 #include "raytrace/precision/visibility.h"
-#include "scene/stages.h"
-#include "scene/timing.h"
+#include "scene/base/stages.h"
+#include "scene/base/timing.h"
 
 namespace gnomon::raytrace {
 namespace {

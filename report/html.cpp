@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/files/encodings.h"
 
 namespace gnomon::compare {

@@ -12,7 +12,7 @@
 #include "compare/result/verdict.h"
 #include "report/facts.h"
 #include "report/html.h"
-#include "report/page_data.h"
+#include "report/pixels/page_data.h"
 #include "report/write_outputs.h"
 
 namespace gnomon::compare {

@@ -11,9 +11,9 @@
 #include "compare/result/picture_set.h"
 #include "compare/result/time_budget.h"
 #include "report/page.h"
-#include "report/page_data.h"
+#include "report/pixels/page_data.h"
+#include "scene/base/threads.h"
 #include "scene/files/write_file.h"
-#include "scene/threads.h"
 
 namespace gnomon::compare {
 namespace {

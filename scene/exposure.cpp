@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/scene.h"
 
 namespace gnomon {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/keyed_path.h"
 #include "scene/scene.h"
 

@@ -10,10 +10,10 @@
 #include <variant>
 #include <vector>
 
-#include "scene/expression.h"
 #include "scene/image.h"
 #include "scene/light_shape/light_shape.h"
 #include "scene/math.h"
+#include "scene/shapes/expression.h"
 
 namespace gnomon {
 
@@ -115,7 +115,7 @@ struct ShapeFrame {
 enum class QuadricKind : std::uint8_t { ellipsoid, cylinder, cone, paraboloid, hyperboloid };
 
 /// xx x^2 + yy y^2 + zz z^2 + z z + one = 0 in its frame, less than 0 inside, cut to a range of z.
-/// scene/solid.h makes them.
+/// scene/shapes/solid.h makes them.
 struct Quadric {
   QuadricKind kind = QuadricKind::ellipsoid;
   ShapeFrame frame;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "scene/parallel.h"
-#include "scene/solid.h"
+#include "scene/base/parallel.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon {
 namespace {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/ranges.h"
+#include "scene/base/ranges.h"
 #include "scene/scene.h"
 
 namespace gnomon {

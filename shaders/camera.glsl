@@ -1,5 +1,5 @@
 // The camera: pixel rays and the reversed depth they store. Twin of scene/camera.h. Positions are relative to the
-// frame's reference point (raster/world_buffers.h), so that scenes far from the origin keep their precision.
+// frame's reference point (raster/world/world_buffers.h), so that scenes far from the origin keep their precision.
 // The image is drawn with glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE): gl_FragCoord counts from the top left.
 
 layout(std140, binding = camera_block) uniform Camera {

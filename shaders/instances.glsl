@@ -1,4 +1,4 @@
-// The parts of a world that keeps instances, and a kept part's vertices in the world. Twin of raster/stored_meshes.h.
+// The parts of a world that keeps instances, and a kept part's vertices in the world. Twin of raster/world/stored_meshes.h.
 #include "placed_vertex.glsl"
 
 // What comes first: the frame's reference in the world (a dvec4), the number of parts, and of vertices before those of

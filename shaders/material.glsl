@@ -1,6 +1,6 @@
 // Materials, with permutations TEXTURES (some material has one), ALPHA_MASK (some surface has holes) and UNLIT (some
 // material shows its colour without light).
-// Twin of raster/world_buffers.h.
+// Twin of raster/world/world_buffers.h.
 
 const uint no_texture = 0xffffffffu;
 

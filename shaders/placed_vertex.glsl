@@ -8,7 +8,7 @@ dvec3 placed_vertex(dvec3 p, dvec3 x, dvec3 y, dvec3 z, dvec3 origin) {
   return placed;
 }
 
-// To the frame's reference point, in the floats of raster/world_buffers.cpp.
+// To the frame's reference point, in the floats of raster/world/world_buffers.cpp.
 vec3 relative_vertex(dvec3 placed, dvec3 reference) {
   precise dvec3 offset = placed - reference;
   return vec3(offset);

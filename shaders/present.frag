@@ -1,4 +1,4 @@
-// An 8-bit sRGB picture on the screen, scaled to the viewport (raster/present.h); row 0 of the texture is the top.
+// An 8-bit sRGB picture on the screen, scaled to the viewport (raster/gl/present.h); row 0 of the texture is the top.
 #include "shared_constants.h"
 
 layout(binding = present_unit) uniform sampler2D picture;

@@ -1,6 +1,6 @@
 // A solid's equation in its own frame: value, gradient, the normal at a point and the point put onto the surface. What
 // the shading needs; rays are cast in solid.glsl. Permutations QUADRIC, TORUS and IMPLICIT name the kinds that may come;
-// IMPLICIT_FUNCTIONS is text that raster/expression_glsl.h makes of the scene's expressions. Needs world.glsl.
+// IMPLICIT_FUNCTIONS is text that raster/programs/expression_glsl.h makes of the scene's expressions. Needs world.glsl.
 
 #if defined(TORUS) || defined(IMPLICIT)
 #define MARCHED

@@ -1,7 +1,7 @@
 // Triangles and their vertices, in buffer textures: these hold more than a storage block, which ends at 128 MB on
 // some OpenGLs. Permutation INSTANCES: some of the world's parts are kept instances (scene/world.h), whose vertices are
 // those of their mesh; what lies in the world is worked out here, in double precision and in the order of operations of
-// scene/world.cpp. Twin of raster/world_buffers.cpp.
+// scene/world.cpp. Twin of raster/world/world_buffers.cpp.
 
 struct TriangleData {
   uint a, b, c;

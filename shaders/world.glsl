@@ -1,5 +1,5 @@
 // The world's primitives as the shaders see them: triangles 0 ... T-1, then shapes. Everything is relative to the
-// frame's reference point. Twin of raster/world_buffers.h.
+// frame's reference point. Twin of raster/world/world_buffers.h.
 //
 // Shapes, like materials and textures, are read through buffer textures: where pixels of one vector want different
 // elements, drivers in software read a storage block one number and one pixel at a time.
@@ -44,7 +44,7 @@ float turn_of(float x, float y) {
   return u < 0.0 ? u + 1.0 : u;
 }
 
-// Of a solid's local point (scene/solid.h).
+// Of a solid's local point (scene/shapes/solid.h).
 vec2 solid_uv(ShapeData s, vec3 p) {
   vec3 low = s.box_min.xyz, high = s.box_max.xyz;
   if (s.kind == uint(shape_implicit)) return vec2((p.x - low.x) / (high.x - low.x), (high.y - p.y) / (high.y - low.y));

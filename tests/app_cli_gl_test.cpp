@@ -201,7 +201,8 @@ TEST(Outputs, WhatCannotBeWrittenIsToldBeforeTheWork) {
 }
 
 void expect_valid(const std::string& text) {
-  SchemaCheck check(json::parse(std::ifstream(gnomon::test::source_dir() + "/app/render.schema.json")));
+  SchemaCheck check(
+      json::parse(std::ifstream(gnomon::test::source_dir() + "/app/outputs/render.schema.json")));
   EXPECT_EQ(check.violations(json::parse(text)), std::vector<std::string>{}) << text;
 }
 

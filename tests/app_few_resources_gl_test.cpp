@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "tests/app_process.h"
 #include "tests/support/places.h"
 #include "tests/support/sanitizer.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/bench/row.h"
-#include "app/heatmap.h"
+#include "app/outputs/heatmap.h"
 #include "compare/result/palette.h"
 
 namespace gnomon::app {

@@ -1,5 +1,5 @@
 // A signal never cuts an output: it waits until the guard is gone, and the exit code then says that it came.
-#include "app/interrupt.h"
+#include "app/process/interrupt.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "tests/app_process.h"
 
 namespace gnomon::app_test {

@@ -1,5 +1,5 @@
 // The program starts itself once more with large pages where the system gives them to those who ask.
-#include "app/large_pages.h"
+#include "app/process/large_pages.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

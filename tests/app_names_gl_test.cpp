@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scene/expected.h"
-#include "scene/files/image_io.h"
+#include "scene/base/expected.h"
+#include "scene/files/pictures/image_io.h"
 #include "tests/app_process.h"
 
 namespace gnomon::app_test {

@@ -2,7 +2,7 @@
 // signal ends their work.
 #include <gtest/gtest.h>
 
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "tests/app_process.h"
 
 namespace gnomon::app_test {

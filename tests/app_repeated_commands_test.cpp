@@ -1,9 +1,9 @@
 // Commands that sweep and tune hand out, to make one of their results again; and what their limits are of.
 #include <gtest/gtest.h>
 
-#include "app/shimmer_options.h"
+#include "app/options/shimmer_options.h"
 #include "app/sweep/command.h"
-#include "app/tune_answer.h"
+#include "app/tune/tune_answer.h"
 
 namespace gnomon::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "raster/shader_folder.h"
+#include "raster/programs/shader_folder.h"
 #include "scene/files/encodings.h"
 #include "tests/app_process.h"
 

@@ -7,10 +7,10 @@
 #include <set>
 
 #include "app/command_line.h"
-#include "app/effect_options.h"
-#include "app/map_options.h"
-#include "app/options.h"
-#include "app/setting.h"
+#include "app/options/effect_options.h"
+#include "app/options/map_options.h"
+#include "app/options/options.h"
+#include "app/options/setting.h"
 #include "app/sweep/axes.h"
 #include "tests/raster_fixture.h"
 

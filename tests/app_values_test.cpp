@@ -1,5 +1,5 @@
 // The text of option values, suggestions, line breaking, and the picture's exposure.
-#include "app/values.h"
+#include "app/options/values.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -9,11 +9,11 @@
 #include <cmath>
 #include <random>
 
-#include "app/manual.h"
-#include "app/memory_limit.h"
+#include "app/help/manual.h"
+#include "app/process/memory_limit.h"
 #include "raster/settings.h"
+#include "scene/base/option_text.h"
 #include "scene/exposure.h"
-#include "scene/option_text.h"
 
 namespace gnomon::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "compare/result/picture_set.h"
 #include "hybrid/visibility.h"
 #include "report/page.h"
-#include "report/page_data.h"
+#include "report/pixels/page_data.h"
 #include "scene/load.h"
 
 namespace gnomon::test {

@@ -11,7 +11,7 @@
 #include "compare/measure/number_list.h"
 #include "compare/metrics/pixel_list.h"
 #include "compare/truth/texel_groups.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 #include "tests/every_target.h"
 
 namespace gnomon::compare {

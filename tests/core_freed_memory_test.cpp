@@ -4,7 +4,7 @@
 #include <thread>
 #include <vector>
 
-#include "scene/freed_memory.h"
+#include "scene/base/freed_memory.h"
 #include "support/sanitizer.h"
 
 #if defined(__GLIBC__)

@@ -6,7 +6,7 @@
 #include "scene/effects.h"
 #include "scene/generate/random.h"
 #include "scene/light.h"
-#include "scene/light_view.h"
+#include "scene/light_map/light_view.h"
 #include "support/small_scenes.h"
 
 namespace gnomon {

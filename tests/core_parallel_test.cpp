@@ -1,5 +1,5 @@
-// Loops over all threads (scene/parallel.h).
-#include "scene/parallel.h"
+// Loops over all threads (scene/base/parallel.h).
+#include "scene/base/parallel.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <thread>
 
-#include "scene/run_program.h"
+#include "scene/base/run_program.h"
 
 namespace gnomon {
 namespace {

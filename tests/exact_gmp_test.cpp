@@ -11,7 +11,7 @@
 #include <atomic>
 #include <cstdlib>
 
-#include "raytrace/error_bounds.h"
+#include "raytrace/precision/error_bounds.h"
 #include "verify/adversarial.h"
 #include "verify/rational.h"
 

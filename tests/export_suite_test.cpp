@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "app/suite/write.h"
-#include "scene/files/gltf_writer.h"
+#include "scene/files/gltf/gltf_writer.h"
 #include "scene/light.h"
 #include "scene/load.h"
 #include "scene_files_support.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/files/write_file.h"
 #include "scene/load.h"
 #include "studies/judge/judge.h"

@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "compare/truth/columns.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "support/capture_support.h"
 #include "support/other_renderer.h"
 

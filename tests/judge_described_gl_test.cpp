@@ -4,7 +4,7 @@
 
 #include "compare/result/judged.h"
 #include "compare/result/verdict.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "support/capture_support.h"
 #include "support/other_renderer.h"
 

@@ -11,7 +11,7 @@
 #include "compare/result/judged.h"
 #include "compare/result/outputs.h"
 #include "report/write_outputs.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/files/read_file.h"
 #include "studies/judge/captured_map.h"
 #include "support/capture_support.h"

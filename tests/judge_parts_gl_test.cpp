@@ -1,6 +1,6 @@
 // gnomon judge on every kind of map, camera depth and pair of pictures that a capture may have. Each is judged twice: as
 // Gnomon's own drawing, and as that of a shadow test written here with nothing but the capture's matrix and texels.
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/light.h"
 #include "support/capture_support.h"
 #include "support/other_renderer.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "compare/result/judged.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "support/capture_support.h"
 
 namespace gnomon::test {

@@ -11,7 +11,7 @@
 #include "compare/result/palette.h"
 #include "compare/result/picture_set.h"
 #include "report/write_outputs.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "tests/synthetic_comparison.h"
 
 namespace gnomon::compare {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "compare/result/number_text.h"
-#include "scene/time_difference.h"
+#include "scene/base/time_difference.h"
 
 namespace gnomon {
 namespace {

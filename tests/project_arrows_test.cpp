@@ -53,10 +53,10 @@ bool may_use_opengl(std::string_view path) {
   return path.starts_with("raster/") || path.starts_with("app/view/") || path.starts_with("tests/");
 }
 
-/// Loops over all threads are those of scene/parallel.h: oneTBB's headers take seconds to compile. What else there is of it,
+/// Loops over all threads are those of scene/base/parallel.h: oneTBB's headers take seconds to compile. What else there is of it,
 /// a sort, a limit and an observer of threads, is used where it is needed.
 bool may_use_tbb(std::string_view path) {
-  constexpr std::string_view files[] = {"scene/parallel.cpp", "studies/sweep/bias_axis.cpp",
+  constexpr std::string_view files[] = {"scene/base/parallel.cpp", "studies/sweep/bias_axis.cpp",
                                         "app/session.cpp", "app/view/priority.cpp"};
   return path.starts_with("tests/") || std::find(std::begin(files), std::end(files), path) != std::end(files);
 }
@@ -131,7 +131,8 @@ std::string check_include(const std::string& file, const Include& include,
                           const std::set<std::string>& opengl, const Files& files) {
   const std::string from = room_of(file);
   if (is_opengl_header(include.path) && !may_use_opengl(file)) return "OpenGL is private to raster";
-  if (include.path.starts_with("tbb/") && !may_use_tbb(file)) return "loops are those of scene/parallel.h";
+  if (include.path.starts_with("tbb/") && !may_use_tbb(file))
+    return "loops are those of scene/base/parallel.h";
   if (opengl.contains(include.path) && !may_use_opengl(file)) return "that raster header shows OpenGL";
   if (include.path.starts_with("embedded/shaders") && !allowed(from, "shaders")) {
     return from + " may not see the shaders";
@@ -257,8 +258,8 @@ const std::vector<std::string> dropped_errors{"exists(",
 /// May ask std::filesystem itself: the file that others ask, and lists that leave out on purpose what cannot be read (an
 /// error is said where the files themselves are read, or there is nobody to be told).
 bool may_ask_about_paths(std::string_view path) {
-  constexpr std::string_view files[] = {"scene/files/path_status.cpp", "app/run_files.cpp",
-                                        "app/view/file_watch.cpp", "raster/shader_folder.cpp"};
+  constexpr std::string_view files[] = {"scene/files/path_status.cpp", "app/outputs/run_files.cpp",
+                                        "app/view/file_watch.cpp", "raster/programs/shader_folder.cpp"};
   return path.starts_with("tests/") || std::find(std::begin(files), std::end(files), path) != std::end(files);
 }
 
@@ -293,8 +294,8 @@ TEST(Arrows, HoldInTheWholeProject) {
 // The checks below show that each rule can fail.
 std::vector<std::string> broken_by(const std::string& path, const std::string& text) {
   return broken_arrows({{path, text},
-                        {"raster/gl.h", "#include <glad/gl.h>\n"},
-                        {"raster/object.h", "#pragma once\n#include \"raster/gl.h\"\n"}});
+                        {"raster/gl/gl.h", "#include <glad/gl.h>\n"},
+                        {"raster/object.h", "#pragma once\n#include \"raster/gl/gl.h\"\n"}});
 }
 
 TEST(Arrows, RenderersDoNotKnowEachOther) {
@@ -305,9 +306,9 @@ TEST(Arrows, RenderersDoNotKnowEachOther) {
 }
 
 TEST(Arrows, NobodyIncludesAppAndSceneIncludesNobody) {
-  EXPECT_EQ(broken_by("compare/a.cpp", "#include \"app/options.h\"\n").size(), 1u);
+  EXPECT_EQ(broken_by("compare/a.cpp", "#include \"app/options/options.h\"\n").size(), 1u);
   EXPECT_EQ(broken_by("scene/a.cpp", "#include \"compare/compare.h\"\n").size(), 1u);
-  EXPECT_TRUE(broken_by("tests/a.cpp", "#include \"app/options.h\"\n").empty());
+  EXPECT_TRUE(broken_by("tests/a.cpp", "#include \"app/options/options.h\"\n").empty());
 }
 
 TEST(Arrows, OpenGlStaysInRaster) {
@@ -319,7 +320,7 @@ TEST(Arrows, OpenGlStaysInRaster) {
 
 TEST(Arrows, LoopsAreThoseOfOneHeader) {
   EXPECT_EQ(broken_by("compare/a.cpp", "#include <tbb/parallel_for.h>\n").size(), 1u);
-  EXPECT_TRUE(broken_by("scene/parallel.cpp", "#include <tbb/parallel_for.h>\n").empty());
+  EXPECT_TRUE(broken_by("scene/base/parallel.cpp", "#include <tbb/parallel_for.h>\n").empty());
   EXPECT_TRUE(broken_by("tests/a.cpp", "#include <tbb/global_control.h>\n").empty());
 }
 

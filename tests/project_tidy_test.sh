@@ -41,7 +41,7 @@ unneeded_using='
 # What Highway compiles several times stands alone in the release preset, too, and is told by its own name.
 tidy_together() {
   local room=$1 units status=0
-  units="/(gnomon_${room}(_untimed)?\\.dir/Unity/unity_part_[0-9]+_cxx\\.cxx|$room/[^/]*\\.cpp)\$"
+  units="/(gnomon_${room}(_untimed)?\\.dir/Unity/unity_part_[0-9]+_cxx\\.cxx|$room/(base/)?[^/]*\\.cpp)\$"
   grep -qE "\"file\": \"[^\"]*${units%\$}\"" "$built/compile_commands.json" || { echo "nothing of $room is compiled in $built"; return 1; }
   # CMake's own file of a unit includes sources.
   tidy "$built" -checks=-bugprone-suspicious-include -header-filter="/$room/.*" "$units" || status=1

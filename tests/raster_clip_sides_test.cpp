@@ -1,6 +1,6 @@
 // What lies beyond a side of what a clip matrix shows covers no pixel: no point of a box that is left out is within, and
 // most boxes that lie outside are left out.
-#include "raster/triangle_runs.h"
+#include "raster/world/triangle_runs.h"
 
 #include <gtest/gtest.h>
 

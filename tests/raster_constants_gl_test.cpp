@@ -1,7 +1,7 @@
 // GLSL and C++ read shaders/shared_constants.h alike, and the structs of both languages have one layout.
-#include "raster/gl_program.h"
-#include "raster/light_block.h"
-#include "raster/world_buffers.h"
+#include "raster/passes/light_block.h"
+#include "raster/programs/gl_program.h"
+#include "raster/world/world_buffers.h"
 #include "shaders/shared_constants.h"
 #include "tests/raster_fixture.h"
 

@@ -1,5 +1,5 @@
 // Contexts: both backends make OpenGL 4.5 core, draw the same scene, and say who they are.
-#include "raster/gl.h"
+#include "raster/gl/gl.h"
 #include "tests/raster_fixture.h"
 
 namespace gnomon::test {

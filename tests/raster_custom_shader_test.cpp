@@ -1,5 +1,5 @@
 // Which files of a shader folder count as those that decide the visibility.
-#include "raster/shader_folder.h"
+#include "raster/programs/shader_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Filters where something particular is to be seen: light bleeding, the edges of a cube map, what a blur
 // conserves and costs.
-#include "raster/light_block.h"
-#include "raster/moment_pass.h"
+#include "raster/passes/light_block.h"
+#include "raster/passes/moment_pass.h"
 #include "shaders/shared_constants.h"
 #include "tests/raster_filter_reference.h"
 

@@ -1,4 +1,4 @@
-// The per-pixel records against scene/light_view.h in double precision, and against each other.
+// The per-pixel records against scene/light_map/light_view.h in double precision, and against each other.
 #include <cmath>
 
 #include "tests/raster_fixture.h"

@@ -1,6 +1,6 @@
 // The presenter draws a picture the right way up, unchanged, and scaled as asked.
-#include "raster/gl.h"
-#include "raster/present.h"
+#include "raster/gl/gl.h"
+#include "raster/gl/present.h"
 #include "tests/raster_fixture.h"
 
 namespace gnomon::test {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "scene/camera.h"
-#include "scene/light_view.h"
+#include "scene/light_map/light_view.h"
 #include "scene/world.h"
 
 namespace gnomon::test {

@@ -1,7 +1,7 @@
 // The rectangle around a shape holds every ray that meets it, and little else.
 #include <random>
 
-#include "raster/shape_bounds.h"
+#include "raster/world/shape_bounds.h"
 #include "tests/raster_reference.h"
 
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@
 
 #include "hybrid/visibility.h"
 #include "raster/renderer.h"
-#include "scene/stages.h"
+#include "scene/base/stages.h"
 #include "support/small_scenes.h"
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "raster/triangle_runs.h"
+#include "raster/world/triangle_runs.h"
 
 namespace gnomon::test {
 namespace {

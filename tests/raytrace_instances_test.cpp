@@ -10,7 +10,7 @@
 #include "raytrace/kernels.h"
 #include "raytrace/sheets/column_sheets.h"
 #include "raytrace/tracer.h"
-#include "scene/light_view.h"
+#include "scene/light_map/light_view.h"
 #include "support/placements.h"
 
 namespace gnomon {

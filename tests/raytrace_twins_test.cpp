@@ -5,7 +5,7 @@
 #include "raytrace/frame.h"
 #include "raytrace_support.h"
 #include "scene/light.h"
-#include "scene/solid.h"
+#include "scene/shapes/solid.h"
 #include "verify/random_scene.h"
 
 namespace gnomon {

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "scene/files/image_io.h"
-#include "scene/files/mtl.h"
+#include "scene/files/obj/mtl.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/load.h"
 #include "tests/scene_files_support.h"
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "scene/camera.h"
-#include "scene/cascade_fit.h"
 #include "scene/generate/random.h"
+#include "scene/light_map/cascade_fit.h"
 #include "support/small_scenes.h"
 
 namespace gnomon {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/expression.h"
 #include "scene/files/formats.h"
-#include "scene/solid.h"
+#include "scene/shapes/expression.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon {
 namespace {

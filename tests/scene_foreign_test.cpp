@@ -1,8 +1,8 @@
 // Formats that are read by way of glTF, by assimp in a process of its own; a skip where that program is not there.
 #include <cstdlib>
 
+#include "scene/base/run_program.h"
 #include "scene/load.h"
-#include "scene/run_program.h"
 #include "scene_files_support.h"
 
 namespace gnomon {

@@ -1,6 +1,6 @@
 // glTF's materials, their textures and the vertices' colours.
 #include "gltf_support.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/world.h"
 
 namespace gnomon::gltf_test {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "gltf_support.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 
 namespace gnomon::gltf_test {
 namespace {

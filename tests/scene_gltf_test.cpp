@@ -1,6 +1,6 @@
 // glTF and GLB: accessors of every kind, nodes, lights and cameras.
 #include "gltf_support.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/world.h"
 
 namespace gnomon::gltf_test {

@@ -4,9 +4,9 @@
 
 #include "gltf_support.h"
 #include "raytrace/frame.h"
-#include "scene/files/gltf_data.h"
-#include "scene/files/gltf_writer.h"
-#include "scene/tessellate.h"
+#include "scene/files/gltf/gltf_data.h"
+#include "scene/files/gltf/gltf_writer.h"
+#include "scene/shapes/tessellate.h"
 #include "scene/world.h"
 
 namespace gnomon::gltf_test {

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "scene/files/encodings.h"
-#include "scene/files/image_io.h"
-#include "scene/files/image_library.h"
+#include "scene/files/pictures/image_io.h"
+#include "scene/files/pictures/image_library.h"
 #include "scene_files_support.h"
 
 namespace gnomon {

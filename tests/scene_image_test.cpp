@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene_files_support.h"
 
 namespace gnomon {

@@ -3,7 +3,7 @@
 
 #include "scene/files/encodings.h"
 #include "scene/files/formats.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/world.h"
 #include "scene_files_support.h"
 

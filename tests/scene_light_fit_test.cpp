@@ -3,9 +3,9 @@
 
 #include <atomic>
 
-#include "scene/cascade_fit.h"
 #include "scene/generate/random.h"
-#include "scene/triangle_blocks.h"
+#include "scene/light_map/cascade_fit.h"
+#include "scene/shapes/triangle_blocks.h"
 #include "support/small_scenes.h"
 
 namespace gnomon {

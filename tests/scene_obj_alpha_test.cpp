@@ -1,5 +1,5 @@
 // Cut-outs of OBJ files: map_d of map_Kd's file, however the two are spelt, and of a file of its own.
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/load.h"
 #include "scene_files_support.h"
 

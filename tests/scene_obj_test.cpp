@@ -1,7 +1,7 @@
 // OBJ and MTL: geometry, materials, and every mistake with its line and column.
 #include <fmt/format.h>
 
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/files/polygon.h"
 #include "scene/load.h"
 #include "scene/world.h"

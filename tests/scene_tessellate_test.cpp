@@ -1,8 +1,8 @@
 // Triangles made of exact shapes: corners on the surface, closed where the shape is, outside out, converging.
 #include <gtest/gtest.h>
 
-#include "scene/closed_mesh.h"
-#include "scene/tessellate.h"
+#include "scene/shapes/closed_mesh.h"
+#include "scene/shapes/tessellate.h"
 #include "solid_samples.h"
 
 namespace gnomon {

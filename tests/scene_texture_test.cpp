@@ -1,7 +1,7 @@
 // Texture lookup: the documented formula, point by point.
 #include <gtest/gtest.h>
 
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/texture_sample.h"
 
 namespace gnomon {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "raytrace/shapes/intersect.h"
-#include "scene/solid.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon::test {
 
@@ -150,7 +150,7 @@ inline Quad value(const Expression& e, Quad x, Quad y, Quad z) {
 }
 }  // namespace quad_arithmetic
 
-/// f, without scene/solid.h: circles and slabs as a textbook writes them.
+/// f, without scene/shapes/solid.h: circles and slabs as a textbook writes them.
 inline __float128 quad_value(const ShapeGeometry& solid, __float128 x, __float128 y, __float128 z) {
   using namespace quad_arithmetic;  // NOLINT(google-build-using-namespace)
   if (const auto* torus = std::get_if<Torus>(&solid)) {

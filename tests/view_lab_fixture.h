@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "tests/app_process.h"
 #include "tests/view_display.h"
 

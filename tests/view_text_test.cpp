@@ -3,7 +3,7 @@
 
 #include "app/view/frame_watch.h"
 #include "app/view/style.h"
-#include "scene/timing.h"
+#include "scene/base/timing.h"
 
 namespace gnomon::app {
 namespace {

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "app/view/presets.h"
-#include "raster/shader_folder.h"
+#include "raster/programs/shader_folder.h"
 #include "tests/app_process.h"
 #include "tests/view_thread_fixture.h"
 

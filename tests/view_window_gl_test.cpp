@@ -11,7 +11,7 @@
 
 #include "compare/result/outputs.h"
 #include "compare/result/palette.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "tests/app_process.h"
 #include "tests/view_display.h"
 

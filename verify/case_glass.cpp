@@ -3,8 +3,8 @@
 
 #include <cfloat>
 
-#include "raytrace/error_bounds.h"
 #include "raytrace/frame.h"
+#include "raytrace/precision/error_bounds.h"
 #include "raytrace/shading/fresnel.h"
 #include "verify/cases.h"
 #include "verify/quad.h"

@@ -1,7 +1,7 @@
 // Where shadow rays start and end. Oracles: closed forms on axis-parallel scenes whose numbers are exact.
 #include <fmt/core.h>
 
-#include "raytrace/error_bounds.h"
+#include "raytrace/precision/error_bounds.h"
 #include "scene/light.h"
 #include "verify/cases.h"
 #include "verify/quad.h"

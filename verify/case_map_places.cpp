@@ -3,7 +3,7 @@
 // built.
 #include <fmt/core.h>
 
-#include "scene/cascade_fit.h"
+#include "scene/light_map/cascade_fit.h"
 #include "verify/cases.h"
 #include "verify/drawn_world.h"
 

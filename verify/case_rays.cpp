@@ -2,7 +2,7 @@
 // of two, the plane's closed form in 128 bits.
 #include <limits>
 
-#include "raytrace/error_bounds.h"
+#include "raytrace/precision/error_bounds.h"
 #include "verify/cases.h"
 #include "verify/quad.h"
 #include "verify/small_world.h"

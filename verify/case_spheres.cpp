@@ -1,7 +1,7 @@
 // Spheres against the textbook quadratic in 128 bits, on the same ray.
 #include <fmt/core.h>
 
-#include "raytrace/error_bounds.h"
+#include "raytrace/precision/error_bounds.h"
 #include "verify/cases.h"
 #include "verify/quad.h"
 #include "verify/small_world.h"

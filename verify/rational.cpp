@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scene/solid.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon::verify {
 

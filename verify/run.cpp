@@ -1,6 +1,6 @@
 #include "verify/run.h"
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::verify {
 

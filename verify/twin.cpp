@@ -4,7 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scene/solid.h"
+#include "scene/shapes/solid.h"
 #include "verify/small_world.h"
 
 namespace gnomon::verify {

@@ -9,8 +9,8 @@
 #include "hybrid/hard_shadows.h"
 #include "raytrace/frame.h"
 #include "raytrace/tiles.h"
-#include "scene/expected.h"
-#include "scene/parallel.h"
+#include "scene/base/expected.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::app {
 namespace {

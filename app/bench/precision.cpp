@@ -9,8 +9,8 @@
 
 #include "app/bench/row.h"
 #include "raytrace/frame.h"
-#include "scene/expected.h"
-#include "scene/parallel.h"
+#include "scene/base/expected.h"
+#include "scene/base/parallel.h"
 #include "verify/adversarial.h"
 #include "verify/rational.h"
 

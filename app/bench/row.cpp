@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/machine.h"
+#include "app/process/machine.h"
 #include "compare/result/result_parts.h"
 
 namespace gnomon::app {

@@ -6,11 +6,11 @@
 #include <atomic>
 
 #include "app/bench/row.h"
-#include "app/options.h"
+#include "app/options/options.h"
 #include "raytrace/tracer.h"
-#include "scene/expected.h"
-#include "scene/parallel.h"
-#include "scene/timing.h"
+#include "scene/base/expected.h"
+#include "scene/base/parallel.h"
+#include "scene/base/timing.h"
 
 namespace gnomon::app {
 namespace {

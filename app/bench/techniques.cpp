@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "app/options.h"
-#include "app/output_path.h"
-#include "app/render_json.h"
+#include "app/options/options.h"
+#include "app/outputs/output_path.h"
+#include "app/outputs/render_json.h"
 #include "compare/result/shadow_cost.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
+#include "scene/base/parallel.h"
 #include "scene/files/write_file.h"
-#include "scene/parallel.h"
 
 namespace gnomon::app {
 namespace {

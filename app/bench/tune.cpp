@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "app/options.h"
-#include "app/render_json.h"
+#include "app/options/options.h"
+#include "app/outputs/render_json.h"
 #include "app/session.h"
-#include "app/tune_families.h"
+#include "app/tune/tune_families.h"
 #include "raster/technique_traits.h"
-#include "scene/expected.h"
-#include "scene/parallel.h"
+#include "scene/base/expected.h"
+#include "scene/base/parallel.h"
 #include "studies/tune/full_grid.h"
 
 namespace gnomon::app {

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/interrupt.h"
-#include "app/run_files.h"
+#include "app/outputs/run_files.h"
+#include "app/process/interrupt.h"
 
 namespace gnomon::app {
 namespace {

@@ -8,11 +8,11 @@
 #include "app/bench/row.h"
 #include "app/bench/techniques.h"
 #include "app/invocation.h"
-#include "app/option_kinds.h"
-#include "app/options.h"
-#include "app/render_json.h"
-#include "app/values.h"
-#include "scene/parallel.h"
+#include "app/options/option_kinds.h"
+#include "app/options/options.h"
+#include "app/options/values.h"
+#include "app/outputs/render_json.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::app {
 

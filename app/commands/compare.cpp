@@ -9,20 +9,20 @@
 #include <memory>
 #include <optional>
 
-#include "app/machine.h"
-#include "app/memory_limit.h"
-#include "app/option_kinds.h"
-#include "app/options.h"
-#include "app/output_path.h"
-#include "app/result_output.h"
+#include "app/options/option_kinds.h"
+#include "app/options/options.h"
+#include "app/options/setting.h"
+#include "app/outputs/output_path.h"
+#include "app/outputs/result_output.h"
+#include "app/process/machine.h"
+#include "app/process/memory_limit.h"
 #include "app/session.h"
-#include "app/setting.h"
 #include "app/strongest_lights.h"
 #include "app/swim_note.h"
 #include "compare/measure/reduced.h"
 #include "raster/bands.h"
-#include "scene/stages.h"
-#include "scene/timing.h"
+#include "scene/base/stages.h"
+#include "scene/base/timing.h"
 
 namespace gnomon::app {
 

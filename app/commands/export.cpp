@@ -6,20 +6,20 @@
 #include <memory>
 
 #include "app/console.h"
-#include "app/effect_options.h"
-#include "app/interrupt.h"
 #include "app/invocation.h"
-#include "app/lesson_scene.h"
-#include "app/options.h"
-#include "app/output_path.h"
+#include "app/lessons/lesson_scene.h"
+#include "app/options/effect_options.h"
+#include "app/options/options.h"
+#include "app/options/values.h"
+#include "app/outputs/output_path.h"
+#include "app/process/interrupt.h"
 #include "app/session.h"
 #include "app/suite/write.h"
-#include "app/values.h"
-#include "scene/files/gltf_writer.h"
+#include "scene/base/stages.h"
+#include "scene/files/gltf/gltf_writer.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
-#include "scene/stages.h"
-#include "scene/tessellate.h"
+#include "scene/shapes/tessellate.h"
 
 namespace gnomon::app {
 

@@ -10,14 +10,14 @@
 
 #include "app/console.h"
 #include "app/grade/results.h"
-#include "app/interrupt.h"
 #include "app/invocation.h"
-#include "app/option_kinds.h"
-#include "app/options.h"
-#include "app/output_path.h"
-#include "app/render_json.h"
-#include "app/run_files.h"
-#include "scene/expected.h"
+#include "app/options/option_kinds.h"
+#include "app/options/options.h"
+#include "app/outputs/output_path.h"
+#include "app/outputs/render_json.h"
+#include "app/outputs/run_files.h"
+#include "app/process/interrupt.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app {
 

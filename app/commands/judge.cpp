@@ -9,16 +9,16 @@
 #include <memory>
 #include <set>
 
-#include "app/interrupt.h"
-#include "app/judge_options.h"
-#include "app/machine.h"
-#include "app/option_kinds.h"
-#include "app/options.h"
-#include "app/result_output.h"
+#include "app/options/judge_options.h"
+#include "app/options/option_kinds.h"
+#include "app/options/options.h"
+#include "app/outputs/result_output.h"
+#include "app/process/interrupt.h"
+#include "app/process/machine.h"
+#include "scene/base/stages.h"
 #include "scene/files/path_status.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
-#include "scene/stages.h"
 #include "studies/judge/identify.h"
 #include "studies/judge/several.h"
 

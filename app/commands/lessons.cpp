@@ -6,14 +6,14 @@
 #include <memory>
 
 #include "app/console.h"
-#include "app/interrupt.h"
 #include "app/invocation.h"
 #include "app/lessons/site.h"
-#include "app/options.h"
-#include "app/run_files.h"
+#include "app/options/options.h"
+#include "app/outputs/run_files.h"
+#include "app/process/interrupt.h"
+#include "scene/base/timing.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
-#include "scene/timing.h"
 
 namespace gnomon::app {
 

@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "app/console.h"
-#include "app/interrupt.h"
 #include "app/invocation.h"
-#include "app/options.h"
-#include "app/output_path.h"
-#include "scene/expected.h"
+#include "app/options/options.h"
+#include "app/outputs/output_path.h"
+#include "app/process/interrupt.h"
+#include "scene/base/expected.h"
 #include "scene/files/path_status.h"
 #include "studies/sweep/merge.h"
 

@@ -8,17 +8,17 @@
 #include <numeric>
 
 #include "app/invocation.h"
-#include "app/memory_limit.h"
-#include "app/options.h"
-#include "app/picture_samples.h"
-#include "app/render_json.h"
+#include "app/options/options.h"
+#include "app/outputs/picture_samples.h"
+#include "app/outputs/render_json.h"
+#include "app/process/memory_limit.h"
 #include "app/session.h"
 #include "app/strongest_lights.h"
 #include "compare/result/number_text.h"
 #include "compare/result/text_layout.h"
 #include "raytrace/choose_tracer.h"
 #include "raytrace/forecast.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/light.h"
 
 namespace gnomon::app {

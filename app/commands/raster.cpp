@@ -2,14 +2,14 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "app/effect_options.h"
 #include "app/invocation.h"
-#include "app/map_options.h"
-#include "app/options.h"
-#include "app/output_path.h"
-#include "app/picture_bands.h"
-#include "app/picture_command.h"
-#include "app/pose_options.h"
+#include "app/options/effect_options.h"
+#include "app/options/map_options.h"
+#include "app/options/options.h"
+#include "app/options/pose_options.h"
+#include "app/outputs/output_path.h"
+#include "app/outputs/picture_bands.h"
+#include "app/outputs/picture_command.h"
 #include "app/session.h"
 #include "raster/bands.h"
 

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/console.h"
+#include "app/help/manual.h"
 #include "app/invocation.h"
-#include "app/manual.h"
-#include "app/options.h"
-#include "app/output_path.h"
-#include "app/render_json.h"
+#include "app/options/options.h"
+#include "app/outputs/output_path.h"
+#include "app/outputs/render_json.h"
 #include "report/lessons.h"
 #include "scene/load.h"
 

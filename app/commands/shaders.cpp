@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "app/console.h"
-#include "app/interrupt.h"
 #include "app/invocation.h"
-#include "app/options.h"
-#include "app/output_path.h"
-#include "raster/shader_folder.h"
+#include "app/options/options.h"
+#include "app/outputs/output_path.h"
+#include "app/process/interrupt.h"
+#include "raster/programs/shader_folder.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/staged_folder.h"

@@ -6,16 +6,16 @@
 #include <fstream>
 #include <memory>
 
-#include "app/interrupt.h"
-#include "app/option_kinds.h"
-#include "app/options.h"
-#include "app/output_path.h"
-#include "app/render_json.h"
+#include "app/options/option_kinds.h"
+#include "app/options/options.h"
+#include "app/options/setting.h"
+#include "app/options/shimmer_options.h"
+#include "app/outputs/output_path.h"
+#include "app/outputs/render_json.h"
+#include "app/process/interrupt.h"
 #include "app/session.h"
-#include "app/setting.h"
-#include "app/shimmer_options.h"
 #include "app/strongest_lights.h"
-#include "scene/timing.h"
+#include "scene/base/timing.h"
 #include "studies/shimmer/write.h"
 
 namespace gnomon::app {

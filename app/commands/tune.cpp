@@ -8,22 +8,22 @@
 #include <algorithm>
 #include <memory>
 
-#include "app/interrupt.h"
-#include "app/machine.h"
-#include "app/option_kinds.h"
-#include "app/options.h"
-#include "app/render_json.h"
+#include "app/options/option_kinds.h"
+#include "app/options/options.h"
+#include "app/options/shimmer_options.h"
+#include "app/options/values.h"
+#include "app/outputs/render_json.h"
+#include "app/process/interrupt.h"
+#include "app/process/machine.h"
 #include "app/session.h"
-#include "app/shimmer_options.h"
 #include "app/strongest_lights.h"
 #include "app/sweep/axes.h"
-#include "app/tune_answer.h"
-#include "app/values.h"
+#include "app/tune/tune_answer.h"
 #include "compare/result/figures.h"
 #include "compare/result/number_text.h"
-#include "raster/shader_folder.h"
+#include "raster/programs/shader_folder.h"
 #include "report/write_outputs.h"
-#include "scene/timing.h"
+#include "scene/base/timing.h"
 #include "studies/tune/page.h"
 
 namespace gnomon::app {

@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/invocation.h"
-#include "app/options.h"
-#include "app/output_path.h"
-#include "app/render_json.h"
+#include "app/options/options.h"
+#include "app/options/values.h"
+#include "app/outputs/output_path.h"
+#include "app/outputs/render_json.h"
 #include "app/session.h"
-#include "app/values.h"
 #include "verify/verify.h"
 
 namespace gnomon::app {

@@ -7,11 +7,11 @@
 #include <memory>
 
 #include "app/invocation.h"
-#include "app/map_options.h"
-#include "app/option_kinds.h"
-#include "app/options.h"
+#include "app/options/map_options.h"
+#include "app/options/option_kinds.h"
+#include "app/options/options.h"
+#include "app/options/values.h"
 #include "app/strongest_lights.h"
-#include "app/values.h"
 
 namespace gnomon::app {
 

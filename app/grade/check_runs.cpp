@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "app/grade/limited_process.h"
-#include "app/setting.h"
-#include "scene/expected.h"
+#include "app/options/setting.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app::grade {
 

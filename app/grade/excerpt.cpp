@@ -5,7 +5,7 @@
 #include <charconv>
 #include <sstream>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon::app::grade {

@@ -9,8 +9,8 @@
 #include "compare/bias/bias_curve.h"
 #include "compare/ladder/budget.h"
 #include "compare/result/figures.h"
-#include "scene/files/image_io.h"
 #include "scene/files/path_status.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon::app::grade {

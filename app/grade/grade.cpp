@@ -11,10 +11,10 @@
 
 #include "app/grade/check_runs.h"
 #include "compare/result/number_text.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
+#include "scene/base/threads.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
-#include "scene/threads.h"
 
 namespace gnomon::app::grade {
 

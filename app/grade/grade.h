@@ -10,7 +10,7 @@
 
 #include "app/grade/rubric.h"
 #include "compare/comparison.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app::grade {
 

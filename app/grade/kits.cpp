@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/output_path.h"
+#include "app/outputs/output_path.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/staged_folder.h"

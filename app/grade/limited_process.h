@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/grade/rubric.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app::grade {
 

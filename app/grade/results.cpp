@@ -7,7 +7,7 @@
 
 #include "compare/result/csv_field.h"
 #include "compare/result/option_names.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app::grade {
 

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <set>
 
-#include "app/options.h"
-#include "app/setting.h"
+#include "app/options/options.h"
+#include "app/options/setting.h"
 #include "compare/comparison.h"
 #include "compare/result/figures.h"
-#include "raster/shader_folder.h"
+#include "raster/programs/shader_folder.h"
 #include "raster/technique_traits.h"
-#include "scene/files/json_reader.h"
+#include "scene/files/json/json_reader.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/load.h"

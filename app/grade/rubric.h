@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::compare {
 struct Figure;

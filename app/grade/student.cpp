@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <set>
 
-#include "raster/shader_folder.h"
-#include "scene/expected.h"
+#include "raster/programs/shader_folder.h"
+#include "scene/base/expected.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 

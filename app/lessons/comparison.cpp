@@ -5,13 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "app/lesson_scene.h"
-#include "app/map_options.h"
-#include "app/options.h"
+#include "app/lessons/lesson_scene.h"
+#include "app/options/map_options.h"
+#include "app/options/options.h"
+#include "app/options/setting.h"
 #include "app/session.h"
-#include "app/setting.h"
 #include "compare/result/result_parts.h"
-#include "report/page_data.h"
+#include "report/pixels/page_data.h"
 
 namespace gnomon::app::lessons {
 

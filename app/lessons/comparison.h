@@ -1,5 +1,5 @@
 // A comparison as a live figure shows it: what `gnomon compare` would do with the same words, in a picture small enough
-// for a phone, as the parts of a page's data (report/page_data.h).
+// for a phone, as the parts of a page's data (report/pixels/page_data.h).
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "report/shell.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app {
 class Console;

@@ -9,7 +9,7 @@
 
 #include "app/lessons/comparison.h"
 #include "app/lessons/lesson_text.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app::lessons {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/world.h"
 
 namespace gnomon::app::lessons {

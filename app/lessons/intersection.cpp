@@ -5,7 +5,7 @@
 #include <array>
 
 #include "raytrace/tracer.h"
-#include "scene/expression.h"
+#include "scene/shapes/expression.h"
 #include "scene/world.h"
 
 namespace gnomon::app::lessons {

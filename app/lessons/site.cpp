@@ -12,7 +12,7 @@
 #include "report/html.h"
 #include "report/lessons.h"
 #include "report/shell.h"
-#include "scene/option_text.h"
+#include "scene/base/option_text.h"
 
 namespace gnomon::app::lessons {
 

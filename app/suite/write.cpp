@@ -3,13 +3,13 @@
 #include <embedded/suite.h>
 #include <fmt/core.h>
 
-#include "app/interrupt.h"
-#include "scene/files/gltf_writer.h"
-#include "scene/files/image_io.h"
+#include "app/process/interrupt.h"
+#include "scene/base/stages.h"
+#include "scene/files/gltf/gltf_writer.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 #include "scene/light.h"
-#include "scene/stages.h"
 
 namespace gnomon::app {
 

@@ -6,7 +6,7 @@
 
 #include "app/console.h"
 #include "raytrace/frame.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/image.h"
 #include "scene/scene.h"
 

@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "app/options.h"
-#include "app/setting.h"
+#include "app/options/options.h"
+#include "app/options/setting.h"
 
 namespace gnomon::app {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/setting.h"
+#include "app/options/setting.h"
 #include "studies/sweep/axis.h"
 
 namespace CLI {

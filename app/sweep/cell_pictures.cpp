@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "app/interrupt.h"
+#include "app/process/interrupt.h"
 #include "compare/result/outputs.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/files/write_file.h"
 #include "studies/sweep/cell_files.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "studies/sweep/engine.h"
 
 namespace gnomon::app {

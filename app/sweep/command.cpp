@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/setting.h"
+#include "app/options/setting.h"
 #include "compare/result/option_names.h"
 #include "scene/files/encodings.h"
 #include "scene/files/read_file.h"

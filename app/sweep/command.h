@@ -7,14 +7,14 @@
 #include <string_view>
 #include <vector>
 
-#include "app/options.h"
-#include "app/shimmer_options.h"
+#include "app/options/options.h"
+#include "app/options/shimmer_options.h"
 #include "app/strongest_lights.h"
 #include "app/sweep/axes.h"
 #include "compare/result/output_parts.h"
 #include "raster/frame.h"
 #include "report/write_outputs.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "studies/sweep/axis.h"
 #include "studies/sweep/journal.h"
 

@@ -5,10 +5,10 @@
 #include <deque>
 #include <future>
 
-#include "app/interrupt.h"
+#include "app/process/interrupt.h"
 #include "compare/result/output_parts.h"
-#include "scene/threads.h"
-#include "scene/timing.h"
+#include "scene/base/threads.h"
+#include "scene/base/timing.h"
 #include "studies/sweep/cell_files.h"
 
 namespace gnomon::app {

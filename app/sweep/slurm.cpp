@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "app/setting.h"
-#include "scene/run_program.h"
+#include "app/options/setting.h"
+#include "scene/base/run_program.h"
 
 namespace gnomon::app {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "compare/result/number_text.h"
-#include "scene/stages.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::app {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/expected.h"
-#include "scene/timing.h"
+#include "scene/base/expected.h"
+#include "scene/base/timing.h"
 
 namespace gnomon::app {
 

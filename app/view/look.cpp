@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scene/option_text.h"
+#include "scene/base/option_text.h"
 
 namespace gnomon::app {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/math.h"
 
 namespace gnomon::app {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "compare/result/palette.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::app {
 

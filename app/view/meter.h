@@ -8,7 +8,7 @@
 
 #include "app/view/frame_watch.h"
 #include "app/view/render_thread.h"
-#include "scene/timing.h"
+#include "scene/base/timing.h"
 
 namespace gnomon::app {
 

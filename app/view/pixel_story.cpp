@@ -7,7 +7,7 @@
 
 #include "compare/ladder/labels.h"
 #include "report/pixel_words.h"
-#include "scene/light_view.h"
+#include "scene/light_map/light_view.h"
 
 namespace gnomon::app {
 

@@ -9,7 +9,7 @@
 #include "app/view/layout.h"
 #include "app/view/state.h"
 #include "scene/camera.h"
-#include "scene/light_view.h"
+#include "scene/light_map/light_view.h"
 
 namespace gnomon::app {
 

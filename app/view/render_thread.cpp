@@ -6,7 +6,7 @@
 #include <exception>
 
 #include "app/view/priority.h"
-#include "scene/threads.h"
+#include "scene/base/threads.h"
 
 namespace gnomon::app {
 

@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/interrupt.h"
-#include "app/lesson_scene.h"
-#include "app/output_path.h"
+#include "app/lessons/lesson_scene.h"
+#include "app/outputs/output_path.h"
 #include "app/pose.h"
+#include "app/process/interrupt.h"
 #include "app/view/status.h"
 #include "compare/result/result_parts.h"
 #include "scene/files/formats.h"
-#include "scene/files/light_json.h"
+#include "scene/files/json/light_json.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 #include "scene/load.h"

@@ -3,9 +3,9 @@
 
 #include <CLI/App.hpp>
 
-#include "app/lesson_scene.h"
-#include "app/map_options.h"
-#include "app/options.h"
+#include "app/lessons/lesson_scene.h"
+#include "app/options/map_options.h"
+#include "app/options/options.h"
 
 namespace gnomon::app {
 

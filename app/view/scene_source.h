@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "app/run_files.h"
+#include "app/outputs/run_files.h"
 #include "app/session.h"
 #include "app/strongest_lights.h"
 #include "app/view/state.h"
 #include "compare/compare.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app {
 

@@ -7,12 +7,12 @@
 #include <array>
 #include <sstream>
 
-#include "app/lesson_scene.h"
-#include "app/map_options.h"
-#include "app/values.h"
+#include "app/lessons/lesson_scene.h"
+#include "app/options/map_options.h"
+#include "app/options/values.h"
+#include "scene/base/option_text.h"
 #include "scene/files/read_file.h"
 #include "scene/load.h"
-#include "scene/option_text.h"
 
 namespace gnomon::app {
 

@@ -30,7 +30,7 @@
 
 #include "app/view/input.h"
 #include "app/view/state.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/pose_options.h"
+#include "app/options/pose_options.h"
 
 namespace gnomon::app {
 

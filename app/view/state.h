@@ -15,7 +15,7 @@
 #include "app/view/look.h"
 #include "raster/options.h"
 #include "raytrace/tracer.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/world.h"
 
 namespace gnomon::app {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "app/options.h"
-#include "app/setting.h"
-#include "app/values.h"
+#include "app/options/options.h"
+#include "app/options/setting.h"
+#include "app/options/values.h"
 #include "compare/result/number_text.h"
 #include "raster/settings.h"
 

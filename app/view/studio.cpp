@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "compare/result/outputs.h"
+#include "scene/base/timing.h"
 #include "scene/exposure.h"
-#include "scene/files/image_io.h"
-#include "scene/timing.h"
+#include "scene/files/pictures/image_io.h"
 
 namespace gnomon::app {
 

@@ -7,7 +7,7 @@
 
 #include "app/view/layout.h"
 #include "app/view/look.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 struct ImVec4;
 

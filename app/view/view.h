@@ -5,8 +5,8 @@
 #include <string>
 
 #include "app/invocation.h"
-#include "app/pose_options.h"
-#include "app/run_files.h"
+#include "app/options/pose_options.h"
+#include "app/outputs/run_files.h"
 #include "app/strongest_lights.h"
 #include "app/view/look.h"
 #include "compare/compare.h"

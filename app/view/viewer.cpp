@@ -5,8 +5,8 @@
 #include "app/view/panels/panels.h"
 #include "app/view/presets.h"
 #include "app/view/status.h"
-#include "raster/context.h"
-#include "scene/expected.h"
+#include "raster/gl/context.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app {
 

@@ -25,8 +25,8 @@
 #include "app/view/status.h"
 #include "app/view/view.h"
 #include "app/view/window.h"
-#include "raster/present.h"
-#include "scene/timing.h"
+#include "raster/gl/present.h"
+#include "scene/base/timing.h"
 
 namespace gnomon::app {
 

@@ -7,16 +7,16 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/interrupt.h"
-#include "app/output_path.h"
+#include "app/outputs/output_path.h"
+#include "app/process/interrupt.h"
 #include "app/view/scene_source.h"
 #include "app/view/status.h"
 #include "app/view/viewer.h"
 #include "raster/settings.h"
-#include "scene/expected.h"
-#include "scene/files/image_io.h"
+#include "scene/base/expected.h"
+#include "scene/base/threads.h"
 #include "scene/files/path_status.h"
-#include "scene/threads.h"
+#include "scene/files/pictures/image_io.h"
 
 namespace gnomon::app {
 

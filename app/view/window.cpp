@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "app/interrupt.h"
+#include "app/process/interrupt.h"
 
 namespace gnomon::app {
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "app/view/input.h"
-#include "raster/context.h"
-#include "scene/expected.h"
+#include "raster/gl/context.h"
+#include "scene/base/expected.h"
 #include "scene/image.h"
 
 struct GLFWwindow;

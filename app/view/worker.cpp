@@ -7,7 +7,7 @@
 
 #include "app/view/priority.h"
 #include "compare/result/outputs.h"
-#include "scene/threads.h"
+#include "scene/base/threads.h"
 
 namespace gnomon::app {
 

@@ -15,8 +15,8 @@
 #include "compare/comparison.h"
 #include "compare/result/verdict.h"
 #include "compare/truth/shown_materials.h"
+#include "scene/base/expected.h"
 #include "scene/effects.h"
-#include "scene/expected.h"
 #include "scene/world.h"
 
 namespace gnomon::app {

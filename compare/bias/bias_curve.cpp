@@ -5,7 +5,7 @@
 #include "compare/ladder/budget.h"
 #include "compare/metrics/pixel_list.h"
 #include "raster/technique_traits.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

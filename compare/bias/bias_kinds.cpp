@@ -9,8 +9,8 @@
 #include "compare/ladder/biased_test.h"
 #include "compare/metrics/pixel_list.h"
 #include "raster/technique_traits.h"
+#include "scene/base/parallel.h"
 #include "scene/light.h"
-#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {

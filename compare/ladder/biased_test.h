@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "raster/frame.h"
-#include "raytrace/sheets.h"
+#include "raytrace/sheets/sheets.h"
 #include "raytrace/tracer.h"
 
 namespace gnomon::compare {

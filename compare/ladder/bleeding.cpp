@@ -1,7 +1,7 @@
 #include "compare/ladder/bleeding.h"
 
 #include "compare/ladder/filter_probe.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

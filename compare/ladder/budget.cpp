@@ -2,7 +2,7 @@
 
 #include "compare/ladder/labelling.h"
 #include "compare/ladder/labels.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

@@ -12,9 +12,9 @@
 #include "compare/truth/stored_surface.h"
 #include "raster/technique_traits.h"
 #include "raytrace/sheets/column_sheets.h"
-#include "scene/parallel.h"
-#include "scene/solid.h"
-#include "scene/stages.h"
+#include "scene/base/parallel.h"
+#include "scene/base/stages.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon::compare {
 

@@ -7,7 +7,7 @@
 #include "compare/comparison.h"
 #include "compare/truth/surfaces.h"
 #include "compare/truth/texel_groups.h"
-#include "raytrace/sheets.h"
+#include "raytrace/sheets/sheets.h"
 
 namespace gnomon::compare {
 

@@ -7,8 +7,8 @@
 #include "compare/truth/shown_materials.h"
 #include "raster/bands.h"
 #include "raytrace/frame.h"
+#include "scene/base/stages.h"
 #include "scene/exposure.h"
-#include "scene/stages.h"
 
 namespace gnomon::compare {
 namespace {

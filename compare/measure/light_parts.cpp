@@ -7,7 +7,7 @@
 #include "compare/bias/bias_curve.h"
 #include "compare/metrics/pixel_list.h"
 #include "compare/result/option_names.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 

@@ -5,7 +5,7 @@
 #include "compare/measure/image_sink.h"
 #include "raster/bands.h"
 #include "raytrace/frame.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "compare/measure/pictures.h"
 #include "compare/measure/plan.h"
-#include "scene/files/exr_file.h"
+#include "scene/files/pictures/exr_file.h"
 
 namespace gnomon::compare {
 

@@ -10,7 +10,7 @@
 #include "compare/ladder/ladder.h"
 #include "compare/measure/sums.h"
 #include "raster/renderer.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::compare {
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "scene/expected.h"
-#include "scene/parallel.h"
+#include "scene/base/expected.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 

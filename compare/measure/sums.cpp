@@ -9,8 +9,8 @@
 #include "compare/metrics/ssim.h"
 #include "compare/result/shadow_cost.h"
 #include "compare/truth/cascades.h"
-#include "scene/parallel.h"
-#include "scene/stages.h"
+#include "scene/base/parallel.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::compare {
 namespace {

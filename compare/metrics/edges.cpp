@@ -1,6 +1,6 @@
 #include "compare/metrics/edges.h"
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "compare/metrics/weighted_rows.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

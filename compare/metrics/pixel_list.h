@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "compare/metrics/ssim_rows.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compare/comparison.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 
 namespace gnomon::compare {
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::compare {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "scene/time_difference.h"
+#include "scene/base/time_difference.h"
 
 namespace gnomon::compare {
 

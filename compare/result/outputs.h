@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compare/comparison.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::compare {
 

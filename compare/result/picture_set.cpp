@@ -9,8 +9,8 @@
 #include "compare/measure/run_all.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
-#include "scene/files/image_io.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
+#include "scene/files/pictures/image_io.h"
 
 namespace gnomon::compare {
 namespace {

@@ -9,8 +9,8 @@
 #include "compare/result/outputs.h"
 #include "compare/result/palette.h"
 #include "hybrid/hard_shadows.h"
-#include "scene/files/image_io.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
+#include "scene/files/pictures/image_io.h"
 
 namespace gnomon::compare {
 namespace {

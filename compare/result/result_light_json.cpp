@@ -11,8 +11,8 @@
 #include "compare/result/output_parts.h"
 #include "compare/result/result_parts.h"
 #include "compare/result/shadow_cost.h"
-#include "scene/files/light_json.h"
-#include "scene/light_view.h"
+#include "scene/files/json/light_json.h"
+#include "scene/light_map/light_view.h"
 
 namespace gnomon::compare {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "compare/comparison.h"
 #include "compare/ladder/by_cascade.h"
-#include "scene/time_difference.h"
+#include "scene/base/time_difference.h"
 
 namespace gnomon::compare {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/comparison.h"
-#include "scene/time_difference.h"
+#include "scene/base/time_difference.h"
 
 namespace gnomon::compare {
 

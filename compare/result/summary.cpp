@@ -16,9 +16,9 @@
 #include "compare/result/shadow_cost.h"
 #include "compare/result/text_layout.h"
 #include "compare/result/verdict.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/light.h"
-#include "scene/light_view.h"
+#include "scene/light_map/light_view.h"
 
 namespace gnomon::compare {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scene/stages.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::compare {
 

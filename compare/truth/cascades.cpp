@@ -2,7 +2,7 @@
 
 #include "compare/ladder/biased_test.h"
 #include "compare/truth/surfaces.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

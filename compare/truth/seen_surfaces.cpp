@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 

@@ -2,7 +2,7 @@
 
 #include "compare/truth/stored_surface.h"
 #include "compare/truth/texel_groups.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 

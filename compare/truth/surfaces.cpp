@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cmath>
 
-#include "scene/parallel.h"
-#include "scene/ranges.h"
+#include "scene/base/parallel.h"
+#include "scene/base/ranges.h"
 
 namespace gnomon::compare {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "raytrace/frame.h"
 #include "raytrace/huge_array.h"
-#include "raytrace/sheets.h"
+#include "raytrace/sheets/sheets.h"
 
 namespace gnomon::compare {
 

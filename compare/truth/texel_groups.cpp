@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "compare/metrics/pixel_list.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 

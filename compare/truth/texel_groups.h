@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "raster/frame.h"
-#include "raytrace/sheets.h"
+#include "raytrace/sheets/sheets.h"
 
 namespace gnomon::compare {
 

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "compare/ladder/biased_test.h"
+#include "scene/base/parallel.h"
 #include "scene/camera.h"
-#include "scene/parallel.h"
 
 namespace gnomon::compare {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "raytrace/accel/polytope.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {

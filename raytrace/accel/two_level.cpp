@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {

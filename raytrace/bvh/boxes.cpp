@@ -3,8 +3,8 @@
 #include "raytrace/bvh/bvh.h"
 #include "raytrace/bvh/float4.h"
 #include "raytrace/given_up.h"
-#include "scene/parallel.h"
-#include "scene/solid.h"
+#include "scene/base/parallel.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon::raytrace {
 namespace {

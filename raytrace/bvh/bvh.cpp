@@ -8,8 +8,8 @@
 #include "raytrace/bvh/instance.h"
 #include "raytrace/bvh/treelet.h"
 #include "raytrace/given_up.h"
-#include "scene/parallel.h"
-#include "scene/solid.h"
+#include "scene/base/parallel.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon::raytrace {
 namespace {

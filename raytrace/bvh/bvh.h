@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "raytrace/bvh/leaf_primitives.h"
-#include "raytrace/error_bounds.h"
 #include "raytrace/huge_array.h"
+#include "raytrace/precision/error_bounds.h"
 #include "scene/world.h"
 
 namespace gnomon::raytrace {

@@ -5,7 +5,7 @@
 
 #include "raytrace/bvh/treelet.h"
 #include "raytrace/given_up.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {

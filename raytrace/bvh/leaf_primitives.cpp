@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "raytrace/given_up.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 

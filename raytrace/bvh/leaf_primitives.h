@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "raytrace/huge_array.h"
-#include "scene/function_ref.h"
+#include "scene/base/function_ref.h"
 #include "scene/math.h"
 
 namespace gnomon::raytrace {
 
 /// A triangle's corners (x0 y0 z0 x1 ... z2), or a sphere's centre and radius in the first four; nothing
-/// for a solid (scene/solid.h), which is looked up by its id.
+/// for a solid (scene/shapes/solid.h), which is looked up by its id.
 struct LeafPrimitive {
   std::array<double, 9> v;
   Vec3 corner(std::size_t k) const { return {v[3 * k], v[3 * k + 1], v[3 * k + 2]}; }

@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "raytrace/bvh/wide_tree.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 

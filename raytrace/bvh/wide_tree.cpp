@@ -7,7 +7,7 @@
 
 #include "raytrace/bvh/wide_instances.h"
 #include "raytrace/given_up.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {

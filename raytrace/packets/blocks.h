@@ -5,7 +5,7 @@
 #include <stop_token>
 
 #include "raytrace/tiles.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 

@@ -5,7 +5,7 @@
 
 #include "raytrace/packets/light_setup.h"
 #include "raytrace/packets/shadow_block.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {

@@ -1,5 +1,5 @@
 // Interval arithmetic: numbers known to lie between two doubles (Moore 1966, "Interval Analysis"), with every
-// result rounded outwards. The functions that expressions need (scene/expression.h) are here, and the
+// result rounded outwards. The functions that expressions need (scene/shapes/expression.h) are here, and the
 // derivative of each, so that a function can be bounded together with its slope along a ray (Mitchell 1990,
 // "Robust ray intersection with interval arithmetic", Graphics Interface).
 //
@@ -9,8 +9,8 @@
 
 #include <cfloat>
 
-#include "scene/expression.h"
 #include "scene/math.h"
+#include "scene/shapes/expression.h"
 
 namespace gnomon::raytrace {
 

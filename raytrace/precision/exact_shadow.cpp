@@ -1,6 +1,6 @@
 #include "raytrace/precision/exact_shadow.h"
 
-#include "scene/solid.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon::raytrace {
 

@@ -1,6 +1,6 @@
 #include "raytrace/precision/facing.h"
 
-#include "raytrace/error_bounds.h"
+#include "raytrace/precision/error_bounds.h"
 #include "raytrace/precision/exact.h"
 
 namespace gnomon::raytrace {

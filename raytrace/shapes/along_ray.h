@@ -3,7 +3,7 @@
 #pragma once
 
 #include "raytrace/precision/bounds.h"
-#include "scene/solid.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon::raytrace {
 

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "raytrace/shapes/intersect.h"
-#include "scene/closed_mesh.h"
-#include "scene/solid.h"
+#include "scene/shapes/closed_mesh.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon::raytrace {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 namespace {

@@ -1,4 +1,4 @@
-// Rays against solids (scene/solid.h), in double precision.
+// Rays against solids (scene/shapes/solid.h), in double precision.
 //
 // Quadrics: the roots of a quadratic about the point nearest to the solid's centre, in the form that does not
 // cancel (as spheres, raytrace/shapes/intersect.h); what lies between them is cut with the slab between the
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "raytrace/shapes/intersect.h"
-#include "scene/solid.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon::raytrace {
 

@@ -1,6 +1,6 @@
 #include "raytrace/shapes/surface_uv.h"
 
-#include "scene/solid.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon::raytrace {
 namespace {

@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "raytrace/sheets.h"
 #include "raytrace/sheets/column.h"
-#include "scene/solid.h"
+#include "raytrace/sheets/sheets.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon::raytrace {
 
@@ -43,7 +43,7 @@ class ColumnSheets {
   std::size_t next_ = 0;      ///< of the queue, whose neighbours come next
 };
 
-// The sheets of a solid (scene/solid.h), which may be several on one side when it is not convex.
+// The sheets of a solid (scene/shapes/solid.h), which may be several on one side when it is not convex.
 
 /// Two points of a solid's surface surely lie on one sheet of it: between the light rays through them the
 /// surface is hit once by each ray, near the chord from one to the other. A convex solid's points on the side

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "raytrace/error_bounds.h"
+#include "raytrace/precision/error_bounds.h"
 #include "raytrace/shapes/along_ray.h"
 #include "raytrace/shapes/solid.h"
 

@@ -8,10 +8,10 @@
 
 #include "raytrace/choose_tracer.h"
 #include "raytrace/huge_array.h"
-#include "raytrace/sheets.h"
+#include "raytrace/sheets/sheets.h"
 #include "raytrace/sheets/touching.h"
-#include "scene/parallel.h"
-#include "scene/stages.h"
+#include "scene/base/parallel.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::raytrace {
 namespace {

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <span>
 
-#include "scene/closed_mesh.h"
-#include "scene/files/image_io.h"
 #include "scene/files/material_notes.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/files/placed_triangles.h"
 #include "scene/files/shadow_variants.h"
-#include "scene/solid.h"
+#include "scene/shapes/closed_mesh.h"
+#include "scene/shapes/solid.h"
 
 namespace gnomon {
 namespace {

@@ -9,9 +9,9 @@
 #include <cerrno>
 #include <cstring>
 
+#include "scene/base/run_program.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
-#include "scene/run_program.h"
 
 namespace gnomon {
 namespace {

@@ -9,16 +9,16 @@
 #include <future>
 #include <new>
 
+#include "scene/base/threads.h"
 #include "scene/files/defaults.h"
 #include "scene/files/encodings.h"
 #include "scene/files/foreign.h"
 #include "scene/files/formats.h"
-#include "scene/files/json_reader.h"
+#include "scene/files/json/json_reader.h"
 #include "scene/files/mapped_file.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/validate.h"
-#include "scene/threads.h"
 
 namespace gnomon {
 namespace {

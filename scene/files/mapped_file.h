@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon {
 

@@ -1,4 +1,4 @@
-#include "scene/files/json_parts.h"
+#include "scene/files/json/json_parts.h"
 
 #include <iterator>
 

@@ -1,7 +1,7 @@
 // {"schema": "gnomon/path/1", "camera": {"eye": KEYS, "target": KEYS, "up": KEYS},
 //  "lights": {NAME: {"position": KEYS, "direction": KEYS}}}
 // KEYS: {"interpolation": "linear" | "cubic" | "step", "times": [seconds], "values": [[x, y, z]]}
-#include "scene/files/json_parts.h"
+#include "scene/files/json/json_parts.h"
 
 #include <fmt/core.h>
 

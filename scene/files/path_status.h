@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon {
 

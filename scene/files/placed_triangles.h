@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 #include "scene/scene.h"
 
 namespace gnomon {

@@ -1,5 +1,5 @@
 #include "scene/files/read_file.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/files/path_status.h"
 
 #include <fmt/core.h>

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/load.h"
 
 namespace gnomon {

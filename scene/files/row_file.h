@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon {
 

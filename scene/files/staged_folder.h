@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/scene.h"
 
 namespace gnomon {

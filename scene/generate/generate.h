@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/scene.h"
 
 namespace gnomon {

@@ -2,8 +2,8 @@
 // per texel.
 #include "scene/generate/noise.h"
 
+#include "scene/base/parallel.h"
 #include "scene/generate/random.h"
-#include "scene/parallel.h"
 
 namespace gnomon {
 

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "scene/function_ref.h"
+#include "scene/base/function_ref.h"
 #include "scene/math.h"
 
 namespace gnomon {

@@ -1,6 +1,6 @@
 // A rectangle, sampled by area (Shirley, Wang and Zimmerman 1996, "Monte Carlo Techniques for Direct Lighting Calculations",
 // section 4).
-#include "scene/files/json_reader.h"
+#include "scene/files/json/json_reader.h"
 
 namespace gnomon {
 

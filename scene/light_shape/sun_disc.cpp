@@ -1,6 +1,6 @@
 // A sun's disc: a cone of directions, sampled by solid angle (Shirley, Wang and Zimmerman 1996, "Monte Carlo Techniques for
 // Direct Lighting Calculations", section 3).
-#include "scene/light_view.h"
+#include "scene/light_map/light_view.h"
 
 namespace gnomon {
 

@@ -2,7 +2,7 @@
 // structures"; Story 2015, "Hybrid Ray-Traced Shadows"): each texel of a light's grid holds the list of the pixels whose
 // receivers fall into it, and each triangle tests the pixels of every texel that it touches. Everything is in world space
 // and double precision; receivers, shadow rays and tests follow ray_offset.h and visibility.cpp in raytrace/precision,
-// tracer.cpp and shapes/intersect.h, so that they decide like the ray tracer wherever that one is certain. Twin of raster/izb_pass.cpp.
+// tracer.cpp and shapes/intersect.h, so that they decide like the ray tracer wherever that one is certain. Twin of raster/passes/izb_pass.cpp.
 
 layout(std140, binding = izb_block) uniform Izb {
   dvec4 eye;

@@ -1,6 +1,6 @@
-// A solid's equation in double precision and in its own frame: value, gradient, normal. Twin of scene/solid.cpp.
+// A solid's equation in double precision and in its own frame: value, gradient, normal. Twin of scene/shapes/solid.cpp.
 // Permutations QUADRIC, TORUS and IMPLICIT name the kinds that may come; IMPLICIT_FUNCTIONS is text that
-// raster/expression_glsl.h makes of the scene's expressions. Needs izb.glsl and world.glsl.
+// raster/programs/expression_glsl.h makes of the scene's expressions. Needs izb.glsl and world.glsl.
 
 #ifdef IMPLICIT
 #include "izb/functions.glsl"

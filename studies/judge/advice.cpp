@@ -8,7 +8,7 @@
 #include "compare/ladder/biased_test.h"
 #include "compare/ladder/budget.h"
 #include "compare/result/number_text.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "scene/stages.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::compare {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "scene/files/json_reader.h"
+#include "scene/files/json/json_reader.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
-#include "scene/light_view.h"
+#include "scene/light_map/light_view.h"
 
 namespace gnomon::compare {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/image.h"
 #include "scene/math.h"
 

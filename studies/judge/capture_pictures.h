@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "studies/judge/capture.h"
 
 namespace gnomon::compare {

@@ -4,8 +4,8 @@
 
 #include "compare/ladder/biased_test.h"
 #include "compare/truth/texel_groups.h"
-#include "scene/parallel.h"
-#include "scene/stages.h"
+#include "scene/base/parallel.h"
+#include "scene/base/stages.h"
 #include "studies/judge/stored_depths.h"
 
 namespace gnomon::compare {

@@ -7,7 +7,7 @@
 #include "compare/ladder/biased_test.h"
 #include "compare/metrics/pixel_list.h"
 #include "compare/result/number_text.h"
-#include "scene/stages.h"
+#include "scene/base/stages.h"
 #include "studies/judge/identify.h"
 
 namespace gnomon::compare {

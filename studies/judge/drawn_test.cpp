@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "compare/bias/bias_curve.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 #include "studies/judge/described_test.h"
 
 namespace gnomon::compare {

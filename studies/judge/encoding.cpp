@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "studies/judge/align.h"
 
 namespace gnomon::compare {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "compare/result/judged.h"
-#include "scene/light_view.h"
+#include "scene/light_map/light_view.h"
 #include "studies/judge/suspects.h"
 
 namespace gnomon::compare {

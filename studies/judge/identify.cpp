@@ -11,8 +11,8 @@
 #include "compare/metrics/pixel_list.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
+#include "scene/base/stages.h"
 #include "scene/light.h"
-#include "scene/stages.h"
 
 namespace gnomon::compare {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "scene/base/stages.h"
 #include "scene/exposure.h"
-#include "scene/stages.h"
 #include "studies/judge/advice.h"
 #include "studies/judge/align.h"
 #include "studies/judge/captured_frame.h"

@@ -11,8 +11,8 @@
 #include "compare/ladder/biased_test.h"
 #include "compare/metrics/pixel_list.h"
 #include "compare/result/number_text.h"
-#include "scene/parallel.h"
-#include "scene/stages.h"
+#include "scene/base/parallel.h"
+#include "scene/base/stages.h"
 #include "studies/judge/identify.h"
 #include "studies/judge/stored_depths.h"
 

@@ -2,8 +2,8 @@
 
 #include "raytrace/shading/light_samples.h"
 #include "raytrace/shading/picture.h"
-#include "scene/parallel.h"
-#include "scene/stages.h"
+#include "scene/base/parallel.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::compare {
 namespace {

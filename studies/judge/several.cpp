@@ -10,7 +10,7 @@
 #include "compare/result/output_parts.h"
 #include "report/html.h"
 #include "report/shell.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/files/write_file.h"
 #include "studies/judge/advice.h"
 

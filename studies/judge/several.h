@@ -8,7 +8,7 @@
 #include "compare/comparison.h"
 #include "compare/result/judged.h"
 #include "compare/result/result_table.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::compare {
 

@@ -6,10 +6,10 @@
 #include "compare/ladder/labels.h"
 #include "compare/result/outputs.h"
 #include "compare/result/palette.h"
+#include "scene/base/parallel.h"
+#include "scene/base/stages.h"
 #include "scene/exposure.h"
-#include "scene/files/image_io.h"
-#include "scene/parallel.h"
-#include "scene/stages.h"
+#include "scene/files/pictures/image_io.h"
 
 namespace gnomon::compare {
 namespace {

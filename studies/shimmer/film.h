@@ -2,7 +2,7 @@
 // nothing moves but the shadows.
 #pragma once
 
-#include "scene/files/apng.h"
+#include "scene/files/pictures/apng.h"
 #include "studies/shimmer/shimmer.h"
 
 namespace gnomon::compare {

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "scene/run_program.h"
+#include "scene/base/run_program.h"
 
 namespace gnomon::compare {
 namespace {

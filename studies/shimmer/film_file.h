@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::compare {
 

@@ -7,7 +7,7 @@
 #include "compare/result/result_parts.h"
 #include "compare/result/text_layout.h"
 #include "report/html.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 
 namespace gnomon::compare {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/keyed_path.h"
 #include "scene/world.h"
 

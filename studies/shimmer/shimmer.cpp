@@ -7,9 +7,9 @@
 #include "compare/ladder/ladder.h"
 #include "raster/renderer.h"
 #include "raster/technique_traits.h"
-#include "scene/cascade_fit.h"
-#include "scene/parallel.h"
-#include "scene/stages.h"
+#include "scene/base/parallel.h"
+#include "scene/base/stages.h"
+#include "scene/light_map/cascade_fit.h"
 
 namespace gnomon::compare {
 namespace {

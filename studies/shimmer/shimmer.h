@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "compare/compare.h"
-#include "raytrace/sheets.h"
+#include "raytrace/sheets/sheets.h"
 #include "studies/shimmer/path.h"
 #include "studies/shimmer/temporal.h"
 

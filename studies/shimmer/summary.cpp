@@ -6,7 +6,7 @@
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
 #include "compare/result/text_layout.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "studies/shimmer/outputs.h"
 
 namespace gnomon::compare {

@@ -6,7 +6,7 @@
 
 #include "compare/ladder/ladder.h"
 #include "compare/truth/surfaces.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

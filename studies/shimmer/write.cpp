@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
+#include "scene/base/stages.h"
 #include "scene/files/path_status.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
-#include "scene/stages.h"
 
 namespace gnomon::compare {
 namespace {

@@ -10,7 +10,7 @@
 #include "compare/ladder/budget.h"
 #include "compare/metrics/edges.h"
 #include "compare/truth/exact_depth.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

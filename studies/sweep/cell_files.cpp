@@ -8,7 +8,7 @@
 #include <functional>
 #include <optional>
 
-#include "report/packing.h"
+#include "report/pixels/packing.h"
 #include "report/shell.h"
 #include "scene/files/encodings.h"
 #include "scene/files/path_status.h"

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "scene/image.h"
 
 namespace gnomon::compare {

@@ -8,7 +8,7 @@
 
 #include "compare/result/figures.h"
 #include "raster/technique_traits.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 #include "studies/shimmer/shimmer.h"
 #include "studies/sweep/engine_impl.h"
 

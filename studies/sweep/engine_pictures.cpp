@@ -6,7 +6,7 @@
 
 #include "compare/result/outputs.h"
 #include "compare/result/palette.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 #include "studies/sweep/engine_impl.h"
 
 namespace gnomon::compare {

@@ -12,11 +12,11 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "scene/base/parallel.h"
 #include "scene/files/encodings.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
-#include "scene/parallel.h"
 #include "studies/sweep/cell_files.h"
 
 namespace gnomon::compare {

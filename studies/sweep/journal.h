@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "compare/result/result_table.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::compare {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 #include "studies/sweep/page.h"
 
 namespace gnomon::compare {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "compare/result/result_parts.h"
-#include "scene/parallel.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "compare/comparison.h"
 #include "compare/result/figures.h"
-#include "scene/time_difference.h"
+#include "scene/base/time_difference.h"
 #include "studies/sweep/journal.h"
 
 namespace gnomon::compare {

@@ -1,6 +1,6 @@
 #include "studies/tune/ties.h"
 
-#include "scene/time_difference.h"
+#include "scene/base/time_difference.h"
 
 namespace gnomon::compare {
 namespace {

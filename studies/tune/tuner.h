@@ -4,7 +4,7 @@
 #include <limits>
 #include <map>
 
-#include "scene/timing.h"
+#include "scene/base/timing.h"
 #include "studies/tune/tune.h"
 
 namespace gnomon::compare {

@@ -1,7 +1,7 @@
 // CPU time, which other programs on the machine disturb little.
 #pragma once
 
-#include "scene/stages.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::bench {
 

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/large_pages.h"
+#include "app/process/large_pages.h"
 #include "instruction_set.h"
 #include "raytrace/packets/shadow_pass.h"
 #include "scene/files/write_file.h"
@@ -19,7 +19,7 @@ namespace {
 
 using app::BenchRow;
 
-/// As the program does it (app/render_json.h), of which this one holds only the rows.
+/// As the program does it (app/outputs/render_json.h), of which this one holds only the rows.
 Expected<void> hand_out(const std::string& path, const std::string& json) {
   if (path.empty()) return {};
   if (path == "-") {

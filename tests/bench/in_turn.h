@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "cpu_time.h"
-#include "scene/timing.h"
+#include "scene/base/timing.h"
 
 namespace gnomon::bench {
 

@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "must.h"
-#include "raster/izb_pass.h"
-#include "raster/light_block.h"
-#include "raster/map_shape.h"
-#include "raster/moment_pass.h"
 #include "raster/options_check.h"
+#include "raster/passes/izb_pass.h"
+#include "raster/passes/light_block.h"
+#include "raster/passes/map_shape.h"
+#include "raster/passes/moment_pass.h"
+#include "raster/passes/shading_pass.h"
 #include "raster/renderer.h"
-#include "raster/shading_pass.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::bench {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <type_traits>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::bench {
 

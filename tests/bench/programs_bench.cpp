@@ -14,9 +14,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench_scenes.h"
+#include "scene/base/timing.h"
 #include "scene/camera.h"
-#include "scene/files/image_io.h"
-#include "scene/timing.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/world.h"
 
 namespace gnomon::bench {

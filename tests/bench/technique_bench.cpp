@@ -13,8 +13,8 @@
 #include "must.h"
 #include "raster/renderer.h"
 #include "raster/technique_traits.h"
+#include "scene/base/timing.h"
 #include "scene/load.h"
-#include "scene/timing.h"
 
 namespace gnomon::bench {
 namespace {

@@ -14,7 +14,7 @@
 #include "raytrace/packets/shadow_pass.h"
 #include "raytrace/tiles.h"
 #include "raytrace/tracer.h"
-#include "scene/light_view.h"
+#include "scene/light_map/light_view.h"
 #include "tinybvh_peer.h"
 
 namespace gnomon::bench {

@@ -1,6 +1,6 @@
 // MTL files, read through an OBJ file that uses their materials, with textures for them to name.
 #include "fuzz_target.h"
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

@@ -1,6 +1,6 @@
 #include "support/other_renderer.h"
 
-#include "scene/files/image_io.h"
+#include "scene/files/pictures/image_io.h"
 #include "scene/light.h"
 #include "support/small_scenes.h"
 

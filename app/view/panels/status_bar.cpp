@@ -4,7 +4,7 @@
 
 #include "app/view/panels/panels.h"
 #include "app/view/status.h"
-#include "scene/expected.h"
+#include "scene/base/expected.h"
 
 namespace gnomon::app {
 

@@ -1,4 +1,4 @@
-// The geometry of a light's depth map: the twin of scene/light_view.h and compare/ladder/biased_test.cpp in the numbers that
+// The geometry of a light's depth map: the twin of scene/light_map/light_view.h and compare/ladder/biased_test.cpp in the numbers that
 // the page needs. Map positions (u, v) in texels, v upwards; depth along the face's forward axis, distance along the ray.
 
 export type Vec3 = readonly [number, number, number];
@@ -12,7 +12,7 @@ export interface Face {
   warp: number;                            // of an orthographic face along up; 0: none
 }
 
-/** Where light-space perspective shows a height, and back (see scene/light_view.h). */
+/** Where light-space perspective shows a height, and back (see scene/light_map/light_view.h). */
 const warped = (f: Face, y: number): number => (y + f.warp * f.half_extent[1] ** 2) / (1 + f.warp * y);
 const unwarped = (f: Face, shown: number): number => (shown - f.warp * f.half_extent[1] ** 2) / (1 - f.warp * shown);
 

@@ -64,7 +64,7 @@ export function milliseconds(ms: number): string {
   return `${seconds < firstOfFourDigits ? general(seconds, 3) : withDecimals(seconds, 0)} s`;
 }
 
-/** What a pass takes beyond another one, with the interval that its runs leave it (twin: scene/time_difference.h). */
+/** What a pass takes beyond another one, with the interval that its runs leave it (twin: scene/base/time_difference.h). */
 export interface TimeDifference {
   low: number;
   median: number;

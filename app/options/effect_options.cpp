@@ -1,0 +1,76 @@
+#include "app/options/effect_options.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "scene/light.h"
+
+namespace gnomon::app {
+namespace {
+
+bool holds(std::span<const std::string> given, std::string_view option) {
+  return std::find(given.begin(), given.end(), option) != given.end();
+}
+
+std::string idle(std::string_view option, std::string_view reason) {
+  return fmt::format("--{} has no effect: {}", option, reason);
+}
+
+}  // namespace
+
+std::vector<std::string> given_options(const CLI::App& command) {
+  std::vector<std::string> given;
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && !option->get_lnames().empty()) given.push_back(option->get_lnames().front());
+  return given;
+}
+
+std::vector<std::string> idle_options(std::span<const std::string> given, const EffectPlan& plan) {
+  std::vector<std::string> notes;
+  const auto needs = [&](std::string_view option, Effect effect) {
+    if (holds(given, option) && !plan.simulates(effect)) notes.push_back(idle(option, plan[effect].reason));
+  };
+  needs("samples", Effect::soft_shadow);
+  needs("glossy-samples", Effect::glossy);
+  needs("min-contribution", Effect::reflection);  // whose reason names transmission too
+  return notes;
+}
+
+std::vector<std::string> idle_options(std::span<const std::string> given, const raster::MapOptions& map,
+                                      const Scene& scene, std::span<const std::uint32_t> lights) {
+  std::vector<std::string> notes;
+  const auto all_idle = [&](std::initializer_list<const char*> options, std::string_view reason) {
+    for (const char* option : options)
+      if (holds(given, option)) notes.push_back(idle(option, reason));
+  };
+  const auto any = [&](const auto& holds_for) {
+    return std::any_of(lights.begin(), lights.end(),
+                       [&](std::uint32_t light) { return holds_for(scene.lights[light]); });
+  };
+  if (map.technique == raster::Technique::pcss && !any(has_size))
+    all_idle({"filter-samples", "blocker-samples", "search-radius"},
+             "pcss is the hard test for lights without a size");
+  if (map.snap && !any([](const Light& light) { return light.type == LightType::directional; }))
+    all_idle({"snap"}, "no light is directional");
+  if (map.technique == raster::Technique::csm && map.cascades.count == 1)
+    all_idle({"cascade-lambda", "cascade-blend"}, "there is one cascade");
+  return notes;
+}
+
+std::vector<std::string> idle_without_page(std::span<const std::string> given) {
+  if (!holds(given, "report-max-mb")) return {};
+  return {idle("report-max-mb", "no page is written")};
+}
+
+std::vector<std::string> idle_in_heatmap(std::span<const std::string> given) {
+  std::vector<std::string> notes;
+  for (const char* option : {"aa", "exposure", "glossy-samples", "indirect-samples", "light", "max-lights",
+                             "min-contribution", "samples", "seed"})
+    if (holds(given, option))
+      notes.push_back(idle(option, "a heat map shows the work of one ray through each pixel's centre"));
+  return notes;
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,37 @@
+// The text of option values beyond numbers: sizes, shares, limits. Errors are ErrorKind::usage
+// with a reason that ends in "(got X, allowed Y)".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "compare/result/threshold.h"
+#include "scene/base/expected.h"
+#include "scene/base/option_text.h"
+#include "scene/image.h"
+
+namespace gnomon::app {
+
+inline constexpr int max_image_side = 16384;  ///< pixels; OpenGL 4.5 drivers agree on it
+/// "1280x720": pixels, each side from 1 to max_image_side.
+Expected<ImageSize> parse_size(std::string_view text);
+
+/// "1%" or "0.01": a share in [0, 1].
+Expected<double> parse_share(std::string_view text);
+
+/// "1%" (wrong and mean error both), "wrong:1%", "mean:0.5%", "flip:0.05", "edge:0.5texel", "shimmer:0.1".
+Expected<compare::Threshold> parse_threshold(std::string_view text);
+inline constexpr std::string_view threshold_range =
+    "a share for wrong pixels and mean error both, such as 1%, or wrong:1%, mean:0.5%, flip:0.05, "
+    "edge:0.5texel";
+inline constexpr std::string_view film_threshold_range =
+    "a share for wrong pixels and mean error both, such as 1%, or wrong:1%, mean:0.5%, flip:0.05, "
+    "edge:0.5texel, shimmer:0.1 (flips per receiver and second; includes --metric shimmer)";
+
+inline constexpr OptionRange exposure_range{0.0, 1e6, true};
+/// "auto" (no value) or a linear factor.
+Expected<std::optional<double>> parse_exposure(std::string_view text);
+
+}  // namespace gnomon::app

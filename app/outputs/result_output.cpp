@@ -1,0 +1,194 @@
+#include "app/outputs/result_output.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "app/options/options.h"
+#include "app/outputs/output_path.h"
+#include "app/outputs/render_json.h"
+#include "app/process/interrupt.h"
+#include "app/process/machine.h"
+#include "compare/result/number_text.h"
+#include "compare/result/output_parts.h"
+#include "compare/result/time_budget.h"
+#include "report/page.h"
+#include "scene/base/freed_memory.h"
+#include "scene/base/stages.h"
+#include "scene/files/path_status.h"
+#include "scene/files/read_file.h"
+#include "scene/files/write_file.h"
+
+namespace gnomon::app {
+namespace {
+
+/// --json hands out the same bytes as the folder's result.json.
+Expected<void> write_json(const ResultOutput& output) {
+  if (output.json.empty()) return {};
+  const std::string path = output.folder + "/result.json";
+  const Expected<std::string> json = read_file(path);
+  if (!json) return fail(Error{ErrorKind::cannot_write, "cannot read back what was written", path});
+  return hand_out_json(output.json, *json);
+}
+
+/// With several lights the channels go into files whose names are known only now.
+Expected<void> check_aov(const ResultOutput& output, const compare::Comparison& comparison, RunFiles files) {
+  if (output.aov.empty() || comparison.lights.size() < 2) return {};
+  for (const compare::LightComparison& light : comparison.lights)
+    files.writes("--aov", compare::aov_path(comparison, light, output.aov));
+  return files.check();
+}
+
+/// All but result.json.
+Expected<compare::WrittenOutputs> write_all(const ResultOutput& output, const compare::Comparison& comparison,
+                                            const RunFiles& files, Console& console,
+                                            compare::BandedParts* parts) {
+  if (const auto apart = check_aov(output, comparison, files); !apart) return fail(apart.error());
+  auto written = compare::write_all_but_result(comparison, parts,
+                                               {.folder = output.folder,
+                                                .report_max_mb = output.report_max_mb,
+                                                .page = !output.no_report,
+                                                .inputs = files.inputs()});
+  if (!written) return fail(written.error());
+  if (written->beside) console.note(beside_note(written->page_mb, output.report_max_mb));
+  if (!output.aov.empty()) {
+    const TimedStage stage("write");
+    if (const auto made = make_folder_for(output.aov); !made) return fail(made.error());
+    if (parts != nullptr) {
+      for (ExrFile& file : parts->channels)
+        if (const auto closed = file.close(); !closed) return fail(closed.error());
+      return written;
+    }
+    if (const auto saved = compare::write_aov(comparison, output.aov); !saved) return fail(saved.error());
+  }
+  return written;
+}
+
+/// Holds one light against --fail-above; the words say what is too much.
+bool passes(const compare::Threshold& threshold, const std::string& light,
+            const compare::LightFigures& figures, Console& console) {
+  const std::string limit = compare::threshold_text(threshold);
+  if (compare::exceeds(threshold, figures)) {
+    console.message(fmt::format("light {}: {}; that is more than --fail-above {}", light,
+                                compare::figure_words(figures, *threshold.measure), limit));
+    return false;
+  }
+  if (!compare::too_uncertain(threshold, figures)) return true;
+  console.message(fmt::format(
+      "light {}: {} of {} pixels that show a lit or shadowed surface are uncertain, more than --fail-above "
+      "{} allows to be wrong: the truth there lies within its own error bound (--precision exact decides "
+      "rays; lights with size want more --samples, or a limit of the mean error, such as mean:1%)",
+      light, compare::grouped(compare::unknown_pixels(figures, *threshold.measure)),
+      compare::grouped(figures.pixels.compared + figures.pixels.uncertain), limit));
+  return false;
+}
+
+ExitCode judge_lights(const ResultOutput& output, const compare::Comparison& comparison, Console& console) {
+  ExitCode code = ExitCode::done;
+  if (!output.fail_above) return code;
+  if (output.fail_above->bare_one)
+    console.note("--fail-above 1 is a limit of 100 %, which no share exceeds; one per cent is 1% or 0.01");
+  const std::vector<compare::LightFigures> lights = compare::judged_lights(comparison);
+  if (compare::says_nothing(*output.fail_above, lights)) {
+    const bool empty = comparison.world->scene->is_empty_model;
+    console.message(fmt::format("{}, so nothing holds against --fail-above {}",
+                                empty ? "the file has no triangles" : "no pixel could be compared",
+                                compare::threshold_text(*output.fail_above)));
+    return ExitCode::threshold_exceeded;
+  }
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (!passes(*output.fail_above, comparison.world->scene->lights[comparison.lights[i].light].name,
+                lights[i], console))
+      code = ExitCode::threshold_exceeded;
+  return code;
+}
+
+/// Before result.json is written, so that what it takes is in its time budget: the system would take the
+/// memory back after the last reading of the clocks otherwise.
+void give_back(compare::Comparison& comparison, LoadedScene& loaded) {
+  const TimedStage stage("exit");
+  comparison = {};
+  loaded = {};
+  return_freed_memory();
+}
+
+/// A page of an earlier run is left as it is, but not in silence.
+void note_old_report(const std::string& folder, Console& console) {
+  const std::string page = folder + "/report.html";
+  if (file_kind_or_none(page) != FileKind::none)
+    console.note(page + " is of an earlier run; --no-report leaves it as it is");
+}
+
+}  // namespace
+
+Expected<void> check_outputs(const ResultOutput& output, RunFiles& files) {
+  if (!output.aov.empty())
+    if (const auto known = check_extension("--aov", output.aov, ".exr"); !known) return known;
+  files.writes("--aov", output.aov);
+  files.writes("--json", output.json);
+  files.writes_folder("-o", output.folder, compare::page_file_names);
+  return files.check();
+}
+
+bool only_prints_json(const ResultOutput& output) {
+  return output.json == "-" && output.folder.empty() && output.aov.empty();
+}
+
+ExitCode print_result(const ResultOutput& output, compare::Comparison& comparison, LoadedScene& loaded,
+                      Console& console) {
+  const ExitCode code = judge_lights(output, comparison, console);
+  std::string json = compare::result_json(comparison);
+  give_back(comparison, loaded);
+  print_data(compare::with_time_budget(std::move(json)));
+  return code;
+}
+
+Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison& comparison,
+                                LoadedScene& loaded, const RunFiles& files, const Stopwatch& total,
+                                Console& console, std::unique_ptr<compare::BandedParts> parts) {
+  std::optional<OutputGuard> whole_outputs(std::in_place);
+  auto written = write_all(output, comparison, files, console, parts.get());
+  parts.reset();
+  if (!written) return fail(written.error());
+  const std::string& folder = output.shown_folder.empty() ? output.folder : output.shown_folder;
+  const std::string place = (output.no_report ? "Result: " : "Report: ") + folder +
+                            (output.no_report ? "/result.json" : "/report.html");
+  const bool colour = stdout_takes_colour(), prints = !output.quiet && output.json != "-";
+  std::string summary = output.verbose ? compare::summary_table(comparison, colour)
+                                       : compare::summary_in_short(comparison, place, colour);
+  const ExitCode code = judge_lights(output, comparison, console);
+  give_back(comparison, loaded);
+  if (const auto result = compare::write_result(*written); !result) return fail(result.error());
+  if (const auto json = write_json(output); !json) return fail(json.error());
+  whole_outputs.reset();
+  if (const StageLog* log = StageLog::current(); log != nullptr && output.verbose)
+    summary += compare::time_budget_text(log->budget(), colour);
+  if (prints) print_data(summary);
+  if (output.no_report) note_old_report(output.folder, console);
+  const std::string took = fmt::format("{:.1f} s, {:.0f} MB of memory at most", total.elapsed_ms() / 1000.0,
+                                       static_cast<double>(peak_memory_bytes()) / 1e6);
+  console.message(prints && !output.verbose ? took : fmt::format("{} ({})", place, took));
+  return code;
+}
+
+void add_result_output(CLI::App& app, ResultOutput& output, const std::string& default_folder) {
+  add_output(app, "-o,--output", output.folder, "DIR",
+             "folder for report.html, result.json, result.csv and the pictures [default " + default_folder +
+                 "; none with --json - alone]");
+}
+
+void add_result_limits(CLI::App& app, ResultOutput& output) {
+  add_report_max_mb(app, output.report_max_mb);
+  add_threshold(app, "--fail-above", output.fail_above,
+                "exit with 1 when the error of any light is more than this, or so many pixels are uncertain",
+                "never");
+  add_output(app, "--aov", output.aov, "FILE.exr",
+             "also write every per-pixel number as 32-bit channels, one file per light [default off]");
+  add_json(app, output.json, "the result");
+  add_verbose(app, output.verbose, "also print the budget and all other figures");
+  add_quiet(app, output.quiet);
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,98 @@
+#include "app/outputs/run_files.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "app/options/setting.h"
+#include "app/outputs/output_path.h"
+#include "raster/programs/shader_folder.h"
+#include "scene/files/read_file.h"
+#include "scene/files/write_file.h"
+
+namespace gnomon::app {
+
+std::vector<std::string> SceneArgument::plain_words() const {
+  std::vector<std::string> words{name};
+  if (allow_outside) words.emplace_back("--allow-outside");
+  if (instances != InstanceChoice::automatic) {
+    words.emplace_back("--instances");
+    words.emplace_back(instances == InstanceChoice::keep ? "keep" : "flatten");
+  }
+  return words;
+}
+
+SceneArgument SceneArgument::named(const std::string& other) const {
+  SceneArgument scene = *this;
+  scene.name = other;
+  return scene;
+}
+
+std::string SceneArgument::words() const {
+  std::string text;
+  for (const std::string& word : plain_words()) text += (text.empty() ? "" : " ") + shell_quoted(word);
+  return text;
+}
+
+void RunFiles::reads(const std::string& path) {
+  if (!path.empty()) inputs_.push_back(path);
+}
+
+// A name without an extension is a built-in scene's (scene/load.h).
+void RunFiles::reads(const SceneArgument& scene) {
+  if (!lower_extension(scene.name).empty()) reads(scene.name);
+}
+
+void RunFiles::reads_shaders(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code stop;
+  fs::recursive_directory_iterator file(folder, fs::directory_options::skip_permission_denied, stop);
+  for (; !stop && file != fs::recursive_directory_iterator(); file.increment(stop))
+    if (raster::is_shader(file->path())) reads(file->path().string());
+}
+
+void RunFiles::writes(std::string option, const std::string& path) {
+  if (!path.empty() && path != "-") outputs_.push_back({std::move(option), path});
+}
+
+void RunFiles::writes_folder(const std::string& option, const std::string& folder,
+                             std::span<const std::string_view> names) {
+  if (folder.empty()) return;
+  folders_.push_back(folder);
+  for (const std::string_view name : names)
+    outputs_.push_back({option, (std::filesystem::path(folder) / name).string(), false});
+}
+
+Expected<void> RunFiles::check_collisions() const {
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    const Output& output = outputs_[i];
+    for (const std::string& input : inputs_)
+      if (is_same_file(output.path, input))
+        return fail(ErrorKind::usage,
+                    fmt::format("{}: this file is also an input, which would be lost (got {})", output.option,
+                                output.path));
+    for (std::size_t j = 0; j < i; ++j)
+      if (is_same_file(output.path, outputs_[j].path))
+        return fail(ErrorKind::usage, fmt::format("{} and {}: two outputs of one name (got {})",
+                                                  outputs_[j].option, output.option, output.path));
+  }
+  return {};
+}
+
+Expected<void> RunFiles::check() const {
+  if (auto apart = check_collisions(); !apart) return apart;
+  for (const Output& output : outputs_) {
+    if (!output.alone) continue;
+    if (auto writable = check_output_file(output.path); !writable) return writable;
+  }
+  for (const std::string& folder : folders_)
+    if (auto writable = check_output_folder(folder); !writable) return writable;
+  return {};
+}
+
+Expected<void> RunFiles::also_reads(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) reads(path);
+  return check_collisions();
+}
+
+}  // namespace gnomon::app

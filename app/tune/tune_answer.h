@@ -1,0 +1,56 @@
+// The tuner's answer for people and for programs: the command, why it won, why the others lost, and its bias in the units
+// of engines.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/options/shimmer_options.h"
+#include "app/outputs/run_files.h"
+#include "app/strongest_lights.h"
+#include "app/tune/tune_families.h"
+#include "raster/frame.h"
+#include "studies/tune/tune.h"
+
+namespace gnomon::app {
+
+/// What an answer's command repeats of the question.
+struct TuneQuestion {
+  SceneArgument scene;
+  std::string camera, shader_folder;
+  OptionValues fixed;  ///< options with one value
+  compare::TuneGoal goal;
+  std::vector<raster::ReplacedShader> shaders;  ///< of shader_folder
+  MetricOptions metric{};
+  int max_lights = usual_max_lights;
+  const compare::TunedEngine* engine = nullptr;  ///< the one asked about
+  double most_seconds = 0.0;                     ///< of processor time
+  raster::Backend backend = raster::Backend::automatic;
+};
+
+/// Of a family what meets the goal, or what comes nearest to it.
+inline const compare::Attempt& attempt_of(const compare::FamilyResult& family) {
+  return family.answer ? *family.answer : family.closest;
+}
+
+/// The options of an answer, in the order that compare takes them.
+OptionValues answer_values(const OptionValues& fixed, const OptionFamily& family,
+                           const compare::Attempt& attempt);
+
+struct TuneAnswer {
+  const TuneQuestion& question;
+  const std::vector<OptionFamily>& families;
+  const compare::TuneResult& result;
+
+  /// gnomon compare SCENE …, or gnomon shimmer SCENE …, at a family's answer.
+  std::string line(std::size_t family) const;
+  /// The other families: of each technique the best first.
+  std::vector<std::size_t> others() const;
+  /// At most 80 columns, but for commands: the answer and two rivals, in no more than some twelve lines.
+  std::string text() const;
+  /// All families, and the bias in the units of all engines.
+  std::string whole_text() const;
+  std::string json() const;
+};
+
+}  // namespace gnomon::app

@@ -1,0 +1,64 @@
+#include "scene/base/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <mutex>
+
+namespace gnomon {
+namespace {
+
+using Range = tbb::blocked_range<std::size_t>;
+
+}  // namespace
+
+void parallel_ranges(std::size_t count, std::size_t at_a_time,
+                     FunctionRef<void(std::size_t first, std::size_t last)> body) {
+  tbb::parallel_for(Range(0, count, at_a_time),
+                    [&](const Range& range) { body(range.begin(), range.end()); });
+}
+
+void parallel_tasks(std::size_t count, FunctionRef<void(std::size_t)> task) {
+  tbb::parallel_for(
+      Range(0, count, 1), [&](const Range& range) { task(range.begin()); }, tbb::simple_partitioner());
+}
+
+struct ThreadSlots::Impl {
+  tbb::enumerable_thread_specific<void*> slots{nullptr};
+  std::mutex making;
+};
+
+ThreadSlots::ThreadSlots() : impl_(std::make_unique<Impl>()) {}
+ThreadSlots::~ThreadSlots() = default;
+
+void* ThreadSlots::local(FunctionRef<void*()> make) {
+  void*& slot = impl_->slots.local();
+  if (slot == nullptr) {
+    const std::lock_guard lock(impl_->making);
+    slot = make();
+  }
+  return slot;
+}
+
+void run_isolated(FunctionRef<void()> work) {
+  tbb::this_task_arena::isolate([&] { work(); });
+}
+
+bool is_given_up() {
+  return tbb::is_current_task_group_canceling();
+}
+
+int threads_for_loops() {
+  return tbb::this_task_arena::max_concurrency();
+}
+
+int threads_in_use() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+}  // namespace gnomon

@@ -1,0 +1,115 @@
+#include "scene/base/run_program.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+
+#include "scene/base/timing.h"
+
+namespace gnomon {
+namespace {
+
+constexpr useconds_t pause_us = 10000;  // between two looks at a program
+constexpr double grace_ms = 1000.0;     // for what a program does when it is asked to end
+
+// As signals are, the process's.
+std::atomic<bool> process_ends{false};
+std::atomic<int> running{0};
+
+struct Running {
+  Running() { ++running; }
+  ~Running() { --running; }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+};
+
+/// What posix_spawnp() is told of the child: no stdin, stdout and stderr to `output`, no signal blocked, a process group of its own.
+class ChildSettings {
+ public:
+  explicit ChildSettings(int output) {
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  }
+  ~ChildSettings() {
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+  }
+  ChildSettings(const ChildSettings&) = delete;
+  ChildSettings& operator=(const ChildSettings&) = delete;
+
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+};
+
+/// Looks until the child has ended; its group is asked to end, and then made to, when `stop()` says so.
+template <class Stop>
+Expected<int> wait_for(pid_t child, const Stop& stop) {
+  std::optional<Stopwatch> asked;
+  for (;;) {
+    int status = 0;
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended < 0 && errno != EINTR) return fail(ErrorKind::graphics, std::strerror(errno));
+    if (ended == child) {
+      if (asked) kill(-child, SIGKILL);                                         // what it has left behind
+      return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);  // as a shell counts
+    }
+    if (!asked && stop()) {
+      asked.emplace();
+      kill(-child, SIGTERM);
+    } else if (asked && asked->elapsed_ms() > grace_ms) {
+      kill(-child, SIGKILL);
+    }
+    usleep(pause_us);
+  }
+}
+
+}  // namespace
+
+void end_programs() {
+  process_ends = true;
+  const Stopwatch watch;
+  while (running > 0 && watch.elapsed_ms() < 3.0 * grace_ms) usleep(pause_us);
+}
+
+Expected<int> run_program(std::vector<std::string> words, std::optional<double> longest_s, int output) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const auto failed = [&](const std::string& what) {
+    return fail(ErrorKind::graphics, fmt::format("{} {}", words[0], what));
+  };
+  const Running counted;
+  if (process_ends) return failed("is not started any more");
+  const ChildSettings settings(output);
+  pid_t child = 0;
+  if (const int error = posix_spawnp(&child, arguments[0], &settings.actions, &settings.attributes,
+                                     arguments.data(), environ);
+      error != 0)
+    return failed(fmt::format("cannot be started: {}", std::strerror(error)));
+  const Stopwatch watch;
+  bool late = false;
+  const auto code = wait_for(child, [&] {
+    late = longest_s && watch.elapsed_ms() > 1e3 * *longest_s;
+    return late || process_ends;
+  });
+  if (!code) return failed("cannot be waited for: " + code.error().reason);
+  if (late) return failed(fmt::format("did not end within {:.3g} s, and was ended", *longest_s));
+  if (process_ends) return failed("was ended");
+  return code;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,25 @@
+// Other programs that this one starts and waits for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/base/expected.h"
+
+namespace gnomon {
+
+/// Runs a program of the PATH with these words, of which the first is its name, and waits for its end. What it says goes to
+/// the descriptor `output`, where messages go unless another is named: this program's stdout is for data. Signals reach it
+/// though this program's threads block some.
+/// It has no stdin, and is with all that it starts a process group of its own, which is ended when it takes longer than
+/// `longest_s` seconds. Returns its exit code, or 128 and the signal that ended it. ErrorKind::graphics: it cannot be
+/// started, it was ended.
+Expected<int> run_program(std::vector<std::string> words, std::optional<double> longest_s = std::nullopt,
+                          int output = 2);
+
+/// Programs that run are ended, which is waited for some seconds at most, and no other is started any more: this process is
+/// about to end.
+void end_programs();
+
+}  // namespace gnomon

@@ -1,0 +1,202 @@
+
+#include <fmt/core.h>
+
+#include <set>
+
+#include "scene/files/gltf/gltf_accessor.h"
+#include "scene/files/gltf/gltf_transforms.h"
+#include "scene/files/json/json_reader.h"
+
+namespace gnomon {
+namespace {
+
+Quaternion quaternion(const double* v) {
+  return {v[3], v[0], v[1], v[2]};
+}
+Vec3 vector(const double* v) {
+  return {v[0], v[1], v[2]};
+}
+
+// The channels of one animation, by the node that they move.
+using MovedNodes = std::map<std::size_t, MovedNode>;
+
+class AnimationReader {
+ public:
+  AnimationReader(const gltf::Model& model, const GltfData& data, const JsonNode& animation)
+      : model_(model), data_(data), animation_(animation) {
+    if (const auto list = animation.child("samplers")) samplers_ = list->as_array();
+  }
+
+  MovedNodes read() {
+    MovedNodes moved;
+    if (const auto channels = animation_.child("channels"))
+      for (const JsonNode& channel : channels->as_array()) read_channel(channel, moved);
+    return moved;
+  }
+
+ private:
+  bool failed() const { return animation_.errors().first.has_value(); }
+
+  std::size_t index(const JsonNode& owner, std::string_view key, std::size_t count) const {
+    const auto node = owner.child(key);
+    if (!node) {
+      owner.error(fmt::format("{} is missing", key));
+      return 0;
+    }
+    const NumberRange range{0.0, static_cast<double>(count) - 1.0, false, false, true};
+    return static_cast<std::size_t>(node->as_number(range));
+  }
+
+  void read_channel(const JsonNode& channel, MovedNodes& moved) {
+    const auto target = channel.child("target");
+    if (!target) return channel.error("target is missing");
+    if (!target->child("node")) return;  // an extension's affair
+    const auto path = target->child("path");
+    if (!path) return target->error("path is missing");
+    const std::string what = path->as_string();
+    const std::size_t node = index(*target, "node", model_.nodes.size());
+    const std::size_t sampler = index(channel, "sampler", samplers_.size());
+    if (failed() || (what != "translation" && what != "rotation" && what != "scale")) return;
+    MovedNode& to = moved.try_emplace(node, stored(node)).first->second;
+    if (what == "translation")
+      to.translations.emplace(), read_keys(samplers_[sampler], 3, vector, *to.translations);
+    if (what == "scale") to.scales.emplace(), read_keys(samplers_[sampler], 3, vector, *to.scales);
+    if (what == "rotation")
+      to.rotations.emplace(), read_keys(samplers_[sampler], 4, quaternion, *to.rotations);
+    if (what == "rotation" && !failed()) check_rotations(samplers_[sampler], *to.rotations);
+  }
+
+  MovedNode stored(std::size_t index) const {
+    const gltf::Node& node = model_.nodes[index];
+    MovedNode out;
+    out.translation = node.translation.value_or(out.translation);
+    out.scale = node.scale.value_or(out.scale);
+    if (node.rotation && glm::length(quaternion(&node.rotation->x)) > 0.0)
+      out.rotation = glm::normalize(quaternion(&node.rotation->x));
+    return out;
+  }
+
+  std::vector<double> numbers(const JsonNode& sampler, std::string_view key, std::size_t components) const {
+    const std::size_t accessor = index(sampler, key, model_.accessors.size());
+    if (failed()) return {};
+    const GltfAccessor from(model_, data_, static_cast<int>(accessor));
+    if (from.components() != components) {
+      sampler.child(key)->error(
+          fmt::format("the accessor's elements do not fit (got {} numbers each, allowed {})",
+                      from.components(), components));
+      return {};
+    }
+    std::vector<double> out(from.count() * components);
+    from.read(0, from.count(), out.data());
+    return out;
+  }
+
+  template <class Make, class Value>
+  void read_keys(const JsonNode& sampler, std::size_t components, const Make& make, Keys<Value>& keys) const {
+    if (const auto choice = sampler.child("interpolation"))
+      keys.interpolation = static_cast<Interpolation>(choice->as_choice({"LINEAR", "CUBICSPLINE", "STEP"}));
+    keys.times = numbers(sampler, "input", 1);
+    const std::vector<double> values = numbers(sampler, "output", components);
+    if (failed()) return;
+    const bool cubic = keys.interpolation == Interpolation::cubic;
+    const std::size_t each = cubic ? 3 : 1, count = keys.times.size();
+    for (std::size_t i = 0; i < count; ++i)
+      if (!(keys.times[i] >= 0.0) || (i > 0 && !(keys.times[i] > keys.times[i - 1])))
+        return sampler.error("the times of input must not be negative, and must rise");
+    if (count == 0 || values.size() != each * count * components)
+      return sampler.error(fmt::format("output does not fit input (got {} elements, allowed {})",
+                                       values.size() / components, each * count));
+    for (const double value : values)
+      if (!(std::abs(value) <= max_coordinate)) return sampler.error("output has values that are not finite");
+    for (std::size_t i = 0; i < count; ++i) {  // in-tangent, value, out-tangent
+      const double* at = &values[i * each * components];
+      if (cubic) keys.slopes_in.push_back(make(at));
+      keys.values.push_back(make(at + (cubic ? components : 0)));
+      if (cubic) keys.slopes_out.push_back(make(at + 2 * components));
+    }
+  }
+
+  static void check_rotations(const JsonNode& sampler, const KeyedRotation& keys) {
+    for (const Quaternion& value : keys.values)
+      if (!(glm::length(value) > 0.0)) return sampler.error("a rotation of length 0");
+  }
+
+  const gltf::Model& model_;
+  const GltfData& data_;
+  const JsonNode& animation_;
+  std::vector<JsonNode> samplers_;
+};
+
+class PathBuilder {
+ public:
+  PathBuilder(const gltf::Model& model, const CarriedNodes& carried, Scene& scene)
+      : model_(model), carried_(carried), scene_(scene) {}
+
+  /// Nothing where neither a camera nor a light moves.
+  std::optional<LoadedPath> path(const MovedNodes& moved, std::string name) {
+    LoadedPath out;
+    std::set<std::size_t> used;
+    bool any = false;
+    for (const std::size_t node : carried_.cameras) {
+      out.cameras.push_back(chain(node, moved, used));
+      any = any || !out.cameras.back().empty();
+    }
+    for (std::size_t i = 0; i < carried_.lights.size(); ++i)
+      if (NodeChain nodes = chain(carried_.lights[i], moved, used); !nodes.empty())
+        out.lights[scene_.lights[i].name].nodes = std::move(nodes), any = true;
+    if (!any) return std::nullopt;
+    out.name = std::move(name);
+    if (used.size() < moved.size())
+      scene_.notes.push_back(fmt::format(
+          "The animation {} moves objects, too, which stay in the pose that they are stored in.", out.name));
+    return out;
+  }
+
+ private:
+  // Empty where no node on the way moves.
+  NodeChain chain(std::size_t node, const MovedNodes& moved, std::set<std::size_t>& used) const {
+    NodeChain out;
+    bool any = false;
+    for (int at = static_cast<int>(node); at >= 0;) {
+      const auto index = static_cast<std::size_t>(at);
+      at = model_.nodes[index].parent;
+      const auto keyed = moved.find(index);
+      if (keyed != moved.end()) any = true, used.insert(index);
+      out.push_back(keyed != moved.end() ? keyed->second
+                                         : MovedNode{.matrix = local_matrix(model_.nodes[index])});
+    }
+    if (!any) return {};
+    std::reverse(out.begin(), out.end());
+    return out;
+  }
+
+  const gltf::Model& model_;
+  const CarriedNodes& carried_;
+  Scene& scene_;
+};
+
+}  // namespace
+
+Expected<std::vector<LoadedPath>> read_gltf_paths(const GltfDocument& document, const GltfData& data,
+                                                  const CarriedNodes& carried, Scene& scene) {
+  JsonErrors errors{document.json};
+  const JsonNode root(errors, document.json.root, "");
+  std::vector<LoadedPath> paths;
+  const auto list = root.child("animations");
+  if (!list) return paths;
+  PathBuilder builder(document.model, carried, scene);
+  std::size_t index = 0;
+  for (const JsonNode& animation : list->as_array()) {
+    const auto name = animation.child("name");
+    const std::string own = name ? name->as_string() : std::string();
+    const MovedNodes moved = AnimationReader(document.model, data, animation).read();
+    if (errors.first) return fail(*errors.first);
+    if (auto path = builder.path(moved, own.empty() ? fmt::format("animation-{}", index) : own))
+      paths.push_back(std::move(*path));
+    ++index;
+  }
+  if (errors.first) return fail(*errors.first);
+  return paths;
+}
+
+}  // namespace gnomon

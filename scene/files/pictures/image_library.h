@@ -1,0 +1,83 @@
+// What of OpenImageIO the program uses, behind an interface: the library brings some two hundred others
+// along, whose loading takes longer than most pictures do. So it sits in a module of its own
+// (image_module.cpp) that is loaded when an image file is read or an EXR is written, and not before.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scene/base/expected.h"
+#include "scene/image.h"
+
+namespace gnomon {
+
+/// Pixel by pixel, channel by channel, row 0 at the top: in bytes, or in floats.
+struct DecodedImage {
+  ImageSize size;
+  std::vector<std::string> channels;
+  std::vector<std::uint8_t> bytes;
+  std::vector<float> floats;
+};
+
+enum class DecodeAs { stored, floats };  ///< stored: floats where the file holds floating-point values
+
+/// What the decoded samples of an image file may weigh, bytes. No compression that the formats have makes
+/// more than 1,032 bytes of one (deflate; Gailly and Adler, zlib technical details), and what small files
+/// with empty parts say of themselves is allowed up to a limit.
+inline std::uint64_t image_budget(std::uint64_t file_bytes) {
+  return (std::uint64_t{64} << 20) + 1100 * file_bytes;
+}
+
+/// An EXR that is written some rows at a time, from the first on. Without close() it is not whole.
+class ExrRows {
+ public:
+  virtual ~ExrRows() = default;
+  /// Interleaved channels of `rows`, which begin where the last ones ended, and hold a multiple of 64 rows or the
+  /// rest.
+  virtual Expected<void> write(const PictureRows& rows, std::span<const float> pixels) = 0;
+  virtual Expected<void> close() = 0;
+};
+
+class ImageLibrary {
+ public:
+  virtual ~ImageLibrary() = default;
+  /// What the header of an image file says, of at most max_side pixels a side; nothing is decoded.
+  virtual Expected<ImageSize> size(const std::string& path, int max_side) const = 0;
+  /// An image file of at most max_side pixels a side, or one in memory whose format is known ("png", ...).
+  virtual Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as) const = 0;
+  virtual Expected<DecodedImage> decode(const std::string& name, std::string_view bytes,
+                                        std::string_view format, int max_side) const = 0;
+  /// An EXR of float channels, interleaved; attributes: string metadata.
+  virtual Expected<std::string> encode_exr(
+      ImageSize size, std::span<const std::string> channels, std::span<const float> pixels,
+      std::span<const std::pair<std::string, std::string>> attributes) const = 0;
+  /// The same into a file, byte for byte.
+  virtual Expected<std::unique_ptr<ExrRows>> open_exr(
+      const std::string& path, ImageSize size, std::span<const std::string> channels,
+      std::span<const std::pair<std::string, std::string>> attributes) const = 0;
+};
+
+/// Loads the module the first time. Errors: where it was looked for, and why it could not be loaded; too few threads can be
+/// started for it (graphics).
+Expected<const ImageLibrary*> image_library();
+
+// PNG and JPEG files by the libraries that are made for them. What textures of models come in does not load
+// OpenImageIO, which takes a quarter of a second (image_library.h).
+
+/// The file is no image that can be read (bad input).
+tl::unexpected<Error> bad_image(const std::string& file, std::string reason);
+
+/// In 8 bits, colours as they are stored: of gamma and profiles nothing is applied, palettes and tRNS are. `name` is the
+/// file, for messages. Error (bad input): the file is cut off or damaged, or a side is not in 1 … max_image_side.
+Expected<DecodedImage> decode_png(const std::string& name, std::string_view bytes);
+
+/// Grey or RGB; of what is stored as CMYK nothing. Errors as those of decode_png().
+Expected<std::optional<DecodedImage>> decode_jpeg(const std::string& name, std::string_view bytes);
+
+}  // namespace gnomon

@@ -1,0 +1,138 @@
+#include <fmt/core.h>
+#include <png.h>
+
+#include <algorithm>
+#include <csetjmp>
+#include <cstring>
+#include <vector>
+
+#include "scene/files/pictures/image_io.h"
+#include "scene/files/pictures/image_library.h"
+
+namespace gnomon {
+namespace {
+
+constexpr std::size_t most_per_byte =
+    1032;  // what deflate makes of one (Gailly and Adler, zlib technical details)
+
+constexpr const char* cut_off = "cut off";
+
+struct Source {
+  std::string_view left;
+  std::string fault;
+};
+
+void take_bytes(png_structp png, png_bytep data, png_size_t size) {
+  auto& source = *static_cast<Source*>(png_get_io_ptr(png));
+  if (size > source.left.size()) png_error(png, cut_off);
+  std::memcpy(data, source.left.data(), size);
+  source.left.remove_prefix(size);
+}
+
+[[noreturn]] void fail_reading(png_structp png, png_const_charp message) {
+  static_cast<Source*>(png_get_error_ptr(png))->fault = message;
+  std::longjmp(*png_set_longjmp_fn(png, std::longjmp, sizeof(std::jmp_buf)), 1);
+}
+
+// libpng would print them; they are about what does not decide a pixel.
+void ignore_warning(png_structp, png_const_charp) {}
+
+struct Header {
+  png_uint_32 width = 0, height = 0;
+  std::size_t stored_row = 0;  // bytes
+};
+/// Of the rows as they are read.
+struct Layout {
+  std::size_t row = 0, channels = 0;  // bytes
+};
+
+/// Up to the first pixels. libpng's errors jump back to here, over nothing that would have to be destroyed.
+bool read_header(png_structp png, png_infop info, Header& header) {
+  if (setjmp(*png_set_longjmp_fn(png, std::longjmp, sizeof(std::jmp_buf))) != 0) return false;
+  png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+  png_read_info(png, info);
+  header.width = png_get_image_width(png, info), header.height = png_get_image_height(png, info);
+  header.stored_row = png_get_rowbytes(png, info);
+  return true;
+}
+
+bool expand_rows(png_structp png, png_infop info, Layout& layout) {
+  if (setjmp(*png_set_longjmp_fn(png, std::longjmp, sizeof(std::jmp_buf))) != 0) return false;
+  png_set_expand(png);
+  png_set_scale_16(png);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  layout.row = png_get_rowbytes(png, info), layout.channels = png_get_channels(png, info);
+  return true;
+}
+
+bool read_rows(png_structp png, png_bytepp rows) {
+  if (setjmp(*png_set_longjmp_fn(png, std::longjmp, sizeof(std::jmp_buf))) != 0) return false;
+  png_read_image(png, rows);
+  png_read_end(png, nullptr);
+  return true;
+}
+
+Expected<void> check_extent(const std::string& name, const Header& header, std::size_t file_bytes) {
+  if (header.width > max_image_side || header.height > max_image_side)
+    return bad_image(name, fmt::format("image size (got {} x {}, allowed 1 x 1 to {} x {})", header.width,
+                                       header.height, max_image_side, max_image_side));
+  if (header.stored_row * header.height / most_per_byte > file_bytes)
+    return bad_image(name, fmt::format("the PNG file is cut off: {} bytes cannot hold {} x {} pixels",
+                                       file_bytes, header.width, header.height));
+  return {};
+}
+
+/// The library's state of one file.
+class PngReader {
+ public:
+  explicit PngReader(std::string_view bytes) : source_{bytes, "out of memory"} {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source_, fail_reading, ignore_warning);
+    info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
+    if (info_ != nullptr) png_set_read_fn(png_, &source_, take_bytes);
+  }
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+
+  bool header(Header& out) { return info_ != nullptr && read_header(png_, info_, out); }
+  bool layout(Layout& out) { return expand_rows(png_, info_, out); }
+  bool rows(png_bytepp out) { return read_rows(png_, out); }
+  std::string fault() const {
+    return source_.fault == cut_off ? "the PNG file is cut off"
+                                    : fmt::format("the PNG file is damaged: {}", source_.fault);
+  }
+
+ private:
+  Source source_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+};
+
+std::vector<std::string> channel_names(std::size_t count) {
+  std::vector<std::string> names =
+      count < 3 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
+  if (count % 2 == 0) names.emplace_back("A");
+  return names;
+}
+
+}  // namespace
+
+Expected<DecodedImage> decode_png(const std::string& name, std::string_view bytes) {
+  PngReader reader(bytes);
+  Header header;
+  if (!reader.header(header)) return bad_image(name, reader.fault());
+  if (const auto fits = check_extent(name, header, bytes.size()); !fits) return fail(fits.error());
+  Layout layout;
+  if (!reader.layout(layout)) return bad_image(name, reader.fault());
+  DecodedImage image{{static_cast<int>(header.width), static_cast<int>(header.height)},
+                     channel_names(layout.channels),
+                     std::vector<std::uint8_t>(layout.row * header.height),
+                     {}};
+  std::vector<png_bytep> rows;
+  for (std::size_t y = 0; y < header.height; ++y) rows.push_back(image.bytes.data() + y * layout.row);
+  if (!reader.rows(rows.data())) return bad_image(name, reader.fault());
+  return image;
+}
+
+}  // namespace gnomon
