@@ -226,10 +226,17 @@ struct ShimmerFigures {
   double mean_absolute = 0.0;  ///< of the temporal error
 };
 
-/// Where cascades meet (cascades.h).
+/// Where cascades, or the faces of a cube, meet (cascades.h).
 struct SeamCount {
-  std::uint64_t at_border = 0;  ///< receivers beside a change of cascades
-  std::uint64_t changed = 0;    ///< of them those whose visibility changes only because the cascade does
+  std::uint64_t at_border = 0;  ///< receivers beside a change of cascades or faces
+  std::uint64_t changed =
+      0;  ///< of them those whose visibility changes only because the cascade or face does
+};
+
+/// Where a triangle and its smooth normal do not both face the light (terminator.h); both renderers go by the triangle.
+struct TerminatorCount {
+  std::uint64_t dark = 0;   ///< facing away, though the smooth normal faces the light
+  std::uint64_t unlit = 0;  ///< compared, though the smooth normal faces away, so that no light is seen there
 };
 
 /// Of the compared pixels that look up one cascade.
@@ -249,7 +256,8 @@ struct LightFigures {
   Detachment detachment;
   BleedingStats bleeding;
   std::optional<PenumbraStats> penumbra;  ///< of a light with size
-  std::optional<SeamCount> seams;         ///< of technique csm
+  std::optional<SeamCount> seams;         ///< of the hard test in several maps
+  TerminatorCount terminator;
   std::optional<ShimmerFigures> shimmer;  ///< where a film was asked for, too
   std::array<double, 3> texel_world{};    ///< min, median, max over compared receivers
   std::optional<std::uint64_t> lookups;   ///< LightRecord::lookups of the compared pixels; none: not counted

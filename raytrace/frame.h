@@ -26,6 +26,9 @@ struct RaytraceOptions {
   int shadow_samples =
       0;  ///< rays per point to a light with size, <= max_shadow_samples; 0: as the light says
   std::uint64_t seed = 0;  ///< of every sample
+  /// The picture's shadow rays start on the smooth body that a mesh stands for (raytrace/shading/smooth_surface.h), and its
+  /// shading normal says what faces a light. Receivers and lights of the frame are the triangles' all the same.
+  bool terminator_offset = false;
   /// The picture's; a box filter. What else the frame holds is of pixel centres. 1: the picture too.
   int samples_per_pixel = 1;
   /// false: only the picture is wanted, so no ray is cast that it does not need. Lights with size then have

@@ -96,7 +96,7 @@ TEST(CascadeBlend, DrawnIsTheTwinsMix) {
     for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
       if (!compare::is_compared(light.labels.data[i])) continue;
       ++compared;
-      const double twin = compare::cascade_visibility(record, result.raster.options.map, one.scene.lights[0],
+      const double twin = compare::visibility_by_face(record, result.raster.options.map, one.scene.lights[0],
                                                       result.raytraced.receiver.data[i], record.face.data[i]);
       const double drawn = double{light.rungs[6].data[i]};
       unlike += std::abs(drawn - twin) > 1e-3 ? 1 : 0;  // shares are told by floats in thousands of texels
@@ -156,6 +156,45 @@ TEST(Seams, AreThePixelsWhereTheCascadeAloneDecides) {
   EXPECT_EQ(seams(by_texel, 0.4).lights[0].seams->changed, 0u);
   map.technique = Technique::hard;
   EXPECT_FALSE(seams({}, 0.0).lights[0].seams.has_value());
+}
+
+// Under a lamp a floor has no slope in the face below it and half a texel's depth in the faces beside: a slope bias that
+// reaches past a lid there, and does nothing below, makes a seam of every receiver where the two meet.
+TEST(CubeSeams, AreThePixelsWhereTheFaceAloneDecides) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.shapes = {{"floor", Plane{Vec3(0.0), Vec3(0.0, 1.0, 0.0)}, 0}};
+  scene.meshes = {box_mesh({-20, 3.0, -20}, {20, 3.1, 20})};
+  scene.instances = {{"lid", 0}};
+  scene.lights = {lamp(LightType::point, {0.0, 6.0, 0.0}, {0.0, 0.0, 0.0})};
+  scene.camera = {{0.0, 1.5, 9.0}, {0.0, 0.0, 6.0}, {0, 1, 0}, 0.5};
+  OneWorld one(std::move(scene));
+  compare::CompareOptions options = test_options({160, 100}, 64);
+  raster::MapOptions& map = options.raster.map;
+  for (const Technique technique : {Technique::cube, Technique::hard}) {
+    map.technique = technique;
+    map.bias = {.constant = 0.01, .unit = raster::BiasUnit::world};
+    const compare::Comparison flat = one.compare(options);
+    const Image<std::uint8_t>& face = flat.raster.lights[0].face;
+    std::uint64_t beside = 0;
+    for (int y = 0; y < face.size.height; ++y)
+      for (int x = 0; x < face.size.width; ++x) {
+        ASSERT_TRUE(compare::is_compared(flat.lights[0].labels.at(x, y))) << "the floor fills the picture";
+        beside += (y > 0 && face.at(x, y - 1) != face.at(x, y)) ||
+                          (y + 1 < face.size.height && face.at(x, y + 1) != face.at(x, y))
+                      ? 1
+                      : 0;
+      }
+    ASSERT_GE(beside, 320u);
+    EXPECT_EQ(flat.lights[0].seams->at_border, beside);
+    EXPECT_EQ(flat.lights[0].seams->changed, 0u);
+    map.bias.slope = 40.0;  // a lid's gap there is 33 slopes
+    const compare::Comparison cut = one.compare(options);
+    EXPECT_EQ(cut.lights[0].seams->at_border, beside);
+    EXPECT_EQ(cut.lights[0].seams->changed, beside);
+  }
+  map.technique = Technique::pcf;
+  EXPECT_FALSE(one.compare(options).lights[0].seams.has_value());
 }
 
 // A floor seen from straight above, with pixel centres exactly where two faces of the cube meet.

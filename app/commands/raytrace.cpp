@@ -81,6 +81,8 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   for (const std::string& note :
        command.heatmap ? idle_in_heatmap(command.given) : idle_options(command.given, loaded->plan))
     console.note(note);
+  if (command.options.terminator_offset && !loaded->world->has_normals())
+    console.note("--terminator-offset has no effect: no mesh has normals of its own");
   if (const std::string note = many_rays_note(*loaded->scene, loaded->plan, command.options.min_contribution,
                                               command.options.size);
       !note.empty() && !command.heatmap)
@@ -135,6 +137,10 @@ void add_raytrace(CLI::App& program, Invocation& invocation) {
   add_min_contribution(*app, command->options.min_contribution);
   add_samples(*app, command->options.shadow_samples);
   add_picture_samples(*app, command->samples);
+  app->add_flag("--terminator-offset", command->options.terminator_offset,
+                "start the picture's shadow rays on the smooth body that vertex normals tell, so that the "
+                "border of light "
+                "does not follow the facets (Hanika 2021) [default off]");
   add_seed(*app, command->options.seed, "of every sample");
   add_picture_manner(*app, *command, "threads of the ray tracer", "what was traced, costs and times");
   app->callback([command, &invocation, app] {

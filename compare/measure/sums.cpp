@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/ladder/terminator.h"
 #include "compare/measure/run_all.h"
 #include "compare/metrics/flip.h"
 #include "compare/metrics/ssim.h"
@@ -127,6 +128,10 @@ Expected<Image<float>> LightSums::add_pixels(const LadderInput& in, const Climb&
   for (const float distance : detached.data)
     if (!std::isnan(distance)) detachment_.add(double{distance});
   bleeding_.add(in, climb.rungs, labels);
+  if (options_.map == nullptr) {
+    const TerminatorCount here = count_terminator(in, labels);
+    map_.terminator.dark += here.dark, map_.terminator.unlit += here.unlit;
+  }
   if (const auto lookups = count_lookups(in.drawn, in.record(), labels))
     lookups_ = lookups_.value_or(0) + *lookups;
   if (options_.perceptual) {
@@ -193,8 +198,8 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
   out.seams = seams_;
   out.lookups = lookups_;
   out.ray_work = ray_work_;
-  const auto [texel_world, theory] = options_.map != nullptr ? *options_.map : map_;
-  out.texel_world = texel_world, out.theory = theory;
+  const MapMeasures& map = options_.map != nullptr ? *options_.map : map_;
+  out.texel_world = map.texel_world, out.theory = map.theory, out.terminator = map.terminator;
   out.bias_curve_withheld = why_no_curve(in.drawn, in.record());
   return out.bias_curve_withheld.empty() ? finish_curve(in, out) : Expected<void>{};
 }

@@ -21,6 +21,7 @@ namespace gnomon::compare {
 struct MapMeasures {
   std::array<double, 3> texel_world{};
   TheoryStats theory;
+  TerminatorCount terminator;  ///< of the compared pixels and those beside them; no map has a part in it
 };
 
 struct MeasureOptions {

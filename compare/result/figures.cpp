@@ -215,6 +215,9 @@ constexpr Figure rows[] = {
     {"seams.at_border", "receivers", at<&L::seams, &SeamCount::at_border>()},
     {"seams.changed", "receivers", at<&L::seams, &SeamCount::changed>(), less},
 
+    {"terminator.dark", "pixels", at<&L::terminator, &TerminatorCount::dark>()},
+    {"terminator.unlit", "pixels", at<&L::terminator, &TerminatorCount::unlit>()},
+
     {"detachment.pixels", "pixels", at<detachment, &D::pixels>(), less},
     {"detachment.mean_world", "world units", at<detachment, &D::mean_world>(), less},
     {"detachment.max_world", "world units", at<detachment, &D::max_world>(), less},

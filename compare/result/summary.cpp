@@ -165,9 +165,20 @@ std::string accidents_line(const RightByAccident& a) {
                      grouped(a.shadowed), grouped(a.lit));
 }
 
-std::string seams_line(const SeamCount& seams) {
-  return fmt::format("{} of {} receivers beside another cascade would be drawn otherwise by it",
-                     grouped(seams.changed), grouped(seams.at_border));
+std::string seams_line(const SeamCount& seams, const LightView& view) {
+  const bool cube = view.projection == LightProjection::perspective;
+  return fmt::format("{} of {} receivers beside another {} would be drawn otherwise by it",
+                     grouped(seams.changed), grouped(seams.at_border), cube ? "face of the cube" : "cascade");
+}
+
+// What no map has a part in, and what helps.
+std::string terminator_line(const TerminatorCount& t) {
+  if (t.dark + t.unlit == 0) return {};
+  return fmt::format(
+      "shadow terminator: triangle and smooth normal disagree on {} ({} dark by the triangle alone, {} by "
+      "the "
+      "normal); a finer mesh has less of it, raytrace --terminator-offset hides it",
+      counted(t.dark + t.unlit, "pixel"), grouped(t.dark), grouped(t.unlit));
 }
 
 // What each step took and what it added.
@@ -329,13 +340,20 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
     if (light.accidents.shadowed + light.accidents.lit > 0)
       page.field("by chance", accidents_line(light.accidents));
     page.field("budget", budget_line(c, light));
-    if (light.seams) page.field("seams", seams_line(*light.seams));
+    if (light.seams) page.field("seams", seams_line(*light.seams, drawn_record(c, light).map.view));
     add_bleeding(page, c, light);
     if (light.penumbra) add_penumbra(page, *light.penumbra, true_record(c, light).samples);
     if (!lacks_map(c)) add_theory(page, light.theory);
     if (!light.bias_curve_withheld.empty()) page.field("bias", light.bias_curve_withheld);
   }
+  if (const std::string line = terminator_line(light.terminator); !line.empty()) page.field("facets", line);
   add_times(page, c, light);
+}
+
+// What is seen of the shadow terminator is worth a line of its own from a hundredth of the surface on.
+bool shows_facets(const LightComparison& light) {
+  const PixelCounts& p = light.pixels;
+  return 100 * (light.terminator.dark + light.terminator.unlit) > p.compared + p.uncertain + p.facing_away;
 }
 
 // "sun: " where several are compared.
@@ -353,6 +371,7 @@ void add_figures_in_short(Page& page, const Comparison& c, const LightComparison
     page.field("wrong", wrong_line(light.error));
     page.field("labels", labels_line(light));
   }
+  if (shows_facets(light)) page.field("facets", terminator_line(light.terminator));
   const raster::LightRecord& drawn = drawn_record(c, light);
   const std::string exact = exact_shadows_line(true_record(c, light));
   if (c.judged || drawn.unshadowed_pass.runs.empty()) return page.field("time", exact);

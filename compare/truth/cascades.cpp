@@ -2,21 +2,44 @@
 
 #include "compare/ladder/biased_test.h"
 #include "compare/truth/surfaces.h"
+#include "raster/technique_traits.h"
 #include "scene/base/parallel.h"
+#include "scene/light.h"
 
 namespace gnomon::compare {
 namespace {
 
 using raytrace::SurfacePoint;
 
+/// Of a cube's face past its border: its outermost texels, as where a point on the border belongs to it.
+TexelCoordinate place_on_cube_face(const LightView& view, int face, const Vec3& position) {
+  TexelCoordinate at = project_to_face(view, face, position);
+  const double last = std::nextafter(static_cast<double>(view.size), 0.0);
+  at.u = std::clamp(at.u, 0.0, last), at.v = std::clamp(at.v, 0.0, last);
+  at.inside = at.depth > 0.0;
+  return at;
+}
+
+TexelCoordinate place_on_face(const LightView& view, int face, const Vec3& position) {
+  return view.projection == LightProjection::perspective ? place_on_cube_face(view, face, position)
+                                                         : project_to_face(view, face, position);
+}
+
+/// As place_on_face, but a normal offset may leave a cascade for the next one.
+TexelCoordinate offset_place(const LightView& view, int face, const Vec3& position) {
+  return view.projection == LightProjection::perspective ? place_on_cube_face(view, face, position)
+                                                         : project_from_cascade(view, face, position);
+}
+
 float hard_test(const raster::LightRecord& record, const raster::Bias& bias, const Light& light,
                 const SurfacePoint& receiver, const TexelCoordinate& own) {
   const LightView& view = record.map.view;
   BiasedLookup lookup{{}, own, receiver.position};
   if (bias.normal_offset_texels > 0.0) {
-    const double sine = glm::length(glm::cross(receiver.normal, light.direction));
+    const Vec3 to_light = light_at(light, receiver.position).to_light;
+    const double sine = glm::length(glm::cross(receiver.normal, to_light));
     lookup.position += receiver.normal * (bias.normal_offset_texels * texel_world_size(view, own) * sine);
-    lookup.at = project_from_cascade(view, own.face, lookup.position);
+    lookup.at = offset_place(view, own.face, lookup.position);
   }
   if (!lookup.at.inside) return 1.0f;
   lookup.key = raytrace::TexelKey::pack(lookup.at.face, lookup.at.column(), lookup.at.row());
@@ -54,8 +77,8 @@ class SeamCounter {
   bool changes(std::size_t pixel, int face) const {
     const SurfacePoint& receiver = in_.traced.receiver.data[pixel];
     const LightView& view = in_.record().map.view;
-    if (!project_to_face(view, face, receiver.position).inside) return false;
-    const double other = cascade_visibility(in_.record(), in_.drawn.options.map, in_.light(), receiver, face);
+    if (!place_on_face(view, face, receiver.position).inside) return false;
+    const double other = visibility_by_face(in_.record(), in_.drawn.options.map, in_.light(), receiver, face);
     return std::abs(other - double{in_.record().visibility.data[pixel]}) > 0.5;
   }
 
@@ -66,16 +89,17 @@ class SeamCounter {
 }  // namespace
 
 double share_of_next(const LightView& view, const TexelCoordinate& own, double blend) {
-  if (own.face + 1 >= view.face_count || !(blend > 0.0)) return 0.0;
+  const bool cascades = view.projection == LightProjection::orthographic;
+  if (!cascades || own.face + 1 >= view.face_count || !(blend > 0.0)) return 0.0;
   const double last = view.size - 1.0;
   const double inwards = std::min({own.u - 1.0, own.v - 1.0, last - own.u, last - own.v}) / (view.size - 2.0);
   return std::clamp(1.0 - inwards / blend, 0.0, 1.0);
 }
 
-double cascade_visibility(const raster::LightRecord& record, const raster::MapOptions& drawn,
+double visibility_by_face(const raster::LightRecord& record, const raster::MapOptions& drawn,
                           const Light& light, const SurfacePoint& receiver, int face) {
   const LightView& view = record.map.view;
-  const TexelCoordinate own = project_to_face(view, face, receiver.position);
+  const TexelCoordinate own = place_on_face(view, face, receiver.position);
   const double here = double{hard_test(record, drawn.bias, light, receiver, own)};
   const double share = share_of_next(view, own, drawn.cascades.blend);
   if (!(share > 0.0)) return here;
@@ -87,9 +111,9 @@ double cascade_visibility(const raster::LightRecord& record, const raster::MapOp
 std::optional<SeamCount> count_seams(const LadderInput& in, const Image<Label>& labels,
                                      const PictureRows& within) {
   const raster::LightRecord& record = in.record();
-  const bool cascades = in.drawn.options.map.technique == raster::Technique::csm && !record.captured;
-  if (!cascades || in.drawn.custom_shader || record.map.depth.empty() ||
-      record.face.data.size() != labels.data.size())
+  const bool hard = raster::traits_of(in.drawn.options.map.technique).test == raster::ShadowTest::single;
+  if (!hard || record.captured || in.drawn.custom_shader || record.map.view.face_count < 2 ||
+      record.map.depth.empty() || record.face.data.size() != labels.data.size())
     return std::nullopt;
   const SeamCounter counter(in, labels);
   return parallel_reduce(

@@ -46,17 +46,6 @@ void add_counts(const std::vector<TileCounts>& tiles, RayTracedFrame& frame) {
   for (const TileCounts& tile : tiles) frame.rays += tile.rays, frame.non_finite += tile.non_finite;
 }
 
-Vec3 shading_normal(const World& world, const SurfacePoint& point) {
-  if (!world.is_triangle(point.primitive)) return point.normal;
-  const auto t = world.triangle(point.primitive);
-  const double b0 = 1.0 - point.barycentric.x - point.barycentric.y;
-  const Vec3 n = b0 * Vec3(world.normal(t[0])) + point.barycentric.x * Vec3(world.normal(t[1])) +
-                 point.barycentric.y * Vec3(world.normal(t[2]));
-  const double length = glm::length(n);
-  if (!(length > 0.0)) return point.normal;
-  return glm::dot(n, point.normal) < 0.0 ? -n / length : n / length;
-}
-
 namespace {
 
 bool is_body(const Material& material) {

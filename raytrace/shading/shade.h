@@ -19,6 +19,7 @@
 #include "raytrace/shading/light_samples.h"
 #include "raytrace/shading/light_shaft.h"
 #include "raytrace/shading/microfacet.h"
+#include "raytrace/shading/smooth_surface.h"
 #include "raytrace/shapes/surface_uv.h"
 #include "scene/light.h"
 
@@ -70,10 +71,6 @@ struct ShadedEffects {
   bool indirect;  ///< the scene asks for it
   bool vertex_colors;
 };
-
-/// Interpolated and normalised, on the side of the point's geometric normal; the geometric normal where the
-/// mesh has none.
-Vec3 shading_normal(const World& world, const SurfacePoint& point);
 
 /// Where there is no glass there is nothing to be inside of.
 struct NoGlass {};
@@ -234,6 +231,21 @@ class Shader {
     if (on_.vertex_colors) diffuse *= Vec3f(surface_color(world_, point.primitive, point.barycentric));
     if (material.unlit) return diffuse;
     Vec3f radiance = scene_.ambient * diffuse;
+    if (options_.terminator_offset) {
+      const SurfacePoint body = on_smooth_body(world_, point);
+      add_lights(body, path, material, normal, diffuse, radiance,
+                 [&](std::uint32_t i) { return transmittance(body, path, i); });
+    } else {
+      add_lights(point, path, material, normal, diffuse, radiance, shadow);
+    }
+    if (on_.indirect && !path.gathers && diffuse != Vec3f(0.0f))
+      radiance += diffuse * gathered(point, path, normal);
+    return radiance;
+  }
+
+  template <class Shadow>
+  void add_lights(const SurfacePoint& point, const Path& path, const Material& material, const Vec3& normal,
+                  const Vec3f& diffuse, Vec3f& radiance, const Shadow& shadow) {
     for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) {
       const Light& light = scene_.lights[i];
       if (light_cannot_reach(light, point.position, point.normal)) continue;
@@ -241,9 +253,6 @@ class Shader {
                                            material, on_.specular);
       if (unshadowed != Vec3f(0.0f)) radiance += unshadowed * shadow(i);
     }
-    if (on_.indirect && !path.gathers && diffuse != Vec3f(0.0f))
-      radiance += diffuse * gathered(point, path, normal);
-    return radiance;
   }
 
   /// The mean radiance over the hemisphere, weighted by the cosine: with no pi factors (blinn_phong.h), what

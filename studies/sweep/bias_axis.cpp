@@ -163,7 +163,7 @@ LightComparison without_images(const LightComparison& light) {
   out.lookups = light.lookups;
   out.texel_world = light.texel_world;
   out.bias_texel_world = light.bias_texel_world;
-  out.theory = light.theory;
+  out.theory = light.theory, out.terminator = light.terminator;
   out.classify = light.classify;
   return out;
 }

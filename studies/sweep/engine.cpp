@@ -169,7 +169,7 @@ Expected<void> Engine::Impl::measure() {
   if (!measured) return measured;
   map_measures.clear();
   for (const LightComparison& light : comparison.lights)
-    map_measures.push_back({light.texel_world, light.theory});
+    map_measures.push_back({light.texel_world, light.theory, light.terminator});
   return {};
 }
 

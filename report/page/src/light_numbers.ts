@@ -88,6 +88,13 @@ function texelFact({ map: { texel_world: { min, max } } }: LightResult, key: str
   return fact("Texel width", of("median"), min === max ? "world units, everywhere" : markup`world units, median; from ${of("min")} to ${of("max")} over the compared surface`);
 }
 
+// Where a mesh's triangles show although their normals are smooth: no error of the map.
+function terminatorFact({ terminator }: LightResult, key: string): Markup | null {
+  if (!terminator || terminator.dark + terminator.unlit === 0) return null;
+  return fact("Shadow terminator", keyedThings(`${key}.terminator.dark`, "pixel"), markup`dark because the triangle faces away, though its smooth normal faces the light; ${
+    keyedThings(`${key}.terminator.unlit`, "pixel")} the other way round. No bias moves them: a finer mesh has fewer.`);
+}
+
 // Where the edges lie wrong and how far shadows stand off: nothing where neither was measured.
 function edgeMaps(i: number): Markup | null {
   if (!pictureNamed(`edges-${i}`)) return null;
@@ -107,7 +114,8 @@ export function factsBlock(light: LightResult, i: number): Markup {
   return markup`<h3>How far, how visible</h3>
 <dl class="facts">
 ${known && light.seams && fact("Seams", keyedThings(`${key}.seams.changed`, "receiver"),
-    markup`that the next cascade would draw otherwise, of ${keyedThings(`${key}.seams.at_border`, "receiver")} beside another cascade`)}${known && edgeFacts(light, key)}${
+    markup`that the next ${light.light.type === "point" ? "face" : "cascade"} would draw otherwise, of ${keyedThings(`${key}.seams.at_border`, "receiver")} beside another ${light.light.type === "point" ? "face of the cube" : "cascade"}`)}${
+    terminatorFact(light, key)}${known && edgeFacts(light, key)}${
     detachment.pixels > 0 && fact("Detachment", plain(`${key}.detachment.mean_world`),
       markup`world units from caster to drawn shadow on ${keyedThings(`${key}.detachment.pixels`, "pixel")}, ${plain(`${key}.detachment.max_world`)} at most`)}${
     bleeding && bleeding.pixels > 0 && fact("Light bleeding", plain(`${key}.bleeding.mean`),

@@ -64,6 +64,7 @@ export interface LightResult {
   bleeding?: { pixels: number };
   penumbra?: { edges: number; umbra_edges: number; drawn_penumbra_world: number; drawn_umbra_world: number };
   seams?: object;
+  terminator?: { dark: number; unlit: number };
   theory: { acne_free_bias: { count: number }; aliasing: { count: number }; measured_aliasing: { count: number } };
   bias_curve: BiasPoint[];
   bias_curve_withheld: string | null;
