@@ -177,6 +177,12 @@ struct BiasKind {
   double from = 0.0, to = 0.0;  ///< settings from `from` on and below `to` are hardly worse, too
 };
 
+/// What a map of another size would leave, all else as drawn: an estimate (ladder/other_sizes.h).
+struct OtherMapSize {
+  int size = 0;                                      ///< texels on a side
+  double mean_absolute = 0.0, standard_error = 0.0;  ///< as ErrorStats::mean_absolute; of the estimate
+};
+
 /// Of the finite values over compared pixels.
 struct Distribution {
   std::uint64_t count = 0;
@@ -276,7 +282,8 @@ struct LightComparison : LightFigures {
   std::vector<BiasCurvePoint> bias_curve;
   std::string_view bias_curve_withheld;  ///< why, as a sentence; else empty
   BestBias best_bias;
-  std::vector<BiasKind> bias_kinds;  ///< the best first; empty where not made
+  std::vector<BiasKind> bias_kinds;       ///< the best first; empty where not made
+  std::vector<OtherMapSize> other_sizes;  ///< the smallest first; empty where not estimated
   TheoryStats theory;
   std::array<double, rung_count> rung_mean{};  ///< mean visibility over compared pixels, V0 … V6
   double bias_texel_world = 0.0;               ///< what a bias in texels is a multiple of

@@ -151,8 +151,12 @@ async function checkFirstScreen() {
   for (const id of ["picture-raster", "picture-raytraced", "picture-labels-0"]) boxes.push(await page.locator(`#${id}`).boundingBox());
   for (const box of boxes) assert.ok(box.y === boxes[0].y && box.y + box.height < 900 && box.width > 300, JSON.stringify(boxes));
   assert.ok(boxes[0].x < boxes[1].x && boxes[1].x < boxes[2].x);
-  assert.ok((await page.locator(".verdict").boundingBox()).y < 900);
+  const verdict = await page.locator(".verdict").first().boundingBox();
+  assert.ok(verdict.y + verdict.height < boxes[0].y, JSON.stringify(verdict));
   await close(page);
+  const phone = await open("one", { viewport: { width: 390, height: 844 } }), said = await phone.locator(".verdict").first().boundingBox();
+  assert.ok(said.y + said.height < 844, `on a phone the verdict ends at ${said.y + said.height}`);
+  await close(phone);
 }
 
 // Of a picture with more pixels than a page holds the page shows some, and says so on its first screen, scripts or none.

@@ -45,8 +45,11 @@ async function checkGlass() {
 // What a reader sets, another reader of the same link sees.
 async function checkUrl() {
   const first = await open(folderOf(biases[0])), stage = first.locator(".stage");
+  // Keys need no click where the pictures are before the reader.
+  await stage.evaluate((e) => e.scrollIntoView({ block: "center" }));
+  await first.keyboard.press("f");
   await stage.focus();
-  for (const key of ["f", "+", "+", "ArrowRight", "Shift+ArrowDown"]) await first.keyboard.press(key);
+  for (const key of ["+", "+", "ArrowRight", "Shift+ArrowDown"]) await first.keyboard.press(key);
   await first.locator(".pick").first().selectOption({ label: "labels" });
   await first.locator(".pick").last().selectOption({ label: "gap" });
   await first.locator(".exposure input").fill("1.5");
@@ -81,6 +84,13 @@ async function checkPresenterOnProjectors() {
   for (const [w, h] of [[1280, 720], [1024, 768]]) {
     const page = await open(folderOf(biases[1]), { viewport: { width: w, height: h } }, "#light-0?pixel=100,80");
     await page.getByRole("button", { name: "Present" }).click();
+    const alone = await page.locator("dialog.presenter .bias-picture").boundingBox();
+    assert.ok(alone.width * alone.height >= 0.6 * w * h && alone.y + alone.height <= h, `${w}: the picture alone is ${JSON.stringify(alone)}`);
+    await page.keyboard.press("2");
+    assert.equal(await page.locator("dialog.presenter .presenter-overlay").getAttribute("src"), await page.locator("#picture-raster").getAttribute("src"));
+    await page.keyboard.press("1");
+    assert.equal(await page.locator("dialog.presenter .presenter-overlay").isVisible(), false);
+    await page.keyboard.press("d");
     await redrawn(page);
     for (const rung of await page.locator("dialog.presenter .pixel-ladder tbody tr").all()) {
       const box = await rung.boundingBox();
@@ -118,6 +128,7 @@ async function checkPresenter() {
   const places = () => JSON.stringify([...document.querySelectorAll(".bias-live, .pixel-probe")].map((e) => e.textContent.length > 40));
   const before = await page.evaluate(places);
   await page.getByRole("button", { name: "Present" }).click();
+  await page.getByRole("button", { name: "Details" }).click();
   for (const part of [".bias-picture canvas", "svg.light-space", "svg.section", ".bias-bar input[type=range]", ".story"]) {
     const box = await dialog.locator(part).boundingBox();
     assert.ok(box.x >= 0 && box.y >= 0 && box.x + box.width <= 1440 && box.y + box.height <= 900 && box.width > 150, `${part}: ${JSON.stringify(box)}`);

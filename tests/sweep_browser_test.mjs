@@ -224,9 +224,9 @@ async function checkTuned() {
   assert.equal(impossible.status, 1);
   const proof = await open(join(folder, "impossible"));
   const text = (await proof.locator("#tune").textContent()).replaceAll("\u00a0", " "), { best_bias: best } = JSON.parse(readFileSync(join(folder, "impossible/result.json"), "utf8")).lights[0];
-  assert.match(text, /No constant bias[^:]* can be right everywhere: [\d,]+\slit pixels need/);
-  assert.ok(text.replaceAll(",", "").includes(`${best.lit_pixels_above} lit pixels need`), "the proof's lit pixels are not those of result.json");
-  assert.ok(text.replaceAll(",", "").includes(`${best.shadowed_pixels_below} shadowed pixels need less`));
+  assert.match(text, /No constant bias[^:]* fits all: [\d,]+\slit pixels stay/);
+  assert.ok(text.replaceAll(",", "").includes(`${best.lit_pixels_above} lit pixels stay dark`), "the proof's lit pixels are not those of result.json");
+  assert.ok(text.replaceAll(",", "").includes(`${best.shadowed_pixels_below} shadowed pixels are lit from`));
   await close(proof);
 }
 

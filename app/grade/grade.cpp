@@ -205,7 +205,7 @@ class Grader {
 std::string missing_need(const Rubric& rubric, const Check& check, const std::vector<CheckResult>& earlier) {
   for (const std::size_t needed : check.needs)
     if (earlier[needed].points < rubric.checks[needed].points)
-      return fmt::format("not looked at before \"{}\" has its points", rubric.checks[needed].name);
+      return fmt::format("waits until \"{}\" has its points", rubric.checks[needed].name);
   return {};
 }
 

@@ -9,14 +9,19 @@ namespace gnomon::compare {
 
 /// Sentences; empty where there is nothing to say.
 struct BiasAdvice {
-  std::string best;  ///< "A slope bias of 1 (--slope-bias 1) would leave 0.08 %."
-  std::string more;  ///< what a constant alone would leave, and why none is right everywhere
+  std::string best{};  ///< "Try --slope-bias 1: 0.08 % wrong."
+  std::string none{};  ///< "No other bias does clearly better.": in place of it
+  std::string
+      more{};  ///< what does as well, what a constant alone would leave, and why none is right everywhere
 };
 /// `drawn`: the options that the light was drawn with.
 BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn);
 
-/// "No constant bias beside the slope bias of 1 can be right everywhere: 213 lit pixels need at least 2 texels and …": of
-/// a best bias that is not feasible. `texel_world`: what a bias in texels is a multiple of; `drawn`: the bias drawn with.
+/// "none wrong", "7 pixels wrong", "0.8 % wrong": a share of a light's compared pixels.
+std::string wrong_text(double fraction, const LightComparison& light);
+
+/// "No constant bias beside the slope bias of 1 fits all: 213 lit pixels stay dark below 2 texels, and …": of a best bias
+/// that is not feasible. `texel_world`: what a bias in texels is a multiple of; `drawn`: the bias drawn with.
 std::string contradiction(const BestBias& best, double texel_world, const raster::Bias& drawn);
 /// Whether that sentence names both a least bias of lit pixels and a largest one of shadowed pixels.
 bool names_both_bounds(const BestBias& best);

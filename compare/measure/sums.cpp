@@ -137,6 +137,8 @@ Expected<Image<float>> LightSums::add_pixels(const LadderInput& in, const Climb&
   if (options_.perceptual) {
     const std::size_t first = in.traced.receiver.index(0, in.place.first_row);
     add_ray_work(in.tracer, in.light(), in.traced.receiver, labels, first, picture_.pixels(), ray_work_);
+    if (other_sizes_apply(in.drawn, in.record()))
+      other_sizes_.add(in, climb.rungs[0], labels, picture_.pixels());
   }
   if (const auto added = add_lists(in, climb); !added) return fail(added.error());
   return detached;
@@ -198,6 +200,7 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
   out.seams = seams_;
   out.lookups = lookups_;
   out.ray_work = ray_work_;
+  out.other_sizes = other_sizes_.figures(out.error.mean_absolute);
   const MapMeasures& map = options_.map != nullptr ? *options_.map : map_;
   out.texel_world = map.texel_world, out.theory = map.theory, out.terminator = map.terminator;
   out.bias_curve_withheld = why_no_curve(in.drawn, in.record());

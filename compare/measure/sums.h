@@ -8,6 +8,7 @@
 #include "compare/bias/bias_kinds.h"
 #include "compare/ladder/bleeding.h"
 #include "compare/ladder/by_cascade.h"
+#include "compare/ladder/other_sizes.h"
 #include "compare/ladder/penumbra.h"
 #include "compare/measure/light_parts.h"
 #include "compare/measure/number_list.h"
@@ -26,8 +27,8 @@ struct MapMeasures {
 
 struct MeasureOptions {
   int bias_curve_points = 129;
-  /// FLIP and SSIM, which cost more than all the rest (NaN when left out), the maps of displacement, and the
-  /// kinds of bias.
+  /// FLIP and SSIM, which cost more than all the rest (NaN when left out), the maps of displacement, the kinds of bias,
+  /// and maps of other sizes.
   bool perceptual = true;
   bool by_cascade = true;            ///< LightComparison::cascades
   const MapMeasures* map = nullptr;  ///< of the same map and the same compared pixels; null: made anew
@@ -85,6 +86,7 @@ class LightSums {
   std::optional<SeamCount> seams_;
   std::optional<std::uint64_t> lookups_;
   RayWork ray_work_;
+  OtherSizesSum other_sizes_;
   EdgeSums edges_;
   Perception perception_;
   NumberList<double> texel_widths_;  ///< one where all are alike

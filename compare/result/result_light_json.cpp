@@ -266,6 +266,15 @@ Json bias_kinds_json(const LightComparison& light, const raster::MapOptions& dra
   return json;
 }
 
+Json other_sizes_json(const LightComparison& light) {
+  Json json = Json::array();
+  for (const OtherMapSize& other : light.other_sizes)
+    json.push_back({{"size", other.size},
+                    {"mean_absolute", number(other.mean_absolute)},
+                    {"standard_error", number(other.standard_error)}});
+  return json;
+}
+
 Json distribution_json(const Distribution& d) {
   return {{"count", d.count},
           {"median", number(d.median)},
@@ -361,6 +370,7 @@ Json light_block(const Comparison& c, const LightComparison& light) {
               light.bias_curve_withheld.empty() ? Json(nullptr) : Json(light.bias_curve_withheld)},
              {"best_bias", best_bias_json(light)},
              {"bias_kinds", bias_kinds_json(light, c.raster.options.map)},
+             {"other_map_sizes", other_sizes_json(light)},
              {"engine_units", engine_units_json(engine_units(c, light))},
              {"theory", theory_json(light.theory)},
              {"shadow_rays", truth.rays},

@@ -161,7 +161,7 @@ std::string labels_line(const LightComparison& light) {
 }
 
 std::string accidents_line(const RightByAccident& a) {
-  return fmt::format("{} dark only because the surface shadows itself, {} lit only past a stored caster",
+  return fmt::format("{} pixels are rightly dark only by acne, {} rightly lit only by a leak",
                      grouped(a.shadowed), grouped(a.lit));
 }
 
@@ -338,7 +338,7 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
     page.field("error", error_line(light));
     page.field("labels", labels_line(light));
     if (light.accidents.shadowed + light.accidents.lit > 0)
-      page.field("by chance", accidents_line(light.accidents));
+      page.field("by luck", accidents_line(light.accidents));
     page.field("budget", budget_line(c, light));
     if (light.seams) page.field("seams", seams_line(*light.seams, drawn_record(c, light).map.view));
     add_bleeding(page, c, light);

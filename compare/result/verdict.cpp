@@ -11,6 +11,7 @@
 #include "compare/ladder/labels.h"
 #include "compare/result/judged.h"
 #include "compare/result/number_text.h"
+#include "compare/result/output_parts.h"
 #include "compare/result/text_layout.h"
 #include "raster/technique_traits.h"
 
@@ -35,15 +36,15 @@ std::string main_reasons(const std::array<Amount, class_count>& amounts, std::st
   return fmt::format("mainly {}, {} and {}", name(0), name(1), name(2));
 }
 
-// "4.1 % of the lit-or-shadowed pixels are wrong, mostly acne." Each is wholly wrong, so the share is the mean error.
+// "Shadow error 4.1 % of the pixels, mostly acne." Each is wholly wrong, so the share is the mean error.
 std::string yes_or_no_part(const LightComparison& light) {
   const std::uint64_t wrong = light.error.wrong, compared = light.pixels.compared;
-  if (wrong == 0 && compared == 1) return "The one lit-or-shadowed pixel is right.";
-  if (wrong == 0) return fmt::format("None of the {} lit-or-shadowed pixels is wrong.", grouped(compared));
-  const bool few = light.error.wrong_fraction < few_fraction;
-  const std::string share = few ? fmt::format("{} of {}", grouped(wrong), grouped(compared))
-                                : fmt::format("{} of the", percent(light.error.wrong_fraction));
-  return fmt::format("{} lit-or-shadowed pixels {} wrong, {}.", share, few && wrong == 1 ? "is" : "are",
+  if (wrong == 0 && compared == 1) return "No shadow error: the one pixel compared is right.";
+  if (wrong == 0) return fmt::format("No shadow error: all {} pixels compared are right.", grouped(compared));
+  const std::string share = light.error.wrong_fraction < few_fraction
+                                ? fmt::format("in {} of {} pixels", grouped(wrong), grouped(compared))
+                                : percent(light.error.wrong_fraction) + " of the pixels";
+  return fmt::format("Shadow error {}, {}.", share,
                      main_reasons(light.classes, wrong == 1 ? "" : "all of them "));
 }
 
@@ -52,16 +53,15 @@ std::string fractional_part(const LightComparison& light) {
   const std::uint64_t wrong = light.error.wrong, compared = light.pixels.compared;
   const auto& errors = light.class_errors;
   const bool labelled = std::any_of(errors.begin(), errors.end(), [](double error) { return error > 0.0; });
-  const std::string lead =
-      fmt::format("The mean error is {} over {} lit-or-shadowed pixel{}{}; ",
-                  percent(light.error.mean_absolute), grouped(compared), compared == 1 ? "" : "s",
-                  labelled ? ", " + main_reasons(errors, "all of it ") : std::string());
-  if (wrong == 0) return lead + "none of them is wrong by more than one half.";
+  const std::string lead = fmt::format("Shadow error {} on average{}; ", percent(light.error.mean_absolute),
+                                       labelled ? ", " + main_reasons(errors, "all of it ") : std::string());
+  if (wrong == 0) return lead + "no pixel is off by more than one half.";
   // Without those that are off by exactly one half, of which the figure of the error counts half.
   const double share = static_cast<double>(wrong) / static_cast<double>(compared);
-  const bool few = share < few_fraction;
-  return lead + fmt::format("{} of them {} wrong by more than one half.",
-                            few ? grouped(wrong) : percent(share), few && wrong == 1 ? "is" : "are");
+  if (share >= few_fraction)
+    return fmt::format("{}{} of the pixels are off by more than one half.", lead, percent(share));
+  return fmt::format("{}{} pixel{} off by more than one half.", lead, grouped(wrong),
+                     wrong == 1 ? " is" : "s are");
 }
 
 std::string uncertain_part(const PixelCounts& p) {
@@ -92,10 +92,7 @@ std::string soft_technique_advice() {
   std::string options;
   for (const raster::TechniqueTraits& t : raster::all_technique_traits())
     if (t.soft) options += fmt::format("{}--technique {}", options.empty() ? "" : " or ", t.name);
-  return fmt::format(
-      "Most of the mean error is the light's size: no bias gives the shadow of its centre a penumbra, a "
-      "technique for soft shadows does ({}).",
-      options);
+  return fmt::format("Try {}: the error is mostly the light's size, which no bias mends.", options);
 }
 
 std::string error_part(const LightComparison& light) {
@@ -130,7 +127,25 @@ std::string judged_advice(const Judged& judged, const LightComparison& light) {
   if (last.with && last.with->instead != last.with->now)
     settings += (settings.empty() ? "" : " and ") + instead_text(*last.with);
   if (settings.empty()) return {};
-  return fmt::format("{} would leave {}.", settings, percent(last.wrong_instead));
+  return fmt::format("Try {}: {} wrong.", settings, percent(last.wrong_instead));
+}
+
+// A map of another size is worth a sentence where the error falls by a fifth, by more than the estimate may be off; or,
+// where there is hardly an error, the smallest that leaves hardly one.
+std::string size_advice(const LightComparison& light, int drawn_size) {
+  constexpr double hardly_an_error = 0.005, clear_gain = 0.2, sure = 2.0;
+  const double error = light.error.mean_absolute;
+  const std::string_view measure = light.error.fractional > 0 ? " on average" : " wrong";
+  for (const OtherMapSize& other : light.other_sizes) {
+    const bool smaller = other.size < drawn_size;
+    const double at_most = other.mean_absolute + sure * other.standard_error;
+    if (smaller && at_most < hardly_an_error)
+      return fmt::format("A map of {0} would do (--map-size {0}: about {1}{2}).", other.size,
+                         percent(other.mean_absolute), measure);
+    if (!smaller && error >= hardly_an_error && at_most < (1.0 - clear_gain) * error)
+      return fmt::format("Try --map-size {}: about {}{}.", other.size, percent(other.mean_absolute), measure);
+  }
+  return {};
 }
 
 }  // namespace
@@ -150,10 +165,11 @@ Verdict verdict_on(const Comparison& c, const LightComparison& light) {
   if (c.judged) return {error, judged_advice(*c.judged, light), uncertain, uncertain};
   if (lacks_light_size(c.raster, light)) return {error, soft_technique_advice(), uncertain, uncertain};
   // What other biases would do follows from the gaps of a hard test alone.
-  if (!biases_follow_from_gaps(c.raster))
-    return {.error = error, .uncertain = uncertain, .detail = uncertain};
-  const BiasAdvice advice = bias_advice(light, c.raster.options.map);
-  return {error, advice.best, uncertain, joined_sentences({uncertain, advice.more})};
+  const BiasAdvice bias =
+      biases_follow_from_gaps(c.raster) ? bias_advice(light, c.raster.options.map) : BiasAdvice{};
+  const std::string better =
+      joined_sentences({size_advice(light, drawn_record(c, light).map.view.size), bias.best});
+  return {error, better.empty() ? bias.none : better, uncertain, joined_sentences({uncertain, bias.more})};
 }
 
 }  // namespace gnomon::compare

@@ -1,5 +1,5 @@
 // The verdict in plain words: how many pixels are wrong, or how far off partly lit ones are, mostly why, and
-// what another bias would leave.
+// what another bias or another map size would leave.
 #pragma once
 
 #include <string>

@@ -40,6 +40,30 @@ std::string budget_rows(const TemporalSums& total) {
   return text;
 }
 
+/// The step that makes most flips, as what is seen.
+std::string_view what_flickers(std::size_t most) {
+  if (most == outside_map_flip) return "Shadows come and go at the map's border";
+  switch (static_cast<Cause>(most)) {
+    case Cause::sampling:
+      return "Edges crawl";
+    case Cause::slope:
+    case Cause::precision:
+      return "Acne flickers";
+    case Cause::bias:
+      return "Shadows flicker where they touch their casters";
+    default:
+      return "Soft shadows flicker";
+  }
+}
+
+/// Edges of a sun's shadows crawl where its window follows the camera and is not held to whole texels.
+bool snap_would_help(const Shimmer& shimmer, const ShimmerLight& light, std::size_t most) {
+  const raster::MapOptions& map = shimmer.options.compare.raster.map;
+  return static_cast<Cause>(most) == Cause::sampling && !map.snap && raster::reads_setting(map, "snap") &&
+         shimmer.options.path.camera != CameraPath::still &&
+         shimmer.world->scene->lights[light.light].type == LightType::directional;
+}
+
 }  // namespace
 
 std::string shimmer_sentence(const Shimmer& shimmer, const ShimmerLight& light) {
@@ -51,12 +75,10 @@ std::string shimmer_sentence(const Shimmer& shimmer, const ShimmerLight& light) 
                        grouped(light.receivers), shimmer.options.time.frames);
   const auto most = static_cast<std::size_t>(std::max_element(total.by_label.begin(), total.by_label.end()) -
                                              total.by_label.begin());
-  return fmt::format("{} flips of {} receivers in {} frames, {} per receiver and second, mostly {}.",
+  return fmt::format("{}: a point flips {} times a second ({} flips of {} points in {} frames){}",
+                     what_flickers(most), plain_number(flips_per_receiver_second(shimmer.options, light)),
                      grouped(total.flips), grouped(light.receivers), shimmer.options.time.frames,
-                     plain_number(flips_per_receiver_second(shimmer.options, light)),
-                     most == outside_map_flip
-                         ? "outside the map"
-                         : fmt::format("made by the {} step", spoken(flip_label_name(most))));
+                     snap_would_help(shimmer, light, most) ? ". Try --snap." : ".");
 }
 
 std::string shimmer_table(const Shimmer& shimmer) {

@@ -22,7 +22,7 @@ HeadlineItem item(std::string title, const CellSummary& cell, const Figure& meas
 std::string time_title(const std::vector<CellSummary>& cells, std::size_t fastest) {
   const bool tied = std::any_of(cells.begin(), cells.end(),
                                 [&](const CellSummary& c) { return c.raster_ms < cells[fastest].raster_ms; });
-  return tied ? "Best for time (none is faster by more than the times' spread)" : "Best for time";
+  return tied ? "Best for time (a tie within the spread of the times)" : "Best for time";
 }
 
 // Of what lies on the front the least product of error and time: a step along it that halves the one and

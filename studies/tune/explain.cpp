@@ -20,7 +20,7 @@ std::string setting_text(const Attempt& a, const Figure& measure) {
 std::string proof(const FamilyResult& family, const Attempt& attempt) {
   if (!has_proof(attempt)) return {};
   std::string text = contradiction(attempt.best, attempt.texel_world, family.family.map.bias);
-  text.front() = 'n', text.pop_back();
+  text.front() = text.front() == 'N' ? 'n' : 'b', text.pop_back();
   return "; " + text;
 }
 
@@ -82,7 +82,7 @@ std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner)
                          fmt::format(fmt::runtime(measure.measure.level), figure_text(measure, loser.floor)),
                          nearest, proof(loser, loser.closest));
     if (loser.stop == TuneStop::no_smaller)
-      return fmt::format("needs a map no smaller than {}: {}{}", loser.like, nearest,
+      return fmt::format("needs at least the map of {}: {}{}", loser.like, nearest,
                          proof(loser, loser.closest));
     return (by_error ? "not good enough at any size: at best " : "too slow at any size: at best ") + nearest +
            proof(loser, loser.closest);

@@ -1,16 +1,23 @@
 // One light's section brought to life: viewer, probe, label table and bias act on one state, which the URL keeps.
 import { BiasPanel } from "./bias";
 import { page, wordsOf, type Light, type PictureName, type Pixel } from "./data";
+import { enlargeLabels } from "./enlarged_labels";
 import { examplePixel } from "./example_pixel";
 import { LabelTable } from "./labels";
 import { MapMarker } from "./map_marker";
 import { colourAt, exposed, linearAt } from "./linear";
 import { byId, hex, isolatedLabel, lightPicture, lightPictureNames } from "./pictures";
 import { Probe } from "./probe";
-import { Presenter } from "./presenter";
+import { Presenter, type Overlays } from "./presenter";
 import { initialLight, saveLight, type LightState } from "./state";
 import { html, number } from "./svg";
 import { Viewer, type Source } from "./viewer";
+
+/** What a lecture shows in place of the live picture; `live`: its name. */
+function overlaysOf(index: number, live: string): Overlays {
+  const named = [["rasterized", "picture-raster"], ["ray traced", "picture-raytraced"], ["labels", `picture-labels-${index}`]] as const;
+  return [[live, null], ...named.flatMap(([name, id]): Overlays => { const picture = byId(id); return picture ? [[name, picture]] : []; })];
+}
 
 export class LightPanel {
   private readonly state: LightState = { ...initialLight };
@@ -43,6 +50,8 @@ export class LightPanel {
       hover: (x, y) => this.hover(x, y), pin: (x, y) => this.pin(x, y), source: (name) => this.source(name),
       unpin: () => { this.state.pixel = null; this.redraw(); }, changed: () => saveLight(this.index, this.state),
     });
+    const labelled = byId(`picture-labels-${index}`);
+    if (labelled?.closest("#overview")) enlargeLabels(light, labelled);
     this.probe.show(this.shown, light.json.bias.constant);
     this.map?.show(this.shown);
     this.coloured = light.json.bias.constant;
@@ -52,7 +61,7 @@ export class LightPanel {
     new Presenter(root.querySelector(".viewer-bar")!, `light ${light.json.name}`, {
       controls: this.bias ? [this.bias.bar, this.bias.said] : [], picture: this.bias?.picture ?? root.querySelector<HTMLElement>(".stage")!,
       drawing, words, section: [bar, below],
-    }, (x, y) => this.step(x, y));
+    }, overlaysOf(index, this.bias ? "difference" : "as chosen"), (x, y) => this.step(x, y));
   }
 
   private step(x: number, y: number): void {

@@ -1,11 +1,11 @@
-// The first screen: both pictures with their times, and for each light the verdict beside its error budget.
+// The first screen: the verdict, both pictures with their times, and for each light its error budget.
 import { twoSidedBar } from "./bars";
 import { beyondRounding, keyed, keyedCount, keyedDecrease } from "./document";
 import { picture } from "./frame";
 import { milliseconds, signedNumber } from "./number_text";
 import { isBeside } from "./parts";
 import { facts, result, stepName, timed, verdictBlock, type LightResult } from "./report_document";
-import { markup, type Markup } from "./template";
+import { flowing, markup, type Markup } from "./template";
 
 /** The light whose labelled picture stands on the first screen: that with the most wrong pixels. */
 export const labelledLight = (): number =>
@@ -76,10 +76,19 @@ class="n" colspan="2">${signedNumber(beyondRounding(last - first, last + first))
 `;
 }
 
+/** Of one light before the pictures; of several each beside its budget, and the worst before them. */
+function firstVerdict(): Markup | null {
+  const { lights } = result, worst = labelledLight();
+  if (lights.length === 0) return null;
+  const { name, verdict } = facts.light_facts[worst]!;
+  return lights.length === 1 ? verdictBlock(verdict) : markup`<p class="verdict">Light ${name} is off most. ${flowing(verdict.headline)}</p>
+`;
+}
+
 function card(light: LightResult, i: number): Markup {
-  const { name, verdict } = facts.light_facts[i]!;
-  return markup`<div class="card"><div>${result.lights.length > 1 && markup`<p class="eyebrow">Light: <a href="#light-${i}">${name}</a></p>
-`}${verdictBlock(verdict)}</div>${light.pixels.compared > 0 && markup`<div class="card-budget"><p class="eyebrow">Where the error comes from: how far each step
+  const { name, verdict } = facts.light_facts[i]!, several = result.lights.length > 1;
+  return markup`<div class="card">${several && markup`<div><p class="eyebrow">Light: <a href="#light-${i}">${name}</a></p>
+${verdictBlock(verdict)}</div>`}${light.pixels.compared > 0 && markup`<div class="card-budget"><p class="eyebrow">Where the error comes from: how far each step
 darkens the picture and lightens it, as mean visibility. Pale: what later steps undo. Full colour: the wrong
 pixels that are left.</p>
 ${budgetTable(light, i)}</div>
@@ -94,7 +103,7 @@ export function overviewSection(): Markup {
   const { lights, scene } = result;
   return markup`<section id="overview" aria-labelledby="title">
 <h1 id="title">${scene.name || "Scene without a name"}</h1>
-${settingLines()}<div class="${lights.length === 0 ? "pair" : "trio"}">
+${firstVerdict()}${settingLines()}<div class="${lights.length === 0 ? "pair" : "trio"}">
 ${figure("raster", rasterCaption(), rasterRemark())}${figure("raytraced", raytracedCaption(), raytracedRemark())}${lights.length > 0 && labelFigure(labelledLight())}</div>
 ${lights.map(card)}${lights.length === 0 && markup`<p class="verdict">The scene has no light: there is no shadow to compare.</p>\n`}</section>
 `;

@@ -3,7 +3,7 @@
 import { Cell } from "./cell";
 import { wordsOf } from "./data";
 import { resultDocument } from "./document";
-import { showSections } from "./frame";
+import { pictureNamed, showSections } from "./frame";
 import { pageData } from "./parts";
 import { initialSweep, readSweep, saveSweep, type SweepState } from "./state";
 import { grouped } from "./number_text";
@@ -31,6 +31,10 @@ class SweepPage {
   constructor() {
     const saved = () => saveSweep(this.state), host = document.getElementById("grids");
     this.grid = host && this.json.axes.length > 0 ? new SweepGrid(host, this.json.axes, this.json.cells, this.state, saved) : null;
+    for (const link of document.querySelectorAll<HTMLAnchorElement>(".headline a")) {
+      const thumbnail = pictureNamed(`thumbnail-${link.getAttribute("href")!.slice(6)}`);
+      if (thumbnail) link.prepend(thumbnail.cloneNode());
+    }
     this.table = new SweepTable(document.querySelector("table.cells")!, this.state, saved);
     this.steps = ([["Previous cell", -1], ["Next cell", 1]] as const).map(([name, step]) => {
       const button = html("button", { type: "button" }, name);

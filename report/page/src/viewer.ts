@@ -13,6 +13,12 @@ export interface ViewerEvents {
   source: (name: string) => Source | null;  // of a picture, by its value in the menus; null: not there yet
 }
 
+/** A key that nothing on the page has the focus for; letters mean nothing to a button that was clicked last. */
+function isNobodys(event: KeyboardEvent): boolean {
+  const target = event.target as Element;
+  return target === document.body || target === document.documentElement || (target instanceof HTMLButtonElement && !(event.key in steps) && event.key.length === 1 && event.key !== " ");
+}
+
 /** A picture by its address, as pixels, or drawn already. */
 export type Source = { url: string } | ImageData | HTMLCanvasElement;
 
@@ -206,8 +212,9 @@ export class Viewer {
       event.preventDefault();
       this.zoomTo(state.zoom * Math.exp(-0.01 * event.deltaY), this.paneAt(event));
     }, { passive: false });
-    stage.addEventListener("keydown", (event) => {
-      if (!event.ctrlKey && !event.metaKey && !event.altKey && this.key(event)) event.preventDefault();
+    stage.addEventListener("keydown", (event) => this.take(event));
+    document.addEventListener("keydown", (event) => {
+      if (isNobodys(event) && this.isBeforeTheReader()) this.take(event);
     });
     this.listenToControls();
   }
@@ -235,6 +242,16 @@ export class Viewer {
       this.show();
       this.events.changed();
     }));
+  }
+
+  private take(event: KeyboardEvent): void {
+    if (!event.ctrlKey && !event.metaKey && !event.altKey && this.key(event)) event.preventDefault();
+  }
+
+  /** The middle of the window lies on the pictures: of two viewers on a page only one has it. */
+  private isBeforeTheReader(): boolean {
+    const { top, bottom, width } = this.stage.getBoundingClientRect(), middle = window.innerHeight / 2;
+    return width > 0 && top < middle && bottom > middle && document.querySelector("dialog[open]") === null;
   }
 
   /** Whether the key meant something here. */
