@@ -182,6 +182,20 @@ void forget_bounds(SurfacePoint& point, const Ray& ray, double t) {
 
 }  // namespace
 
+std::string_view accel_name(Accel accel) {
+  constexpr std::array<std::string_view, 10> names{
+      "bvh",  "bvh-median",    "kdtree", "kdtree-cyclic", "octree",
+      "grid", "grid-textbook", "bsp",    "two-level",     "brute"};
+  return names[static_cast<std::size_t>(accel)];
+}
+
+std::span<const Accel> all_accels() {
+  using enum Accel;
+  static constexpr Accel all[] = {bvh,  bvh_median,    kdtree, kdtree_cyclic, octree,
+                                  grid, grid_textbook, bsp,    two_level,     brute};
+  return all;
+}
+
 std::string_view precision_name(Precision precision) {
   constexpr std::array<std::string_view, 3> names{"fast", "robust", "exact"};
   return names[static_cast<std::size_t>(precision)];

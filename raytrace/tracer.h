@@ -51,6 +51,9 @@ enum class Accel : std::uint8_t {
   brute
 };
 
+std::string_view accel_name(Accel accel);
+std::span<const Accel> all_accels();
+
 /// The arithmetic of the rays. fast: floats, as textbooks have it, wrong where HARD_CASES says. robust:
 /// doubles, watertight, with error bounds that make ambiguity visible. exact: robust, what is ambiguous decided by exact
 /// predicates.

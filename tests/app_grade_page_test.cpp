@@ -5,10 +5,10 @@
 #include <cctype>
 #include <set>
 
-#include "app/grade/results.h"
+#include "studies/grade/results.h"
 #include "tests/app_process.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 namespace {
 
 std::string repeated(const std::string& text, int times) {
@@ -110,4 +110,4 @@ TEST(GradePage, WhoWasNotGradedHasNoPoints) {
 }
 
 }  // namespace
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -1,12 +1,15 @@
 // The heatmap's fixed scale and legend, and the rows of gnomon bench.
 #include <gtest/gtest.h>
 
-#include "app/bench/row.h"
 #include "app/outputs/heatmap.h"
+#include "benchmark/row.h"
 #include "compare/result/palette.h"
 
 namespace gnomon::app {
 namespace {
+
+using bench::BenchPeer;
+using bench::BenchRow;
 
 TEST(Heatmap, ScaleIsFixedAndLogarithmic) {
   EXPECT_EQ(heat_share(0), 0.0);
@@ -38,7 +41,7 @@ TEST(BenchRow, RatioAboveOneIsAlwaysBetter) {
   EXPECT_EQ(speed.ratio(), 2.0);
   EXPECT_EQ(time.ratio(), 0.5);
   speed.goal = 1.5;
-  const std::string json = bench_json(std::vector{speed, time});
+  const std::string json = bench_json(std::vector{speed, time}, compare::MachineInfo{});
   EXPECT_NE(json.find("\"gnomon/bench/1\""), std::string::npos);
   EXPECT_NE(json.find("\"met\": true"), std::string::npos);
   EXPECT_NE(json.find("\"goal\": null"), std::string::npos);
@@ -55,7 +58,8 @@ TEST(BenchRow, WhatTakesNothingMeetsItsGoal) {
                        .goal = 33.0};
     EXPECT_FALSE(row.ratio().has_value()) << asked;
     EXPECT_TRUE(row.met().value_or(false)) << asked;
-    EXPECT_NE(bench_json(std::vector{row}).find("\"met\": true"), std::string::npos) << asked;
+    EXPECT_NE(bench_json(std::vector{row}, compare::MachineInfo{}).find("\"met\": true"), std::string::npos)
+        << asked;
   }
 }
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <thread>
 
-#include "app/grade/limited_process.h"
+#include "studies/grade/limited_process.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 namespace {
 
 /// This test program itself as the child: one of the cases below that are disabled otherwise.
@@ -66,4 +66,4 @@ TEST(LimitedProcess, ItsLastWordsAndItsEndAreKept) {
 }
 
 }  // namespace
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

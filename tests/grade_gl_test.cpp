@@ -19,7 +19,7 @@ using nlohmann::json;
 /// The shipped shader with its steps filled in.
 std::string solution() {
   const std::string skeleton =
-      read_file(gnomon::test::source_dir() + "/app/grade/kits/first-shadow-map/technique/hard.glsl");
+      read_file(gnomon::test::source_dir() + "/studies/grade/kits/first-shadow-map/technique/hard.glsl");
   return skeleton.substr(0, skeleton.find("  // TODO 1")) +
          read_file(gnomon::test::source_dir() + "/tests/data/grade/steps.glsl");
 }

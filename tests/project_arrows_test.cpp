@@ -32,9 +32,11 @@ const std::map<std::string, std::set<std::string>, std::less<>> arrows = {
     {"report", {"scene", "compare"}},
     {"studies", {"scene", "raster", "raytrace", "compare", "report"}},
     {"verify", {"scene", "raster", "raytrace"}},
-    {"app", {"scene", "raster", "raytrace", "hybrid", "compare", "report", "studies", "verify"}},
+    {"benchmark", {"scene", "raster", "raytrace", "hybrid", "compare", "studies", "verify"}},
+    {"app", {"scene", "raster", "raytrace", "hybrid", "compare", "report", "studies", "verify", "benchmark"}},
     {"tests",
-     {"scene", "shaders", "raster", "raytrace", "hybrid", "compare", "report", "studies", "verify", "app"}},
+     {"scene", "shaders", "raster", "raytrace", "hybrid", "compare", "report", "studies", "verify",
+      "benchmark", "app"}},
 };
 
 bool is_room(std::string_view name) {

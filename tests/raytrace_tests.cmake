@@ -38,8 +38,8 @@ gnomon_test(raytrace_models_test
 # The speed figures; a short run of it is a test that it runs, not of how fast.
 gnomon_test_support(bench_scenes SOURCES bench/bench_scenes.cpp LIBS raytrace_support test_places)
 add_executable(gnomon_bench bench/gnomon_bench.cpp bench/tracer_bench.cpp bench/ball_light.cpp bench/embree_peer.cpp bench/tinybvh_peer.cpp
-  ${PROJECT_SOURCE_DIR}/app/process/large_pages.cpp ${PROJECT_SOURCE_DIR}/app/process/machine.cpp ${PROJECT_SOURCE_DIR}/app/bench/row.cpp)
-target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings gnomon::compare test_places bench_scenes embree TBB::tbb hwy::hwy CLI11::CLI11
+  ${PROJECT_SOURCE_DIR}/app/process/large_pages.cpp ${PROJECT_SOURCE_DIR}/app/process/machine.cpp)
+target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings gnomon::benchmark test_places bench_scenes embree TBB::tbb hwy::hwy CLI11::CLI11
   fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_compile_together(gnomon_bench)
 # tinybvh (github.com/jbikker/tinybvh) is one header and no part of the set-up: -DGNOMON_TINYBVH=FOLDER says where it is.

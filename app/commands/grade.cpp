@@ -1,5 +1,5 @@
 // gnomon grade: a class's shadow shaders against a rubric.
-#include "app/grade/grade.h"
+#include "studies/grade/grade.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "app/console.h"
-#include "app/grade/results.h"
 #include "app/invocation.h"
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
@@ -18,6 +17,7 @@
 #include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
 #include "scene/base/expected.h"
+#include "studies/grade/results.h"
 
 namespace gnomon::app {
 

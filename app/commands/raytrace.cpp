@@ -110,7 +110,7 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
       .picture = [&] { return whole ? write_whole(command, *loaded, frame) : picture.finish(); },
       .json =
           [&](const RenderRecord& record) {
-            return render_json(record, tracer, accel_name(command.accel), command.options, frame);
+            return render_json(record, tracer, raytrace::accel_name(command.accel), command.options, frame);
           }};
   return hand_out(command, *loaded, writer, watch, console);
 }

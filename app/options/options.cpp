@@ -18,23 +18,21 @@ constexpr std::pair<std::string_view, raster::Backend> backends[] = {
     {"egl", raster::Backend::egl},
     {"egl-software", raster::Backend::egl_software},
     {"egl-hardware", raster::Backend::egl_hardware}};
-constexpr std::pair<std::string_view, raytrace::Accel> accels[] = {
-    {"bvh", raytrace::Accel::bvh},
-    {"bvh-median", raytrace::Accel::bvh_median},
-    {"kdtree", raytrace::Accel::kdtree},
-    {"kdtree-cyclic", raytrace::Accel::kdtree_cyclic},
-    {"octree", raytrace::Accel::octree},
-    {"grid", raytrace::Accel::grid},
-    {"grid-textbook", raytrace::Accel::grid_textbook},
-    {"bsp", raytrace::Accel::bsp},
-    {"two-level", raytrace::Accel::two_level},
-    {"brute", raytrace::Accel::brute}};
 constexpr std::pair<std::string_view, raytrace::Precision> precisions[] = {
     {"fast", raytrace::Precision::fast},
     {"robust", raytrace::Precision::robust},
     {"exact", raytrace::Precision::exact}};
 
 // Ranges that no struct states. Each is far beyond what is useful and short of what overflows a float.
+/// --accel's words.
+std::span<const std::pair<std::string_view, raytrace::Accel>> accels() {
+  static const auto named = [] {
+    std::vector<std::pair<std::string_view, raytrace::Accel>> list;
+    for (const raytrace::Accel accel : raytrace::all_accels()) list.emplace_back(accel_name(accel), accel);
+    return list;
+  }();
+  return named;
+}
 constexpr int max_threads = 1024;
 constexpr int max_runs = 1000;
 
@@ -106,7 +104,7 @@ void add_shader_dir(CLI::App& command, std::string& folder) {
 }
 
 void add_tracer_options(CLI::App& command, raytrace::Accel& accel, raytrace::Precision& precision) {
-  add_choice(command, "--accel", accel, accels, "NAME",
+  add_choice(command, "--accel", accel, accels(), "NAME",
              "how rays find what they hit; brute tests everything");
   add_precision(command, precision);
 }
@@ -120,32 +118,21 @@ void add_precision(CLI::App& command, raytrace::Precision& precision) {
 
 void add_accel_list(CLI::App& command, std::vector<raytrace::Accel>& chosen) {
   add_value(command, "--accel", "all|NAME[,NAME]",
-            describe("structures to compare", choice_names<raytrace::Accel>(accels, " or "), "all"),
+            describe("structures to compare", choice_names<raytrace::Accel>(accels(), " or "), "all"),
             [&chosen](const std::string& text) -> Expected<void> {
-              chosen = all_accels();
+              const auto all = raytrace::all_accels();
+              chosen.assign(all.begin(), all.end());
               if (text == "all") return {};
               chosen.clear();
               for (std::size_t start = 0; start <= text.size();) {
                 const std::size_t end = std::min(text.find(',', start), text.size());
-                const auto accel = parse_choice<raytrace::Accel>(text.substr(start, end - start), accels);
+                const auto accel = parse_choice<raytrace::Accel>(text.substr(start, end - start), accels());
                 if (!accel) return fail(accel.error());
                 chosen.push_back(*accel);
                 start = end + 1;
               }
               return {};
             });
-}
-
-std::vector<raytrace::Accel> all_accels() {
-  std::vector<raytrace::Accel> all;
-  for (const auto& [name, accel] : accels) all.push_back(accel);
-  return all;
-}
-
-std::string_view accel_name(raytrace::Accel accel) {
-  for (const auto& [name, value] : accels)
-    if (value == accel) return name;
-  return "";
 }
 
 void add_heatmap(CLI::App& command, std::optional<HeatmapOf>& heatmap) {

@@ -37,8 +37,6 @@ void add_tracer_options(CLI::App& command, raytrace::Accel& accel, raytrace::Pre
 void add_precision(CLI::App& command, raytrace::Precision& precision);
 /// --accel of several: all, or names with commas between.
 void add_accel_list(CLI::App& command, std::vector<raytrace::Accel>& accels);
-std::vector<raytrace::Accel> all_accels();
-std::string_view accel_name(raytrace::Accel accel);
 /// --heatmap.
 void add_heatmap(CLI::App& command, std::optional<HeatmapOf>& heatmap);
 void add_min_contribution(CLI::App& command, double& share);

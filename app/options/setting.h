@@ -23,9 +23,4 @@ void add_setting_options(CLI::App& command, SettingOptions& setting);
 Expected<compare::Setting> resolve_setting(const SettingOptions& setting, const Scene& given,
                                            const World& world);
 
-// Words as a POSIX shell would need them typed.
-
-/// The word itself where it is plain, else in single quotes.
-std::string shell_quoted(std::string_view word);
-
 }  // namespace gnomon::app

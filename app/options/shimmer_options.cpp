@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "app/options/option_kinds.h"
-#include "app/options/setting.h"
 #include "compare/result/threshold.h"
+#include "scene/base/option_text.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon::app {

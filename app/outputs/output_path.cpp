@@ -54,11 +54,6 @@ Expected<void> check_output_file(const std::string& path) {
   return check_folder(fs::path(path).lexically_normal().parent_path());
 }
 
-Expected<void> make_folder_for(const std::string& path) {
-  const std::string folder = fs::path(path).parent_path().string();
-  return folder.empty() ? Expected<void>{} : make_output_folder(folder);
-}
-
 Expected<void> check_extension(std::string_view option, const std::string& path,
                                std::string_view extensions) {
   const std::string extension = lower_extension(path);

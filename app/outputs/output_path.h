@@ -15,9 +15,6 @@ Expected<void> check_output_folder(const std::string& path);
 /// The same for a file. An empty path and "-" (stdout) are always fine.
 Expected<void> check_output_file(const std::string& path);
 
-/// Makes the folder that the file is to lie in, to be called when the file is about to be written.
-Expected<void> make_folder_for(const std::string& path);
-
 /// ErrorKind::usage when the path has none of the extensions (".png .exr"); `option` is named in the message.
 Expected<void> check_extension(std::string_view option, const std::string& path, std::string_view extensions);
 

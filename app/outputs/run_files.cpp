@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "app/options/setting.h"
 #include "app/outputs/output_path.h"
 #include "raster/programs/shader_folder.h"
+#include "scene/base/option_text.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 

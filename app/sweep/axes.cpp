@@ -8,6 +8,7 @@
 
 #include "app/options/options.h"
 #include "app/options/setting.h"
+#include "scene/base/option_text.h"
 
 namespace gnomon::app {
 

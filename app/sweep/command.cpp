@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/options/setting.h"
 #include "compare/result/option_names.h"
+#include "scene/base/option_text.h"
 #include "scene/files/encodings.h"
 #include "scene/files/read_file.h"
 

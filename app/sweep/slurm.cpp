@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "app/options/setting.h"
+#include "scene/base/option_text.h"
 #include "scene/base/run_program.h"
 
 namespace gnomon::app {

@@ -116,7 +116,7 @@ void add_truth(Words& words, const ViewState& state, const ViewOptions& options)
   const compare::CompareOptions plain;
   for (std::string& word : pose_words(state)) words.push_back(std::move(word));
   add_if(words, options.compare.accel != plain.accel, "--accel",
-         std::string(accel_name(options.compare.accel)));
+         std::string(raytrace::accel_name(options.compare.accel)));
   add_if(words, state.setup.precision != plain.precision, "--precision",
          std::string(raytrace::precision_name(state.setup.precision)));
   add_if(words, options.compare.raytrace.min_contribution != plain.raytrace.min_contribution,

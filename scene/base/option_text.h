@@ -39,6 +39,9 @@ Expected<std::int64_t> parse_integer(std::string_view text, std::int64_t min, st
 /// An unsigned 64-bit integer.
 Expected<std::uint64_t> parse_unsigned(std::string_view text);
 
+/// The word as a POSIX shell needs it typed: itself where it is plain, else in single quotes.
+std::string shell_quoted(std::string_view word);
+
 // Did you mean …?
 
 /// The known name nearest to `name`, if it is near enough to be a slip: at most a third of its letters

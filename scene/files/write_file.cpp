@@ -237,6 +237,11 @@ Expected<void> make_output_folder(const std::string& path) {
   return check_takes_files(path);
 }
 
+Expected<void> make_folder_for(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? Expected<void>{} : make_output_folder(folder);
+}
+
 Expected<void> check_takes_files(const std::string& folder) {
   const auto there = is_folder(folder, ErrorKind::cannot_write);
   if (!there) return fail(there.error());

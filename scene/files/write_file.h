@@ -30,6 +30,8 @@ bool is_same_file(const std::string& a, const std::string& b);
 
 /// Creates the folder (and its parents) and checks that files can be written in it.
 Expected<void> make_output_folder(const std::string& path);
+/// Makes the folder that the file is to lie in, to be called when the file is about to be written.
+Expected<void> make_folder_for(const std::string& path);
 
 /// Makes a file in the folder, without a name where the file system knows such: permissions alone do not tell. Nothing is
 /// left behind. ErrorKind::cannot_write.

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <filesystem>
 
 #include "app/process/large_pages.h"
+#include "app/process/machine.h"
 #include "instruction_set.h"
 #include "raytrace/packets/shadow_pass.h"
 #include "scene/files/write_file.h"
@@ -17,8 +17,6 @@
 namespace gnomon::bench {
 namespace {
 
-using app::BenchRow;
-
 /// As the program does it (app/outputs/render_json.h), of which this one holds only the rows.
 Expected<void> hand_out(const std::string& path, const std::string& json) {
   if (path.empty()) return {};
@@ -26,8 +24,7 @@ Expected<void> hand_out(const std::string& path, const std::string& json) {
     fmt::print("{}", json);
     return {};
   }
-  if (const std::string folder = std::filesystem::path(path).parent_path().string(); !folder.empty())
-    if (const auto made = make_output_folder(folder); !made) return made;
+  if (const auto made = make_folder_for(path); !made) return made;
   return write_file(path, json);
 }
 
@@ -53,7 +50,8 @@ int run(const Settings& settings) {
   if (named("terrain-5M")) bench(terrain_scene("terrain-5M", 1582));
   if (named("terrain-20M")) bench(terrain_scene("terrain-20M", 3163));
   fmt::print(settings.table(), "Instruction set in use: {}\n", raytrace::packet_target());
-  const auto written = hand_out(settings.json, app::bench_json(rows, raytrace::packet_target()));
+  const auto written =
+      hand_out(settings.json, bench_json(rows, app::machine_info(), raytrace::packet_target()));
   if (written) return 0;
   fmt::print(stderr, "{}\n", written.error().message());
   return 4;

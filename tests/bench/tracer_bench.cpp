@@ -20,7 +20,6 @@
 namespace gnomon::bench {
 namespace {
 
-using app::BenchRow;
 using raytrace::Accel;
 using raytrace::HugeArray;
 using raytrace::PacketUse;
@@ -82,7 +81,7 @@ class Bench {
          .threads = threads,
          .value = rays / ms.first * 1e-3,
          .unit = "Mrays/s",
-         .peer = app::BenchPeer{std::move(peer), rays / ms.second * 1e-3},
+         .peer = BenchPeer{std::move(peer), rays / ms.second * 1e-3},
          .goal = goal});
   }
   /// Of which less is better: ours and the peer's.
@@ -94,7 +93,7 @@ class Bench {
          .value = both.first,
          .unit = std::move(unit),
          .more_is_better = false,
-         .peer = app::BenchPeer{std::move(peer), both.second},
+         .peer = BenchPeer{std::move(peer), both.second},
          .goal = goal});
   }
   void add(BenchRow row) {
@@ -392,7 +391,7 @@ class Bench {
 
 }  // namespace
 
-std::vector<app::BenchRow> bench_tracer(const BenchScene& scene, const Settings& settings) {
+std::vector<BenchRow> bench_tracer(const BenchScene& scene, const Settings& settings) {
   return Bench(scene, settings).run();
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/bench/row.h"
 #include "bench_scenes.h"
+#include "benchmark/row.h"
 
 namespace gnomon::bench {
 
@@ -21,6 +21,6 @@ struct Settings {
 };
 
 /// Prints each row as it is measured.
-std::vector<app::BenchRow> bench_tracer(const BenchScene& scene, const Settings& settings);
+std::vector<BenchRow> bench_tracer(const BenchScene& scene, const Settings& settings);
 
 }  // namespace gnomon::bench

@@ -1,11 +1,11 @@
 // Rubrics of gnomon grade.
-#include "app/grade/rubric.h"
 #include "fuzz_target.h"
+#include "studies/grade/rubric.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace gnomon;
   const std::string path = fuzz::put("rubric.json", {reinterpret_cast<const char*>(data), size});
-  const auto rubric = app::grade::read_rubric(path);
+  const auto rubric = grade::read_rubric(path);
   fuzz::note_read(rubric ? nullptr : &rubric.error());
   if (!rubric) return 0;
   if (rubric->checks.empty() || !(rubric->points() > 0.0) || !(rubric->limits.seconds > 0.0))

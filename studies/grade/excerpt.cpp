@@ -1,4 +1,4 @@
-#include "app/grade/grade.h"
+#include "studies/grade/grade.h"
 
 #include <fmt/core.h>
 
@@ -8,7 +8,7 @@
 #include "scene/base/expected.h"
 #include "scene/files/read_file.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 std::string excerpt_at(const std::string& error, const std::string& folder) {
   constexpr int around = 3;  // lines
@@ -28,4 +28,4 @@ std::string excerpt_at(const std::string& error, const std::string& folder) {
   return excerpt;
 }
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -1,4 +1,4 @@
-#include "app/grade/check_runs.h"
+#include "studies/grade/check_runs.h"
 
 #include <fmt/core.h>
 
@@ -7,11 +7,11 @@
 #include <csignal>
 #include <filesystem>
 
-#include "app/grade/limited_process.h"
-#include "app/options/setting.h"
 #include "scene/base/expected.h"
+#include "scene/base/option_text.h"
+#include "studies/grade/limited_process.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 namespace {
 
@@ -165,4 +165,4 @@ Expected<Drawing> CheckRuns::draw_timed(const Run& run) {
   return make_undisturbed(run, folder_ + "/timed", {.timed = true, .values = true});
 }
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "app/grade/rubric.h"
 #include "compare/comparison.h"
 #include "scene/base/expected.h"
+#include "studies/grade/rubric.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 /// Where a run's --aov files (values*.exr) lie: beside its folder.
 std::string values_folder(const std::string& folder);
@@ -47,4 +47,4 @@ Expected<std::vector<std::string>> pictures_of(const RunResult& result);
 /// Of the pixels that are wrong, in any light, the most frequent first.
 std::vector<compare::Label> labels_of(const RunResult& result);
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -1,4 +1,4 @@
-#include "app/grade/results.h"
+#include "studies/grade/results.h"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include "compare/result/option_names.h"
 #include "scene/base/expected.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 using Json = nlohmann::ordered_json;
 
@@ -113,4 +113,4 @@ std::string grade_table(const ClassResult& result) {
   return text;
 }
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

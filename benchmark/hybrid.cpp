@@ -5,14 +5,14 @@
 
 #include <atomic>
 
-#include "app/bench/row.h"
+#include "benchmark/row.h"
 #include "hybrid/hard_shadows.h"
 #include "raytrace/frame.h"
 #include "raytrace/tiles.h"
 #include "scene/base/expected.h"
 #include "scene/base/parallel.h"
 
-namespace gnomon::app {
+namespace gnomon::bench {
 namespace {
 
 using hybrid::Decision;
@@ -27,20 +27,20 @@ class HybridBench {
  public:
   HybridBench(const BenchInput& input, std::uint32_t light)
       : input_(input),
-        world_(*input.loaded.world),
-        light_(input.loaded.scene->lights[light]),
+        world_(input.world),
+        light_(input.scene.lights[light]),
         tracer_(world_, raytrace::Accel::bvh),
         topology_(world_),
         pure_(input.size),
         decisions_(input.size) {
     raytrace::RaytraceOptions options;
     options.size = input.size, options.picture = false;
-    receivers_ = raytrace::make_receivers(
-        trace_frame(tracer_, input.loaded.plan, input.loaded.scene->camera, {}, options).receiver);
+    receivers_ =
+        raytrace::make_receivers(trace_frame(tracer_, input.plan, input.scene.camera, {}, options).receiver);
   }
 
   Expected<BenchResult> run() {
-    const Camera& camera = input_.loaded.scene->camera;
+    const Camera& camera = input_.scene.camera;
     const auto view =
         fit_light_view(world_, light_, camera, double(input_.size.width) / input_.size.height, map_size);
     if (!view) return fail(view.error());
@@ -123,7 +123,7 @@ class HybridBench {
     const auto row = [&](std::string name, double value, std::string unit, std::string peer,
                          double peer_value, std::optional<double> goal) {
       return BenchRow{std::move(name),
-                      input_.scene,
+                      input_.scene.name,
                       input_.threads,
                       value,
                       std::move(unit),
@@ -132,7 +132,7 @@ class HybridBench {
                       goal};
     };
     const std::string tracing = "ray tracing";
-    const double asked = double(counts_.asked), goal_rays = input_.scene == "courtyard" ? 0.08 : 0.03;
+    const double asked = double(counts_.asked), goal_rays = input_.scene.name == "courtyard" ? 0.08 : 0.03;
     BenchResult out;
     out.rows = {
         row("hybrid shadow rays", double(counts_.rays), "rays", tracing, asked, 1.0 / goal_rays),
@@ -149,7 +149,7 @@ class HybridBench {
         "{:.1f} ms\n"
         "  a new light, whose sheets are made from frame {} on by the estimate of costs: {:.1f} ms, {:.2f} % "
         "of the rays\n",
-        one_line(input_.scene), one_line(light_.name), input_.size.width, input_.size.height, map_size,
+        one_line(input_.scene.name), one_line(light_.name), input_.size.width, input_.size.height, map_size,
         counts_.rays, counts_.asked, percent(counts_.rays, counts_.asked), percent(cast, all),
         percent(counts_.lit, counts_.asked), percent(counts_.shadowed, counts_.asked), times.kept.median(),
         times.anew.median(), static_cast<double>(cache_->bytes()) / 1048576.0, pure,
@@ -177,9 +177,9 @@ class HybridBench {
 }  // namespace
 
 Expected<BenchResult> bench_hybrid(const BenchInput& input) {
-  if (input.loaded.scene->lights.empty()) return BenchResult{};
+  if (input.scene.lights.empty()) return BenchResult{};
   input.progress("hybrid", 1.0);
   return HybridBench(input, 0).run();
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::bench

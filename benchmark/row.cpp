@@ -1,11 +1,10 @@
-#include "app/bench/row.h"
+#include "benchmark/row.h"
 
 #include <nlohmann/json.hpp>
 
-#include "app/process/machine.h"
 #include "compare/result/result_parts.h"
 
-namespace gnomon::app {
+namespace gnomon::bench {
 
 std::optional<double> BenchRow::ratio() const {
   if (!peer || (more_is_better ? peer->value : value) == 0.0) return std::nullopt;
@@ -18,7 +17,8 @@ std::optional<bool> BenchRow::met() const {
   return !r || *r >= *goal;
 }
 
-std::string bench_json(std::span<const BenchRow> rows, std::string_view target) {
+std::string bench_json(std::span<const BenchRow> rows, const compare::MachineInfo& machine,
+                       std::string_view target) {
   const auto or_null = [](const auto& v) { return v ? compare::Json(*v) : nullptr; };
   compare::Json list = compare::Json::array();
   for (const BenchRow& row : rows) {
@@ -33,10 +33,10 @@ std::string bench_json(std::span<const BenchRow> rows, std::string_view target) 
                     {"goal", or_null(row.goal)},
                     {"met", or_null(row.met())}});
   }
-  compare::Json document{{"schema", "gnomon/bench/1"}, {"machine", compare::machine_json(machine_info())}};
+  compare::Json document{{"schema", "gnomon/bench/1"}, {"machine", compare::machine_json(machine)}};
   if (!target.empty()) document["target"] = target;
   document["rows"] = std::move(list);
   return compare::dumped(document, 2);
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::bench

@@ -14,7 +14,7 @@ namespace gnomon::compare {
 struct Figure;
 }
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 /// One comparison that a check looks at: a scene and options of `gnomon compare`.
 struct Run {
@@ -93,4 +93,4 @@ Expected<std::vector<Student>> find_students(const std::vector<std::string>& pat
 /// Error (bad input): what lies there cannot be read, so that nobody can tell what was handed in.
 Expected<std::string> refusal(const Student& student, const Rubric& rubric);
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -1,4 +1,4 @@
-#include "app/grade/results.h"
+#include "studies/grade/results.h"
 
 #include <fmt/core.h>
 
@@ -8,7 +8,7 @@
 
 #include "scene/files/encodings.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 namespace {
 
@@ -54,4 +54,4 @@ std::vector<std::string> page_names(const std::vector<std::string>& students) {
   return pages;
 }
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -1,4 +1,4 @@
-#include "app/grade/figures.h"
+#include "studies/grade/figures.h"
 
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@
 #include "scene/files/pictures/image_io.h"
 #include "scene/files/read_file.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 namespace {
 
@@ -207,4 +207,4 @@ Expected<std::vector<std::string>> pictures_of(const RunResult& result) {
   return names;
 }
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -1,4 +1,4 @@
-#include "app/grade/limited_process.h"
+#include "studies/grade/limited_process.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -18,7 +18,7 @@
 
 #include "scene/files/write_file.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 namespace {
 
@@ -147,4 +147,4 @@ Expected<Outcome> run_limited(const std::vector<std::string>& words, const Limit
   return follow(child, out.number(), limits);
 }
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -1,4 +1,4 @@
-#include "app/grade/grade.h"
+#include "studies/grade/grade.h"
 
 #include <embedded/grade_kits.h>
 
@@ -6,13 +6,12 @@
 #include <string_view>
 #include <utility>
 
-#include "app/outputs/output_path.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 namespace {
 
@@ -69,4 +68,4 @@ Expected<void> write_kit(const std::string& name, const std::string& folder) {
   return staged->publish("README.md");
 }
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

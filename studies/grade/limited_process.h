@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "app/grade/rubric.h"
 #include "scene/base/expected.h"
+#include "studies/grade/rubric.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 struct Outcome {
   enum class End : std::uint8_t {
@@ -28,4 +28,4 @@ struct Outcome {
 /// Error (resources): the process cannot be started.
 Expected<Outcome> run_limited(const std::vector<std::string>& words, const Limits& limits);
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -5,14 +5,13 @@
 
 #include <atomic>
 
-#include "app/bench/row.h"
-#include "app/options/options.h"
+#include "benchmark/row.h"
 #include "raytrace/tracer.h"
 #include "scene/base/expected.h"
 #include "scene/base/parallel.h"
 #include "scene/base/timing.h"
 
-namespace gnomon::app {
+namespace gnomon::bench {
 namespace {
 
 using raytrace::Accel;
@@ -87,12 +86,12 @@ void add_collapsed_tree(const Tracer& tracer, MeasuredStructure& m) {
 
 /// The counted and checked pass comes first: it warms the caches for the timed ones.
 MeasuredStructure measure(const BenchInput& input, const Rays& rays, Accel accel) {
-  const Tracer tracer(*input.loaded.world, accel);
+  const Tracer tracer(input.world, accel);
   MeasuredStructure m{.accel = accel,
                       .build_ms = tracer.stats().build_ms,
                       .megabytes = static_cast<double>(tracer.stats().bytes) / 1048576.0};
   add_collapsed_tree(tracer, m);
-  const double tests = static_cast<double>(rays.primary.size()) * input.loaded.world->primitive_count();
+  const double tests = static_cast<double>(rays.primary.size()) * input.world.primitive_count();
   const std::size_t step =
       accel == Accel::brute ? static_cast<std::size_t>(1.0 + tests / brute_force_tests) : 1;
   std::atomic<std::uint64_t> wrong = 0, boxes = 0, triangles = 0, traced = 0;
@@ -129,15 +128,16 @@ MeasuredStructure measure(const BenchInput& input, const Rays& rays, Accel accel
 }
 
 std::string table_row(const MeasuredStructure& m) {
-  return fmt::format("{:<14}{:>10.1f}{:>9.1f}{:>11.1f}{:>15.1f}{:>18.3f}{:>17.3f}\n", accel_name(m.accel),
-                     m.build_ms, m.megabytes, m.boxes, m.triangles, m.primary_mrays, m.shadow_mrays);
+  return fmt::format("{:<14}{:>10.1f}{:>9.1f}{:>11.1f}{:>15.1f}{:>18.3f}{:>17.3f}\n",
+                     raytrace::accel_name(m.accel), m.build_ms, m.megabytes, m.boxes, m.triangles,
+                     m.primary_mrays, m.shadow_mrays);
 }
 
 std::string table(const BenchInput& input, const Rays& rays, std::span<const MeasuredStructure> all) {
   std::string text = fmt::format(
       "{}: {} primitives, {} primary rays ({} hit), {} shadow rays; every structure sees the same\n"
       "{:<14}{:>10}{:>9}{:>11}{:>15}{:>18}{:>17}\n",
-      one_line(input.scene), input.loaded.world->primitive_count(), rays.primary.size(),
+      one_line(input.scene.name), input.world.primitive_count(), rays.primary.size(),
       std::count_if(rays.hits.begin(), rays.hits.end(), [](const auto& h) { return h.has_value(); }),
       rays.shadow.size(), "structure", "build ms", "MiB", "boxes/ray", "triangles/ray", "primary Mrays/s",
       "shadow Mrays/s");
@@ -150,13 +150,14 @@ void add_rows(const BenchInput& input, const MeasuredStructure& m, const Measure
               std::vector<BenchRow>& rows) {
   const auto add = [&](const char* what, double MeasuredStructure::*field, const char* unit,
                        bool more_is_better) {
-    BenchRow row{fmt::format("{} {}", accel_name(m.accel), what),
-                 input.scene,
+    BenchRow row{fmt::format("{} {}", raytrace::accel_name(m.accel), what),
+                 input.scene.name,
                  input.threads,
                  m.*field,
                  unit,
                  more_is_better};
-    if (base != nullptr && base != &m) row.peer = {std::string(accel_name(base->accel)), base->*field};
+    if (base != nullptr && base != &m)
+      row.peer = {std::string(raytrace::accel_name(base->accel)), base->*field};
     rows.push_back(std::move(row));
   };
   add("build", &MeasuredStructure::build_ms, "ms", false);
@@ -170,16 +171,16 @@ void add_rows(const BenchInput& input, const MeasuredStructure& m, const Measure
 }  // namespace
 
 Expected<BenchResult> bench_structures(const BenchInput& input) {
-  const Tracer reference(*input.loaded.world, Accel::bvh);
-  const Rays rays = make_rays(reference, *input.loaded.scene, input.size);
+  const Tracer reference(input.world, Accel::bvh);
+  const Rays rays = make_rays(reference, input.scene, input.size);
   std::vector<MeasuredStructure> all;
   for (const Accel accel : input.accels) {
-    input.progress(std::string(accel_name(accel)),
+    input.progress(std::string(raytrace::accel_name(accel)),
                    static_cast<double>(all.size()) / static_cast<double>(input.accels.size()));
     all.push_back(measure(input, rays, accel));
     if (all.back().wrong == 0) continue;
     return fail(ErrorKind::internal,
-                fmt::format("{} and bvh disagree on {} rays", accel_name(accel), all.back().wrong));
+                fmt::format("{} and bvh disagree on {} rays", raytrace::accel_name(accel), all.back().wrong));
   }
   BenchResult result{table(input, rays, all), {}};
   const auto base =
@@ -189,4 +190,4 @@ Expected<BenchResult> bench_structures(const BenchInput& input) {
   return result;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::bench

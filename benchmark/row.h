@@ -9,11 +9,16 @@
 #include <string_view>
 #include <vector>
 
-#include "app/session.h"
+#include "compare/comparison.h"
 #include "raytrace/tracer.h"
+#include "scene/effects.h"
 #include "scene/image.h"
+#include "scene/world.h"
 
-namespace gnomon::app {
+namespace gnomon::bench {
+
+/// Called with what is measured and the share that is done, in [0, 1].
+using Progress = std::function<void(const std::string&, double)>;
 
 struct BenchPeer {
   std::string name;
@@ -36,13 +41,14 @@ struct BenchRow {
 };
 
 struct BenchInput {
-  const LoadedScene& loaded;
-  std::string scene;
-  ImageSize size = quick_picture;
+  const Scene& scene;
+  const World& world;
+  const EffectPlan& plan;
+  ImageSize size{};
   int runs = 3;
   int threads = 0;
   std::vector<raytrace::Accel> accels;
-  std::function<void(const std::string&, double)> progress;
+  Progress progress;
 };
 
 struct BenchResult {
@@ -51,7 +57,8 @@ struct BenchResult {
 };
 
 /// gnomon/bench/1. `target`: the instruction set in use, where it is a matter of the rows.
-std::string bench_json(std::span<const BenchRow> rows, std::string_view target = {});
+std::string bench_json(std::span<const BenchRow> rows, const compare::MachineInfo& machine,
+                       std::string_view target = {});
 
 /// Every structure on the same rays: build time, memory, work per ray, rays per second. An error when two
 /// structures see different things.
@@ -65,4 +72,4 @@ Expected<BenchResult> bench_hybrid(const BenchInput& input);
 /// `rays` adversarial ones of each kind, judged by rational numbers.
 BenchResult bench_precisions(const BenchInput& input, std::uint64_t rays, std::uint64_t seed);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::bench

@@ -1,4 +1,4 @@
-#include "app/grade/rubric.h"
+#include "studies/grade/rubric.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +15,7 @@
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 namespace {
 
@@ -226,4 +226,4 @@ Expected<std::string> refusal(const Student& student, const Rubric& rubric) {
   return refusal_of(*folder, rubric, nothing);
 }
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

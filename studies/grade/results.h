@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "app/grade/grade.h"
 #include "scene/base/expected.h"
+#include "studies/grade/grade.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 std::vector<std::string> page_names_of(const std::vector<StudentResult>& students);
 
@@ -50,4 +50,4 @@ Expected<void> check_pages(const std::string& folder, const std::vector<std::str
 Expected<void> write_pages(const ClassResult& result, const std::string& folder,
                            const std::vector<std::string>& inputs);
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

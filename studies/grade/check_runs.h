@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "app/grade/figures.h"
-#include "app/grade/rubric.h"
+#include "studies/grade/figures.h"
+#include "studies/grade/rubric.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 /// A drawing, or why there is none.
 struct Drawing {
@@ -59,4 +59,4 @@ class CheckRuns {
   std::deque<Made> made_;  ///< what was handed out stays where it is
 };
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -1,4 +1,4 @@
-#include "app/grade/results.h"
+#include "studies/grade/results.h"
 
 #include <embedded/grade_page.h>
 #include <fmt/core.h>
@@ -14,7 +14,7 @@
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 namespace {
 
@@ -146,4 +146,4 @@ Expected<void> write_pages(const ClassResult& result, const std::string& folder,
   return staged->publish("index.html");
 }
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -7,14 +7,14 @@
 
 #include <atomic>
 
-#include "app/bench/row.h"
+#include "benchmark/row.h"
 #include "raytrace/frame.h"
 #include "scene/base/expected.h"
 #include "scene/base/parallel.h"
 #include "verify/adversarial.h"
 #include "verify/rational.h"
 
-namespace gnomon::app {
+namespace gnomon::bench {
 namespace {
 
 using raytrace::PointVisibility;
@@ -54,8 +54,7 @@ raytrace::RayTracedFrame render(const BenchInput& input, const Tracer& tracer, i
   raytrace::RaytraceOptions options;
   options.size = input.size, options.runs = runs, options.warm_up = runs > 1, options.picture = false,
   options.shadow_samples = 1;
-  return trace_frame(tracer, input.loaded.plan, input.loaded.scene->camera, first_light(*input.loaded.scene),
-                     options);
+  return trace_frame(tracer, input.plan, input.scene.camera, first_light(input.scene), options);
 }
 
 Speed speed_rendered(const BenchInput& input, const Tracer& tracer) {
@@ -82,7 +81,7 @@ double time_pixels(const BenchInput& input, const Pixel& pixel) {
 }
 
 Speed speed_single(const BenchInput& input, const Tracer& tracer) {
-  const View view = make_view(input.loaded.scene->camera, input.size);
+  const View view = make_view(input.scene.camera, input.size);
   const auto frame = render(input, tracer, 1);
   std::atomic<std::uint64_t> found = 0;  // keeps the work from being optimised away
   Speed speed;
@@ -90,8 +89,8 @@ Speed speed_single(const BenchInput& input, const Tracer& tracer) {
                                      if (tracer.closest_hit(pixel_ray(view, x + 0.5, y + 0.5)))
                                        found.fetch_add(1, std::memory_order_relaxed);
                                    }));
-  if (input.loaded.scene->lights.empty()) return speed;
-  const Light& light = input.loaded.scene->lights[0];
+  if (input.scene.lights.empty()) return speed;
+  const Light& light = input.scene.lights[0];
   const double ms = time_pixels(input, [&](int x, int y) {
     const auto& point = frame.receiver.at(x, y);
     if (point.primitive == no_id || light_cannot_reach(light, point.position, point.normal)) return;
@@ -155,7 +154,7 @@ std::string table(const BenchInput& input, std::uint64_t rays, std::span<const M
       "{}: {} primitives, {} x {}, {} threads; wrong of {} aimed rays of each kind, scaled to 1e8\n"
       "{:<10}{:>15}{:>9}{:>12}{:>9}{:>18}{:>13}{:>16}{:>12}\n"
       "{:<10}{:>15}{:>9}{:>12}{:>9}{:>18}{:>13}{:>16}{:>12}\n",
-      one_line(input.scene), input.loaded.world->primitive_count(), input.size.width, input.size.height,
+      one_line(input.scene.name), input.world.primitive_count(), input.size.width, input.size.height,
       input.threads, rays, "", "rendered", "shadow", "one by one", "shadow", "triangles wrong", "by rounding",
       "shadows wrong", "uncertain", "precision", "primary Mray/s", "Mray/s", "primary", "Mray/s", "per 1e8",
       "per 1e8", "per 1e8", "per 1e8");
@@ -175,7 +174,7 @@ void add_rows(const BenchInput& input, const MeasuredPrecision& m, const Measure
               std::optional<double> goal, std::vector<BenchRow>& rows) {
   const auto add = [&](const char* what, double value, const char* unit) -> BenchRow& {
     rows.push_back({.name = fmt::format("{}, {}", precision_name(m.precision), what),
-                    .scene = input.scene,
+                    .scene = input.scene.name,
                     .threads = input.threads,
                     .value = value,
                     .unit = unit,
@@ -203,7 +202,7 @@ BenchResult bench_precisions(const BenchInput& input, std::uint64_t rays, std::u
   std::vector<MeasuredPrecision> all;
   for (const Precision precision : {Precision::fast, Precision::robust, Precision::exact}) {
     input.progress(std::string(precision_name(precision)), static_cast<double>(all.size()) / 3.0);
-    const Tracer tracer(*input.loaded.world, raytrace::Accel::bvh, precision);
+    const Tracer tracer(input.world, raytrace::Accel::bvh, precision);
     MeasuredPrecision m{.precision = precision, .rendered = {}, .single = {}, .primary = {}, .shadow = {}};
     m.rendered = speed_rendered(input, tracer), m.single = speed_single(input, tracer);
     m.primary = wrong_primary(precision, rays, seed), m.shadow = wrong_shadow(precision, rays, seed);
@@ -216,4 +215,4 @@ BenchResult bench_precisions(const BenchInput& input, std::uint64_t rays, std::u
   return result;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::bench

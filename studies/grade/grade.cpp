@@ -1,4 +1,4 @@
-#include "app/grade/grade.h"
+#include "studies/grade/grade.h"
 
 #include <fmt/core.h>
 
@@ -9,14 +9,14 @@
 #include <shared_mutex>
 #include <thread>
 
-#include "app/grade/check_runs.h"
 #include "compare/result/number_text.h"
 #include "scene/base/expected.h"
 #include "scene/base/threads.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
+#include "studies/grade/check_runs.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 namespace {
 
@@ -299,4 +299,4 @@ Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& s
   return Grades{std::move(*own), std::move(graded)};
 }
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "app/grade/rubric.h"
 #include "compare/comparison.h"
 #include "scene/base/expected.h"
+#include "studies/grade/rubric.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 struct Picture {
   std::string caption;
@@ -73,4 +73,4 @@ bool is_kit(const std::string& name);
 /// Errors (cannot write): a file of another content is there already.
 Expected<void> write_kit(const std::string& name, const std::string& folder);
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -1,4 +1,4 @@
-#include "app/grade/rubric.h"
+#include "studies/grade/rubric.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,18 +6,17 @@
 #include <algorithm>
 #include <set>
 
-#include "app/options/options.h"
-#include "app/options/setting.h"
 #include "compare/comparison.h"
 #include "compare/result/figures.h"
 #include "raster/programs/shader_folder.h"
 #include "raster/technique_traits.h"
+#include "scene/base/option_text.h"
 #include "scene/files/json/json_reader.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/load.h"
 
-namespace gnomon::app::grade {
+namespace gnomon::grade {
 
 namespace {
 
@@ -155,10 +154,10 @@ Rubric read_root(const JsonNode& node, const std::string& folder) {
   if (const auto schema = object.require("schema")) schema->as_choice({"gnomon/rubric/1"});
   if (const auto title = object.require("title")) rubric.title = title->as_string();
   rubric.text = object.string("text");
-  const std::vector<std::string> names = technique_names();
+  std::vector<std::string_view> names;
+  for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) names.push_back(traits.name);
   std::size_t index = 0;
-  if (const auto technique = object.require("technique"))
-    index = technique->as_choice({names.begin(), names.end()});
+  if (const auto technique = object.require("technique")) index = technique->as_choice(names);
   rubric.technique = names[index];
   if (const auto hand_in = object.require("hand_in")) {
     rubric.hand_in = read_hand_in(*hand_in);
@@ -227,4 +226,4 @@ std::string run_text(const Run& run) {
   return text;
 }
 
-}  // namespace gnomon::app::grade
+}  // namespace gnomon::grade

@@ -1,21 +1,18 @@
-#include "app/bench/techniques.h"
+#include "benchmark/techniques.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 
-#include "app/options/options.h"
-#include "app/outputs/output_path.h"
-#include "app/outputs/render_json.h"
 #include "compare/result/shadow_cost.h"
+#include "raster/technique_traits.h"
 #include "scene/base/expected.h"
 #include "scene/base/parallel.h"
-#include "scene/files/write_file.h"
 
-namespace gnomon::app {
+namespace gnomon::bench {
 namespace {
 
-compare::Setting setting_for(const LoadedScene& loaded, const raster::RasterOptions& raster) {
+compare::Setting setting_for(const Scene& scene, const raster::RasterOptions& raster) {
   compare::Setting setting;
   setting.raster = raster;
   setting.raytrace.size = raster.size;
@@ -23,8 +20,8 @@ compare::Setting setting_for(const LoadedScene& loaded, const raster::RasterOpti
   setting.raytrace.runs = std::max(1, raster.runs);
   setting.raytrace.warm_up = true;
   setting.raytrace.picture = false;
-  setting.camera = loaded.scene->camera;
-  setting.lights = loaded.scene->lights;
+  setting.camera = scene.camera;
+  setting.lights = scene.lights;
   for (std::uint32_t i = 0; i < setting.lights.size(); ++i) setting.compared.push_back(i);
   return setting;
 }
@@ -104,27 +101,23 @@ std::string markdown_row(const TechniqueRow& row) {
 
 }  // namespace
 
-Expected<TechniqueTable> bench_techniques(const LoadedScene& loaded, raster::Backend backend,
-                                          const raster::RasterOptions& base,
-                                          const std::function<void(const std::string&, double)>& progress) {
-  const auto renderer = make_renderer(backend, loaded);
-  if (!renderer) return fail(renderer.error());
-  compare::Engine engine(*loaded.scene, *loaded.world, **renderer, false);
-  TechniqueTable table{loaded.scene->name, base.size, base.map.size, {}};
+Expected<TechniqueTable> bench_techniques(Scene& scene, const World& world, raster::Renderer& renderer,
+                                          const raster::RasterOptions& base, const Progress& progress) {
+  compare::Engine engine(scene, world, renderer, false);
+  TechniqueTable table{scene.name, base.size, base.map.size, {}};
   const auto techniques = raster::all_technique_traits();
   for (const raster::TechniqueTraits& traits : techniques) {
     const std::string name(traits.name);
     progress(name, static_cast<double>(table.rows.size()) / static_cast<double>(techniques.size()));
-    compare::Setting setting = setting_for(loaded, base);
+    compare::Setting setting = setting_for(scene, base);
     setting.raster.map.technique = traits.technique;
     setting.raster.map.bias = raster::default_bias(setting.raster.map);
     const auto comparison = engine.compare(setting);
     if (comparison) {
       table.rows.push_back(measure(name, **comparison));
       if (table.rows.back().compared == 0)
-        return fail(
-            ErrorKind::bad_input,
-            fmt::format("{}: no pixel can be compared, so no technique can be measured", loaded.scene->name));
+        return fail(ErrorKind::bad_input,
+                    fmt::format("{}: no pixel can be compared, so no technique can be measured", scene.name));
       add_rays(**comparison, table);
     } else if (comparison.error().kind == ErrorKind::usage) {
       TechniqueRow& row = table.rows.emplace_back();
@@ -192,31 +185,4 @@ std::vector<BenchRow> bench_rows(const TechniqueTable& table) {
   return rows;
 }
 
-Expected<void> run_technique_bench(const TechniqueBench& bench, Console& console) {
-  RunFiles files;
-  for (const std::string& scene : bench.scenes) files.reads(bench.how.named(scene));
-  files.writes("-o", bench.page);
-  files.writes("--json", bench.json);
-  if (const auto fine = files.check(); !fine) return fine;
-  std::vector<TechniqueTable> tables;
-  std::vector<BenchRow> rows;
-  for (const std::string& scene : bench.scenes) {
-    const auto loaded = load(bench.how.named(scene), files, console);
-    if (!loaded) return fail(loaded.error());
-    const auto progress = [&](const std::string& what, double done) { console.progress(what, done); };
-    auto table = bench_techniques(*loaded, raster::Backend::automatic, bench.raster, progress);
-    if (!table) return fail(table.error());
-    console.clear_progress();
-    if (!bench.quiet && bench.json != "-") print_data(text_table(*table));
-    for (BenchRow& row : bench_rows(*table)) rows.push_back(std::move(row));
-    tables.push_back(std::move(*table));
-  }
-  if (!bench.page.empty()) {
-    if (const auto made = make_folder_for(bench.page); !made) return made;
-    if (const auto written = write_file(bench.page, markdown(tables, bench.command_line)); !written)
-      return written;
-  }
-  return hand_out_json(bench.json, bench_json(rows));
-}
-
-}  // namespace gnomon::app
+}  // namespace gnomon::bench
