@@ -3,7 +3,7 @@
 
 #include "app/command_line.h"
 #include "app/process/interrupt.h"
-#include "app/process/large_pages.h"
+#include "app/process/machine.h"
 #include "scene/base/freed_memory.h"
 #include "scene/base/stages.h"
 

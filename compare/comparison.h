@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <glm/ext/vector_int3_sized.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -13,15 +14,28 @@
 #include <vector>
 
 #include "compare/result/threshold.h"
-#include "compare/truth/seen_surfaces.h"
 #include "raster/frame.h"
 #include "raytrace/frame.h"
+#include "raytrace/tracer.h"
 #include "scene/base/timing.h"
 #include "scene/effects.h"
 #include "scene/image.h"
 #include "scene/world.h"
 
 namespace gnomon::compare {
+
+/// What a pixel shows, as far as the report page needs it: an eighth of the size of the ray tracer's receiver.
+struct SeenSurface {
+  static constexpr double normal_steps = 32767.0;
+  std::uint32_t primitive = no_id;
+  /// The geometric one, in normal_steps, on the side of the camera; 0 where there is none.
+  glm::i16vec3 normal{0};
+
+  SeenSurface() = default;
+  explicit SeenSurface(const raytrace::SurfacePoint& receiver);
+};
+
+Image<SeenSurface> seen_surfaces(const Image<raytrace::SurfacePoint>& receivers);
 
 /// V0 … V6: the truth, and what changes one thing at a time until it is what the rasterizer drew.
 enum class Rung : std::uint8_t { truth, point, texel, flat, stored, biased, drawn };

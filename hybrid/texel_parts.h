@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "hybrid/packed_bounds.h"
@@ -27,7 +28,18 @@ class TexelParts {
   /// Where find() will look; of a table that is not empty.
   const void* place(std::uint32_t key) const { return &entries_[slot(key)]; }
   /// The key is new.
-  void insert(std::uint32_t key, const PackedBounds& bounds);
+  void insert(std::uint32_t key, const PackedBounds& bounds) {
+    constexpr std::size_t least = 64;
+    if (2 * (count_ + 1) > entries_.size()) {
+      const std::vector<Entry> old =
+          std::exchange(entries_, std::vector<Entry>(entries_.empty() ? least : 2 * entries_.size()));
+      mask_ = entries_.size() - 1;
+      for (const Entry& entry : old)
+        if (entry.key != free) store(entry);
+    }
+    store({key, bounds});
+    ++count_;
+  }
   std::size_t bytes() const { return entries_.size() * sizeof(Entry); }
 
  private:
@@ -37,7 +49,11 @@ class TexelParts {
     PackedBounds bounds{};
   };
   std::size_t slot(std::uint32_t key) const { return (key * 0x9e3779b1u >> 7) & mask_; }
-  void put(const Entry& entry);
+  void store(const Entry& entry) {
+    std::size_t i = slot(entry.key);
+    while (entries_[i].key != free) i = (i + 1) & mask_;
+    entries_[i] = entry;
+  }
 
   std::vector<Entry> entries_;
   std::size_t mask_ = 0, count_ = 0;

@@ -8,7 +8,6 @@
 
 #include "raster/bands.h"
 #include "raster/passes/depth_map_pass.h"
-#include "raster/passes/external_pass.h"
 #include "raster/passes/shading_pass.h"
 #include "raster/passes/technique_pass.h"
 #include "raster/renderer.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "raster/options_check.h"
+#include "raster/passes/light_block.h"
 #include "raster/settings.h"
 
 namespace gnomon::raster {

@@ -168,4 +168,8 @@ struct RasterOptions {
   bool operator==(const RasterOptions&) const = default;
 };
 
+struct ContextInfo;
+/// Errors: ErrorKind::usage for a value outside its range, ErrorKind::graphics for a size beyond the context's limit.
+Expected<void> check_options(const RasterOptions& options, const ContextInfo& context);
+
 }  // namespace gnomon::raster

@@ -9,7 +9,6 @@
 #include <new>
 
 #include "raster/gl_renderer.h"
-#include "raster/options_check.h"
 #include "raster/passes/light_block.h"
 #include "raster/passes/map_shape.h"
 #include "raster/programs/shader_folder.h"

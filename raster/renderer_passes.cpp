@@ -7,8 +7,8 @@
 #include "raster/gl_renderer.h"
 #include "raster/passes/izb_pass.h"
 #include "raster/passes/map_shape.h"
+#include "raster/programs/programs.h"
 #include "raster/programs/shader_folder.h"
-#include "raster/programs/technique_shader.h"
 #include "raster/technique_traits.h"
 #include "scene/base/stages.h"
 

@@ -10,7 +10,6 @@
 #include "raytrace/precision/facing.h"
 #include "raytrace/shapes/mask_cells.h"
 #include "raytrace/shapes/solid.h"
-#include "raytrace/shapes/surface_uv.h"
 #include "raytrace/tracer.h"
 
 namespace gnomon::raytrace {

@@ -10,7 +10,6 @@
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
 #include "compare/result/verdict.h"
-#include "report/facts.h"
 #include "report/html.h"
 #include "report/pixels/page_data.h"
 #include "report/write_outputs.h"

@@ -5,7 +5,6 @@
 #include <embedded/report.h>
 
 #include "report/html.h"
-#include "report/page_head.h"
 
 namespace gnomon::compare {
 namespace {

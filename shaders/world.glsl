@@ -55,7 +55,7 @@ vec2 solid_uv(ShapeData s, vec3 p) {
 }
 
 // Texture coordinates of a shape's point: along a plane's axes (scene.h); longitude and angle from the top of a sphere.
-// Twin of raytrace/shapes/surface_uv.h.
+// Twin of raytrace/shapes/mask_cells.h.
 vec2 shape_uv(ShapeData shape, vec3 position) {
   vec3 offset = position - shape.center_and_radius.xyz;
   if (shape.kind == uint(shape_plane)) return vec2(dot(shape.tangent.xyz, offset), dot(shape.bitangent.xyz, offset));

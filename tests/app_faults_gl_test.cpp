@@ -15,7 +15,6 @@
 
 #include "tests/app_process.h"
 #include "tests/support/places.h"
-#include "tests/support/sanitizer.h"
 
 namespace gnomon::app_test {
 namespace {

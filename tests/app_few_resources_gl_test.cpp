@@ -9,7 +9,6 @@
 #include "scene/files/pictures/image_io.h"
 #include "tests/app_process.h"
 #include "tests/support/places.h"
-#include "tests/support/sanitizer.h"
 
 namespace gnomon::app_test {
 namespace {

@@ -1,5 +1,5 @@
 // The program starts itself once more with large pages where the system gives them to those who ask.
-#include "app/process/large_pages.h"
+#include "app/process/machine.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include "tests/support/sanitizer.h"
+#include "tests/support/places.h"
 
 namespace gnomon::app {
 namespace {

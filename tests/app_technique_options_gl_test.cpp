@@ -10,7 +10,6 @@
 #include "app/options/effect_options.h"
 #include "app/options/map_options.h"
 #include "app/options/options.h"
-#include "app/options/setting.h"
 #include "app/sweep/axes.h"
 #include "tests/raster_fixture.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "tests/app_process.h"
-#include "tests/support/sanitizer.h"
+#include "tests/support/places.h"
 
 namespace gnomon::app_test {
 namespace {

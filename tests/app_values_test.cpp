@@ -10,7 +10,7 @@
 #include <random>
 
 #include "app/help/manual.h"
-#include "app/process/memory_limit.h"
+#include "app/process/machine.h"
 #include "raster/settings.h"
 #include "scene/base/option_text.h"
 #include "scene/exposure.h"

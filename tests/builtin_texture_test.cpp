@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/generate/generate.h"
-#include "scene/generate/noise.h"
+#include "scene/generate/random.h"
 
 namespace gnomon {
 namespace {

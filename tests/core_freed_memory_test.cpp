@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scene/base/freed_memory.h"
-#include "support/sanitizer.h"
+#include "support/places.h"
 
 #if defined(__GLIBC__)
 #include <sys/resource.h>

@@ -2,9 +2,14 @@
 // digits through a float (GCC 12 does where it joins neighbouring components to vectors, see cmake/GnomonTarget.cmake).
 #include <gtest/gtest.h>
 
-#include "support/through_float.h"
+#include "scene/math.h"
 
 namespace gnomon::test {
+
+/// Each component rounded to float, compiled with the optimisation of the product instead of the tests' own
+/// (support/through_float.cpp).
+Vec3 through_float(const Vec3& v);
+
 namespace {
 
 // A volatile variable holds a float and nothing else.

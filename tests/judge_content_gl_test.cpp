@@ -5,7 +5,6 @@
 #include "compare/truth/columns.h"
 #include "scene/files/pictures/image_io.h"
 #include "support/capture_support.h"
-#include "support/other_renderer.h"
 
 namespace gnomon::test {
 namespace {

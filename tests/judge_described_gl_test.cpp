@@ -6,7 +6,6 @@
 #include "compare/result/verdict.h"
 #include "scene/files/pictures/image_io.h"
 #include "support/capture_support.h"
-#include "support/other_renderer.h"
 
 namespace gnomon::test {
 namespace {

@@ -3,7 +3,6 @@
 #include "scene/files/pictures/image_io.h"
 #include "scene/light.h"
 #include "support/capture_support.h"
-#include "support/other_renderer.h"
 
 namespace gnomon::test {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "compare/ladder/budget.h"
 #include "compare/measure/reduced.h"
-#include "compare/result/csv_field.h"
 #include "compare/result/number_text.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"

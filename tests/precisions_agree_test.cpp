@@ -8,7 +8,7 @@
 
 #include <cstdlib>
 
-#include "raytrace/precision/exact_shadow.h"
+#include "raytrace/precision/visibility.h"
 #include "scene/light.h"
 #include "verify/random_scene.h"
 #include "verify/rational.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "raster/options_check.h"
+#include "raster/passes/light_block.h"
 #include "scene/light.h"
 #include "scene/load.h"
 #include "tests/raster_fixture.h"

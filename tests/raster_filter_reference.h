@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "raster/options_check.h"
+#include "raster/passes/light_block.h"
 #include "scene/light.h"
 #include "tests/raster_fixture.h"
 

@@ -12,7 +12,7 @@
 #include "raytrace/packets/packet_grid.h"
 #include "raytrace/packets/passes.h"
 #include "raytrace_support.h"
-#include "support/sanitizer.h"
+#include "support/places.h"
 
 namespace gnomon {
 namespace {

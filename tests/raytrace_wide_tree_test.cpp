@@ -3,9 +3,9 @@
 #include <tbb/parallel_for.h>
 
 #include "raytrace/bvh/wide_tree.h"
-#include "raytrace/given_up.h"
 #include "raytrace/tracer.h"
 #include "raytrace_support.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon {
 namespace {

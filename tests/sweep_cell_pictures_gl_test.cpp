@@ -9,7 +9,7 @@
 #include <iterator>
 #include <thread>
 
-#include "app/sweep/cell_pictures.h"
+#include "app/sweep/make_cells.h"
 #include "studies/sweep/cell_files.h"
 #include "support/one_world.h"
 #include "support/small_scenes.h"

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "studies/sweep/headline.h"
-#include "studies/sweep/words.h"
 
 namespace gnomon::compare {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "studies/sweep/cell_files.h"
 #include "studies/sweep/journal.h"
-#include "studies/sweep/merge.h"
+#include "studies/sweep/page.h"
 #include "tests/scene_files_support.h"
 
 namespace gnomon::compare {

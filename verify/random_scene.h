@@ -6,7 +6,7 @@
 #include "raster/frame.h"
 #include "raytrace/frame.h"
 #include "scene/scene.h"
-#include "verify/random.h"
+#include "verify/small_world.h"
 
 namespace gnomon::verify {
 

@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "raytrace/tracer.h"
-#include "verify/random.h"
+#include "verify/small_world.h"
 #include "verify/verify.h"
 
 namespace gnomon::verify {

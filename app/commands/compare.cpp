@@ -9,16 +9,14 @@
 #include <memory>
 #include <optional>
 
+#include "app/options/effect_options.h"
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
-#include "app/options/setting.h"
-#include "app/outputs/output_path.h"
 #include "app/outputs/result_output.h"
+#include "app/outputs/run_files.h"
 #include "app/process/machine.h"
-#include "app/process/memory_limit.h"
 #include "app/session.h"
 #include "app/strongest_lights.h"
-#include "app/swim_note.h"
 #include "compare/measure/reduced.h"
 #include "raster/bands.h"
 #include "scene/base/stages.h"

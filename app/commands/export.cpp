@@ -11,7 +11,7 @@
 #include "app/options/effect_options.h"
 #include "app/options/options.h"
 #include "app/options/values.h"
-#include "app/outputs/output_path.h"
+#include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
 #include "app/session.h"
 #include "app/suite/write.h"

@@ -12,7 +12,6 @@
 #include "app/invocation.h"
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
-#include "app/outputs/output_path.h"
 #include "app/outputs/render_json.h"
 #include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"

@@ -8,11 +8,11 @@
 #include "app/console.h"
 #include "app/invocation.h"
 #include "app/options/options.h"
-#include "app/outputs/output_path.h"
+#include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
 #include "scene/base/expected.h"
 #include "scene/files/path_status.h"
-#include "studies/sweep/merge.h"
+#include "studies/sweep/page.h"
 
 namespace gnomon::app {
 

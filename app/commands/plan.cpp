@@ -11,7 +11,7 @@
 #include "app/options/options.h"
 #include "app/outputs/picture_samples.h"
 #include "app/outputs/render_json.h"
-#include "app/process/memory_limit.h"
+#include "app/process/machine.h"
 #include "app/session.h"
 #include "app/strongest_lights.h"
 #include "compare/result/number_text.h"

@@ -7,9 +7,9 @@
 #include "app/options/map_options.h"
 #include "app/options/options.h"
 #include "app/options/pose_options.h"
-#include "app/outputs/output_path.h"
 #include "app/outputs/picture_bands.h"
 #include "app/outputs/picture_command.h"
+#include "app/outputs/run_files.h"
 #include "app/session.h"
 #include "raster/bands.h"
 

@@ -9,8 +9,8 @@
 #include "app/help/manual.h"
 #include "app/invocation.h"
 #include "app/options/options.h"
-#include "app/outputs/output_path.h"
 #include "app/outputs/render_json.h"
+#include "app/outputs/run_files.h"
 #include "report/lessons.h"
 #include "scene/load.h"
 

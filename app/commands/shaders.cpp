@@ -8,7 +8,7 @@
 #include "app/console.h"
 #include "app/invocation.h"
 #include "app/options/options.h"
-#include "app/outputs/output_path.h"
+#include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
 #include "raster/programs/shader_folder.h"
 #include "scene/files/path_status.h"

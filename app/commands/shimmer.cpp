@@ -8,15 +8,14 @@
 
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
-#include "app/options/setting.h"
 #include "app/options/shimmer_options.h"
-#include "app/outputs/output_path.h"
 #include "app/outputs/render_json.h"
+#include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
 #include "app/session.h"
 #include "app/strongest_lights.h"
 #include "scene/base/timing.h"
-#include "studies/shimmer/write.h"
+#include "studies/shimmer/outputs.h"
 
 namespace gnomon::app {
 

@@ -10,7 +10,7 @@
 
 #include "app/options/option_kinds.h"
 #include "app/options/values.h"
-#include "app/outputs/output_path.h"
+#include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
 #include "app/process/machine.h"
 #include "app/session.h"
@@ -24,7 +24,6 @@
 #include "scene/files/path_status.h"
 #include "scene/files/write_file.h"
 #include "studies/sweep/cell_files.h"
-#include "studies/sweep/merge.h"
 #include "studies/sweep/page.h"
 #include "studies/sweep/ray_points.h"
 

@@ -10,8 +10,8 @@
 #include "app/invocation.h"
 #include "app/options/options.h"
 #include "app/options/values.h"
-#include "app/outputs/output_path.h"
 #include "app/outputs/render_json.h"
+#include "app/outputs/run_files.h"
 #include "app/session.h"
 #include "verify/verify.h"
 

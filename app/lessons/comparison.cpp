@@ -8,7 +8,6 @@
 #include "app/lessons/lesson_scene.h"
 #include "app/options/map_options.h"
 #include "app/options/options.h"
-#include "app/options/setting.h"
 #include "app/session.h"
 #include "compare/result/result_parts.h"
 #include "report/pixels/page_data.h"

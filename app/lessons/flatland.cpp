@@ -8,7 +8,7 @@
 
 #include "raytrace/frame.h"
 #include "raytrace/shading/fresnel.h"
-#include "report/pixels/section_mesh.h"
+#include "report/pixels/page_data.h"
 #include "scene/load.h"
 
 namespace gnomon::app::lessons {

@@ -9,6 +9,8 @@
 
 #include "raster/options.h"
 #include "scene/effects.h"
+#include "scene/image.h"
+#include "scene/world.h"
 
 namespace CLI {
 class App;
@@ -31,5 +33,13 @@ std::vector<std::string> idle_without_page(std::span<const std::string> given);
 
 /// The same for a heat map of primary rays in place of the picture.
 std::vector<std::string> idle_in_heatmap(std::span<const std::string> given);
+
+// A map that follows the camera by less than whole texels draws its shadow edges anew at every step of the
+// camera: they swim.
+
+/// A note that names the lights whose map does so; empty where none does. Whether a map follows the camera is
+/// found by moving it.
+std::string swim_note(const World& world, const raster::MapOptions& map, ImageSize size,
+                      std::span<const std::uint32_t> lights);
 
 }  // namespace gnomon::app

@@ -4,11 +4,11 @@
 
 #include "app/options/effect_options.h"
 #include "app/options/options.h"
-#include "app/outputs/output_path.h"
 #include "app/outputs/picture_file.h"
+#include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
 #include "app/process/machine.h"
-#include "compare/result/time_budget.h"
+#include "compare/result/outputs.h"
 #include "scene/base/stages.h"
 #include "scene/files/read_file.h"
 

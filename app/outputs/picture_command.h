@@ -11,7 +11,7 @@
 #include "app/invocation.h"
 #include "app/options/pose_options.h"
 #include "app/outputs/render_json.h"
-#include "app/process/memory_limit.h"
+#include "app/process/machine.h"
 #include "app/session.h"
 #include "app/strongest_lights.h"
 #include "scene/base/timing.h"

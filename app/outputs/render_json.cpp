@@ -1,7 +1,7 @@
 #include "app/outputs/render_json.h"
 
 #include "app/console.h"
-#include "app/outputs/output_path.h"
+#include "app/outputs/run_files.h"
 #include "app/process/machine.h"
 #include "compare/result/option_names.h"
 #include "compare/result/result_parts.h"

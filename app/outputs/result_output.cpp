@@ -7,13 +7,13 @@
 #include <filesystem>
 
 #include "app/options/options.h"
-#include "app/outputs/output_path.h"
 #include "app/outputs/render_json.h"
+#include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
 #include "app/process/machine.h"
 #include "compare/result/number_text.h"
 #include "compare/result/output_parts.h"
-#include "compare/result/time_budget.h"
+#include "compare/result/outputs.h"
 #include "report/page.h"
 #include "scene/base/freed_memory.h"
 #include "scene/base/stages.h"

@@ -1,4 +1,4 @@
-#include "app/process/large_pages.h"
+#include "app/process/machine.h"
 
 #include <cstdlib>
 #include <string>

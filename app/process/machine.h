@@ -2,10 +2,19 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "compare/comparison.h"
 #include "scene/base/expected.h"
 #include "scene/image.h"
+#include "scene/scene.h"
+
+namespace CLI {
+class App;
+}
 
 namespace gnomon::app {
 
@@ -25,5 +34,80 @@ inline constexpr double graphics_bytes = 480e6;
 /// ErrorKind::graphics when a picture of this size, and so many bytes besides, needs more memory than the machine
 /// or a limit (ulimit -v) has left, which would end the process without a word.
 Expected<void> check_memory(ImageSize size, double bytes_per_pixel, double other_bytes = 0.0);
+
+// How much memory a picture may take, and into how many bands it is cut for that.
+
+struct GivenBytes {
+  double bytes = 0.0;
+  std::string text;  ///< as it was given
+};
+/// What --memory says; nothing: default_memory().
+using MemoryLimit = std::optional<GivenBytes>;
+
+/// --memory.
+void add_memory(CLI::App& command, MemoryLimit& bytes);
+/// "2G", "512M", "1.5G", "1000000": bytes, units of 1024. ErrorKind::usage.
+Expected<double> parse_bytes(const std::string& text);
+
+/// Half of what the machine, or the process's control group, has free, and no more than 2 GiB: bands cost next to
+/// nothing, and larger ones save no more.
+double default_memory();
+
+/// What a picture's pixels take, bytes a pixel.
+struct PictureBytes {
+  double piece = 0.0;  ///< of a picture in one piece
+  double whole = 0.0;  ///< in bands: of the whole picture all the while
+  double band = 0.0;   ///< in bands: of the one that is worked on
+  int margin = 0;      ///< rows that a band is worked on with beside its own
+  double soft = 0.0;   ///< in bands: of the rows on which the widths of soft shadows hang
+
+  /// In bands of so many rows.
+  double of(const ImageSize& size, int rows) const;
+};
+
+/// Of the two renderers' pictures, measured from 320x180 to 2560x1440 with one light. What the rasterizer's camera
+/// sees and a PNG on its way to its file are whole.
+inline constexpr PictureBytes raster_png{.piece = 42.0, .whole = 18.0, .band = 34.0},
+    raster_exr{.piece = 178.0, .whole = 8.0, .band = 170.0},
+    raytrace_png{.piece = 109.0, .whole = 10.0, .band = 109.0},
+    raytrace_exr{.piece = 216.0, .whole = 0.0, .band = 216.0};
+/// Of a comparison of those lights; `page`: with the images of its report page.
+PictureBytes compare_bytes(const Scene& scene, const std::vector<std::uint32_t>& lights,
+                           const ImageSize& size, bool page);
+
+/// The picture's bands, as large as the limit allows; one where it allows the whole. `most_pixels`: of a band, 0: any
+/// number. ErrorKind::graphics where it does not allow even the smallest, with what they need, as
+/// --memory takes it.
+Expected<std::vector<PictureRows>> plan_bands(const MemoryLimit& limit, const ImageSize& size,
+                                              const PictureBytes& bytes, std::size_t most_pixels = 0);
+
+/// "1.2 GB in 17 bands of 512 rows".
+std::string bands_text(const ImageSize& size, const PictureBytes& bytes,
+                       const std::vector<PictureRows>& bands);
+
+/// Error (graphics) where the smallest bands of the picture and `other` bytes are more than is left (machine.h).
+Expected<void> check_memory(const MemoryLimit& limit, const ImageSize& size, const PictureBytes& bytes,
+                            double other = 0.0);
+
+// Large pages for all that the process allocates. Where the system gives them only to those who ask (Linux's
+// transparent huge pages under "madvise"), glibc's allocator asks when its tunables say so before the process starts
+// (the GNU C Library manual, "Memory Allocation Tunables"). On virtual machines, where the first touch of a page is dear,
+// a whole comparison takes up to half the time with them.
+
+/// Starts the program once more with that tunable, before it has done anything else; returns where that is not needed or
+/// cannot be done. GLIBC_TUNABLES that are set already are the user's, and stay.
+void start_with_large_pages(char** argv);
+
+/// Whether the system's choice, as /sys/kernel/mm/transparent_hugepage/enabled gives it ("always [madvise] never"), is to
+/// give large pages to those who ask.
+bool are_asked_for(std::string_view choices);
+
+// What becomes of the program when a library cannot start a thread (a limit on processes, ulimit -u). The program tries
+// beforehand how many it can have (limit_threads() in session.h, image_library()); what it finds may have changed by the time
+// that they are started.
+
+/// To be called first. From here on, a thread that is refused where nothing else can be done ends the process with
+/// ErrorKind::graphics and one line, instead of an abort, an exception out of a library or a wait for ever.
+void end_in_words_without_threads();
 
 }  // namespace gnomon::app

@@ -1,4 +1,3 @@
-#include "app/process/memory_limit.h"
 
 #include <fmt/core.h>
 

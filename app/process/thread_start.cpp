@@ -1,5 +1,5 @@
 // The program's own pthread_create() takes the place of the C library's for every library that is loaded, and calls it.
-#include "app/process/large_pages.h"
+#include "app/process/machine.h"
 
 #include <dlfcn.h>
 #include <pthread.h>

@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "app/options/options.h"
-#include "app/options/setting.h"
 #include "scene/base/option_text.h"
 
 namespace gnomon::app {

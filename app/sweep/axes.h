@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/options/setting.h"
+#include "app/options/options.h"
 #include "studies/sweep/axis.h"
 
 namespace CLI {

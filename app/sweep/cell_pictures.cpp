@@ -1,4 +1,4 @@
-#include "app/sweep/cell_pictures.h"
+#include "app/sweep/make_cells.h"
 
 #include <future>
 #include <optional>

@@ -1,14 +1,46 @@
 // The cells of a sweep, one after the other into its journal, while the pictures of those before are written.
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
 #include "app/console.h"
 #include "app/session.h"
-#include "app/sweep/cell_pictures.h"
 #include "app/sweep/command.h"
+#include "scene/base/expected.h"
 #include "studies/sweep/engine.h"
 #include "studies/sweep/journal.h"
 
 namespace gnomon::app {
+
+// The pictures of a sweep's cells, written as the cells are made (studies/sweep/cell_files.h).
+
+class CellPictureWriter {
+ public:
+  /// Both outlive the writer.
+  CellPictureWriter(const std::string& folder, const compare::Engine& engine)
+      : folder_(folder), engine_(engine) {}
+
+  Expected<void> make_folders() const;
+  /// Encodes and writes pictures: all of them are there then, or an error. May run on any thread, while the
+  /// engine and other cells' jobs go on; waits for the job of the first cell with the same truth, which must
+  /// run, too.
+  using Job = std::function<Expected<void>()>;
+  /// The pictures of the engine's last comparison.
+  Job pictures(std::size_t cell, const compare::Comparison& comparison);
+
+ private:
+  struct TruthName;
+  struct Pictures;
+  static Expected<void> write(const Pictures& p);
+
+  const std::string& folder_;
+  const compare::Engine& engine_;
+  std::uint64_t truths_ = 0;          ///< made when the last one was written
+  std::shared_ptr<TruthName> truth_;  ///< of that one
+};
 
 /// What stays the same for all cells.
 struct Workshop {

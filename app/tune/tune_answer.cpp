@@ -8,9 +8,8 @@
 #include <string_view>
 
 #include "app/options/options.h"
-#include "app/options/setting.h"
 #include "app/options/values.h"
-#include "compare/result/engine_units_json.h"
+#include "compare/result/engine_units.h"
 #include "compare/result/figures.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"

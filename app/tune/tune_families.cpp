@@ -7,7 +7,6 @@
 #include <span>
 
 #include "app/options/options.h"
-#include "app/options/setting.h"
 #include "app/options/values.h"
 #include "compare/result/option_names.h"
 #include "raster/technique_traits.h"

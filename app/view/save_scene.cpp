@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/lessons/lesson_scene.h"
-#include "app/outputs/output_path.h"
+#include "app/outputs/run_files.h"
 #include "app/pose.h"
 #include "app/process/interrupt.h"
 #include "app/view/status.h"

@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "app/options/options.h"
-#include "app/options/setting.h"
 #include "app/options/values.h"
 #include "compare/result/number_text.h"
 #include "raster/settings.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "app/outputs/output_path.h"
+#include "app/outputs/run_files.h"
 #include "app/session.h"
 #include "app/view/viewer.h"
 #include "scene/files/read_file.h"

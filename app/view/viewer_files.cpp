@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/outputs/output_path.h"
+#include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
 #include "app/view/scene_source.h"
 #include "app/view/status.h"

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "compare/ladder/biased_test.h"
-#include "compare/ladder/filter_parameters.h"
+#include "compare/result/option_names.h"
 #include "compare/truth/columns.h"
+#include "scene/base/parallel.h"
 #include "scene/camera.h"
 
 namespace gnomon::compare {
@@ -188,6 +189,96 @@ double true_average(const LowerClimb& lower, const LadderInput& in, std::size_t 
     }
   }
   return static_cast<double>(lit) / met;
+}
+
+namespace {
+
+using raster::FilterKernel;
+using raster::Technique;
+
+/// Of a filter what is neither its kind nor how it takes the receiver's depth.
+bool is_parameter(const raster::MapSetting& setting) {
+  return setting.group == raster::SettingGroup::filter && setting.name != "filter-kernel" &&
+         setting.name != "filter-plane";
+}
+
+// The square of texels around the receiver's own, or around the receiver.
+double pcf_reach(const raster::FilterOptions& filter) {
+  switch (filter.kernel) {
+    case FilterKernel::box:
+      return std::floor(filter.radius_texels) + 1.0;
+    case FilterKernel::hardware:
+      return 1.0;
+    case FilterKernel::vogel:
+    case FilterKernel::optimised:
+      return filter.radius_texels + 1.0;
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+std::string_view filter_kind(const raster::MapOptions& map) {
+  if (map.technique == Technique::pcf) return raster::traits_of(map.filter.kernel).name;
+  if (map.technique == Technique::pcss) return "penumbra";
+  return raster::uses_moments(map.technique) ? "moments" : "none";
+}
+
+double filter_reach_texels(const raster::MapOptions& map, double level) {
+  if (map.technique == Technique::pcf) return pcf_reach(map.filter);
+  if (map.technique == Technique::pcss) return map.filter.search_radius_texels + 1.0;
+  if (!raster::uses_moments(map.technique)) return 0.0;
+  const double side = std::exp2(std::ceil(level));
+  return map.filter.blur_radius_texels + side + 0.5 * (side - 1.0);
+}
+
+std::string filter_text(const raster::MapOptions& map) {
+  if (filter_kind(map) == "none") return "";
+  std::string text(filter_kind(map));
+  for (const raster::MapSetting& setting : raster::map_settings())
+    if (is_parameter(setting) && raster::reads(map, setting)) text += ", " + setting_words(setting, map);
+  return text;
+}
+
+namespace {
+
+constexpr float visible_step = 0.5f / 255.0f;  // half a step of an 8-bit picture
+
+bool shadowed_up_to_bias(const std::array<Image<float>, rung_count>& rungs, std::size_t pixel) {
+  for (std::size_t k = 0; k + 1 < rung_count; ++k)
+    if (rungs[k].data[pixel] > 0.0f) return false;
+  return true;
+}
+
+}  // namespace
+
+void BleedingSum::add(const LadderInput& in, const std::array<Image<float>, rung_count>& rungs,
+                      const Image<Label>& labels) {
+  if (!raster::uses_moments(in.drawn.options.map.technique)) return;
+  const auto width = static_cast<std::size_t>(labels.size.width);
+  std::vector<BleedingStats> rows(static_cast<std::size_t>(labels.size.height));
+  parallel_for(rows.size(), [&](std::size_t y) {
+    for (std::size_t i = y * width; i < (y + 1) * width; ++i) {
+      const float bled = rungs[6].data[i];
+      if (!is_compared(labels.data[i]) || bled < visible_step || !shadowed_up_to_bias(rungs, i)) continue;
+      if (lit_within_reach(in, i)) continue;
+      ++rows[y].pixels;
+      rows[y].mean += bled;
+      rows[y].max = std::max(rows[y].max, double{bled});
+    }
+  });
+  for (const Label label : labels.data) compared_ += is_compared(label) ? 1 : 0;
+  for (const BleedingStats& row : rows) {
+    sums_.pixels += row.pixels;
+    sums_.mean += row.mean;
+    sums_.max = std::max(sums_.max, row.max);
+  }
+}
+
+BleedingStats BleedingSum::stats() const {
+  BleedingStats out = sums_;
+  if (compared_ > 0) out.mean /= static_cast<double>(compared_);
+  return out;
 }
 
 }  // namespace gnomon::compare

@@ -2,7 +2,11 @@
 // within the texels that the filter reaches from the pixel.
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include "compare/ladder/ladder.h"
+#include "raster/options.h"
 
 namespace gnomon::compare {
 
@@ -19,5 +23,35 @@ bool shadowed_within_reach(const LadderInput& input, std::size_t pixel);
 /// centre of the texel compared: probed at 9 x 9 points of its kernel. Of other filters the same over the square of
 /// texels that they read. `lower` knows what the rays through most of these centres meet.
 double true_average(const LowerClimb& lower, const LadderInput& input, std::size_t pixel);
+
+// The filter of a technique as files and pages tell it: its kind, how far it reaches, and its parameters in words.
+
+/// "none", pcf's kernels, "penumbra" (pcss) or "moments".
+std::string_view filter_kind(const raster::MapOptions& map);
+
+/// How far from the receiver's place the filter can read, texels: half the width of its square; 0 for none.
+/// Of pcss, the most. `level`: the mipmap level that is read; a texel of it averages 2^level, rounded up,
+/// texels on a side, and its neighbours are read too.
+double filter_reach_texels(const raster::MapOptions& map, double level = 0.0);
+
+/// "moments, blur radius 2, ...": one line for a person; empty for none.
+std::string filter_text(const raster::MapOptions& map);
+
+// Light bleeding: what a filter of moments lets through deep inside a shadow, where no average of comparisons
+// would.
+
+/// Of the pixels that are shadowed at V0 ... V5, with nothing lit within the filter's reach, and lighter at
+/// V6 by half a step of an 8-bit picture or more. Zero but for vsm, esm, evsm and msm.
+/// A picture comes in parts, each of whole rows, from the top.
+class BleedingSum {
+ public:
+  void add(const LadderInput& input, const std::array<Image<float>, rung_count>& rungs,
+           const Image<Label>& labels);
+  BleedingStats stats() const;
+
+ private:
+  BleedingStats sums_;
+  std::uint64_t compared_ = 0;
+};
 
 }  // namespace gnomon::compare

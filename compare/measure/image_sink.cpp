@@ -1,8 +1,7 @@
-#include "compare/measure/image_sink.h"
+#include "compare/measure/pictures.h"
 
 #include "compare/measure/reduced.h"
 #include "compare/measure/run_all.h"
-#include "compare/result/aov.h"
 #include "compare/result/output_parts.h"
 #include "compare/truth/shown_materials.h"
 #include "raster/bands.h"

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "compare/ladder/ladder.h"
 #include "compare/measure/pictures.h"
 #include "compare/measure/plan.h"
 #include "scene/files/pictures/exr_file.h"
@@ -31,5 +32,29 @@ Expected<void> measure_frames(Comparison& comparison, const Plan& plan,
 /// outlive the source.
 FrameSource frames_of(const raytrace::Tracer& tracer, raster::Renderer& renderer,
                       std::span<const std::uint32_t> lights, const CompareOptions& options);
+
+// The figures of a drawing that is not climbed.
+
+/// What `measure` needs of one light of a whole picture; figures that cost more are left NaN.
+LightFigures measure_ends(const LadderInput& input, const Figure& measure);
+
+// Where the images of a picture go while it is measured: into the comparison, or of a picture in bands to the disk.
+
+class ImageSink {
+ public:
+  virtual ~ImageSink() = default;
+  /// Maps of the rows that follow those of the last call; rows.count may be 0.
+  virtual Expected<void> keep_maps(std::size_t light, FinishedMaps&& maps, const PictureRows& rows) = 0;
+  /// One light's rows of a band, as `in` has them.
+  virtual Expected<void> keep_light(const LadderInput& in, Climb&& climb, Image<float>&& detached,
+                                    const PictureRows& rows) = 0;
+  /// The band itself, after its lights.
+  virtual Expected<void> keep_frames(Frames&& band, const PictureRows& rows) = 0;
+  /// What both pictures are shown with; after the last band.
+  virtual Expected<double> exposure() = 0;
+};
+
+/// `parts`: of a picture in bands; null: the images stay in `out`.
+std::unique_ptr<ImageSink> make_sink(Comparison& out, const Plan& plan, BandedParts* parts);
 
 }  // namespace gnomon::compare

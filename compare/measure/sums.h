@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "compare/bias/bias_kinds.h"
-#include "compare/ladder/bleeding.h"
-#include "compare/ladder/by_cascade.h"
+#include "compare/ladder/budget.h"
+#include "compare/ladder/filter_probe.h"
 #include "compare/ladder/other_sizes.h"
 #include "compare/ladder/penumbra.h"
 #include "compare/measure/light_parts.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/metrics/ssim_rows.h"
+#include "compare/metrics/weighted_rows.h"
 #include "scene/base/parallel.h"
 
 namespace gnomon::compare {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "compare/metrics/ssim_rows.h"
+#include "compare/metrics/weighted_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::compare::HWY_NAMESPACE {

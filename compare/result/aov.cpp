@@ -7,7 +7,6 @@
 #include <array>
 
 #include "compare/ladder/labels.h"
-#include "compare/result/aov.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"

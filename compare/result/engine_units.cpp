@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "compare/result/output_parts.h"
 
@@ -165,6 +166,17 @@ std::vector<EngineUnit> engine_units(const Comparison& c, const LightComparison&
   const raster::LightRecord& record = drawn_record(c, light);
   return engine_units(c.raster.options.map.bias, record.bias_constant_world, light_of(c, light).type, record,
                       *c.world);
+}
+
+nlohmann::ordered_json engine_units_json(const std::vector<EngineUnit>& units) {
+  auto list = nlohmann::ordered_json::array();
+  for (const EngineUnit& unit : units)
+    list.push_back({{"engine", unit.engine},
+                    {"setting", unit.setting},
+                    {"value", unit.value && std::isfinite(*unit.value) ? nlohmann::ordered_json(*unit.value)
+                                                                       : nlohmann::ordered_json()},
+                    {"formula", unit.formula}});
+  return list;
 }
 
 }  // namespace gnomon::compare

@@ -1,6 +1,7 @@
 // A bias in the units that engines ask for (docs/engine-units.md has the formulas and where they come from).
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,5 +26,8 @@ std::vector<EngineUnit> engine_units(const raster::Bias& bias, double constant_w
 /// Of the bias that a light of a comparison was drawn with; none where its technique compares no depths, or a
 /// shader of the user's own reads no bias.
 std::vector<EngineUnit> engine_units(const Comparison& comparison, const LightComparison& light);
+
+/// [{engine, setting, value, formula}], alike in result.json and in the tuner's answer.
+nlohmann::ordered_json engine_units_json(const std::vector<EngineUnit>& units);
 
 }  // namespace gnomon::compare

@@ -1,6 +1,7 @@
 // What the writers of result.json, CSV, summary and report share: the records of one light.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "compare/comparison.h"
 #include "compare/result/judged.h"
 #include "compare/result/option_names.h"
+#include "scene/files/pictures/image_io.h"
 
 namespace gnomon::compare {
 
@@ -71,5 +73,21 @@ std::string axes_text(const AxisValues& axes);
 /// The times that belong to a cell's line. `derived`: made from the gaps of the last drawn frame, whose times
 /// these are; `cell_ms`: what making the cell took.
 std::string times_line(const Comparison& comparison, std::size_t cell, bool derived, double cell_ms);
+
+// The channels of a comparison's EXR files, of a whole picture or of some of its rows.
+
+/// What one light's channels are taken from; all images have one size.
+struct AovRows {
+  const World& world;
+  const raster::RasterFrame& raster;
+  const raster::LightRecord& record;
+  const raytrace::RayTracedFrame& raytraced;
+  const std::array<Image<float>, rung_count>& rungs;
+  const Image<Label>& labels;
+};
+std::vector<Channel> aov_channels(const AovRows& rows);
+
+using AovAttributes = std::array<std::pair<std::string, std::string>, 5>;
+AovAttributes aov_attributes(const Comparison& comparison, const LightComparison& light);
 
 }  // namespace gnomon::compare

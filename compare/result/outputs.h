@@ -8,6 +8,7 @@
 
 #include "compare/comparison.h"
 #include "scene/base/expected.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::compare {
 
@@ -53,5 +54,16 @@ Rgb8Image depth_map_picture(const raster::ShadowMap& map);
 
 /// The EXR channels of docs/design.md, section 6; with several lights the light's name goes before ".exr".
 Expected<void> write_aov(const Comparison& comparison, const std::string& path);
+
+// The time budget of a run in the words of the outputs: every stage with its wall-clock and its processor
+// time, summing to the process.
+
+/// `document` (a JSON object, indented by 2) with the keys "process" and "time_budget" added at its end.
+std::string with_time_budget(std::string document, const TimeBudget& budget);
+/// The same with the time of this thread's StageLog up to now; unchanged where there is none.
+std::string with_time_budget(std::string document);
+
+/// For the terminal, at most 80 columns wide: the whole and what takes most of it.
+std::string time_budget_text(const TimeBudget& budget, bool colour);
 
 }  // namespace gnomon::compare

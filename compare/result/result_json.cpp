@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "compare/ladder/by_cascade.h"
+#include "compare/ladder/budget.h"
 #include "compare/result/figures.h"
 #include "compare/result/judged.h"
 #include "compare/result/option_names.h"

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <array>
 
-#include "compare/ladder/filter_parameters.h"
+#include "compare/ladder/filter_probe.h"
 #include "compare/ladder/labels.h"
-#include "compare/result/engine_units_json.h"
+#include "compare/result/engine_units.h"
 #include "compare/result/figures.h"
 #include "compare/result/judged.h"
 #include "compare/result/option_names.h"

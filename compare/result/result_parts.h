@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/comparison.h"
-#include "compare/ladder/by_cascade.h"
+#include "compare/ladder/budget.h"
 #include "scene/base/time_difference.h"
 
 namespace gnomon::compare {

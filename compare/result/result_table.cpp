@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "compare/result/csv_field.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
+#include "compare/result/text_layout.h"
 
 namespace gnomon::compare {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "compare/ladder/budget.h"
-#include "compare/ladder/filter_parameters.h"
+#include "compare/ladder/filter_probe.h"
 #include "compare/ladder/labels.h"
 #include "compare/result/figures.h"
 #include "compare/result/judged.h"

@@ -1,4 +1,4 @@
-#include "compare/result/time_budget.h"
+#include "compare/result/outputs.h"
 
 #include <fmt/core.h>
 

@@ -6,6 +6,7 @@
 
 #include "raster/frame.h"
 #include "scene/light_map/light_view.h"
+#include "scene/world.h"
 
 namespace gnomon::raster {
 
@@ -19,5 +20,9 @@ struct LightBlock {
 
 LightBlock make_light_block(const Light& light, const LightView& view, const MapOptions& map,
                             double constant_world, const BiasRounding& rounding, const Vec3& reference);
+
+/// What rounding leaves of the map's biases.
+BiasRounding bias_rounding(const MapOptions& map, const LightView& view, const World& world,
+                           const Vec3& reference);
 
 }  // namespace gnomon::raster

@@ -3,6 +3,9 @@
 // to raster.
 #pragma once
 
+#include <memory>
+
+#include "raster/external_visibility.h"
 #include "raster/frame.h"
 #include "raster/world/world_buffers.h"
 
@@ -65,6 +68,34 @@ class ShadingPass {
   PictureRows rows_;  ///< that are shaded
   Texture2D visibility_, solid_distance_, depth_, color_, record_, flags_, drawn_visibility_, trial_color_;
   Framebuffer visibility_target_, color_target_, record_target_, trial_target_, trial_record_target_;
+};
+
+// The bridge to a visibility that is worked out outside OpenGL: the visibility buffer read back, the answer
+// uploaded. Private to raster.
+
+class ExternalPass {
+ public:
+  explicit ExternalPass(Gl& gl) : gl_(&gl) {}
+  void use(std::shared_ptr<ExternalVisibility> visibility) { visibility_ = std::move(visibility); }
+  /// Error (internal): none was given.
+  Expected<void> check() const;
+
+  Expected<void> prepare(const VisibilityRequest& request, bool anew) {
+    return visibility_->prepare(request, anew);
+  }
+  /// After ShadingPass::draw_visibility: the image that the technique's shader reads.
+  Expected<void> find(const VisibilityRequest& request, const ShadingPass& shading);
+  void bind_for_lookup() const;
+  ExternalCosts costs(const VisibilityRequest& request, bool counted) const {
+    return visibility_->costs(request, counted);
+  }
+
+ private:
+  Gl* gl_;
+  std::shared_ptr<ExternalVisibility> visibility_;
+  Image<std::uint32_t> primitive_;
+  Image<float> image_;
+  Texture2D texture_;
 };
 
 }  // namespace gnomon::raster

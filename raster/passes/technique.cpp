@@ -7,7 +7,7 @@
 #include "raster/passes/midpoint_pass.h"
 #include "raster/passes/moment_pass.h"
 #include "raster/passes/technique_pass.h"
-#include "raster/programs/technique_shader.h"
+#include "raster/programs/programs.h"
 #include "raster/technique_traits.h"
 #include "scene/light.h"
 

@@ -4,18 +4,31 @@
 
 #include <array>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "raster/options.h"
 #include "raster/programs/expression_glsl.h"
 #include "raster/programs/gl_program.h"
-#include "raster/programs/technique_shader.h"
 #include "raster/world/shape_bounds.h"
 #include "scene/effects.h"
 #include "scene/light_map/light_view.h"
 #include "scene/world.h"
 
 namespace gnomon::raster {
+
+// Which shader of shaders/technique/ turns the map into visibility, and how it is specialised. Private to
+// raster.
+
+/// How shade.frag is specialised: no branch on the technique remains in it.
+struct TechniqueShader {
+  std::string name = "hard";         ///< of the file in shaders/technique/, without .glsl
+  std::vector<std::string> defines;  ///< "NAME" or "NAME value"
+  auto operator<=>(const TechniqueShader&) const = default;
+};
+TechniqueShader technique_shader(const MapOptions& options, const Light& light);
+/// What moments.frag is specialised by.
+std::vector<std::string> moment_shader(const MapOptions& options, const Light& light, const LightView& view);
 
 /// The define that holds the text of a range of implicit functions; empty for none.
 std::string functions_define(const FunctionTable& table, std::size_t first, std::size_t count,

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "raster/programs/technique_shader.h"
+#include "raster/programs/programs.h"
 #include "scene/files/encodings.h"
 #include "scene/files/json/json_reader.h"
 #include "scene/files/read_file.h"

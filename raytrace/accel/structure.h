@@ -3,7 +3,7 @@
 #pragma once
 
 #include "raytrace/tracer.h"
-#include "scene/base/function_ref.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {
 

@@ -2,7 +2,6 @@
 
 #include "raytrace/bvh/bvh.h"
 #include "raytrace/bvh/float4.h"
-#include "raytrace/given_up.h"
 #include "scene/base/parallel.h"
 #include "scene/shapes/solid.h"
 

@@ -7,7 +7,6 @@
 #include "raytrace/bvh/clusters.h"
 #include "raytrace/bvh/instance.h"
 #include "raytrace/bvh/treelet.h"
-#include "raytrace/given_up.h"
 #include "scene/base/parallel.h"
 #include "scene/shapes/solid.h"
 

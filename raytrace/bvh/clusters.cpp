@@ -2,7 +2,6 @@
 
 #include <bit>
 
-#include "raytrace/given_up.h"
 #include "scene/base/parallel.h"
 
 namespace gnomon::raytrace::binned {

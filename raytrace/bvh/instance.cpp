@@ -4,7 +4,6 @@
 #include <cfloat>
 
 #include "raytrace/bvh/treelet.h"
-#include "raytrace/given_up.h"
 #include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {

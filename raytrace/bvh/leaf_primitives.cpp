@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "raytrace/given_up.h"
 #include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {

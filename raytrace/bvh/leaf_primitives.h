@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "raytrace/huge_array.h"
-#include "scene/base/function_ref.h"
+#include "scene/base/parallel.h"
 #include "scene/math.h"
 
 namespace gnomon::raytrace {

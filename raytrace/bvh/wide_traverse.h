@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "raytrace/bvh/wide_ray.h"
-#include "scene/base/function_ref.h"
+#include "scene/base/parallel.h"
 #include "scene/math.h"
 
 namespace gnomon::raytrace {

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "raytrace/bvh/wide_instances.h"
-#include "raytrace/given_up.h"
 #include "scene/base/parallel.h"
 
 namespace gnomon::raytrace {

@@ -1,6 +1,6 @@
 #include "raytrace/precision/ambiguous_ray.h"
 
-#include "raytrace/precision/exact_shadow.h"
+#include "raytrace/precision/visibility.h"
 
 namespace gnomon::raytrace {
 namespace {

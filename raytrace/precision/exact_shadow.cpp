@@ -1,4 +1,4 @@
-#include "raytrace/precision/exact_shadow.h"
+#include "raytrace/precision/visibility.h"
 
 #include "scene/shapes/solid.h"
 

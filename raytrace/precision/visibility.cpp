@@ -2,7 +2,6 @@
 
 #include "raytrace/bvh/wide_single.h"
 #include "raytrace/precision/ambiguous_ray.h"
-#include "raytrace/precision/exact_shadow.h"
 
 namespace gnomon::raytrace {
 namespace {

@@ -20,7 +20,7 @@
 #include "raytrace/shading/light_shaft.h"
 #include "raytrace/shading/microfacet.h"
 #include "raytrace/shading/smooth_surface.h"
-#include "raytrace/shapes/surface_uv.h"
+#include "raytrace/shapes/mask_cells.h"
 #include "scene/light.h"
 
 namespace gnomon::raytrace {

@@ -1,4 +1,4 @@
-#include "raytrace/shapes/surface_uv.h"
+#include "raytrace/shapes/mask_cells.h"
 
 #include "scene/shapes/solid.h"
 

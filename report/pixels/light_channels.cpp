@@ -3,7 +3,7 @@
 // filters of up to 7 x 7 samples); distances, depths and gaps to a power of two of about 2^-22 of the map's
 // depth range, a gap to the side on which it lies of every bias of the curve, so that what these biases draw
 // is exact.
-#include "report/pixels/light_channels.h"
+#include "report/pixels/page_data.h"
 
 #include <fmt/core.h>
 
@@ -16,7 +16,7 @@
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/result_parts.h"
-#include "report/facts.h"
+#include "report/page.h"
 #include "scene/base/parallel.h"
 
 namespace gnomon::compare {

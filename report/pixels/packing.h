@@ -7,10 +7,13 @@
 // last rest of at most six in one character). That is a thirteenth shorter than base64.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "scene/image.h"
 
 namespace gnomon::compare {
 
@@ -35,5 +38,15 @@ std::string packed(std::vector<std::uint32_t> numbers, const PackOptions& option
 
 /// Bytes as pairs of characters.
 std::string dense_text(std::string_view bytes);
+
+// Linear light as small whole numbers for the page: logarithms, before exposure.
+
+constexpr int colour_steps = 64;  ///< to an octave: half a percent from the middle of a step to its end
+constexpr int darkest_octave = -24, brightest_octave = 24;
+
+/// 0 of black; else 1 + colour_steps (log2 of the value - darkest_octave), rounded to within 0.52.
+std::uint16_t colour_number(float value);
+/// Of a picture's red, green and blue.
+std::array<std::vector<std::uint16_t>, 3> colour_numbers(const ColorImage& image);
 
 }  // namespace gnomon::compare

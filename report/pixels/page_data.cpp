@@ -14,11 +14,9 @@
 #include "compare/result/outputs.h"
 #include "compare/result/result_parts.h"
 #include "compare/truth/shown_materials.h"
-#include "report/facts.h"
+#include "report/page.h"
 #include "report/pixels/channels.h"
-#include "report/pixels/colour_numbers.h"
-#include "report/pixels/light_channels.h"
-#include "report/pixels/section_mesh.h"
+#include "report/pixels/packing.h"
 #include "scene/base/parallel.h"
 
 namespace gnomon::compare {

@@ -1,4 +1,4 @@
-#include "report/pixels/section_mesh.h"
+#include "report/pixels/page_data.h"
 
 #include "scene/shapes/tessellate.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "report/pixels/channels.h"
-#include "report/pixels/light_channels.h"
+#include "report/pixels/page_data.h"
 #include "scene/base/parallel.h"
 
 namespace gnomon::compare {

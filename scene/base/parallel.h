@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <forward_list>
 #include <functional>
 #include <memory>
@@ -12,9 +13,30 @@
 #include <utility>
 #include <vector>
 
-#include "scene/base/function_ref.h"
-
 namespace gnomon {
+
+// Somebody else's callable behind two pointers: what is called through it is compiled once, not once per callable.
+
+template <class Signature>
+class FunctionRef;
+
+/// Refers to the callable, which must outlive it.
+template <class Result, class... Arguments>
+class FunctionRef<Result(Arguments...)> {
+ public:
+  template <class Callable>
+  FunctionRef(const Callable& callable)
+      : callable_(std::addressof(callable)), call_([](const void* self, Arguments... arguments) -> Result {
+          return (*static_cast<const Callable*>(self))(std::forward<Arguments>(arguments)...);
+        }) {}
+  Result operator()(Arguments... arguments) const {
+    return call_(callable_, std::forward<Arguments>(arguments)...);
+  }
+
+ private:
+  const void* callable_;
+  Result (*call_)(const void* self, Arguments... arguments);
+};
 
 /// body(first, last) for ranges that together are [0, count), each on one thread. No range shorter than half of
 /// `at_a_time` but one of a shorter whole; how long they are hangs on what the threads have to do.
@@ -151,6 +173,19 @@ std::size_t first_where(std::size_t count, const Is& is) {
         return none;
       },
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
+}
+
+// A parallel loop inside another one is skipped, in part or whole, once the outer one is given up because an error
+// ended one of its threads: what the loop was to make is then not there. Who needs it asks here first.
+
+/// Never seen outside: the outer loop already has the error that ends it.
+struct GivenUp : std::exception {
+  const char* what() const noexcept override { return "part of a work that an error ended"; }
+};
+
+/// After a parallel loop that may lie inside another one. Throws GivenUp when the work around it was given up.
+inline void leave_if_given_up() {
+  if (is_given_up()) throw GivenUp();
 }
 
 }  // namespace gnomon

@@ -29,7 +29,7 @@ class RefusalIsHandled {
 };
 
 /// Threads that were refused to somebody who had nothing else to do. They are counted by the program alone
-/// (app/process/large_pages.h); where a library is all that is used of Gnomon, 0.
+/// (app/process/machine.h); where a library is all that is used of Gnomon, 0.
 int refused_threads();
 void count_refused_thread();
 

@@ -8,7 +8,7 @@
 
 #include "scene/files/material_notes.h"
 #include "scene/files/pictures/image_io.h"
-#include "scene/files/placed_triangles.h"
+#include "scene/files/polygon.h"
 #include "scene/files/shadow_variants.h"
 #include "scene/shapes/closed_mesh.h"
 #include "scene/shapes/solid.h"

@@ -1,4 +1,4 @@
-#include "scene/files/foreign.h"
+#include "scene/files/formats.h"
 
 #include <fmt/core.h>
 #include <sys/mman.h>

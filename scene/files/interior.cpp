@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/files/placed_triangles.h"
+#include "scene/files/polygon.h"
 
 namespace gnomon {
 namespace {

@@ -12,7 +12,6 @@
 #include "scene/base/threads.h"
 #include "scene/files/defaults.h"
 #include "scene/files/encodings.h"
-#include "scene/files/foreign.h"
 #include "scene/files/formats.h"
 #include "scene/files/json/json_reader.h"
 #include "scene/files/mapped_file.h"

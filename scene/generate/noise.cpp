@@ -1,6 +1,5 @@
 // Value noise by octaves, each added over the whole picture at once: one table of lattice values, two weights
 // per texel.
-#include "scene/generate/noise.h"
 
 #include "scene/base/parallel.h"
 #include "scene/generate/random.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "scene/generate/generator.h"
-#include "scene/generate/noise.h"
+#include "scene/generate/random.h"
 
 namespace gnomon {
 namespace {

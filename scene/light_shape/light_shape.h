@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "scene/base/function_ref.h"
+#include "scene/base/parallel.h"
 #include "scene/math.h"
 
 namespace gnomon {

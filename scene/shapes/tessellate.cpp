@@ -130,7 +130,7 @@ Mesh tessellated(const Shape& shape, int n) {
   } else if (const auto* torus = std::get_if<Torus>(&shape.geometry)) {
     turner(torus->frame, Vec3(1.0)).turn(tube(*torus, std::max(3, rings)));
   } else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
-    // Its texture turns about y, the other way round (raytrace/shapes/surface_uv.h).
+    // Its texture turns about y, the other way round (raytrace/shapes/mask_cells.h).
     ShapeFrame frame;
     frame.origin = sphere->center;
     frame.axes = Mat3(Vec3(1, 0, 0), Vec3(0, 0, -1), Vec3(0, 1, 0));

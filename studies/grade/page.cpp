@@ -9,7 +9,6 @@
 #include "compare/ladder/labels.h"
 #include "compare/result/outputs.h"
 #include "report/html.h"
-#include "report/page_head.h"
 #include "scene/files/path_status.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "compare/result/csv_field.h"
 #include "compare/result/option_names.h"
+#include "compare/result/text_layout.h"
 #include "scene/base/expected.h"
 
 namespace gnomon::grade {

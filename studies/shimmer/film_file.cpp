@@ -1,4 +1,4 @@
-#include "studies/shimmer/film_file.h"
+#include "studies/shimmer/outputs.h"
 
 #include <fmt/core.h>
 #include <unistd.h>

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
+#include "report/shell.h"
+#include "scene/base/expected.h"
+#include "studies/shimmer/film.h"
 #include "studies/shimmer/shimmer.h"
 
 namespace gnomon::compare {
@@ -32,5 +36,42 @@ std::string shimmer_json(const Shimmer& shimmer, const ShimmerProvenance& from);
 std::string shimmer_sentence(const Shimmer& shimmer, const ShimmerLight& light);
 /// The summary for stdout, at most 80 columns wide.
 std::string shimmer_table(const Shimmer& shimmer);
+
+// Films as files: animated PNG by the program itself, MP4 through ffmpeg, which need not be installed.
+
+enum class FilmFormat : std::uint8_t { apng, mp4 };
+/// "png", "mp4".
+std::string_view film_extension(FilmFormat format);
+/// "animated PNG", "MP4".
+std::string_view film_format_words(FilmFormat format);
+
+/// Error (usage): the format needs a program that is not there.
+Expected<void> check_film_format(FilmFormat format);
+
+/// H.264 in an MP4 file from an animated PNG of `pixels` in all its frames; a side of an odd number of pixels gets one more,
+/// black. Errors: ffmpeg says that something is wrong (cannot write); it cannot be started, or does not end (resources).
+Expected<void> convert_to_mp4(const std::string& apng, const std::string& mp4, double pixels);
+
+// The page of a film of shadows: its document, and the data of the film that scripts play.
+
+/// Of more than `max_mb` megabytes the frames are files beside the page. `json`: result.json's text.
+Expected<BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmKeeper& films, std::string_view json,
+                                 double max_mb, FilmFormat format);
+
+// The folder of a film of shadows.
+
+inline constexpr double default_film_max_mb = 20.0;  ///< megabytes, of a page that is one file
+
+struct ShimmerFolder {
+  std::string folder;
+  double report_max_mb = default_film_max_mb;
+  std::vector<std::string> inputs{};  ///< files that must not be replaced: ErrorKind::usage
+  FilmFormat film = FilmFormat::apng;
+};
+
+/// result.json, report.html and, for each light, film-I-drawn, film-I-truth and film-I-flips (.png, animated, or .mp4),
+/// in a folder that appears whole (scene/files/staged_folder.h). Returns what the page weighs, megabytes.
+Expected<double> write_shimmer(const Shimmer& shimmer, const FilmKeeper& films, const std::string& json,
+                               const ShimmerFolder& output);
 
 }  // namespace gnomon::compare

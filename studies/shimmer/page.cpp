@@ -1,4 +1,4 @@
-#include "studies/shimmer/page.h"
+#include "studies/shimmer/outputs.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "studies/shimmer/write.h"
+#include "studies/shimmer/outputs.h"
 
 #include <fmt/core.h>
 

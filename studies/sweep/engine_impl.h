@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "compare/measure/ends.h"
+#include "compare/measure/measure.h"
 #include "studies/sweep/bias_axis.h"
 #include "studies/sweep/engine.h"
 

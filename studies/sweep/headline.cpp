@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "compare/result/number_text.h"
-#include "studies/sweep/words.h"
 
 namespace gnomon::compare {
 namespace {

@@ -1,4 +1,3 @@
-#include "studies/sweep/merge.h"
 
 #include <fmt/core.h>
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/result/number_text.h"
-#include "report/facts.h"
 #include "report/html.h"
+#include "report/page.h"
 #include "report/shell.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"

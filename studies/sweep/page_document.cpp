@@ -6,8 +6,8 @@
 
 #include "compare/result/option_names.h"
 #include "compare/result/result_parts.h"
+#include "studies/sweep/headline.h"
 #include "studies/sweep/page.h"
-#include "studies/sweep/words.h"
 
 namespace gnomon::compare {
 namespace {

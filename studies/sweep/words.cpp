@@ -1,4 +1,4 @@
-#include "studies/sweep/words.h"
+#include "studies/sweep/headline.h"
 
 #include <fmt/core.h>
 

@@ -1,7 +1,7 @@
 #include "bench_scenes.h"
 
 #include "raytrace_support.h"
-#include "scene/generate/noise.h"
+#include "scene/generate/random.h"
 #include "scene/load.h"
 #include "tests/support/places.h"
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdio>
 
-#include "app/process/large_pages.h"
 #include "app/process/machine.h"
 #include "instruction_set.h"
 #include "raytrace/packets/shadow_pass.h"

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "must.h"
-#include "raster/options_check.h"
+#include "bench_support.h"
 #include "raster/passes/izb_pass.h"
 #include "raster/passes/light_block.h"
 #include "raster/passes/map_shape.h"

@@ -8,9 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "cpu_time.h"
+#include "bench_support.h"
 #include "minimal_program.h"
-#include "must.h"
 #include "raster/renderer.h"
 #include "raster/technique_traits.h"
 #include "scene/base/timing.h"

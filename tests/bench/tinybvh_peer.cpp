@@ -1,4 +1,4 @@
-#include "tinybvh_peer.h"
+#include "embree_peer.h"
 
 #if __has_include(<tiny_bvh.h>)
 #define TINYBVH_IMPLEMENTATION

@@ -6,16 +6,14 @@
 #include <string_view>
 
 #include "ball_light.h"
+#include "bench_support.h"
 #include "embree_peer.h"
-#include "in_turn.h"
 #include "instruction_set.h"
-#include "must.h"
 #include "raytrace/packets/edge_setup.h"
 #include "raytrace/packets/shadow_pass.h"
 #include "raytrace/tiles.h"
 #include "raytrace/tracer.h"
 #include "scene/light_map/light_view.h"
-#include "tinybvh_peer.h"
 
 namespace gnomon::bench {
 namespace {

@@ -1,6 +1,6 @@
 #include "support/compare_support.h"
 
-#include "support/every_light.h"
+#include "support/small_scenes.h"
 
 namespace gnomon::test {
 

@@ -1,4 +1,4 @@
-#include "support/other_renderer.h"
+#include "support/capture_support.h"
 
 #include "scene/files/pictures/image_io.h"
 #include "scene/light.h"

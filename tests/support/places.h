@@ -16,4 +16,12 @@ std::string image_module();
 /// The library that makes calls of the C library fail (tests/faults/injector.cpp).
 std::string fault_injector();
 
+/// Whether the tests are compiled with AddressSanitizer: it has its own operator new, keeps freed memory back, reserves
+/// terabytes of addresses, and looks for leaks by a process of its own.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr bool address_sanitizer = true;
+#else
+inline constexpr bool address_sanitizer = false;
+#endif
+
 }  // namespace gnomon::test

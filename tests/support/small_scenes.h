@@ -1,6 +1,7 @@
 // Small scenes built in code, for tests that need no files.
 #pragma once
 
+#include <numeric>
 #include <vector>
 
 #include "scene/scene.h"
@@ -15,5 +16,12 @@ Mesh box_mesh(const Vec3& min, const Vec3& max);
 Scene sunlit_scene(std::vector<Mesh> meshes, const Vec3& direction);
 /// A floor and two boxes under a sun, the spot light "lamp" and the point light "bulb".
 Scene boxes_under_three_lights();
+
+/// The lights of a scene, as the renderers ask for them.
+inline std::vector<std::uint32_t> every_light(const Scene& scene) {
+  std::vector<std::uint32_t> lights(scene.lights.size());
+  std::iota(lights.begin(), lights.end(), 0u);
+  return lights;
+}
 
 }  // namespace gnomon::test

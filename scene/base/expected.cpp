@@ -1,9 +1,9 @@
-#include "scene/base/expected.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdint>
+
+#include "scene/base/expected.h"
 
 namespace gnomon {
 namespace {
@@ -118,6 +118,18 @@ std::string visible_order(std::string_view text) {
         return is_misleading(code) || code >= 0x7f ? fmt::format("\\{}", unicode_escape(code))
                                                    : std::string(bytes);
       });
+}
+
+std::string Error::message() const {
+  std::string out;
+  if (!file.empty()) {
+    out += file;
+    if (line > 0) out += fmt::format(":{}", line);
+    if (line > 0 && column > 0) out += fmt::format(":{}", column);
+    out += ": ";
+  }
+  if (!field.empty()) out += field + ": ";
+  return one_line(out + reason);
 }
 
 }  // namespace gnomon
