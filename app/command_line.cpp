@@ -214,7 +214,7 @@ Expected<void> write_trace(const std::string& path) {
 }
 
 /// What every command that has them takes by one name.
-void take_common_options(const CLI::App& program, Invocation& invocation) {
+void apply_common_options(const CLI::App& program, Invocation& invocation) {
   for (const CLI::App* command : program.get_subcommands()) {
     if (const CLI::Option* threads = command->get_option_no_throw("--threads");
         threads != nullptr && threads->count() > 0)
@@ -308,7 +308,7 @@ int parse_and_run(int argc, const char* const* argv, bool runs) {
       return static_cast<int>(finished.error().kind);
     }
     if (!runs) return 0;
-    take_common_options(*program, invocation);
+    apply_common_options(*program, invocation);
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = program->get_subcommands();
     print_data(help_text(chosen.empty() ? *program : *chosen.front()));

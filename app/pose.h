@@ -48,7 +48,7 @@ Light posed_light(const Light& given, const Vec3& centre, const LightPose& pose)
 inline double degrees(double radians) {
   return radians * 180.0 / pi;
 }
-/// The same angle in (-180, 180].
+/// Returns the angle that is the same within (-180, 180].
 double wrapped_degrees(double degrees);
 
 }  // namespace gnomon::app

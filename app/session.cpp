@@ -25,7 +25,7 @@
 namespace gnomon::app {
 namespace {
 
-/// Of the world that the scene makes.
+/// Counts the primitives of the world that the scene makes.
 std::uint64_t primitives_of(const Scene& scene) {
   std::uint64_t count = scene.shapes.size();
   for (const MeshInstance& instance : scene.instances) count += scene.meshes[instance.mesh].triangles.size();
@@ -132,7 +132,7 @@ Expected<void> check_shaders_used(const std::string& shader_folder, const raster
 
 namespace {
 
-/// Of the ray tracer, of the rasterizer, and besides: one that writes files, two of Mesa's own.
+/// Counts threads of the ray tracer and of the rasterizer, one that writes files, and two of Mesa's own.
 int threads_to_start(int threads) {
   return threads == 1 ? 1 : 2 * threads + 3;
 }

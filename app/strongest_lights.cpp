@@ -76,20 +76,20 @@ std::vector<std::uint32_t> strongest_lights(const LoadedScene& loaded, const std
   return order;
 }
 
-LightKeeper::LightKeeper(const LoadedScene& loaded, int max_lights)
+LightSelection::LightSelection(const LoadedScene& loaded, int max_lights)
     : loaded_(loaded),
       most_(static_cast<std::size_t>(max_lights)),
       camera_(loaded.scene->camera),
       lights_(loaded.scene->lights) {}
 
-bool LightKeeper::leaves_out(const std::vector<std::string>& named) const {
+bool LightSelection::leaves_out(const std::vector<std::string>& named) const {
   return lights_.size() > most_ && std::all_of(named.begin(), named.end(), [this](const std::string& name) {
            return std::any_of(lights_.begin(), lights_.end(),
                               [&name](const Light& light) { return light.name == name; });
          });
 }
 
-std::vector<Light> LightKeeper::kept(const std::vector<std::string>& named, const PoseOptions& poses) {
+std::vector<Light> LightSelection::kept(const std::vector<std::string>& named, const PoseOptions& poses) {
   if (!leaves_out(named)) return lights_;
   const Camera camera = posed_by(poses, camera_, *loaded_.world);
   if (seen_by_ != camera) {
@@ -103,7 +103,7 @@ std::vector<Light> LightKeeper::kept(const std::vector<std::string>& named, cons
   return kept;
 }
 
-std::string LightKeeper::note(const std::vector<std::string>& named) const {
+std::string LightSelection::note(const std::vector<std::string>& named) const {
   return fmt::format(
       "the scene has {} lights: the {} that would light most of what the camera sees are kept{}; all "
       "others are left out of everything (--light NAME takes another one in, --max-lights N more)",
@@ -112,15 +112,15 @@ std::string LightKeeper::note(const std::vector<std::string>& named) const {
 
 void keep_strongest_lights(LoadedScene& loaded, int max_lights, const std::vector<std::string>& named,
                            const PoseOptions& poses, Console& console) {
-  LightKeeper keeper(loaded, max_lights);
-  if (!keeper.leaves_out(named)) return;
+  LightSelection selection(loaded, max_lights);
+  if (!selection.leaves_out(named)) return;
   const TimedStage stage("load");
   Scene& scene = *loaded.scene;
   const std::size_t all = scene.lights.size();
-  scene.lights = keeper.kept(named, poses);
+  scene.lights = selection.kept(named, poses);
   loaded.lights_left_out = all - scene.lights.size();
   loaded.plan = plan_effects(scene);
-  std::string note = keeper.note(named);
+  std::string note = selection.note(named);
   console.note(note);
   scene.notes.push_back(std::move(note));  // for the page and the JSON
 }

@@ -36,9 +36,9 @@ inline std::vector<std::string> named_lights(const std::string& name) {
 
 /// Chooses the lights that stay, for one camera after the other: where there are more than `max_lights`, those that
 /// strongest_lights() finds or --light names. `loaded` outlives it, and is taken as it is when this is made.
-class LightKeeper {
+class LightSelection {
  public:
-  LightKeeper(const LoadedScene& loaded, int max_lights);
+  LightSelection(const LoadedScene& loaded, int max_lights);
 
   /// Never where a name is not a light's.
   bool leaves_out(const std::vector<std::string>& named) const;
@@ -56,7 +56,7 @@ class LightKeeper {
   std::vector<std::uint32_t> strongest_;  ///< indices in `lights_`
 };
 
-/// The lights that the keeper leaves out are left out of everything; a note says so. To be called before `poses` are
+/// The lights that the selection leaves out are left out of everything; a note says so. To be called before `poses` are
 /// applied, whose light is one of those that stay.
 void keep_strongest_lights(LoadedScene& loaded, int max_lights, const std::vector<std::string>& named,
                            const PoseOptions& poses, Console& console);

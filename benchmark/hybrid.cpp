@@ -1,5 +1,5 @@
 // The hybrid's hard shadows against pure ray tracing of the same receivers, in turn: rays, triangles tested,
-// and time: of a new light as the cost estimate has it, with the sheets built anew, and with the sheets kept.
+// and time: of a new light as the cost estimate has it, with the sheets built again, and with the sheets kept.
 // An error when the two differ.
 #include <fmt/core.h>
 
@@ -56,10 +56,10 @@ class HybridBench {
 
  private:
   struct Runs {
-    Times by_cost, anew, kept, pure;
+    Times by_cost, at_once, kept, pure;
     void append(const Runs& now) {
       const auto add = [](Times& times, const Times& more) { times.runs.push_back(more.runs[0]); };
-      add(by_cost, now.by_cost), add(anew, now.anew), add(kept, now.kept);
+      add(by_cost, now.by_cost), add(at_once, now.at_once), add(kept, now.kept);
       add(pure, now.pure);
     }
   };
@@ -80,7 +80,7 @@ class HybridBench {
     if (!pure_first) pure();
     new_light_rays_ = counts_.rays;
     std::size_t wrong = differences();
-    time_run(now.anew, [&] { renew(Sheets::at_once); });
+    time_run(now.at_once, [&] { renew(Sheets::at_once); });
     wrong += differences();
     time_run(now.kept, trace);
     wrong += differences();
@@ -139,7 +139,7 @@ class HybridBench {
         row("hybrid shadow rays, a new light by cost", double(new_light_rays_), "rays", tracing, asked, {}),
         row("hybrid triangle tests", double(cast), "triangles", tracing, double(all), {}),
         row("hybrid shadows, a new light by cost", times.by_cost.median(), "ms", tracing, pure, 1.0),
-        row("hybrid shadows, sheets built anew", times.anew.median(), "ms", tracing, pure, {}),
+        row("hybrid shadows, sheets built anew", times.at_once.median(), "ms", tracing, pure, {}),
         row("hybrid shadows, sheets kept", times.kept.median(), "ms", tracing, pure, 2.0)};
     out.table = fmt::format(
         "{}: hybrid hard shadows of {}, {} x {} pixels, {}² map: the same as ray tracing at every pixel\n"
@@ -152,7 +152,7 @@ class HybridBench {
         one_line(input_.scene.name), one_line(light_.name), input_.size.width, input_.size.height, map_size,
         counts_.rays, counts_.asked, percent(counts_.rays, counts_.asked), percent(cast, all),
         percent(counts_.lit, counts_.asked), percent(counts_.shadowed, counts_.asked), times.kept.median(),
-        times.anew.median(), static_cast<double>(cache_->bytes()) / 1048576.0, pure,
+        times.at_once.median(), static_cast<double>(cache_->bytes()) / 1048576.0, pure,
         cache_->frames_to_pay(receivers_.points.data.size()) + 1, times.by_cost.median(),
         percent(new_light_rays_, counts_.asked));
     return out;

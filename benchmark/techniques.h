@@ -39,7 +39,7 @@ struct TechniqueTable {
 Expected<TechniqueTable> bench_techniques(Scene& scene, const World& world, raster::Renderer& renderer,
                                           const raster::RasterOptions& base, const Progress& progress);
 
-/// As Markdown; the page says how it was made.
+/// Writes the tables as Markdown; the page says how it was made.
 std::string markdown(std::span<const TechniqueTable> tables, const std::string& command);
 /// For a terminal, 80 columns.
 std::string text_table(const TechniqueTable& table);

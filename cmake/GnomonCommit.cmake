@@ -1,4 +1,4 @@
-# The commit that the program was built from, as a string in one small file that is compiled anew when it changes and no
+# The commit that the program was built from, as a string in one small file that is compiled again when it changes and no
 # other: gnomon_commit(TARGET). From git where the source is a checkout; from cmake/commit.txt where git archive wrote it
 # there (.gitattributes); else empty.
 function(gnomon_commit target)

@@ -62,7 +62,7 @@ enum class Label : std::int8_t {
   background = -1,
   right = 0,
   acne,
-  precision,
+  stored_depth,  ///< "precision"
   peter_panning,
   light_leak,
   aliasing,
@@ -82,7 +82,7 @@ enum class Label : std::int8_t {
 };
 inline constexpr std::size_t class_count = 18;  ///< the wrong ones, acne … ignored_alpha
 std::string_view label_name(Label label);  ///< as in result.json; "right", "background", … for the others
-/// Of a pixel with an error: its label is what caused it. It is wrong where that is more than one half (is_wrong).
+/// Tells whether a pixel has an error: its label is what caused it. It is wrong where that is more than one half (is_wrong).
 inline bool has_cause(Label label) {
   return static_cast<int>(label) > 0;
 }
@@ -92,19 +92,19 @@ inline bool is_compared(Label label) {
 
 struct PixelCounts {
   std::uint64_t total = 0, background = 0, facing_away = 0, silhouette = 0, uncertain = 0, compared = 0;
-  /// Of the uncertain ones those that only the samples of a light with size leave open (ladder.h).
+  /// Counts the uncertain pixels that only the samples of a light with size leave open (ladder.h).
   std::uint64_t uncertain_by_samples = 0;
 };
 
-/// Of V6 - V0 over compared pixels.
+/// The error is V6 - V0 over compared pixels.
 struct ErrorStats {
   std::uint64_t wrong = 0, false_shadow = 0, missed_shadow = 0;  ///< |V6 - V0| > 1/2, and which way
   std::uint64_t ties = 0;        ///< |V6 - V0| = 1/2 exactly: as near to right as to wrong
   std::uint64_t fractional = 0;  ///< V0 or V6 between 0 and 1: for 0 the mean is the share of wrong pixels
   double wrong_fraction = 0.0;   ///< (wrong + ties / 2) / compared
   double mean_absolute = 0.0, rms = 0.0;
-  /// Of the drawn against the true visibility picture; NaN where not computed. The last two over the compared
-  /// pixels alone, of SSIM the windows around them.
+  /// These compare the drawn with the true visibility picture; NaN where not computed. The last two are means over the
+  /// compared pixels alone, of SSIM over the windows around them.
   double flip = std::numeric_limits<double>::quiet_NaN();  ///< mean FLIP (Andersson et al. 2020)
   double ssim = std::numeric_limits<double>::quiet_NaN();  ///< mean SSIM (Wang et al. 2004)
   double flip_compared = std::numeric_limits<double>::quiet_NaN();
@@ -136,7 +136,7 @@ struct EdgeStats {
   double mean_texels = 0.0;  ///< signed, > 0 where the drawn shadow is larger than the true one
   double rms_texels = 0.0, rms_pixels = 0.0;
   double mean_absolute_texels = 0.0;
-  /// The same along the receiver, world units.
+  /// These are lengths along the receiver, world units.
   double mean_world = 0.0, mean_absolute_world = 0.0, rms_world = 0.0;
 };
 
@@ -197,7 +197,7 @@ struct OtherMapSize {
   double mean_absolute = 0.0, standard_error = 0.0;  ///< as ErrorStats::mean_absolute; of the estimate
 };
 
-/// Of the finite values over compared pixels.
+/// Describes the finite values over compared pixels.
 struct Distribution {
   std::uint64_t count = 0;
   double median = 0.0, p90 = 0.0, p99 = 0.0, max = 0.0;
@@ -223,11 +223,11 @@ struct PenumbraStats {
   std::uint64_t edges = 0, umbra_edges = 0;
   double true_penumbra_world = 0.0, drawn_penumbra_world = 0.0;
   double true_umbra_world = 0.0, drawn_umbra_world = 0.0;
-  /// Of the pixels climbed (labels_climbed), with those that only samples leave uncertain: without them an area would
+  /// Counts the pixels climbed (labels_climbed), with those that only samples leave uncertain: without them an area would
   /// have holes where half of the light is seen.
   std::uint64_t true_umbra_pixels = 0, true_penumbra_pixels = 0;
   std::uint64_t drawn_umbra_pixels = 0, drawn_penumbra_pixels = 0;
-  /// Of the truth's samples, over compared pixels whose truth lies between 0 and 1.
+  /// Describes the truth's samples, over compared pixels whose truth lies between 0 and 1.
   double standard_error_mean = 0.0, standard_error_max = 0.0;
 };
 
@@ -236,7 +236,7 @@ struct RayWork {
   std::uint64_t rays = 0, boxes = 0, primitives = 0;  ///< tested
 };
 
-/// Of a film whose first frame is the comparison's picture (studies/shimmer/shimmer.h).
+/// Describes a film whose first frame is the comparison's picture (studies/shimmer/shimmer.h).
 struct ShimmerFigures {
   int frames = 0;
   double fps = 0.0;
@@ -259,7 +259,7 @@ struct TerminatorCount {
   std::uint64_t unlit = 0;  ///< compared, though the smooth normal faces away, so that no light is seen there
 };
 
-/// Of the compared pixels that look up one cascade.
+/// Describes the compared pixels that look up one cascade.
 struct CascadeFigures {
   std::uint64_t compared = 0;
   ErrorStats error;
@@ -354,7 +354,7 @@ struct Comparison {
   raytrace::Precision precision = raytrace::Precision::robust;  ///< of the ray tracer
   raster::RasterFrame raster;
   raytrace::RayTracedFrame raytraced;
-  /// Of a picture in bands, whose receivers are not kept; else empty.
+  /// Stands for the receivers of a picture in bands, which are not kept; else empty.
   Image<SeenSurface> seen;
   std::vector<LightComparison> lights;
   std::optional<Threshold> fail_above;  ///< what the errors were held against

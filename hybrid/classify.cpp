@@ -42,7 +42,7 @@ struct Local {
       : x(all(n.x)), y(all(n.y)), z(all(n.z)), size(sum_of_magnitudes(n) * extent) {}
   V at(const V (&p)[3]) const { return hn::MulAdd(x, p[0], hn::MulAdd(y, p[1], hn::Mul(z, p[2]))); }
 };
-/// Of the coefficient, the position (1.13, raytrace/quantised_tile.h) and three operations: 2^-24 each.
+/// Bounds the rounding of the coefficient, the position (1.13, raytrace/quantised_tile.h) and three operations: 2^-24 each.
 constexpr double rounding = 6.0 * 0x1p-24;
 
 /// The sheets as one picture tile looks at them. Everything counts from the tile's origin, where it is known
@@ -245,11 +245,11 @@ class Classifier {
     const unsigned lit = asked & told.lit, dark = asked & told.dark;
     add(out_->lit, lit), add(out_->shadowed, dark);
     for (unsigned left = asked & ~(lit | dark); left != 0; left &= left - 1)
-      put_off(lane_ + static_cast<std::size_t>(std::countr_zero(left)));
+      postpone(lane_ + static_cast<std::size_t>(std::countr_zero(left)));
   }
 
   /// Some texels are known in parts.
-  void put_off(std::size_t lane) {
+  void postpone(std::size_t lane) {
     const SheetTile& sheet = sheet_at(lane);
     if (sheet.parts.empty()) {
       set(out_->ambiguous, lane);

@@ -194,7 +194,7 @@ class Pass {
     });
     return sum_of(tiles_);
   }
-  /// As the pure tracer does.
+  /// Traces every shadow ray, as the pure tracer does.
   ShadowCounts trace_all() {
     ShadowCounts counts;
     counts.rays = counts.asked = trace_shadows(tracer_, receivers_, cache_.light, visibility_);

@@ -50,7 +50,7 @@ struct ShadowCounts {
   std::uint64_t rays = 0;               ///< cast for the others
 };
 
-/// Of one pixel.
+/// Says who decided one pixel.
 enum class Decision : std::uint8_t { shadowed = 0, lit = 1, traced = 2, not_asked = 3 };
 
 /// Fills `visibility`: lit where there is no receiver, shadowed where the light cannot reach, as in

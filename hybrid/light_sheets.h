@@ -54,7 +54,7 @@ class LightSheets {
   /// parallel.
   std::size_t refine(std::vector<std::uint64_t> parts);
 
-  /// Of a receiver that the light can reach, on the surface of the world.
+  /// Tells how certain the visibility of a receiver is that the light can reach, on the surface of the world.
   Certainty at(const Vec3& position, std::uint32_t primitive) const;
 
   const LightView& view() const { return grid_.view; }
@@ -124,7 +124,7 @@ inline Certainty LightSheets::at(const Vec3& position, std::uint32_t primitive) 
 
 using raytrace::LaneMask;
 
-/// Of the receivers that are there: bits per packet, each receiver in one of them.
+/// Classes the receivers that are there, as bits per packet, each receiver in one class.
 struct TileClasses {
   LaneMask unreached;  ///< facing away from the light
   LaneMask lit, shadowed;

@@ -29,7 +29,7 @@ inline std::uint32_t packed_above(float value) {
   return (away_from_zero ? bits + PackedBounds::slope_mask : bits) & ~PackedBounds::slope_mask;
 }
 
-/// Of bounds with rounded slopes.
+/// Packs bounds and rounds their slopes.
 inline PackedBounds pack(const TexelBounds& b) {
   const auto slope = [](float s) { return std::bit_cast<std::uint32_t>(s) >> PackedBounds::slope_shift; };
   constexpr std::uint32_t sign = 1u << 31;

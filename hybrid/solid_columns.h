@@ -39,7 +39,7 @@ class SolidColumns {
   struct Column {
     std::array<Bounds, 3> start, direction;
   };
-  /// Of a slab; negative and positive: of an open surface, within its box.
+  /// Says what a slab is; negative and positive: of an open surface, within its box.
   enum class Slab : std::uint8_t { outside, inside, negative, positive, unknown };
   struct Scan;
 

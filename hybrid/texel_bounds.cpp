@@ -183,8 +183,8 @@ const Piece* front_of(std::span<const Piece> pieces) {
 }
 
 /// relations: narrow the pieces to the column as well.
-void take_off(float slope_u, float slope_v, float half_texels, const PieceRelations* relations,
-              std::span<Piece> pieces) {
+void subtract_slopes(float slope_u, float slope_v, float half_texels, const PieceRelations* relations,
+                     std::span<Piece> pieces) {
   const float most = half_texels * (std::abs(slope_u) + std::abs(slope_v));
   for (Piece& p : pieces) {
     p.low -= most, p.high += most;
@@ -206,7 +206,7 @@ ColumnBounds without_slope(std::span<Piece> pieces, float half_texels, const Pie
                            const Solve& solve) {
   float u = 0.0f, v = 0.0f;
   if (const Piece* front = front_of(pieces)) u = round_slope(front->slope_u), v = round_slope(front->slope_v);
-  take_off(u, v, half_texels, relations, pieces);
+  subtract_slopes(u, v, half_texels, relations, pieces);
   ColumnBounds found = solve();
   found.bounds.slope_u = u, found.bounds.slope_v = v;
   return found;

@@ -304,7 +304,7 @@ float middle_of(std::size_t texel) {
   return static_cast<float>(texel) + 0.5f;
 }
 
-/// Of a piece of the texel that is 2 x half wide.
+/// Returns the middle of a piece of the texel that is 2 x half wide.
 float middle_of(std::uint32_t texel, std::uint32_t step, float half) {
   return static_cast<float>(texel) + (2.0f * static_cast<float>(step) + 1.0f) * half;
 }

@@ -31,7 +31,7 @@ class TexelStore {
 struct SheetTile {
   PackedBounds uniform = pack(empty_texel);
   PackedBounds* texels = nullptr;  ///< in a TexelStore; null: all alike
-  /// Of each texel, how closely it has been looked at; empty: none closely.
+  /// Says for each texel how closely it has been looked at; empty: none closely.
   enum class Look : std::uint8_t { quick, by_sheets, decided };  ///< decided: parts would tell no more
   std::vector<Look> looks;
   TexelParts parts;

@@ -31,13 +31,13 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
  public:
   explicit HybridVisibility(const World& world) : world_(world) {}
 
-  Expected<void> prepare(const VisibilityRequest& request, bool anew) override {
+  Expected<void> prepare(const VisibilityRequest& request, bool changed) override {
     start();
     Kept& kept = kept_[request.light];
     const Light& light = world_.scene->lights[request.light];
     const bool same_light = kept.cache && kept.cache->light == light;
     if (same_light && same(kept.cache->sheets.view(), request.map)) {
-      if (!anew) return {};
+      if (!changed) return {};
     } else {
       // One picture shows what sheets can tell; of a light that moves from frame to frame only speed counts.
       kept.when = kept.cache && !request.analysis ? Sheets::when_they_pay : Sheets::at_once;
@@ -45,7 +45,7 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
     }
     time_run(kept.build, [&] {
       kept.cache.emplace(*tracer_, *topology_, light, request.map, kept.when);
-      if (anew || !same_light) kept.soft.reset();  // it does not depend on the map
+      if (changed || !same_light) kept.soft.reset();  // it does not depend on the map
       if (has_size(light) && !kept.soft) kept.soft.emplace(*tracer_, *topology_, request.light);
     });
     kept.receivers_ms = kept.shadow = {};

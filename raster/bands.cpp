@@ -26,7 +26,7 @@ void add_external(const ExternalCosts& band, std::optional<ExternalCosts>& sum) 
 }
 
 /// What the first band knows of a light, and the others do not add to.
-void take_light(const LightRecord& band, LightRecord& sum) {
+void append_light(const LightRecord& band, LightRecord& sum) {
   sum.light = band.light;
   sum.map.view = band.map.view, sum.map.format = band.map.format;
   sum.rounding = band.rounding;
@@ -64,7 +64,7 @@ void add_costs(const RasterFrame& band, RasterFrame& sum) {
   for (std::size_t i = 0; i < sum.lights.size(); ++i) {
     const LightRecord& part = band.lights[i];
     LightRecord& light = sum.lights[i];
-    if (first) take_light(part, light);
+    if (first) append_light(part, light);
     light.shade_pass.add_part(part.shade_pass);
     light.unshadowed_pass.add_part(part.unshadowed_pass);
     if (part.external) add_external(*part.external, light.external);

@@ -44,13 +44,13 @@ struct ExternalCosts {
 class ExternalVisibility {
  public:
   virtual ~ExternalVisibility() = default;
-  /// Makes what is kept for the light, anew or (when nothing changed) not at all.
-  virtual Expected<void> prepare(const VisibilityRequest& request, bool anew) = 0;
+  /// Makes what is kept for the light, again or (when nothing changed) not at all.
+  virtual Expected<void> prepare(const VisibilityRequest& request, bool changed) = 0;
   /// `primitive`: what each pixel shows, or no_id. `visibility` (of the same size): 1 lit, 0 shadowed; 1
   /// where there is nothing to see.
   virtual Expected<void> find(const VisibilityRequest& request, const Image<std::uint32_t>& primitive,
                               Image<float>& visibility) = 0;
-  /// Of the last light asked for. `counted`: triangle tests too, which takes as long as tracing it all.
+  /// Returns the costs of the last light asked for. `counted`: triangle tests too, which takes as long as tracing it all.
   virtual ExternalCosts costs(const VisibilityRequest& request, bool counted) = 0;
 };
 

@@ -113,12 +113,10 @@ struct LightRecord {
   std::optional<ExternalCosts> external;  ///< Technique::hybrid
   std::optional<CapturedPicture>
       captured;  ///< another renderer drew `visibility`, and the map if it is known
-};
 
-/// Another renderer's picture, whose map is not known.
-inline bool lacks_map(const LightRecord& record) {
-  return record.captured && !record.captured->test;
-}
+  /// False where another renderer drew the picture and its map was not handed on.
+  bool has_known_map() const { return !captured || captured->test; }
+};
 
 /// A file of the user's that was compiled in place of the program's own (--shader-dir).
 struct ReplacedShader {
@@ -146,11 +144,9 @@ struct RasterFrame {
   double read_back_ms = 0.0;     ///< of pictures, maps and records, for the comparison alone
   std::uint64_t map_texels = 0;  ///< texels rendered, all lights, blur and the like included
   std::uint64_t map_bytes = 0;   ///< device memory of maps at one time: the lights take turns in it
-};
 
-/// A picture has its map or lacks it for all lights: one is captured at a time.
-inline bool lacks_map(const RasterFrame& frame) {
-  return !frame.lights.empty() && lacks_map(frame.lights.front());
-}
+  /// Tells for all lights whether their maps are known: one picture is captured at a time.
+  bool has_known_map() const { return lights.empty() || lights.front().has_known_map(); }
+};
 
 }  // namespace gnomon::raster

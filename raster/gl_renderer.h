@@ -65,22 +65,22 @@ class GlRenderer final : public Renderer {
   /// Draws the pass in small, so that whatever the driver makes of its programs for their state is made, and charged
   /// to a stage of its own.
   Expected<void> warm_up(const Pass& pass);
-  /// As many runs of `pass`, warm already, as the options ask for, and at least `least` of these; each adds to `times`
+  /// Runs `pass`, warm already, as often as the options ask for, and at least `least` times; each run adds to `times`
   /// itself. `repeats`: the stage that all of it is charged to, for only frames that are kept count as made.
   Expected<void> repeat(std::string_view repeats, const RasterOptions& options, const Times& times, int least,
                         const Pass& pass);
-  /// The same with each run timed from an idle device to an idle device.
+  /// Times each run from an idle device to an idle device.
   Expected<void> time_pass(std::string_view repeats, const RasterOptions& options, Times& times,
                            const Pass& pass);
   Expected<void> time_camera(Job& job);
   Expected<void> time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
                               LightRecord& record);
-  /// The same of RasterOptions::timed_as_judged.
+  /// Times shading as RasterOptions::timed_as_judged asks for.
   Expected<void> time_shading_as_judged(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
                                         LightRecord& record);
   /// Milliseconds of one drawing, the mean of many, each of which is held to the others.
   Expected<double> time_as_judged(Job& job, const ShadePermutation& judged, const VisibilityRequest* asked);
-  /// Of what was just timed, to be held to the others and to what is kept.
+  /// Keeps the visibility that was just timed, to be held to the others and to what is kept.
   void keep_timed_visibility(Job& job) const;
   /// Before what is kept and not timed: where the frame is timed always, else before the first of its kind.
   Expected<void> warm_up_shading(const Job& job, const ShadePermutation& permutation);
@@ -96,8 +96,8 @@ class GlRenderer final : public Renderer {
     Times map_pass;
     double first_map_ms;
   };
-  bool take_kept_map(const Job& job, const Light& light, LightRecord& record) const;
-  /// What the programs of a map hang on, and the state that they are used in.
+  bool reuse_kept_map(const Job& job, const Light& light, LightRecord& record) const;
+  /// What the programs of a map depend on, and the state that they are used in.
   struct WarmMap {
     Technique technique;
     LightType light;
@@ -162,7 +162,7 @@ class ReadBack {
 };
 
 ShadePermutation shade_permutation(const Light& light, const MapOptions& map, bool first, bool records);
-/// The same light, with nothing looked up: every receiver is lit.
+/// Specialises the shading for the same light with nothing looked up: every receiver is lit.
 ShadePermutation unshadowed(ShadePermutation shadowed);
 std::uint64_t texels_of(const LightView& view);
 /// Exact techniques have no depth map of their own: izb and hybrid draw one for the records alone.

@@ -96,10 +96,10 @@ struct FilterOptions {
   bool operator==(const FilterOptions&) const = default;
 };
 
-/// Of Bias::adaptive, as a share of the scene's diagonal.
+/// Is the epsilon of Bias::adaptive, as a share of the scene's diagonal.
 inline constexpr double adaptive_epsilon = 1e-4;
 
-/// Of BiasUnit::automatic, in texels. Over a texel of width w a surface whose normal turns with a radius r
+/// Is the bias of BiasUnit::automatic, in texels. Over a texel of width w a surface whose normal turns with a radius r
 /// leaves its tangent plane by (w/2)^2 / r at most, both axes together: a sixteenth of w where r is 4 w.
 inline constexpr double automatic_bias_texels = 1.0 / 16.0;
 

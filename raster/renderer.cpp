@@ -111,7 +111,7 @@ bool outlasts_frame(Technique technique, std::size_t lights) {
 
 }  // namespace
 
-bool GlRenderer::take_kept_map(const Job& job, const Light& light, LightRecord& record) const {
+bool GlRenderer::reuse_kept_map(const Job& job, const Light& light, LightRecord& record) const {
   const RasterOptions& options = job.options;
   if (!kept_map_ || !may_take_map(options, kept_map_->options)) return false;
   const KeptMap& kept = *kept_map_;
@@ -173,7 +173,7 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
   }
   job.map_started = Stopwatch();
   if (auto ok = prepare_maps(job, map_job); !ok) return ok;
-  if (record == nullptr || !take_kept_map(job, light, *record)) {
+  if (record == nullptr || !reuse_kept_map(job, light, *record)) {
     kept_map_.reset();
     if (auto ok = time_and_draw_map(job, map_job, record); !ok) return ok;
     if (record != nullptr) keep_map(job, light, *record);

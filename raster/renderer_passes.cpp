@@ -18,7 +18,7 @@ namespace {
 /// In the time budget, what the driver makes of programs when they are first drawn with.
 constexpr std::string_view translation_stage = "driver translation";
 
-/// Of the wall, or of the processor.
+/// Measures a pass by the wall's clock or by the processor's.
 class PassClock {
  public:
   explicit PassClock(bool of_processor) : of_processor_(of_processor) {}

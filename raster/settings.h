@@ -130,7 +130,7 @@ std::string bias_text(const Bias& bias);
 /// What asks for these options, by name: every setting that the technique reads and that differs from the default, the
 /// map's size and the constant bias always. A bias that is asked for takes the place of the default's slope.
 std::vector<std::pair<std::string, std::string>> map_values(const MapOptions& map);
-/// The same as words of a command line.
+/// Returns the settings as words of a command line.
 std::vector<std::string> map_arguments(const MapOptions& map);
 /// "--slope-bias 1 --bias auto": what asks for a bias in place of what asked for that of `drawn`. The automatic
 /// constant is asked for, too, because a scene or a lesson may ask for another.

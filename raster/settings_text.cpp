@@ -22,7 +22,7 @@ Expected<std::size_t> parse_name(std::string_view text, std::span<const std::str
                                             fmt::join(names, ", "), did_you_mean(text, names)));
 }
 
-/// Of a switch: "on" and "off", that an option which turns it off means the other way round.
+/// Names a switch's states: "on" and "off", which an option that turns it off means the other way round.
 constexpr std::string_view switch_names[] = {"on", "off"};
 
 bool shown_on(const SwitchSetting& s, const MapOptions& map) {
@@ -169,7 +169,7 @@ Expected<BiasValue> parse_bias(std::string_view text) {
   if (text == "auto") return BiasValue{1.0, BiasUnit::automatic};
   std::string_view number = text;
   BiasValue bias;
-  if (take_texels(number)) bias.unit = BiasUnit::texel;
+  if (consume_texels(number)) bias.unit = BiasUnit::texel;
   const std::optional<double> value = whole_number(number);
   if (!value || !bias_range.contains(*value)) {
     return wrong_value(

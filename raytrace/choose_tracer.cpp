@@ -21,15 +21,15 @@ std::string_view why_no_packets(const Tracer& tracer) {
 void choose_primary(const Tracer& tracer, const View& view, TracerPlan& plan) {
   const std::string_view obstacle = why_no_packets(tracer);
   if (!obstacle.empty()) {
-    plan.primary = PrimaryWay::single_rays, plan.primary_reason = obstacle;
+    plan.primary = PrimaryMethod::single_rays, plan.primary_reason = obstacle;
   } else if (view.orthographic()) {
-    plan.primary = PrimaryWay::single_rays;
+    plan.primary = PrimaryMethod::single_rays;
     plan.primary_reason = "an orthographic camera's rays start at no common point";
   } else if (!blocks_apply(tracer, view)) {
-    plan.primary = PrimaryWay::single_rays;
+    plan.primary = PrimaryMethod::single_rays;
     plan.primary_reason = "the field of view is too wide for one frame to hold it";
   } else {
-    plan.primary = PrimaryWay::blocks;
+    plan.primary = PrimaryMethod::blocks;
     plan.primary_reason =
         "neighbouring pixels see the same primitives, and one frame holds the field of view";
   }
@@ -45,7 +45,7 @@ void choose_receivers(const Tracer& tracer, std::span<const std::uint32_t> light
     if (holds && plan.receivers_reason.empty()) plan.receivers_reason = reason;
   };
   because(options.records || !options.picture, "the frame hands them on");
-  because(plan.primary != PrimaryWay::blocks, "single rays find them but once");
+  because(plan.primary != PrimaryMethod::blocks, "single rays find them but once");
   because(s.has_shapes, "floats are not sure of curved shapes");
   for (const std::uint32_t i : lights) {
     const Light& light = s.world->scene->lights[i];
@@ -66,9 +66,9 @@ void choose_shadow(const Tracer& tracer, std::span<const std::uint32_t> lights,
   if (!asked) {
     plan.shadow_reason = "no light's centre is asked for";
   } else if (!obstacle.empty()) {
-    plan.shadow = ShadowWay::single_rays, plan.shadow_reason = obstacle;
+    plan.shadow = ShadowMethod::single_rays, plan.shadow_reason = obstacle;
   } else {
-    plan.shadow = ShadowWay::blocks;
+    plan.shadow = ShadowMethod::blocks;
     plan.shadow_reason =
         "neighbouring receivers see the light past the same primitives, and what lies elsewhere costs "
         "nothing";
@@ -77,7 +77,7 @@ void choose_shadow(const Tracer& tracer, std::span<const std::uint32_t> lights,
 
 }  // namespace
 
-std::string_view name_of(PrimaryWay way) {
+std::string_view name_of(PrimaryMethod way) {
   constexpr std::array<std::string_view, 3> names{"none", "blocks of 64 x 64", "single rays"};
   return names[static_cast<std::size_t>(way)];
 }
@@ -85,7 +85,7 @@ std::string_view name_of(ReceiverStore store) {
   constexpr std::array<std::string_view, 3> names{"none", "stored", "found again"};
   return names[static_cast<std::size_t>(store)];
 }
-std::string_view name_of(ShadowWay way) {
+std::string_view name_of(ShadowMethod way) {
   constexpr std::array<std::string_view, 3> names{"none", "blocks of 64 x 64", "single rays"};
   return names[static_cast<std::size_t>(way)];
 }
@@ -101,7 +101,7 @@ TracerPlan choose_tracer(const Tracer& tracer, const View& view, std::span<const
   choose_primary(tracer, view, plan);
   choose_receivers(tracer, lights, options, plan);
   choose_shadow(tracer, lights, options, plan);
-  plan.quantised = plan.primary == PrimaryWay::blocks && !lights.empty();
+  plan.quantised = plan.primary == PrimaryMethod::blocks && !lights.empty();
   return plan;
 }
 

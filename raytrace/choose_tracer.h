@@ -1,4 +1,4 @@
-// Which ways a frame's rays take. This is the one place that chooses; trace_frame() does what it says, and
+// By which methods a frame's rays are traced. This is the one place that chooses; trace_frame() does what it says, and
 // gnomon plan prints it with the reasons.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace gnomon::raytrace {
 inline constexpr std::uint32_t most_primitives = (1u << 27) - 1;
 
 /// How the rays from the eye find what they see.
-enum class PrimaryWay : std::uint8_t {
+enum class PrimaryMethod : std::uint8_t {
   none,        ///< the picture's own samples are all that is cast
   blocks,      ///< blocks of 64 x 64 pixels, packets of 16 rays (raytrace/packets/view_block.h)
   single_rays  ///< each by itself
@@ -27,20 +27,20 @@ enum class ReceiverStore : std::uint8_t {
 };
 
 /// How rays to a light's centre find what stands between.
-enum class ShadowWay : std::uint8_t {
+enum class ShadowMethod : std::uint8_t {
   none,
   blocks,      ///< blocks of 64 x 64 receivers, packets of 16 rays (raytrace/packets/shadow_block.h)
   single_rays  ///< each by itself
 };
 
-std::string_view name_of(PrimaryWay way);
+std::string_view name_of(PrimaryMethod way);
 std::string_view name_of(ReceiverStore store);
-std::string_view name_of(ShadowWay way);
+std::string_view name_of(ShadowMethod way);
 
 struct TracerPlan {
-  PrimaryWay primary = PrimaryWay::none;
+  PrimaryMethod primary = PrimaryMethod::none;
   ReceiverStore receivers = ReceiverStore::none;
-  ShadowWay shadow = ShadowWay::none;
+  ShadowMethod shadow = ShadowMethod::none;
   bool quantised = false;  ///< tiles of float receivers are made for the lights' passes
   std::string_view primary_reason, receivers_reason, shadow_reason;
 };

@@ -12,7 +12,7 @@ namespace gnomon::raytrace {
 namespace {
 
 constexpr double grid_pixels = 8192.0;
-/// As many rays as they may cost; with more samples there are fewer pixels.
+/// Is how many rays a forecast may cost; with more samples there are fewer pixels.
 constexpr double most_rays = 2e8;
 
 /// What a pixel may cost: rough surfaces split a ray into samples, and each of those asks for lights and for

@@ -13,11 +13,11 @@ struct Forecast {
   bool exact = false;  ///< the grid is the picture itself
 };
 
-/// Of the picture that trace_frame makes with these options and all lights; options.records is not followed.
+/// Forecasts the picture that trace_frame makes with these options and all lights; options.records is not followed.
 Forecast forecast_rays(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
                        const RaytraceOptions& options);
 
-/// Of the rays to a light's centre those that packets leave to single rays (raytrace/packets/tile_state-inl.h).
+/// Counts the rays to a light's centre that packets leave to single rays (raytrace/packets/tile_state-inl.h).
 struct SingleRayForecast {
   std::uint32_t light = 0;             ///< index in Scene::lights
   std::uint64_t rays = 0, single = 0;  ///< in the rows that were traced
@@ -28,7 +28,7 @@ struct SingleRayForecasts {
   int rows = 0;  ///< of the picture's pixels, that were traced; all of them where it is small
 };
 
-/// From some rows of the picture's own blocks: how many leaves a tile meets for each of its rays hangs on how dense its
+/// From some rows of the picture's own blocks: how many leaves a tile meets for each of its rays depends on how dense its
 /// pixels are, so that a coarse grid would not tell. `lights`: those whose centres are asked for.
 SingleRayForecasts forecast_single_rays(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
                                         std::span<const std::uint32_t> lights,

@@ -45,7 +45,7 @@ struct Band {
   int first_row = 0;
 };
 
-/// As trace_primary, keeping only what is seen.
+/// Traces as trace_primary does and keeps only what is seen.
 void find_primary(const Tracer& tracer, const Band& band, const RaytraceOptions& options,
                   RayTracedFrame& frame, UnstoredReceivers& unstored, QuantisedTiles& tiles) {
   unstored.hits = HugeArray<TileHits>(TileGrid{options.size}.count());
@@ -62,11 +62,11 @@ void find_primary(const Tracer& tracer, const Band& band, const RaytraceOptions&
   frame.rays.primary = options.size.pixels();
 }
 
-void trace_primary(const Tracer& tracer, const Band& band, PrimaryWay way, const RaytraceOptions& options,
+void trace_primary(const Tracer& tracer, const Band& band, PrimaryMethod way, const RaytraceOptions& options,
                    RayTracedFrame& frame, QuantisedTiles& tiles) {
   frame.receiver = Image<SurfacePoint>(options.size);
   frame.primary_rays = time_pass(primary_stages, options, [&] {
-    if (way == PrimaryWay::blocks) {
+    if (way == PrimaryMethod::blocks) {
       primary_pass(tracer, band.view, edge_setup_of_eye(tracer, band.view),
                    {.size = options.size,
                     .first_row = band.first_row,
@@ -89,7 +89,7 @@ bool reaches(const Light& light, const SurfacePoint& point) {
   return point.primitive != no_id && !light_cannot_reach(light, point.position, point.normal);
 }
 
-LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, ShadowWay way,
+LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, ShadowMethod way,
                          const RaytraceOptions& options, const Image<SurfacePoint>& receivers,
                          const Band& band, const UnstoredReceivers& unstored, const QuantisedTiles& tiles) {
   const Light& light = tracer.world().scene->lights[light_index];
@@ -108,7 +108,7 @@ LightTruth trace_shadows(const Tracer& tracer, std::uint32_t light_index, Shadow
   std::vector<std::uint64_t> rays(grid.count());
   truth.shadow_rays = time_pass(shadow_stages, options, [&] {
     truth.light_structure.runs.push_back(0.0);
-    if (way == ShadowWay::blocks) {
+    if (way == ShadowMethod::blocks) {
       const ShadowRayCounts counts = shadow_pass(source, light, truth.centre, options.stop);
       truth.rays = counts.cast, truth.single_rays = counts.single;
       return;
@@ -170,7 +170,7 @@ RayCounts& RayCounts::operator+=(const RayCounts& other) {
 
 namespace {
 
-/// The same rays through a few pixels in the middle of the picture: code, hierarchy and threads are then as they will
+/// Traces the same rays through a few pixels in the middle of the picture: code, hierarchy and threads are then as they will
 /// be, at the cost of some thousand rays and of what these see.
 void warm_up(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
              std::span<const std::uint32_t> lights, RaytraceOptions options) {
@@ -199,21 +199,21 @@ RayTracedFrame trace_band(const Tracer& tracer, const EffectPlan& plan, const Ca
   options.size.height = rows.count;
   RayTracedFrame frame;
   frame.options = whole;
-  const TracerPlan ways = choose_tracer(tracer, band.view, lights, options);
-  const bool at_centres = ways.primary != PrimaryWay::none;
+  const TracerPlan methods = choose_tracer(tracer, band.view, lights, options);
+  const bool at_centres = methods.primary != PrimaryMethod::none;
   QuantisedTiles tiles;
-  if (ways.quantised) tiles = QuantisedTiles(TileGrid{options.size}.count());
+  if (methods.quantised) tiles = QuantisedTiles(TileGrid{options.size}.count());
   UnstoredReceivers unstored;
-  if (ways.receivers == ReceiverStore::found_again)
+  if (methods.receivers == ReceiverStore::found_again)
     find_primary(tracer, band, options, frame, unstored, tiles);
-  else if (ways.receivers == ReceiverStore::stored)
-    trace_primary(tracer, band, ways.primary, options, frame, tiles);
+  else if (methods.receivers == ReceiverStore::stored)
+    trace_primary(tracer, band, methods.primary, options, frame, tiles);
   for (const std::uint32_t light : lights) {
     if (!at_centres || options.stop.stop_requested()) break;
     const bool soft = has_size(tracer.world().scene->lights[light]);
     if (options.records || !soft) {
       frame.lights.push_back(
-          trace_shadows(tracer, light, ways.shadow, options, frame.receiver, band, unstored, tiles));
+          trace_shadows(tracer, light, methods.shadow, options, frame.receiver, band, unstored, tiles));
     } else {
       frame.lights.emplace_back().light = light;
     }

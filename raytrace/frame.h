@@ -65,7 +65,8 @@ struct RayCounts {
 
 struct LightTruth {
   std::uint32_t light = 0;  ///< index in Scene::lights
-  /// Of the light's centre: lit where there is no receiver, shadowed where the light cannot reach (facing away).
+  /// Holds the visibility of the light's centre: lit where there is no receiver, shadowed where the light cannot reach
+  /// (facing away).
   Image<PointVisibility> centre;
   Times shadow_rays;       ///< ms for the pixels that the light can reach
   Times light_structure;   ///< the part of each of these runs that made the light's own structure; 0 of none
@@ -105,9 +106,9 @@ RayTracedFrame trace_frame(const Tracer& tracer, const EffectPlan& plan, const C
 
 // Parts of a picture, for pictures whose numbers would not all fit into memory at one time.
 
-/// Those rows of the picture that trace_frame makes with these options, to the last bit; row 0 of the frame's
-/// images is rows.first, options.size stays that of the whole. What the frame counts are the rows' rays, but
-/// for RayCounts::interior, which each band asks for anew.
+/// Makes those rows of the picture that trace_frame makes with these options, to the last bit; row 0 of the frame's images
+/// is rows.first, options.size stays that of the whole. What the frame counts are the rows' rays, but for
+/// RayCounts::interior, which each band asks for again.
 RayTracedFrame trace_band(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
                           std::span<const std::uint32_t> lights, const RaytraceOptions& options,
                           const PictureRows& rows);

@@ -14,7 +14,7 @@
 
 namespace gnomon::raytrace {
 
-/// As LeafPrimitive, in floats; of a triangle the first corner and the edges that leave it.
+/// Holds what LeafPrimitive does, in floats; of a triangle the first corner and the edges that leave it.
 struct FastPrimitive {
   std::array<float, 9> v;
 };

@@ -20,7 +20,7 @@ struct Receivers {
   HugeArray<QuantisedTile> tiles;  ///< the same, tile by tile of TileGrid
 };
 
-/// Of points that come from elsewhere.
+/// Makes receivers of points that come from elsewhere.
 Receivers make_receivers(Image<SurfacePoint> points);
 
 struct ReceiverCounts {

@@ -91,7 +91,7 @@ void for_each_place(const TileRect& rect, const Pixel& pixel) {
     for (int x = rect.x0; x < rect.x1; ++x) pixel(x, y, tile_lane(x - rect.x0, y - rect.y0));
 }
 
-/// The same for those whose bit is set.
+/// Calls `pixel` for the pixels whose bit is set.
 template <class Pixel>
 void for_each_place(const TileRect& rect, const LaneMask& bits, const Pixel& pixel) {
   for (std::size_t p = 0; p < tile_packets; ++p)

@@ -64,8 +64,9 @@ std::string_view precision_name(Precision precision);
 /// answer.
 enum class PointVisibility : std::uint8_t { shadowed = 0, lit = 1, uncertain = 2 };
 
-/// Of triangles; shapes are met on both. seen: both, but for backs of single-sided materials (scene/scene.h, shows_back). casting:
-/// both, of what casts shadows; fronts and backs of that: as the mesh has them, of mirrored instances too.
+/// Says which sides of triangles are met; shapes are met on both. seen: both, but for backs of single-sided materials
+/// (scene/scene.h, shows_back). casting: both, of what casts shadows; fronts and backs of that: as the mesh has them, of
+/// mirrored instances too.
 enum class Sides : std::uint8_t { both, seen, casting, fronts, backs };
 
 struct AccelStats {
@@ -103,7 +104,7 @@ class Tracer {
   /// What the eye, or a mirrored, refracted or gathered ray sees: the closest hit, but for backs of single-sided
   /// materials (scene/scene.h, shows_back), which hide nothing. Shadows are cast from both sides: occluded().
   std::optional<Hit> closest_seen(const Ray& ray) const;
-  /// The same, adding what they cost to `work`.
+  /// Adds what the search costs to `work`.
   std::optional<Hit> closest_hit(const Ray& ray, WorkCounts& work) const;
   std::optional<Hit> closest_seen(const Ray& ray, WorkCounts& work) const;
   bool occluded(const Ray& ray, WorkCounts& work) const;
@@ -121,7 +122,7 @@ class Tracer {
   /// surface as by spawn_ray.
   Ray shadow_ray(const SurfacePoint& from, const Light& light) const;
 
-  /// The same to any point, such as one of a light with size.
+  /// Returns the ray to any point, such as one of a light with size.
   Ray shadow_ray(const SurfacePoint& from, const Vec3& target) const;
 
   /// Whether anything can shadow the point: its material receives shadows.
@@ -132,7 +133,7 @@ class Tracer {
   /// within. `last`: null, or what is kept from one ray for the next one.
   PointVisibility centre_visibility(const SurfacePoint& from, const Light& light,
                                     LastBlocker* last = nullptr) const;
-  /// The same when every triangle or sphere that the ray does not surely miss is one of these positions in
+  /// Returns the closest hit when every triangle or sphere that the ray does not surely miss is one of these positions in
   /// leaf order (Structures::bvh); not for Precision::fast.
   std::optional<Hit> closest_seen_among(const Ray& ray, std::span<const std::uint32_t> leaves) const;
   /// occluded() where all but planes that the ray may intersect is among these.
@@ -163,7 +164,7 @@ void prepare_single_rays(const Tracer& tracer);
 /// Bytes that it holds; 0: it has not been made.
 std::uint64_t single_ray_bytes(const Tracer& tracer);
 
-/// As Tracer::closest_hit() and occluded() with counts, but through what single rays go through when it has been
+/// Do what Tracer::closest_hit() and occluded() with counts do, but through what single rays go through when it has been
 /// made: boxes of children and triangles of leaves tested in floats, and planes.
 std::optional<Hit> counted_closest_hit(const Tracer& tracer, const Ray& ray, WorkCounts& work);
 bool counted_occluded(const Tracer& tracer, const Ray& ray, WorkCounts& work);

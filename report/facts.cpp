@@ -45,7 +45,7 @@ Json viridis_facts() {
   return colours;
 }
 
-/// Those that the page shows: of the errors that occur, and of its own parts.
+/// Returns the lessons that the page shows: of the errors that occur, and of its own parts.
 Json lesson_facts(const Comparison& c) {
   std::set<std::string_view> shown{"error-budget", "bias"};
   for (const LightComparison& light : c.lights) {
@@ -64,7 +64,7 @@ Json lesson_facts(const Comparison& c) {
 /// "pcf shadows, map 1024 × 1024 d32f, bias 0.012 (0.5 texel), slope bias 1"
 std::string map_words(const Comparison& c) {
   const raster::MapOptions& map = c.raster.options.map;
-  if (lacks_map(c)) return "a shadow whose map is not known";
+  if (!c.raster.has_known_map()) return "a shadow whose map is not known";
   const std::string_view how = c.judged && c.judged->identified ? "inferred: " : "";
   std::string text = fmt::format("{}{} shadows, map {}\u202f\u00d7\u202f{}", how,
                                  technique_name(map.technique), map.size, map.size);
@@ -82,7 +82,7 @@ std::string map_words(const Comparison& c) {
 
 Json depth_facts(const PageInput& in, std::size_t index) {
   const Comparison& c = in.comparison;
-  if (lacks_map(c)) return nullptr;
+  if (!c.raster.has_known_map()) return nullptr;
   const LightView& view = drawn_record(c, c.lights[index]).map.view;
   return {{"near", view.depth_range().min},
           {"far", view.depth_range().max},

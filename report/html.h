@@ -12,7 +12,7 @@ namespace gnomon::compare {
 /// Text for element content and quoted attributes. Control characters of ASCII become spaces; those of Unicode, and what is
 /// not UTF-8, escapes (scene/base/expected.h).
 std::string escaped(std::string_view text);
-/// The same, with numbers held together with the word behind them ("4.1 %" and "8 x 8" do not break), and options whole.
+/// Escapes text and holds numbers together with the word behind them ("4.1 %" and "8 x 8" do not break), and options whole.
 std::string flowing(std::string_view text);
 /// A file's name as a part of a relative address: "shot#1" -> "shot%231".
 std::string url_segment(std::string_view name);

@@ -62,7 +62,7 @@ struct Story {
   }
 
   std::string went_wrong() const {
-    if (pixel.label == Label::precision) return say("went_wrong_by_precision", {{"what", what()}});
+    if (pixel.label == Label::stored_depth) return say("went_wrong_by_precision", {{"what", what()}});
     const int step = deciding_rung(pixel);
     return say("went_wrong", {{"before", std::to_string(step - 1)},
                               {"step", std::to_string(step)},
@@ -134,7 +134,7 @@ struct Story {
            (pixel.label == Label::right ? say("right_within_half") : went_wrong());
   }
 
-  /// Of a picture whose map is not known.
+  /// Tells the story of a pixel whose picture's map is not known.
   std::string compared_alone() const {
     return say("drawn_not_as_rays", {{"drawn", number(pixel.rungs[6])}, {"truth", number(pixel.rungs[0])}}) +
            " " +
@@ -143,7 +143,7 @@ struct Story {
 
   std::string whole() const {
     if (!is_compared(pixel.label)) return say("not_compared", {{"what", what()}});
-    if (lacks_map(comparison)) return compared_alone();
+    if (!comparison.raster.has_known_map()) return compared_alone();
     if (!compares_depths(comparison)) return exactly();
     if (!biases_follow_from_gaps(comparison.raster)) return filtered();
     return map_test() + " " + say("ray_says", {{"brightness", brightness(pixel.rungs[0])}}) + " " +
@@ -156,7 +156,7 @@ struct Story {
 int deciding_rung(const PixelFacts& pixel) {
   if (!has_cause(pixel.label)) return 0;
   const auto rung_of = [](Cause step) { return static_cast<int>(step) + 1; };
-  if (pixel.label == Label::precision) return rung_of(Cause::precision);
+  if (pixel.label == Label::stored_depth) return rung_of(Cause::precision);
   std::array<float, rung_count> rungs{};
   for (std::size_t k = 0; k < rung_count; ++k) rungs[k] = static_cast<float>(pixel.rungs[k]);
   if (!is_wrong(rungs) && (pixel.label == Label::blur || pixel.label == Label::light_size))

@@ -19,7 +19,7 @@ inline constexpr double auto_exposure_target = 0.8;
 /// not finite do not count) to 0.8. A picture without any other pixel gets 1.
 double auto_exposure(const ColorImage& linear);
 
-/// The same of a picture that comes in parts: all of them by count(), then all of them again by collect().
+/// Finds the exposure of a picture that comes in parts: all of them by count(), then all of them again by collect().
 class AutoExposure {
  public:
   AutoExposure();

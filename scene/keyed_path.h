@@ -63,7 +63,7 @@ struct KeyedPath {
   bool moves_camera() const { return eye || target || up || !camera.empty(); }
   double seconds() const;  ///< the last key's time
   Camera camera_at(const Camera& stored, double seconds) const;
-  /// As stored where the path has no keys of that name.
+  /// Returns the light at that time; it is as stored where the path has no keys of its name.
   Light light_at(const Light& stored, double seconds) const;
 };
 

@@ -30,7 +30,7 @@ double spot_ramp(const Light& light);
 /// formula.
 double spot_falloff(const Light& light, const Vec3& to_light);
 
-/// As shape_size() has it.
+/// Returns the size of a light's shape, as shape_size() has it.
 inline double light_size(const Light& light) {
   return shape_size(light.extent);
 }

@@ -195,7 +195,7 @@ struct Scene {
   int glossy_samples = 16;   ///< rays from each point of a rough mirror or glass, in [1, max_samples]
   int indirect_samples = 0;  ///< rays from each point to gather light reflected once, <= max_samples; 0: none
   std::vector<std::string> notes;  ///< what the loader made up or could not use, one sentence each
-  /// Of a file that draws nothing, as of points alone: all that is shown was made for it.
+  /// Tells that the file draws nothing, such as one of points alone: all that is shown was made for it.
   bool is_empty_model = false;
 };
 

@@ -58,7 +58,7 @@ void flatten(World& world, WorldPart& part) {
 }
 
 /// Cuts the parts into blocks, and finds the bounds of these, of the parts and of all together.
-void put_blocks(World& world) {
+void make_blocks(World& world) {
   for (std::uint32_t p = 0; p < world.parts.size(); ++p) {
     const WorldPart& part = world.parts[p];
     const std::uint32_t count = part.triangle_count();
@@ -120,7 +120,7 @@ std::vector<std::uint32_t> uses_of_meshes(const Scene& scene) {
   return uses;
 }
 
-/// Of each mesh whether its instances are to be kept where they can be.
+/// Tells of each mesh whether its instances are to be kept where they can be.
 std::vector<char> kept_meshes(const Scene& scene, InstanceChoice choice) {
   std::vector<char> kept(scene.meshes.size(), 0);
   if (choice == InstanceChoice::flatten ||
@@ -145,7 +145,7 @@ void number_parts(World& world) {
   world.vertex_ranges = Ranges(std::move(vertices)), world.triangle_ranges = Ranges(std::move(triangles));
 }
 
-void put_parts(World& world, const std::vector<char>& kept) {
+void make_parts(World& world, const std::vector<char>& kept) {
   const Scene& scene = *world.scene;
   world.parts.reserve(scene.instances.size());
   for (const MeshInstance& instance : scene.instances) {
@@ -166,7 +166,7 @@ void put_parts(World& world, const std::vector<char>& kept) {
   });
   for (std::size_t i = 0; i < world.parts.size(); ++i)
     if (flat[i] != 0) flatten(world, world.parts[i]);
-  put_blocks(world);
+  make_blocks(world);
 }
 
 }  // namespace
@@ -193,7 +193,7 @@ InstancePlan plan_instances(const Scene& scene) {
 World make_world(const Scene& scene, InstanceChoice choice) {
   World world;
   world.scene = &scene;
-  put_parts(world, kept_meshes(scene, choice));
+  make_parts(world, kept_meshes(scene, choice));
   world.shapes = scene.shapes;
   for (const Shape& shape : scene.shapes) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) {
@@ -213,7 +213,7 @@ World make_world(const Scene& scene, const Mesh& mesh) {
   part.mesh = &mesh, part.positions = start_of(mesh.positions);
   world.parts.push_back(part);
   number_parts(world);
-  put_blocks(world);
+  make_blocks(world);
   return world;
 }
 

@@ -28,8 +28,8 @@ struct WorldPart {
   Mat4 world_from_object{1.0};
   Mat3 normal_from_object{1.0};
   std::uint32_t first_vertex = 0, first_triangle = 0, material = 0;
-  /// Of a mirrored instance with single-sided materials: the second and the third corner of every triangle change
-  /// places, so that their front is again the side from which they run counter-clockwise.
+  /// Tells that the second and the third corner of every triangle change places, as they do in a mirrored instance with
+  /// single-sided materials, so that their front is again the side from which they run counter-clockwise.
   bool turned = false;
   Aabb bounds;  ///< of the triangles' corners, in the world
 
@@ -104,7 +104,7 @@ struct World {
   bool receives_shadow(std::uint32_t primitive) const {
     return scene->materials[material_of(primitive)].receives_shadow;
   }
-  /// Of a triangle.
+  /// Returns the part that a triangle belongs to.
   const WorldPart& part_of(std::uint32_t triangle) const { return parts[triangle_ranges.of(triangle)]; }
   /// The numbers of a triangle's vertices.
   std::array<std::uint32_t, 3> triangle(std::uint32_t number) const {
@@ -120,7 +120,7 @@ struct World {
     const WorldPart& part = parts[vertex_ranges.of(vertex)];
     return part.position(vertex - part.first_vertex);
   }
-  /// As WorldPart::normal.
+  /// Returns the vertex's normal, as WorldPart::normal does.
   Vec3f normal(std::uint32_t vertex) const {
     const WorldPart& part = parts[vertex_ranges.of(vertex)];
     return part.normal(vertex - part.first_vertex);
@@ -175,7 +175,7 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of(const World& world);
 /// mirrored.
 Vec3 geometric_normal(const World& world, std::uint32_t primitive, const Vec3& position);
 Vec3 geometric_normal(const std::array<Vec3, 3>& corners);
-/// The same, but of a triangle to its front (scene/scene.h, shows_back), mirrored or not.
+/// Returns the normal that points out, but of a triangle to its front (scene/scene.h, shows_back), mirrored or not.
 Vec3 outward_normal(const World& world, std::uint32_t primitive, const Vec3& position);
 /// Whether rays can hit a triangle: it is finite and has an area.
 bool has_surface(const std::array<Vec3, 3>& corners);

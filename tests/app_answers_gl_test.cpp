@@ -9,7 +9,7 @@
 namespace gnomon::app_test {
 namespace {
 
-/// Of the scene's only light what result.json says.
+/// Returns what result.json says of the scene's only light.
 nlohmann::json light_of(const Words& words) {
   const TemporaryFolder folder;
   const ProcessResult result =

@@ -131,7 +131,7 @@ TEST(Faults, NeitherOsmesaNorEgl) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
-// In each case the other threads stop, and one line says what was thrown. Which allocation a number means hangs on
+// In each case the other threads stop, and one line says what was thrown. Which allocation a number means depends on
 // which thread comes first, and so does whether there are so many; the last number is beyond all.
 TEST(Faults, AnErrorInOneThreadOfMany) {
   if (test::address_sanitizer) GTEST_SKIP() << "the sanitizer has its own operator new";

@@ -53,7 +53,7 @@ std::vector<Words> commands_with_threads(const std::string& capture) {
           {"lessons", "--only", "precision", "-o", "out"}};
 }
 
-/// As ever, with fewer threads perhaps, or exit code 5 and one line that says why.
+/// Expects what is done without limits, with fewer threads perhaps, or exit code 5 and one line that says why.
 void expect_done_or_said(const ProcessResult& result, const ProcessResult& usual, const std::string& what) {
   EXPECT_EQ(result.signal, 0) << what << ": " << result.err;
   if (result.exit_code == usual.exit_code) return;

@@ -21,7 +21,7 @@ TEST(LargePages, AreAskedForWhereTheSystemWaitsForIt) {
   EXPECT_FALSE(are_asked_for(""));
 }
 
-/// The exit code of a process that starts this test program anew by way of start_with_large_pages(), to run `test` alone;
+/// The exit code of a process that starts this test program again by way of start_with_large_pages(), to run `test` alone;
 /// 77 where it comes back.
 int started_anew(const char* test, const char* tunables) {
   const pid_t child = fork();

@@ -100,7 +100,7 @@ void interrupt_when_ready(pid_t process, int after_ms, int signal_number) {
   kill(process, signal_number);
 }
 
-void take_end(pid_t process, ProcessResult& result) {
+void await_end(pid_t process, ProcessResult& result) {
   int status = 0;
   rusage used{};
   wait4(process, &status, 0, &used);
@@ -127,7 +127,7 @@ ProcessResult run_gnomon(const Words& arguments, const ProcessOptions& options) 
   ProcessResult result;
   read_both(out.read_end, err.read_end, result);
   if (interrupter.joinable()) interrupter.join();
-  take_end(child, result);
+  await_end(child, result);
   return result;
 }
 

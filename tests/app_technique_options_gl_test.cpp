@@ -72,8 +72,8 @@ TEST(TechniqueOptions, EverySettingIsTried) {
     EXPECT_TRUE(tried.contains(setting.name)) << setting.name;
 }
 
-/// Of each pixel what the light leaves and, where the technique tests it, the gap (a finer witness of what is
-/// stored). Or why it was not drawn.
+/// Holds for each pixel what the light leaves and, where the technique tests it, the gap (a finer witness of what is
+/// stored). Or it says why nothing was drawn.
 class Drawings {
  public:
   explicit Drawings(LightType type) : drawn_(make_drawn(scene(type))) {}
@@ -259,30 +259,30 @@ TEST(EffectOptions, WhatTheSceneDoesNotCallForIsNamed) {
   scene.lights = {sun({0.6, -1.0, 0.35})};
   const Words given{"samples", "glossy-samples", "min-contribution", "size"};
   const EffectPlan hard = plan_effects(scene);
-  const Words notes = app::idle_options(given, hard);
+  const Words notes = app::options_without_effect(given, hard);
   ASSERT_EQ(notes.size(), 3u);
   EXPECT_EQ(notes[0], "--samples has no effect: no light has a size");
   scene.lights[0].extent = SunDisc{0.1};
   scene.materials[2].mirror = 0.5f;
   scene.materials[2].roughness = 0.2f;
-  EXPECT_EQ(app::idle_options(given, plan_effects(scene)), Words{});
+  EXPECT_EQ(app::options_without_effect(given, plan_effects(scene)), Words{});
   raster::MapOptions map;
   map.technique = raster::Technique::pcss;
   const std::vector<std::uint32_t> lights{0};
-  EXPECT_EQ(app::idle_options(Words{"search-radius"}, map, scene, lights), Words{});
+  EXPECT_EQ(app::options_without_effect(Words{"search-radius"}, map, scene, lights), Words{});
   scene.lights[0].extent = {};
-  EXPECT_EQ(app::idle_options(Words{"search-radius"}, map, scene, lights).size(), 1u);
+  EXPECT_EQ(app::options_without_effect(Words{"search-radius"}, map, scene, lights).size(), 1u);
   map.technique = raster::Technique::csm, map.cascades.count = 1, map.snap = true;
   const Words of_map{"cascade-lambda", "snap"};
-  EXPECT_EQ(app::idle_options(of_map, map, scene, lights),
+  EXPECT_EQ(app::options_without_effect(of_map, map, scene, lights),
             Words{"--cascade-lambda has no effect: there is one cascade"});
   map.cascades.count = 2, scene.lights[0].type = LightType::point;
-  EXPECT_EQ(app::idle_options(of_map, map, scene, lights),
+  EXPECT_EQ(app::options_without_effect(of_map, map, scene, lights),
             Words{"--snap has no effect: no light is directional"});
-  EXPECT_EQ(app::idle_without_page(Words{"report-max-mb", "size"}),
+  EXPECT_EQ(app::page_options_without_effect(Words{"report-max-mb", "size"}),
             Words{"--report-max-mb has no effect: no page is written"});
-  EXPECT_EQ(app::idle_without_page(Words{"size"}), Words{});
-  EXPECT_EQ(app::idle_in_heatmap(Words{"size", "aa"}),
+  EXPECT_EQ(app::page_options_without_effect(Words{"size"}), Words{});
+  EXPECT_EQ(app::heatmap_options_without_effect(Words{"size", "aa"}),
             Words{"--aa has no effect: a heat map shows the work of one ray through each pixel's centre"});
 }
 

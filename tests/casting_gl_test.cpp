@@ -100,7 +100,7 @@ TEST_P(Casting, TheLadderClimbsOnCasters) {
               run.lights[0].rungs[5].data[i] != run.lights[0].rungs[6].data[i];
   EXPECT_LE(differ, run.lights[0].pixels.compared / 1000);
   const auto& classes = run.lights[0].classes;
-  EXPECT_EQ(classes[static_cast<std::size_t>(compare::Label::precision) - 1], 0u);
+  EXPECT_EQ(classes[static_cast<std::size_t>(compare::Label::stored_depth) - 1], 0u);
 }
 
 // Every structure and arithmetic, and packets as single rays.

@@ -25,7 +25,7 @@ struct BandCase {
   const char* scene;
   raster::Technique technique;
   raster::Bias bias{};
-  ImageSize size{160, 330};  ///< six bands, the last of ten rows; more rows than edges hang on
+  ImageSize size{160, 330};  ///< six bands, the last of ten rows; more rows than edges depend on
 };
 
 /// More rows than are kept for the widths of soft shadows.

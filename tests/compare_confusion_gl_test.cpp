@@ -62,7 +62,7 @@ Mesh plates(const std::vector<std::array<Vec3, 4>>& corners) {
 /// Places on the map's own grid, for casters that fall on it as one wants.
 class Grid {
  public:
-  /// Of the map that the floor alone gets under a sun overhead.
+  /// Is the grid of the map that the floor alone gets under a sun overhead.
   explicit Grid(int map_size, double height) : height_(height) {
     const Scene scene = floor_scene({}, overhead);
     const World world = make_world(scene);
@@ -128,7 +128,7 @@ Case precision() {
   options.raster.map.bias.slope = 1.0;
   return {"precision",
           "the same, slope bias 1, a map of 16 bits",
-          Label::precision,
+          Label::stored_depth,
           run_comparison(floor_scene({}, slanting), options),
           {}};
 }
@@ -298,7 +298,7 @@ Case custom_shader() {
           {}};
 }
 
-/// The same case of errors of one half and less.
+/// Makes of a case one of errors of one half and less.
 Case small_errors(Case one, std::string name, std::string scene) {
   one.name = std::move(name), one.scene = std::move(scene), one.small = true;
   return one;

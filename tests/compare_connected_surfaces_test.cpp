@@ -14,7 +14,7 @@ namespace {
 using compare::Surfaces;
 using raytrace::Topology;
 
-/// Of each triangle the lowest one that can be reached from it over shared corners.
+/// Returns for each triangle the lowest one that can be reached from it over shared corners.
 std::vector<std::uint32_t> reached_by_corners(const World& world, const Topology& topology) {
   std::map<std::uint32_t, std::vector<std::uint32_t>> at_corner;
   for (std::uint32_t t = 0; t < world.triangle_count(); ++t)

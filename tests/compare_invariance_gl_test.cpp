@@ -186,7 +186,7 @@ bool beside_an_edge(const Image<std::uint32_t>& shown, std::size_t i) {
   return ((i + 1) % width != 0 && other(i + 1)) || other(i + width);
 }
 
-/// The same of what is stored in the texel that the pixel's receiver lies in.
+/// Tells whether what is stored in the texel of the pixel's receiver lies beside an edge.
 bool beside_an_edge(const raytrace::Tracer& tracer, const Comparison& c, std::size_t pixel) {
   const raster::LightRecord& record = record_of(c);
   const raster::ShadowMap& map = record.map;

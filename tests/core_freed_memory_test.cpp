@@ -25,7 +25,7 @@ void use_blocks() {
   for (std::vector<char>& block : blocks) block.assign(std::size_t{80} << 20, 'a');
 }
 
-/// Of a thread's stack and the like.
+/// Allows for faults of a thread's stack and the like.
 constexpr long few_faults = 40;
 
 class FreedMemory : public testing::Test {

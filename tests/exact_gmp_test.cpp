@@ -78,7 +78,7 @@ AimedTriangle sliver(Random& r) {
   return t;
 }
 
-/// As many units in the last place wide as others are units.
+/// Makes a triangle as many units in the last place wide as others are units.
 AimedTriangle far_away(Random& r) {
   constexpr double place = 0x1p45, unit = 0x1p-7;
   AimedTriangle t = r.coin() ? corners_and_edges(r) : coplanar(r);
@@ -121,7 +121,7 @@ AimedTriangle huge(Random& r) {
   return scaled(t, r.integer(100, 330));
 }
 
-/// Of ordinary size, but for zeros that are not quite: a few of the least subnormal numbers.
+/// Makes a triangle of ordinary size, but for zeros that are not quite: a few of the least subnormal numbers.
 AimedTriangle nearly_zero(Random& r) {
   AimedTriangle t;
   const auto blur = [&](Vec3 p) {

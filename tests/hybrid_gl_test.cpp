@@ -69,7 +69,7 @@ TEST(HybridTechnique, KeepsItsSheetsWhileTheLightStandsStill) {
   world->scene.lights[0].direction = glm::normalize(world->scene.lights[0].direction + Vec3(0.1, 0, 0));
   const std::vector<double> moved = build_time();
   ASSERT_EQ(moved.size(), 1u);
-  EXPECT_NE(moved, first);  // made anew: another time
+  EXPECT_NE(moved, first);  // made again: another time
   // A light that moves is traced; one picture, to be analysed, has its sheets.
   EXPECT_EQ(rays, all_rays);
   options.analysis = true;

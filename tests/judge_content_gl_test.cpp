@@ -81,7 +81,7 @@ void expect_label(const JudgeOutcome& judged, Label label, const std::string& wo
     aliasing += pixels_called(judged, one);
   EXPECT_GE(pixels_called(judged, label) + aliasing, light.error.wrong - light.error.wrong / 50);
   EXPECT_GT(4 * pixels_called(judged, label), 3 * light.error.wrong);
-  EXPECT_LE(100 * pixels_called(judged, Label::precision), 2 * light.error.wrong);
+  EXPECT_LE(100 * pixels_called(judged, Label::stored_depth), 2 * light.error.wrong);
   const compare::BudgetStep& step = light.budget[compare::cause_count];
   EXPECT_EQ(step.false_shadow + step.missed_shadow, pixels_called(judged, label));
   EXPECT_GT(step.absolute_mean, 0.0);

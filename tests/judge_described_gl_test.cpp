@@ -85,7 +85,7 @@ void expect_other_test(const JudgeOutcome& judged, const std::string& named, boo
   EXPECT_NE(notes_of(judged).find("is not the one that was drawn"), std::string::npos) << notes_of(judged);
   EXPECT_NE(notes_of(judged).find(named), std::string::npos) << notes_of(judged);
   EXPECT_EQ(judged.result->judged->advice.empty(), !advice);
-  EXPECT_LT(double(count_of(judged, compare::Label::precision)),
+  EXPECT_LT(double(count_of(judged, compare::Label::stored_depth)),
             1e-3 * double(judged.result->lights[0].pixels.compared));
 }
 
@@ -171,7 +171,7 @@ TEST(JudgeDescribed, CoarseDepthsAreAMatterOfPrecision) {
   const JudgeOutcome judged = picture.judged();
   EXPECT_EQ(notes_of(judged), "");
   ASSERT_TRUE(judged.result) << reason(judged);
-  EXPECT_GT(count_of(judged, compare::Label::precision), 100U);
+  EXPECT_GT(count_of(judged, compare::Label::stored_depth), 100U);
   EXPECT_EQ(count_of(judged, compare::Label::unexplained), 0U);
 }
 

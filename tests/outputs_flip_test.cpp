@@ -148,7 +148,7 @@ TEST(Flip, EqualsTheDirectImplementationOnShadowEdges) {
   expect_same_as_direct(a, b, flip_pixels_per_degree);
 }
 
-// The error hangs on nothing beyond the filters' reach, whichever way a picture is cut into patches: a part
+// The error depends on nothing beyond the filters' reach, whichever way a picture is cut into patches: a part
 // of it, with a margin, has the same bits. Both pictures are equal up to a little beyond the first patch.
 TEST(Flip, APartHasTheErrorsOfTheWhole) {
   std::mt19937 random(12);

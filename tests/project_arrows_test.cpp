@@ -243,7 +243,7 @@ TEST(Arrows, NobodyReachesIntoTracers) {
   EXPECT_EQ(reaching_into_tracers({{"hybrid/a.cpp", "tracer" + reach + ".bvh"}}).size(), 1u);
 }
 
-/// Those of std::filesystem that say "no" where nobody could look, or need their error looked at.
+/// These functions of std::filesystem say "no" where nobody could look, or need their error looked at.
 const std::vector<std::string> dropped_errors{"exists(",
                                               "is_directory(",
                                               "is_regular_file(",

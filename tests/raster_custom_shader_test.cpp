@@ -10,7 +10,7 @@
 namespace gnomon::raster {
 namespace {
 
-/// Those that count where the folder holds one file, the program's own with a comment behind it.
+/// Returns the shaders that count where the folder holds one file, the program's own with a comment behind it.
 std::vector<std::string> counted(const std::string& name, Technique technique) {
   const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "gnomon-custom-shader";
   std::filesystem::create_directories((folder / name).parent_path());

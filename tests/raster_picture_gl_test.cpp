@@ -153,7 +153,7 @@ TEST(Picture, OfASceneWithoutLightsIsAmbientAndEmission) {
 }
 
 // HARD_CASES.md, 37: camera and scene at 1e7. The scene's numbers themselves are rounded there (to 2e-9), so
-// pixels whose shadow hangs on less may differ; the rest are equal to float rounding.
+// pixels whose shadow depends on less may differ; the rest are equal to float rounding.
 TEST(Picture, FarFromTheOriginIsThePictureAtTheOrigin) {
   const Drawn near = draw(three_lights());
   for (const Vec3 offset : {Vec3(1e7, -1e7, 1e7), Vec3(0.0, 3e6, 1e7)}) {

@@ -61,7 +61,7 @@ inline std::optional<ReferenceHit> hit_away_from_edges(const World& world, const
   return center;
 }
 
-/// The same for a texel of a light's map.
+/// Returns the hit for a texel of a light's map.
 inline std::optional<ReferenceHit> hit_away_from_edges(const World& world, const LightView& view, int face,
                                                        int column, int row) {
   const ReferenceHit center = closest_hit(world, texel_ray(view, face, column + 0.5, row + 0.5));

@@ -19,7 +19,7 @@ namespace {
 const gnomon::StageLog* running_log = nullptr;
 std::map<std::string, int> modules;  // by stage
 
-int take_llvm(dl_phdr_info* info, std::size_t, void* path) {
+int find_llvm(dl_phdr_info* info, std::size_t, void* path) {
   if (std::strstr(info->dlpi_name, "libLLVM") == nullptr) return 0;
   *static_cast<std::string*>(path) = info->dlpi_name;
   return 1;
@@ -27,7 +27,7 @@ int take_llvm(dl_phdr_info* info, std::size_t, void* path) {
 
 void* function_of_llvm(const char* name) {
   std::string path;
-  dl_iterate_phdr(take_llvm, &path);
+  dl_iterate_phdr(find_llvm, &path);
   void* library = dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD);
   return library != nullptr ? dlsym(library, name) : nullptr;
 }

@@ -150,7 +150,7 @@ struct Receivers {
   }
 
  private:
-  /// Of a random cell's; the next try when it is not in the tile's square.
+  /// Makes a receiver of a random cell's; the next try follows when it is not in the tile's square.
   static SurfacePoint receiver(const LightPlane& plane, const Vec2& lo, const Vec2& hi, Random& random) {
     for (int tries = 0; tries < 4000; ++tries) {
       const auto column = random.below(static_cast<std::uint32_t>(plane.columns())),

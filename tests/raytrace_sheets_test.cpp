@@ -31,7 +31,7 @@ LightView downwards(int size, double half) {
   return view;
 }
 
-/// The same, off the middle and warped: rows at low y are 2.3 times as fine as those at high y.
+/// Makes the map off the middle and warped: rows at low y are 2.3 times as fine as those at high y.
 LightView warped(int size, double half) {
   LightView view = downwards(size, 0.9 * half);
   view.faces[0].center = {0.05 * half, -0.03 * half};

@@ -35,7 +35,7 @@ inline Shape some_sphere(Random& random, double half, const Interval& radii, int
   const double radius = random.uniform(radii.min, radii.max);
   return sphere(random.in_box(half), radius, material);
 }
-/// As long as the interval says.
+/// Returns a direction as long as the interval says.
 inline Vec3 some_direction(Random& random, const Interval& lengths) {
   const double length = random.uniform(lengths.min, lengths.max);
   return length * random.direction();

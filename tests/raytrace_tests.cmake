@@ -2,7 +2,7 @@ gnomon_test_support(raytrace_support SOURCES support/raytrace_support.cpp LIBS g
 
 gnomon_test(raytrace_test
   SOURCES raytrace_hits_test.cpp raytrace_shapes_test.cpp raytrace_visibility_test.cpp raytrace_frame_test.cpp
-    raytrace_edge_on_test.cpp raytrace_apex_test.cpp raytrace_ways_test.cpp raytrace_sheets_test.cpp raytrace_builder_test.cpp raytrace_leaf_primitives_test.cpp
+    raytrace_edge_on_test.cpp raytrace_apex_test.cpp raytrace_methods_test.cpp raytrace_sheets_test.cpp raytrace_builder_test.cpp raytrace_leaf_primitives_test.cpp
   LIBS raytrace_support TBB::tbb)
 
 gnomon_test(raytrace_solids_test

@@ -51,7 +51,7 @@ bool has_assimp() {
   return code && *code == 0;
 }
 
-/// Of all instances, in the world.
+/// Returns the area of all instances, in the world.
 double area_of(const Scene& scene) {
   double area = 0.0;
   for (const MeshInstance& instance : scene.instances) {

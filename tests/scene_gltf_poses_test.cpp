@@ -15,7 +15,7 @@ Json& primitive(Builder& b) {
   return b.json["meshes"][0]["primitives"][0];
 }
 
-// Vertices 0 and 1 hang on the first joint, 2 on the second, 3 on both by halves.
+// Vertices 0 and 1 depend on the first joint, 2 on the second, 3 on both by halves.
 Builder skinned() {
   Builder b = simple();
   const std::vector<std::uint8_t> joints{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0};

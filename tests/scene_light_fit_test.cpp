@@ -38,7 +38,7 @@ Scene clustered_scene(std::uint64_t seed) {
   return scene;
 }
 
-/// The same world, but no block's box says anything.
+/// Returns the same world, but no block's box says anything.
 World without_boxes(World world) {
   for (TriangleBlock& block : world.blocks) block.bounds = {Vec3(-1e100), Vec3(1e100)};
   return world;

@@ -12,7 +12,7 @@ namespace gnomon {
 namespace {
 
 template <class T>
-void put_binary(std::string& out, T value, bool big) {
+void append_binary(std::string& out, T value, bool big) {
   char raw[sizeof(T)];
   std::memcpy(raw, &value, sizeof(T));
   if (big) std::reverse(raw, raw + sizeof(T));
@@ -34,15 +34,15 @@ const float ys[4] = {0, 0, 1, 1};
 std::string binary_quad(bool big) {
   std::string out = header(big ? "binary_big_endian" : "binary_little_endian");
   for (int i = 0; i < 4; ++i) {
-    put_binary(out, xs[i], big);
-    for (const float v : {ys[i], 0.0f, 0.0f, 0.0f, 1.0f, 0.25f, 0.75f}) put_binary(out, v, big);
+    append_binary(out, xs[i], big);
+    for (const float v : {ys[i], 0.0f, 0.0f, 0.0f, 1.0f, 0.25f, 0.75f}) append_binary(out, v, big);
     out += '\x80';
   }
   for (const std::array<int, 4>& face : {std::array{4, 0, 1, 2}, std::array{3, 0, 1, 2}}) {
     out += '\0';
     out += static_cast<char>(face[0]);
-    for (std::size_t i = 1; i <= 3; ++i) put_binary(out, static_cast<std::int32_t>(face[i]), big);
-    if (face[0] == 4) put_binary(out, std::int32_t{3}, big);
+    for (std::size_t i = 1; i <= 3; ++i) append_binary(out, static_cast<std::int32_t>(face[i]), big);
+    if (face[0] == 4) append_binary(out, std::int32_t{3}, big);
   }
   return out;
 }
@@ -171,7 +171,7 @@ std::string fan(bool binary, std::size_t triangles, const std::string& index = "
   for (std::size_t i = 0; i < triangles + 2; ++i) {
     const auto x = static_cast<float>(i) * 0.1f, y = x * x;
     if (binary)
-      for (const float v : {x, y, 0.5f}) put_binary(out, v, false);
+      for (const float v : {x, y, 0.5f}) append_binary(out, v, false);
     else
       out += fmt::format("{} {} 0.5\n", static_cast<double>(x), static_cast<double>(y));
   }
@@ -181,7 +181,7 @@ std::string fan(bool binary, std::size_t triangles, const std::string& index = "
       continue;
     }
     out += '\3';
-    for (const std::uint32_t corner : {0u, i + 1, i + 2}) put_binary(out, corner, false);
+    for (const std::uint32_t corner : {0u, i + 1, i + 2}) append_binary(out, corner, false);
   }
   return out;
 }

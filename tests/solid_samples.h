@@ -1,4 +1,4 @@
-// One solid of every kind, for tests; and their functions in 128-bit floating point, written out anew.
+// One solid of every kind, for tests; and their functions in 128-bit floating point, written out again.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ inline ShapeFrame tilted_frame(double size = 1.0, const Vec3& at = Vec3(0.0)) {
   return frame;
 }
 
-/// Of size about `size` around `at`.
+/// Makes solids of size about `size` around `at`.
 inline std::vector<Shape> solid_samples(double size = 1.0, const Vec3& at = Vec3(0.0)) {
   const ShapeFrame base = tilted_frame(size, at);
   ShapeFrame middle = base;

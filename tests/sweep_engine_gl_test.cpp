@@ -24,12 +24,12 @@ Scene boxes_and_ball() {
 }
 
 /// A world with an engine at work in it, and single comparisons beside it.
-struct Workshop {
+struct SweepRun {
   OneWorld swept_world, single_world;
   Engine engine;
   Setting first;
 
-  explicit Workshop(const Scene& scene, bool perceptual = false)
+  explicit SweepRun(const Scene& scene, bool perceptual = false)
       : swept_world(scene),
         single_world(scene),
         engine(swept_world.scene, swept_world.world, *swept_world.renderer, perceptual) {
@@ -61,7 +61,7 @@ struct Workshop {
 
 // 20 constant biases at random: none is drawn, each equals its own drawing.
 TEST(Engine, DerivedFramesEqualDrawnOnes) {
-  Workshop shop(boxes_and_ball());
+  SweepRun shop(boxes_and_ball());
   ASSERT_EQ(shop.swept(shop.first), shop.alone(shop.first));
   std::mt19937 random(1);
   std::uniform_real_distribution<double> exponent(-4.0, 0.0);
@@ -77,10 +77,9 @@ TEST(Engine, DerivedFramesEqualDrawnOnes) {
   EXPECT_EQ(shop.engine.work().truths, 1u);
 }
 
-/// Of every technique that has a curve 20 points at random, drawn afresh in the unit that --bias takes, and
-/// the best one.
+/// Draws 20 points at random of every technique that has a curve again, in the unit that --bias takes, and the best one.
 void expect_curve_is_drawn(const Scene& scene, raster::Technique technique) {
-  Workshop shop(scene);
+  SweepRun shop(scene);
   Setting setting = shop.first;
   setting.raster.map.technique = technique;
   setting.raster.map.bias = {1.0, raster::BiasUnit::texel, 0.5};
@@ -124,7 +123,7 @@ TEST(Engine, TechniquesWithoutACurveSayWhy) {
   using enum raster::Technique;
   Scene scene = boxes_and_ball();
   scene.lights.resize(1);
-  Workshop shop(scene);
+  SweepRun shop(scene);
   for (const raster::Technique technique : {pcf, pcss, vsm, esm, evsm, msm, izb}) {
     Setting setting = shop.first;
     setting.raster.map.technique = technique;
@@ -163,7 +162,7 @@ std::uint64_t texels_in_map(Vec2f uv, int reach, int map) {
 TEST(Lookups, AreCountedTexelByTexel) {
   Scene scene = boxes_and_ball();
   scene.lights.resize(1);
-  Workshop shop(scene);
+  SweepRun shop(scene);
   for (const int reach : {0, 1, 3}) {
     Setting setting = shop.first;
     setting.raster.map.technique = reach == 0 ? raster::Technique::hard : raster::Technique::pcf;
@@ -216,7 +215,7 @@ TEST(ShadowCost, IsTimedInTurnAndDrawsNothing) {
 TEST(Engine, UnitsOfCascadesAreNotDerivedFromEachOther) {
   Scene scene = boxes_and_ball();
   scene.lights.resize(1);
-  Workshop shop(scene);
+  SweepRun shop(scene);
   Setting setting = shop.first;
   setting.raster.map.technique = raster::Technique::csm;
   for (const raster::BiasUnit unit : {raster::BiasUnit::texel, raster::BiasUnit::world}) {
@@ -228,7 +227,7 @@ TEST(Engine, UnitsOfCascadesAreNotDerivedFromEachOther) {
 
 // The same when the numbers of all biases are made together, without images.
 TEST(Engine, BiasAxisEqualsDrawnFrames) {
-  Workshop shop(boxes_and_ball());
+  SweepRun shop(boxes_and_ball());
   for (const bool offset : {false, true}) {  // with an offset, receivers look up other texels than their own
     Setting setting = shop.first;
     setting.raster.map.bias.normal_offset_texels = offset ? 1.5 : 0.0;
@@ -254,7 +253,7 @@ TEST(Engine, BiasAxisEqualsDrawnFrames) {
 
 // Other options share the truth, and the lower rungs where the map is the same; the numbers do not know.
 TEST(Engine, CellsEqualSingleComparisons) {
-  Workshop shop(boxes_and_ball());
+  SweepRun shop(boxes_and_ball());
   std::mt19937 random(2);
   const auto pick = [&](auto... choices) {
     const auto list = {choices...};
@@ -286,7 +285,7 @@ TEST(Engine, CellsEqualSingleComparisons) {
 TEST(Engine, DerivedCellsOfEveryTechniqueEqualSingleComparisons) {
   Scene scene = boxes_and_ball();
   scene.lights.resize(1);  // the sun, which most techniques serve
-  Workshop shop(scene);
+  SweepRun shop(scene);
   Setting setting = shop.first;
   for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
     setting.raster.map.technique = traits.technique;
@@ -303,7 +302,7 @@ TEST(Engine, DerivedCellsOfEveryTechniqueEqualSingleComparisons) {
 }
 
 TEST(Engine, PerceptualMetricsOnlyWhenAsked) {
-  Workshop shop(boxes_and_ball(), true);
+  SweepRun shop(boxes_and_ball(), true);
   EXPECT_EQ(shop.swept(shop.first), shop.alone(shop.first, true));
   EXPECT_NE(shop.alone(shop.first, true), shop.alone(shop.first, false));
 }

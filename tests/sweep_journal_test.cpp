@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As the journal keeps it.
+/// Returns the line as the journal keeps it.
 std::string line(int cell) {
   return sealed(R"({"lights":[{"light":{"name":"sun","type":"directional"},"error":{"wrong":)" +
                 std::to_string(cell) +

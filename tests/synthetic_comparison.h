@@ -22,7 +22,7 @@ inline std::array<float, rung_count> synthetic_ladder(Label label, bool lit) {
   switch (label) {
     case Label::acne:
       return {1, 1, 1, 0, 0, 0, 0};
-    case Label::precision:
+    case Label::stored_depth:
       return {v, v, v, v, w, w, w};
     case Label::peter_panning:
     case Label::light_leak:

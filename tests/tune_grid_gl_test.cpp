@@ -1,4 +1,4 @@
-// The tuner against full grids on six scenes, in costs that do not hang on the machine: texels rendered and
+// The tuner against full grids on six scenes, in costs that do not depend on the machine: texels rendered and
 // texels looked up. (gnomon bench --tune does the same in milliseconds.)
 #include <gtest/gtest.h>
 

@@ -57,7 +57,7 @@ class TuneLights : public SweepProgram {
     return {code, Json::parse(bytes(json))};
   }
 
-  /// Of the winner and all others.
+  /// Expects that the winner and all others keep what they promise.
   void expect_kept_promises(const Json& answer, std::string_view figure) const {
     Json families = answer["others"];
     families.push_back(answer);

@@ -194,7 +194,7 @@ constexpr std::pair<const char*, Command> commands[] = {{"P", Command::save_scre
                                                         {"ctrl+Q", Command::quit}};
 constexpr const char* preset_keys[] = {"F6", "F7", "F8", "F9"};
 
-/// Of which every key changes something.
+/// Returns a state of which every key changes something.
 ViewState busy_state() {
   ViewState state = two_light_state();
   state.given.films = {LabFilm{}};
@@ -235,7 +235,7 @@ TEST(ViewInput, EveryKeyDoesWhatItSays) {
   }
 }
 
-/// Of the first column of the table below "## Keys and mouse": what stands between bars, commas and blanks.
+/// Reads the first column of the table below "## Keys and mouse": what stands between bars, commas and blanks.
 std::set<std::string> documented_keys() {
   std::ifstream file(test::source_dir() + "/docs/lab.md");
   std::set<std::string> keys;

@@ -93,7 +93,7 @@ class ViewLab : public testing::Test {
     EXPECT_TRUE(texture) << name;
     return texture ? texture->texels : std::vector<glm::u8vec4>{};
   }
-  /// Of a window that is 900 pixels wide; (0, 0, 0, 0): there is none.
+  /// Reads a texel of a window that is 900 pixels wide; (0, 0, 0, 0): there is none.
   glm::u8vec4 texel(const std::string& name, PixelPlace at) const {
     const auto all = texels(name);
     const std::size_t i = static_cast<std::size_t>(at.y) * 900 + static_cast<std::size_t>(at.x);

@@ -20,7 +20,7 @@ std::vector<Shape> spheres(int count, Random& random) {
   return shapes;
 }
 
-/// Of either sign; 0 once in 16 times.
+/// Returns a number of either sign; 0 once in 16 times.
 double slope_or_height(Random& r, double least_power, double most_power) {
   const double sign = r.coin() ? 1.0 : -1.0;
   return sign * (r.below(16) == 0 ? 0.0 : r.power_of_ten(least_power, most_power));

@@ -22,7 +22,7 @@ std::vector<Tracer> every_structure(const Run& run, const World& world) {
   return tracers;
 }
 
-/// The same ray through all structures, through brute force and, now and then, through the oracle.
+/// Sends the same ray through all structures, through brute force and, now and then, through the oracle.
 void agree(const std::vector<Tracer>& tracers, const Tracer& brute, const Ray& ray, bool ask_oracle,
            Tally& tally) {
   const auto plain = brute.closest_hit(ray);

@@ -195,7 +195,7 @@ Texture holes(Random& r, bool nearest) {
   return texture;
 }
 
-/// Of some meshes only the front is seen, and some have holes.
+/// Makes of some meshes only the front seen, and gives some holes.
 void choose_materials(Scene& scene, Random& r) {
   scene.textures = {holes(r, true), holes(r, false)};
   for (const auto& [single, texture] : {std::pair{true, no_id}, {false, 0u}, {true, 1u}}) {

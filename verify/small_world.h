@@ -46,7 +46,7 @@ Light sun(const Vec3& direction);
 /// The point where a ray from eye to target first meets the world; primitive == no_id where it does not.
 raytrace::SurfacePoint seen(const raytrace::Tracer& tracer, const Vec3& eye, const Vec3& target);
 
-/// The same hit to the last bit.
+/// Tells whether two hits are the same to the last bit.
 bool same(const std::optional<raytrace::Hit>& a, const std::optional<raytrace::Hit>& b);
 
 // Seeded random numbers for trials and for the small scenes: a failure repeats itself on every machine.

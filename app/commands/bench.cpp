@@ -47,7 +47,7 @@ struct BenchCommand {
   int threads = 0;
   bool quiet = false;
   std::string command_line;
-  std::string idle;  ///< an option that was given and has no meaning for what was asked
+  std::string meaningless;  ///< an option that was given and has no meaning for what was asked
   bool size_given = false;
 
   bool prints_tables() const { return !quiet && json != "-"; }
@@ -187,9 +187,9 @@ Expected<ExitCode> run_whole(const BenchCommand& command) {
 
 Expected<ExitCode> run_bench(const BenchCommand& command) {
   constexpr int usual_runs = 3;
-  if (!command.idle.empty())
+  if (!command.meaningless.empty())
     return fail(ErrorKind::usage,
-                fmt::format("{}: has no meaning here (see gnomon bench --help)", command.idle));
+                fmt::format("{}: has no meaning here (see gnomon bench --help)", command.meaningless));
   if (!command.techniques.empty()) return run_techniques(command);
   if (!command.tune.empty()) return run_tuning(command);
   if (command.scene.name.empty() && command.precision)
@@ -293,9 +293,9 @@ void add_bench(CLI::App& program, Invocation& invocation) {
   add_json(*app, command->json, "the rows");
   add_quiet(*app, command->quiet);
   app->callback([command, &invocation, app] {
-    const auto reject = [&](bool meaningless, std::initializer_list<const char*> options) {
+    const auto reject = [&](bool rejected, std::initializer_list<const char*> options) {
       for (const char* option : options)
-        if (meaningless && app->count(option) > 0) command->idle = option;
+        if (rejected && app->count(option) > 0) command->meaningless = option;
     };
     const bool techniques = !command->techniques.empty();
     const bool tune = !command->tune.empty();

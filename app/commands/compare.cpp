@@ -102,7 +102,7 @@ Expected<Compared> compare_picture(const CompareCommand& command, const LoadedSc
   return out;
 }
 
-/// Of maps that were made: for the page and the JSON, too.
+/// Says which maps swim, once they are made: for the page and the JSON, too.
 void note_swimming(const CompareCommand& command, const LoadedScene& loaded,
                    const std::vector<std::uint32_t>& lights, Console& console) {
   const raster::RasterOptions& raster = command.setting.options.raster;
@@ -126,12 +126,12 @@ Expected<Compared> render_and_compare(const CompareCommand& command, const Loade
                                       Console& console) {
   const auto lights = choose_lights(*loaded.scene, command.setting.light);
   if (!lights) return fail(lights.error());
-  for (const std::string& note : idle_options(command.given, loaded.plan)) console.note(note);
+  for (const std::string& note : options_without_effect(command.given, loaded.plan)) console.note(note);
   for (const std::string& note :
-       idle_options(command.given, command.setting.options.raster.map, *loaded.scene, *lights))
+       options_without_effect(command.given, command.setting.options.raster.map, *loaded.scene, *lights))
     console.note(note);
   if (!wants_page(command))
-    for (const std::string& note : idle_without_page(command.given)) console.note(note);
+    for (const std::string& note : page_options_without_effect(command.given)) console.note(note);
   const raster::RasterOptions& raster = command.setting.options.raster;
   const double map_bytes = bytes_per_texel * std::pow(double(raster.map.size), 2.0);
   const auto bytes = compare_bytes(*loaded.scene, *lights, raster.size, wants_page(command));

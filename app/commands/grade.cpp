@@ -122,7 +122,7 @@ Expected<std::vector<grade::StudentResult>> grade_all(const GradeCommand& comman
   return std::move(grades->students);
 }
 
-/// Those who have no points because they could not be graded, as one error; the others have theirs.
+/// Students who could not be graded have no points and are one error; the others have theirs.
 Expected<ExitCode> ungraded(const std::vector<grade::StudentResult>& students) {
   std::optional<Error> first;
   std::string list;

@@ -97,7 +97,7 @@ nlohmann::ordered_json size_json(const ImageSize& size) {
   return {size.width, size.height};
 }
 
-nlohmann::ordered_json way_json(std::string_view way, std::string_view reason) {
+nlohmann::ordered_json method_json(std::string_view way, std::string_view reason) {
   return {{"way", way}, {"reason", reason}};
 }
 
@@ -111,14 +111,14 @@ std::string short_count(std::uint64_t count) {
 }
 
 /// How the rays to lights' centres go.
-struct ShadowWays {
-  const raytrace::TracerPlan& ways;
+struct ShadowMethods {
+  const raytrace::TracerPlan& methods;
   raytrace::SingleRayForecasts forecast;  ///< of those that go by blocks
   const Scene& scene;
 };
 
-nlohmann::ordered_json shadow_json(const ShadowWays& shadow) {
-  nlohmann::ordered_json json = way_json(name_of(shadow.ways.shadow), shadow.ways.shadow_reason);
+nlohmann::ordered_json shadow_json(const ShadowMethods& shadow) {
+  nlohmann::ordered_json json = method_json(name_of(shadow.methods.shadow), shadow.methods.shadow_reason);
   json["forecast_rows"] = shadow.forecast.rows;
   json["lights"] = nlohmann::ordered_json::array();
   for (const raytrace::SingleRayForecast& light : shadow.forecast.lights)
@@ -129,15 +129,15 @@ nlohmann::ordered_json shadow_json(const ShadowWays& shadow) {
 }
 
 /// The reason, and how many of the rays go on one by one.
-std::string shadow_reason(const ShadowWays& shadow, const ImageSize& size) {
+std::string shadow_reason(const ShadowMethods& shadow, const ImageSize& size) {
   raytrace::SingleRayForecast all;
   for (const raytrace::SingleRayForecast& light : shadow.forecast.lights)
     all.rays += light.rays, all.single += light.single;
-  if (all.rays == 0) return std::string(shadow.ways.shadow_reason);
+  if (all.rays == 0) return std::string(shadow.methods.shadow_reason);
   return fmt::format(
       "{}; {} of them go on one by one, where 16 x 16 receivers meet more leaves than their rays are "
       "worth or floats do not suffice ({} {} of {} rows)",
-      shadow.ways.shadow_reason, compare::percent(all.share()),
+      shadow.methods.shadow_reason, compare::percent(all.share()),
       shadow.forecast.rows < size.height ? "forecast from" : "counted in", shadow.forecast.rows, size.height);
 }
 
@@ -158,7 +158,7 @@ std::string instances_reason(const InstancePlan& plan, InstanceChoice choice) {
 
 nlohmann::ordered_json instances_json(const LoadedScene& loaded, InstanceChoice choice) {
   const InstancePlan plan = plan_instances(*loaded.scene);
-  nlohmann::ordered_json json = way_json(name_of_way(*loaded.world), instances_reason(plan, choice));
+  nlohmann::ordered_json json = method_json(name_of_way(*loaded.world), instances_reason(plan, choice));
   json["instances"] = plan.instances, json["meshes"] = plan.meshes, json["triangles"] = plan.triangles;
   json["bytes_flattened"] = plan.flat_bytes, json["bytes_kept"] = plan.kept_bytes;
   return json;
@@ -175,7 +175,7 @@ nlohmann::ordered_json memory_json(const std::vector<BandPlan>& plans, const Ima
 }
 
 std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytrace::Forecast& forecast,
-                      const ShadowWays& shadow, const nlohmann::ordered_json& instances,
+                      const ShadowMethods& shadow, const nlohmann::ordered_json& instances,
                       const std::vector<BandPlan>& bands) {
   nlohmann::ordered_json effects = nlohmann::ordered_json::array();
   for (const EffectEntry& entry : plan.entries) {
@@ -191,10 +191,11 @@ std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytr
                                     {"exact", forecast.exact},
                                     {"primary", forecast.rays.primary},
                                     {"total", total_rays(forecast.rays)}};
-  const raytrace::TracerPlan& ways = shadow.ways;
-  const nlohmann::ordered_json tracer{{"primary", way_json(name_of(ways.primary), ways.primary_reason)},
-                                      {"receivers", way_json(name_of(ways.receivers), ways.receivers_reason)},
-                                      {"shadow", shadow_json(shadow)}};
+  const raytrace::TracerPlan& methods = shadow.methods;
+  const nlohmann::ordered_json tracer{
+      {"primary", method_json(name_of(methods.primary), methods.primary_reason)},
+      {"receivers", method_json(name_of(methods.receivers), methods.receivers_reason)},
+      {"shadow", shadow_json(shadow)}};
   return nlohmann::ordered_json{{"effects", effects},
                                 {"rays", rays},
                                 {"tracer", tracer},
@@ -232,15 +233,15 @@ std::string plan_row(std::string_view name, std::string_view state, const std::s
   return hanging(fmt::format("{:<16}{:<11}{:>9}  ", name, state, rays), why);
 }
 
-std::string ways_table(const ShadowWays& shadow, const ImageSize& size,
+std::string ways_table(const ShadowMethods& shadow, const ImageSize& size,
                        const nlohmann::ordered_json& instances) {
-  const raytrace::TracerPlan& ways = shadow.ways;
+  const raytrace::TracerPlan& methods = shadow.methods;
   const auto row = [](std::string_view what, std::string_view way, std::string_view reason) {
     return hanging(fmt::format("{:<16}", what), fmt::format("{}: {}", way, reason));
   };
-  return "\n" + row("primary rays", name_of(ways.primary), ways.primary_reason) +
-         row("receivers", name_of(ways.receivers), ways.receivers_reason) +
-         row("shadow rays", name_of(ways.shadow), shadow_reason(shadow, size)) +
+  return "\n" + row("primary rays", name_of(methods.primary), methods.primary_reason) +
+         row("receivers", name_of(methods.receivers), methods.receivers_reason) +
+         row("shadow rays", name_of(methods.shadow), shadow_reason(shadow, size)) +
          row("instances", instances["way"].get<std::string>(), instances["reason"].get<std::string>());
 }
 
@@ -273,19 +274,19 @@ std::string plan_table(const EffectPlan& plan, const ImageSize& size, const rayt
 }
 
 /// How gnomon raytrace makes the picture, with all lights.
-raytrace::TracerPlan picture_ways(const raytrace::Tracer& tracer, const Camera& camera,
-                                  raytrace::RaytraceOptions options) {
+raytrace::TracerPlan picture_methods(const raytrace::Tracer& tracer, const Camera& camera,
+                                     raytrace::RaytraceOptions options) {
   options.records = false;
   std::vector<std::uint32_t> lights(tracer.world().scene->lights.size());
   std::iota(lights.begin(), lights.end(), 0U);
   return choose_tracer(tracer, make_view(camera, options.size), lights, options);
 }
 
-ShadowWays shadow_ways(const raytrace::Tracer& tracer, const LoadedScene& loaded,
-                       const raytrace::TracerPlan& ways, const raytrace::RaytraceOptions& options) {
+ShadowMethods shadow_methods(const raytrace::Tracer& tracer, const LoadedScene& loaded,
+                             const raytrace::TracerPlan& methods, const raytrace::RaytraceOptions& options) {
   const Scene& scene = *loaded.scene;
-  ShadowWays shadow{ways, {}, scene};
-  if (ways.shadow != raytrace::ShadowWay::blocks) return shadow;
+  ShadowMethods shadow{methods, {}, scene};
+  if (methods.shadow != raytrace::ShadowMethod::blocks) return shadow;
   std::vector<std::uint32_t> lights;
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
     if (!has_size(scene.lights[i])) lights.push_back(i);
@@ -308,8 +309,8 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
   console.progress("tracing a coarse grid", 0.5);
   const raytrace::Tracer tracer(*loaded->world, raytrace::Accel::bvh);
   const raytrace::Forecast forecast = forecast_rays(tracer, loaded->plan, loaded->scene->camera, options);
-  const raytrace::TracerPlan ways = picture_ways(tracer, loaded->scene->camera, options);
-  const ShadowWays shadow = shadow_ways(tracer, *loaded, ways, options);
+  const raytrace::TracerPlan methods = picture_methods(tracer, loaded->scene->camera, options);
+  const ShadowMethods shadow = shadow_methods(tracer, *loaded, methods, options);
   console.clear_progress();
   const nlohmann::ordered_json instances = instances_json(*loaded, command.scene.instances);
   const std::vector<BandPlan> bands = band_plans(command, *loaded);

@@ -72,7 +72,7 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   const auto drawn_lights = choose_lights(*loaded->scene, "");  // --light chooses records alone
   if (!drawn_lights) return fail(drawn_lights.error());
   for (const std::string& note :
-       idle_options(command.given, command.options.map, *loaded->scene, *drawn_lights))
+       options_without_effect(command.given, command.options.map, *loaded->scene, *drawn_lights))
     console.note(note);
   const auto renderer = make_renderer(command.backend, *loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());

@@ -78,8 +78,8 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   if (!lights) return fail(lights.error());
   const auto posed = apply_poses(command.poses, command.light, *loaded);
   if (!posed) return fail(posed.error());
-  for (const std::string& note :
-       command.heatmap ? idle_in_heatmap(command.given) : idle_options(command.given, loaded->plan))
+  for (const std::string& note : command.heatmap ? heatmap_options_without_effect(command.given)
+                                                 : options_without_effect(command.given, loaded->plan))
     console.note(note);
   if (command.options.terminator_offset && !loaded->world->has_normals())
     console.note("--terminator-offset has no effect: no mesh has normals of its own");

@@ -60,15 +60,15 @@ Expected<RunFiles> check_files(ShimmerCommand& command) {
 
 struct Filmed {
   compare::Shimmer shimmer;
-  std::optional<compare::FilmKeeper> pictures;  ///< where a folder is asked for
+  std::optional<compare::FilmRecorder> pictures;  ///< where a folder is asked for
 };
 
 Expected<Filmed> make_film(const ShimmerCommand& command, const LoadedScene& loaded, Console& console) {
   const auto lights = choose_lights(*loaded.scene, command.setting.light);
   if (!lights) return fail(lights.error());
-  for (const std::string& note : idle_options(command.given, loaded.plan)) console.note(note);
+  for (const std::string& note : options_without_effect(command.given, loaded.plan)) console.note(note);
   for (const std::string& note :
-       idle_options(command.given, command.setting.options.raster.map, *loaded.scene, *lights))
+       options_without_effect(command.given, command.setting.options.raster.map, *loaded.scene, *lights))
     console.note(note);
   auto plan = resolve_film(command.film, loaded.paths, *loaded.scene, console);
   if (!plan) return fail(plan.error());

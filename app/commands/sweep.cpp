@@ -50,7 +50,7 @@ std::vector<raster::Bias> bias_axis(const compare::Grid& grid) {
 
 /// The ray tracer's own points, made by the first shard.
 Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan, const LoadedScene& loaded,
-                                  LightKeeper& keeper, Console& console) {
+                                  LightSelection& selection, Console& console) {
   if (!command.ray_tracer || command.shard.part != 1) return {};
   const auto measured = is_there(compare::ray_points_path(command.folder), ErrorKind::cannot_write);
   if (!measured) return fail(measured.error());
@@ -62,7 +62,7 @@ Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan,
   options->options.raytrace.seed = command.seed;
   Scene given;
   given.camera = loaded.scene->camera;
-  given.lights = keeper.kept(named_lights(options->light), options->poses);
+  given.lights = selection.kept(named_lights(options->light), options->poses);
   const auto setting = resolve_setting(*options, given, *loaded.world);
   if (!setting) return fail(setting.error());
   const Camera given_camera = std::exchange(loaded.scene->camera, setting->camera);
@@ -88,8 +88,8 @@ Expected<void> check_same_drawer(const compare::Journal& journal, const raster::
                           before, now));
 }
 
-Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& loaded, LightKeeper& keeper,
-                    compare::Journal& journal, Console& console) {
+Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& loaded,
+                    LightSelection& selection, compare::Journal& journal, Console& console) {
   const auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   if (const auto same = check_same_drawer(journal, (*renderer)->info()); !same) return same;
@@ -99,12 +99,13 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
     if (!film) return fail(film.error());
     engine.film_with(*film);
   }
-  Workshop shop{command, plan, loaded, keeper, {}, machine_info(), engine, {command.folder, engine}, console};
-  shop.given.camera = loaded.scene->camera;
-  shop.given.lights = loaded.scene->lights;
-  if (auto made = shop.pictures.make_folders(); !made) return made;
+  SweepRun run{command, plan, loaded, selection, {}, machine_info(), engine, {command.folder, engine},
+               console};
+  run.given.camera = loaded.scene->camera;
+  run.given.lights = loaded.scene->lights;
+  if (auto made = run.pictures.make_folders(); !made) return made;
   if (auto biases = bias_axis(plan.grid); !biases.empty()) engine.expect_biases(std::move(biases));
-  if (auto made = make_cells(shop, journal); !made) return made;
+  if (auto made = make_cells(run, journal); !made) return made;
   const compare::EngineWork& work = engine.work();
   console.message(fmt::format("{} cell{} drawn{}; ray traced {}", work.renders, work.renders == 1 ? "" : "s",
                               work.derived > 0
@@ -176,10 +177,10 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   command.replaced_shaders = shaders->replaced();
   auto loaded = load(command.scene, files, console, 0, command.camera, command.metric.is_filmed());
   if (!loaded) return fail(loaded.error());
-  LightKeeper keeper(*loaded, command.max_lights);
-  if (const auto named = command.options.values_given("light"); keeper.leaves_out(named)) {
-    console.note(keeper.note(named));
-    loaded->scene->notes.push_back(keeper.note(named));  // for the page and the JSON
+  LightSelection selection(*loaded, command.max_lights);
+  if (const auto named = command.options.values_given("light"); selection.leaves_out(named)) {
+    console.note(selection.note(named));
+    loaded->scene->notes.push_back(selection.note(named));  // for the page and the JSON
   }
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   if (command.restart) {
@@ -193,10 +194,10 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   if (!journal->lines().empty())
     console.message(fmt::format("{} of {} cell{} there already", journal->lines().size(), plan->cells.size(),
                                 plan->cells.size() == 1 ? " is" : "s are"));
-  if (auto measured = measure_ray_tracer(command, *plan, *loaded, keeper, console); !measured)
+  if (auto measured = measure_ray_tracer(command, *plan, *loaded, selection, console); !measured)
     return fail(measured.error());
   if (journal->lines().size() < plan->cells.size()) {
-    if (auto filled = fill(command, *plan, *loaded, keeper, *journal, console); !filled)
+    if (auto filled = fill(command, *plan, *loaded, selection, *journal, console); !filled)
       return fail(filled.error());
   }
   const auto written = [&command] {

@@ -99,7 +99,7 @@ bool takes_list(const CLI::Option& option) {
   return option.get_type_name().find(',') != std::string::npos;
 }
 
-/// Of all commands: "compare --technique"|"raster --technique") values="hard pcf" ;;
+/// Makes bash's cases of all commands: "compare --technique"|"raster --technique") values="hard pcf" ;;
 std::string bash_values(const CLI::App& program) {
   std::map<std::string, std::string> patterns;  // by what is offered
   std::vector<const CLI::App*> takers = commands_of(program);

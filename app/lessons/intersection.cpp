@@ -49,7 +49,7 @@ Expected<Scene> scene_of(const std::string& kind) {
   return scene;
 }
 
-/// As a slider of the figures holds it.
+/// Rounds a value to what a figure's slider holds.
 double on_slider(double value) {
   return std::round(200.0 * value) / 200.0;
 }

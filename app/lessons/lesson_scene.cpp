@@ -100,7 +100,7 @@ std::string technique_of_scene(const std::string& path_or_name) {
   return usual_technique();
 }
 
-/// Of settings for the technique that is asked for where it matters: a scene's takes a look at its file.
+/// Looks for settings only where they matter for the technique that is asked for: a scene's need a look at its file.
 template <class Technique>
 SettingsUse use_of_settings(const CLI::App& command, const Technique& technique) {
   if (command.get_option_no_throw("--bias") == nullptr) return SettingsUse::none;

@@ -17,7 +17,7 @@ namespace gnomon::app {
 std::string scene_of_lesson(const std::string& path_or_name);
 /// What to tell a user who named a lesson; empty for any other text.
 std::string lesson_note(const std::string& path_or_name);
-/// Of a parsed command.
+/// Tells what a parsed command does with the settings of a scene.
 SettingsUse use_of_settings(const CLI::App& command);
 /// What becomes of the settings of a lesson or a scene file; empty where there are none.
 std::string settings_note(const SceneArgument& scene);

@@ -19,7 +19,7 @@ bool holds(std::span<const std::string> given, std::string_view option) {
   return std::find(given.begin(), given.end(), option) != given.end();
 }
 
-std::string idle(std::string_view option, std::string_view reason) {
+std::string without_effect(std::string_view option, std::string_view reason) {
   return fmt::format("--{} has no effect: {}", option, reason);
 }
 
@@ -32,10 +32,11 @@ std::vector<std::string> given_options(const CLI::App& command) {
   return given;
 }
 
-std::vector<std::string> idle_options(std::span<const std::string> given, const EffectPlan& plan) {
+std::vector<std::string> options_without_effect(std::span<const std::string> given, const EffectPlan& plan) {
   std::vector<std::string> notes;
   const auto needs = [&](std::string_view option, Effect effect) {
-    if (holds(given, option) && !plan.simulates(effect)) notes.push_back(idle(option, plan[effect].reason));
+    if (holds(given, option) && !plan.simulates(effect))
+      notes.push_back(without_effect(option, plan[effect].reason));
   };
   needs("samples", Effect::soft_shadow);
   needs("glossy-samples", Effect::glossy);
@@ -43,12 +44,13 @@ std::vector<std::string> idle_options(std::span<const std::string> given, const 
   return notes;
 }
 
-std::vector<std::string> idle_options(std::span<const std::string> given, const raster::MapOptions& map,
-                                      const Scene& scene, std::span<const std::uint32_t> lights) {
+std::vector<std::string> options_without_effect(std::span<const std::string> given,
+                                                const raster::MapOptions& map, const Scene& scene,
+                                                std::span<const std::uint32_t> lights) {
   std::vector<std::string> notes;
   const auto all_idle = [&](std::initializer_list<const char*> options, std::string_view reason) {
     for (const char* option : options)
-      if (holds(given, option)) notes.push_back(idle(option, reason));
+      if (holds(given, option)) notes.push_back(without_effect(option, reason));
   };
   const auto any = [&](const auto& holds_for) {
     return std::any_of(lights.begin(), lights.end(),
@@ -64,17 +66,18 @@ std::vector<std::string> idle_options(std::span<const std::string> given, const 
   return notes;
 }
 
-std::vector<std::string> idle_without_page(std::span<const std::string> given) {
+std::vector<std::string> page_options_without_effect(std::span<const std::string> given) {
   if (!holds(given, "report-max-mb")) return {};
-  return {idle("report-max-mb", "no page is written")};
+  return {without_effect("report-max-mb", "no page is written")};
 }
 
-std::vector<std::string> idle_in_heatmap(std::span<const std::string> given) {
+std::vector<std::string> heatmap_options_without_effect(std::span<const std::string> given) {
   std::vector<std::string> notes;
   for (const char* option : {"aa", "exposure", "glossy-samples", "indirect-samples", "light", "max-lights",
                              "min-contribution", "samples", "seed"})
     if (holds(given, option))
-      notes.push_back(idle(option, "a heat map shows the work of one ray through each pixel's centre"));
+      notes.push_back(
+          without_effect(option, "a heat map shows the work of one ray through each pixel's centre"));
   return notes;
 }
 

@@ -22,19 +22,20 @@ namespace gnomon::app {
 std::vector<std::string> given_options(const CLI::App& command);
 
 /// One note for each given option that has no effect: "--samples has no effect: no light has a size".
-std::vector<std::string> idle_options(std::span<const std::string> given, const EffectPlan& plan);
+std::vector<std::string> options_without_effect(std::span<const std::string> given, const EffectPlan& plan);
 
-/// The same for what a map's options need: lights with a size, directional ones, several cascades.
-std::vector<std::string> idle_options(std::span<const std::string> given, const raster::MapOptions& map,
-                                      const Scene& scene, std::span<const std::uint32_t> lights);
+/// These notes are for options that need lights with a size, directional ones, or several cascades.
+std::vector<std::string> options_without_effect(std::span<const std::string> given,
+                                                const raster::MapOptions& map, const Scene& scene,
+                                                std::span<const std::uint32_t> lights);
 
-/// The same where no page is written.
-std::vector<std::string> idle_without_page(std::span<const std::string> given);
+/// These notes are for options of a page where no page is written.
+std::vector<std::string> page_options_without_effect(std::span<const std::string> given);
 
-/// The same for a heat map of primary rays in place of the picture.
-std::vector<std::string> idle_in_heatmap(std::span<const std::string> given);
+/// These notes are for options of a picture where a heat map of primary rays takes its place.
+std::vector<std::string> heatmap_options_without_effect(std::span<const std::string> given);
 
-// A map that follows the camera by less than whole texels draws its shadow edges anew at every step of the
+// A map that follows the camera by less than whole texels draws its shadow edges again at every step of the
 // camera: they swim.
 
 /// A note that names the lights whose map does so; empty where none does. Whether a map follows the camera is

@@ -26,7 +26,7 @@ void add_capture_options(CLI::App& app, CaptureOptions& options);
 /// An error of a capture that options alone make: of the option that gives the field, instead of a file's field.
 /// Errors of anything else are left as they are.
 Error named_by_option(Error error, const CaptureOptions& options);
-/// The same of one that lies in the options themselves: something is missing, or contradicts.
+/// Names the option of an error that lies in the options themselves: something is missing, or contradicts.
 Error usage_error(Error error, const CaptureOptions& options);
 
 /// The capture with the options' parts in place of its own: a part alone, such as one of the bias' numbers, leaves the

@@ -56,7 +56,7 @@ Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::strin
 /// Moves the scene's camera and turns its light.
 Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, Scene& scene,
                            const World& world);
-/// The same of a scene that is loaded, whose effects are planned anew: a light may have another size.
+/// Changes a scene that is loaded, and plans its effects again: a light may have another size.
 Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, LoadedScene& loaded);
 
 }  // namespace gnomon::app

@@ -68,7 +68,7 @@ LightPath usual_light_path(const Scene& scene) {
 }
 
 // The first name is the camera's where it moves; the last one the light's.
-Expected<void> take_names(const FilmOptions& film, compare::ShimmerPath& path) {
+Expected<void> apply_names(const FilmOptions& film, compare::ShimmerPath& path) {
   const Moves moves = film.moves.value_or(Moves::camera);
   const bool camera = moves != Moves::light, light = moves != Moves::camera;
   const auto& names = film.paths;
@@ -242,7 +242,7 @@ Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const std::vec
   const Moves moves = film.moves.value_or(Moves::camera);
   path.camera = moves != Moves::light ? CameraPath::orbit : CameraPath::still;
   path.light = moves != Moves::camera ? usual_light_path(scene) : LightPath::still;
-  if (const auto taken = take_names(film, path); !taken) return fail(taken.error());
+  if (const auto taken = apply_names(film, path); !taken) return fail(taken.error());
   if (const auto used = check_use(film, path); !used) return fail(used.error());
   if (const auto sound = check_path(path, scene); !sound) return fail(sound.error());
   return plan;

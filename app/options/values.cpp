@@ -37,7 +37,7 @@ Expected<compare::Threshold> parse_threshold(std::string_view text) {
   }
   const compare::Figure& measure = *out.measure;
   if (measure.unit != "share") {
-    if (measure.unit == "texels") take_texels(number);
+    if (measure.unit == "texels") consume_texels(number);
     const std::optional<double> value = whole_number(number);
     if (!value || !OptionRange{0.0, *whole_number(measure.measure.most)}.contains(*value))
       return wrong_value(

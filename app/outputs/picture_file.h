@@ -17,7 +17,7 @@ namespace gnomon::app {
 /// The picture's factor: what was asked for, else the scene's own, else auto_exposure of this picture.
 double choose_exposure(const std::optional<std::optional<double>>& asked, const Scene& scene,
                        const ColorImage& color);
-/// The same without a picture; nothing where it would have to be looked at.
+/// Tells the exposure without a picture; nothing where the picture would have to be looked at.
 std::optional<double> known_exposure(const std::optional<std::optional<double>>& asked, const Scene& scene);
 
 /// Every EXR holds R,G,B (linear radiance), object.V and primitive.V (-1 for background). With several

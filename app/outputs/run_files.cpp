@@ -104,7 +104,7 @@ tl::unexpected<Error> cannot_write(const fs::path& path, const std::string& reas
   return fail(Error{ErrorKind::cannot_write, "cannot write here: " + reason, path.string()});
 }
 
-/// Of a place where nothing is.
+/// Tells whether a path at which nothing is found is a link.
 bool leads_nowhere(const fs::path& path) {
   struct stat link = {};
   return lstat(path.c_str(), &link) == 0;

@@ -71,7 +71,7 @@ class RunFiles {
 /// The folder, or the nearest one above it that exists, takes files; the path itself is not something else.
 Expected<void> check_output_folder(const std::string& path);
 
-/// The same for a file. An empty path and "-" (stdout) are always fine.
+/// Checks that a file can be written. An empty path and "-" (stdout) are always fine.
 Expected<void> check_output_file(const std::string& path);
 
 /// ErrorKind::usage when the path has none of the extensions (".png .exr"); `option` is named in the message.

@@ -40,7 +40,7 @@ TemporaryFolders& temporary_folders() {
   return folders;
 }
 
-/// As far as that works: nobody is left to be told.
+/// Removes what it can: nobody is left to be told of the rest.
 void remove_folder(const std::string& path) {
   if (!path.empty()) (void)remove_all_of(path);
 }

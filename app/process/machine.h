@@ -65,13 +65,13 @@ struct PictureBytes {
   double of(const ImageSize& size, int rows) const;
 };
 
-/// Of the two renderers' pictures, measured from 320x180 to 2560x1440 with one light. What the rasterizer's camera
-/// sees and a PNG on its way to its file are whole.
+/// These are what the two renderers' pictures take, measured from 320x180 to 2560x1440 with one light. What the rasterizer's
+/// camera sees and a PNG on its way to its file are whole.
 inline constexpr PictureBytes raster_png{.piece = 42.0, .whole = 18.0, .band = 34.0},
     raster_exr{.piece = 178.0, .whole = 8.0, .band = 170.0},
     raytrace_png{.piece = 109.0, .whole = 10.0, .band = 109.0},
     raytrace_exr{.piece = 216.0, .whole = 0.0, .band = 216.0};
-/// Of a comparison of those lights; `page`: with the images of its report page.
+/// Tells what a comparison of those lights takes; `page`: with the images of its report page.
 PictureBytes compare_bytes(const Scene& scene, const std::vector<std::uint32_t>& lights,
                            const ImageSize& size, bool page);
 

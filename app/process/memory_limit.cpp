@@ -26,7 +26,8 @@ std::string text_of_bytes(double bytes) {
                      : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
-/// As --memory takes it, rounded up: in the largest unit of which it has ten, so that it is at most a tenth more.
+/// Writes a number of bytes for --memory, rounded up in the largest unit of which it has ten, so that it is at most a tenth
+/// more.
 std::string option_text(double bytes) {
   double value = std::ceil(bytes / 1024.0);
   std::string_view units = "KMGT";

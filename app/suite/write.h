@@ -31,7 +31,7 @@ struct SuiteMask {
   std::vector<float> lit;
   std::vector<float> asked;  ///< 0: background, beyond the light's reach, or a tie
 };
-/// Of a scene with one light without size, by exact arithmetic.
+/// Draws the mask of a scene with one light without size, by exact arithmetic.
 SuiteMask suite_mask(const Scene& scene, ImageSize size);
 
 /// Writes FOLDER/NAME.glb, FOLDER/NAME.exr (channels V = lit, A = asked) of every scene, and FOLDER/README.md.

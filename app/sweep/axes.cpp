@@ -213,13 +213,14 @@ Values SweepOptions::cell_values(const compare::Grid& grid, std::size_t cell) co
   return values;
 }
 
-std::vector<std::string> SweepOptions::idle_axes(const compare::Grid& grid, std::size_t cell) const {
+std::vector<std::string> SweepOptions::axes_without_effect(const compare::Grid& grid,
+                                                           std::size_t cell) const {
   const Values read = values_read(cell_values(grid, cell));
-  std::vector<std::string> idle;
+  std::vector<std::string> without_effect;
   for (const compare::Axis& axis : grid.axes())
     if (std::none_of(read.begin(), read.end(), [&](const auto& entry) { return entry.first == axis.name; }))
-      idle.push_back(axis.name);
-  return idle;
+      without_effect.push_back(axis.name);
+  return without_effect;
 }
 
 Expected<SettingOptions> SweepOptions::parse_cell(const compare::Grid& grid, std::size_t cell) const {

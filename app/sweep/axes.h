@@ -42,7 +42,7 @@ class SweepOptions {
   /// The setting with the grid's values of one cell.
   Expected<SettingOptions> parse_cell(const compare::Grid& grid, std::size_t cell) const;
   /// The axes that have no effect on a cell: its technique does not read them.
-  std::vector<std::string> idle_axes(const compare::Grid& grid, std::size_t cell) const;
+  std::vector<std::string> axes_without_effect(const compare::Grid& grid, std::size_t cell) const;
   /// " --map-size 512 --bias 0.01": what compare would be given for that cell, without what has no effect.
   std::string cell_arguments(const compare::Grid& grid, std::size_t cell) const;
 
@@ -67,7 +67,7 @@ Expected<SettingOptions> parse_setting(const std::vector<std::pair<std::string, 
 /// The values that the technique among them reads.
 std::vector<std::pair<std::string, std::string>> values_read(
     const std::vector<std::pair<std::string, std::string>>& values);
-/// The same as arguments, quoted for a shell, with a blank before each.
+/// Writes the values as arguments, quoted for a shell, with a blank before each.
 std::string setting_arguments(const std::vector<std::pair<std::string, std::string>>& values);
 
 }  // namespace gnomon::app

@@ -32,7 +32,7 @@ struct Plan {
 /// Names and values of a cell.
 compare::AxisValues axis_values(const compare::Grid& grid, std::size_t cell);
 
-/// The same names, of the axes that have no effect on a cell.
+/// Returns the JSON names of the axes that have no effect on a cell.
 std::vector<std::string> json_names(std::vector<std::string> axes);
 
 Plan make_plan(compare::Grid grid, compare::Shard shard);
@@ -53,7 +53,7 @@ struct SweepCommand : RunOptions {
   bool zip = false, perceptual = false, ray_tracer = false, restart = false, quiet = false;
 };
 
-/// Everything that the journal's lines hang on, as JSON.
+/// Everything that the journal's lines depend on, as JSON.
 std::string configuration(const SweepCommand& command, const Plan& plan, const Scene& scene);
 
 /// How often each pass of a cell is timed: three times where nothing else is asked for, since cells are ranked; of rays no
@@ -63,7 +63,7 @@ void set_runs(const SweepCommand& command, compare::CompareOptions& options);
 /// A cell alone: gnomon compare SCENE …, or gnomon shimmer SCENE … where its errors are flips.
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell);
 
-/// The same sweep for a task of a job array, without its folder and shard.
+/// Writes the arguments of the sweep for a task of a job array, without its folder and shard.
 std::string task_arguments(const SweepCommand& command);
 
 // A sweep as a Slurm job array: one shard per task, all in one folder that the nodes share.

@@ -31,41 +31,41 @@ struct MadeCell {
 };
 
 /// The lights that `compare` would keep for the cell, and the film of these.
-Expected<void> take_lights(Workshop& shop, const SettingOptions& options) {
-  std::vector<Light> lights = shop.keeper.kept(named_lights(options.light), options.poses);
-  if (lights == shop.given.lights) return {};
-  shop.given.lights = std::move(lights);
-  if (!shop.command.metric.is_filmed()) return {};
+Expected<void> apply_lights(SweepRun& run, const SettingOptions& options) {
+  std::vector<Light> lights = run.selection.kept(named_lights(options.light), options.poses);
+  if (lights == run.given.lights) return {};
+  run.given.lights = std::move(lights);
+  if (!run.command.metric.is_filmed()) return {};
   Console quiet(true);  // its notes were there before the first cell
-  const auto film = resolve_film(shop.command.metric.film, shop.loaded.paths, shop.given, quiet);
+  const auto film = resolve_film(run.command.metric.film, run.loaded.paths, run.given, quiet);
   if (!film) return fail(film.error());
-  shop.engine.film_with(*film);
+  run.engine.film_with(*film);
   return {};
 }
 
-Expected<MadeCell> make_cell(Workshop& shop, std::size_t index) {
+Expected<MadeCell> make_cell(SweepRun& run, std::size_t index) {
   const Stopwatch watch;
-  const std::size_t cell = shop.plan.cells[index];
-  auto options = shop.command.options.parse_cell(shop.plan.grid, cell);
+  const std::size_t cell = run.plan.cells[index];
+  auto options = run.command.options.parse_cell(run.plan.grid, cell);
   if (!options) return fail(options.error());
-  set_runs(shop.command, options->options);
-  options->options.raytrace.seed = shop.command.seed;
+  set_runs(run.command, options->options);
+  options->options.raytrace.seed = run.command.seed;
   options->options.raster.shadow_cost = true;
-  if (const auto taken = take_lights(shop, *options); !taken) return fail(taken.error());
-  auto setting = resolve_setting(*options, shop.given, *shop.loaded.world);
+  if (const auto taken = apply_lights(run, *options); !taken) return fail(taken.error());
+  auto setting = resolve_setting(*options, run.given, *run.loaded.world);
   if (!setting) return fail(setting.error());
-  const auto compared = shop.engine.compare(*setting, compare::Detail::numbers);
+  const auto compared = run.engine.compare(*setting, compare::Detail::numbers);
   if (!compared) return fail(compared.error());
   compare::Comparison& comparison = **compared;
-  comparison.command = compare_command(shop.command, shop.plan, cell);
-  comparison.seed = shop.command.seed;
-  comparison.machine = shop.machine;
+  comparison.command = compare_command(run.command, run.plan, cell);
+  comparison.seed = run.command.seed;
+  comparison.machine = run.machine;
   MadeCell made;
-  const auto idle = json_names(shop.command.options.idle_axes(shop.plan.grid, cell));
-  made.line = compare::result_line(comparison, axis_values(shop.plan.grid, cell), idle);
-  made.times = compare::times_line(comparison, cell, shop.engine.last_was_derived(), watch.elapsed_ms());
-  if (compare::has_thumbnail(cell, shop.plan.grid.cells()))
-    made.pictures = shop.pictures.pictures(cell, comparison);
+  const auto without_effect = json_names(run.command.options.axes_without_effect(run.plan.grid, cell));
+  made.line = compare::result_line(comparison, axis_values(run.plan.grid, cell), without_effect);
+  made.times = compare::times_line(comparison, cell, run.engine.last_was_derived(), watch.elapsed_ms());
+  if (compare::has_thumbnail(cell, run.plan.grid.cells()))
+    made.pictures = run.pictures.pictures(cell, comparison);
   return made;
 }
 
@@ -111,15 +111,15 @@ class CellQueue {
 
 }  // namespace
 
-Expected<void> make_cells(Workshop& shop, compare::Journal& journal) {
+Expected<void> make_cells(SweepRun& run, compare::Journal& journal) {
   const Stopwatch watch;
-  const std::size_t all = shop.plan.cells.size(), before = journal.lines().size();
+  const std::size_t all = run.plan.cells.size(), before = journal.lines().size();
   CellQueue queue(journal);
   for (std::size_t i = before; i < all; ++i) {
-    shop.console.progress(
+    run.console.progress(
         fmt::format("cell {} of {}{}", i + 1, all, time_left(watch.elapsed_ms(), i - before, all - i)),
         double(i) / double(all));
-    auto made = make_cell(shop, i);
+    auto made = make_cell(run, i);
     if (!made) {
       if (auto finished = queue.finish(0); !finished) return finished;
       return fail(made.error());

@@ -43,11 +43,11 @@ class CellPictureWriter {
 };
 
 /// What stays the same for all cells.
-struct Workshop {
+struct SweepRun {
   const SweepCommand& command;
   const Plan& plan;
   const LoadedScene& loaded;
-  LightKeeper& keeper;
+  LightSelection& selection;
   Scene given;  ///< camera and lights as loaded, less those that the last cell left out
   compare::MachineInfo machine;
   compare::Engine& engine;
@@ -56,6 +56,6 @@ struct Workshop {
 };
 
 /// All cells that the journal does not have yet.
-Expected<void> make_cells(Workshop& shop, compare::Journal& journal);
+Expected<void> make_cells(SweepRun& run, compare::Journal& journal);
 
 }  // namespace gnomon::app

@@ -28,7 +28,7 @@ struct TuneQuestion {
   raster::Backend backend = raster::Backend::automatic;
 };
 
-/// Of a family what meets the goal, or what comes nearest to it.
+/// Returns what a family has that meets the goal, or what comes nearest to it.
 inline const compare::Attempt& attempt_of(const compare::FamilyResult& family) {
   return family.answer ? *family.answer : family.closest;
 }

@@ -18,7 +18,7 @@ struct LabFilm {
   double seconds = 0.0;  ///< > 0
 };
 
-/// `first`: the scene's own camera and lights. Paths that a pose cannot follow are left out: those that aim a spot anew.
+/// `first`: the scene's own camera and lights. Paths that a pose cannot follow are left out: those that aim a spot again.
 std::vector<LabFilm> films_of(const compare::Pose& first, const Vec3& centre,
                               const std::vector<KeyedPath>& own_paths);
 

@@ -55,7 +55,7 @@ ImGuiKey interface_key(int key) {
 }
 #endif
 
-/// As the backend does it when a key goes down or up.
+/// Does what the backend does when a key goes down or up.
 void hold_key(const Key& key, bool down) {
   ImGuiIO& io = ImGui::GetIO();
 #if IMGUI_VERSION_NUM >= 18700

@@ -26,7 +26,7 @@ glm::u8vec3 rounded(const Vec3f& colour) {
   return glm::u8vec3(glm::clamp(colour, 0.0f, 255.0f) + 0.5f);
 }
 
-/// Of the faces or cascades (Okabe & Ito 2008).
+/// These colours tell faces or cascades apart (Okabe & Ito 2008).
 constexpr std::array<Vec3f, 6> tints{Vec3f{0xe6, 0x9f, 0x00}, Vec3f{0x56, 0xb4, 0xe9},
                                      Vec3f{0x00, 0x9e, 0x73}, Vec3f{0xf0, 0xe4, 0x42},
                                      Vec3f{0xcc, 0x79, 0xa7}, Vec3f{0xd5, 0x5e, 0x00}};

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double least_depth = 1e-3;  // of the distance to the target: what is nearer is behind the eye
 
-/// As wide as it is high: what lies beside it has coordinates beyond -1 and 1.
+/// Returns a view that is as wide as it is high: what lies beside it has coordinates beyond -1 and 1.
 View square_view(const Camera& camera) {
   return make_view(camera, {1, 1});
 }

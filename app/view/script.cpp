@@ -105,7 +105,7 @@ Expected<Step> parse_key(const Words& words) {
   return Step{PressKey{*key}};
 }
 
-/// Of two words of a line.
+/// Reads a place from two words of a line.
 Expected<Vec2> parse_place(const Words& words, std::size_t first) {
   const Expected<double> x = parse_number(words[first], pixel_range);
   const Expected<double> y = parse_number(words[first + 1], pixel_range);

@@ -97,7 +97,7 @@ struct ScriptKey {
   std::string_view name;
   std::size_t values;
   std::string_view usage;
-  /// As many values as are wanted. Error (usage): not such a value.
+  /// Reads as many values as are wanted. Error (usage): they are no such values.
   Expected<Change> (*read)(const std::vector<std::string>& values);
 };
 

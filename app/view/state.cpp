@@ -82,7 +82,7 @@ struct SetupChange {
     const double own = camera_pose(s.given.camera).distance;
     move_camera(tidy(std::clamp(current_camera(s).distance * c.factor, own / max_zoom, own * max_zoom)));
   }
-  /// Of an orthographic picture, which distance does not change.
+  /// Changes the height of an orthographic picture, which distance does not change.
   void zoom_height(double factor) const {
     const CameraPose first = s.initial.camera.value_or(camera_pose(s.given.camera));
     const double now = posed_camera(s).orthographic_height;

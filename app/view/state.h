@@ -125,7 +125,7 @@ struct Resize {
   ImageSize size;
 };
 struct Reset {};
-/// Of the camera's target, across the view: shares of the picture's height.
+/// Moves the camera's target across the view by shares of the picture's height.
 struct PanBy {
   double right, up;
 };
@@ -209,7 +209,7 @@ struct ZoomPictureTo {
 struct MovePicture {
   double x, y;
 };
-/// The same by shares of what is seen of it.
+/// Moves the picture by shares of what is seen of it.
 struct StepPicture {
   double x, y;
 };

@@ -129,7 +129,7 @@ std::string size_text(const ImageSize& size) {
   return fmt::format("{}x{}", size.width, size.height);
 }
 
-/// As wide for its height, and no more pixels than `most`.
+/// Returns a size of the same shape that has at most `most` pixels.
 ImageSize with_at_most(const ImageSize& size, double most) {
   const double scale = std::min(1.0, std::sqrt(most / static_cast<double>(size.pixels())));
   const auto scaled = [&](int n) { return std::max(1, static_cast<int>(std::lround(scale * n))); };

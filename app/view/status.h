@@ -33,7 +33,7 @@ std::string status_line(const ViewState& state, const Readings& readings, const 
 /// "gnomon compare SCENE --size ... ": what differs from the defaults and, always, size, map size and bias.
 /// `scene`: SceneArgument::words().
 std::string compare_command(const ViewState& state, const ViewOptions& options, const std::string& scene);
-/// The same without "gnomon compare SCENE", each word by itself and not quoted.
+/// Returns the words of the setting without "gnomon compare SCENE", each by itself and not quoted.
 std::vector<std::string> setting_words(const ViewState& state, const ViewOptions& options);
 
 /// The tuner draws no more pixels than these: its answer hardly depends on them, its time does.

@@ -82,12 +82,12 @@ void Studio::encode_live() {
 }
 
 Expected<void> Studio::compare(const DrawOrder& order) {
-  const Expected<void> taken = take_outcome();
+  const Expected<void> taken = receive_outcome();
   const Expected<void> started = start_next(order);
   return taken ? started : taken;
 }
 
-Expected<void> Studio::take_outcome() {
+Expected<void> Studio::receive_outcome() {
   std::optional<Expected<ComparisonOutcome>> taken = worker_.take();
   if (!taken) return {};
   if (!*taken) return fail(taken->error());

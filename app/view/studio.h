@@ -58,7 +58,7 @@ class Studio {
   Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const LoadedScene> loaded,
          const compare::CompareOptions& options, std::function<void()> on_finished);
   Expected<raster::RasterFrame> render(const Setup& setup, ImageSize size, bool analysis, int runs);
-  Expected<void> take_outcome();
+  Expected<void> receive_outcome();
   Expected<void> start_next(const DrawOrder& order);
   EffectPlan plan_of(const Setup& setup) const;
   void encode_live();

@@ -15,7 +15,7 @@ constexpr std::array fonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                            "/usr/share/fonts/TTF/DejaVuSans.ttf",
                            "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
 // Latin with accents, Greek, dashes and quotes, superscripts, arrows, a few mathematical signs, check marks: no more
-// than is shown, for a font is made anew at every scale.
+// than is shown, for a font is made again at every scale.
 constexpr std::array<ImWchar, 17> glyphs{0x0020, 0x017f, 0x0391, 0x03c9, 0x2010, 0x2027,
                                          0x2070, 0x2079, 0x2190, 0x2193, 0x2212, 0x2212,
                                          0x2248, 0x2265, 0x2713, 0x2717, 0};

@@ -200,7 +200,7 @@ Expected<void> Viewer::take_snapshot() {
   if (const auto& failed = shown_->undrawable; failed && failed->revision == state_.revision) {
     if (has_script() || !drawable_) return fail(located(failed->error, changed_line_));
     note(failed->error);
-    take_back();
+    undo_change();
   }
   if (const auto& failed = shown_->incomparable; failed && failed->revision == state_.revision) {
     if (has_script()) return fail(located(failed->error, changed_line_));
@@ -229,7 +229,7 @@ void Viewer::show_scene(const OpenedScene& scene) {
   ++state_.revision;
 }
 
-void Viewer::take_back() {
+void Viewer::undo_change() {
   const ImageSize size = state_.setup.size;
   state_.setup = *drawable_;
   state_.setup.size = size;

@@ -57,7 +57,7 @@ class Viewer {
   void follow_layout();
   Expected<void> take_snapshot();
   void show_scene(const OpenedScene& scene);
-  void take_back();
+  void undo_change();
   void play_film();
   void post_changes();
   Expected<void> draw_frame();

@@ -95,7 +95,7 @@ void Viewer::save_numbered_screenshot() {
                 [image = std::move(*picture)](const std::string& path) { return save_image(image, path); });
 }
 
-/// As many pixels as it was made with, whatever stands around it.
+/// Saves the picture with as many pixels as it was made with, whatever stands around it.
 void Viewer::save_picture() {
   const Rgb8Image* image = picture(state_.picture);
   if (image == nullptr) return;

@@ -46,7 +46,7 @@ class Window {
   void set_title(const std::string& title);
   void copy(const std::string& text);  ///< to the clipboard
   std::string clipboard() const;       ///< its text
-  /// As if the file were let fall on the window.
+  /// Does what happens when a file is let fall on the window.
   void drop(const std::string& path) const;
   /// Asks for a size; the display may grant it later, or another.
   void ask_for_size(ImageSize size);

@@ -129,7 +129,7 @@ bool biases_follow_from_gaps(const raster::MapOptions& map) {
 }
 
 bool biases_follow_from_gaps(const raster::RasterFrame& drawn) {
-  return !drawn.custom_shader && !lacks_map(drawn) && biases_follow_from_gaps(drawn.options.map);
+  return !drawn.custom_shader && drawn.has_known_map() && biases_follow_from_gaps(drawn.options.map);
 }
 
 raster::Bias with_constant(const raster::MapOptions& map, double constant_world, double texel_world) {

@@ -16,7 +16,7 @@ struct GapLists {
   std::uint64_t lit_left_out = 0;  ///< lit pixels whose gap is not above 0, where they are not in the list
   std::uint64_t ties = 0;          ///< pixels of which half the light is seen
   std::uint64_t count() const { return lit_left_out + lit.size() + shadowed.size() + ties; }
-  /// Of all, where so many of the lists are wrong; ties count half.
+  /// Returns the share of wrong pixels where so many of the lists are wrong; ties count one half.
   double wrong_fraction(std::uint64_t wrong) const;
 
   /// Exact counts at a constant bias (rounded to float, as the shader has it).
@@ -43,7 +43,8 @@ std::vector<BiasCurvePoint> draw_bias_curve(const GapLists& gaps, double texel_w
 /// A frame drawn with these options shadows a pixel iff its gap exceeds the constant bias: every other
 /// constant bias follows from it.
 bool biases_follow_from_gaps(const raster::MapOptions& map);
-/// The same of what was drawn: false as well where a shader of the user's own decided, or a map that is not known.
+/// Tells whether the biases of what was drawn follow from gaps: not where a shader of the user's own decided, or a map that
+/// is not known.
 bool biases_follow_from_gaps(const raster::RasterFrame& drawn);
 
 /// The map's bias with another constant, in the unit that draws it: texels of `texel_world` where the

@@ -63,7 +63,7 @@ KindGaps gaps_of_kinds(const LadderInput& in, const raster::Bias& bias,
   return gaps;
 }
 
-/// Of `slope` the slopes from which on a pixel is lit beside a constant: its gap less that, over what a slope of 1
+/// Sets `slope` to the slopes from which on a pixel is lit beside a constant: its gap less that, over what a slope of 1
 /// takes off.
 void make_slopes(KindGaps& gaps, double constant) {
   for (std::size_t i = 0; i < gaps[plain].size(); ++i) {

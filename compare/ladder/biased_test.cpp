@@ -17,7 +17,8 @@ double plane_depth(const LightView& view, int face, double u, double v, const Ve
 
 namespace {
 
-/// Of a map whose texels are all alike: the plane's depth changes by the same from each texel to the next.
+/// Returns the plane's slope over a map whose texels are all alike: its depth changes by the same from each texel to the
+/// next.
 double even_depth_slope(const LightView& view, const LightFace& face, const Vec3& normal) {
   const double facing = -glm::dot(normal, face.forward);
   if (!(facing > 0.0)) return infinity;
@@ -65,7 +66,7 @@ std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, con
 
 namespace {
 
-/// As another renderer tests its own map: a difference of stored numbers.
+/// Returns the gap as another renderer tests its own map: a difference of stored numbers.
 double captured_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
                     const BiasedLookup& lookup, double caster_depth) {
   const LightView& view = record.map.view;

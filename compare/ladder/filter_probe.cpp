@@ -110,7 +110,7 @@ class TrueTexels {
   }
 
  private:
-  /// Of the first thing that the ray through a texel's centre meets.
+  /// Returns the depth of the first thing that the ray through a texel's centre meets.
   double depth_on(const Ray& ray, int column, int row) const {
     const LightView& view = in_.record().map.view;
     if (std::min(column, row) >= 0 && std::max(column, row) < view.size) {
@@ -196,7 +196,7 @@ namespace {
 using raster::FilterKernel;
 using raster::Technique;
 
-/// Of a filter what is neither its kind nor how it takes the receiver's depth.
+/// Tells whether a filter's setting is neither its kind nor how it takes the receiver's depth.
 bool is_parameter(const raster::MapSetting& setting) {
   return setting.group == raster::SettingGroup::filter && setting.name != "filter-kernel" &&
          setting.name != "filter-plane";

@@ -52,11 +52,11 @@ bool has_filter(const LadderInput& in) {
   return filter_kind(in.drawn.options.map) != "none";
 }
 
-/// Of a technique without a filter V5 and V6 differ by rounding, or where cascades are mixed.
+/// Returns the label where the technique has no filter: V5 and V6 differ by rounding, or where cascades are mixed.
 Label unfiltered_label(const LadderInput& in) {
   const raster::MapOptions& map = in.drawn.options.map;
   const bool mixes = map.technique == raster::Technique::csm && map.cascades.blend > 0.0;
-  return mixes ? Label::blur : Label::precision;
+  return mixes ? Label::blur : Label::stored_depth;
 }
 
 // Light where nothing within the filter's reach is lit has leaked; near an edge it is the edge's blur.
@@ -77,7 +77,7 @@ Label own_fault_of_filter(const LadderInput& in, const WrongPixel& off) {
 template <class OfFilter>
 Label label_by_step(const LadderInput& in, Column& column, const WrongPixel& wrong,
                     const OfFilter& of_filter) {
-  if (wrong.exact_is_right) return Label::precision;
+  if (wrong.exact_is_right) return Label::stored_depth;
   switch (wrong.step) {
     case Cause::light_size:
       return Label::light_size;
@@ -86,7 +86,7 @@ Label label_by_step(const LadderInput& in, Column& column, const WrongPixel& wro
     case Cause::slope:
       return wrong.false_shadow ? Label::acne : Label::light_leak;
     case Cause::precision:
-      return Label::precision;
+      return Label::stored_depth;
     case Cause::bias:
       return bias_label(in, column, wrong);
     case Cause::filter:
@@ -104,7 +104,8 @@ bool filter_is_to_blame(const LowerClimb& lower, const LadderInput& in, const Wr
   return (off.false_shadow ? -average : average) > 0.5 * double{std::abs(error)};
 }
 
-/// Of an error of one half and less. A filter's own doing comes first: the one texel of V2 to V5 is one of many then.
+/// Returns the label of an error of one half and less. A filter's own doing comes first: the one texel of V2 to V5 is one of
+/// many then.
 Label label_of_small_error(const LowerClimb& lower, const LadderInput& in, Column& column,
                            const WrongPixel& off, const std::array<float, rung_count>& rungs) {
   const bool softens = raster::traits_of(in.drawn.options.map.technique).soft;

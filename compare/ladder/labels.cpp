@@ -242,7 +242,7 @@ constexpr std::array<StepText, cause_count + 1> steps{{
     {"light_size", "light size", "the light shrinks to a point", Label::light_size},
     {"sampling", "sampling", "one ray per texel instead of one per pixel", Label::aliasing},
     {"slope", "slope", "one depth for the whole texel", Label::acne},
-    {"precision", "precision", "the depth as stored in the map", Label::precision},
+    {"precision", "precision", "the depth as stored in the map", Label::stored_depth},
     {"bias", "bias", "the depth test with its bias", Label::peter_panning},
     {"filter", "filter", "the technique's filter", Label::blur},
     {"caster", "caster", "casters that the map does not hold where the scene has them",

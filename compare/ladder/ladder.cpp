@@ -234,7 +234,7 @@ Climb climb_without_map(const LadderInput& in, Climb out) {
   const std::size_t first_drawn = sized ? 1 : 4;
   const Label label = in.drawn.custom_shader ? Label::custom_shader
                       : sized                ? Label::light_size
-                                             : Label::precision;
+                                             : Label::stored_depth;
   for (std::size_t i = 0; i < out.labels.data.size(); ++i) {
     if (!is_compared(climbed.data[i])) continue;
     for (std::size_t k = 0; k < rung_count; ++k)
@@ -289,7 +289,7 @@ Climb climb_up(const LowerClimb& lower, const LadderInput& in) {
 }
 
 Climb climb(const LadderInput& in, Image<Label> sorted) {
-  if (raster::lacks_map(in.record())) {
+  if (!in.record().has_known_map()) {
     Climb start{{}, std::move(sorted)};
     for (Image<float>& rung : start.rungs) rung = Image<float>(start.labels.size, 1.0f);
     return climb_unexplained(in, std::move(start));

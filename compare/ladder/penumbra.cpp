@@ -103,7 +103,7 @@ class PenumbraMeasure::Walker {
     return out;
   }
 
-  /// Of the drawn shadow, the crossing of one half nearest to a place.
+  /// Returns the drawn shadow's crossing of one half that is nearest to a place.
   std::optional<Vec2> nearest_crossing(const Image<float>& v, Vec2 from, Vec2 normal,
                                        std::uint32_t own) const {
     const auto lit = walk(v, from, normal, own, 0.5, true);

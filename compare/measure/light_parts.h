@@ -33,7 +33,7 @@ class ComparedMean {
   std::uint64_t count_ = 0;
 };
 
-/// Of the samples of partly lit compared pixels, in their order.
+/// Collects the standard errors of partly lit compared pixels, in their order.
 class StandardErrors {
  public:
   void add(const raytrace::LightTruth& truth, const Image<Label>& labels);

@@ -44,7 +44,7 @@ struct Plan {
   std::span<const std::uint32_t> lights;  ///< indices in Scene::lights, in the order of the frames' lists
   MeasureOptions measure{};
   std::span<const MapMeasures> maps{};           ///< by light, where they are known (MeasureOptions::map)
-  const raytrace::Topology* topology = nullptr;  ///< of the tracer's world; null: made anew
+  const raytrace::Topology* topology = nullptr;  ///< of the tracer's world; null: made here
   /// From top to bottom. At most one: the picture in one piece, whose images stay in the comparison.
   std::vector<PictureRows> bands{};
   // Of a picture in bands:

@@ -1,4 +1,4 @@
-// The rows of a picture that are at hand at a time. What is measured at a row hangs on rows above and below it
+// The rows of a picture that are at hand at a time. What is measured at a row depends on rows above and below it
 // (edge_margin): of a picture in bands a window moves down the picture, a picture in one piece has them all.
 #pragma once
 
@@ -36,7 +36,7 @@ class NearRows {
   void forget_images();
 
   int first() const { return first_; }  ///< of the picture: row 0 of the frames
-  /// Of a window: primitive; of each light visibility, texel_uv, face, and the map; receivers.
+  /// Returns the frames of the window: primitive; for each light visibility, texel_uv, face, and the map; receivers.
   const Frames& frames() const { return whole_ != nullptr ? *whole_ : window_; }
 
  private:

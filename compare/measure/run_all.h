@@ -12,8 +12,8 @@ namespace gnomon::compare {
 
 using Step = std::function<Expected<void>()>;
 
-/// Of those that failed the first one's error; after a failure none is begun that was not to run at the same time.
-/// `together`: how many run at a time at most.
+/// Runs the steps and returns the error of the first one that failed; after a failure none is begun that was not to run at
+/// the same time. `together`: how many run at a time at most.
 inline Expected<void> run_all(const std::vector<Step>& steps, std::size_t together = 64) {
   for (std::size_t first = 0; first < steps.size(); first += together) {
     std::vector<Expected<void>> results(std::min(together, steps.size() - first));

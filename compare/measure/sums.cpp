@@ -90,7 +90,7 @@ Expected<FinishedMaps> LightSums::add_neighbours(const LadderInput& near, const 
   return maps;
 }
 
-/// As soon as all is there, so that these lists and those of gaps are not in memory at one time.
+/// Finishes as soon as all is there, so that these lists and those of gaps are not in memory at one time.
 Expected<void> LightSums::finish_theory() {
   const auto most = std::max_element(theory_.begin(), theory_.end(),
                                      [](const auto& a, const auto& b) { return a.count() < b.count(); });

@@ -31,7 +31,7 @@ struct MeasureOptions {
   /// and maps of other sizes.
   bool perceptual = true;
   bool by_cascade = true;            ///< LightComparison::cascades
-  const MapMeasures* map = nullptr;  ///< of the same map and the same compared pixels; null: made anew
+  const MapMeasures* map = nullptr;  ///< of the same map and the same compared pixels; null: made here
   Spill spill{};
 };
 

@@ -38,12 +38,12 @@ struct EdgeSums {
 /// Adds the edges that begin in those rows of the images; all within edge_margin of them must be there.
 void add_edges(const EdgeInput& input, const PictureRows& rows, EdgeSums& sums);
 
-/// Of those rows of the images the offsets in texels on the pixels that were walked over, the larger one where several
-/// walks meet; NaN elsewhere.
+/// Returns for those rows of the images the offsets in texels on the pixels that were walked over, the larger one where
+/// several walks meet; NaN elsewhere.
 Image<float> edge_displacement_rows(const EdgeInput& input, const PictureRows& rows);
 
-/// The same for every constant bias of a hard test, where a pixel is drawn lit iff its gap does not exceed
-/// the bias: each walk is made once and keeps the pixels that can end it.
+/// Finds displacements for every constant bias of a hard test, where a pixel is drawn lit iff its gap does not exceed the
+/// bias: each walk is made once and keeps the pixels that can end it.
 class EdgePaths {
  public:
   /// `labels`: which pixels are compared, and no more.
@@ -81,7 +81,7 @@ class DetachmentSum {
  private:
   Detachment sums_;
 };
-/// Of one pixel; none where nothing occludes it.
+/// Returns the distance at one pixel; none where nothing occludes it.
 std::optional<double> detachment_distance(const raytrace::Tracer& tracer, const Light& light,
                                           const raytrace::SurfacePoint& receiver);
 

@@ -16,7 +16,7 @@ inline constexpr double flip_pixels_per_degree = 67.0206;
 Image<float> flip_error(const ColorImage& reference_linear, const ColorImage& test_linear,
                         double pixels_per_degree = flip_pixels_per_degree);
 
-/// The same of grey images.
+/// Returns the error of each pixel of grey images.
 Image<float> flip_error(const Image<float>& reference_grey, const Image<float>& test_grey,
                         double pixels_per_degree = flip_pixels_per_degree);
 

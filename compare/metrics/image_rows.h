@@ -23,7 +23,7 @@ void drop_rows(Image<T>& rows, int count) {
   rows.size.height -= count;
 }
 
-/// Those rows alone.
+/// Returns the wanted rows alone.
 template <class T>
 Image<T> cut_rows(Image<T>&& rows, const PictureRows& wanted) {
   if (rows.data.empty() || wanted == PictureRows{0, rows.size.height}) return std::move(rows);

@@ -22,7 +22,7 @@ struct Inputs {
   std::span<const double> weights;
 };
 
-/// As many columns from x on as there are lanes.
+/// Sums as many columns from x on as there are lanes.
 void down_columns(const Inputs& in, int x, MomentRows& sums) {
   V m[5] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   for (std::size_t k = 0; k < in.weights.size(); ++k) {

@@ -23,8 +23,8 @@ struct EngineUnit {
 std::vector<EngineUnit> engine_units(const raster::Bias& bias, double constant_world, LightType light,
                                      const raster::LightRecord& record, const World& world);
 
-/// Of the bias that a light of a comparison was drawn with; none where its technique compares no depths, or a
-/// shader of the user's own reads no bias.
+/// Gives the units of the bias that a light of a comparison was drawn with; none where its technique compares no depths, or
+/// a shader of the user's own reads no bias.
 std::vector<EngineUnit> engine_units(const Comparison& comparison, const LightComparison& light);
 
 /// [{engine, setting, value, formula}], alike in result.json and in the tuner's answer.

@@ -29,7 +29,7 @@ struct FigurePlace {
 /// What a figure is of several lights together.
 struct Pooling {
   enum class Kind : std::uint8_t { none, sum, mean, root_mean_square, same, derived } kind = Kind::none;
-  /// Of means the weight of a light, of `derived` what the other pooled figures make.
+  /// Returns the weight of a light for means, and for `derived` what the other pooled figures make.
   double (*function)(const LightFigures&) = nullptr;
 };
 
@@ -76,9 +76,9 @@ std::span<const Figure> figures();
 /// The figures of all lights together.
 LightFigures pool_lights(std::span<const LightFigures> lights);
 
-/// As the text of a JSON list what pages and other programs may know of each figure: its key, unit, words, whether tables
-/// of several settings have a column of it ("in_tables"), which way is better (null: neither) and
-/// its form ("count", "percent", "number").
+/// Writes as a JSON list what pages and other programs may know of each figure: its key, unit, words, whether tables of
+/// several settings have a column of it ("in_tables"), which way is better (null: neither) and its form ("count", "percent",
+/// "number").
 std::string figures_json();
 
 /// "edge error"

@@ -21,7 +21,7 @@ std::string plain_number(double value);
 /// With its sign, four decimals or as many as its first digit needs, and a true zero: "+0.0120", "0",
 /// "−0.00002".
 std::string signed_number(double value);
-/// The same for a size, without a sign.
+/// Writes a size, without a sign.
 std::string unsigned_number(double value);
 /// "0.8 texel", "1.6 texels".
 std::string texels_text(double texels);

@@ -6,7 +6,7 @@
 
 #include "compare/result/number_text.h"
 
-/// The program brings it along (cmake/GnomonCommit.cmake), so that a new commit compiles no library anew;
+/// The program brings it along (cmake/GnomonCommit.cmake), so that a new commit compiles no library again;
 /// other programs that use this room have none.
 extern "C" [[gnu::weak]] const char* gnomon_commit();
 

@@ -18,7 +18,8 @@ using raster::technique_name;
 std::string setting_words(const raster::MapSetting& setting, const raster::MapOptions& map);
 /// What a bias has beside its constant: "slope bias 1", "normal offset 0.5 texels", "receiver plane", "adaptive bias".
 std::vector<std::string> bias_parts(const raster::Bias& bias);
-/// The same and the sides left out of the map, to go on with after the constant: ", slope bias 1, cull front".
+/// Adds the sides left out of the map to what a bias has beside its constant, to go on with after it: ", slope bias 1, cull
+/// front".
 std::string beside_constant(const raster::MapOptions& map);
 /// "0.1.0", with the commit that the program was built from where that is known: "0.1.0+0123456789ab", and
 /// ".changed" after it where files differed from the commit.

@@ -23,13 +23,9 @@ inline const raytrace::LightTruth& true_record(const Comparison& c, const LightC
 inline const Light& light_of(const Comparison& c, const LightComparison& light) {
   return c.world->scene->lights[light.light];
 }
-/// Another renderer's picture, whose depth map is not known.
-inline bool lacks_map(const Comparison& c) {
-  return raster::lacks_map(c.raster);
-}
 /// Whether stored depths are compared with receivers: not by izb and hybrid, nor where no map is known.
 inline bool compares_depths(const Comparison& c) {
-  return !lacks_map(c) && compares_depths(c.raster.options.map.technique);
+  return c.raster.has_known_map() && compares_depths(c.raster.options.map.technique);
 }
 /// Whether a depth is compared with a bias: a shader of the user's own may read none.
 inline bool draws_bias(const Comparison& c) {
@@ -38,14 +34,15 @@ inline bool draws_bias(const Comparison& c) {
 }
 /// Without the map there are two steps: light size, and all the rest. Casters of another renderer's map are one more.
 inline std::size_t known_steps(const Comparison& c) {
-  return lacks_map(c) ? 2 : c.judged && c.judged->has_map ? cause_count + 1 : cause_count;
+  if (!c.raster.has_known_map()) return 2;
+  return c.judged && c.judged->has_map ? cause_count + 1 : cause_count;
 }
 inline std::string_view step_name(const Comparison& c, Cause cause) {
-  return lacks_map(c) && cause == Cause::sampling ? "unexplained" : cause_name(cause);
+  return !c.raster.has_known_map() && cause == Cause::sampling ? "unexplained" : cause_name(cause);
 }
 /// "hard"; "unknown" where another renderer's map is not known.
 inline std::string_view drawn_technique(const Comparison& c) {
-  return lacks_map(c) ? "unknown" : technique_name(c.raster.options.map.technique);
+  return c.raster.has_known_map() ? technique_name(c.raster.options.map.technique) : "unknown";
 }
 
 /// A light's name as a part of a file name, unique among the lights compared.

@@ -18,7 +18,7 @@ std::string result_json(const Comparison& comparison);
 std::string result_csv(const Comparison& comparison);
 /// Everything that a terminal is told of a comparison, at most 80 columns wide; colour only when asked for.
 std::string summary_table(const Comparison& comparison, bool colour);
-/// The same in short: what is wrong, what would help, `place` (where the report is), and a few lines of figures.
+/// Says in short what is wrong, what would help, `place` (where the report is), and a few lines of figures.
 std::string summary_in_short(const Comparison& comparison, std::string_view place, bool colour);
 
 /// Fixed, labelled, colour-blind-safe colours; the same in every image, page and window.
@@ -37,8 +37,8 @@ Rgb8Image label_picture(const LightComparison& light);
 Rgb8Image error_picture(const LightComparison& light);
 Rgb8Image flip_picture(const LightComparison& light);
 Rgb8Image ssim_picture(const LightComparison& light);
-/// Of the hybrid, who decided each pixel: the picture in grey, tinted where the sheets were sure, one plain
-/// colour where rays were cast. Needs the record's decisions.
+/// Shows who decided each pixel of the hybrid: the picture in grey, tinted where the sheets were sure, one plain colour
+/// where rays were cast. It needs the record's decisions.
 Rgb8Image decision_picture(const Comparison& comparison, const LightComparison& light);
 /// How far drawn shadow edges lie from the true ones, on the band between the two: from white (none) to the
 /// colours of false shadow (the drawn shadow is larger) and missed shadow (smaller) at edge_scale_texels and
@@ -60,7 +60,7 @@ Expected<void> write_aov(const Comparison& comparison, const std::string& path);
 
 /// `document` (a JSON object, indented by 2) with the keys "process" and "time_budget" added at its end.
 std::string with_time_budget(std::string document, const TimeBudget& budget);
-/// The same with the time of this thread's StageLog up to now; unchanged where there is none.
+/// Adds the time of this thread's StageLog up to now; the document is unchanged where there is none.
 std::string with_time_budget(std::string document);
 
 /// For the terminal, at most 80 columns wide: the whole and what takes most of it.

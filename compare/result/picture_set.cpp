@@ -77,7 +77,7 @@ void Jobs::add_maps(std::size_t i, LightPictures& out) {
   out.depth_map_small.file_name = "depth-map-small" + suffix + ".png";
   out.depth_map_step = step_for_width(map, folder_width);
   out.depth_map_small_step = step_for_width(map, page_width);
-  if (lacks_map(c_)) return;
+  if (!c_.raster.has_known_map()) return;
   const auto add_step = [&](EncodedPicture& target, int step) {
     list_.push_back({&target, i, {}, [&map, step](const Part&) {
                        return step == 1 ? depth_map_picture(map) : depth_map_picture(reduced_map(map, step));

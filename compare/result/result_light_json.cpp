@@ -146,7 +146,7 @@ Json window_json(const Comparison& c, const LightComparison& light) {
   const LightView& view = drawn_record(c, light).map.view;
   const LightFace& face = view.face(0);
   const raster::MapOptions& map = c.raster.options.map;
-  if (lacks_map(c) || view.face_count > 1 || face.warp != 0.0) return nullptr;
+  if (!c.raster.has_known_map() || view.face_count > 1 || face.warp != 0.0) return nullptr;
   const bool parallel = view.projection == LightProjection::orthographic;
   Json json{{"width", parallel ? number(2.0 * face.half_extent.x) : Json(nullptr)},
             {"height", parallel ? number(2.0 * face.half_extent.y) : Json(nullptr)},
@@ -170,7 +170,7 @@ Json window_json(const Comparison& c, const LightComparison& light) {
 Json map_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
-  const bool known = !lacks_map(c);
+  const bool known = c.raster.has_known_map();
   Json json{{"technique", drawn_technique(c)},
             {"size", known ? Json(record.map.view.size) : Json(nullptr)},
             {"inferred", c.judged && c.judged->identified.has_value()},

@@ -18,7 +18,7 @@ class ResultTable {
   void add(std::string_view result);
   /// Adds the rows of a cell; `line` is a line of sweep.jsonl, `times` that of sweep_times.jsonl. Returns
   /// what is to be appended to the text so far, or nothing when a new column came up: then text() has to be
-  /// written anew.
+  /// written again.
   std::string add(std::size_t cell, std::string_view line, std::string_view times);
   /// The whole table with its head.
   std::string text() const;

@@ -67,7 +67,7 @@ std::string map_line(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
   const double texel = light.bias_texel_world;
-  if (lacks_map(c)) return "not known";
+  if (!c.raster.has_known_map()) return "not known";
   std::string text =
       fmt::format("{}{}, {} x {}{} texels", c.judged && c.judged->identified ? "inferred: " : "",
                   technique_name(map.technique), record.map.view.size, record.map.view.size,
@@ -86,7 +86,8 @@ std::string map_line(const Comparison& c, const LightComparison& light) {
 std::string window_line(const Comparison& c, const LightComparison& light) {
   const LightView& view = drawn_record(c, light).map.view;
   const LightFace& face = view.face(0);
-  if (lacks_map(c) || view.projection != LightProjection::orthographic || view.face_count > 1) return {};
+  if (!c.raster.has_known_map() || view.projection != LightProjection::orthographic || view.face_count > 1)
+    return {};
   if (face.warp != 0.0 || !compares_depths(c.raster.options.map.technique)) return {};
   const Vec3 origin = face_origin(view, face);
   return fmt::format("{} x {} world units, depths {} to {} from {},{},{}",
@@ -95,7 +96,7 @@ std::string window_line(const Comparison& c, const LightComparison& light) {
                      plain_number(origin.y), plain_number(origin.z));
 }
 
-/// Of a window that was given: what it leaves out.
+/// Says what a window that was given leaves out.
 std::string left_out_line(const Comparison& c, const LightComparison& light) {
   if (c.raster.options.map.window.empty() || c.world == nullptr) return {};
   const WindowCasters casters = window_casters(*c.world, drawn_record(c, light).map.view);
@@ -276,7 +277,7 @@ void add_shadow_cost(Page& page, const Comparison& c, const LightComparison& lig
                          median_text(drawn.unshadowed_pass), median_text(c.raytraced.primary_rays)));
 }
 
-// What does not hang on the machine.
+// What does not depend on the machine.
 std::string work_line(const Comparison& c, const LightComparison& light) {
   const raytrace::LightTruth& truth = true_record(c, light);
   std::string text = counted(drawn_record(c, light).map_texels, "texel") + " drawn";
@@ -343,7 +344,7 @@ void add_light(Page& page, const Comparison& c, const LightComparison& light) {
     if (light.seams) page.field("seams", seams_line(*light.seams, drawn_record(c, light).map.view));
     add_bleeding(page, c, light);
     if (light.penumbra) add_penumbra(page, *light.penumbra, true_record(c, light).samples);
-    if (!lacks_map(c)) add_theory(page, light.theory);
+    if (c.raster.has_known_map()) add_theory(page, light.theory);
     if (!light.bias_curve_withheld.empty()) page.field("bias", light.bias_curve_withheld);
   }
   if (const std::string line = terminator_line(light.terminator); !line.empty()) page.field("facets", line);

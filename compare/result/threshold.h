@@ -25,7 +25,7 @@ struct Threshold {
   bool bare_one = false;  ///< given as "1", which is a share of 100 %, and may be meant as 1 %
   bool operator==(const Threshold&) const = default;
 };
-/// As it is given: "1%", "mean:0.5%", "flip:0.05", "edge:0.5texel", "shimmer:0.1".
+/// Writes the threshold as it is given: "1%", "mean:0.5%", "flip:0.05", "edge:0.5texel", "shimmer:0.1".
 std::string threshold_text(const Threshold& threshold);
 /// "at most 1.0 % wrong, and a mean error of at most as much"
 std::string limit_words(const Threshold& threshold);

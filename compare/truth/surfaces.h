@@ -23,8 +23,8 @@ class Surfaces {
   const World& world_;
   const raytrace::Topology& topology_;
   mutable std::once_flag once_;
-  /// Of each welded vertex the lowest of its surface. Of instances that share their mesh's numbers
-  /// (Topology::shared), those of the first alone.
+  /// Holds for each welded vertex the lowest of its surface. For instances that share their mesh's numbers
+  /// (Topology::shared) it holds those of the first alone.
   mutable raytrace::HugeArray<std::uint32_t> parent_;
 };
 

@@ -25,7 +25,7 @@ namespace gnomon::compare {
 /// What TheoryStats is made of: of each compared pixel the acne-free bias, perspective, projection, their
 /// product (aliasing) and the measured aliasing, in that order; infinite where there is none.
 using TheoryValues = std::array<std::vector<double>, 5>;
-/// Of those rows of the images; the row below them must be there. picture_height: of the whole picture.
+/// Returns the values for those rows of the images; the row below them must be there. picture_height: of the whole picture.
 TheoryValues theory_values(const LadderInput& input, const Image<Label>& labels, const PictureRows& rows,
                            int picture_height);
 Distribution& distribution_of(TheoryStats& stats, std::size_t value);

@@ -106,7 +106,7 @@ class Texture2D : public GlObject<GlKind::texture> {
   GLenum format() const { return format_; }
   /// All texels of level 0, all layers, row 0 first, tightly packed.
   void read(GLenum components, GLenum type, std::span<std::byte> out) const;
-  /// The same of some rows of level 0 of a 2D texture.
+  /// Reads some rows of level 0 of a 2D texture.
   void read_rows(const PictureRows& rows, GLenum components, GLenum type, std::span<std::byte> out) const;
   /// Replaces all texels of a 2D texture.
   void write(GLenum components, GLenum type, std::span<const std::byte> texels);
@@ -139,7 +139,7 @@ class VertexArray : public GlObject<GlKind::vertex_array> {
   VertexArray() = default;
   explicit VertexArray(const Gl& gl);
   void set_indices(const Buffer& buffer);
-  /// Of vertex 0 on: from the buffer's element `first` on, of so many components.
+  /// Binds vertices from 0 on to the buffer's elements from `first` on, of so many components.
   void set_floats(int attribute, const Buffer& buffer, int components, std::uint32_t first = 0);
   void set_doubles(int attribute, const Buffer& buffer, int components);
 };

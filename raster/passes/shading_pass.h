@@ -30,11 +30,11 @@ class ShadingPass {
   Times& times(const WorldBuffers& world, const View& view);
 
   void bind_visibility() const;
-  /// Of what is shaded.
+  /// Returns the size of what is shaded.
   ImageSize size() const { return {size_.width, rows_.count}; }
   const PictureRows& rows() const { return rows_; }
   void read_color(ColorImage& out) const;
-  /// Of everything that the visibility buffer shows, in world space.
+  /// Reads the positions of everything that the visibility buffer shows, in world space.
   std::vector<Vec3> read_positions(const World& world, const View& view) const;
   void read_primitives(Image<std::uint32_t>& out) const;
   /// What the last light drawn with ShadePermutation::records wrote.
@@ -50,7 +50,7 @@ class ShadingPass {
   Expected<void> prepare_trial();
   Expected<void> draw_shapes(const WorldBuffers& world, const View& drawn);
 
-  /// All that the visibility buffer's contents hang on, its size apart.
+  /// All that the visibility buffer's contents depend on, its size apart.
   struct Seen {
     Vec3 eye, right, up, forward, reference;
     Vec4 extent;  ///< the tangents, and half of an orthographic picture
@@ -80,8 +80,8 @@ class ExternalPass {
   /// Error (internal): none was given.
   Expected<void> check() const;
 
-  Expected<void> prepare(const VisibilityRequest& request, bool anew) {
-    return visibility_->prepare(request, anew);
+  Expected<void> prepare(const VisibilityRequest& request, bool changed) {
+    return visibility_->prepare(request, changed);
   }
   /// After ShadingPass::draw_visibility: the image that the technique's shader reads.
   Expected<void> find(const VisibilityRequest& request, const ShadingPass& shading);

@@ -62,10 +62,10 @@ class TriangleProgram : public Program {
   void set_clip_from_relative(const Mat4& matrix) const;
   /// The primitive id of the next draw call's first triangle.
   void set_first_primitive(std::uint32_t primitive) const;
-  /// Of a program of kept parts: where the next one lies, and the reference point.
+  /// Sets, for a program of kept parts, where the next one lies, and the reference point.
   void set_part(const Mat4& world_from_object) const;
   void set_reference(const Vec3& reference) const;
-  /// Of a program that peels: the face of the first layer, and a step of its number format.
+  /// Sets, for a program that peels, the face of the first layer, and a step of its number format.
   void set_peel(int face, float step) const;
 
  private:
@@ -75,7 +75,7 @@ class TriangleProgram : public Program {
 /// A pass's programs: [masked][kept]; those that the scene does not call for are null.
 struct TrianglePrograms {
   std::array<std::array<const TriangleProgram*, 2>, 2> of{};
-  /// As TriangleProgram::set_peel, of all.
+  /// Sets on all of them what TriangleProgram::set_peel does.
   void set_peel(int face, float step) const;
 };
 
@@ -101,9 +101,9 @@ class ImpostorProgram : public Program {
                                         const FunctionTable& functions);
   /// `in_frame`: see shape_in_frame().
   void set_shape(int index, const ClipRectangle& rectangle, const Vec4& in_frame) const;
-  /// Of a solid; see solid_from_frame().
+  /// Sets the matrix of a solid; see solid_from_frame().
   void set_solid(const Mat4& solid_from_frame) const;
-  /// Of a map.
+  /// Sets the face of a map.
   void set_face(int face, Cull cull) const;
   void set_peel(int face, float step) const;
 };

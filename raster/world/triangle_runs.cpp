@@ -60,8 +60,8 @@ std::vector<TriangleRun> TriangleRuns::within(const ClipSides& sides, bool caste
 
 namespace {
 
-/// Of its terms' sizes what a sum may be off by: places, coefficients and sums are rounded to floats, less than ten
-/// times 2^-24 for each.
+/// Bounds what a sum may be off by, as a share of its terms' sizes: places, coefficients and sums are rounded to floats,
+/// less than ten times 2^-24 for each.
 constexpr double slack = 0x1p-20;
 
 }  // namespace

@@ -52,7 +52,7 @@ class TriangleRuns {
   TriangleRuns() = default;
   /// All three must outlive this.
   TriangleRuns(const World& world, const StoredMeshes& meshes, const SceneFeatures& features);
-  /// Those of blocks that may be seen, in the world's order; of a map what casts shadows alone.
+  /// Returns the runs of blocks that may be seen, in the world's order; for a map those that cast shadows alone.
   std::vector<TriangleRun> within(const ClipSides& sides, bool casters_alone) const;
 
  private:

@@ -15,8 +15,8 @@
 namespace gnomon::raster {
 namespace {
 
-/// Of what mirrors or lets light through. A rasterizer without further rays has nothing to show for that share:
-/// it is drawn as a matte surface of middle grey, on which shadows can be seen, not left out, which is black.
+/// Is the colour of what mirrors or lets light through. A rasterizer without further rays has nothing to show for that
+/// share: it is drawn as a matte surface of middle grey, on which shadows can be seen, not left out, which is black.
 constexpr float matte_grey = 0.5f;
 
 /// Columns of rotation times scale.

@@ -26,7 +26,7 @@ class CellItems {
   const BoxRef& box(std::uint32_t item) const { return finite_.boxes[item]; }
   const Vec3& center() const { return finite_.center; }
   const World& world() const { return *world_; }
-  /// Of all boxes; meaningless when there are none.
+  /// Returns the box around all boxes; meaningless when there are none.
   const CellBox& bounds() const { return bounds_; }
 
   /// False only if the primitive surely has no point in the closed cell.

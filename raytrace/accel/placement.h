@@ -25,7 +25,7 @@ struct MeshSpace {
   int exponent = 0;
   Vec3 largest{0.0};  ///< of the corners' coordinates, in absolute value
 
-  /// Of finite corners that are not all at one place.
+  /// Makes the space of finite corners that are not all at one place.
   explicit MeshSpace(const Aabb& object_box);
   Vec3 tree_from_object(const Vec3& p) const;
 };

@@ -27,7 +27,7 @@ void polygon_below(const std::vector<Vec3>& polygon, const CutPlane& plane, std:
   }
 }
 
-/// Of the new face, from its edges in any order: each face that was cut gave one edge, two crossings in a
+/// Returns the area of the new face, from its edges in any order: each face that was cut gave one edge, two crossings in a
 /// row.
 double lid_area(const std::vector<Vec3>& crossings) {
   Vec3 middle(0.0);

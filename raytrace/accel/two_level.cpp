@@ -155,7 +155,7 @@ class TwoLevelBuilder {
     }
   }
 
-  /// Of the next job.
+  /// Adds an entry of the next job.
   void add_entry(std::uint32_t instance, std::uint32_t placement) {
     out_.entries.push_back({bounds_of(parts_[instance].boxes), static_cast<std::uint32_t>(jobs_.size()),
                             placement, parts_[instance].first});

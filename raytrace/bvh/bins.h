@@ -73,7 +73,7 @@ inline Ref as_ref(const BoxRef& box) {
   return ref_of(box);
 }
 
-/// Of a range of primitives: their box and that of their centroids, doubled.
+/// Holds the box of a range of primitives and that of their centroids, doubled.
 struct NodeBounds {
   Box box = Box::empty(), centroids = Box::empty();
   void grow_centroids(const Ref& ref) {

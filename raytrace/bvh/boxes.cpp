@@ -45,8 +45,8 @@ BoxRef solid_box(const ShapeGeometry& solid, std::uint32_t id, const Vec3& cente
 
 /// The boxes of those of a part's triangles from `first` to before `last`, by its own numbers, that have a surface; returns
 /// the end of what is written.
-BoxRef* put_boxes(const WorldPart& part, std::uint32_t first, std::uint32_t last, const Vec3& center,
-                  BoxRef* at) {
+BoxRef* write_boxes(const WorldPart& part, std::uint32_t first, std::uint32_t last, const Vec3& center,
+                    BoxRef* at) {
   for (std::uint32_t i = first; i < last; ++i) {
     const std::array<Vec3, 3> corners = part.corners(i);
     if (has_surface(corners)) *at++ = triangle_box(corners, part.first_triangle + i, center);
@@ -84,7 +84,7 @@ void append_triangles(const World& world, bool with_kept, FinitePrimitives& out)
       const std::uint32_t number = row.of_parts.of(i), begin = row.of_parts.begin_of(number);
       const WorldPart& part = *row.parts[number];
       const std::uint32_t last = std::min(end - begin, part.triangle_count());
-      at = put_boxes(part, i - begin, last, out.center, at);
+      at = write_boxes(part, i - begin, last, out.center, at);
       i = begin + last;
     }
     kept[block] = static_cast<std::uint32_t>(at - out.boxes.data()) - first;

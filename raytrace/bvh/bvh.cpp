@@ -155,7 +155,7 @@ class Top {
     });
     const std::uint32_t index = builder_.nodes_.take(1);
     builder_.nodes_.below(index) = {range.first, range.count};
-    const auto put_child = [&](std::size_t i) {
+    const auto store_child = [&](std::size_t i) {
       BvhNode& node = builder_.nodes_[index];
       if (i < count)
         set_child(node, i, children[i].bounds.box, build(children[i]));
@@ -163,9 +163,9 @@ class Top {
         set_child(node, i, Box::empty(), BvhChild::empty());
     };
     if (range.count < Config::parallel_threshold)
-      for (std::size_t i = 0; i < 4; ++i) put_child(i);
+      for (std::size_t i = 0; i < 4; ++i) store_child(i);
     else
-      parallel_tasks(4, put_child);
+      parallel_tasks(4, store_child);
     leave_if_given_up();
     return BvhChild::node(index);
   }
@@ -225,7 +225,7 @@ Bvh build_bvh(const World& world) {
   if (!finite.boxes.empty()) Builder(bvh, finite.boxes.size()).run(finite.boxes);
   finite.boxes = {};  // before more memory is asked for
   read_primitives(world, bvh);
-  if (world.keeps_instances()) put_instances(world, bvh);
+  if (world.keeps_instances()) add_instances(world, bvh);
   return bvh;
 }
 

@@ -96,7 +96,7 @@ struct Bvh {
       return primitives.corners(leaf);
     return scratch.put(placed_primitive(leaf));
   }
-  /// Of a leaf that is an instance's.
+  /// Returns the instance of a leaf that is one's.
   const BvhInstance& instance_of(std::uint32_t leaf) const {
     return instances[instance_leaves.of(leaf - static_cast<std::uint32_t>(ids.size()))];
   }

@@ -11,7 +11,7 @@
 
 namespace gnomon::raytrace::binned {
 
-/// Those of one cell, or one that is far longer than a cell: order[first, first + count).
+/// Holds the primitives of one cell, or one that is far longer than a cell: order[first, first + count).
 struct Cluster {
   std::uint32_t first, count;
 };

@@ -146,7 +146,7 @@ BoxRef box_around(const Aabb& bounds, const Vec3& center, std::uint32_t id) {
 
 }  // namespace
 
-void put_instances(const World& world, Bvh& bvh) {
+void add_instances(const World& world, Bvh& bvh) {
   std::vector<std::uint32_t> tree_of(world.scene->meshes.size(), no_id), leaves{0};
   std::vector<BoxRef> boxes;
   std::vector<const WorldPart*> placed;

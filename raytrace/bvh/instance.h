@@ -28,7 +28,7 @@ struct NodesThere {
   static const BvhNode& at(const BvhNode& node, BvhNode&) { return node; }
   static LeafRange leaves(const LeafRange& range) { return range; }
 };
-/// Those of an instance's tree.
+/// Holds the nodes of an instance's tree, placed.
 struct NodesPlaced {
   const BvhInstance& instance;
   const BvhNode& at(const BvhNode& node, BvhNode& scratch) const {
@@ -39,6 +39,6 @@ struct NodesPlaced {
 };
 
 /// Appends the world's kept instances to a hierarchy of all that is flattened.
-void put_instances(const World& world, Bvh& bvh);
+void add_instances(const World& world, Bvh& bvh);
 
 }  // namespace gnomon::raytrace

@@ -40,7 +40,7 @@ class LeafGroup {
     return at;
   }
 
-  /// Of the leaves' vertices the different ones, and in their place which of these they are.
+  /// Finds the different ones among the leaves' vertices, and puts in each one's place which of these it is.
   void find_distinct(std::size_t leaves) {
     slot_.fill(vacant), distinct_count_ = 0;
     for (std::size_t i = 0; i < leaves; ++i)

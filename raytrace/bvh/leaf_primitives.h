@@ -38,9 +38,9 @@ class LeafPrimitives {
  public:
   /// What they are made of. Both may be asked from any thread, and fill all that `out` has room for.
   struct Source {
-    /// Of the leaves from `first` on.
+    /// Gives the vertices of the leaves from `first` on.
     FunctionRef<void(std::size_t first, std::span<std::array<std::uint32_t, 3>> out)> vertices;
-    /// Of vertices; several may have the same.
+    /// Gives the positions of vertices; several may have the same.
     FunctionRef<void(const std::uint32_t* vertices, std::span<Vec3> out)> positions;
   };
   LeafPrimitives() = default;
@@ -75,7 +75,7 @@ class LeafPrimitives {
     __builtin_prefetch(&triangles_[first + count - 1]);
   }
 
-  /// The same of one leaf of the tree for single rays: the lines of its first and last triangle, between which is at most one.
+  /// Fetches one leaf of the tree for single rays: the lines of its first and last triangle, between which is at most one.
   [[gnu::always_inline]] void prefetch_leaf(std::size_t first, std::size_t count) const {
     __builtin_prefetch(&triangles_[first]);
     __builtin_prefetch(&triangles_[first + count - 1]);

@@ -5,7 +5,7 @@
 namespace gnomon::raytrace {
 namespace {
 
-/// Of a matrix the largest sum of a row's sizes: by how much it makes vectors longer at most, in the maximum norm.
+/// Returns the largest sum of a row's sizes of a matrix: by how much it makes vectors longer at most, in the maximum norm.
 double norm_of(const Mat3& m) {
   return max_component(glm::abs(m[0]) + glm::abs(m[1]) + glm::abs(m[2]));
 }
@@ -30,7 +30,7 @@ bool visit_placed(const Bvh& bvh, const BvhInstance& placed, BoxRay& boxes, Wide
 
 }  // namespace
 
-void put_wide_instances(const World& world, WideTree& tree) {
+void add_wide_instances(const World& world, WideTree& tree) {
   const Bvh& bvh = *tree.origin;
   for (const Bvh& mesh : bvh.trees) tree.trees.push_back(collapse_bvh(mesh, world));
   for (const BvhInstance& placed : bvh.instances) {

@@ -22,7 +22,7 @@
 namespace gnomon::raytrace {
 
 /// Fills the tree's instances from its origin's, if that has any.
-void put_wide_instances(const World& world, WideTree& tree);
+void add_wide_instances(const World& world, WideTree& tree);
 
 /// How far off a ray's origin, which is given to within `origin_error`, may be for the doubles of the world, in the maximum
 /// norm: e' + 2^-46 |o|.

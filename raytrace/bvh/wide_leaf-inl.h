@@ -73,7 +73,7 @@ class Corners {
 alignas(64) inline constexpr std::uint32_t index_shift[leaf_lanes] = {0,  0,  4,  4,  8,  8,  12, 12,
                                                                       16, 16, 20, 20, 24, 24, 28, 28};
 
-/// Of the triangles from lane i * lanes on.
+/// Holds the corners' places of the triangles from lane i * lanes on.
 struct CornerIndices {
   hn::Vec<U> a, b, c;
   HWY_INLINE CornerIndices(const LeafTriangles& leaf, std::size_t i) {

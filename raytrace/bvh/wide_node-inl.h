@@ -116,7 +116,7 @@ struct IntersectedChildren {
     else if (bits != 0)
       Sorted(*this, node, ray).push(stack, size, 0);
   }
-  /// The same, but the next one into `next`; false: none.
+  /// Takes the next child off into `next`; false: there is none.
   HWY_INLINE bool take(const WideNode& node, const SpreadRay& ray, Stack& stack, std::size_t& size,
                        std::uint32_t& next) const {
     if (bits == 0) return false;
@@ -187,7 +187,7 @@ struct IntersectedChildren<order, false> {
       return true;
     }
     Sorted sorted(*this, node, ray);
-    next = sorted.take_nearest();
+    next = sorted.pop_nearest();
     sorted.push(stack, size);
     return true;
   }
@@ -215,7 +215,7 @@ struct IntersectedChildren<order, false> {
         }
       }
     }
-    HWY_INLINE std::uint32_t take_nearest() {
+    HWY_INLINE std::uint32_t pop_nearest() {
       const unsigned nearest = std::bit_floor(left);
       left ^= nearest;
       return node.child[place[std::countr_zero(nearest)]];
@@ -232,8 +232,8 @@ struct IntersectedChildren<order, false> {
 /// The children of a node, as above, over those of one that comes after it. Together, for a ray that waits
 /// for memory and for one step after the other; and a ray that intersects nothing visits both anyhow.
 template <Order order>
-HWY_INLINE bool take_children_of_two(const WideNode& node, const WideNode& after, const SpreadRay& ray,
-                                     float t_max, Stack& stack, std::size_t& size, std::uint32_t& next) {
+HWY_INLINE bool visit_children_of_two(const WideNode& node, const WideNode& after, const SpreadRay& ray,
+                                      float t_max, Stack& stack, std::size_t& size, std::uint32_t& next) {
   const IntersectedChildren<order> hit(node, ray, t_max), hit_after(after, ray, t_max);
   hit_after.push(after, ray, stack, size);
   return hit.take(node, ray, stack, size, next);

@@ -14,7 +14,7 @@ void WideOnDemand::collapse(const Bvh& bvh, const World& world) {
     run_isolated(
         [&] { ready_.store(collapse_bvh(bvh, world, plain_).release(), std::memory_order_release); });
   } catch (const std::bad_alloc&) {  // not tried again: the default hierarchy answers every ray
-  } catch (...) {                    // given up with the work around it: the next work begins anew
+  } catch (...) {                    // given up with the work around it: the next work begins again
     begun_ = false;
     throw;
   }

@@ -32,7 +32,7 @@ inline RayNumbers numbers_of(const Ray& ray) {
 }
 
 /// The origin, counted from the tree's centre, and the direction as it is.
-HWY_INLINE void put_floats(const WideTree& tree, const RayNumbers& given, WideRay& ray) {
+HWY_INLINE void set_floats_of(const WideTree& tree, const RayNumbers& given, WideRay& ray) {
   constexpr hn::CappedTag<double, 4> d;
   constexpr hn::Rebind<float, hn::CappedTag<double, 4>> half;
   for (std::size_t i = 0; i < 4; i += hn::MaxLanes(d)) {
@@ -44,14 +44,14 @@ HWY_INLINE void put_floats(const WideTree& tree, const RayNumbers& given, WideRa
   }
 }
 
-/// Of a vector's three components.
+/// Returns the largest size of a vector's three components.
 inline float largest_of(const float* v) {
   const auto larger = [](float a, float b) { return a > b ? a : b; };
   return larger(larger(v[0], v[1]), v[2]);
 }
 
 /// The direction times the power of two that RayFrame has it by. Returns what t is to be multiplied by; 0: refused.
-[[gnu::noinline]] inline double put_scaled(const double* direction, WideRay& ray) {
+[[gnu::noinline]] inline double set_scaled(const double* direction, WideRay& ray) {
   const double largest =
       std::max(std::max(std::abs(direction[0]), std::abs(direction[1])), std::abs(direction[2]));
   if (!(largest >= 0x1p-900 && largest <= 0x1p900)) return 0.0;
@@ -66,7 +66,7 @@ inline float largest_of(const float* v) {
 
 /// What the tests of boxes and triangles read. `largest`: of the direction's components, in size. False: the
 /// bounds would not hold.
-HWY_INLINE bool put_slabs(float r, float largest, WideRay& ray) {
+HWY_INLINE bool set_slabs(float r, float largest, WideRay& ray) {
   constexpr hn::CappedTag<float, 4> four;
   const auto every = [&](float v) { return hn::Set(four, v); };
   unsigned good = 0, backwards = 0, is_largest = 0;
@@ -92,7 +92,7 @@ HWY_INLINE bool put_slabs(float r, float largest, WideRay& ray) {
 }
 
 /// False: refused.
-HWY_INLINE bool put_interval(const Interval& t, double kernel_t, double beyond, WideRay& ray) {
+HWY_INLINE bool set_interval(const Interval& t, double kernel_t, double beyond, WideRay& ray) {
   const double t_min = t.min * kernel_t, t_max = t.max * kernel_t;
   ray.least = static_cast<float>(t_min), ray.most = static_cast<float>(t_max);
   const float last = beyond > 0.0 ? static_cast<float>(t_max + beyond * kernel_t) : ray.most;
@@ -102,7 +102,7 @@ HWY_INLINE bool put_interval(const Interval& t, double kernel_t, double beyond, 
   return t_min >= 0.0;
 }
 
-HWY_INLINE void put_units(double start, double kernel_t, double frame_t, WideRay& ray) {
+HWY_INLINE void set_units(double start, double kernel_t, double frame_t, WideRay& ray) {
   ray.unit = ray.per_unit_below = ray.per_unit_above = 1.0f;
   ray.start = static_cast<float>(start * kernel_t);
   if (frame_t > 0.0) {
@@ -113,7 +113,7 @@ HWY_INLINE void put_units(double start, double kernel_t, double frame_t, WideRay
 }
 
 /// What PlainTest needs; false: its floats would not be those of the textbook but for their scale.
-inline bool put_plain(const RayNumbers& given, double kernel_t, WideRay& ray) {
+inline bool set_plain(const RayNumbers& given, double kernel_t, WideRay& ray) {
   for (int a = 0; a < 3; ++a) {
     ray.plain_origin[a] = static_cast<float>(given.origin[a]);
     ray.plain_direction[a] = static_cast<float>(given.direction[a]);
@@ -125,19 +125,19 @@ inline bool put_plain(const RayNumbers& given, double kernel_t, WideRay& ray) {
 /// Fills the ray, and returns what t is multiplied by; 0: refused.
 HWY_INLINE double prepare(const WideTree& tree, const RayNumbers& given, const TraversalLimits& limits,
                           WideRay& ray) {
-  put_floats(tree, given, ray);
+  set_floats_of(tree, given, ray);
   double kernel_t = 1.0;
   float largest = largest_of(ray.size);
   if (!(largest > 0.5f && largest < 1.0f)) [[unlikely]] {  // of unit directions few; those have scale 1
-    kernel_t = put_scaled(given.direction, ray), largest = largest_of(ray.size);
+    kernel_t = set_scaled(given.direction, ray), largest = largest_of(ray.size);
     if (!(kernel_t > 0.0)) return 0.0;
   }
-  if (!put_slabs(tree.reach, largest, ray) || !put_interval(given.t, kernel_t, limits.beyond, ray) ||
+  if (!set_slabs(tree.reach, largest, ray) || !set_interval(given.t, kernel_t, limits.beyond, ray) ||
       limits.origin_error > 0x1p-44 * static_cast<double>(tree.reach))
     return 0.0;
-  put_units(given.start, kernel_t, limits.frame_t, ray);
+  set_units(given.start, kernel_t, limits.frame_t, ray);
   ray.limit(limits.t_above);
-  return !tree.plain || put_plain(given, kernel_t, ray) ? kernel_t : 0.0;
+  return !tree.plain || set_plain(given, kernel_t, ray) ? kernel_t : 0.0;
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ Shaft placed(const WideInstance& instance, const Shaft& shaft) {
   return {m * (shaft.origin - instance.translation), center - half, center + half, shaft.endless};
 }
 
-/// Of a tree whose first leaf primitive is `first` to who asks.
+/// Finds the leaves of a tree whose first leaf primitive is `first`; false: floats do not bound it, or they are too many.
 bool find_in_tree(const WideTree& tree, std::uint32_t first, const Shaft& given, ShaftLeaves& found) {
   SpreadShaft shaft;
   if (!spread(tree, given, shaft)) return false;

@@ -15,8 +15,9 @@ struct Shaft {
   bool endless = false;
 };
 
-/// Whose boxes the shaft may intersect; no other primitive of the tree lies in it, not by 2^-22 of the tree's size and of
-/// the origin's distance from its centre: of a kept instance the mesh's, in the mesh's space.
+/// Holds the leaves whose boxes the shaft may intersect; no other primitive of the tree lies in it, not by 2^-22 of the
+/// tree's size and of the origin's distance from its centre. For a kept instance the leaves are the mesh's, in the mesh's
+/// space.
 class ShaftLeaves {
  public:
   static constexpr std::size_t most = 24;

@@ -55,7 +55,7 @@ struct CountTests {
   void leaf(const LeafTriangles& triangles) const { counts.primitives += triangles.last() + 1; }
 };
 
-/// Of trees in which there are none.
+/// Stands for the instances of trees in which there are none.
 struct NoInstances {
   bool operator()(std::uint32_t) const { return false; }
 };
@@ -90,7 +90,7 @@ HWY_INLINE WideTraversal traverse(const WideTree& tree, WideRay& ray, const Coun
       known = 0;
       const WideNode& after = nodes[stack.child[--size]];
       counts.node(nodes[child.index()]), counts.node(after);
-      if (take_children_of_two<order>(nodes[child.index()], after, spread, t_max, stack, size, child.bits)) {
+      if (visit_children_of_two<order>(nodes[child.index()], after, spread, t_max, stack, size, child.bits)) {
         ask_ahead();
         continue;
       }
@@ -175,9 +175,9 @@ HWY_INLINE bool place_ray(const WideInstance& instance, const Ray& given, const 
           prepare(*instance.mesh, numbers.numbers(), here, placed) > 0.0);
 }
 
-/// The same through a tree with instances; `ray`: what prepare made of `given`, `frame_t`: what it returned. Verb:
-/// leaf(tree, leaf, ray, place) for every leaf of a mesh or of what is flattened, plainly(position in leaf order, ray) for
-/// every leaf primitive of an instance for which floats do not suffice; both return true to end.
+/// Goes through a tree with instances; `ray`: what prepare made of `given`, `frame_t`: what it returned. Verb: leaf(tree,
+/// leaf, ray, place) for every leaf of a mesh or of what is flattened, plainly(position in leaf order, ray) for every leaf
+/// primitive of an instance for which floats do not suffice; both return true to end.
 template <class Verb, class Counts>
 HWY_NOINLINE WideTraversal traverse_instances(const WideTree& tree, const Ray& given,
                                               const TraversalLimits& limits, double frame_t, WideRay& ray,

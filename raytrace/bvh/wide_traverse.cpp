@@ -205,7 +205,7 @@ WideTraversal blockers_counted(const WideTree& tree, const Ray& ray, BlockerVisi
   return by_test<VisitBlockers>(tree, ray, {}, CountTests{work}, ready, visit);
 }
 
-/// As run_prepared().
+/// Runs a ray that is not prepared, as run_prepared() does one that is.
 template <class Verb>
 HWY_INLINE bool is_blocked_again(const WideTree& tree, const Ray& given, const TraversalLimits& limits,
                                  double frame_t, const Verb& verb, const WideRay& ray) {

@@ -42,7 +42,7 @@ struct TraversalLimits {
 };
 WideTraversal visit_candidates(const WideTree& tree, const Ray& ray, const TraversalLimits& limits,
                                CandidateVisitor visit, WorkCounts* work = nullptr);
-/// The same in any order; `surely`: the leaf is a triangle that the ray surely hits in range.
+/// Receives leaves in any order; `surely`: the leaf is a triangle that the ray surely hits in range.
 using BlockerVisitor = FunctionRef<bool(std::uint32_t leaf, bool surely)>;
 WideTraversal visit_blockers(const WideTree& tree, const Ray& ray, BlockerVisitor visit,
                              WorkCounts* work = nullptr);

@@ -168,7 +168,7 @@ class Collapse {
     return joined(parts, (1u << count) - 1);
   }
 
-  /// Of a leaf that has too many corners: parts of it, all with its box.
+  /// Halves a leaf that has too many corners into parts, all with its box.
   Part halved(std::uint32_t first, std::uint32_t count, const WideBox& box) {
     if (fits(first, count)) return {box, 0, first, count};
     const std::uint32_t half = count / 2;
@@ -264,8 +264,8 @@ class Collapse {
       for (std::size_t row = 0; row < 6; ++row) node.bounds[row][i] = box.at[row];
       node.child[i] = WideChild::leaf_flag;
     }
-    put_order({pieces.at.data(), pieces.count}, node);
-    const auto put_child = [&](std::size_t i) {
+    set_order({pieces.at.data(), pieces.count}, node);
+    const auto store_child = [&](std::size_t i) {
       const Part& piece = pieces.at[i];
       if (piece.instance) {
         node.child[i] = WideChild::leaf_flag | WideChild::instance_flag | piece.first;
@@ -274,20 +274,20 @@ class Collapse {
       const std::uint32_t place = piece.is_leaf() ? leaves_++ : nodes_++;
       node.child[i] = piece.is_leaf() ? WideChild::leaf_flag | place : place;
       if (piece.is_leaf())
-        put_leaf(piece, place);
+        store_leaf(piece, place);
       else
         collapse(piece, place, depth + 1);
     };
     if (depth < parallel_depth)
-      parallel_for(pieces.count, put_child);
+      parallel_for(pieces.count, store_child);
     else
-      for (std::size_t i = 0; i < pieces.count; ++i) put_child(i);
+      for (std::size_t i = 0; i < pieces.count; ++i) store_child(i);
     leave_if_given_up();
   }
 
   /// Nearest first by the boxes' middles along the octant's diagonal, and of equals the first. Ranks are counted, in plain
   /// loops that compilers make vectors of.
-  static void put_order(std::span<const Part> pieces, WideNode& node) {
+  static void set_order(std::span<const Part> pieces, WideNode& node) {
     for (unsigned octant = 0; octant < 4; ++octant) {
       std::array<float, node_lanes> far;
       far.fill(inf);
@@ -307,7 +307,7 @@ class Collapse {
     }
   }
 
-  void put_leaf(const Part& piece, std::uint32_t place) {
+  void store_leaf(const Part& piece, std::uint32_t place) {
     Corners corners;
     corners_of(piece.first, piece.count, corners);
     LeafTriangles triangles;
@@ -315,14 +315,14 @@ class Collapse {
     triangles.range = piece.first | (piece.count - 1) << 27 | (is_triangle(piece.first) ? 0u : 1u << 31);
     if (tree_.plain) {
       tree_.plain_leaves[place].triangles = triangles;
-      put_plain_corners(corners, tree_.plain_leaves[place]);
+      store_plain_corners(corners, tree_.plain_leaves[place]);
     } else {
       tree_.leaves[place].triangles = triangles;
-      put_corners(piece, corners, tree_.leaves[place]);
+      store_corners(piece, corners, tree_.leaves[place]);
     }
   }
 
-  void put_plain_corners(const Corners& corners, PlainLeaf& leaf) const {
+  void store_plain_corners(const Corners& corners, PlainLeaf& leaf) const {
     for (int a = 0; a < 3; ++a)
       for (std::size_t i = 0; i <= leaf_corners; ++i)
         leaf.corner[static_cast<std::size_t>(a)][i] =
@@ -330,7 +330,7 @@ class Collapse {
                                         : 0.0f;
   }
 
-  void put_corners(const Part& piece, const Corners& corners, WideLeaf& leaf) const {
+  void store_corners(const Part& piece, const Corners& corners, WideLeaf& leaf) const {
     std::array<std::array<double, 3>, leaf_corners> from_center;
     double longest = 0.0;
     for (std::size_t i = 0; i < corners.count; ++i) {
@@ -367,7 +367,7 @@ std::unique_ptr<const WideTree> collapse_bvh(const Bvh& bvh, const World& world,
   tree->origin = &bvh, tree->plain = plain;
   tree->center = {bvh.center.x, bvh.center.y, bvh.center.z, 0.0}, tree->reach = reach_of(bvh.nodes[0]);
   if (!(tree->reach >= 0x1p-26f && tree->reach <= 0x1p30f)) return nullptr;
-  put_wide_instances(world, *tree);
+  add_wide_instances(world, *tree);
   const Collapse collapse(bvh, world, *tree);
   return tree;
 }

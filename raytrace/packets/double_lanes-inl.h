@@ -107,7 +107,7 @@ class PixelPlane {
       hn::Store(hn::Mul(hn::Sub(all(1.0), along(y0, view.size.height)), all(view.tan_half_y)), d, row_ + i);
     }
   }
-  /// Of the lanes from this one on.
+  /// Returns the coordinates of the lanes from this one on.
   V x(std::size_t lane) const {
     const double* first = column_ + tile_pixel(lane).x;
 #if HWY_MAX_BYTES == 64

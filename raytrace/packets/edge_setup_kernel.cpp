@@ -224,13 +224,14 @@ void store(const Out& out, EdgeSetupRows& rows, std::size_t first) {
                              hn::And(hn::Gt(out.edge_error, all(0.0)), hn::Gt(out.depth_error, all(0.0))));
   std::size_t row = 0;
   const auto put = [&](V v) { hn::Store(hn::DemoteTo(half, v), half, rows.out[row++] + first); };
-  const auto put_number = [&](V v) { put(hn::IfThenElseZero(sound, v)); };
-  const auto put_above = [&](V v, double otherwise) {
+  const auto store_number = [&](V v) { put(hn::IfThenElseZero(sound, v)); };
+  const auto set_above = [&](V v, double otherwise) {
     put(hn::IfThenElse(sound, hn::MulAdd(hn::Abs(v), all(0x1p-20), v), all(otherwise)));
   };
-  for (const V3& e : out.edge) put_number(e.x), put_number(e.y), put_number(e.z);
-  put_number(out.reciprocal_depth.x), put_number(out.reciprocal_depth.y), put_number(out.reciprocal_depth.z);
-  put_above(out.edge_error, infinity), put_above(out.depth_error, infinity);
+  for (const V3& e : out.edge) store_number(e.x), store_number(e.y), store_number(e.z);
+  store_number(out.reciprocal_depth.x), store_number(out.reciprocal_depth.y),
+      store_number(out.reciprocal_depth.z);
+  set_above(out.edge_error, infinity), set_above(out.depth_error, infinity);
   put(hn::IfThenElse(hn::And(sound, hn::Gt(out.depth_floor, all(-1.0))),
                      hn::Mul(out.depth_floor, all(1.0 + 0x1p-20)), all(-infinity)));
 }

@@ -19,7 +19,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE::doubles {
 
-/// Those lanes that show a triangle.
+/// Returns the lanes that show a triangle.
 inline unsigned on_triangles(const Bvh& bvh, const std::uint32_t* leaf) {
   constexpr Ids ids;
   return mask_bits(ids, hn::Lt(hn::LoadU(ids, leaf), hn::Set(ids, bvh.leaf_count())));
@@ -30,7 +30,7 @@ class HitCorners {
  public:
   V3 corner[3] = {all(Vec3(0.0)), all(Vec3(0.0)), all(Vec3(0.0))};
 
-  /// Of the primitives; of lanes that show none any.
+  /// Returns the ids of the primitives; of lanes that show none any.
   hn::Vec<Ids> ids() const { return hn::Load(Ids(), ids_); }
 
   /// `known`, not 0: the lanes that show a triangle; the others get one of those. False: nothing has changed.

@@ -61,7 +61,7 @@ HWY_INLINE void load_points(const From& from, hn::Vec<PointTag> (&point)[3]) {
 #endif
 }
 
-/// The same as floats that count from `origin`.
+/// Loads points as floats that count from `origin`.
 template <class From>
 HWY_INLINE void load_offsets(const Vec3& origin, const From& from, hn::Vec<OffsetTag> (&offset)[3]) {
   constexpr OffsetTag f;

@@ -34,7 +34,7 @@ SurfacePoint receiver_of(const Tracer& tracer, const View& view, int x, int y, s
   return hit ? tracer.surface_point(ray, *hit) : SurfacePoint{};
 }
 
-/// The same pixels by their rows in the picture.
+/// Names the same pixels by their rows in the picture.
 TileRect in_picture(TileRect rect, int first_row) {
   return {rect.x0, rect.y0 + first_row, rect.x1, rect.y1 + first_row};
 }
@@ -46,7 +46,7 @@ TileHits those_of(const TileHits& hits, const LaneMask& bits) {
   return some;
 }
 
-/// Those receivers that are found many at a time; returns the bits of the others.
+/// Makes the receivers that are found many at a time; returns the bits of the others.
 LaneMask vector_receivers(const Tracer& tracer, const View& view, const TileRect& rect, int first_row,
                           const TileHits& hits, Image<SurfacePoint>* receivers, QuantisedTile* quantised,
                           TileDraft& draft) {

@@ -40,7 +40,7 @@ struct ReceiverSource {
   const TileHits* hits = nullptr;
   int first_row = 0;  ///< as PrimarySinks has it
   SurfacePoint at(const TileRect& rect, std::size_t lane) const;
-  /// Those asked for, many at a time, by their place in the tile: points[16 * y + x].
+  /// Fills in the receivers asked for, many at a time, by their place in the tile: points[16 * y + x].
   void fill(const TileRect& rect, const LaneMask& asked, SurfacePoint* points) const;
 };
 

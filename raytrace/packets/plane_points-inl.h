@@ -43,7 +43,7 @@ inline PlanePoints points_on(const Plane& plane, std::uint32_t id, const View& v
           hn::And(hn::Gt(t, all(1e-200)), hn::Lt(t, all(1e200)))};
 }
 
-/// Of as many pixels as there are lanes the planes that they see.
+/// Holds the planes that as many pixels see as there are lanes.
 class PlanesSeen {
  public:
   explicit PlanesSeen(const Structures& s) : s_(s) {}

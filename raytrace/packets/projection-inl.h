@@ -33,11 +33,11 @@ struct alignas(64) BoundsRows {
   }
 };
 
-/// Of leaves' triangles the lines through their edges, by rows: a ray at (u, v) surely misses where one of a triangle's
+/// Holds the lines through the edges of leaves' triangles, by rows: a ray at (u, v) surely misses where one of a triangle's
 /// u across + v down + constant is negative.
 struct alignas(64) EdgeLines {
   float across[3][run_size], down[3][run_size], constant[3][run_size];
-  /// Of what is no triangle, or one of which no line is known: no ray surely misses.
+  /// Sets what is no triangle, or one of which no line is known: no ray surely misses it.
   void set_unknown(std::size_t i) {
     for (std::size_t k = 0; k < 3; ++k) across[k][i] = down[k][i] = 0.0f, constant[k][i] = inf;
   }
@@ -61,9 +61,9 @@ class Projection {
     }
   }
 
-  /// Of a box that counts from the hierarchy's centre: the intervals of its coordinates along the axes, and a point's divided by
-  /// the depth's. Conservative, for boxes are floats rounded outwards and widened by the slack; infinite, and nearest with
-  /// it, of what is not clear of the common origin.
+  /// Returns the intervals of the coordinates of a box, which counts from the hierarchy's centre, along the axes, and a
+  /// point's divided by the depth's. They are conservative, for boxes are floats rounded outwards and widened by the slack;
+  /// infinite, and nearest with it, for what is not clear of the common origin.
   PrimitiveBounds of(const BoxRef& box) const {
     alignas(16) float low[4], high[4];
     along_axes(box, low, high);
@@ -82,8 +82,9 @@ class Projection {
     return {low[0], high[0], low[1], high[1], (1.0f + 0x1p-20f) / (low[2] - slack_)};
   }
 
-  /// Of up to run_size leaves; what follows them up to a multiple of leaves_together is anything. As near as their boxes:
-  /// where a triangle is seen edge-on, the kernels' depth is anywhere between the corners' along a coordinate axis.
+  /// Bounds up to run_size leaves; what follows them up to a multiple of leaves_together is anything. They are as near as
+  /// their boxes: where a triangle is seen edge-on, the kernels' depth is anywhere between the corners' along a coordinate
+  /// axis.
   void of_leaves(std::span<const std::uint32_t> leaves, BoundsRows& rows, EdgeLines& lines) const {
     for (std::size_t i = 0; i < leaves.size(); i += leaves_together)
       of_some(leaves.subspan(i, std::min(leaves_together, leaves.size() - i)), i, rows, lines);
@@ -129,7 +130,7 @@ class Projection {
       hn::Store(bounds.u_min, f, rows.u_min + row), hn::Store(bounds.u_max, f, rows.u_max + row);
       hn::Store(bounds.v_min, f, rows.v_min + row), hn::Store(bounds.v_max, f, rows.v_max + row);
       hn::Store(hn::Min(bounds.nearest, all(FLT_MAX)), f, rows.nearest + row);
-      put_lines(at, shape, hn::And(shape.wide, clear), lines, row);
+      store_lines(at, shape, hn::And(shape.wide, clear), lines, row);
     }
     unsigned others = (s_.has_shapes ? 0xffffu : thin) & ((1u << leaves.size()) - 1);
     for (; others != 0; others &= others - 1) {
@@ -163,7 +164,7 @@ class Projection {
     };
     return times(2, times(1, hn::Mul(from_origin[0], all(axes_[0][axis]))));
   }
-  /// Of quotients with that relative error.
+  /// Bounds the error of quotients with that relative error.
   static V margin_of(V u, V v, V error) { return hn::MulAdd(hn::Max(hn::Abs(u), hn::Abs(v)), error, error); }
   /// Triangles' k-th corners, which were subtracted from the origin in double. With u = 2^-24 a coordinate along an axis has
   /// 5 roundings of terms that sum to at most the point's size; so has the depth, and the quotient 2 more. A direction's
@@ -218,7 +219,8 @@ class Projection {
   /// A ray that the double kernels cannot tell from the triangle's is no farther from a corner than 9/8 of the size both
   /// ways. There the edge function, a product of two differences of places, is off by less than 12 margins times the size,
   /// and the kernels' own by what edge_setup_kernel.cpp says.
-  void put_lines(const Corners& at, const Shape& shape, M known, EdgeLines& lines, std::size_t first) const {
+  void store_lines(const Corners& at, const Shape& shape, M known, EdgeLines& lines,
+                   std::size_t first) const {
     V kernels = all(kernel_error_);
     if (!setup_.directional)
       kernels = hn::Mul(hn::Mul(kernels, at.size), hn::Mul(at.per_depth, at.per_depth));

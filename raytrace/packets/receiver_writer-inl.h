@@ -47,7 +47,7 @@ class ReceiverWriter {
   }
 
   /// A packet that shows nothing.
-  void put_nothing(std::size_t packet) const {
+  void store_nothing(std::size_t packet) const {
     static constexpr SurfacePoint nothing{};
     const auto* from = reinterpret_cast<const double*>(&nothing);
     for (std::size_t i = 0; i < packet_rays; ++i) {
@@ -112,15 +112,15 @@ class ReceiverWriter {
     const M here = mask_of(sound);
     const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(sound)};
     const auto here_of_units = hn::LoadMaskBits(Units(), bytes);
-    const auto put_along = [&](std::size_t axis, V position, V normal) {
+    const auto store_along = [&](std::size_t axis, V position, V normal) {
       blend_into(d, draft.position[axis] + lane, here, position);
       blend_into(Units(), draft.normal[axis] + lane, here_of_units, in_units(hn::DemoteTo(half, normal)));
       low_[axis] = hn::Min(low_[axis], hn::IfThenElse(here, position, low_[axis]));
       high_[axis] = hn::Max(high_[axis], hn::IfThenElse(here, position, high_[axis]));
     };
-    put_along(0, p.position.x, p.normal.x);
-    put_along(1, p.position.y, p.normal.y);
-    put_along(2, p.position.z, p.normal.z);
+    store_along(0, p.position.x, p.normal.x);
+    store_along(1, p.position.y, p.normal.y);
+    store_along(2, p.position.z, p.normal.z);
     blend_into(Ids(), draft.source + lane, hn::LoadMaskBits(Ids(), bytes), p.ids);
     sinks_.quantised->present[lane / packet_rays] |=
         static_cast<std::uint16_t>(sound << (lane % packet_rays));

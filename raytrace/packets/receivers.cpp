@@ -118,7 +118,7 @@ inline bool shows_nothing(const std::uint32_t* leaf) {
   return nothing;
 }
 
-/// Of a packet the lanes that show triangles, and planes.
+/// Holds the lanes of a packet that show triangles, and those that show planes.
 struct PacketLanes {
   unsigned triangles = 0, planes = 0;
   PacketLanes(const Bvh& bvh, const PlanesSeen& seen, const std::uint32_t* leaf) {
@@ -144,7 +144,7 @@ LaneMask receivers_along(const Structures& s, const View& view, int x0, int y0, 
     const std::uint32_t* leaf = hits.leaf + p * packet_rays;
     if (p + ahead < tile_packets) prefetch(s.bvh, leaf + ahead * packet_rays);
     if (sinks.non_temporal && shows_nothing(leaf)) {
-      writer.put_nothing(p);
+      writer.store_nothing(p);
       continue;
     }
     const PacketLanes shown(s.bvh, planes, leaf);

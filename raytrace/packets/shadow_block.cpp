@@ -98,9 +98,9 @@ class BlockShadows {
     return all_of;
   }
 
-  /// Bits of the tiles of which a ray may be touched.
-  unsigned touched_tiles(const LaneBounds& bounds) const {
-    unsigned tiles = regions_.touched_by(bounds);
+  /// Bits of the tiles of which a ray may be met.
+  unsigned met_tiles(const LaneBounds& bounds) const {
+    unsigned tiles = regions_.met_by(bounds);
     for (unsigned left = tiles; left != 0; left &= left - 1)
       if (!tiles_[std::countr_zero(left)].holds_ray(bounds)) tiles &= ~(left & -left);
     return tiles;
@@ -109,7 +109,7 @@ class BlockShadows {
   /// A run of leaves that the traversal has come to. It waits until many more are found, so that a tile that meets too many
   /// leaves is left to single rays before work has been done for it.
   void find(const PrimitiveBounds& bounds, LeafRange leaves) {
-    const unsigned tiles = touched_tiles(LaneBounds::of(bounds));
+    const unsigned tiles = met_tiles(LaneBounds::of(bounds));
     if (tiles == 0) {
       if (--misses_left_ == 0 && !at_any_cost_) leave_to_single_rays((1u << count_) - 1);
       return;
@@ -134,7 +134,7 @@ class BlockShadows {
   /// Hands on the runs that still concern tiles.
   void test_found() {
     for (std::size_t i = 0; i < found_count_; ++i) {
-      const unsigned tiles = regions_.touched_by(LaneBounds::of(found_[i].bounds));
+      const unsigned tiles = regions_.met_by(LaneBounds::of(found_[i].bounds));
       if (tiles == 0) continue;
       pending_.put(found_[i].leaves, static_cast<std::uint16_t>(tiles));
       while (pending_.count() >= std::size_t{2} * run_size) flush();
@@ -142,7 +142,7 @@ class BlockShadows {
     found_count_ = 0;
   }
 
-  /// Of the longest waiting leaves finds which packets each may concern, in plain loops, because branches that nobody can
+  /// Finds for the longest waiting leaves which packets each may concern, in plain loops, because branches that nobody can
   /// foresee would cost more than the tests.
   void flush() {
     const std::size_t count = std::min<std::size_t>(pending_.count(), run_size);
@@ -172,14 +172,14 @@ class BlockShadows {
     for (std::size_t i = 0; i < count; ++i) tiles |= pending_.tiles_of(i);
     const LaneBounds around = LaneBounds::around(bounds_, count);
     std::uint64_t concern = 0;
-    for (tiles &= regions_.touched_by(around); tiles != 0; tiles &= tiles - 1) {
+    for (tiles &= regions_.met_by(around); tiles != 0; tiles &= tiles - 1) {
       const auto tile = static_cast<std::size_t>(std::countr_zero(tiles));
-      const std::uint64_t touching = regions_.touching(tile, bounds_, count);
-      if (touching == 0) continue;
-      const unsigned packets = tiles_[tile].packets().touched_by(around);
-      const int by_leaf = std::popcount(touching) * static_cast<int>(packet_steps);
+      const std::uint64_t meeting = regions_.meeting(tile, bounds_, count);
+      if (meeting == 0) continue;
+      const unsigned packets = tiles_[tile].packets().met_by(around);
+      const int by_leaf = std::popcount(meeting) * static_cast<int>(packet_steps);
       const int by_packet = std::popcount(packets) * static_cast<int>((count + lanes() - 1) / lanes());
-      concern |= by_leaf <= by_packet ? list_by_leaf(touching, tile) : list_by_packet(packets, tile, count);
+      concern |= by_leaf <= by_packet ? list_by_leaf(meeting, tile) : list_by_packet(packets, tile, count);
     }
     return concern;
   }
@@ -188,7 +188,7 @@ class BlockShadows {
     std::uint64_t concern = 0;
     for (; leaves != 0; leaves &= leaves - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(leaves));
-      const unsigned packets = tiles_[tile].packets().touched_by(LaneBounds::of_row(bounds_, i));
+      const unsigned packets = tiles_[tile].packets().met_by(LaneBounds::of_row(bounds_, i));
       concern |= std::uint64_t{packets != 0} << i;
       pair_end_ += list_bits<1>(packets, 256 * i + 16 * tile, pairs_ + pair_end_);
     }
@@ -198,7 +198,7 @@ class BlockShadows {
     std::uint64_t concern = 0;
     for (; packets != 0; packets &= packets - 1) {
       const auto packet = static_cast<std::size_t>(std::countr_zero(packets));
-      std::uint64_t leaves = tiles_[tile].packets().touching(packet, bounds_, count);
+      std::uint64_t leaves = tiles_[tile].packets().meeting(packet, bounds_, count);
       leaves = tiles_[tile].not_missed(bounds_, lines_, not_from_, leaves, packet);
       concern |= leaves;
       pair_end_ += list_bits<256>(leaves, 16 * tile + packet, pairs_ + pair_end_);

@@ -20,7 +20,7 @@ struct alignas(64) TileRays {
   LaneMask alive;                   ///< bit i: ray i of the packet is asked for
 };
 
-/// Of each ray the leaf position of its nearest hit; or first_plane and the place in Structures::planes; or:
+/// A ray's nearest hit is a leaf position, first_plane and the place in Structures::planes, or one of the first two of these.
 inline constexpr std::uint32_t nothing_hit = 0xffffffffu, ambiguous_hit = 0xfffffffeu,
                                first_plane = 0x80000000u;
 
@@ -37,8 +37,8 @@ struct AmbiguousHit {
 /// Bits per packet; neither: surely lit. Both never.
 struct TileShadows {
   LaneMask shadowed, ambiguous;
-  /// Of the ambiguous rays every primitive but planes that they may intersect; of others some. When
-  /// ambiguous_count is above most_ambiguous there were more.
+  /// Holds for the ambiguous rays every primitive but planes that they may intersect; for others some. When ambiguous_count
+  /// is above most_ambiguous there were more.
   static constexpr std::size_t most_ambiguous = 512;
   std::array<AmbiguousHit, most_ambiguous> ambiguous_hits;
   std::size_t ambiguous_count = 0;

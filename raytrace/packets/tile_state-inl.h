@@ -53,8 +53,8 @@ struct LaneBounds {
   }
 };
 
-/// Bit i: the i-th of sixteen regions may be touched within these bounds, in front of what it knows already.
-inline unsigned touched(const Packets& regions, const LaneBounds& b) {
+/// Bit i: the i-th of sixteen regions may be met within these bounds, in front of what it knows already.
+inline unsigned met(const Packets& regions, const LaneBounds& b) {
   unsigned hit = 0;
   for (std::size_t i = 0; i < packet_rays; i += lanes()) {
     const auto at = [&](const float* row) { return hn::Load(f, row + i); };
@@ -67,8 +67,8 @@ inline unsigned touched(const Packets& regions, const LaneBounds& b) {
 }
 
 /// Bit i: the i-th of the first `count` of rows may touch region k, in front of what that knows already.
-inline std::uint64_t touching(const Packets& regions, std::size_t k, const BoundsRows& rows,
-                              std::size_t count) {
+inline std::uint64_t meeting(const Packets& regions, std::size_t k, const BoundsRows& rows,
+                             std::size_t count) {
   const V u_min = all(regions.u_min[k]), u_max = all(regions.u_max[k]);
   const V v_min = all(regions.v_min[k]), v_max = all(regions.v_max[k]), far_min = all(regions.far_min[k]);
   std::uint64_t bits = 0;
@@ -83,18 +83,18 @@ inline std::uint64_t touching(const Packets& regions, std::size_t k, const Bound
 }
 
 /// Sixteen regions of the plane, each in one part or in two: a silhouette's rays start from two surfaces, and a
-/// rectangle around both would be touched by all that lies between them.
+/// rectangle around both would be met by all that lies between them.
 struct SplitRegions {
   Packets part[2];
   bool split = false;  ///< whether any has a second part
 
-  unsigned touched_by(const LaneBounds& bounds) const {
-    return touched(part[0], bounds) | (split ? touched(part[1], bounds) : 0);
+  unsigned met_by(const LaneBounds& bounds) const {
+    return met(part[0], bounds) | (split ? met(part[1], bounds) : 0);
   }
-  /// Of region k.
-  std::uint64_t touching(std::size_t k, const BoundsRows& rows, std::size_t count) const {
-    return HWY_NAMESPACE::touching(part[0], k, rows, count) |
-           (split ? HWY_NAMESPACE::touching(part[1], k, rows, count) : 0);
+  /// Returns the rows whose bounds meet region k.
+  std::uint64_t meeting(std::size_t k, const BoundsRows& rows, std::size_t count) const {
+    return HWY_NAMESPACE::meeting(part[0], k, rows, count) |
+           (split ? HWY_NAMESPACE::meeting(part[1], k, rows, count) : 0);
   }
   float far_min() const {
     return std::min(smallest(part[0].far_min), split ? smallest(part[1].far_min) : inf);
@@ -218,8 +218,8 @@ class TileState {
     for (std::size_t p = 0; p < tile_packets; ++p) any |= test_packet<true>(plane, blocker, 0, p);
     return any;
   }
-  /// Of `leaves`, bits of rows, those that some ray of the packet does not surely miss; `not_from`: by row, the rays that
-  /// leave it are not blocked by the row.
+  /// Returns those bits of `leaves`, rows, that some ray of the packet does not surely miss; `not_from`: by row, the rays
+  /// that leave it are not blocked by the row.
   std::uint64_t not_missed(const BoundsRows& rows, const EdgeLines& lines, const std::uint32_t* not_from,
                            std::uint64_t leaves, std::size_t packet) const {
     std::uint64_t met = 0;
@@ -244,7 +244,7 @@ class TileState {
 
   /// Whether a ray that is still asked for is within the bounds, and the primitive may be before its end.
   bool holds_ray(const LaneBounds& b) const {
-    for (unsigned left = packets_.touched_by(b); left != 0; left &= left - 1) {
+    for (unsigned left = packets_.met_by(b); left != 0; left &= left - 1) {
       const auto packet = static_cast<std::size_t>(std::countr_zero(left));
       for (std::size_t k = 0; k < packet_steps; ++k) {
         const std::size_t at = packet * packet_rays + k * lanes();

@@ -87,7 +87,7 @@ TriangleMask triangle_mask(const Structures& s, const EdgeSetupPass& pass, std::
   const Vec2 extent = larger(texels[1] - texels[0], texels[2] - texels[0]);
   const double size_w = put(w, mask.w);
   bool is_known = true;
-  const auto put_axis = [&](int a, float(&row)[3]) {
+  const auto set_axis = [&](int a, float(&row)[3]) {
     const Vec3 q = (texels[1] - texels[0])[a] * n1 + (texels[2] - texels[0])[a] * n2;
     const double gradient =
         (std::abs(q.x) + std::abs(q.y) + extent[a] * (std::abs(w.x) + std::abs(w.y))) / least;
@@ -95,7 +95,7 @@ TriangleMask triangle_mask(const Structures& s, const EdgeSetupPass& pass, std::
     const double rounding = 0x1p-21 * (size + (std::abs(base) + extent[a]) * size_w);
     is_known = is_known && plane_error * gradient + rounding <= most_error;
   };
-  put_axis(0, mask.x), put_axis(1, mask.y);
+  set_axis(0, mask.x), set_axis(1, mask.y);
   if (!is_known) mask.cells = nullptr;
   return mask;
 }

@@ -15,7 +15,7 @@ struct TriangleMask {
   float x[3], y[3], w[3];
 };
 
-/// Of a masked triangle; of one that casts no shadow nothing is known.
+/// Prepares a masked triangle; of one that casts no shadow nothing is known.
 TriangleMask triangle_mask(const Structures& structures, const EdgeSetupPass& pass, std::uint32_t id,
                            const CornerPointers& corners);
 

@@ -17,8 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
 
-/// Of each ray the best sure hit's reciprocal depth is known to lie in [low, high], and no other hit is
-/// nearer than `rival`.
+/// Finds the closest hits of a block: each ray's best sure hit is known to have a reciprocal depth in [low, high], and no
+/// other hit is nearer than `rival`.
 class BlockClosest {
  public:
   BlockClosest(const Structures& s, const EdgeSetup& setup, const View& view, const BlockRect& rect,
@@ -79,7 +79,7 @@ class BlockClosest {
     out_.ambiguous_hits.clear(), out_.all_ambiguous = true;
   }
 
-  /// Of the packet with this corner in the block.
+  /// Returns the rays of the packet with this corner in the block that are still asked for.
   unsigned alive_in(int x, int y) const {
     const int columns = rect_.x1 - rect_.x0 - x, rows = rect_.y1 - rect_.y0 - y;
     if (columns >= 4 && rows >= 4) return 0xffff;

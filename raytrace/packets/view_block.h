@@ -21,8 +21,8 @@ struct AmbiguousBlockHit {
 
 struct BlockHits {
   std::array<TileHits, std::size_t{block_tiles} * block_tiles> tiles;  ///< row by row
-  /// Of the ambiguous rays everything but planes that may be their nearest hit, in the order of places; of
-  /// others some.
+  /// Holds for the ambiguous rays everything but planes that may be their nearest hit, in the order of places; for others
+  /// some.
   std::vector<AmbiguousBlockHit> ambiguous_hits;
   bool all_ambiguous = true;  ///< false: there were more than are worth keeping
   /// Leaves of those that the ray at this place may intersect.

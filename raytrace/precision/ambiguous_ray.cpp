@@ -12,8 +12,8 @@ double axis(const Vec3& v, std::size_t a) {
   return v[static_cast<int>(a)];
 }
 
-/// Of a point: it is no higher than the tangent plane, but for rounding; a ray that leaves the tangent plane is clearly above
-/// that rounding at this distance.
+/// Tells of a point that it is no higher than the tangent plane, but for rounding; a ray that leaves the tangent plane is
+/// clearly above that rounding at this distance.
 struct BelowHorizon {
   bool below, left;
 };

@@ -42,7 +42,7 @@ inline Bounds outward(double lo, double hi, bool sure) {
   if (std::isnan(lo) || std::isnan(hi)) return Bounds::anything();
   return {std::isinf(lo) ? lo : rounded_down(lo), std::isinf(hi) ? hi : rounded_up(hi), sure};
 }
-/// Of a library function, whose result is within two units in the last place.
+/// Bounds the result of a library function, which is within two units in the last place.
 inline Bounds outward_twice(double lo, double hi, bool sure) {
   const Bounds once = outward(lo, hi, sure);
   return outward(rounded_down(once.lo), rounded_up(once.hi), sure);

@@ -39,8 +39,8 @@ class Query {
   }
 
  private:
-  /// As many as may hang together at a corner: were one forgotten, the answer would depend on the order in which
-  /// the structure reports them.
+  /// Is how many triangles may meet at a corner: were one forgotten, the answer would depend on the order in which the
+  /// structure reports them.
   static constexpr std::size_t remembered_triangles = 64;
 
   /// The floats of the wide tree leave out no triangle that intersects_triangle() would not

@@ -20,8 +20,8 @@ using LeavesAmong = const std::span<const std::uint32_t>*;
 PointVisibility point_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
                                  LeavesAmong among = nullptr, LastBlocker* last = nullptr);
 
-/// The same without ambiguity: what the bounds leave open is decided by exact predicates (exact_shadow.h
-/// there).
+/// Returns a visibility without ambiguity: what the bounds leave open is decided by exact predicates (ExactShadow says
+/// where).
 PointVisibility certified_visibility(const Structures& structures, const SurfacePoint& from, const Ray& ray,
                                      const Light& light, LeavesAmong among = nullptr,
                                      LastBlocker* last = nullptr);

@@ -33,7 +33,7 @@ class LightShaft {
     shaft_.low = center_ - half_, shaft_.high = center_ + half_;
     size_ = max_component(glm::max(glm::abs(shaft_.low), glm::abs(shaft_.high)));
     least_height_ = least(from.normal);
-    put_sides();
+    make_sides();
   }
 
   const Shaft& shaft() const { return shaft_; }
@@ -99,7 +99,7 @@ class LightShaft {
   double least(const Vec3& v) const { return glm::dot(v, center_) - glm::dot(glm::abs(v), half_); }
 
   /// For each two axes the planes along the third that touch the shaft, where it lies on one side of any.
-  void put_sides() {
+  void make_sides() {
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
       std::array<Vec2, 4> corners;

@@ -39,7 +39,7 @@ MaskCells::MaskCells(const Scene& scene, const Material& material) {
   widen_rows(), widen_columns();
 }
 
-/// Of a cell's texels i and i + 1 the neighbours i - 1 and i + 2, too.
+/// Adds to a cell's texels i and i + 1 the neighbours i - 1 and i + 2.
 void MaskCells::widen_rows() {
   const auto width = static_cast<std::size_t>(size_.width);
   parallel_ranges(static_cast<std::size_t>(size_.height), 16, [&](std::size_t first, std::size_t last) {

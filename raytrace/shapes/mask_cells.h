@@ -21,12 +21,12 @@ class MaskCells {
  public:
   /// None.
   MaskCells() = default;
-  /// Of a material with AlphaMode::mask.
+  /// Makes the cells of a material with AlphaMode::mask.
   MaskCells(const Scene& scene, const Material& material);
 
   bool empty() const { return kinds_.empty(); }
   std::uint64_t bytes() const { return kinds_.size(); }
-  /// Of the texture, texels; 1 x 1 where the material has none.
+  /// Returns the size of the texture, texels; 1 x 1 where the material has none.
   ImageSize size() const { return size_; }
   bool repeats_s() const { return repeat_s_; }
   bool repeats_t() const { return repeat_t_; }

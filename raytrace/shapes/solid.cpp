@@ -88,7 +88,7 @@ std::array<double, size - 1> derivative(const std::array<double, size>& p) {
   return out;
 }
 
-/// Plain halving: it cannot fail, and only places to look at hang on it.
+/// Plain halving: it cannot fail, and only places to look at depend on it.
 template <class Function>
 double halve(const Function& f, double lo, double hi, bool low_is_negative) {
   constexpr int halvings = 56;

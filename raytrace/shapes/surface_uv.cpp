@@ -5,7 +5,7 @@
 namespace gnomon::raytrace {
 namespace {
 
-/// Of what a triangle's vertices have.
+/// Takes the mean of what a triangle's vertices have.
 template <class Mean, class Value>
 Mean mean_of(const std::vector<Value>& values, const WorldPart& part, std::uint32_t triangle,
              const Vec2& barycentric) {

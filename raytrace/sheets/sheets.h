@@ -63,7 +63,7 @@ class Topology {
   struct Place {
     std::size_t across = 0, welded = 0;
   };
-  /// Of an instance in the world. What instances share is numbered as their mesh is.
+  /// Describes an instance in the world. What instances share is numbered as their mesh is.
   struct Part {
     const std::array<std::uint32_t, 3>* triangles = nullptr;
     Place at;

@@ -8,8 +8,8 @@
 
 #include "raytrace/choose_tracer.h"
 #include "raytrace/huge_array.h"
+#include "raytrace/sheets/contact.h"
 #include "raytrace/sheets/sheets.h"
-#include "raytrace/sheets/touching.h"
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
 
@@ -229,7 +229,7 @@ std::vector<char> Topology::share_meshes(const World& world) {
     places[m] = connect({&alone.parts[0]});
     welded[m].assign(welded_.begin() + static_cast<std::ptrdiff_t>(places[m].welded), welded_.end());
   }
-  const std::vector<char> together = touching_parts(world, welded);
+  const std::vector<char> together = parts_in_contact(world, welded);
   std::vector<std::uint32_t> first(places.size(), no_id);
   for (std::size_t i = 0; i < world.parts.size(); ++i) {
     const WorldPart& part = world.parts[i];

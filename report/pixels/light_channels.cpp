@@ -283,7 +283,7 @@ nlohmann::ordered_json light_data(const PageInput& in, std::size_t index, Packer
   map_json.update(packer.add({4, From::previous}, [map] { return map->depths; }));
   return {{"name", shown_light_name(c, index)},
           {"view", view_json(record.map.view)},
-          {"map_known", !lacks_map(c)},
+          {"map_known", c.raster.has_known_map()},
           {"technique", drawn_technique(c)},
           {"gaps_decide", biases_follow_from_gaps(c.raster)},
           {"compares_depths", compares_depths(c)},

@@ -37,8 +37,8 @@ nlohmann::ordered_json light_data(const PageInput& input, std::size_t index, Pac
 struct SectionMesh {
   std::vector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// Of quadrics and tori (scene/shapes/tessellate.h), twice the cells across an implicit surface; 0: there are
-  /// none.
+  /// Is the number of sectors of quadrics and tori (scene/shapes/tessellate.h), twice the number of cells across an
+  /// implicit surface; 0: there are none.
   int solid_sectors = 0;
   bool complete = true;  ///< false: triangles or solids are too many for a page and left out
 };

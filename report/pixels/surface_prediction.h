@@ -37,7 +37,7 @@ struct PixelSurfaces {
 };
 PixelSurfaces pixel_surfaces(const Comparison& comparison);
 
-/// Of every pixel, from the numbers before it.
+/// Predicts every pixel's lookup from the numbers before it.
 LookupNumbers predicted_lookups(const PixelSurfaces& surfaces, const LightView& light,
                                 const Image<std::uint8_t>& faces, const LookupNumbers& numbers,
                                 double depth_step);

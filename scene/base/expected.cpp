@@ -23,7 +23,7 @@ std::size_t character_length(std::string_view text) {
   return overlong || beyond ? 0 : length;
 }
 
-/// Of a whole UTF-8 character.
+/// Returns the number of a whole UTF-8 character.
 std::uint32_t code_point(std::string_view character) {
   const auto byte = [&](std::size_t i) {
     return static_cast<std::uint32_t>(static_cast<unsigned char>(character[i]));
@@ -45,7 +45,7 @@ bool is_misleading(std::uint32_t code) {
          (code >= 0x2066 && code <= 0x2069) || code == 0xfeff || (code >= 0xe0000 && code <= 0xe007f);
 }
 
-/// As JSON writes it.
+/// Writes a character as JSON escapes it.
 std::string unicode_escape(std::uint32_t code) {
   if (code < 0x10000) return fmt::format("\\u{:04x}", code);
   const std::uint32_t rest = code - 0x10000;

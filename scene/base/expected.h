@@ -41,7 +41,7 @@ inline tl::unexpected<Error> fail(ErrorKind kind, std::string reason) {
 /// which a line is shown.
 std::string one_line(std::string_view text);
 
-/// The same of text that has lines: their ends, tabs and the sequences of the program's `own` stay. What is no ASCII becomes
+/// Escapes text that has lines: their ends, tabs and the sequences of the program's `own` stay. What is no ASCII becomes
 /// \u009b, so that JSON text stays the same document.
 std::string plain_lines(std::string_view text, std::span<const std::string_view> own = {});
 

@@ -1,5 +1,5 @@
 // What becomes of memory that was freed. The C library hands large blocks back to the system at once, which
-// clears their pages anew for the next picture of the same size; and it keeps an arena for each thread, from which no
+// clears their pages again for the next picture of the same size; and it keeps an arena for each thread, from which no
 // other thread takes what was freed, and which maps blocks above 64 MB one by one.
 #pragma once
 

@@ -31,7 +31,7 @@ std::optional<double> whole_number(std::string_view text) {
   return whole<double>(text);
 }
 
-bool take_texels(std::string_view& text) {
+bool consume_texels(std::string_view& text) {
   for (const std::string_view unit : {std::string_view("texels"), std::string_view("texel")}) {
     if (!text.ends_with(unit)) continue;
     text.remove_suffix(unit.size());

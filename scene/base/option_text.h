@@ -31,7 +31,7 @@ tl::unexpected<Error> wrong_value(std::string_view reason, std::string_view got,
 /// The whole text as a number, or nothing.
 std::optional<double> whole_number(std::string_view text);
 /// Takes the unit "texel" or "texels" off a number's text; returns whether the text had one.
-bool take_texels(std::string_view& text);
+bool consume_texels(std::string_view& text);
 
 /// A finite decimal number. NaN and infinities are errors.
 Expected<double> parse_number(std::string_view text, const OptionRange& range);

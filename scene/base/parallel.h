@@ -39,7 +39,7 @@ class FunctionRef<Result(Arguments...)> {
 };
 
 /// body(first, last) for ranges that together are [0, count), each on one thread. No range shorter than half of
-/// `at_a_time` but one of a shorter whole; how long they are hangs on what the threads have to do.
+/// `at_a_time` but one of a shorter whole; how long they are depends on what the threads have to do.
 void parallel_ranges(std::size_t count, std::size_t at_a_time,
                      FunctionRef<void(std::size_t first, std::size_t last)> body);
 
@@ -147,7 +147,7 @@ bool is_given_up();
 
 /// Threads that a loop begun now may have.
 int threads_for_loops();
-/// The same as limited for the whole program (--threads).
+/// Returns the threads of the whole program, as --threads limits them.
 int threads_in_use();
 
 // Long lists of plain numbers in ascending order, by Highway's vectorised quicksort (Blacher, Giesen, Kühne 2022,

@@ -17,7 +17,7 @@ struct TimeDifference {
   bool told = false;  ///< the interval does not hold 0: the pass takes longer, beyond the spread of the runs
 
   bool timed() const { return !pairs.runs.empty(); }
-  /// Of both together, such as of several lights; a part that is not timed adds nothing.
+  /// Adds another difference, such as another light's; a part that is not timed adds nothing.
   TimeDifference& operator+=(const TimeDifference& other);
   /// With what is known by itself, such as the map beside its lookups.
   TimeDifference& operator+=(double ms);
@@ -26,8 +26,9 @@ struct TimeDifference {
 /// What a single time may be off by on a busy machine, as a share of it.
 inline constexpr double single_run_share = 0.25;
 
-/// Of a pass and a part of it, run in turn: the i-th run of the one beside the i-th of the other. A part takes no more
-/// than the whole, so nothing of the interval lies below 0; where pairs do, it reaches up as far as these reach down.
+/// Subtracts a part of a pass that was run in turn with it: the i-th run of the one beside the i-th of the other. A part
+/// takes no more than the whole, so nothing of the interval lies below 0; where pairs do, it reaches up as far as these
+/// reach down.
 TimeDifference beyond_part(const Times& whole, const Times& part);
 
 /// Whether `a` takes less time than `b` by more than their runs leave open; as fast are two of which neither does.

@@ -57,7 +57,7 @@ class MemoryFile {
   Descriptor file_;
 };
 
-/// Of what assimp says its error, in one line.
+/// Finds the error in what assimp says, in one line.
 std::string why_not(const std::string& said) {
   constexpr std::string_view mark = "ERROR: ";
   const std::size_t at = said.find(mark);

@@ -18,12 +18,12 @@ enum class FileKind : std::uint8_t { none, file, folder, other };
 /// What `path` leads to, links followed. `none` is said only where the system says that nothing is there, as at the end of
 /// a link that leads nowhere. The error is of the given kind: cannot_write where an output's place is looked at.
 Expected<FileKind> file_kind(const std::string& path, ErrorKind error = ErrorKind::bad_input);
-/// The same question with one answer wanted.
+/// Answers with one question: whether something is there.
 Expected<bool> is_there(const std::string& path, ErrorKind error = ErrorKind::bad_input);
 Expected<bool> is_folder(const std::string& path, ErrorKind error = ErrorKind::bad_input);
 Expected<bool> is_plain_file(const std::string& path, ErrorKind error = ErrorKind::bad_input);
 
-/// Of a plain file; anything else is an error.
+/// Returns the size of a plain file, bytes; anything else is an error.
 Expected<std::uint64_t> size_of_file(const std::string& path, ErrorKind error = ErrorKind::bad_input);
 
 /// Where an answer decides nothing but words or comfort: what could not be looked at counts as nothing.
@@ -33,7 +33,7 @@ FileKind file_kind_or_none(const std::string& path);
 /// end.
 Expected<std::vector<std::string>> names_in(const std::string& folder,
                                             ErrorKind error = ErrorKind::bad_input);
-/// The same of a folder that need not be there: it holds nothing then.
+/// Lists a folder that need not be there: it holds nothing then.
 Expected<std::vector<std::string>> names_if_there(const std::string& folder,
                                                   ErrorKind error = ErrorKind::bad_input);
 /// The paths, relative to the folder and sorted, of all files in it and in the folders below it. A link is one of the

@@ -31,7 +31,7 @@ struct PlacedTriangle {
   Vec3 normal() const { return turn * glm::cross(b - a, c - a); }
 };
 
-/// Those of one instance that have these numbers in its mesh.
+/// Visits the triangles of one instance that have these numbers in its mesh.
 template <class Visit>
 void visit_placed(const Scene& scene, const MeshInstance& instance, std::size_t first, std::size_t last,
                   const Visit& visit) {

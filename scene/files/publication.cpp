@@ -49,7 +49,7 @@ tl::unexpected<Error> cannot_move(const std::string& path, std::string_view step
   return failed_call(ErrorKind::cannot_write, path, step, errno);
 }
 
-/// Of a file or a link itself; none where nothing is there.
+/// Returns what is known of a file or a link itself; none where nothing is there.
 Expected<std::optional<struct stat>> what_is_at(const std::string& path) {
   struct stat found = {};
   if (::lstat(path.c_str(), &found) == 0) return found;
@@ -114,7 +114,7 @@ std::string list_text(const Moves& moves) {
   return text;
 }
 
-bool take_number(std::string_view& text, auto& number) {
+bool consume_number(std::string_view& text, auto& number) {
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
   const auto length = static_cast<std::size_t>(end - text.data());
   if (status != std::errc() || length == text.size() || text[length] != ' ') return false;
@@ -137,7 +137,7 @@ Expected<Moves> read_list(const std::string& folder, const std::string& staged) 
       continue;
     }
     MovingFile file;
-    if (!take_number(record, file.inode) || !take_number(record, file.modified_ns))
+    if (!consume_number(record, file.inode) || !consume_number(record, file.modified_ns))
       return fail(Error{ErrorKind::cannot_write, "is no list of files on their way", moves.list()});
     file.name = record;
     moves.files.push_back(std::move(file));

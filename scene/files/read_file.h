@@ -40,7 +40,7 @@ std::optional<double> parse_decimal(std::string_view word);
 
 /// Up to 40 bytes of hostile text as one_line() writes it, for messages.
 std::string printable(std::string_view text);
-/// The same for up to `longest` bytes.
+/// Makes up to `longest` bytes of text printable.
 std::string printable(std::string_view text, std::size_t longest);
 
 /// The value of a hexadecimal digit, 0 to 15; -1 for what is none.

@@ -110,7 +110,7 @@ Expected<std::string> follow_link(const std::string& path) {
   return target.string();
 }
 
-/// Of decimal digits alone, without a leading zero.
+/// Reads a process's number, which has decimal digits alone, without a leading zero.
 std::optional<pid_t> process_number(std::string_view text) {
   pid_t number = 0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -108,7 +108,7 @@ Extent extent_of(const WorldPart& part, std::uint32_t triangle, const LightFace&
   return {{Vec2(box.min), Vec2(box.max)}, box.min.z, box.max.z};
 }
 
-/// Of a finite shape.
+/// Returns the extent of a finite shape.
 Extent extent_of(const Shape& shape, const LightFace& face, const Vec3& reference) {
   const auto* sphere = std::get_if<Sphere>(&shape.geometry);
   const Vec3 center = sphere != nullptr ? sphere->center : solid_center(shape.geometry);

@@ -28,7 +28,7 @@ LightFace face_along(const Vec3& forward);
 
 Vec3 to_light_space(const LightFace& face, const Vec3& offset);
 
-/// Of all finite casters.
+/// Returns the rectangle around all finite casters.
 Rect casters_rect(const World& world, const LightFace& face, const Vec3& reference);
 
 /// Depths of the finite casters over `casters`, and of the infinite planes over `rect`. Empty for none.

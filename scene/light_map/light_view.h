@@ -89,9 +89,9 @@ int cube_face(const Vec3& from_light);
 /// A point in several cascades belongs to the first that holds it and the four texels around it; one in none,
 /// to the last.
 TexelCoordinate project_to_texel(const LightView& view, const Vec3& world);
-/// The same among the cascades from `first` on.
+/// Projects on the cascades from `first` on.
 TexelCoordinate project_from_cascade(const LightView& view, int first, const Vec3& world);
-/// The same on a face already chosen.
+/// Projects on a face that is chosen already.
 TexelCoordinate project_to_face(const LightView& view, int face, const Vec3& world);
 
 /// The light ray through map position (u, v) in texels, direction unit, t = distance. Starts at the light
@@ -102,7 +102,7 @@ Ray texel_ray(const LightView& view, int face, double u, double v);
 /// World width of one texel (its wider side), perpendicular to forward, at the given depth; of a warped face
 /// at its centre.
 double texel_world_size(const LightView& view, int face, double depth);
-/// The same where a point falls.
+/// Returns the size of the texel in which a point falls.
 double texel_world_size(const LightView& view, const TexelCoordinate& at);
 
 /// Corners of a texel's column in turn (low x and y first): (x, y) along right and up from `origin`, at depth

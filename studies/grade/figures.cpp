@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-/// As a share of the compared pixels what is counted. Null stands where nothing is compared: nothing is off there.
+/// Returns a count as a share of the compared pixels. Null stands where nothing is compared: nothing is off there.
 double figure_of_light(const json& light, const Measure& measure) {
   const json& value =
       measure.figure == nullptr
@@ -52,7 +52,7 @@ Expected<std::vector<std::string>> value_files(const std::string& folder) {
   return names;
 }
 
-/// Of one light, as shares of its compared pixels.
+/// Holds one light's errors as shares of its compared pixels.
 struct TwoErrors {
   double false_shadow = 0.0, missed_shadow = 0.0;
 };
@@ -98,7 +98,7 @@ void raise_figure(RunResult& result, std::string_view name, double value) {
     if (measures()[i].name == name) result.figures[i] = std::max(result.figures[i], value);
 }
 
-/// Of one light.
+/// Counts the pixels of one light.
 Expected<std::uint64_t> count_different(const std::string& a, const std::string& b) {
   constexpr float half_a_step = 0.5f / 255.0f;
   const auto first = read_channels(a);

@@ -44,7 +44,7 @@ Expected<std::uint64_t> count_different(const RunResult& a, const RunResult& b);
 
 /// raster.png, raytrace.png and the labels' pictures that there are, by file name.
 Expected<std::vector<std::string>> pictures_of(const RunResult& result);
-/// Of the pixels that are wrong, in any light, the most frequent first.
+/// Returns the labels of the pixels that are wrong, in any light, the most frequent first.
 std::vector<compare::Label> labels_of(const RunResult& result);
 
 }  // namespace gnomon::grade

@@ -173,7 +173,7 @@ Expected<void> read_all(const std::string& folder) {
   return {};
 }
 
-/// The same as far as the files' contents tell.
+/// Returns the refusal as far as the files' contents tell.
 std::string refusal_of(const raster::ShaderFolder& folder, const Rubric& rubric, const std::string& nothing) {
   bool any = false;
   const std::vector<raster::ShaderFile> own = raster::own_shaders();

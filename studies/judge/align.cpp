@@ -13,7 +13,7 @@ constexpr double least_geometry = 0.93;
 /// A suspect must agree clearly better, and undo most of what did not agree; more of it where shadows alone tell, since
 /// a picture that is some pixels off agrees a little better under many a wrong view.
 constexpr double least_gain = 0.03, most_left = 0.5, most_left_alone = 1.0 / 3.0;
-/// Of shadows: above it nobody is suspected; below it nothing can be told from chance.
+/// Are shares of shadows: above the first nobody is suspected; below the second nothing can be told from chance.
 constexpr double good_shadows = 0.95, no_shadows = 0.6;
 constexpr std::size_t few_samples = 50;
 /// Pixels of a ratio above 1, and how many times those below it: what single pixels of a path tracer do not make.

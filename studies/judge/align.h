@@ -27,8 +27,8 @@ struct Aligned {
 Expected<Aligned> align(const AlignInput& input, Scene& scene, Sight& sight, CapturedPictures& pictures,
                         Judged& judged);
 
-/// Of a ratio: whether the picture with shadows is the one that is named as the one without, as it is where it is often
-/// brighter and hardly ever darker. An error without `fix`; with it the pictures are read anew, in the other order.
+/// Tells of a ratio whether the picture with shadows is the one that is named as the one without, as it is where it is often
+/// brighter and hardly ever darker. An error without `fix`; with it the pictures are read again, in the other order.
 Expected<void> check_order(const Capture& capture, bool orthographic, bool fix, CapturedPictures& pictures,
                            Judged& judged);
 

@@ -26,7 +26,7 @@ tl::unexpected<Error> picture_error(const std::string& file, const std::string& 
   return fail(std::move(error));
 }
 
-/// Of pixels: the picture has the capture's size.
+/// Checks that the picture has the capture's size in pixels.
 Expected<ImageSize> checked_size(const Capture& capture, const std::string& file, const std::string& field,
                                  bool of_pixels) {
   const auto plain = is_plain_file(file);

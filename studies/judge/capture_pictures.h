@@ -16,7 +16,7 @@ struct CapturedPictures {
   /// 1 where something was drawn. Empty: the pictures do not tell.
   Image<std::uint8_t> drawn;
   bool ratio = false;  ///< visibility is shadowed over unshadowed
-  /// Of a ratio: pixels where the picture with shadows is clearly brighter or darker than the one without.
+  /// Counts, for a ratio, pixels where the picture with shadows is clearly brighter or darker than the one without.
   std::size_t brighter = 0, darker = 0;
   ColorImage color;  ///< linear; grey where the capture has no colours
   /// Depth along the camera's forward axis or distance, whichever the capture gives, or positions; one of

@@ -123,7 +123,7 @@ bool is_culled(const FrameInput& in, const raster::LightRecord& record) {
   return seen > 0 && static_cast<double>(later) > culled_share * static_cast<double>(seen);
 }
 
-/// Of a picture without its map: a place to measure pixels by, nothing stored in it.
+/// Makes a map for a picture without one: a place to measure pixels by, with nothing stored in it.
 Expected<raster::ShadowMap> empty_map(const FrameInput& in, const Light& light) {
   constexpr int texels = 64;
   raster::ShadowMap map;
@@ -172,7 +172,7 @@ void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRe
     record.face.data[i] = static_cast<std::uint8_t>(at.face);
     record.distance.data[i] = static_cast<float>(at.distance);
     record.outside_map.data[i] = at.inside && looks_up ? 0 : 1;
-    if (raster::lacks_map(record)) return;
+    if (!record.has_known_map()) return;
     record.gap.data[i] =
         static_cast<float>(biased_gap(record, bias, light_at(light, point.position).to_light, point, i));
   });

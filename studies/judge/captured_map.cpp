@@ -21,7 +21,7 @@ Vec4 row(const Mat4& m, int i) {
   return {m[0][i], m[1][i], m[2][i], m[3][i]};
 }
 
-/// As stored: z/w or (z/w + 1)/2, so that both run over [0, 1].
+/// Returns the row as stored: z/w or (z/w + 1)/2, so that both run over [0, 1].
 Vec4 stored_row(const Vec4& z, const Vec4& w, StoredDepth convention) {
   const bool halves = convention == StoredDepth::minus_one_to_one || convention == StoredDepth::distance;
   return halves ? 0.5 * (z + w) : z;

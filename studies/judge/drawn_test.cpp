@@ -67,7 +67,7 @@ bool stretch_depths(raster::LightRecord& record, double times) {
   });
 }
 
-/// As a renderer looks it up that takes one side of the window for the other's.
+/// Changes the lookup to that of a renderer that takes one side of the window for the other's.
 bool take_side_for(raster::LightRecord& record, int axis) {
   const LightFace& face = record.map.view.face(0);
   if (std::abs(face.half_extent.x - face.half_extent.y) < 0.01 * face.half_extent.x) return false;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t few_greys = 100;
 constexpr int most_taps = 64;
-/// Of stored values: floats and 16 bits lie nearer to a multiple, 8 bits at half a step.
+/// Is how far stored values lie from a multiple: floats and 16 bits lie nearer, 8 bits at half a step.
 constexpr float slack = 0.0021f;
 /// Decoded nearly all greys lie on multiples, and as they are clearly fewer than that.
 constexpr double least_decoded = 0.97, most_as_is = 0.7;

@@ -23,12 +23,13 @@ constexpr std::array map_sizes{128, 256, 512, 1024, 2048, 4096};
 constexpr std::array radii{1.5, 2.5, 3.5};  // texels, of pcf
 /// A picture with fewer greys than this share was not filtered.
 constexpr double least_greys = 0.002;
-/// Of the filtered maps that come nearest, so many sizes' bias is searched.
+/// Is the number of filtered maps, the nearest ones, of which a size's bias is searched.
 constexpr std::size_t sizes_refined = 3;
 /// A setting with one part more must explain clearly more than one without.
 constexpr double simpler = 0.9;
 constexpr int bias_steps = 12;
-/// Of the error: a model that explains less labels nothing, and below the second one labels are guesses.
+/// Are shares of the error: a model that explains less than the first labels nothing, and below the second labels are
+/// guesses.
 constexpr double least_explained = 0.5, well_explained = 0.8;
 
 std::size_t index_of_size(int map_size) {

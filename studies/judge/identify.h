@@ -20,12 +20,12 @@ Expected<void> identify(Comparison& judged, raster::Renderer& renderer, const Id
                         const Progress& progress = {});
 
 /// The wrong pixels that a model draws otherwise than the picture get the label `unexplained`, and what is counted by
-/// labels is counted anew.
+/// labels is counted again.
 void mark_unexplained(const Image<float>& drawn_by_model, LightComparison& light);
 /// After labels have changed: other reasons for the same errors. What truth and picture alone decide, FLIP and SSIM among
 /// it, stays.
 void count_labels_again(LightComparison& light);
-/// The same of given pixels.
+/// Marks the given pixels as unexplained.
 void mark_unexplained(const std::vector<std::uint32_t>& pixels, LightComparison& light);
 
 }  // namespace gnomon::compare

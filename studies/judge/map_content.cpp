@@ -261,7 +261,7 @@ bool Content::is_masked_out(const Texel& t) const {
   return false;
 }
 
-/// Of a caster that the map does not hold at its place.
+/// Returns the label of a caster that the map does not hold at its place.
 Label Content::missing_label(const Texel& t) const {
   const Share& own = objects_.at(object(t.first()));
   const auto lacking = double(own.texels - own.held);
@@ -305,7 +305,7 @@ std::optional<TexelKey> lookup_of(const FrameInput& in, const raster::RasterFram
 /// What the ladder charges to precision, and of a culled map what the bias step takes for a leak.
 bool may_be_content(const LightComparison& light, std::size_t i, bool culled) {
   const Label label = light.labels.data[i];
-  if (label == Label::precision) return true;
+  if (label == Label::stored_depth) return true;
   const bool missed = light.rungs[6].data[i] > light.rungs[0].data[i];
   return culled && missed && (label == Label::light_leak || label == Label::peter_panning);
 }
@@ -418,7 +418,7 @@ MapContent label_map_content(const FrameInput& in, const raster::RasterFrame& dr
   for (const auto& [pixel, key] : asked) {
     const bool dark = light.rungs[6].data[pixel] < light.rungs[0].data[pixel];
     const auto label = content.label_of(key, dark);
-    if (!label || (*label == Label::aliasing && light.labels.data[pixel] != Label::precision)) continue;
+    if (!label || (*label == Label::aliasing && light.labels.data[pixel] != Label::stored_depth)) continue;
     if (is_as_described && *label != Label::aliasing) findings.add(pixel, *label, content.texel(key));
     light.labels.data[pixel] = is_as_described ? *label : Label::unexplained;
     light.detachment_map.data[pixel] = std::numeric_limits<float>::quiet_NaN();

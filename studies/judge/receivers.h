@@ -22,7 +22,7 @@ std::optional<Vec3> captured_place(const Sight& sight, const CapturedPictures& p
 struct Retraced {
   Image<std::uint8_t> elsewhere;  ///< 1 where the capture's place is none of the scene's on that sight line
 };
-/// Traces receivers and the light's truth anew where the capture says which positions its pixels show;
+/// Traces receivers and the light's truth again where the capture says which positions its pixels show;
 /// `everywhere`: where it does not, too (a sight other than the frame's). Receivers lie on the scene's own
 /// surfaces, on the sight line through the capture's place, so that it does no harm when a surface was cut into
 /// other triangles.

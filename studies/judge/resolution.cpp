@@ -14,7 +14,7 @@ constexpr int largest_block = 8;
 constexpr float least_change = 0.1f;
 /// Edges along an axis change the picture at few columns or rows, all of which may be even by chance.
 constexpr std::size_t few_borders = 16;
-/// Of the changes; borders of objects may be drawn at the whole resolution.
+/// Is the least share of the changes; borders of objects may be drawn at the whole resolution.
 constexpr double least_share = 0.95;
 
 /// How often the values change between two neighbours, by the coordinate of the second.

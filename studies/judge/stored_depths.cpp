@@ -21,7 +21,7 @@ bool are_whole_numbers(const std::vector<float>& values, double most) {
   });
 }
 
-/// Of numbers between 1/2 and 1 that have no bits below those that all values have.
+/// Returns the step of numbers between 1/2 and 1 that have no bits below those that all values have.
 double step_of_bits(const std::vector<float>& values) {
   int zeros = 23;
   for (const float v : values)

@@ -38,7 +38,7 @@ class StoredDepths {
   bool is_stored(raytrace::TexelKey key, double depth, double slack) const;
   /// Whether the map holds the first surface of the texel's centre, or of a place within 1/8 texel of it.
   bool holds_scene(raytrace::TexelKey key) const;
-  /// The same within one texel: a neighbour's depth.
+  /// Tells whether the map holds a neighbour's depth within one texel.
   bool holds_neighbours(raytrace::TexelKey key) const;
 
  private:

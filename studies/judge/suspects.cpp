@@ -18,7 +18,7 @@ void add_flips(std::vector<Suspect>& out) {
     }
 }
 
-/// As many steps to each side, of so many pixels. A bias, too, moves shadows by whole pixels.
+/// Adds as many steps to each side, of so many pixels. A bias, too, moves shadows by whole pixels.
 void add_shifts(double step, int steps, std::vector<Suspect>& out) {
   for (int i = -steps; i <= steps; ++i)
     for (int j = -steps; j <= steps; ++j) {

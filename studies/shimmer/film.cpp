@@ -58,7 +58,7 @@ glm::u8vec3 film_colour(const glm::u8vec3& unshadowed, float visibility) {
           static_cast<std::uint8_t>(share * float(unshadowed.b))};
 }
 
-Expected<void> FilmKeeper::add_light(const ShimmerLight& light, FilmOfLight& film) {
+Expected<void> FilmRecorder::add_light(const ShimmerLight& light, FilmOfLight& film) {
   const RungFrame& frame = light.temporal.last();
   const Image<std::uint8_t>& flips = light.temporal.last_flips();
   const auto shadowed = [&](std::size_t rung) {
@@ -84,7 +84,7 @@ Expected<void> FilmKeeper::add_light(const ShimmerLight& light, FilmOfLight& fil
   return {};
 }
 
-Expected<void> FilmKeeper::add(const ShimmerFrame& frame) {
+Expected<void> FilmRecorder::add(const ShimmerFrame& frame) {
   const TimedStage stage("pictures");
   for (std::size_t i = 0; i < frame.shimmer.lights.size(); ++i) {
     if (i == lights_.size())

@@ -25,9 +25,9 @@ struct FilmOfLight {
   AnimatedPng drawn, truth, flipped;
 };
 
-class FilmKeeper {
+class FilmRecorder {
  public:
-  FilmKeeper(Rgb8Image unshadowed, double fps) : base_(std::move(unshadowed)), fps_(fps) {}
+  FilmRecorder(Rgb8Image unshadowed, double fps) : base_(std::move(unshadowed)), fps_(fps) {}
   Expected<void> add(const ShimmerFrame& frame);
   const Rgb8Image& unshadowed() const { return base_; }
   const std::vector<FilmOfLight>& lights() const { return lights_; }

@@ -54,8 +54,8 @@ Expected<void> convert_to_mp4(const std::string& apng, const std::string& mp4, d
 
 // The page of a film of shadows: its document, and the data of the film that scripts play.
 
-/// Of more than `max_mb` megabytes the frames are files beside the page. `json`: result.json's text.
-Expected<BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmKeeper& films, std::string_view json,
+/// Builds the page; if it has more than `max_mb` megabytes the frames are files beside it. `json`: result.json's text.
+Expected<BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmRecorder& films, std::string_view json,
                                  double max_mb, FilmFormat format);
 
 // The folder of a film of shadows.
@@ -71,7 +71,7 @@ struct ShimmerFolder {
 
 /// result.json, report.html and, for each light, film-I-drawn, film-I-truth and film-I-flips (.png, animated, or .mp4),
 /// in a folder that appears whole (scene/files/staged_folder.h). Returns what the page weighs, megabytes.
-Expected<double> write_shimmer(const Shimmer& shimmer, const FilmKeeper& films, const std::string& json,
+Expected<double> write_shimmer(const Shimmer& shimmer, const FilmRecorder& films, const std::string& json,
                                const ShimmerFolder& output);
 
 }  // namespace gnomon::compare

@@ -66,7 +66,7 @@ std::string film_data(const FilmOfLight& film) {
 
 }  // namespace
 
-Expected<BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmKeeper& films, std::string_view json,
+Expected<BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmRecorder& films, std::string_view json,
                                  double max_mb, FilmFormat format) {
   PageShell shell;
   shell.title = "Shimmer of " + shimmer.world->scene->name + " \u2013 Gnomon";

@@ -48,7 +48,7 @@ using FrameSink = std::function<Expected<void>(const ShimmerFrame&)>;
 inline constexpr std::size_t worst_receivers = 16;
 
 /// `scene` is the world's own; its camera and lights are moved from frame to frame and stand as they were at the end.
-/// The truth is traced again only for frames in which a light moved; maps are drawn anew for each.
+/// The truth is traced again only for frames in which a light moved; maps are drawn again for each.
 Expected<Shimmer> film_shimmer(const World& world, Scene& scene, raster::Renderer& renderer,
                                std::span<const std::uint32_t> lights, const ShimmerOptions& options,
                                const FrameSink& sink = {}, const Progress& progress = {});

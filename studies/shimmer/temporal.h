@@ -50,7 +50,7 @@ struct ReceiverSpacing {
 ReceiverSpacing receiver_spacing(const Image<raytrace::SurfacePoint>& receivers, const World& world,
                                  int step);
 
-/// Of a receiver over the whole film.
+/// Describes the worst receiver over the whole film.
 struct WorstReceiver {
   std::uint32_t pixel = 0;
   std::uint32_t flips = 0;

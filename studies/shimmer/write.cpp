@@ -10,7 +10,7 @@
 namespace gnomon::compare {
 namespace {
 
-Expected<void> write_films(const FilmKeeper& films, const std::string& folder, FilmFormat format,
+Expected<void> write_films(const FilmRecorder& films, const std::string& folder, FilmFormat format,
                            double pixels) {
   for (std::size_t i = 0; i < films.lights().size(); ++i) {
     const FilmOfLight& film = films.lights()[i];
@@ -30,7 +30,7 @@ Expected<void> write_films(const FilmKeeper& films, const std::string& folder, F
 
 }  // namespace
 
-Expected<double> write_shimmer(const Shimmer& shimmer, const FilmKeeper& films, const std::string& json,
+Expected<double> write_shimmer(const Shimmer& shimmer, const FilmRecorder& films, const std::string& json,
                                const ShimmerFolder& output) {
   const TimedStage stage("page");
   const auto page = shimmer_page(shimmer, films, json, output.report_max_mb, output.film);

@@ -15,7 +15,7 @@
 namespace gnomon::compare {
 namespace {
 
-// What the truth hangs on.
+// What the truth depends on.
 bool same_truth(const Setting& a, const Setting& b) {
   return a.accel == b.accel && a.precision == b.precision && a.raytrace == b.raytrace &&
          a.camera == b.camera && a.lights == b.lights && a.compared == b.compared;

@@ -37,8 +37,8 @@ struct EngineWork {
 struct Probe {
   std::uint64_t compared = 0;        ///< pixels, all lights together
   std::vector<LightFigures> lights;  ///< of each light, as drawn
-  /// Of all lights together, as the first light's texel has them where the constant scales; empty where biases do not
-  /// follow from gaps.
+  /// Holds the gaps of all lights together, as the first light's texel has them where the constant scales; empty where
+  /// biases do not follow from gaps.
   GapLists gaps;
   /// The constant bias with the fewest wrong pixels, and each light's figures with it; none where biases do
   /// not follow from gaps.

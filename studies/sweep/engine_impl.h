@@ -39,7 +39,7 @@ struct Engine::Impl {
   Expected<void> compare(const Setting& setting, Detail detail);
   Expected<Probe> probe(const Setting& setting, const Figure& measure);
   Expected<double> time_drawing(const Setting& setting);
-  /// Of every light of a setting that was traced.
+  /// Counts the flips of every light of a setting that was traced.
   Expected<std::vector<ShimmerFigures>> count_flips(const Setting& setting) const;
 
   /// The ray-traced picture in grey between 64 and 232, so that both error colours stand out from it.
@@ -51,10 +51,10 @@ struct Engine::Impl {
 
  private:
   Image<std::uint8_t> codes_of_images() const;
-  /// Of one light at a pixel: with images of the last comparison as it is, without them as if it were right.
+  /// Returns one light's code at a pixel: with images of the last comparison as it is, without them as if it were right.
   std::uint8_t code_of_light(std::size_t i, std::size_t pixel) const;
   LadderInput input(const raster::RasterFrame& frame, std::size_t i) const;
-  /// Of every light of the last drawing.
+  /// Returns the figures of every light of the last drawing.
   std::vector<LightFigures> figures(const Figure& measure) const;
   void probe_best_bias(const raster::MapOptions& map, const Figure& measure, Probe& probe);
   void trace(const Setting& setting);

@@ -151,7 +151,7 @@ constexpr std::size_t checksum_digits = 16;
 constexpr std::string_view line_end = "\"}\n";
 constexpr std::size_t seal_size = checksum_key.size() + checksum_digits + line_end.size();
 
-/// Of the line without its seal, which begins after the comma or the opening brace.
+/// Returns the checksum of the line without its seal, which begins after the comma or the opening brace.
 std::string checksum(std::string_view line) {
   return sha256_hex(line).substr(0, checksum_digits);
 }
@@ -376,7 +376,7 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
   return journal;
 }
 
-// The table follows from the lines, so it is simply made anew.
+// The table follows from the lines, so it is simply made again.
 Expected<void> Journal::write_table() {
   if (auto cut = table_file_->cut(0); !cut) return cut;
   return table_file_->append(table_.text());

@@ -7,7 +7,7 @@
 //   sweep_times.jsonl  the times of each line of sweep.jsonl, in the same order
 // Each line ends with a checksum of itself, so that one which was edited is not taken for a result.
 // A line is appended with one write() and reaches the system before the next cell begins; what a crash leaves
-// of a torn last line is cut off when the folder is opened again, and its cell is made anew.
+// of a torn last line is cut off when the folder is opened again, and its cell is made again.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct Shard {
 
 /// What identifies a sweep, as JSON text.
 struct SweepHeader {
-  std::string configuration;  ///< JSON object: everything that the lines hang on, the shard apart
+  std::string configuration;  ///< JSON object: everything that the lines depend on, the shard apart
   std::string hash;           ///< SHA-256 of the configuration
   std::size_t cells = 0;      ///< of the whole sweep
   Shard shard;

@@ -33,7 +33,7 @@ std::vector<RayPoint> measure_ray_points(const World& world, raytrace::Accel acc
                                          const raytrace::RaytraceOptions& options);
 
 std::string ray_points_json(const std::vector<RayPoint>& points);
-/// Of DIR/ray_tracer.json; none where there is no such file. Errors are ErrorKind::bad_input.
+/// Reads DIR/ray_tracer.json; none where there is no such file. Errors are ErrorKind::bad_input.
 Expected<std::vector<RayPoint>> read_ray_points(const std::string& folder);
 std::string ray_points_path(const std::string& folder);
 

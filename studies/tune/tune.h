@@ -41,7 +41,7 @@ struct TuneFamily {
   raster::MapOptions map;
 };
 
-/// What a drawing costs; the milliseconds of map and shading where none is given. One that does not hang on
+/// What a drawing costs; the milliseconds of map and shading where none is given. One that does not depend on
 /// the machine is for tests.
 using TuneCost = std::function<double(const Setting& setting, const Probe& probe)>;
 
@@ -76,7 +76,7 @@ struct Attempt {
   std::uint64_t compared = 0;  ///< pixels, all lights
   std::vector<BiasCurvePoint> curve;  ///< empty where biases do not follow from gaps
   double texel_world = 0.0;           ///< a texel's width, as the rasterizer takes it for biases
-  /// As in Probe: a shader of the user's own decided, and whether it reads the bias.
+  /// Tell, as in Probe, whether a shader of the user's own decided, and whether it reads the bias.
   bool custom_shader = false, reads_bias = true;
 };
 
@@ -102,9 +102,9 @@ struct FamilyResult {
   double floor = 0.0;  ///< levels_off: the share of wrong pixels that no map size lessens, as estimated
   std::string like;    ///< no_smaller: that family's name
   std::vector<Attempt> tried;  ///< each size drawn, at its best bias, without curves
-  /// Of the winner: families whose times lie within the spread of its own (and whose error is the same, where
-  /// the goal is a time), and whether it was preferred to
-  /// the fastest of them for rendering fewer texels, taking fewer bytes or casting fewer rays.
+  /// Names, for the winner, the families whose times lie within the spread of its own (and whose error is the same, where
+  /// the goal is a time), and tells whether it was preferred to the fastest of them for rendering fewer texels, taking fewer
+  /// bytes or casting fewer rays.
   std::vector<std::string> as_fast;
   bool by_cost = false;
   std::string why;  ///< why it lost, or won

@@ -22,7 +22,7 @@ BenchScene million_scene();
 /// The built-in forest under a point above the ride, and its sun: 20 million triangles by 2,000 instances, which are
 /// kept.
 std::optional<BenchScene> forest_scene();
-/// Of 2 cells^2 triangles, under the million's lights and camera.
+/// Makes a terrain of 2 cells^2 triangles, under the million's lights and camera.
 BenchScene terrain_scene(const std::string& name, int cells);
 
 }  // namespace gnomon::bench

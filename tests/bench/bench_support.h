@@ -19,8 +19,8 @@ namespace gnomon::bench {
 inline double cpu_ms() {
   return clock_ms(CLOCK_PROCESS_CPUTIME_ID);
 }
-/// Of the calling thread's own: for work on one thread the wall clock's, but for other programs' share, and without what idle
-/// workers of earlier work take before they sleep.
+/// Returns the calling thread's own time: for work on one thread the wall clock's, but for other programs' share, and
+/// without what idle workers of earlier work take before they sleep.
 inline double thread_ms() {
   return clock_ms(CLOCK_THREAD_CPUTIME_ID);
 }

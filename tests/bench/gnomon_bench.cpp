@@ -16,7 +16,7 @@
 namespace gnomon::bench {
 namespace {
 
-/// As the program does it (app/outputs/render_json.h), of which this one holds only the rows.
+/// Writes the rows as the program does (app/outputs/render_json.h).
 Expected<void> hand_out(const std::string& path, const std::string& json) {
   if (path.empty()) return {};
   if (path == "-") {

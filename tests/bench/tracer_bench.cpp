@@ -82,7 +82,7 @@ class Bench {
          .peer = BenchPeer{std::move(peer), rays / ms.second * 1e-3},
          .goal = goal});
   }
-  /// Of which less is better: ours and the peer's.
+  /// Adds a row of which less is better: ours and the peer's.
   void add_cost(std::string name, int threads, std::string unit, std::pair<double, double> both,
                 std::string peer, std::optional<double> goal) {
     add({.name = std::move(name),
@@ -133,7 +133,7 @@ class Bench {
                         .quantised = {tiles_.data(), tiles_.size()},
                         .packets = packets});
   }
-  /// The same after our_quantised_receivers().
+  /// Traces shadows after our_quantised_receivers().
   void our_shadows_on_quantised(std::size_t light) {
     our_shadows(light, {.tracer = tracer_,
                         .size = settings_.size,
@@ -201,7 +201,7 @@ class Bench {
           peer, 0.9);
   }
 
-  /// The same pass on one thread and on two; wall clock both.
+  /// Runs the same pass on one thread and on two; both are timed by the wall clock.
   void two_threads() {
     our_receivers();
     const auto row = [&](const std::string& name, double rays, const auto& pass) {
@@ -275,7 +275,7 @@ class Bench {
     }
   }
 
-  /// Of all that packets need, and with the tree that many single rays make.
+  /// Measures the memory of all that packets need, and of the tree that many single rays make.
   void memory() {
     const double theirs = 0x1p-20 * static_cast<double>(embree_.bytes());
     const auto row = [&](const char* name, std::uint64_t bytes) {

@@ -35,9 +35,9 @@ enum Kind {
 
 /// Whether this call, made from the address `caller`, is to fail; errno is set then.
 bool fails(int kind, const void* caller);
-/// The same for an allocation of so many bytes.
+/// Tells whether an allocation of so many bytes is to fail.
 bool allocation_fails(std::size_t size, const void* caller);
-/// The same for a call about a file: a path seen from an open folder (or AT_FDCWD), or an open file.
+/// Tells whether a call about a file is to fail: a path seen from an open folder (or AT_FDCWD), or an open file.
 bool fails_at(int kind, int folder, const char* path, const void* caller);
 bool fails_on(int kind, int file, const void* caller);
 

@@ -1,4 +1,4 @@
-"""Whether two runs wrote the same, but for what differs by nature: times, and what hangs on them.
+"""Whether two runs wrote the same, but for what differs by nature: times, and what depends on them.
 
 Held byte by byte: models, shaders, pages without times, and of pictures and channels all but dates and commands in their
 headers. JSON is held key by key, without the keys of times; CSV by its other columns. A page with times, whose sentences speak

@@ -4,7 +4,7 @@
 
 namespace {
 
-std::string put_obj() {
+std::string write_obj() {
   gnomon::Texture leaf;
   leaf.size = {2, 1};
   leaf.texels = {{200, 100, 50, 255}, {200, 100, 50, 0}};
@@ -20,7 +20,7 @@ std::string put_obj() {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::string obj = put_obj();
+  static const std::string obj = write_obj();
   gnomon::fuzz::put("input.mtl", {reinterpret_cast<const char*>(data), size});
   gnomon::fuzz::load(obj);
   return 0;

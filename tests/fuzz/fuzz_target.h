@@ -22,7 +22,7 @@ std::vector<std::string> seeds();
 /// Loads the bytes as a file with this extension (".obj"), confined to its folder. Aborts unless the outcome
 /// is a sound scene or a one-line error of a kind that a file may cause.
 void load_as(std::string_view extension, const std::uint8_t* data, std::size_t size);
-/// The same of a file that is there.
+/// Loads a file that is there.
 void load(const std::string& path);
 
 /// A folder for all of a process's inputs, gone with it.

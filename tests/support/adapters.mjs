@@ -9,7 +9,7 @@ const size = ["--size", "160x90"];
 
 export const isThere = (name) => existsSync(join(adapters, "node_modules", name));
 
-/** The conformance suite, in a folder made anew. */
+/** The conformance suite, in a folder made again. */
 export function makeScenes(gnomon, folder) {
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });

@@ -55,7 +55,7 @@ std::vector<float> layer_texels(const raster::ShadowMap& map, int face, const Li
   return out;
 }
 
-/// As the convention has it: z from [0, w] to [-w, w] for two of them.
+/// Returns the matrix as the convention has it: z from [0, w] to [-w, w] for two of them.
 Mat4 layer_matrix(const LightView& captured, int face, compare::StoredDepth convention) {
   Mat4 matrix = light_clip_from_relative(captured, face, Vec3(0.0));
   if (convention == compare::StoredDepth::minus_one_to_one || convention == compare::StoredDepth::distance)

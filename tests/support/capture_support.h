@@ -21,7 +21,7 @@ inline std::string folder_for(const std::string& name) {
 /// Draws a built-in scene's first light and compares; the picture is what is captured.
 Compared draw_builtin(const std::string& name, ImageSize size, const raster::MapOptions& map);
 
-/// The same of a scene made in code.
+/// Draws a scene made in code.
 Compared draw_scene(Scene scene, ImageSize size, const raster::MapOptions& map);
 /// A hard map with a constant bias of 0.02 world units.
 raster::MapOptions hard_map(int size, raster::Technique technique = raster::Technique::hard);
@@ -34,7 +34,7 @@ struct CaptureParts {
   const compare::CapturedDepth* depth = nullptr;  ///< of the camera; its file is named here
 };
 
-/// Writes the pictures of the first light compared into `folder` (made anew) and says what they are.
+/// Writes the pictures of the first light compared into `folder` (made again) and says what they are.
 compare::Capture self_capture(const Compared& drawn, const std::string& folder, const CaptureParts& parts);
 
 /// The capture's file, capture.json in `folder`; its name.

@@ -11,7 +11,7 @@ using compare::Capture;
 using compare::RowOrder;
 using compare::StoredDepth;
 
-/// As engines write it: the place through the layer's matrix, one texel, two stored numbers compared.
+/// Looks shadows up as engines write it: the place through the layer's matrix, one texel, two stored numbers compared.
 class OtherRenderer {
  public:
   OtherRenderer(const Capture& capture, const Light& light, float outside)

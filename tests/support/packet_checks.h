@@ -83,7 +83,7 @@ inline void expect_same(const Scene& scene, const Tracer& tracer, const Referenc
   }
 }
 
-/// The same visibility where a tile's receivers are kept as floats alone, and the same receivers in double.
+/// Expects the same visibility where a tile's receivers are kept as floats alone, and the same receivers in double.
 inline void expect_same_by_floats(const Scene& scene, const Tracer& tracer, const Reference& reference,
                                   ImageSize size) {
   const View view = make_view(scene.camera, size);

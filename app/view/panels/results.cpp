@@ -18,7 +18,7 @@ namespace {
 
 using compare::LightComparison;
 
-/// Of the steps that a wrong pixel is charged to.
+/// Returns the colour of a step that a wrong pixel is charged to.
 ImU32 step_colour(std::size_t step) {
   return colour(compare::label_colour(compare::step_text(static_cast<compare::Cause>(step)).label));
 }

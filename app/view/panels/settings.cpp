@@ -228,7 +228,7 @@ bool technique(PanelContext& context, raster::MapOptions& map) {
   return changed;
 }
 
-/// Of the light: a number on a slider below its name.
+/// Shows a number of the light on a slider below its name.
 bool light_number(const char* title, const Note& note, double& value, double from, double to,
                   const char* format) {
   ImGui::TextUnformatted(title);

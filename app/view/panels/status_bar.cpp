@@ -17,7 +17,7 @@ std::string progress(const PanelContext& context) {
   return context.is_current() ? "comparing in full (a quarter of the size is shown)" : "comparing";
 }
 
-/// As much as there is room for; all of it where the pointer rests.
+/// Shows as much of the text as there is room for; all of it where the pointer rests.
 void fitted_text(const std::string& text, float room) {
   const auto width = [&](std::size_t length) {
     return ImGui::CalcTextSize(text.data(), text.data() + length).x;

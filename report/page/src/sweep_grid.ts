@@ -62,7 +62,7 @@ export class SweepGrid {
         change(() => { rest[k] = value; this.state.slice = slice(); }))])));
     const shown = this.cells.filter((cell) => cell.values.every((value, k) => k === rows || k === columns || value === rest[k]));
     this.table.replaceChildren(this.grid(shown, rows, columns));
-    // The list that was used is made anew: the keyboard stays on it.
+    // The list that was used is made again: the keyboard stays on it.
     if (used !== null) [...this.bar.querySelectorAll("select")].find((select) => select.getAttribute("aria-label") === used)?.focus();
   }
 

@@ -57,7 +57,7 @@ Mesh flattened(const Mesh& mesh, const Mat4& world_from_object) {
   return out;
 }
 
-// What is of length one up to rounding stays as it is, so that a file that is written anew says the same.
+// What is of length one up to rounding stays as it is, so that a file that is written again says the same.
 Vec3 unit_vector(const Vec3& v) {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   return std::abs(glm::dot(v, v) - 1.0) <= rounding ? v : glm::normalize(v);

@@ -71,7 +71,7 @@ class MaterialReader {
     for (const auto& [what, names] : unused_)
       scene_.notes.push_back(fmt::format("{} not used (material{} {}).", what, names.size() > 1 ? "s" : "",
                                          some_of({names.begin(), names.end()})));
-    textures_.put_notes();
+    textures_.add_notes();
     return sets_;
   }
 

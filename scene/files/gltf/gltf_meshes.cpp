@@ -53,7 +53,7 @@ Vec3 vec3(const double* v) {
   return {v[0], v[1], v[2]};
 }
 
-/// Of primitives that do not have what others of the mesh have.
+/// Gives primitives what others of the mesh have and they do not.
 void fill_up(Mesh& mesh) {
   const std::size_t count = mesh.positions.size();
   if (!mesh.normals.empty()) mesh.normals.resize(count, Vec3f(0.0f));

@@ -36,7 +36,7 @@ constexpr std::array<std::string_view, 17> used_extensions{"KHR_lights_punctual"
                                                            "KHR_materials_pbrSpecularGlossiness"};
 
 /// They change looks alone, or nothing that is seen: a file that insists on one is shown without, and that is said.
-constexpr std::array<std::string_view, 11> spared_extensions{
+constexpr std::array<std::string_view, 11> extensions_without_note{
     "KHR_materials_clearcoat",   "KHR_materials_sheen",      "KHR_materials_anisotropy",
     "KHR_materials_iridescence", "KHR_materials_dispersion", "KHR_materials_diffuse_transmission",
     "KHR_materials_variants",    "KHR_animation_pointer",    "KHR_xmp_json_ld",
@@ -106,7 +106,7 @@ class ModelReader {
     if (const auto list = root_.child("extensionsRequired"))
       for (const JsonNode& node : list->as_array())
         if (const std::string name = node.as_string();
-            !is_one_of(used_extensions, name) && !is_one_of(spared_extensions, name))
+            !is_one_of(used_extensions, name) && !is_one_of(extensions_without_note, name))
           node.error(fmt::format("the file needs an extension that is not supported (got \"{}\", allowed {})",
                                  printable(name),
                                  list_names({used_extensions.begin(), used_extensions.end()})));

@@ -69,7 +69,7 @@ Expected<std::uint32_t> GltfTextures::add(int index, const std::string& material
   if (!image) return fail(image.error());
   if (!*image) return no_id;
   if (const auto known = textures_.find(index); known != textures_.end()) return known->second;
-  auto decoded = take_decoded(**image);
+  auto decoded = claim_decoded(**image);
   if (!decoded) return fail(decoded.error());
   apply_sampler(index, *decoded->texture, material);
   const auto at = static_cast<std::uint32_t>(scene_.textures.size());
@@ -112,7 +112,7 @@ void GltfTextures::list_images(const std::set<int>& textures, bool srgb, std::ve
     }
 }
 
-Expected<GltfTextures::Decoded> GltfTextures::take_decoded(const GltfImage& image) {
+Expected<GltfTextures::Decoded> GltfTextures::claim_decoded(const GltfImage& image) {
   if (auto found = ahead_.extract(image.index)) return std::move(found.mapped());
   Decoded out{image, true, {}, {}};
   auto texture = decode(image, true);

@@ -41,12 +41,12 @@ class GltfTextures {
   /// The scene's index of an sRGB texture, decoded the first time. no_id where no image of it is there, or none
   /// that can be decoded: said, and the material's plain factors are used.
   Expected<std::uint32_t> add(int index, const std::string& material);
-  /// Of a texture that add() gave.
+  /// Returns the statistics of a texture that add() gave.
   const TextureStatistics& statistics(std::uint32_t texture) const { return statistics_[texture]; }
   /// The mean of a texture that holds no colours, in [0, 1]; none where it is not there.
   Expected<std::optional<Vec3f>> linear_mean(int index, const std::string& material);
   /// Notes on textures that are not there.
-  void put_notes() { notes_.put(scene_); }
+  void add_notes() { notes_.put(scene_); }
 
  private:
   struct Decoded {
@@ -57,7 +57,7 @@ class GltfTextures {
   };
   /// One for each image of these textures that is there.
   void list_images(const std::set<int>& textures, bool srgb, std::vector<Decoded>& out);
-  Expected<Decoded> take_decoded(const GltfImage& image);
+  Expected<Decoded> claim_decoded(const GltfImage& image);
 
   Expected<std::optional<GltfImage>> find_image(int index, const std::string& material);
   Expected<Texture> decode(const GltfImage& image, bool srgb) const;

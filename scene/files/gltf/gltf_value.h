@@ -45,7 +45,7 @@ inline int index_of(const JsonValue* object, std::string_view key, std::size_t c
              : -1;
 }
 
-/// As many as `otherwise` has.
+/// Reads as many numbers as `otherwise` has.
 inline std::vector<double> numbers_of(const JsonValue* object, std::string_view key,
                                       std::vector<double> otherwise) {
   const JsonValue* list = member(object, key);

@@ -87,7 +87,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(string_t& name) override {
-    take_token();
+    consume_token();
     if (!keys_.back().insert(name).second) {
       error = document_.error_at(begin_, {}, fmt::format("duplicate key \"{}\"", printable(name)));
       return false;
@@ -101,7 +101,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
-  void take_token() {
+  void consume_token() {
     begin_ = next_token(text_, end_);
     end_ = token_end(text_, begin_);
   }
@@ -114,7 +114,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool leaf(JsonValue value) {
-    take_token();
+    consume_token();
     value.begin = begin_;
     value.end = end_;
     place(std::move(value));
@@ -130,7 +130,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool open(JsonValue::Type type) {
-    take_token();
+    consume_token();
     JsonValue value;
     value.type = type;
     value.begin = begin_;
@@ -140,7 +140,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool close() {
-    take_token();
+    consume_token();
     open_.back()->end = end_;
     open_.pop_back();
     keys_.pop_back();

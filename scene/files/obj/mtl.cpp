@@ -47,7 +47,7 @@ std::string_view other_map(std::string_view key) {
 constexpr std::string_view blanks = " \t";
 
 /// The next word, taken off the front.
-std::string_view take_word(std::string_view& rest) {
+std::string_view consume_word(std::string_view& rest) {
   rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
   const std::string_view word = rest.substr(0, rest.find_first_of(blanks));
   rest.remove_prefix(word.size());
@@ -64,7 +64,7 @@ std::vector<std::string_view> arguments(const TextureOption& option, std::string
   std::vector<std::string_view> words;
   while (words.size() < option.most) {
     std::string_view after = rest;
-    const std::string_view word = take_word(after);
+    const std::string_view word = consume_word(after);
     if (word.empty() || (option.are_numbers && !parse_decimal(word))) break;
     words.push_back(word);
     rest = after;
@@ -104,7 +104,7 @@ class MtlReader {
   MtlMaterial& material() { return out_.materials.empty() ? nameless_ : out_.materials.back(); }
 
   void read(std::string_view rest) {
-    const std::string_view key = take_word(rest);
+    const std::string_view key = consume_word(rest);
     MtlMaterial& m = material();
     if (key == "newmtl") return begin_material(without_blanks(rest));
     if (key == "Kd") return read_color(key, rest, m.diffuse);
@@ -136,7 +136,7 @@ class MtlReader {
     Vec3 out(0.0);
     std::size_t got = 0;
     for (; got < count; ++got) {
-      const std::string_view word = take_word(rest);
+      const std::string_view word = consume_word(rest);
       if (word.empty()) break;
       if (got == 0 && (word == "spectral" || word == "xyz")) {
         unused_.insert(fmt::format("{} {}", key, word));
@@ -164,14 +164,14 @@ class MtlReader {
   }
 
   static void read_illum(std::string_view rest, MtlMaterial& m) {
-    const std::string_view word = take_word(rest);
+    const std::string_view word = consume_word(rest);
     if (!word.empty()) m.illum = 0;
     std::from_chars(word.data(), word.data() + word.size(), m.illum);
   }
 
   void read_dissolve(std::string_view rest, MtlMaterial& m) {
     std::string_view after = rest;
-    if (take_word(after) == "-halo") has_halo_ = true, rest = after;
+    if (consume_word(after) == "-halo") has_halo_ = true, rest = after;
     read_number("d", rest, m.dissolve);
     has_dissolve_ = true;
     warn_of_both(m);
@@ -201,7 +201,7 @@ class MtlReader {
     MtlTexture out;
     for (;;) {
       std::string_view after = rest;
-      const std::string_view word = take_word(after);
+      const std::string_view word = consume_word(after);
       const auto* const option =
           std::find_if(options.begin(), options.end(), [&](const auto& o) { return o.name == word; });
       if (option == options.end()) break;

@@ -148,7 +148,7 @@ void note_warnings(Scene& scene, const std::set<std::string>& warnings) {
 }
 
 // The one material of all of the mesh's triangles, which then needs no list of them; else anything.
-std::uint32_t take_only_material(Mesh& mesh) {
+std::uint32_t extract_only_material(Mesh& mesh) {
   auto& of_triangles = mesh.triangle_materials;
   const std::uint32_t material = of_triangles.front();
   if (std::all_of(of_triangles.begin(), of_triangles.end(), [&](std::uint32_t m) { return m == material; }))
@@ -196,7 +196,7 @@ Expected<LoadedFile> read_obj(std::string_view bytes, const std::string& file, c
     triangles += mesh.triangles.size();
     const auto index = static_cast<std::uint32_t>(scene.meshes.size());
     mesh.name = object_name(mesh.name, file, index);
-    scene.instances.push_back({mesh.name, index, Mat4(1.0), take_only_material(mesh)});
+    scene.instances.push_back({mesh.name, index, Mat4(1.0), extract_only_material(mesh)});
     scene.meshes.push_back(std::move(mesh));
   }
   note_skipped(scene, *parsed);

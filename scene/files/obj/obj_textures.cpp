@@ -65,7 +65,7 @@ Texture resized(Texture from, const ImageSize& size) {
 
 /// Makes alpha the luminance of the stored values (ITU-R BT.709's weights), as MTL's -imfchan l does. Of a grey texel
 /// it is the grey.
-void take_alpha_from_luminance(Texture& mask) {
+void set_alpha_from_luminance(Texture& mask) {
   for (glm::u8vec4& t : mask.texels)
     t.a = static_cast<std::uint8_t>(std::lround(0.2126 * t.r + 0.7152 * t.g + 0.0722 * t.b));
 }
@@ -137,13 +137,13 @@ Expected<ObjTextures::Made> ObjTextures::make(const Files& files) {
     auto other = read_texture_file(files.mask, false);
     if (!other) return fail(other.error());
     made.mask = is_opaque(other->texture) ? Mask::grey : Mask::alpha;
-    if (made.mask == Mask::grey) take_alpha_from_luminance(other->texture);
+    if (made.mask == Mask::grey) set_alpha_from_luminance(other->texture);
     made.texture = with_alpha_of(std::move(made.texture), std::move(other->texture));
   } else if (!files.mask.empty() && read->has_alpha) {
     made.mask = Mask::alpha;
   } else if (!files.mask.empty() && is_grey(made.texture)) {
     made.mask = Mask::grey;
-    take_alpha_from_luminance(made.texture);
+    set_alpha_from_luminance(made.texture);
   }
   return made;
 }

@@ -12,9 +12,9 @@ namespace gnomon {
 
 class AnimatedPng {
  public:
-  /// `fps` > 0; frames are shown for a whole number of milliseconds. The film begins anew at its end.
+  /// `fps` > 0; frames are shown for a whole number of milliseconds. The film begins again at its end.
   AnimatedPng(ImageSize size, double fps);
-  /// Of later frames only what differs from the frame before is kept. The picture has the film's size.
+  /// Adds a frame; of later frames only what differs from the frame before is kept. The picture has the film's size.
   void add(const Rgb8Image& picture);
   /// The file. Error (internal): no frame was added.
   Expected<std::string> file() const;

@@ -113,7 +113,7 @@ class SrgbCodes {
     }
   }
 
-  /// Of any number; what is no number is 0.
+  /// Returns the byte of any number; what is no number is 0.
   std::uint8_t of(double linear) const {
     if (!(linear > 0.0)) return 0;
     if (linear >= 1.0) return 255;

@@ -29,7 +29,7 @@ struct TextureFile {
   bool has_alpha = false;  ///< the file has an alpha channel; without one the texture is opaque
 };
 
-/// As read_texture().
+/// Reads a file as read_texture() does.
 Expected<TextureFile> read_texture_file(const std::string& path, bool srgb);
 
 /// [0, 1], clipped, to 0 ... 255, rounded to nearest.

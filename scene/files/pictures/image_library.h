@@ -57,7 +57,7 @@ class ImageLibrary {
   virtual Expected<std::string> encode_exr(
       ImageSize size, std::span<const std::string> channels, std::span<const float> pixels,
       std::span<const std::pair<std::string, std::string>> attributes) const = 0;
-  /// The same into a file, byte for byte.
+  /// Writes the same bytes into a file.
   virtual Expected<std::unique_ptr<ExrRows>> open_exr(
       const std::string& path, ImageSize size, std::span<const std::string> channels,
       std::span<const std::pair<std::string, std::string>> attributes) const = 0;

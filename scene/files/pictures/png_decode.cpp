@@ -22,7 +22,7 @@ struct Source {
   std::string fault;
 };
 
-void take_bytes(png_structp png, png_bytep data, png_size_t size) {
+void read_bytes(png_structp png, png_bytep data, png_size_t size) {
   auto& source = *static_cast<Source*>(png_get_io_ptr(png));
   if (size > source.left.size()) png_error(png, cut_off);
   std::memcpy(data, source.left.data(), size);
@@ -41,7 +41,7 @@ struct Header {
   png_uint_32 width = 0, height = 0;
   std::size_t stored_row = 0;  // bytes
 };
-/// Of the rows as they are read.
+/// Describes the rows as they are read.
 struct Layout {
   std::size_t row = 0, channels = 0;  // bytes
 };
@@ -89,7 +89,7 @@ class PngReader {
   explicit PngReader(std::string_view bytes) : source_{bytes, "out of memory"} {
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source_, fail_reading, ignore_warning);
     info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
-    if (info_ != nullptr) png_set_read_fn(png_, &source_, take_bytes);
+    if (info_ != nullptr) png_set_read_fn(png_, &source_, read_bytes);
   }
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
   PngReader(const PngReader&) = delete;

@@ -159,7 +159,7 @@ class PlyReader {
     for (std::uint64_t i = 0; i < element.count; ++i) {
       VertexNumbers numbers{};
       if (auto read = read_vertex(element, i, layout.slots, numbers); !read) return read;
-      put_vertex(mesh_, layout, i, numbers);
+      store_vertex(mesh_, layout, i, numbers);
     }
     return {};
   }

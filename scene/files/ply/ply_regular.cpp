@@ -82,7 +82,7 @@ void size_vertices(Mesh& mesh, const VertexLayout& layout, std::size_t count) {
   if (layout.has_colors) mesh.colors.resize(count);
 }
 
-void put_vertex(Mesh& mesh, const VertexLayout& layout, std::size_t index, const VertexNumbers& n) {
+void store_vertex(Mesh& mesh, const VertexLayout& layout, std::size_t index, const VertexNumbers& n) {
   mesh.positions[index] = {n[0], n[1], n[2]};
   if (layout.has_normals) mesh.normals[index] = Vec3f(Vec3(n[3], n[4], n[5]));
   if (layout.has_uvs) mesh.uvs[index] = Vec2f(Vec2(n[6], 1.0 - n[7]));
@@ -109,7 +109,7 @@ std::size_t read_regular_vertices(std::string_view data, const PlyElement& eleme
       numbers[static_cast<std::size_t>(layout.slots[p])] = value;
       at += byte_size(type);
     }
-    put_vertex(mesh, layout, i, numbers);
+    store_vertex(mesh, layout, i, numbers);
     return true;
   });
   if (!good) size_vertices(mesh, layout, 0);

@@ -33,7 +33,7 @@ bool is_vertex_number(VertexSlot slot, double value);
 /// A vertex whose numbers have been read, by slot.
 using VertexNumbers = std::array<double, vertex_slots>;
 /// Puts it into arrays that are long enough.
-void put_vertex(Mesh& mesh, const VertexLayout& layout, std::size_t index, const VertexNumbers& numbers);
+void store_vertex(Mesh& mesh, const VertexLayout& layout, std::size_t index, const VertexNumbers& numbers);
 /// Makes them so.
 void size_vertices(Mesh& mesh, const VertexLayout& layout, std::size_t count);
 

@@ -1,4 +1,4 @@
-// The ways in which a frame is traced: each gives the same picture, and the one that is chosen says why.
+// The methods in which a frame is traced: each gives the same picture, and the one that is chosen says why.
 #include <gtest/gtest.h>
 
 #include "effects_support.h"
@@ -15,7 +15,7 @@ using raytrace::Tracer;
 using test::TestWorld;
 
 /// A wavy sheet over a plane, with a mirror in it: triangles with normals of their own, lit in the given
-/// ways.
+/// methods.
 Scene waves(std::vector<Light> lights) {
   constexpr std::uint32_t side = 24;
   Mesh mesh;
@@ -97,7 +97,7 @@ raytrace::TracerPlan ways_of(Scene scene, Accel accel, raytrace::Precision preci
 
 // One function chooses, and says why: each of its reasons once.
 TEST(Ways, EveryWayHasItsReason) {
-  using raytrace::Precision, raytrace::PrimaryWay, raytrace::ReceiverStore, raytrace::ShadowWay;
+  using raytrace::Precision, raytrace::PrimaryMethod, raytrace::ReceiverStore, raytrace::ShadowMethod;
   const Scene plain = waves({test::sun({1, -2, -1})});
   Scene wide = plain, spot = plain, soft = plain;
   wide.camera.vertical_fov = 2.9;
@@ -107,33 +107,33 @@ TEST(Ways, EveryWayHasItsReason) {
   RaytraceOptions picture, samples;
   picture.records = samples.records = false, samples.samples_per_pixel = 4;
   struct Case {
-    raytrace::TracerPlan ways;
-    PrimaryWay primary;
+    raytrace::TracerPlan methods;
+    PrimaryMethod primary;
     ReceiverStore receivers;
-    ShadowWay shadow;
+    ShadowMethod shadow;
   };
   const auto robust = [&](const Scene& scene, const RaytraceOptions& options) {
     return ways_of(scene, Accel::bvh, Precision::robust, options);
   };
   const Case cases[] = {
-      {robust(plain, records), PrimaryWay::blocks, ReceiverStore::stored, ShadowWay::blocks},
-      {robust(plain, picture), PrimaryWay::blocks, ReceiverStore::found_again, ShadowWay::blocks},
-      {robust(spot, picture), PrimaryWay::blocks, ReceiverStore::stored, ShadowWay::blocks},
-      {robust(soft, picture), PrimaryWay::blocks, ReceiverStore::stored, ShadowWay::none},
-      {robust(wide, picture), PrimaryWay::single_rays, ReceiverStore::stored, ShadowWay::blocks},
-      {robust(plain, samples), PrimaryWay::none, ReceiverStore::none, ShadowWay::none},
-      {ways_of(plain, Accel::bvh, Precision::fast, records), PrimaryWay::single_rays, ReceiverStore::stored,
-       ShadowWay::single_rays},
-      {ways_of(plain, Accel::grid, Precision::robust, records), PrimaryWay::single_rays,
-       ReceiverStore::stored, ShadowWay::single_rays},
+      {robust(plain, records), PrimaryMethod::blocks, ReceiverStore::stored, ShadowMethod::blocks},
+      {robust(plain, picture), PrimaryMethod::blocks, ReceiverStore::found_again, ShadowMethod::blocks},
+      {robust(spot, picture), PrimaryMethod::blocks, ReceiverStore::stored, ShadowMethod::blocks},
+      {robust(soft, picture), PrimaryMethod::blocks, ReceiverStore::stored, ShadowMethod::none},
+      {robust(wide, picture), PrimaryMethod::single_rays, ReceiverStore::stored, ShadowMethod::blocks},
+      {robust(plain, samples), PrimaryMethod::none, ReceiverStore::none, ShadowMethod::none},
+      {ways_of(plain, Accel::bvh, Precision::fast, records), PrimaryMethod::single_rays,
+       ReceiverStore::stored, ShadowMethod::single_rays},
+      {ways_of(plain, Accel::grid, Precision::robust, records), PrimaryMethod::single_rays,
+       ReceiverStore::stored, ShadowMethod::single_rays},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(&c - cases);
-    EXPECT_EQ(c.ways.primary, c.primary);
-    EXPECT_EQ(c.ways.receivers, c.receivers);
-    EXPECT_EQ(c.ways.shadow, c.shadow);
-    EXPECT_FALSE(c.ways.primary_reason.empty() || c.ways.receivers_reason.empty() ||
-                 c.ways.shadow_reason.empty());
+    EXPECT_EQ(c.methods.primary, c.primary);
+    EXPECT_EQ(c.methods.receivers, c.receivers);
+    EXPECT_EQ(c.methods.shadow, c.shadow);
+    EXPECT_FALSE(c.methods.primary_reason.empty() || c.methods.receivers_reason.empty() ||
+                 c.methods.shadow_reason.empty());
   }
 }
 

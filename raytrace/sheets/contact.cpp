@@ -1,4 +1,4 @@
-#include "raytrace/sheets/touching.h"
+#include "raytrace/sheets/contact.h"
 
 #include <algorithm>
 #include <atomic>
@@ -58,7 +58,7 @@ class Touching {
     }
   }
 
-  /// Of the vertices in a slab, sorted: those of kept parts, or else those of the others.
+  /// Returns the hashes of the vertices in a slab, sorted: those of kept parts, or else those of the others.
   std::vector<std::uint64_t> hashes_in(const Interval& slab, bool kept) const {
     std::vector<std::uint64_t> hashes;
     for (const WorldPart& part : world_.parts)
@@ -100,7 +100,8 @@ class Touching {
 
 }  // namespace
 
-std::vector<char> touching_parts(const World& world, const std::vector<std::vector<std::uint32_t>>& welded) {
+std::vector<char> parts_in_contact(const World& world,
+                                   const std::vector<std::vector<std::uint32_t>>& welded) {
   return Touching(world, welded).run();
 }
 
