@@ -7,18 +7,48 @@
 #include <fstream>
 #include <sstream>
 
+#include "app/command_line.h"
 #include "tests/app_process.h"
 
 namespace gnomon::app_test {
 namespace {
 
+/// What the program says to these words: without a process where the words alone are wrong, else by running it.
+ProcessResult said_to(const Words& words) {
+  std::vector<const char*> argv{"gnomon"};
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  ProcessResult result;
+  result.exit_code = app::check_command_line(static_cast<int>(argv.size()), argv.data());
+  result.out = testing::internal::GetCapturedStdout();
+  result.err = testing::internal::GetCapturedStderr();
+  return result.exit_code != 0 ? result : run_gnomon(words);
+}
+
+/// Words that end with exit code 2 and one line, and what stands in it.
+struct Refusal {
+  Words words;
+  std::string said;
+};
+
+void expect_refused(const std::vector<Refusal>& refusals) {
+  for (const Refusal& refusal : refusals) expect_one_line(said_to(refusal.words), 2, refusal.said);
+}
+
+/// Words behind "gnomon compare fence".
+Words fence(const Words& more) {
+  return Words{"compare", "fence"} + more;
+}
+
 TEST(Usage, WrongNamesGetASuggestion) {
-  expect_one_line(run_gnomon({"comapre", "fence"}), 2, "did you mean compare?");
-  expect_one_line(run_gnomon({"compare", "fence", "--bais", "1"}), 2, "did you mean --bias?");
-  expect_one_line(run_gnomon({"compare", "fence", "--map-sise=1"}), 2, "did you mean --map-size?");
-  expect_one_line(run_gnomon({"fence"}), 2, "did you mean gnomon compare fence?");
-  expect_one_line(run_gnomon({"model.glb"}), 2, "did you mean gnomon compare model.glb?");
-  expect_one_line(run_gnomon({"compare", "fence", "--depth-format", "d32"}), 2, "did you mean d32f?");
+  expect_refused({{{"comapre", "fence"}, "did you mean compare?"},
+                  {fence({"--bais", "1"}), "did you mean --bias?"},
+                  {fence({"--map-sise=1"}), "did you mean --map-size?"},
+                  {{"fence"}, "did you mean gnomon compare fence?"},
+                  {{"model.glb"}, "did you mean gnomon compare model.glb?"},
+                  {fence({"--depth-format", "d32"}), "did you mean d32f?"},
+                  {{"bench", "--tune", "fence", "--technique", "hard,cms"}, "did you mean csm?"}});
 }
 
 TEST(Usage, ValuesOutOfRange) {
@@ -36,85 +66,71 @@ TEST(Usage, ValuesOutOfRange) {
                                     {"--seed", "-1"},           {"--fail-above", "101%"},
                                     {"--min-contribution", "2"}};
   for (const Words& option : wrong) {
-    expect_one_line(run_gnomon(Words{"compare", "fence"} + option), 2, option[0] + ": ");
-    expect_one_line(run_gnomon(Words{"compare", "fence"} + option), 2, "(got " + option[1] + ", allowed ");
+    const ProcessResult result = said_to(fence(option));
+    expect_one_line(result, 2, option[0] + ": ");
+    expect_one_line(result, 2, "(got " + option[1] + ", allowed ");
   }
 }
 
 TEST(Usage, OptionsInTheWrongPlaceOrNumber) {
-  expect_one_line(run_gnomon({"--size", "8x8", "compare", "fence"}), 2,
-                  "--size stands behind the command's name");
-  expect_one_line(run_gnomon({"compare", "fence", "--bias", "1", "--bias", "2"}), 2,
-                  "--bias: too often (got 2 times, allowed once)");
-  expect_one_line(run_gnomon({"compare", "fence", "--quiet=maybe"}), 2,
-                  "--quiet: not a switch's value (got maybe, allowed on, off)");
-  expect_one_line(run_gnomon({"compare", "fence", "--map-size"}), 2, "--map-size: has no value (allowed N)");
-  expect_one_line(run_gnomon({"bench", "--tune", "fence", "--technique", "hard,cms"}), 2,
-                  "did you mean csm?");
+  expect_refused({{{"--size", "8x8", "compare", "fence"}, "--size stands behind the command's name"},
+                  {fence({"--bias", "1", "--bias", "2"}), "--bias: too often (got 2 times, allowed once)"},
+                  {fence({"--quiet=maybe"}), "--quiet: not a switch's value (got maybe, allowed on, off)"},
+                  {fence({"--map-size"}), "--map-size: has no value (allowed N)"},
+                  {fence({"--bias"}), "--bias"},
+                  {{"--bogus"}, "--bogus"},
+                  {{"compare"}, "SCENE is required"},
+                  {fence({"other"}), "one argument too many (got other)"},
+                  {{"raster", "fence", "-o", "x.jpg"}, "(got x.jpg, allowed .png .exr)"},
+                  {{"verify", "--rays", "1000.5"}, "--rays: is not a whole number (got 1000.5, allowed "},
+                  {{"raytrace", "fence", "--map-size", "64"}, "unknown option --map-size"},
+                  {{"raster", "fence", "--accel", "bvh"}, "unknown option --accel"},
+                  {{"plan", "fence", "--map-size", "1"}, "unknown option --map-size"}});
+  EXPECT_EQ(run_gnomon({}).exit_code, 2);
 }
 
 TEST(Usage, OptionsThatCouldHaveNoEffectAreRefused) {
   const TemporaryFolder folder;
-  expect_one_line(run_gnomon({"export", "fence", "--size", "8x8"}), 2,
-                  "--size: is that of the masks of --suite");
-  expect_one_line(run_gnomon({"export", "--suite", folder / "suite", "--tessellate", "8"}), 2,
-                  "--tessellate: the scenes of --suite are written as they are");
-  expect_one_line(run_gnomon({"export", "--suite", folder / "suite", "--camera", "eye=1,1,1"}), 2,
-                  "--camera: the scenes of --suite are written as they are");
+  const std::string as_written = ": the scenes of --suite are written as they are";
+  const Words suite{"export", "--suite", folder / "suite"};
+  expect_refused({{{"export", "fence", "--size", "8x8"}, "--size: is that of the masks of --suite"},
+                  {suite + Words{"--tessellate", "8"}, "--tessellate" + as_written},
+                  {suite + Words{"--camera", "eye=1,1,1"}, "--camera" + as_written}});
   // Where it could, and only where it was given, that is said.
   const std::string box = folder / "box.glb", effect = "--tessellate has no effect";
   EXPECT_EQ(run_gnomon({"export", "thin-wall", "-o", box}).err.find(effect), std::string::npos);
   EXPECT_NE(run_gnomon({"export", "thin-wall", "--tessellate", "8", "-o", box}).err.find(effect),
             std::string::npos);
-  expect_one_line(run_gnomon({"verify", "--rays", "1000.5"}), 2,
-                  "--rays: is not a whole number (got 1000.5, allowed ");
 }
 
 // An unset variable of a script.
 TEST(Usage, EmptyNamesAskForNothingAndAreRefused) {
   for (const std::string option : {"--output", "--json", "--aov", "--trace", "--light", "--camera"})
-    expect_one_line(run_gnomon({"compare", "fence", option, ""}), 2, option + ": ");
-  expect_one_line(run_gnomon({"compare", "fence", "--trace", "-"}), 2, "--trace: not a file (got -)");
+    expect_refused({{fence({option, ""}), option + ": "}});
+  expect_refused({{fence({"--trace", "-"}), "--trace: not a file (got -)"}});
 }
 
 TEST(Usage, AnUpVectorIsOneAndNotAlongTheView) {
   const TemporaryFolder folder;
   const auto with_up = [&](const std::string& up) {
-    return run_gnomon(
-        {"raytrace", "sphere-plane", "-o", folder / "x.png", "--size", "8x8", "--camera-up", up});
+    return Words{"raytrace", "sphere-plane", "-o", folder / "x.png", "--size", "8x8", "--camera-up", up};
   };
-  expect_one_line(with_up("1e-300,0,0"), 2, "--camera-up: has no direction");
   // The scene's eye is at 0.6, 2.8, 6.2 and its target at 0.45, 0.35, -0.3.
-  expect_one_line(with_up("0.15,2.45,6.5"), 2, "camera.up is parallel to the view direction");
-  EXPECT_EQ(with_up("0.15,2.46,6.5").exit_code, 0);
-}
-
-TEST(Usage, MissingAndSuperfluousWords) {
-  expect_one_line(run_gnomon({"compare"}), 2, "SCENE is required");
-  expect_one_line(run_gnomon({"compare", "fence", "other"}), 2, "one argument too many (got other)");
-  expect_one_line(run_gnomon({"compare", "fence", "--bias"}), 2, "--bias");
-  expect_one_line(run_gnomon({"--bogus"}), 2, "--bogus");
-  expect_one_line(run_gnomon({"raster", "fence", "-o", "x.jpg"}), 2, "(got x.jpg, allowed .png .exr)");
-  EXPECT_EQ(run_gnomon({}).exit_code, 2);
+  expect_refused({{with_up("1e-300,0,0"), "--camera-up: has no direction"},
+                  {with_up("0.15,2.45,6.5"), "camera.up is parallel to the view direction"}});
+  EXPECT_EQ(run_gnomon(with_up("0.15,2.46,6.5")).exit_code, 0);
 }
 
 TEST(Usage, WhatOptionsLeaveOutOfACaptureIsNamedAsAnOption) {
   const Words scene{"judge", "--scene", "fence"}, renderer{"--renderer", "mine"}, size{"--size", "64x36"};
-  expect_one_line(run_gnomon(scene + size), 2, "gnomon: --renderer: is missing");
-  expect_one_line(run_gnomon(scene + renderer), 2, "gnomon: --size: is missing");
-  const Words all = scene + renderer + size;
-  expect_one_line(run_gnomon(all), 2, "--visibility: is missing, and so are shadowed and unshadowed");
-  const Words seen = all + Words{"--visibility", "v.exr"};
-  expect_one_line(run_gnomon(seen + Words{"--map-bias", "1"}), 2, "--map-bias: says nothing without map");
-  expect_one_line(run_gnomon(seen + Words{"--map-normal-offset", "1"}), 2, "--map-normal-offset: says");
-  expect_one_line(run_gnomon(seen + Words{"--depth-near", "1"}), 2, "--depth: is missing");
-  expect_one_line(run_gnomon(seen + Words{"--map", "m.exr"}), 2, "--map-convention: is missing");
-}
-
-TEST(Usage, OptionsThatACommandCannotHonourAreNotOffered) {
-  expect_one_line(run_gnomon({"raytrace", "fence", "--map-size", "64"}), 2, "unknown option --map-size");
-  expect_one_line(run_gnomon({"raster", "fence", "--accel", "bvh"}), 2, "unknown option --accel");
-  expect_one_line(run_gnomon({"plan", "fence", "--map-size", "1"}), 2, "unknown option --map-size");
+  const Words all = scene + renderer + size, seen = all + Words{"--visibility", "v.exr"};
+  expect_refused({{scene + size, "gnomon: --renderer: is missing"},
+                  {scene + renderer, "gnomon: --size: is missing"},
+                  {all, "--visibility: is missing, and so are shadowed and unshadowed"},
+                  {seen + Words{"--map-bias", "1"}, "--map-bias: says nothing without map"},
+                  {seen + Words{"--map-normal-offset", "1"}, "--map-normal-offset: says"},
+                  {seen + Words{"--depth-near", "1"}, "--depth: is missing"},
+                  {seen + Words{"--map", "m.exr"}, "--map-convention: is missing"}});
 }
 
 TEST(Usage, AnUnknownLightIsNamedBesideThoseThatExist) {
