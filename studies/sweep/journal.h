@@ -5,7 +5,6 @@
 //                      same bytes, however often it was interrupted
 //   sweep.csv          the same numbers and the times as a table (result_table.h)
 //   sweep_times.jsonl  the times of each line of sweep.jsonl, in the same order
-// Each line ends with a checksum of itself, so that one which was edited is not taken for a result.
 // A line is appended with one write() and reaches the system before the next cell begins; what a crash leaves
 // of a torn last line is cut off when the folder is opened again, and its cell is made again.
 #pragma once
@@ -19,32 +18,13 @@
 
 #include "compare/result/result_table.h"
 #include "scene/base/expected.h"
+#include "studies/sweep/sweep_line.h"
 
 namespace gnomon::compare {
 
 /// Files that a sweep's folder always has.
 inline constexpr std::array<std::string_view, 6> sweep_file_names{
     "sweep.json", "sweep.jsonl", "sweep_times.jsonl", "sweep.csv", "ray_tracer.json", "report.html"};
-
-struct Shard {
-  int part = 1, of = 1;  ///< 1 <= part <= of
-};
-
-/// What identifies a sweep, as JSON text.
-struct SweepHeader {
-  std::string configuration;  ///< JSON object: everything that the lines depend on, the shard apart
-  std::string hash;           ///< SHA-256 of the configuration
-  std::size_t cells = 0;      ///< of the whole sweep
-  Shard shard;
-};
-SweepHeader make_header(std::string configuration, std::size_t cells, Shard shard);
-std::string header_json(const SweepHeader& header);
-/// Reads DIR/sweep.json. A file that cannot be read is an error of the kind `unreadable`, one that is no sweep's
-/// bad_input.
-Expected<SweepHeader> read_header(const std::string& folder, ErrorKind unreadable = ErrorKind::bad_input);
-
-/// The line that a cell must have: its values by axis, as JSON text of the object "axes".
-using ExpectedAxes = std::vector<std::string>;
 
 /// Nobody else takes up or replaces the sweep of a folder while one lives.
 class SweepClaim {
@@ -110,16 +90,5 @@ struct SweepLines {
   std::vector<std::string> lines, times;
 };
 Expected<SweepLines> read_sweep(const std::string& folder);
-
-/// The line with its checksum as the last key; one that has it already stays as it is.
-std::string sealed(const std::string& line);
-/// Its checksum is there and fits.
-bool is_sealed(std::string_view line);
-
-/// "osmesa, llvmpipe (...)": backend and renderer of a line.
-std::string drawer_of_line(std::string_view line);
-
-/// "axes" of a line, as JSON text; empty when the line is not JSON or has none.
-std::string axes_of_line(std::string_view line);
 
 }  // namespace gnomon::compare
