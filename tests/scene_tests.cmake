@@ -1,6 +1,6 @@
 gnomon_test(scene_files_test
   SOURCES scene_bad_input_test.cpp scene_expression_test.cpp scene_foreign_test.cpp scene_gltf_errors_test.cpp scene_gltf_materials_test.cpp scene_gltf_packed_test.cpp scene_gltf_poses_test.cpp scene_gltf_test.cpp scene_ground_test.cpp scene_image_decode_test.cpp scene_image_test.cpp scene_interior_test.cpp scene_json_errors_test.cpp scene_json_test.cpp scene_model_files_test.cpp
-    scene_obj_alpha_test.cpp scene_obj_test.cpp scene_path_status_test.cpp scene_paths_test.cpp scene_ply_test.cpp scene_schema_test.cpp scene_sha256_test.cpp scene_tessellate_test.cpp scene_texture_test.cpp
+    scene_obj_alpha_test.cpp scene_obj_test.cpp scene_path_status_test.cpp scene_paths_test.cpp scene_ply_test.cpp scene_schema_test.cpp scene_tessellate_test.cpp scene_texture_test.cpp
     scene_staged_folder_test.cpp
     scene_write_file_test.cpp
   LIBS gnomon::scene fmt::fmt nlohmann_json::nlohmann_json)

@@ -1,7 +1,6 @@
-#include "ball_light.h"
-
 #include "raytrace/shading/light_samples.h"
 #include "scene/light.h"
+#include "tracer_bench.h"
 
 namespace gnomon::bench {
 namespace {

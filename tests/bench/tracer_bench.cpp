@@ -5,7 +5,6 @@
 
 #include <string_view>
 
-#include "ball_light.h"
 #include "bench_support.h"
 #include "embree_peer.h"
 #include "instruction_set.h"

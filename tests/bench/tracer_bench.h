@@ -7,6 +7,7 @@
 
 #include "bench_scenes.h"
 #include "benchmark/row.h"
+#include "raytrace/frame.h"
 
 namespace gnomon::bench {
 
@@ -22,5 +23,24 @@ struct Settings {
 
 /// Prints each row as it is measured.
 std::vector<BenchRow> bench_tracer(const BenchScene& scene, const Settings& settings);
+
+// The share that points see of a light with size, with the shaft (raytrace/shading/light_shaft.h) and by every ray.
+
+class BallLight {
+ public:
+  static constexpr int samples = 64;
+  /// The point light grown to a ball, seen from every 16th pixel; the tracer must outlive this.
+  BallLight(const raytrace::Tracer& tracer, const raytrace::RayTracedFrame& frame, const Light& point);
+
+  double rays() const { return static_cast<double>(samples * points_.size()); }
+  /// Means over the points.
+  double share_by_shaft() const;
+  double share_by_every_ray() const;
+
+ private:
+  const raytrace::Tracer& tracer_;
+  Light light_;
+  std::vector<raytrace::SurfacePoint> points_;
+};
 
 }  // namespace gnomon::bench
