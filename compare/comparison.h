@@ -210,7 +210,7 @@ struct TheoryStats {
   Distribution aliasing, perspective, projection, measured_aliasing;
 };
 
-/// What the filter of vsm, esm, evsm or msm lets through inside a shadow (bleeding.h): a part of the filter
+/// What the filter of vsm, esm, evsm or msm lets through inside a shadow (ladder/filter_probe.h): a part of the filter
 /// step.
 struct BleedingStats {
   std::uint64_t pixels = 0;

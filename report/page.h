@@ -1,5 +1,5 @@
 // The report page: one HTML file that needs nothing but itself, or, where it would grow too large, the files
-// beside it. It holds the result document (result.json), what the program knows beside it (facts.h), the pictures, and
+// beside it. It holds the result document (result.json), what the program knows beside it (report_facts), the pictures, and
 // the pixels' numbers (page_data.h); its sections are made of these by page/src/report_sections.ts. Every number on the
 // page carries its key in result.json (<data data-key="lights.0.error.wrong">), which the browser test compares.
 #pragma once

@@ -12,7 +12,7 @@ namespace gnomon::verify {
 
 /// Boxes, loose triangles, some of them nearly without an area, one or two planes, spheres, solids; some meshes stand twice,
 /// have holes, or show their front alone; in a third of the scenes one of the shapes stands there once more in another
-/// description (twin.h); a camera and one light without size.
+/// description (small_world.h); a camera and one light without size.
 Scene random_scene(Random& random);
 
 /// With its instances kept, if a mesh stands more than once.

@@ -114,7 +114,7 @@ struct NextDepthFormat {};
 struct NextCull {};
 struct SetMapOption {
   std::string name, value;
-};  ///< as on the command line, without the dashes; checked (map_option.h)
+};  ///< as on the command line, without the dashes; checked (raster/settings.h)
 struct SetMap {
   raster::MapOptions map;
 };  ///< all of them; checked (raster::check_map_options)

@@ -6,7 +6,7 @@
 
 namespace gnomon::compare {
 
-/// Of the light's centre; docs/labels.md has the definition. Nothing where no mesh has normals of its own.
+/// Counts under the light's centre; docs/labels.md has the definition. Nothing where no mesh has normals of its own.
 TerminatorCount count_terminator(const LadderInput& in, const Image<Label>& labels);
 
 }  // namespace gnomon::compare

@@ -11,7 +11,7 @@ namespace {
 
 using raytrace::SurfacePoint;
 
-/// Of a cube's face past its border: its outermost texels, as where a point on the border belongs to it.
+/// Returns the place on a cube's face for a point past its border: its outermost texels, as where a point on the border belongs to it.
 TexelCoordinate place_on_cube_face(const LightView& view, int face, const Vec3& position) {
   TexelCoordinate at = project_to_face(view, face, position);
   const double last = std::nextafter(static_cast<double>(view.size), 0.0);
@@ -25,7 +25,7 @@ TexelCoordinate place_on_face(const LightView& view, int face, const Vec3& posit
                                                          : project_to_face(view, face, position);
 }
 
-/// As place_on_face, but a normal offset may leave a cascade for the next one.
+/// Returns what place_on_face does, but a normal offset may leave a cascade for the next one.
 TexelCoordinate offset_place(const LightView& view, int face, const Vec3& position) {
   return view.projection == LightProjection::perspective ? place_on_cube_face(view, face, position)
                                                          : project_from_cascade(view, face, position);

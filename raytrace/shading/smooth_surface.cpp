@@ -6,7 +6,7 @@
 namespace gnomon::raytrace {
 namespace {
 
-/// Of a triangle's corners: normals as the mesh has them, and the point's weights.
+/// Holds a triangle's corners: normals as the mesh has them, and the point's weights.
 struct Corners {
   std::array<Vec3, 3> normal;
   std::array<double, 3> weight;

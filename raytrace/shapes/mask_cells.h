@@ -1,5 +1,5 @@
 // Where an alpha mask is surely opaque and where surely a hole. Packets (raytrace/packets/) know a hit's place in the texture to
-// within a texel and ask nothing else; a single ray is spared the lookup (surface_uv.h).
+// within a texel and ask nothing else; a single ray needs no lookup then (is_masked_out).
 #pragma once
 
 #include <cmath>

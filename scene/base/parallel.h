@@ -38,8 +38,8 @@ class FunctionRef<Result(Arguments...)> {
   Result (*call_)(const void* self, Arguments... arguments);
 };
 
-/// body(first, last) for ranges that together are [0, count), each on one thread. No range shorter than half of
-/// `at_a_time` but one of a shorter whole; how long they are depends on what the threads have to do.
+/// Calls body(first, last) for ranges that together are [0, count), each on one thread. A range is at least half of
+/// `at_a_time` long unless `count` is less; the busier the threads are, the longer ranges get.
 void parallel_ranges(std::size_t count, std::size_t at_a_time,
                      FunctionRef<void(std::size_t first, std::size_t last)> body);
 

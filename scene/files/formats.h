@@ -69,7 +69,7 @@ Expected<LoadedFile> read_ply(std::string_view bytes, const std::string& file);
 /// Chooses by the extension; `bytes` are the file's.
 Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string& path,
                                        const LoadOptions& options, IncludeState& includes);
-/// A list for messages, those that are read by way of glTF (foreign.h) last: ".json .gltf .glb .obj .ply .stl ...".
+/// A list for messages, those that are read by way of glTF (read_foreign) last: ".json .gltf .glb .obj .ply .stl ...".
 std::string_view known_extensions();
 
 /// A JSON scene that is not in a file of its own: built-in scenes, and what is yet to be written. Errors as of

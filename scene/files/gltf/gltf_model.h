@@ -2,7 +2,7 @@
 // count are checked where they are read, so that a mistake has a place and nothing reads past a buffer.
 //
 // The model holds what shapes and places meshes. What one reader alone asks for (buffers, images, materials, textures,
-// animations) stays in the JSON tree: gltf_data.h, gltf_materials.h, gltf_paths.h.
+// animations) stays in the JSON tree: gltf_data.h, gltf_materials.h, gltf_paths.cpp.
 #pragma once
 
 #include <cstdint>
