@@ -53,6 +53,15 @@ TEST_F(ViewLab, ASliderThatIsDraggedSetsTheBias) {
   EXPECT_LT(texels, 7.0) << commands[0];
 }
 
+// Eight texels move no shadow of the floating box that anyone sees.
+TEST_F(ViewLab, PeterPanningTakesTheBiasFromTheScene) {
+  const Words commands = printed("floating-box", "set size 320x240\nshow peter-panning\nwait done\nprint\n");
+  ASSERT_EQ(commands.size(), 1u);
+  const std::size_t at = commands[0].find("--bias ");
+  ASSERT_NE(at, std::string::npos) << commands[0];
+  EXPECT_GT(std::stod(commands[0].substr(at + 7)), 20.0) << commands[0];
+}
+
 /// Where the line of the best bias stands in the curve: the middle of the first column with many pixels of its
 /// green. Nothing: (0, 0).
 PixelPlace best_line(const std::vector<glm::u8vec4>& window, int width) {

@@ -25,6 +25,41 @@ std::string own_shader(std::string_view name) {
   return {};
 }
 
+/// The comparison of a preset's setting, with the bias that it asks for.
+std::shared_ptr<const Snapshot> shown_by(Lab& lab, ViewState state, const Preset& preset) {
+  const auto done = [&] {
+    lab.thread().post(1, {state.revision, state.setup});
+    return lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+  };
+  carry_out(state, SetMap{preset.apply(state.setup.map)});
+  auto shown = done();
+  if (preset.lost_share == 0.0) return shown;
+  const compare::Comparison& c = shown->outcome->comparison;
+  raster::MapOptions map = state.setup.map;
+  map.bias.constant =
+      std::max(map.bias.constant, losing_bias_texels(c.raster.lights[0], c.lights[0], preset.lost_share));
+  carry_out(state, SetMap{map});
+  return done();
+}
+
+// By the labels of the pixels. Nothing can cast a shadow on the acne floor: it shows acne alone.
+TEST(ViewPresets, ShowTheirArtifactOnEveryScene) {
+  for (const std::string scene :
+       {"fence", "acne-floor", "floating-box", "thin-wall", "wires", "sphere-plane", "penumbra"}) {
+    Lab lab(scene, {});
+    ViewState state = lab.state(*lab.until(is_open));
+    state.setup.size = {128, 96};
+    for (const Preset& preset : presets()) {
+      const auto shown = shown_by(lab, state, preset);
+      const double share = shown_share(preset, shown->outcome->comparison.lights[0]);
+      const bool casts = scene != "acne-floor" || &preset == &presets()[0];
+      EXPECT_EQ(share > (preset.lost_share > 0.0 ? 0.01 : 0.001), casts)
+          << preset.title << " on " << scene << ": " << share;
+      state.revision += 10;  // the next order is a newer one
+    }
+  }
+}
+
 TEST(RenderThread, TheNewestOrderIsTheOneThatIsFinished) {
   Lab lab("floating-box", {});
   ViewState state = lab.state(*lab.until(is_open));

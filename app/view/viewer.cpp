@@ -5,6 +5,7 @@
 #include "app/view/panels/panels.h"
 #include "app/view/presets.h"
 #include "app/view/status.h"
+#include "compare/result/number_text.h"
 #include "raster/gl/context.h"
 #include "scene/base/expected.h"
 
@@ -92,7 +93,7 @@ void Viewer::act(const Action& action) {
   if (const auto* change = std::get_if<Change>(&action)) {
     const std::uint64_t before = state_.revision;
     app::carry_out(state_, *change);
-    if (state_.revision != before) note_.clear();  // it was said of another setting
+    if (state_.revision != before) note_.clear(), preset_ = nullptr;  // it was said of another setting
     return;
   }
   if (const auto* open = std::get_if<OpenScene>(&action)) {
@@ -100,11 +101,34 @@ void Viewer::act(const Action& action) {
     return thread_->open({open->name, false});
   }
   if (const auto* use = std::get_if<UsePreset>(&action)) {
-    const Preset& preset = presets()[use->preset];
-    app::carry_out(state_, SetMap{preset.apply(state_.setup.map)});
-    return note(fmt::format("{}: {}", preset.title, preset.what));
+    preset_ = &presets()[use->preset], preset_bias_raised_ = false;
+    app::carry_out(state_, SetMap{preset_->apply(state_.setup.map)});
+    return note(fmt::format("{}: {}", preset_->title, preset_->what));
   }
   carry_out_command(std::get<Command>(action));
+}
+
+void Viewer::finish_preset() {
+  if (preset_ == nullptr || !shown_->is_done(state_)) return;
+  const compare::Comparison& c = shown_->outcome->comparison;
+  if (c.lights.empty()) return;
+  const compare::LightComparison& light = c.lights.front();
+  if (preset_->lost_share > 0.0 && !preset_bias_raised_) {
+    preset_bias_raised_ = true;
+    const double texels = losing_bias_texels(c.raster.lights[light.record], light, preset_->lost_share);
+    raster::MapOptions map = state_.setup.map;
+    if (texels > map.bias.constant) {
+      map.bias.constant = std::stod(fmt::format("{:.3g}", texels));
+      return app::carry_out(state_, SetMap{map});
+    }
+  }
+  constexpr double hardly = 0.001;
+  const double share = shown_share(*preset_, light);
+  note(
+      share >= hardly
+          ? fmt::format("{}, on {} of the pixels: {}", preset_->title, compare::percent(share), preset_->what)
+          : fmt::format("{}: this view has hardly any; another scene shows it better", preset_->title));
+  preset_ = nullptr;
 }
 
 void Viewer::carry_out_command(Command command) {
@@ -197,6 +221,7 @@ Expected<void> Viewer::take_snapshot() {
     state_.texel_world = shown_->live.texel_world;
     state_.max_map_size = shown_->max_map_size;
   }
+  finish_preset();
   if (const auto& failed = shown_->undrawable; failed && failed->revision == state_.revision) {
     if (has_script() || !drawable_) return fail(located(failed->error, changed_line_));
     note(failed->error);

@@ -17,6 +17,7 @@
 #include "app/view/job.h"
 #include "app/view/layout.h"
 #include "app/view/meter.h"
+#include "app/view/presets.h"
 #include "app/view/projection.h"
 #include "app/view/render_thread.h"
 #include "app/view/scene_source.h"
@@ -55,6 +56,8 @@ class Viewer {
   void act(const Action& action);
   void carry_out_command(Command command);
   void follow_layout();
+  /// When the preset's comparison is there: raises the bias as it asks, or says how much is seen.
+  void finish_preset();
   Expected<void> take_snapshot();
   void show_scene(const OpenedScene& scene);
   void undo_change();
@@ -121,6 +124,9 @@ class Viewer {
   bool menu_asked_ = false;
   int busy_frames_ = 3;  ///< to be drawn before the window sleeps: panels settle over several frames
   std::string note_;
+  /// Used last, while nothing else was changed and its comparison is not there.
+  const Preset* preset_ = nullptr;
+  bool preset_bias_raised_ = false;
 
   std::vector<ScriptStep> script_;
   std::size_t next_step_ = 0;
