@@ -35,7 +35,8 @@ std::uint64_t primitives_of(const Scene& scene) {
 }  // namespace
 
 Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Console& console, int tessellate,
-                           const std::string& camera, bool with_paths, bool tessellation_is_asked) {
+                           const std::string& camera, bool with_paths, bool tessellation_is_asked,
+                           bool with_cameras) {
   const TimedStage stage("load");
   if (startable_threads(1) == 0)
     return fail(ErrorKind::graphics, "not one thread can be started (a limit on processes, ulimit -u)");
@@ -45,6 +46,7 @@ Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Conso
   LoadedScene loaded;
   LoadOptions options{.confine_paths = !argument.allow_outside, .camera = camera, .files = &read};
   if (with_paths) options.paths = &loaded.paths;
+  if (with_cameras) options.cameras = &loaded.cameras;
   Expected<Scene> scene = load_scene(scene_of_lesson(argument.name), options);
   if (!scene) return fail(scene.error());
   if (const auto apart = files.also_reads(read); !apart) return fail(apart.error());

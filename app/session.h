@@ -26,6 +26,7 @@ struct LoadedScene {
   EffectPlan plan;
   std::vector<KeyedPath>
       paths{};  ///< that the file itself has (LoadOptions::paths), where they were asked for
+  std::vector<NamedCamera> cameras{};  ///< of the file, where they were asked for
   double load_ms = 0.0;
   std::size_t lights_left_out = 0;  ///< by keep_strongest_lights()
 };
@@ -35,7 +36,7 @@ struct LoadedScene {
 /// consists of; ErrorKind::usage when an output is among it.
 Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Console& console,
                            int tessellate = 0, const std::string& camera = {}, bool with_paths = false,
-                           bool tessellation_is_asked = true);
+                           bool tessellation_is_asked = true, bool with_cameras = false);
 
 /// Indices in Scene::lights: all of them, or the one with that name. ErrorKind::usage when there is none.
 Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std::string& name);

@@ -335,6 +335,17 @@ inline std::array<float, rung_count> rungs_at(const std::array<Image<float>, run
   return v;
 }
 
+/// What a setting errs by from each of several views; the comparison that holds this is that of the worst.
+struct ViewErrors {
+  struct OfView {
+    std::string name, light;  ///< the light that errs most there
+    double error = 0.0;       ///< of that light, in the measure's unit; NaN where nothing is compared
+  };
+  const Figure* measure = &wrong_and_mean();
+  std::vector<OfView> views{};  ///< none: a single picture was judged
+  std::size_t worst = 0;        ///< index of the view that errs most
+};
+
 struct MachineInfo {
   std::string cpu, os;
   int cores = 0;
@@ -357,6 +368,7 @@ struct Comparison {
   /// Stands for the receivers of a picture in bands, which are not kept; else empty.
   Image<SeenSurface> seen;
   std::vector<LightComparison> lights;
+  ViewErrors views;
   std::optional<Threshold> fail_above;  ///< what the errors were held against
   double exposure = 1.0;                ///< linear factor applied to both pictures before sRGB encoding
   double load_ms = 0.0, accel_build_ms = 0.0, topology_ms = 0.0, report_ms = 0.0, total_ms = 0.0;

@@ -43,6 +43,14 @@ for picture in raster difference; do
   oiiotool --nosoftwareattrib "$work/fence/$picture.png" -o "$images/fence-$picture.png"
 done
 
+# What a filter does: the same part of a picture without and with it, and by rays, enlarged.
+for technique in hard pcf; do
+  "$program" compare fence --technique $technique --size 640x360 --runs 1 --quiet -o "$work/measures-$technique"
+done
+part="--cut 104x78+180+232 --resize:filter=box 312x234"
+oiiotool --nosoftwareattrib "$work/measures-hard/raster.png" $part "$work/measures-pcf/raster.png" $part \
+  "$work/measures-pcf/raytrace.png" $part --mosaic:pad=8 3x1 -o "$images/measures.png"
+
 # with_map NAME WIDTH SCENE OPTIONS…: what the light stores, WIDTH pixels wide, beside what the eye sees
 with_map() {
   name=$1 width=$2

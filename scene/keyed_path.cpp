@@ -110,7 +110,8 @@ Mat4 transform_at(const NodeChain& chain, double seconds) {
 }
 
 double KeyedPath::seconds() const {
-  double last = std::max({last_time(eye), last_time(target), last_time(up), last_time(camera)});
+  double last = std::max(
+      {objects_until.value_or(0.0), last_time(eye), last_time(target), last_time(up), last_time(camera)});
   for (const auto& [light, keys] : lights)
     last = std::max({last, last_time(keys.position), last_time(keys.direction), last_time(keys.nodes)});
   return last;

@@ -59,9 +59,12 @@ struct KeyedPath {
     NodeChain nodes{};  ///< as for the camera
   };
   std::map<std::string, OfLight> lights{};  ///< by name
+  /// Of a glTF file's animation: until when it moves objects, seconds; where they stand is for the loader to say
+  /// (LoadOptions::animation). None: it moves none.
+  std::optional<double> objects_until{};
 
   bool moves_camera() const { return eye || target || up || !camera.empty(); }
-  double seconds() const;  ///< the last key's time
+  double seconds() const;  ///< the last key's time, that of objects too
   Camera camera_at(const Camera& stored, double seconds) const;
   /// Returns the light at that time; it is as stored where the path has no keys of its name.
   Light light_at(const Light& stored, double seconds) const;

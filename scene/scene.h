@@ -176,6 +176,11 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
+struct NamedCamera {
+  std::string name;
+  Camera camera;
+};
+
 struct Scene {
   std::string name;
   std::string path;    ///< as given by the user, or the built-in name

@@ -136,6 +136,22 @@ TEST(JudgeDescribed, OtherMatricesAndConstantsAreNamed) {
   expect_other_test(picture.judged(), "if `constant_depth` is about", true);
 }
 
+// A floor seen from its back: an offset along the front's normal goes into it, and it shadows itself.
+TEST(JudgeDescribed, OffsetOfTheWrongSignOnBackFacesIsNamed) {
+  Scene scene = scene_under("sun");
+  for (auto& corners : scene.meshes[0].triangles) std::swap(corners[1], corners[2]);
+  const Compared drawn = draw_scene(std::move(scene), small_picture, hard_map(512));
+  Capture capture =
+      self_capture(drawn, folder_for("back-faces"), {.map = true, .stored = StoredDepth::zero_to_one});
+  capture.bias = compare::CapturedBias{.constant_depth = 0.0002, .normal_offset_world = 0.05};
+  draw_again(capture, drawn);
+  const JudgeOutcome right = judge(capture, *drawn.scene);
+  EXPECT_EQ(notes_of(right).find("back faces"), std::string::npos) << notes_of(right);
+  draw_again(capture, drawn, 1.0f, true);
+  expect_other_test(judge(capture, *drawn.scene),
+                    "if the renderer's normal offset has the wrong sign on back faces");
+}
+
 // A normal offset that the capture does not say moves edges by some pixels, and nothing usual explains it.
 TEST(JudgeDescribed, WhatIsNotSaidIsUnexplained) {
   OtherPicture picture("unsaid", {.constant_depth = 0.001, .normal_offset_world = 0.2});

@@ -2,11 +2,13 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "gltf_support.h"
 #include "tests/app_process.h"
 
 namespace gnomon::app_test {
@@ -36,6 +38,74 @@ TEST(ShimmerProgram, ThresholdDecidesTheExitCode) {
   EXPECT_EQ(run_gnomon(quick + json_only + Words{"--fail-above", "0"}).exit_code, 1);
   EXPECT_EQ(run_gnomon(quick + json_only + Words{"--fail-above", "1000"}).exit_code, 0);
   EXPECT_EQ(run_gnomon(quick + json_only + Words{"--snap", "--fail-above", "0"}).exit_code, 0);
+}
+
+/// A box of half side 1 that drives 2 units a second along x for two seconds, over a ground and under a sun.
+std::string driving_box() {
+  gltf_test::Builder b;
+  const auto box = [&](float x, float y0, float y1, float z) {
+    std::vector<float> corners;
+    for (const float y : {y0, y1})
+      for (const float s : {-1.0f, 1.0f})
+        for (const float r : {-1.0f, 1.0f}) corners.insert(corners.end(), {r * x, y, s * z});
+    return b.positions(corners);
+  };
+  const std::vector<std::uint16_t> sides{0, 1, 3, 0, 3, 2, 4, 7, 5, 4, 6, 7, 0, 5, 1, 0, 4, 5,
+                                         2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+  const auto mesh = [&](int positions) {
+    return json{
+        {"primitives",
+         {{{"attributes", {{"POSITION", positions}}}, {"indices", b.accessor(sides, 5123, "SCALAR", 1)}}}}};
+  };
+  b.json["meshes"] = {mesh(box(12.0f, -1.0f, 0.0f, 12.0f)), mesh(box(1.0f, 0.0f, 1.5f, 1.0f))};
+  b.json["cameras"] =
+      json::array({{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}});
+  b.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  b.json["extensions"]["KHR_lights_punctual"]["lights"] =
+      json::array({{{"type", "directional"}, {"name", "sun"}}});
+  const double half = std::sqrt(0.5), light = std::sin(pi / 6.0), lit = std::cos(pi / 6.0);
+  b.json["nodes"] = {
+      {{"name", "ground"}, {"mesh", 0}},
+      {{"name", "box"}, {"mesh", 1}, {"translation", {-2, 0, 0}}},
+      {{"name", "eye"}, {"camera", 0}, {"translation", {0, 14, 0}}, {"rotation", {-half, 0, 0, half}}},
+      {{"name", "sun"},
+       {"rotation", {-lit, 0, 0, light}},
+       {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
+  b.json["scenes"] = json::array({{{"nodes", {0, 1, 2, 3}}}});
+  const int times = b.accessor(std::vector<float>{0, 2}, 5126, "SCALAR", 1);
+  const int way = b.accessor(std::vector<float>{-2, 0, 0, 2, 0, 0}, 5126, "VEC3", 3);
+  b.json["animations"] =
+      json::array({{{"name", "drive"},
+                    {"samplers", {{{"input", times}, {"output", way}}}},
+                    {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}}});
+  return b.text();
+}
+
+// Map and truth follow the box alike: exact shadows do not flip, coarse ones do. Receivers on the ground stay; those that
+// the box stands on, or that it comes to hide, do not count then.
+TEST(ShimmerProgram, PlaysObjects) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "driving.gltf";
+  std::ofstream(scene) << driving_box();
+  const Words film = {"shimmer",  scene, "--size", "96x64", "--map-size", "64",
+                      "--frames", "5",   "--fps",  "4",     "--json",     "-"};
+  const ProcessResult coarse = run_gnomon(film);
+  ASSERT_EQ(coarse.exit_code, 0) << coarse.err;
+  EXPECT_EQ(coarse.err.find("not played"), std::string::npos) << coarse.err;
+  const json played = json::parse(coarse.out), light = played["lights"][0];
+  EXPECT_EQ(played["path"]["name"], "drive");
+  EXPECT_EQ(played["path"]["objects"], true);
+  EXPECT_EQ(played["path"]["camera"], "still");
+  EXPECT_GT(light["flips"], 10);
+  EXPECT_GT(light["edges"]["true_world_per_second"], 0.1) << "the shadow drives with its box";
+  for (const json& frame : light["by_frame"]) {
+    EXPECT_GT(frame["receivers"], 1000);
+    EXPECT_LT(frame["receivers"].get<int>(), 96 * 64);
+  }
+  const ProcessResult exact = run_gnomon(film + Words{"--technique", "izb"});
+  ASSERT_EQ(exact.exit_code, 0) << exact.err;
+  EXPECT_EQ(json::parse(exact.out)["lights"][0]["flips"], 0);
+  EXPECT_EQ(run_gnomon(film + Words{"--path", "drive", "--move", "camera"}).exit_code, 2);
 }
 
 // What a scene moves by itself is played where nothing else is asked for, and by its name.

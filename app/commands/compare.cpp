@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -12,12 +13,15 @@
 #include "app/options/effect_options.h"
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
+#include "app/options/view_options.h"
 #include "app/outputs/result_output.h"
 #include "app/outputs/run_files.h"
 #include "app/process/machine.h"
 #include "app/session.h"
 #include "app/strongest_lights.h"
 #include "compare/measure/reduced.h"
+#include "compare/result/figures.h"
+#include "compare/result/views.h"
 #include "raster/bands.h"
 #include "scene/base/stages.h"
 #include "scene/base/timing.h"
@@ -29,6 +33,8 @@ namespace {
 struct CompareCommand : RunOptions {
   SceneArgument scene;
   std::string camera;
+  ViewListOptions views;
+  FilmOptions path;
   ResultOutput output;
   SettingOptions setting;
   std::string shader_folder;
@@ -152,6 +158,55 @@ Expected<Compared> render_and_compare(const CompareCommand& command, const Loade
   return compared;
 }
 
+/// Of one view the numbers alone, untimed.
+Expected<compare::Comparison> judge_view(const CompareCommand& command,
+                                         const compare::CompareOptions& options, const LoadedScene& loaded,
+                                         const std::vector<std::uint32_t>& lights,
+                                         const raytrace::Tracer& tracer, raster::Renderer& renderer) {
+  const raster::RasterOptions& raster = options.raster;
+  const auto bytes = compare_bytes(*loaded.scene, lights, raster.size, false);
+  auto bands = plan_bands(command.memory, raster.size, bytes, raster::most_pixels(renderer, raster.map));
+  if (!bands) return fail(bands.error());
+  compare::Plan plan = compare::plan_of(tracer, lights, options);
+  plan.bands = std::move(*bands);
+  plan.page = false, plan.folder = folder_of_rows(command);
+  compare::Comparison out;
+  const auto measured =
+      compare::measure(out, plan, compare::frames_of(tracer, renderer, lights, options), compare::Progress());
+  if (!measured) return fail(measured.error());
+  return out;
+}
+
+/// What the setting errs by from each view; camera and lights are then those of the worst.
+Expected<compare::ViewErrors> judge_views(const CompareCommand& command, LoadedScene& loaded,
+                                          const std::vector<compare::JudgedView>& views, Console& console) {
+  const auto lights = choose_lights(*loaded.scene, command.setting.light);
+  if (!lights) return fail(lights.error());
+  compare::ViewErrors errors;
+  if (command.output.fail_above) errors.measure = command.output.fail_above->measure;
+  compare::CompareOptions options = command.setting.options;
+  options.raster.runs = 0, options.raster.shadow_cost = false;
+  options.raytrace.runs = 1, options.raytrace.warm_up = options.raytrace.picture = false;
+  options.perceptual = errors.measure->needs == compare::FigureNeeds::perception;
+  const compare::Pose own{loaded.scene->camera, loaded.scene->lights};
+  {
+    auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
+    if (!renderer) return fail(renderer.error());
+    const raytrace::Tracer tracer(*loaded.world, options.accel, options.precision);
+    for (const compare::JudgedView& view : views) {
+      console.progress(view.name, double(errors.views.size()) / double(views.size()));
+      const compare::Pose pose = view.pose(own);
+      loaded.scene->camera = pose.camera, loaded.scene->lights = pose.lights;
+      const auto compared = judge_view(command, options, loaded, *lights, tracer, **renderer);
+      if (!compared) return fail(compared.error());
+      add_view(errors, view.name, *compared);
+    }
+  }
+  const compare::Pose worst = views[errors.worst].pose(own);
+  loaded.scene->camera = worst.camera, loaded.scene->lights = worst.lights;
+  return errors;
+}
+
 /// One rule for both renderers.
 void set_runs(CompareCommand& command) {
   raster::RasterOptions& raster = command.setting.options.raster;
@@ -174,18 +229,34 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
 
   RunFiles files;
   files.reads(command.scene);
+  files.reads(path_file(command.path));
   files.reads_shaders(command.shader_folder);
   files.writes("--trace", command.trace);
+  const auto is_given = [&](std::string_view option) {
+    return std::ranges::count(command.given, option) > 0;
+  };
+  if (const auto fine = check_views(command.views, command.camera, command.path, false, is_given); !fine)
+    return fail(fine.error());
   if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
-  auto loaded = load(command.scene, files, console, command.tessellate, command.camera);
+  auto loaded = load(command.scene, files, console, command.tessellate, command.camera,
+                     follows_path(command.path), true, command.views.by_cameras());
   if (!loaded) return fail(loaded.error());
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   keep_strongest_lights(*loaded, command.max_lights, named_lights(command.setting.light),
                         command.setting.poses, console);
   const auto posed = apply_poses(command.setting.poses, command.setting.light, *loaded);
   if (!posed) return fail(posed.error());
+  const auto views = resolve_views(command.views, command.path, false, *loaded, *loaded->scene, console);
+  if (!views) return fail(views.error());
+  compare::ViewErrors errors;
+  if (!views->empty()) {
+    auto judged = judge_views(command, *loaded, *views, console);
+    if (!judged) return fail(judged.error());
+    errors = std::move(*judged);
+  }
   auto compared = render_and_compare(command, *loaded, console);
   if (!compared) return fail(compared.error());
+  compared->comparison.views = std::move(errors);
   compared->comparison.total_ms = total.elapsed_ms();
   console.progress("writing", 1.0);
   if (only_prints_json(command.output))
@@ -198,6 +269,8 @@ void add_options(CLI::App& app, CompareCommand& command) {
   add_scene(app, command.scene);
   add_tessellate(app, command.tessellate);
   add_camera(app, command.camera);
+  add_view_options(app, command.views);
+  add_path_options(app, command.path);
   add_result_output(app, command.output, "out/NAME of the scene");
   add_setting_options(app, command.setting);
   add_max_lights(app, command.max_lights);
@@ -229,6 +302,7 @@ void add_compare(CLI::App& program, Invocation& invocation) {
       "gnomon compare fence\n"
       "gnomon compare model.glb --map-size 2048 --bias 0.5texel -o report\n"
       "gnomon compare whitted --light lamp --json - | jq .lights[0].error\n"
+      "gnomon compare level.glb --cameras all --fail-above 2%    judged by the worst view\n"
       "gnomon compare scene.json --fail-above 1% --quiet    for scripts: exit code 1");
   const auto command = std::make_shared<CompareCommand>();
   command->command_line = invocation.command_line;

@@ -99,6 +99,8 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
     if (!film) return fail(film.error());
     engine.film_with(*film);
   }
+  if (const auto looked = look_from_views(command, loaded, *loaded.scene, engine, console); !looked)
+    return looked;
   SweepRun run{command, plan, loaded, selection, {}, machine_info(), engine, {command.folder, engine},
                console};
   run.given.camera = loaded.scene->camera;
@@ -160,6 +162,14 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   if (command.max_error && command.max_error->measure->needs == compare::FigureNeeds::perception)
     command.perceptual = true;
   if (const auto fine = finish_metric(command.metric, command.max_error); !fine) return fail(fine.error());
+  const auto is_given = [&](std::string_view name) { return !command.options.values_given(name).empty(); };
+  if (const auto fine = check_views(command.views, command.camera, command.metric.film,
+                                    command.metric.is_filmed(), is_given);
+      !fine)
+    return fail(fine.error());
+  const bool several = command.views.by_cameras() || follows_path(command.metric.film);
+  if (several && command.ray_tracer)
+    return fail(ErrorKind::usage, "--ray-tracer: its points are of one camera, not of --cameras or --path");
   if (command.folder.empty()) command.folder = default_output(command.scene.name) + "-sweep";
   RunFiles files;
   files.reads(command.scene);
@@ -175,7 +185,8 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
   if (!shaders) return fail(shaders.error());
   command.replaced_shaders = shaders->replaced();
-  auto loaded = load(command.scene, files, console, 0, command.camera, command.metric.is_filmed());
+  auto loaded = load(command.scene, files, console, 0, command.camera, command.metric.is_filmed() || several,
+                     true, command.views.by_cameras());
   if (!loaded) return fail(loaded.error());
   LightSelection selection(*loaded, command.max_lights);
   if (const auto named = command.options.values_given("light"); selection.leaves_out(named)) {
@@ -273,6 +284,7 @@ void add_options(CLI::App& app, SweepCommand& command) {
                 "is none; flip includes --perceptual",
                 "none", true);
   add_metric_options(app, command.metric);
+  add_view_options(app, command.views);
   add_report_max_mb(app, command.report_max_mb);
   add_run_options(app, command);
   add_shader_dir(app, command.shader_folder);

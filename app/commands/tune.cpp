@@ -61,6 +61,7 @@ struct TuneCommand {
   SweepOptions options;
   compare::TuneGoal goal;
   MetricOptions metric;
+  ViewListOptions views;
   raster::Backend backend = raster::Backend::automatic;
   std::optional<int> runs;
   int threads = 0;
@@ -159,6 +160,7 @@ struct Bench {
   compare::Setting setting;
   compare::TuneOptions options;
   std::optional<compare::FilmPlan> film{};  ///< where errors are flips
+  std::vector<compare::JudgedView> views{};
 };
 
 Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
@@ -183,6 +185,10 @@ Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
     if (!film) return fail(film.error());
     bench.film = std::move(*film);
   }
+  auto views = resolve_views(command.views, command.metric.film, command.metric.is_filmed(), loaded,
+                             *loaded.scene, console);
+  if (!views) return fail(views.error());
+  bench.views = std::move(*views);
   bench.options.goal = command.goal;
   bench.options.sizes = *sizes;
   for (const OptionFamily& family : bench.families) bench.options.families.push_back(family.tuned);
@@ -199,6 +205,7 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   const bool perceptual = with_page || command.goal.measure().needs == compare::FigureNeeds::perception;
   compare::Engine engine(*bench.loaded.scene, *bench.loaded.world, *bench.renderer, perceptual);
   if (bench.film) engine.film_with(*bench.film);
+  if (!bench.views.empty()) engine.look_from(bench.views, command.goal.measure());
   bench.options.most_seconds = command.most_seconds;
   bench.options.found = [&](const compare::TuneFamily& family, const compare::Attempt& answer,
                             std::uint64_t renders) {
@@ -218,7 +225,7 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   const TuneQuestion question{command.scene,           command.camera,     command.shader_folder,
                               command.options.fixed(), command.goal,       shaders->replaced(),
                               command.metric,          command.max_lights, command.engine,
-                              command.most_seconds,    command.backend};
+                              command.most_seconds,    command.backend,    command.views};
   const TuneAnswer answer{question, bench.families, *result};
   if (with_page) {
     const auto setting = bench.options.as_given(result->winner, attempt_of(result->families[result->winner]));
@@ -254,11 +261,18 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   if (const auto fine = finish_metric(command.metric, command.goal.max_error); !fine)
     return fail(fine.error());
   if (command.metric.is_filmed()) command.goal.of_time = compare::find_measure("shimmer");
+  const auto is_given = [&](std::string_view name) { return !command.options.values_given(name).empty(); };
+  if (const auto fine = check_views(command.views, command.camera, command.metric.film,
+                                    command.metric.is_filmed(), is_given);
+      !fine)
+    return fail(fine.error());
   const auto families = make_families(command.options, command.metric.is_filmed(), command.engine);
   if (!families) return fail(families.error());
   auto files = check_files(command);
   if (!files) return fail(files.error());
-  auto loaded = load(command.scene, *files, console, 0, command.camera, command.metric.is_filmed());
+  const bool with_paths = command.metric.is_filmed() || follows_path(command.metric.film);
+  auto loaded =
+      load(command.scene, *files, console, 0, command.camera, with_paths, true, command.views.by_cameras());
   if (!loaded) return fail(loaded.error());
   auto bench = make_bench(command, *loaded, *families, console);
   if (!bench) return fail(bench.error());
@@ -279,6 +293,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
       "gnomon tune penumbra --max-error mean:0.5%      also wrong:1%, flip:0.05, edge:0.5texel\n"
       "gnomon tune courtyard --max-error shimmer:0.02 --path walk    the cheapest that holds still\n"
       "gnomon tune fence --max-error 2% --engine godot    only what Godot draws, in its settings\n"
+      "gnomon tune level.glb --cameras all --max-error 2%    good enough from every camera\n"
       "gnomon tune courtyard --max-time 20 --map-size 256:4096:x2 -o answer\n"
       "gnomon tune fence --technique hard --shader-dir mine --max-error 2%    with a shader of your own\n"
       "gnomon tune model.glb --max-error 1% --json - | jq -r .command");
@@ -289,6 +304,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
                 "the largest error that is good enough, of the worst light; this or --max-time", "none",
                 true);
   add_metric_options(*app, command->metric);
+  add_view_options(*app, command->views);
   add_checked(*app, "--max-time", "MS",
               fmt::format("the longest time for map and shading [milliseconds, {}; this or --max-error]",
                           range_text(time_range)),

@@ -128,12 +128,29 @@ void add_movement(CLI::App& app, FilmOptions& film) {
                "the way to the camera's target a second, sun: a day in the whole film",
                fmt::format("factor, {}", range_text(speed_range)), number_text(film.speed)),
       [&film](const std::string& text) { return assign(film.speed, parse_number(text, speed_range)); });
+}
+
+void add_drift(CLI::App& app, FilmOptions& film) {
   add_kept(
       app, film, "--drift", "U,V",
       describe("of --path drift: how far the map's window goes with each frame, along its right and its up",
                fmt::format("texels, each {}", range_text(drift_range)),
                fmt::format("{},{}", number_text(film.drift_texels.x), number_text(film.drift_texels.y))),
       [&film](const std::string& text) { return assign(film.drift_texels, parse_drift(text)); });
+}
+
+void add_time(CLI::App& app, FilmOptions& film) {
+  add_kept(
+      app, film, "--frames", "N",
+      describe("frames of the film", fmt::format("2 to {}", most_frames), std::to_string(film.time.frames)),
+      [&film](const std::string& text) {
+        return assign(film.time.frames, parse_integer(text, 2, most_frames));
+      });
+  constexpr OptionRange fps{0.0, 1e6, true};
+  add_kept(app, film, "--fps", "NUMBER",
+           describe("speed of the film", fmt::format("frames a second, {}", range_text(fps)),
+                    number_text(film.time.fps)),
+           [&film, fps](const std::string& text) { return assign(film.time.fps, parse_number(text, fps)); });
 }
 
 bool is_film_option(const FilmOptions& film, std::string_view option) {
@@ -158,7 +175,7 @@ Expected<void> play_keys(const FilmOptions& film, compare::ShimmerPath& path) {
   const bool light = !path.keys.lights.empty() && film.moves != Moves::camera;
   path.camera = camera ? CameraPath::keys : CameraPath::still;
   path.light = light ? LightPath::keys : LightPath::still;
-  if (!camera && !light && !film.moves)
+  if (!camera && !light && !film.moves && !path.objects)
     return fail(ErrorKind::usage, "--path: it has no keys of the camera, nor of a light that is drawn");
   const auto stands_still = [&film](std::string_view what) {
     const auto move = std::find_if(std::begin(all_moves), std::end(all_moves),
@@ -202,18 +219,9 @@ Expected<std::optional<KeyedPath>> find_keys(const FilmOptions& film, const std:
 }  // namespace
 
 void add_film_options(CLI::App& app, FilmOptions& film) {
-  add_kept(
-      app, film, "--frames", "N",
-      describe("frames of the film", fmt::format("2 to {}", most_frames), std::to_string(film.time.frames)),
-      [&film](const std::string& text) {
-        return assign(film.time.frames, parse_integer(text, 2, most_frames));
-      });
-  constexpr OptionRange fps{0.0, 1e6, true};
-  add_kept(app, film, "--fps", "NUMBER",
-           describe("speed of the film", fmt::format("frames a second, {}", range_text(fps)),
-                    number_text(film.time.fps)),
-           [&film, fps](const std::string& text) { return assign(film.time.fps, parse_number(text, fps)); });
+  add_time(app, film);
   add_movement(app, film);
+  add_drift(app, film);
   add_kept(app, film, "--anchors", "N",
            describe("receivers at every so many pixels of the first frame, along both axes",
                     fmt::format("pixels, 1 to {}", most_anchors), std::to_string(film.anchors)),
@@ -222,12 +230,17 @@ void add_film_options(CLI::App& app, FilmOptions& film) {
            });
 }
 
+void add_path_options(CLI::App& app, FilmOptions& film) {
+  add_time(app, film);
+  add_movement(app, film);
+}
+
 std::string path_file(const FilmOptions& film) {
   return film.paths.size() == 1 && is_file(film.paths.front()) ? film.paths.front() : std::string();
 }
 
 Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const std::vector<KeyedPath>& own_paths,
-                                         const Scene& scene, Console& console) {
+                                         const Scene& scene, Console& console, bool plays_objects) {
   compare::FilmPlan plan{{}, film.time, film.anchors};
   compare::ShimmerPath& path = plan.path;
   path.speed = film.speed;
@@ -236,6 +249,11 @@ Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const std::vec
   if (!keys) return fail(keys.error());
   if (*keys) {
     path.keys = std::move(**keys);
+    path.objects = plays_objects && path.keys.objects_until && !film.moves;
+    if (path.keys.objects_until && !path.objects)
+      console.note(
+          fmt::format("The animation {} moves objects, too, which stay in the pose that they are stored in.",
+                      path.keys.name));
     if (const auto played = play_keys(film, path); !played) return fail(played.error());
     return plan;
   }
@@ -273,9 +291,11 @@ Expected<void> finish_metric(MetricOptions& options, std::optional<compare::Thre
                   fmt::format("--max-error: --metric shimmer counts flips (got {}, allowed shimmer:0.1)",
                               compare::threshold_text(*threshold)));
   }
-  if (options.is_filmed() || options.film.given.empty()) return {};
-  return fail(ErrorKind::usage,
-              fmt::format("{}: belongs to --metric shimmer", options.film.given.front().first));
+  if (options.is_filmed()) return {};
+  for (const char* of_films : {"--anchors", "--drift"})
+    if (is_film_option(options.film, of_films))
+      return fail(ErrorKind::usage, fmt::format("{}: belongs to --metric shimmer", of_films));
+  return {};
 }
 
 std::string film_arguments(const FilmOptions& film) {

@@ -26,12 +26,15 @@ struct FilmOptions {
 /// --frames, --fps, --move, --path, --speed, --drift, --anchors.
 bool is_film_option(std::string_view name);
 void add_film_options(CLI::App& app, FilmOptions& film);
+/// Of these --frames, --fps, --move, --path, --speed: where still pictures are made along a path.
+void add_path_options(CLI::App& app, FilmOptions& film);
 /// The file that --path names; empty: none.
 std::string path_file(const FilmOptions& film);
+/// `plays_objects`: what an animation moves besides camera and lights is moved, too; else a note says that it stays.
 /// The scene's own path goes before a built-in one of the same name; where nothing is asked for, its first one is taken
 /// and a note says so. Errors: usage for a path that does not suit what moves; bad input of a file.
 Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const std::vector<KeyedPath>& own_paths,
-                                         const Scene& scene, Console& console);
+                                         const Scene& scene, Console& console, bool plays_objects = false);
 
 /// What errors of a sweep or of the tuner are about.
 enum class Metric : std::uint8_t { still, shimmer };
@@ -42,8 +45,8 @@ struct MetricOptions {
 };
 /// --metric and the film's options.
 void add_metric_options(CLI::App& app, MetricOptions& options);
-/// A threshold of flips asks for films, and of films a plain --max-error is one of flips. Error (usage): options of a film
-/// without one; a threshold of another measure of films.
+/// A threshold of flips asks for films, and of films a plain --max-error is one of flips. Error (usage): --anchors or --drift
+/// without a film; a threshold of another measure of films.
 Expected<void> finish_metric(MetricOptions& options, std::optional<compare::Threshold>& threshold);
 /// " --frames 24 --path walk": what was given, to be typed again.
 std::string film_arguments(const FilmOptions& film);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "compare/result/figures.h"
 #include "compare/result/option_names.h"
 #include "scene/base/option_text.h"
 #include "scene/files/encodings.h"
@@ -34,13 +35,16 @@ nlohmann::ordered_json film_configuration(const MetricOptions& metric) {
 }
 
 // A file of keys by its whole path: tasks may start elsewhere.
-std::string metric_arguments(const MetricOptions& metric) {
-  if (!metric.is_filmed()) return {};
-  FilmOptions film = metric.film;
+FilmOptions with_whole_path(FilmOptions film) {
   if (const std::string file = path_file(film); !file.empty())
     for (auto& [option, value] : film.given)
       if (option == "--path") value = std::filesystem::absolute(file).string();
-  return " --metric shimmer" + film_arguments(film);
+  return film;
+}
+
+std::string metric_arguments(const MetricOptions& metric) {
+  if (!metric.is_filmed()) return {};
+  return " --metric shimmer" + film_arguments(with_whole_path(metric.film));
 }
 
 }  // namespace
@@ -69,7 +73,16 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
             {"seed", command.seed}};
   if (command.max_lights != usual_max_lights) json["max_lights"] = command.max_lights;
   if (Json film = film_configuration(command.metric); !film.is_null()) json["film"] = std::move(film);
+  if (const std::string views =
+          view_arguments(command.views, command.metric.film, command.metric.is_filmed());
+      !views.empty())
+    json["views"] = {{"arguments", views}, {"measure", view_measure(command).measure.name}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+const compare::Figure& view_measure(const SweepCommand& command) {
+  if (command.max_error) return *command.max_error->measure;
+  return command.metric.is_filmed() ? *compare::find_measure("shimmer") : compare::wrong_and_mean();
 }
 
 void set_runs(const SweepCommand& command, compare::CompareOptions& options) {
@@ -82,6 +95,7 @@ std::string compare_command(const SweepCommand& command, const Plan& plan, std::
   std::string text = (filmed ? "gnomon shimmer " : "gnomon compare ") + command.scene.words() +
                      camera_argument(command) + command.options.cell_arguments(plan.grid, cell);
   text += filmed ? film_arguments(command.metric.film) : exposure_argument(command);
+  text += filmed ? std::string() : view_arguments(command.views, command.metric.film, false);
   text += max_lights_argument(command.max_lights) + backend_argument(command.backend);
   if (!command.shader_folder.empty()) text += " --shader-dir " + shell_quoted(command.shader_folder);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
@@ -94,7 +108,10 @@ std::string task_arguments(const SweepCommand& command) {
   if (fs::path(scene.name).has_extension()) scene.name = fs::absolute(scene.name).string();
   std::string text = fmt::format(" {}", scene.words());
   text += camera_argument(command) + command.options.arguments() + exposure_argument(command);
-  text += metric_arguments(command.metric) + max_lights_argument(command.max_lights);
+  const bool filmed = command.metric.is_filmed();
+  text += metric_arguments(command.metric) +
+          view_arguments(command.views, with_whole_path(command.metric.film), filmed) +
+          max_lights_argument(command.max_lights);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
   if (!command.shader_folder.empty())
     text += " --shader-dir " + shell_quoted(fs::absolute(command.shader_folder).string());

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/options/options.h"
-#include "app/options/shimmer_options.h"
+#include "app/options/view_options.h"
 #include "app/strongest_lights.h"
 #include "app/sweep/axes.h"
 #include "compare/result/output_parts.h"
@@ -49,12 +49,16 @@ struct SweepCommand : RunOptions {
   std::optional<int> slurm_tasks;
   std::optional<compare::Threshold> max_error;
   MetricOptions metric;
+  ViewListOptions views;
   double report_max_mb = compare::default_report_max_mb;
   bool zip = false, perceptual = false, ray_tracer = false, restart = false, quiet = false;
 };
 
 /// Everything that the journal's lines depend on, as JSON.
 std::string configuration(const SweepCommand& command, const Plan& plan, const Scene& scene);
+
+/// What a setting is judged by from several views: that of --max-error, or what errors are.
+const compare::Figure& view_measure(const SweepCommand& command);
 
 /// How often each pass of a cell is timed: three times where nothing else is asked for, since cells are ranked; of rays no
 /// further time once those made took long enough.

@@ -30,13 +30,28 @@ struct MadeCell {
   std::future<Expected<void>> written;
 };
 
+}  // namespace
+
+Expected<void> look_from_views(const SweepCommand& command, const LoadedScene& loaded, const Scene& given,
+                               compare::Engine& engine, Console& console) {
+  auto views =
+      resolve_views(command.views, command.metric.film, command.metric.is_filmed(), loaded, given, console);
+  if (!views) return fail(views.error());
+  if (!views->empty()) engine.look_from(std::move(*views), view_measure(command));
+  return {};
+}
+
+namespace {
+
 /// The lights that `compare` would keep for the cell, and the film of these.
 Expected<void> apply_lights(SweepRun& run, const SettingOptions& options) {
   std::vector<Light> lights = run.selection.kept(named_lights(options.light), options.poses);
   if (lights == run.given.lights) return {};
   run.given.lights = std::move(lights);
-  if (!run.command.metric.is_filmed()) return {};
   Console quiet(true);  // its notes were there before the first cell
+  if (const auto looked = look_from_views(run.command, run.loaded, run.given, run.engine, quiet); !looked)
+    return looked;
+  if (!run.command.metric.is_filmed()) return {};
   const auto film = resolve_film(run.command.metric.film, run.loaded.paths, run.given, quiet);
   if (!film) return fail(film.error());
   run.engine.film_with(*film);

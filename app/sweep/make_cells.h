@@ -55,6 +55,10 @@ struct SweepRun {
   Console& console;
 };
 
+/// The engine judges from the views that were asked for; `given`: camera and lights of the scene.
+Expected<void> look_from_views(const SweepCommand& command, const LoadedScene& loaded, const Scene& given,
+                               compare::Engine& engine, Console& console);
+
 /// All cells that the journal does not have yet.
 Expected<void> make_cells(SweepRun& run, compare::Journal& journal);
 

@@ -15,6 +15,7 @@
 #include "compare/result/option_names.h"
 #include "compare/result/result_parts.h"
 #include "compare/result/text_layout.h"
+#include "compare/result/views.h"
 #include "scene/base/expected.h"
 
 namespace gnomon::app {
@@ -132,7 +133,8 @@ std::string TuneAnswer::line(std::size_t family) const {
          option("--camera", question.camera) +
          setting_arguments(
              answer_values(question.fixed, families[family], attempt_of(result.families[family]))) +
-         (filmed ? film_arguments(question.metric.film) : std::string()) +
+         (filmed ? film_arguments(question.metric.film)
+                 : view_arguments(question.views, question.metric.film, false)) +
          option("--shader-dir", question.shader_folder) + max_lights_argument(question.max_lights) +
          backend_argument(question.backend);
 }
@@ -205,7 +207,9 @@ std::string begin_of(const TuneAnswer& answer) {
   const compare::FamilyResult& winner = answer.result.families[answer.result.winner];
   std::string text = answer.line(answer.result.winner) + "\n\n";
   if (!answer.result.feasible) text += "The goal cannot be met by what was tried.\n";
-  return text + paragraph(fmt::format("{}: {}.", winner.family.name, winner.why), 0);
+  text += paragraph(fmt::format("{}: {}.", winner.family.name, winner.why), 0);
+  const std::string views = compare::views_line(answer.result.views);
+  return views.empty() ? text : text + paragraph(views, 0);
 }
 
 }  // namespace
@@ -243,6 +247,7 @@ std::string TuneAnswer::json() const {
   json["as_fast"] = result.families[result.winner].as_fast;
   json["just_over_limit"] = just_over_json(result);
   json["renders"] = result.renders;
+  if (!result.views.views.empty()) json["views"] = compare::views_json(result.views);
   json["untried"] = Json::array();
   for (const compare::FamilyResult& family : result.families)
     if (!family.is_tried()) json["untried"].push_back(family.family.name);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options/shimmer_options.h"
+#include "app/options/view_options.h"
 #include "app/outputs/run_files.h"
 #include "app/strongest_lights.h"
 #include "app/tune/tune_families.h"
@@ -26,6 +26,7 @@ struct TuneQuestion {
   const compare::TunedEngine* engine = nullptr;  ///< the one asked about
   double most_seconds = 0.0;                     ///< of processor time
   raster::Backend backend = raster::Backend::automatic;
+  ViewListOptions views{};
 };
 
 /// Returns what a family has that meets the goal, or what comes nearest to it.

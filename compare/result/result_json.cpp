@@ -13,6 +13,7 @@
 #include "compare/result/outputs.h"
 #include "compare/result/result_parts.h"
 #include "compare/result/shadow_cost.h"
+#include "compare/result/views.h"
 
 namespace gnomon::compare {
 namespace {
@@ -118,32 +119,34 @@ Json timing_json(const Comparison& c) {
 Json result_object(const Comparison& c, double report_ms, double total_ms) {
   Json lights = Json::array();
   for (const LightComparison& light : c.lights) lights.push_back(light_block(c, light));
-  return {{"schema", "gnomon/result/1"},
-          {"command", c.command},
-          {"version", program_version()},
-          {"seed", c.seed},
-          {"threads", c.threads},
-          {"size", {{"width", c.raster.options.size.width}, {"height", c.raster.options.size.height}}},
-          {"exposure", number(c.exposure)},
-          {"scene", scene_json(*c.world)},
-          {"machine", machine_json(c.machine)},
-          {"gl", context_json(c.raster.context)},
-          {"shaders", shaders_json(c.raster.replaced_shaders)},
-          {"effects", effects_json(c.plan)},
-          {"timing", timing_json(c)},
-          {"precision", raytrace::precision_name(c.precision)},
-          {"costs", costs_json(c)},
-          {"times_ms",
-           {{"load", one_time_json(c.load_ms)},
-            {"accel_build", one_time_json(c.accel_build_ms)},
-            {"primary_rays", times_json(c.raytraced.primary_rays)},
-            {"picture", one_time_json(c.raytraced.picture_ms)},
-            {"upload", one_time_json(c.raster.upload_ms)},
-            {"read_back", one_time_json(c.raster.read_back_ms)},
-            {"topology", one_time_json(c.topology_ms)},
-            {"report", one_time_json(report_ms)},
-            {"total", one_time_json(total_ms)}}},
-          {"lights", std::move(lights)}};
+  Json json{{"schema", "gnomon/result/1"},
+            {"command", c.command},
+            {"version", program_version()},
+            {"seed", c.seed},
+            {"threads", c.threads},
+            {"size", {{"width", c.raster.options.size.width}, {"height", c.raster.options.size.height}}},
+            {"exposure", number(c.exposure)},
+            {"scene", scene_json(*c.world)},
+            {"machine", machine_json(c.machine)},
+            {"gl", context_json(c.raster.context)},
+            {"shaders", shaders_json(c.raster.replaced_shaders)},
+            {"effects", effects_json(c.plan)},
+            {"timing", timing_json(c)},
+            {"precision", raytrace::precision_name(c.precision)},
+            {"costs", costs_json(c)},
+            {"times_ms",
+             {{"load", one_time_json(c.load_ms)},
+              {"accel_build", one_time_json(c.accel_build_ms)},
+              {"primary_rays", times_json(c.raytraced.primary_rays)},
+              {"picture", one_time_json(c.raytraced.picture_ms)},
+              {"upload", one_time_json(c.raster.upload_ms)},
+              {"read_back", one_time_json(c.raster.read_back_ms)},
+              {"topology", one_time_json(c.topology_ms)},
+              {"report", one_time_json(report_ms)},
+              {"total", one_time_json(total_ms)}}},
+            {"lights", std::move(lights)}};
+  if (!c.views.views.empty()) json["views"] = views_json(c.views);
+  return json;
 }
 
 // Every time inside becomes "not timed".

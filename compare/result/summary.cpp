@@ -16,6 +16,7 @@
 #include "compare/result/shadow_cost.h"
 #include "compare/result/text_layout.h"
 #include "compare/result/verdict.h"
+#include "compare/result/views.h"
 #include "scene/base/expected.h"
 #include "scene/light.h"
 #include "scene/light_map/light_view.h"
@@ -391,6 +392,7 @@ std::string summary_in_short(const Comparison& c, std::string_view place, bool c
     page.heading(whose(c, light) + joined_sentences({verdict.error, verdict.uncertain}));
     if (!verdict.advice.empty()) page.line(verdict.advice);
   }
+  if (const std::string views = views_line(c.views); !views.empty()) page.line(views);
   page.line(place);
   if (c.judged) {
     page.blank();

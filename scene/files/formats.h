@@ -11,11 +11,6 @@
 
 namespace gnomon {
 
-struct NamedCamera {
-  std::string name;
-  Camera camera;
-};
-
 struct LoadedPath : KeyedPath {
   std::vector<NodeChain> cameras{};  ///< of each of the file's; empty where it does not move
 };

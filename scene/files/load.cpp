@@ -32,7 +32,8 @@ std::size_t camera_index(const std::vector<NamedCamera>& cameras, const std::str
 }
 
 /// The camera that was asked for, or the first; a note says which of several.
-Expected<void> choose_camera(LoadedFile& loaded, const std::string& wanted) {
+Expected<void> choose_camera(LoadedFile& loaded, const LoadOptions& options) {
+  const std::string& wanted = options.camera;
   const std::vector<NamedCamera>& cameras = loaded.cameras;
   std::vector<std::string_view> names;
   for (const NamedCamera& camera : cameras) names.push_back(camera.name);
@@ -51,11 +52,24 @@ Expected<void> choose_camera(LoadedFile& loaded, const std::string& wanted) {
   loaded.has_camera = true;
   for (LoadedPath& path : loaded.paths)
     if (index < path.cameras.size()) path.camera = std::move(path.cameras[index]);
-  if (cameras.size() > 1)
+  if (cameras.size() > 1 && options.cameras == nullptr)
     loaded.scene.notes.push_back(fmt::format("The camera {} is used; --camera takes {}, or 0 to {}.",
                                              cameras[index].name, fmt::join(names, ", "),
                                              cameras.size() - 1));
   return {};
+}
+
+/// Of all the file's cameras where they are asked for.
+std::optional<Error> find_camera_defect(Scene& scene, const LoadOptions& options) {
+  if (options.cameras == nullptr) return std::nullopt;
+  const Camera own = scene.camera;
+  std::optional<Error> defect;
+  for (const NamedCamera& each : *options.cameras) {
+    scene.camera = each.camera;
+    if (!defect) defect = find_setting_defect(scene);
+  }
+  scene.camera = own;
+  return defect;
 }
 
 /// `sha256`: of the file's bytes.
@@ -66,22 +80,28 @@ Expected<Scene> complete(Expected<LoadedFile> loaded, const std::string& path,
     if (error.file.empty()) error.file = path;
     return fail(std::move(error));
   }
-  if (const auto chosen = choose_camera(*loaded, options.camera); !chosen) return fail(chosen.error());
+  if (const auto chosen = choose_camera(*loaded, options); !chosen) return fail(chosen.error());
   // Indices and coordinates are checked before anything follows them; defaults leave meshes as they are.
   if (auto defect = find_geometry_defect(loaded->scene)) {
     defect->file = path;
     return fail(std::move(*defect));
   }
   if (options.paths != nullptr) {
-    std::erase_if(loaded->paths,
-                  [](const LoadedPath& each) { return !each.moves_camera() && each.lights.empty(); });
+    std::erase_if(loaded->paths, [](const LoadedPath& each) {
+      return !each.moves_camera() && each.lights.empty() && !each.objects_until;
+    });
     options.paths->assign(loaded->paths.begin(), loaded->paths.end());
   }
+  if (options.cameras != nullptr) *options.cameras = loaded->cameras;
   Scene scene = add_defaults(std::move(*loaded));
   scene.path = path;
   scene.sha256 = sha256.get();
   if (scene.name.empty()) scene.name = std::filesystem::path(path).stem().string();
   if (auto defect = find_setting_defect(scene)) {
+    defect->file = path;
+    return fail(std::move(*defect));
+  }
+  if (auto defect = find_camera_defect(scene, options); defect) {
     defect->file = path;
     return fail(std::move(*defect));
   }

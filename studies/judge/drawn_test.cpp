@@ -1,5 +1,5 @@
 // Usual mistakes in the description of a shadow test, each tried against the picture: the map's rows, the bias's sign,
-// and the matrix.
+// the matrix, and the offset's sign on back faces.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -18,6 +18,7 @@ struct TestSuspect {
   const char* of_capture;                       ///< what is wrong where the test so changed is the better one
   const char* of_renderer;                      ///< null: the capture is wrong in any case
   bool (*change)(raster::LightRecord& record);  ///< false: does not apply
+  bool by_fronts = false;  ///< offsets go along the front's normal, also where the back is seen
 };
 
 bool turn_rows(raster::LightRecord& record) {
@@ -74,6 +75,24 @@ bool take_side_for(raster::LightRecord& record, int axis) {
   return change_faces(record, [axis](LightFace& f) { f.half_extent[axis] = f.half_extent[1 - axis]; });
 }
 
+bool has_offset(raster::LightRecord& record) {
+  return record.captured->test->normal_offset_world > 0.0;
+}
+
+/// The receivers with the normals of their triangles' fronts; none where no back is seen.
+std::optional<raytrace::RayTracedFrame> receivers_by_fronts(const FrameInput& in) {
+  raytrace::RayTracedFrame turned;
+  turned.lights = in.traced.lights, turned.receiver = in.traced.receiver;
+  bool any = false;
+  for (raytrace::SurfacePoint& point : turned.receiver.data) {
+    if (point.primitive == no_id || !in.world.is_triangle(point.primitive)) continue;
+    const Vec3 front = outward_normal(in.world, point.primitive, point.position);
+    if (glm::dot(front, point.normal) < 0.0) point.normal = -point.normal, any = true;
+  }
+  if (!any) return std::nullopt;
+  return turned;
+}
+
 constexpr TestSuspect test_suspects[] = {
     {"`rows` of the map is the other one", "the renderer reads its map upside down (v runs the other way)",
      turn_rows},
@@ -89,7 +108,9 @@ constexpr TestSuspect test_suspects[] = {
      [](raster::LightRecord& record) { return take_side_for(record, 0); }},
     {"the matrix has the window's width for its height",
      "the renderer takes the window's width for its height",
-     [](raster::LightRecord& record) { return take_side_for(record, 1); }}};
+     [](raster::LightRecord& record) { return take_side_for(record, 1); }},
+    {"the offset goes along the front's normal, on back faces into the surface",
+     "the renderer's normal offset has the wrong sign on back faces", has_offset, true}};
 
 /// Shares of the compared pixels.
 struct Fit {
@@ -136,13 +157,23 @@ class Search {
         bias_(drawn.options.map.bias),
         described_(drawn.lights.front()),
         light_(light),
-        now_(fit_of(described_, light)) {}
+        now_(fit_of(described_, light)) {
+    if (described_.captured->test->normal_offset_world > 0.0) by_fronts_ = receivers_by_fronts(in);
+  }
 
   void try_suspects(std::initializer_list<const TestSuspect*> suspects) {
     raster::LightRecord record = described_;
-    for (const TestSuspect* suspect : suspects)
+    bool by_fronts = false;
+    for (const TestSuspect* suspect : suspects) {
       if (!suspect->change(record)) return;
-    fill_record(in_, bias_, record);
+      by_fronts = by_fronts || suspect->by_fronts;
+    }
+    // What slopes are along a normal that faces away is not defined.
+    if (by_fronts && (!by_fronts_ || bias_.slope != 0.0 || bias_.receiver_plane)) return;
+    const FrameInput turned{in_.capture,   in_.pictures, in_.world,
+                            in_.tracer,    in_.camera,   by_fronts ? *by_fronts_ : in_.traced,
+                            in_.elsewhere, in_.exposure};
+    fill_record(turned, bias_, record);
     const Fit fit = fit_of(record, light_);
     if (!fits(fit, now_) || (best_ && best_->share >= fit.drawn - clearly)) return;
     OtherTest found{"", fit.drawn, suspects.size() == 1};
@@ -168,6 +199,7 @@ class Search {
   const raster::LightRecord& described_;
   const LightComparison& light_;
   Fit now_;
+  std::optional<raytrace::RayTracedFrame> by_fronts_;
   std::optional<OtherTest> best_;
 };
 

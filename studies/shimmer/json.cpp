@@ -98,6 +98,7 @@ Json path_json(const ShimmerOptions& options) {
   Json json{{"camera", camera_path_name(options.path.camera)},
             {"light", light_path_name(options.path.light)},
             {"speed", number(options.path.speed)}};
+  if (options.path.objects) json["objects"] = true;
   if (!options.path.keys.name.empty()) json["name"] = options.path.keys.name;
   if (options.path.camera == CameraPath::drift)
     json["drift_texels"] = {number(options.path.drift_texels.x), number(options.path.drift_texels.y)};

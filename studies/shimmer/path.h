@@ -35,6 +35,7 @@ struct ShimmerPath {
   double speed = 1.0;            ///< factor of the built-in paths' own; finite
   Vec2 drift_texels{0.1, 0.07};  ///< per frame, along the map's right and up
   KeyedPath keys;
+  bool objects = false;  ///< those that the keys' animation moves are moved, too (ShimmerOptions::stage)
 };
 
 struct FilmTime {

@@ -46,19 +46,21 @@ class Film {
  public:
   Film(const World& world, Scene& scene, raster::Renderer& renderer, std::span<const std::uint32_t> lights,
        const ShimmerOptions& options, const raytrace::Tracer& tracer, const raytrace::Topology& topology)
-      : world_(world),
-        scene_(scene),
-        renderer_(renderer),
+      : world_(&world),
+        scene_(&scene),
+        renderer_(&renderer),
+        own_scene_(scene),
+        own_renderer_(renderer),
         lights_(lights),
         first_{scene.camera, scene.lights},
         receivers_of_(first_camera(options, scene)),
         plan_(plan_effects(scene)),
-        tracer_(tracer),
-        topology_(topology) {
+        tracer_(&tracer),
+        topology_(&topology) {
     out_.world = &world;
     out_.options = options;
-    out_.accel_build_ms = tracer_.stats().build_ms;
-    scene_.camera = receivers_of_;
+    out_.accel_build_ms = tracer.stats().build_ms;
+    scene.camera = receivers_of_;
     ShimmerOptions& o = out_.options;
     o.compare.raster = drawing_options(o.compare.raster, o.compare.raytrace);
     o.compare.raster.runs = 0, o.compare.raster.analysis = true;
@@ -68,9 +70,9 @@ class Film {
     o.compare.raytrace.runs = 1;
   }
   ~Film() {
-    scene_.camera = first_.camera;
-    scene_.lights = first_.lights;
-    raster::set_map_camera(renderer_, std::nullopt);
+    own_scene_.camera = first_.camera;
+    own_scene_.lights = first_.lights;
+    raster::set_map_camera(own_renderer_, std::nullopt);
   }
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
@@ -89,16 +91,23 @@ class Film {
   std::optional<double> unsnapped_texel(const Light& light) const;
   RungFrame climb_light(std::size_t i) const;
   void keep_anchors(Image<Label>& labels) const;
+  Expected<void> take_stage(int frame);
+  void keep_standing(Image<Label>& labels) const;
 
-  const World& world_;
-  Scene& scene_;
-  raster::Renderer& renderer_;
+  // As they stand in the frame.
+  const World* world_;
+  Scene* scene_;
+  raster::Renderer* renderer_;
+  Scene& own_scene_;
+  raster::Renderer& own_renderer_;
   std::span<const std::uint32_t> lights_;
   const Pose first_;
   const Camera receivers_of_;
   const EffectPlan plan_;
-  const raytrace::Tracer& tracer_;
-  const raytrace::Topology& topology_;
+  const raytrace::Tracer* tracer_;
+  const raytrace::Topology* topology_;
+  std::unique_ptr<raytrace::Tracer> staged_tracer_;
+  std::unique_ptr<raytrace::Topology> staged_topology_;
   Drift drift_;
   raster::RasterFrame drawn_;
   raytrace::RayTracedFrame own_truth_;
@@ -116,7 +125,7 @@ Expected<void> Film::find_drift() {
     return fail(ErrorKind::usage,
                 "--path drift: no directional light is compared; maps of others stay with the light");
   const raster::RasterOptions& drawing = o.compare.raster;
-  const auto view = first_fit(world_, first_.lights[*sun], first_.camera, drawing);
+  const auto view = first_fit(*world_, first_.lights[*sun], first_.camera, drawing);
   if (!view) return fail(view.error());
   const LightFace& face = view->face(0);
   const Vec2 texels = o.path.speed * o.path.drift_texels;
@@ -158,6 +167,34 @@ void Film::keep_anchors(Image<Label>& labels) const {
       if (x % step != 0 || y % step != 0) labels.at(x, y) = Label::background;
 }
 
+/// The scene as it stands then, and what is made of it.
+Expected<void> Film::take_stage(int frame) {
+  staged_tracer_.reset(), staged_topology_.reset();
+  const ShimmerOptions& o = out_.options;
+  const auto stage = o.stage(o.time.seconds(frame));
+  if (!stage) return fail(stage.error());
+  if (stage->world.triangle_count() != out_.world->triangle_count())
+    return fail(ErrorKind::bad_input,
+                fmt::format("--path: in frame {} an object is drawn flat: its triangles are gone", frame));
+  world_ = &stage->world, scene_ = &stage->scene, renderer_ = &stage->renderer;
+  scene_->camera = receivers_of_;
+  staged_tracer_ = std::make_unique<raytrace::Tracer>(*world_, o.compare.accel, o.compare.precision);
+  staged_topology_ = std::make_unique<raytrace::Topology>(*world_);
+  tracer_ = staged_tracer_.get(), topology_ = staged_topology_.get();
+  return {};
+}
+
+// Of moving objects: what the pixel sees now is the very point that it saw in the first frame.
+void Film::keep_standing(Image<Label>& labels) const {
+  if (!out_.options.stage || out_.receivers.data.empty()) return;
+  parallel_for(labels.data.size(), [&](std::size_t i) {
+    const raytrace::SurfacePoint &now = truth_->receiver.data[i], &first = out_.receivers.data[i];
+    const bool stands = now.primitive == first.primitive && now.position == first.position &&
+                        now.barycentric == first.barycentric;
+    if (!stands) labels.data[i] = Label::background;
+  });
+}
+
 // The rungs alone: no label is asked for, so none of the columns that only labels need is looked at. A technique
 // without a map has no lower rungs.
 std::array<Image<float>, rung_count> climb_rungs(const LadderInput& input, Image<Label> labels) {
@@ -180,9 +217,10 @@ std::array<Image<float>, rung_count> ends_of_ladder(const LadderInput& input, co
 
 RungFrame Film::climb_light(std::size_t i) const {
   const raster::LightRecord& record = drawn_.lights[i];
-  const LadderInput input{tracer_, topology_, drawn_, *truth_, i};
+  const LadderInput input{*tracer_, *topology_, drawn_, *truth_, i};
   Image<Label> labels = sort_pixels(input);
   keep_anchors(labels);
+  keep_standing(labels);
   RungFrame out{{}, Image<std::uint8_t>(labels.size), record.outside_map, record.face};
   std::transform(labels.data.begin(), labels.data.end(), out.counted.data.begin(),
                  [](Label label) { return static_cast<std::uint8_t>(is_compared(label)); });
@@ -194,16 +232,16 @@ std::optional<double> Film::unsnapped_texel(const Light& light) const {
   raster::RasterOptions drawing = out_.options.compare.raster;
   if (!drawing.map.snap || light.type != LightType::directional) return std::nullopt;
   drawing.map.snap = false;
-  const auto view = first_fit(world_, light, receivers_of_, drawing);
+  const auto view = first_fit(*world_, light, receivers_of_, drawing);
   if (!view) return std::nullopt;
-  return raster::texel_world(*view, world_) + 2.0 * drift_.margin / drawing.map.size;
+  return raster::texel_world(*view, *world_) + 2.0 * drift_.margin / drawing.map.size;
 }
 
 void Film::begin_lights() {
   const ShimmerOptions& o = out_.options;
   out_.receivers = truth_->receiver;
   out_.context = drawn_.context;
-  const ReceiverSpacing spacing = receiver_spacing(truth_->receiver, world_, o.anchors);
+  const ReceiverSpacing spacing = receiver_spacing(truth_->receiver, *world_, o.anchors);
   for (const raster::LightRecord& record : drawn_.lights) {
     out_.lights.push_back(
         {.light = record.light,
@@ -215,15 +253,17 @@ void Film::begin_lights() {
 
 Expected<void> Film::make_frame(int frame) {
   const ShimmerOptions& o = out_.options;
-  const Pose pose = pose_at(o.path, o.time, first_, middle_of(world_, first_.camera), frame);
+  const Pose pose = pose_at(o.path, o.time, first_, middle_of(*out_.world, first_.camera), frame);
   if (const auto sound = check_pose(pose, frame); !sound) return sound;
-  scene_.lights = pose.lights;
-  raster::set_map_camera(renderer_, map_camera(pose, frame));
-  auto drawn = renderer_.render(o.compare.raster, lights_);
+  if (o.stage)
+    if (const auto taken = take_stage(frame); !taken) return taken;
+  scene_->lights = pose.lights;
+  raster::set_map_camera(*renderer_, map_camera(pose, frame));
+  auto drawn = renderer_->render(o.compare.raster, lights_);
   if (!drawn) return fail(drawn.error());
   drawn_ = std::move(*drawn);
-  if (truth_lights_ != pose.lights) {
-    own_truth_ = raytrace::trace_frame(tracer_, plan_, receivers_of_, lights_, o.compare.raytrace);
+  if (truth_lights_ != pose.lights || o.stage) {
+    own_truth_ = raytrace::trace_frame(*tracer_, plan_, receivers_of_, lights_, o.compare.raytrace);
     truth_ = &own_truth_, truth_lights_ = pose.lights;
   }
   if (frame == 0) begin_lights();

@@ -11,10 +11,19 @@
 
 namespace gnomon::compare {
 
+/// The scene at one moment of a film whose objects move: the same triangles in the same order, elsewhere.
+struct FilmStage {
+  const World& world;
+  Scene& scene;  ///< the world's own
+  raster::Renderer& renderer;
+};
+
 struct ShimmerOptions : FilmPlan {
   CompareOptions compare;  ///< times are not taken
   /// Climb the ladder. Without it flips are counted and nobody is charged with them: all rungs but V0 are V6.
   bool explain = true;
+  /// Where objects move: the scene as it stands at so many seconds, valid until the next call.
+  std::function<Expected<FilmStage>(double seconds)> stage{};
 };
 
 struct ShimmerLight {
@@ -48,7 +57,9 @@ using FrameSink = std::function<Expected<void>(const ShimmerFrame&)>;
 inline constexpr std::size_t worst_receivers = 16;
 
 /// `scene` is the world's own; its camera and lights are moved from frame to frame and stand as they were at the end.
-/// The truth is traced again only for frames in which a light moved; maps are drawn again for each.
+/// The truth is traced again only for frames in which a light or an object moved; maps are drawn again for each. Where
+/// objects move, a receiver counts in the frames in which it stands where it stood in the first, and is seen there.
+/// Errors: bad input where an object has other triangles than in the first frame.
 Expected<Shimmer> film_shimmer(const World& world, Scene& scene, raster::Renderer& renderer,
                                std::span<const std::uint32_t> lights, const ShimmerOptions& options,
                                const FrameSink& sink = {}, const Progress& progress = {});

@@ -16,6 +16,7 @@ std::string movement(const ShimmerOptions& o) {
   const bool camera = o.path.camera != CameraPath::still, light = o.path.light != LightPath::still;
   std::string text = camera ? fmt::format("camera {}", camera_path_name(o.path.camera)) : std::string();
   if (light) text += fmt::format("{}light {}", camera ? ", " : "", light_path_name(o.path.light));
+  if (o.path.objects) text += fmt::format("{}objects by {}", text.empty() ? "" : ", ", o.path.keys.name);
   return text.empty() ? "nothing moves" : text;
 }
 

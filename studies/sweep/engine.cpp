@@ -7,6 +7,7 @@
 #include <string>
 
 #include "compare/result/figures.h"
+#include "compare/result/views.h"
 #include "raster/technique_traits.h"
 #include "scene/base/parallel.h"
 #include "studies/shimmer/shimmer.h"
@@ -71,16 +72,17 @@ LadderInput Engine::Impl::input(const raster::RasterFrame& frame, std::size_t i)
 }
 
 void Engine::Impl::trace(const Setting& setting) {
+  scene.camera = setting.camera;  // another view's may stand there
+  scene.lights = setting.lights;
   if (truth_of && same_truth(*truth_of, setting)) return;
   lower.clear();
   table.clear();
   backdrop = {};
   drawn_for.reset();
-  if (!tracer || truth_of->accel != setting.accel || truth_of->precision != setting.precision) {
+  if (!tracer || kept.accel != setting.accel || tracer->precision() != setting.precision) {
     tracer = std::make_unique<raytrace::Tracer>(world, setting.accel, setting.precision);
+    kept.accel = setting.accel;
   }
-  scene.camera = setting.camera;
-  scene.lights = setting.lights;
   comparison.plan = plan_effects(scene);
   comparison.raytraced =
       raytrace::trace_frame(*tracer, comparison.plan, scene.camera, setting.compared, setting.raytrace);
@@ -226,21 +228,18 @@ raster::Bias with_three_digits(raster::Bias bias) {
 
 }  // namespace
 
-// What the drawing would be wrong by with the bias that its gaps say is best, asked for once for all lights: where the
-// constant scales it is a number of texels, and each light has its own.
-void Engine::Impl::probe_best_bias(const raster::MapOptions& map, const Figure& measure, Probe& probe) {
-  raster::RasterFrame& frame = comparison.raster;
-  const bool scales = raster::scales_bias(map);
+void Engine::Impl::add_gaps_of(Probe& probe, double texel_world, bool scales) const {
+  const raster::RasterFrame& frame = comparison.raster;
   for (std::size_t i = 0; i < frame.lights.size(); ++i)
-    add_gaps(input(frame, i), scales ? probe.texel_world / frame.lights[i].texel_world : 1.0, probe.gaps);
-  sort_numbers(std::span(probe.gaps.lit));
-  sort_numbers(std::span(probe.gaps.shadowed));
-  probe.best = find_best_bias(probe.gaps);
-  probe.bias_at_best = with_three_digits(with_constant(map, probe.best->constant_world, probe.texel_world));
+    add_gaps(input(frame, i), scales ? texel_world / frame.lights[i].texel_world : 1.0, probe.gaps);
+}
+
+void Engine::Impl::add_figures_at(const raster::Bias& bias, const Figure& measure, Probe& probe) {
+  raster::RasterFrame& frame = comparison.raster;
   for (raster::LightRecord& record : frame.lights)
-    rebias(frame.primitive,
-           raster::constant_bias_world(probe.bias_at_best, record.rounding, record.map.view, world), record);
-  probe.lights_at_best = figures(measure);
+    rebias(frame.primitive, raster::constant_bias_world(bias, record.rounding, record.map.view, world),
+           record);
+  for (LightFigures& light : figures(measure)) probe.lights_at_best.push_back(std::move(light));
 }
 
 Expected<Probe> Engine::Impl::probe(const Setting& setting, const Figure& measure) {
@@ -268,39 +267,91 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting, const Figure& measur
   }
   probe.custom_shader = frame.custom_shader.has_value();
   probe.reads_bias = !frame.custom_shader || frame.custom_shader->reads_bias;
-  if (biases_follow_from_gaps(frame) && measure.needs != FigureNeeds::film)
-    probe_best_bias(setting.raster.map, measure, probe);
   return probe;
 }
 
 Engine::Engine(Scene& scene, const World& world, raster::Renderer& renderer, bool perceptual)
-    : impl_(std::make_unique<Impl>(scene, world, renderer, perceptual)) {}
+    : kept_(new Kept{scene, world, renderer, perceptual, raytrace::Topology(world)}) {
+  impls_.push_back(std::make_unique<Impl>(*kept_));
+}
 
 Engine::~Engine() = default;
 
+void Engine::look_from(std::vector<JudgedView> views, const Figure& measure) {
+  views_ = std::move(views), measure_ = &measure, shown_ = 0;
+  while (impls_.size() < views_.size()) impls_.push_back(std::make_unique<Impl>(*kept_));
+  impls_.resize(std::max<std::size_t>(views_.size(), 1));
+}
+
+Setting Engine::posed(const Setting& setting, std::size_t view) const {
+  if (views_.empty()) return setting;
+  Setting out = setting;
+  Pose pose = views_[view].pose({setting.camera, setting.lights});
+  out.camera = pose.camera, out.lights = std::move(pose.lights);
+  return out;
+}
+
+namespace {
+
+void add_probe(Probe&& of_view, Probe& sum) {
+  sum.compared += of_view.compared, sum.raster_ms += of_view.raster_ms, sum.rays += of_view.rays;
+  for (LightFigures& light : of_view.lights) sum.lights.push_back(std::move(light));
+}
+
+}  // namespace
+
+// The bias that the gaps of all views say is best is asked for once for all lights: where the constant scales it is a
+// number of texels, and each light has its own.
 Expected<Probe> Engine::probe(const Setting& setting, const Figure& measure) {
-  return impl_->probe(setting, measure);
+  Probe all;
+  const bool scales = raster::scales_bias(setting.raster.map);
+  bool from_gaps = measure.needs != FigureNeeds::film;
+  for (std::size_t view = 0; view < impls_.size(); ++view) {
+    auto probe = impls_[view]->probe(posed(setting, view), measure);
+    if (!probe) return probe;
+    from_gaps = from_gaps && biases_follow_from_gaps(impls_[view]->comparison.raster);
+    if (view == 0)
+      all = std::move(*probe);
+    else
+      add_probe(std::move(*probe), all);
+    if (from_gaps) impls_[view]->add_gaps_of(all, all.texel_world, scales);
+  }
+  all.raster_ms /= static_cast<double>(impls_.size());
+  if (!from_gaps) return all;
+  sort_numbers(std::span(all.gaps.lit));
+  sort_numbers(std::span(all.gaps.shadowed));
+  all.best = find_best_bias(all.gaps);
+  all.bias_at_best =
+      with_three_digits(with_constant(setting.raster.map, all.best->constant_world, all.texel_world));
+  for (const auto& impl : impls_) impl->add_figures_at(all.bias_at_best, measure, all);
+  return all;
 }
 
 Expected<double> Engine::time_drawing(const Setting& setting) {
-  return impl_->time_drawing(setting);
+  double sum = 0.0;
+  for (std::size_t view = 0; view < impls_.size(); ++view) {
+    const auto ms = impls_[view]->time_drawing(posed(setting, view));
+    if (!ms) return ms;
+    sum += *ms;
+  }
+  return sum / static_cast<double>(impls_.size());
 }
 
 bool Engine::last_was_derived() const {
-  return impl_->derived;
+  return impls_[shown_]->derived;
 }
 
 const EngineWork& Engine::work() const {
-  return impl_->work;
+  return kept_->work;
 }
 
 void Engine::expect_biases(std::vector<raster::Bias> biases) {
-  impl_->expected = std::move(biases);
-  impl_->table.clear();
+  kept_->expected = std::move(biases);
+  for (const auto& impl : impls_) impl->table.clear();
 }
 
 void Engine::film_with(const FilmPlan& plan) {
-  impl_->film = plan;
+  kept_->film = plan;
 }
 
 Expected<std::vector<ShimmerFigures>> Engine::Impl::count_flips(const Setting& setting) const {
@@ -312,14 +363,33 @@ Expected<std::vector<ShimmerFigures>> Engine::Impl::count_flips(const Setting& s
                               setting.compared, options);
 }
 
+Expected<void> Engine::compare_view(std::size_t view, const Setting& setting, Detail detail) {
+  Impl& impl = *impls_[view];
+  if (auto compared = impl.compare(setting, detail); !compared) return compared;
+  impl.comparison.views = {};
+  if (!impl.film) return {};
+  const auto flips = impl.count_flips(setting);
+  if (!flips) return fail(flips.error());
+  for (std::size_t i = 0; i < flips->size(); ++i) impl.comparison.lights[i].shimmer = (*flips)[i];
+  return {};
+}
+
 Expected<Comparison*> Engine::compare(const Setting& setting, Detail detail) {
-  if (auto compared = impl_->compare(setting, detail); !compared) return fail(compared.error());
-  if (impl_->film) {
-    const auto flips = impl_->count_flips(setting);
-    if (!flips) return fail(flips.error());
-    for (std::size_t i = 0; i < flips->size(); ++i) impl_->comparison.lights[i].shimmer = (*flips)[i];
+  shown_ = 0;
+  ViewErrors errors{.measure = measure_};
+  for (std::size_t view = 0; view < impls_.size(); ++view) {
+    const Detail enough = views_.empty() ? detail : Detail::numbers;
+    if (auto compared = compare_view(view, posed(setting, view), enough); !compared)
+      return fail(compared.error());
+    if (!views_.empty() && add_view(errors, views_[view].name, impls_[view]->comparison)) shown_ = view;
   }
-  return &impl_->comparison;
+  Impl& worst = *impls_[shown_];
+  const Setting shown = posed(setting, shown_);
+  kept_->scene.camera = shown.camera, kept_->scene.lights = shown.lights;
+  if (!views_.empty() && detail == Detail::images && !worst.has_images)
+    if (auto again = compare_view(shown_, shown, detail); !again) return fail(again.error());
+  worst.comparison.views = std::move(errors);
+  return &worst.comparison;
 }
 
 }  // namespace gnomon::compare

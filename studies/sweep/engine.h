@@ -3,8 +3,11 @@
 // depth maps stay; and a frame of another constant bias without drawing it at all (docs/design.md, section 3).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "compare/bias/bias_curve.h"
 #include "compare/compare.h"
@@ -54,6 +57,12 @@ struct Probe {
   bool custom_shader = false, reads_bias = true;
 };
 
+/// One place that a setting is judged from.
+struct JudgedView {
+  std::string name;
+  std::function<Pose(const Pose& own)> pose;  ///< what stands there, from the setting's own camera and lights
+};
+
 class Engine {
  public:
   /// `world` was made from `scene`, and `renderer` for both; all outlive the engine. The scene's camera and
@@ -70,6 +79,12 @@ class Engine {
   /// From now on a film of each setting is made as well, beginning with its picture: LightComparison::shimmer and
   /// the measure "shimmer".
   void film_with(const FilmPlan& plan);
+
+  /// From now on each setting is judged from all these views by that measure, and holds by the worst: compare() gives
+  /// the comparison of the view in which it errs most, with Comparison::views; of probes the lights are those of all
+  /// views, one after the other, gaps and best bias of all pixels, times their means. What is kept from one setting to
+  /// the next is kept for each view. Without views: from the setting's own camera.
+  void look_from(std::vector<JudgedView> views, const Figure& measure);
 
   /// The comparison at a setting, as compare_world would make it, times aside; valid until the next call, and
   /// the caller's to complete (command, seed, machine). A frame that differs from the last drawn one in its
@@ -105,7 +120,14 @@ class Engine {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  struct Kept;
+  Setting posed(const Setting& setting, std::size_t view) const;
+  Expected<void> compare_view(std::size_t view, const Setting& setting, Detail detail);
+  std::unique_ptr<Kept> kept_;
+  std::vector<std::unique_ptr<Impl>> impls_;  ///< one for each view
+  std::vector<JudgedView> views_;             ///< none: the setting's own camera
+  const Figure* measure_ = &wrong_and_mean();
+  std::size_t shown_ = 0;  ///< the view that was worst
 };
 
 /// A class code: the label's value, counted from Label::uncertain, and what the error is.

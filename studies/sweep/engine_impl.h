@@ -10,13 +10,29 @@
 
 namespace gnomon::compare {
 
-struct Engine::Impl {
+/// What all views of an engine share.
+struct Engine::Kept {
   Scene& scene;
   const World& world;
   raster::Renderer& renderer;
   bool perceptual;
   raytrace::Topology topology;
-  std::unique_ptr<raytrace::Tracer> tracer;
+  std::unique_ptr<raytrace::Tracer> tracer{};
+  raytrace::Accel accel = raytrace::Accel::bvh;  ///< of the tracer
+  std::vector<raster::Bias> expected{};
+  std::optional<FilmPlan> film{};
+  EngineWork work{};
+};
+
+/// What the engine keeps of one view.
+struct Engine::Impl {
+  Kept& kept;
+  Scene& scene;
+  const World& world;
+  raster::Renderer& renderer;
+  const bool perceptual;
+  const raytrace::Topology& topology;
+  std::unique_ptr<raytrace::Tracer>& tracer;
   Comparison comparison;
   std::optional<Setting> truth_of, drawn_for;
   /// The drawing that the lower climbs were made from, and one climb per light compared.
@@ -25,20 +41,32 @@ struct Engine::Impl {
   std::vector<MapMeasures> map_measures;  ///< as `lower`; empty: not measured yet
   Rgb8Image backdrop;                     ///< the ray-traced picture in grey; empty: not made yet
   bool has_images = false;
-  std::vector<raster::Bias> expected;
+  const std::vector<raster::Bias>& expected;
   std::vector<BiasTable> table;     ///< by light; empty: not made yet
   Image<std::uint8_t> right_codes;  ///< class_codes of the table's drawing as if no pixel were wrong
   std::size_t table_place = 0;      ///< of the bias that the comparison's numbers were last taken from it for
-  std::optional<FilmPlan> film;
-  EngineWork work;
+  const std::optional<FilmPlan>& film;
+  EngineWork& work;
   bool derived = false;
 
-  Impl(Scene& s, const World& w, raster::Renderer& r, bool p)
-      : scene(s), world(w), renderer(r), perceptual(p), topology(w) {}
+  explicit Impl(Kept& k)
+      : kept(k),
+        scene(k.scene),
+        world(k.world),
+        renderer(k.renderer),
+        perceptual(k.perceptual),
+        topology(k.topology),
+        tracer(k.tracer),
+        expected(k.expected),
+        film(k.film),
+        work(k.work) {}
 
   Expected<void> compare(const Setting& setting, Detail detail);
   Expected<Probe> probe(const Setting& setting, const Figure& measure);
   Expected<double> time_drawing(const Setting& setting);
+  /// Gaps that sort themselves, the best of all biases, and what the drawing would be wrong by with it.
+  void add_gaps_of(Probe& probe, double texel_world, bool scales) const;
+  void add_figures_at(const raster::Bias& bias, const Figure& measure, Probe& probe);
   /// Counts the flips of every light of a setting that was traced.
   Expected<std::vector<ShimmerFigures>> count_flips(const Setting& setting) const;
 
@@ -56,7 +84,6 @@ struct Engine::Impl {
   LadderInput input(const raster::RasterFrame& frame, std::size_t i) const;
   /// Returns the figures of every light of the last drawing.
   std::vector<LightFigures> figures(const Figure& measure) const;
-  void probe_best_bias(const raster::MapOptions& map, const Figure& measure, Probe& probe);
   void trace(const Setting& setting);
   Expected<void> draw(const Setting& setting);
   Expected<void> draw_alone(const Setting& setting);

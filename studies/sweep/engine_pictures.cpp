@@ -134,17 +134,17 @@ Image<std::uint8_t> Engine::Impl::class_codes() {
 }
 
 Rgb8Image Engine::thumbnail(int width) const {
-  impl_->make_backdrop();
+  impls_[shown_]->make_backdrop();
   // Of a hard test's many biases the codes say it all.
   const std::optional<Image<std::uint8_t>> codes =
-      impl_->has_images ? std::nullopt : std::optional(impl_->class_codes());
-  return reduced(impl_->backdrop.size, width, [&](int x0, int x1, int y0, int y1) {
-    return impl_->mean_colour(codes ? &*codes : nullptr, x0, x1, y0, y1);
+      impls_[shown_]->has_images ? std::nullopt : std::optional(impls_[shown_]->class_codes());
+  return reduced(impls_[shown_]->backdrop.size, width, [&](int x0, int x1, int y0, int y1) {
+    return impls_[shown_]->mean_colour(codes ? &*codes : nullptr, x0, x1, y0, y1);
   });
 }
 
 Rgb8Image Engine::drawing(int width) const {
-  const Rgb8Image whole = raster_picture(impl_->comparison);
+  const Rgb8Image whole = raster_picture(impls_[shown_]->comparison);
   if (width >= whole.size.width) return whole;
   return reduced(whole.size, width, [&whole](int x0, int x1, int y0, int y1) {
     Vec3f sum(0.0f);
@@ -155,7 +155,7 @@ Rgb8Image Engine::drawing(int width) const {
 }
 
 Image<std::uint8_t> Engine::class_codes() const {
-  return impl_->class_codes();
+  return impls_[shown_]->class_codes();
 }
 
 }  // namespace gnomon::compare

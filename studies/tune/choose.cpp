@@ -31,6 +31,7 @@ Expected<void> Tuner::verify(TuneResult& result) {
   if (!compared) return fail(compared.error());
   std::vector<LightFigures> lights;
   result.engine_units.clear();
+  result.views = (*compared)->views;
   for (const LightComparison& light : (*compared)->lights) {
     lights.push_back(light);
     if (auto units = engine_units(**compared, light); !units.empty())

@@ -123,9 +123,11 @@ Expected<GridCheck> check_against_grid(Engine& engine, const Setting& base, cons
   if (grid.good().empty()) return check;
   if (check.tuned.feasible && !options.cost)
     if (auto measured = measure_in_turn(grid, rounds, check); !measured) return fail(measured.error());
-  check.best = *std::min_element(
-      grid.good().begin(), grid.good().end(),
-      [](const GridPoint& a, const GridPoint& b) { return a.attempt.cost < b.attempt.cost; });
+  const auto price = [&](const GridPoint& point) {
+    return options.goal.max_error ? point.attempt.cost : point.attempt.error;
+  };
+  check.best = *std::min_element(grid.good().begin(), grid.good().end(),
+                                 [&](const GridPoint& a, const GridPoint& b) { return price(a) < price(b); });
   check.best_cost = check.best->attempt.cost;
   return check;
 }

@@ -18,14 +18,15 @@ struct GridCheck {
   std::uint64_t grid_drawings = 0, tune_drawings = 0;
   std::size_t good_cells = 0;  ///< that meet the goal
   TuneResult tuned;
-  std::optional<GridPoint> best;  ///< the cheapest; empty: none meets the goal
+  std::optional<GridPoint>
+      best;  ///< the cheapest, where the goal is a time the one that errs least; empty: none meets it
   /// By TuneOptions::cost; else the least times of drawings made in turn: the tuner's answer, the grid's best
   /// (which may be that answer).
   double tuned_cost = 0.0, best_cost = 0.0;
   double ratio() const { return best_cost > 0.0 ? tuned_cost / best_cost : 0.0; }
 };
 
-/// The goal must be max_error. `rounds` >= 1 drawings in turn of the tuner's answer and the grid's cheapest
+/// Of either goal. `rounds` >= 1 drawings in turn of the tuner's answer and the grid's cheapest
 /// settings.
 Expected<GridCheck> check_against_grid(Engine& engine, const Setting& base, const TuneOptions& options,
                                        const std::vector<raster::Bias>& biases, int rounds,

@@ -135,6 +135,7 @@ struct TuneResult {
     std::vector<EngineUnit> units;
   };
   std::vector<LightUnits> engine_units;
+  ViewErrors views;  ///< of the winner, where it was judged from several
 };
 
 /// Called before each drawing with the family and the size.

@@ -62,7 +62,9 @@ std::string reason(const JudgeOutcome& outcome);
 Scene scene_under(const std::string& light);
 
 /// Puts in the place of the capture's visibility what the other renderer draws on the capture's map, with the
-/// capture's bias and without a filter. `outside`: what it draws beside the map.
-void draw_again(const compare::Capture& capture, const Compared& drawn, float outside = 1.0f);
+/// capture's bias and without a filter. `outside`: what it draws beside the map. `by_fronts`: offsets go along
+/// the fronts' normals, also where a back is seen.
+void draw_again(const compare::Capture& capture, const Compared& drawn, float outside = 1.0f,
+                bool by_fronts = false);
 
 }  // namespace gnomon::test

@@ -81,13 +81,19 @@ Scene scene_under(const std::string& light) {
   return scene;
 }
 
-void draw_again(const Capture& capture, const Compared& drawn, float outside) {
+void draw_again(const Capture& capture, const Compared& drawn, float outside, bool by_fronts) {
   const OtherRenderer other(capture, drawn.scene->lights[0], outside);
   spoil(capture.visibility, [&](ChannelImage& image) {
     for (Channel& channel : image.channels)
       for (std::size_t i = 0; channel.name != "A" && i < channel.values.size(); ++i) {
         const raytrace::SurfacePoint& point = drawn.result.raytraced.receiver.data[i];
-        channel.values[i] = point.primitive == no_id ? 1.0f : other.visibility(point.position, point.normal);
+        if (point.primitive == no_id) {
+          channel.values[i] = 1.0f;
+          continue;
+        }
+        const Vec3 normal =
+            by_fronts ? outward_normal(*drawn.world, point.primitive, point.position) : point.normal;
+        channel.values[i] = other.visibility(point.position, normal);
       }
   });
 }

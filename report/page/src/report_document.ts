@@ -88,6 +88,7 @@ export interface Result {
   costs: Record<string, number>;
   times_ms: Record<string, Times>;
   lights: LightResult[];
+  views?: { measure: string; worst: string; worst_error: number | null; mean_error: number | null; each: { view: string; light: string; error: number | null }[] };
   time_budget?: { stage: string; wall_ms: number }[];
   judged?: { renderer: { name: string; version: string }; ratio: boolean; identified: object | null };
 }

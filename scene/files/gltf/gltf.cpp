@@ -85,11 +85,6 @@ class SceneBuilder {
                        flattened_));
     if (ranged_)
       note("The range of lights is not used: their light falls off with the squared distance alone.");
-    if (!gltf_list(json_.root, "animations").empty())
-      note(
-          "Animations are not played: everything is shown in the pose that it is stored in. Of cameras and "
-          "lights "
-          "gnomon shimmer plays them.");
     meshes_.add_notes(scene_);
     const Aabb bounds = loaded_.cameras.empty() ? Aabb{} : scene_bounds(scene_);
     for (std::size_t i = 0; i < loaded_.cameras.size(); ++i) {
@@ -338,7 +333,7 @@ std::optional<Error> empty_accessor_defect(const gltf::Model& model, const std::
   return std::nullopt;
 }
 
-Expected<LoadedFile> build(GltfDocument& document, GltfData& data, bool with_paths) {
+Expected<LoadedFile> build(GltfDocument& document, GltfData& data, const LoadOptions& options) {
   LoadedFile loaded;
   loaded.is_model = true;
   loaded.scene.notes = std::move(document.notes);
@@ -355,7 +350,11 @@ Expected<LoadedFile> build(GltfDocument& document, GltfData& data, bool with_pat
   GltfMeshReader meshes(document.model, data, *sets, default_material, file);
   SceneBuilder builder(loaded, document, data, extras, meshes);
   if (const auto built = builder.run(); !built) return fail(built.error());
-  if (with_paths) {
+  if (options.paths == nullptr && !gltf_list(document.json.root, "animations").empty())
+    loaded.scene.notes.push_back(
+        "Animations are not played: everything is shown in the pose that it is stored in. gnomon shimmer "
+        "plays them.");
+  if (options.paths != nullptr) {
     auto paths = read_gltf_paths(document, data, builder.carried(), loaded.scene);
     if (!paths) return fail(paths.error());
     loaded.paths = std::move(*paths);
@@ -380,7 +379,10 @@ Expected<LoadedFile> read_gltf(std::string_view bytes, const std::string& file, 
   if (!data) return fail(data.error());
   if (const auto unpacked = unpack_draco(*document, *data); !unpacked) return fail(unpacked.error());
   if (auto defect = empty_accessor_defect(document->model, file)) return fail(std::move(*defect));
-  return build(*document, *data, options.paths != nullptr);
+  if (!options.animation.empty())
+    if (const auto played = play_gltf_animation(*document, *data, options); !played)
+      return fail(played.error());
+  return build(*document, *data, options);
 } catch (const std::exception& e) {  // the libraries' own, on what the checks forget
   if (is_of_resource(e)) throw;      // whoever asked answers for memory and threads
   return fail(gltf_error(file, "", printable(e.what(), 200)));

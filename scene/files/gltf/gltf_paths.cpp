@@ -1,6 +1,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <set>
 
 #include "scene/files/gltf/gltf_accessor.h"
@@ -132,27 +133,47 @@ class PathBuilder {
   PathBuilder(const gltf::Model& model, const CarriedNodes& carried, Scene& scene)
       : model_(model), carried_(carried), scene_(scene) {}
 
-  /// Nothing where neither a camera nor a light moves.
+  /// Nothing where no node moves.
   std::optional<LoadedPath> path(const MovedNodes& moved, std::string name) {
     LoadedPath out;
     std::set<std::size_t> used;
-    bool any = false;
-    for (const std::size_t node : carried_.cameras) {
-      out.cameras.push_back(chain(node, moved, used));
-      any = any || !out.cameras.back().empty();
-    }
+    if (moved.empty()) return std::nullopt;
+    for (const std::size_t node : carried_.cameras) out.cameras.push_back(chain(node, moved, used));
     for (std::size_t i = 0; i < carried_.lights.size(); ++i)
       if (NodeChain nodes = chain(carried_.lights[i], moved, used); !nodes.empty())
-        out.lights[scene_.lights[i].name].nodes = std::move(nodes), any = true;
-    if (!any) return std::nullopt;
+        out.lights[scene_.lights[i].name].nodes = std::move(nodes);
     out.name = std::move(name);
-    if (used.size() < moved.size())
-      scene_.notes.push_back(fmt::format(
-          "The animation {} moves objects, too, which stay in the pose that they are stored in.", out.name));
+    for (const auto& [node, keys] : moved)
+      if (holds_mesh(node)) out.objects_until = std::max(out.objects_until.value_or(0.0), last_key(keys));
     return out;
   }
 
  private:
+  static double last_key(const MovedNode& node) {
+    double last = 0.0;
+    if (node.translations) last = std::max(last, node.translations->times.back());
+    if (node.scales) last = std::max(last, node.scales->times.back());
+    if (node.rotations) last = std::max(last, node.rotations->times.back());
+    return last;
+  }
+
+  // The node or one below it has a mesh, or is a joint of a skin.
+  bool holds_mesh(std::size_t from) const {
+    const auto is_joint = [&](std::size_t node) {
+      return std::any_of(model_.skins.begin(), model_.skins.end(), [&](const gltf::Skin& skin) {
+        return std::find(skin.joints.begin(), skin.joints.end(), node) != skin.joints.end();
+      });
+    };
+    std::vector<std::size_t> left{from};
+    while (!left.empty()) {
+      const std::size_t node = left.back();
+      left.pop_back();
+      if (model_.nodes[node].mesh >= 0 || is_joint(node)) return true;
+      left.insert(left.end(), model_.nodes[node].children.begin(), model_.nodes[node].children.end());
+    }
+    return false;
+  }
+
   // Empty where no node on the way moves.
   NodeChain chain(std::size_t node, const MovedNodes& moved, std::set<std::size_t>& used) const {
     NodeChain out;
@@ -177,26 +198,59 @@ class PathBuilder {
 
 }  // namespace
 
-Expected<std::vector<LoadedPath>> read_gltf_paths(const GltfDocument& document, const GltfData& data,
-                                                  const CarriedNodes& carried, Scene& scene) {
+namespace {
+
+/// each(index, name, what it moves) for every animation of the file.
+template <class Each>
+Expected<void> for_each_animation(const GltfDocument& document, const GltfData& data, const Each& each) {
   JsonErrors errors{document.json};
   const JsonNode root(errors, document.json.root, "");
-  std::vector<LoadedPath> paths;
   const auto list = root.child("animations");
-  if (!list) return paths;
-  PathBuilder builder(document.model, carried, scene);
+  if (!list) return {};
   std::size_t index = 0;
   for (const JsonNode& animation : list->as_array()) {
     const auto name = animation.child("name");
     const std::string own = name ? name->as_string() : std::string();
     const MovedNodes moved = AnimationReader(document.model, data, animation).read();
     if (errors.first) return fail(*errors.first);
-    if (auto path = builder.path(moved, own.empty() ? fmt::format("animation-{}", index) : own))
-      paths.push_back(std::move(*path));
+    each(own.empty() ? fmt::format("animation-{}", index) : own, moved);
     ++index;
   }
   if (errors.first) return fail(*errors.first);
+  return {};
+}
+
+}  // namespace
+
+Expected<std::vector<LoadedPath>> read_gltf_paths(const GltfDocument& document, const GltfData& data,
+                                                  const CarriedNodes& carried, Scene& scene) {
+  std::vector<LoadedPath> paths;
+  PathBuilder builder(document.model, carried, scene);
+  const auto read = for_each_animation(document, data, [&](const std::string& name, const MovedNodes& moved) {
+    if (auto path = builder.path(moved, name)) paths.push_back(std::move(*path));
+  });
+  if (!read) return fail(read.error());
   return paths;
+}
+
+Expected<void> play_gltf_animation(GltfDocument& document, const GltfData& data, const LoadOptions& options) {
+  bool found = false;
+  MovedNodes played;
+  const auto read = for_each_animation(document, data, [&](const std::string& name, const MovedNodes& moved) {
+    if (!found && name == options.animation) found = true, played = moved;
+  });
+  if (!read) return read;
+  if (!found) {
+    Error error{ErrorKind::bad_input, fmt::format("no animation is called {}", options.animation)};
+    error.file = document.json.file;
+    return fail(std::move(error));
+  }
+  for (const auto& [index, keys] : played) {
+    gltf::Node& node = document.model.nodes[index];
+    node.matrix = keys.at(options.seconds);
+    node.translation.reset(), node.scale.reset(), node.rotation.reset();
+  }
+  return {};
 }
 
 }  // namespace gnomon

@@ -7,6 +7,7 @@
 #include "scene/base/expected.h"
 #include "scene/files/formats.h"
 #include "scene/files/gltf/gltf_data.h"
+#include "scene/load.h"
 #include "scene/math.h"
 
 namespace gnomon {
@@ -34,9 +35,12 @@ struct CarriedNodes {
   std::vector<std::size_t> cameras, lights;
 };
 
-/// One path for each animation that moves a camera, a light or a node above one; its name, or animation-I. What else
-/// it moves is said in a note. Error (bad input): a channel or a sampler that is not sound.
+/// One path for each animation that moves a node; its name, or animation-I. Error (bad input): a channel or a sampler that is not sound.
 Expected<std::vector<LoadedPath>> read_gltf_paths(const GltfDocument& document, const GltfData& data,
                                                   const CarriedNodes& carried, Scene& scene);
+
+/// The nodes as the animation of that name moves them (LoadOptions::animation). Error (bad input) as above, and where there
+/// is no such animation.
+Expected<void> play_gltf_animation(GltfDocument& document, const GltfData& data, const LoadOptions& options);
 
 }  // namespace gnomon
