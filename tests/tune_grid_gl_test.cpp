@@ -6,6 +6,7 @@
 
 #include "scene/load.h"
 #include "studies/tune/full_grid.h"
+#include "studies/tune/sheet.h"
 #include "studies/tune/ties.h"
 #include "studies/tune/tuner.h"
 #include "support/one_world.h"
@@ -147,6 +148,18 @@ compare::FamilyResult measured(const char* name, double error, std::vector<doubl
   answer.cost = answer.time_ms = answer.times.least();
   out.tried = {answer}, out.answer = std::move(answer);
   return out;
+}
+
+// Four cascades of 2048 texels take as much as one map of 4096.
+TEST(TuneSheet, ComparesAtEqualMemory) {
+  const std::vector<int> sizes{256, 512, 1024, 2048, 4096, 8192};
+  compare::Attempt cascades;
+  cascades.size = 1024, cascades.map_bytes = 4ULL * 4 * 1024 * 1024;
+  EXPECT_EQ(compare::size_at_memory(cascades, sizes, 4ULL * 4096 * 4096), 2048);
+  compare::Attempt one;
+  one.size = 512, one.map_bytes = 4ULL * 512 * 512;
+  EXPECT_EQ(compare::size_at_memory(one, sizes, 4ULL * 4 * 2048 * 2048), 4096);
+  EXPECT_EQ(compare::size_at_memory(one, sizes, 1), 256) << "the least there is";
 }
 
 // Where the goal is an error, times alone tie; where it is a time, the errors have to be the same as well.

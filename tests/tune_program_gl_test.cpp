@@ -122,6 +122,31 @@ TEST_F(TuneProgram, AsksForOneEngineAndWithinATime) {
   EXPECT_EQ(run({"tune", "floating-box", "--max-error", "5%", "--engine", "quake"}), 2);
 }
 
+// One page to print: the answer and its rivals, each with its worst place beside the truth, its figures and its settings.
+TEST_F(TuneProgram, WritesASheetToPrint) {
+  const std::string out = (root / "tuned").string();
+  ASSERT_EQ(run({"tune", "floating-box", "--technique", "hard,pcf", "--size", "96x54", "--max-error", "2%",
+                 "--map-size", "64:256:x2", "--runs", "3", "--engine", "godot", "-o", out}),
+            0)
+      << said();
+  const std::string sheet = bytes(out + "/sheet.html");
+  const auto count = [&](std::string_view part) {
+    std::size_t n = 0;
+    for (std::size_t at = sheet.find(part); at != std::string::npos; at = sheet.find(part, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("<section>"), 2u);
+  EXPECT_EQ(count("★"), 1u);
+  EXPECT_EQ(count("data:image/png"), 4u);
+  EXPECT_EQ(count("flips per receiver and second"), 2u);
+  EXPECT_EQ(count("median of 3"), 2u);
+  EXPECT_EQ(count("<code>gnomon compare floating-box"), 2u);
+  EXPECT_GT(count("<li>Godot"), 0u);
+  EXPECT_EQ(count("<script"), 0u);
+  const nlohmann::json result = nlohmann::json::parse(bytes(out + "/result.json"));
+  EXPECT_FALSE(result["lights"][0].contains("shimmer")) << "the page is of the answer alone";
+}
+
 TEST_F(TuneProgram, SaysWhyNothingCanWork) {
   const std::string json = (root / "answer.json").string();
   EXPECT_EQ(run({"tune", "floating-box", "--size", "160x90", "--max-error", "0", "--map-size", "16,32",

@@ -25,6 +25,7 @@
 #include "report/write_outputs.h"
 #include "scene/base/timing.h"
 #include "studies/tune/page.h"
+#include "studies/tune/sheet.h"
 
 namespace gnomon::app {
 
@@ -127,20 +128,21 @@ Expected<compare::Comparison*> compare_at_answer(compare::Engine& engine, const 
 }
 
 Expected<void> write_page(const TuneCommand& command, const TuneAnswer& answer, const RunFiles& files,
-                          const compare::Comparison& comparison, Console& console) {
+                          const compare::Comparison& comparison, const std::string& sheet, Console& console) {
   std::vector<std::string> commands;
   for (std::size_t i = 0; i < answer.families.size(); ++i) commands.push_back(answer.line(i));
   const compare::PageIntroduction introduction = compare::tune_introduction(
       {comparison.world->scene->name, command.goal, answer.result, commands, answer.others()});
   const OutputGuard whole_outputs;
-  const auto written = compare::write_outputs(comparison, {.folder = command.folder,
-                                                           .report_max_mb = command.report_max_mb,
-                                                           .introduction = &introduction,
-                                                           .more = {{"tune.json", answer.json()}},
-                                                           .inputs = files.inputs()});
+  const auto written =
+      compare::write_outputs(comparison, {.folder = command.folder,
+                                          .report_max_mb = command.report_max_mb,
+                                          .introduction = &introduction,
+                                          .more = {{"tune.json", answer.json()}, {"sheet.html", sheet}},
+                                          .inputs = files.inputs()});
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
-  console.message(fmt::format("report: {}/report.html", command.folder));
+  console.message(fmt::format("report: {0}/report.html, a page to print: {0}/sheet.html", command.folder));
   return {};
 }
 
@@ -195,6 +197,44 @@ Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
   return bench;
 }
 
+/// The film that says how much a setting flickers: what was asked for, else a short orbit.
+compare::FilmPlan film_of_sheet(const Bench& bench) {
+  return bench.film.value_or(compare::FilmPlan{{}, {.frames = 12, .fps = 30.0}, 1});
+}
+
+/// The answer and its rivals on one page, each with at most as much memory as the answer.
+Expected<std::string> make_sheet(const TuneCommand& command, const Bench& bench, const TuneAnswer& answer) {
+  compare::Engine engine(*bench.loaded.scene, *bench.loaded.world, *bench.renderer, true);
+  if (!bench.views.empty()) engine.look_from(bench.views, command.goal.measure());
+  const compare::TuneResult& result = answer.result;
+  const std::uint64_t bytes = attempt_of(result.families[result.winner]).map_bytes;
+  std::vector<std::size_t> shown = answer.rivals();
+  shown.insert(shown.begin(), result.winner);
+  compare::SheetInput sheet{bench.loaded.scene->name,
+                            command.goal,
+                            command.engine != nullptr ? command.engine->name : std::string_view(),
+                            {}};
+  for (const std::size_t family : shown) {
+    compare::Attempt attempt = attempt_of(result.families[family]);
+    if (family != result.winner && attempt.map_bytes > 0) {
+      attempt.size = compare::size_at_memory(attempt, bench.options.sizes, bytes);
+      if (auto biased = compare::attempt_at(engine, bench.setting, result.families[family].family, attempt,
+                                            command.goal);
+          !biased)
+        return fail(biased.error());
+      else
+        attempt = std::move(*biased);
+    }
+    auto setting = bench.options.as_given(family, attempt);
+    if (!setting) return fail(setting.error());
+    setting->raster.runs = bench.setting.raster.runs;
+    sheet.candidates.push_back(
+        {result.families[family].family.name, answer.line(family, attempt), std::move(*setting)});
+  }
+  engine.film_with(film_of_sheet(bench));
+  return compare::tune_sheet(engine, sheet);
+}
+
 Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, const RunFiles& files,
                                    const Stopwatch& total, Console& console) {
   const bool with_page = !command.folder.empty();
@@ -230,11 +270,13 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   if (with_page) {
     const auto setting = bench.options.as_given(result->winner, attempt_of(result->families[result->winner]));
     if (!setting) return fail(setting.error());
+    const auto sheet = make_sheet(command, bench, answer);
+    if (!sheet) return fail(sheet.error());
     const auto compared = compare_at_answer(engine, answer, *setting);
     if (!compared) return fail(compared.error());
     (*compared)->load_ms = bench.loaded.load_ms;
     (*compared)->total_ms = total.elapsed_ms();
-    if (const auto page = write_page(command, answer, files, **compared, console); !page)
+    if (const auto page = write_page(command, answer, files, **compared, *sheet, console); !page)
       return fail(page.error());
   }
   if (const auto out = hand_out(command, answer); !out) return fail(out.error());
@@ -249,7 +291,8 @@ Expected<RunFiles> check_files(const TuneCommand& command) {
   files.writes("--json", command.json);
   files.writes("--trace", command.trace);
   files.writes_folder("-o", command.folder, compare::page_file_names);
-  if (!command.folder.empty()) files.writes("-o", command.folder + "/tune.json");
+  for (const char* name : {"/tune.json", "/sheet.html"})
+    if (!command.folder.empty()) files.writes("-o", command.folder + name);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
   return files;
 }

@@ -125,14 +125,17 @@ OptionValues answer_values(const OptionValues& fixed, const OptionFamily& family
 }
 
 std::string TuneAnswer::line(std::size_t family) const {
+  return line(family, attempt_of(result.families[family]));
+}
+
+std::string TuneAnswer::line(std::size_t family, const compare::Attempt& attempt) const {
   const auto option = [](const char* name, const std::string& value) {
     return value.empty() ? std::string() : fmt::format(" {} {}", name, shell_quoted(value));
   };
   const bool filmed = question.metric.is_filmed();
   return (filmed ? "gnomon shimmer " : "gnomon compare ") + question.scene.words() +
          option("--camera", question.camera) +
-         setting_arguments(
-             answer_values(question.fixed, families[family], attempt_of(result.families[family]))) +
+         setting_arguments(answer_values(question.fixed, families[family], attempt)) +
          (filmed ? film_arguments(question.metric.film)
                  : view_arguments(question.views, question.metric.film, false)) +
          option("--shader-dir", question.shader_folder) + max_lights_argument(question.max_lights) +
@@ -153,26 +156,25 @@ std::vector<std::size_t> TuneAnswer::others() const {
   return order;
 }
 
-namespace {
-
 constexpr std::size_t rivals_shown = 2;
 
-// The best of those that engines draw first, of each technique one, then the best of the others.
-std::vector<std::size_t> rivals_of(const TuneAnswer& answer) {
+std::vector<std::size_t> TuneAnswer::rivals() const {
   std::vector<std::size_t> rivals;
   const auto has_technique = [&](raster::Technique technique) {
     return std::ranges::any_of(
-        rivals, [&](std::size_t i) { return answer.result.families[i].family.map.technique == technique; });
+        rivals, [&](std::size_t i) { return result.families[i].family.map.technique == technique; });
   };
   for (const bool of_engines : {true, false})
-    for (const std::size_t i : answer.others()) {
-      const raster::MapOptions& map = answer.result.families[i].family.map;
+    for (const std::size_t i : others()) {
+      const raster::MapOptions& map = result.families[i].family.map;
       if (compare::any_engine_draws(map) != of_engines || has_technique(map.technique)) continue;
-      if (map.technique == answer.result.families[answer.result.winner].family.map.technique) continue;
+      if (map.technique == result.families[result.winner].family.map.technique) continue;
       if (rivals.size() < rivals_shown) rivals.push_back(i);
     }
   return rivals;
 }
+
+namespace {
 
 std::string row_text(const compare::FamilyResult& family, const compare::TuneGoal& goal) {
   const compare::Attempt& a = family.attempt();
@@ -218,7 +220,7 @@ std::string TuneAnswer::text() const {
   std::string text = begin_of(*this);
   text += fmt::format("\n  {:<34} {:>6} {:>10} {:>10}  {}\n", "", "texels", "time", "map", "error");
   text += row_text(result.families[result.winner], question.goal);
-  for (const std::size_t i : rivals_of(*this)) text += row_text(result.families[i], question.goal);
+  for (const std::size_t i : rivals()) text += row_text(result.families[i], question.goal);
   text += own_units(*this) + untried_text(*this);
   return text + fmt::format("{} {}s; -v says why the others lost{}\n", result.renders,
                             question.metric.is_filmed() ? "film" : "drawing",

@@ -45,6 +45,10 @@ struct TuneAnswer {
 
   /// gnomon compare SCENE …, or gnomon shimmer SCENE …, at a family's answer.
   std::string line(std::size_t family) const;
+  /// The same at another attempt of the family.
+  std::string line(std::size_t family, const compare::Attempt& attempt) const;
+  /// Two others: the best of those that engines draw first, of each technique one, then the best of the others.
+  std::vector<std::size_t> rivals() const;
   /// The other families: of each technique the best first.
   std::vector<std::size_t> others() const;
   /// At most 80 columns, but for commands: the answer and two rivals, in no more than some twelve lines.
