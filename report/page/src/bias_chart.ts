@@ -31,7 +31,7 @@ const label = (x: number, y: number, kind: string, text: string): Markup => mark
 function biasTicks(scale: Scale, unit: number, below: number, name: string): Markup {
   const y = plotBottom + below;
   return markup`${niceTicks(scale.from / unit, scale.to / unit, 6).map((v) => markup`<line class="mark" x1="${fixed(scale.x(v * unit))}" x2="${fixed(scale.x(v * unit))}" y1="${fixed(y - 15)}" y2="${
-    fixed(y - 11)}"/>${label(scale.x(v * unit), y, "tick middle", general(v, 3))}`)}${label(plotRight + 26, y, "tick", name)}`;
+    fixed(y - 11)}"/>${label(scale.x(v * unit), y, "tick middle", general(v, 3))}`)}${label(plotRight + 26, y, "tick axis", name)}`;
 }
 
 const axes = (scale: Scale, texel: number): Markup => markup`${niceTicks(0, scale.most, 4).map((v) => markup`<line class="grid" x1="${left}" x2="${plotRight}" y1="${fixed(scale.y(v))}" y2="${
