@@ -11,6 +11,28 @@ namespace {
 /// normalised, so that a cosine with them may lie on the wrong side of 0 by less than this.
 constexpr double rounding = 0x1p-22;
 
+/// Neighbouring pixels show one triangle: where a directional light falls on one side of all of it, none counts.
+class LastTriangle {
+ public:
+  explicit LastTriangle(const LadderInput& in)
+      : in_(in), directional_(in.light().type == LightType::directional) {}
+  bool is_one_sided(const raytrace::SurfacePoint& receiver) {
+    if (!directional_ || !in_.world().is_triangle(receiver.primitive)) return false;
+    if (receiver.primitive != primitive_ || receiver.normal != normal_) {
+      primitive_ = receiver.primitive, normal_ = receiver.normal;
+      const Vec3 to_light = light_at(in_.light(), receiver.position).to_light;
+      one_sided_ = raytrace::corners_see_alike(in_.world(), primitive_, normal_, to_light, rounding);
+    }
+    return one_sided_;
+  }
+
+ private:
+  const LadderInput& in_;
+  bool directional_, one_sided_ = false;
+  std::uint32_t primitive_ = no_id;
+  Vec3 normal_{0.0};
+};
+
 void add_pixel(const LadderInput& in, const raytrace::SurfacePoint& receiver, Label label,
                TerminatorCount& out) {
   const bool away = label == Label::facing_away;
@@ -29,8 +51,11 @@ TerminatorCount count_terminator(const LadderInput& in, const Image<Label>& labe
   return parallel_reduce(
       labels.data.size(), 4096, TerminatorCount{},
       [&](std::size_t first, std::size_t last, TerminatorCount sum) {
+        LastTriangle triangle(in);
         for (std::size_t i = first; i < last; ++i)
-          add_pixel(in, in.traced.receiver.data[i], labels.data[i], sum);
+          if (const raytrace::SurfacePoint& receiver = in.traced.receiver.data[i];
+              receiver.primitive != no_id && !triangle.is_one_sided(receiver))
+            add_pixel(in, receiver, labels.data[i], sum);
         return sum;
       },
       [](const TerminatorCount& a, const TerminatorCount& b) {

@@ -29,6 +29,16 @@ Vec3 shading_normal(const World& world, const SurfacePoint& point) {
   return glm::dot(n, point.normal) < 0.0 ? -n / length : n / length;
 }
 
+bool corners_see_alike(const World& world, std::uint32_t primitive, const Vec3& normal, const Vec3& direction,
+                       double margin) {
+  const double side = glm::dot(normal, direction) < 0.0 ? -1.0 : 1.0;
+  for (const std::uint32_t corner : world.triangle(primitive)) {
+    const Vec3 n(world.normal(corner));
+    if (!(glm::dot(n, normal) > 0.0) || !(side * glm::dot(n, direction) > margin)) return false;
+  }
+  return true;
+}
+
 SurfacePoint on_smooth_body(const World& world, const SurfacePoint& point) {
   if (!world.is_triangle(point.primitive)) return point;
   const Corners corners(world, point);

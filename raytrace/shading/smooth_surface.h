@@ -11,6 +11,11 @@ namespace gnomon::raytrace {
 /// mesh has none.
 Vec3 shading_normal(const World& world, const SurfacePoint& point);
 
+/// Whether the normals of a triangle's corners lie on the side of `normal`, its geometric one, and see `direction` as it
+/// does, each by more than `margin` (cosines): then shading_normal() does so at every point of it.
+bool corners_see_alike(const World& world, std::uint32_t primitive, const Vec3& normal, const Vec3& direction,
+                       double margin);
+
 /// The point of a triangle brought onto its smooth body, with the shading normal for its geometric one: it is projected
 /// onto the planes through the corners square to their normals, where it lies below them, and the three places are mixed
 /// by its own weights (Hanika 2021). Corners stay where they are, and so does what has no normals of its own.
