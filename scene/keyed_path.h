@@ -59,7 +59,7 @@ struct KeyedPath {
     NodeChain nodes{};  ///< as for the camera
   };
   std::map<std::string, OfLight> lights{};  ///< by name
-  /// Of a glTF file's animation: until when it moves objects, seconds; where they stand is for the loader to say
+  /// Tells until when a glTF file's animation moves objects, seconds; where they stand is for the loader to say
   /// (LoadOptions::animation). None: it moves none.
   std::optional<double> objects_until{};
 

@@ -22,7 +22,7 @@ struct LoadOptions {
   /// Where given, takes the paths along which the file itself moves the chosen camera and lights: "paths" of a scene in
   /// the project's own format, animations of a glTF file. Those of included files are not read.
   std::vector<KeyedPath>* paths = nullptr;
-  /// Of a glTF file: the animation, by its path's name, whose objects stand as they do at so many seconds (nodes with
+  /// Names a glTF file's animation, by its path's name, whose objects stand as they do at so many seconds (nodes with
   /// meshes, and joints of skins); empty: all as it is stored.
   std::string animation{};
   double seconds = 0.0;

@@ -100,7 +100,7 @@ TEST_F(Gltf, ObjectsStandWhereTheAnimationPutsThem) {
   EXPECT_NE(unknown.error().message().find("no animation is called fall"), std::string::npos);
 }
 
-// A skin's vertices hang on a joint that the animation moves: they are moved, and the path knows that objects are.
+// A skin's vertices follow a joint that the animation moves: they are moved, and the path knows that objects are.
 TEST_F(Gltf, SkinsFollowTheirJoints) {
   Builder b = simple();
   const std::vector<std::uint8_t> joints(16, 0);

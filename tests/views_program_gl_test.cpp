@@ -34,7 +34,7 @@ Words operator+(Words words, const Words& more) {
   return words;
 }
 
-/// Of a number as it is given on the command line.
+/// Writes a number as it is given on the command line.
 std::string text_of(const nlohmann::json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }

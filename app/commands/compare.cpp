@@ -158,7 +158,7 @@ Expected<Compared> render_and_compare(const CompareCommand& command, const Loade
   return compared;
 }
 
-/// Of one view the numbers alone, untimed.
+/// Compares one view for its numbers alone, untimed.
 Expected<compare::Comparison> judge_view(const CompareCommand& command,
                                          const compare::CompareOptions& options, const LoadedScene& loaded,
                                          const std::vector<std::uint32_t>& lights,

@@ -64,7 +64,7 @@ struct Filmed {
   std::optional<compare::FilmRecorder> pictures;  ///< where a folder is asked for
 };
 
-/// The scene as its animation moves it, loaded anew for each frame.
+/// The scene as its animation moves it, loaded again for each frame.
 class Stages {
  public:
   Stages(const ShimmerCommand& command, std::string animation)

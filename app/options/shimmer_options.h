@@ -26,7 +26,7 @@ struct FilmOptions {
 /// --frames, --fps, --move, --path, --speed, --drift, --anchors.
 bool is_film_option(std::string_view name);
 void add_film_options(CLI::App& app, FilmOptions& film);
-/// Of these --frames, --fps, --move, --path, --speed: where still pictures are made along a path.
+/// Adds --frames, --fps, --move, --path and --speed alone: for still pictures along a path.
 void add_path_options(CLI::App& app, FilmOptions& film);
 /// The file that --path names; empty: none.
 std::string path_file(const FilmOptions& film);

@@ -45,7 +45,7 @@ struct TuneAnswer {
 
   /// gnomon compare SCENE …, or gnomon shimmer SCENE …, at a family's answer.
   std::string line(std::size_t family) const;
-  /// The same at another attempt of the family.
+  /// Writes the line of another attempt of the family.
   std::string line(std::size_t family, const compare::Attempt& attempt) const;
   /// Two others: the best of those that engines draw first, of each technique one, then the best of the others.
   std::vector<std::size_t> rivals() const;

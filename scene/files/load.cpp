@@ -59,7 +59,7 @@ Expected<void> choose_camera(LoadedFile& loaded, const LoadOptions& options) {
   return {};
 }
 
-/// Of all the file's cameras where they are asked for.
+/// Looks at all of the file's cameras where they are asked for.
 std::optional<Error> find_camera_defect(Scene& scene, const LoadOptions& options) {
   if (options.cameras == nullptr) return std::nullopt;
   const Camera own = scene.camera;

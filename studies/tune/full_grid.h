@@ -26,7 +26,7 @@ struct GridCheck {
   double ratio() const { return best_cost > 0.0 ? tuned_cost / best_cost : 0.0; }
 };
 
-/// Of either goal. `rounds` >= 1 drawings in turn of the tuner's answer and the grid's cheapest
+/// Checks against either goal. `rounds` >= 1 drawings in turn of the tuner's answer and the grid's cheapest
 /// settings.
 Expected<GridCheck> check_against_grid(Engine& engine, const Setting& base, const TuneOptions& options,
                                        const std::vector<raster::Bias>& biases, int rounds,
