@@ -18,19 +18,19 @@ struct ViewListOptions {
   bool by_cameras() const { return !cameras.empty(); }
 };
 
-/// --cameras and --views.
+/// Adds --cameras and --views.
 void add_view_options(CLI::App& app, ViewListOptions& views);
 
-/// Whether --path or --move says where pictures are made.
+/// Returns whether --path or --move says where pictures are made.
 bool follows_path(const FilmOptions& film);
 
-/// Errors of what was asked for, before anything is loaded (usage): cameras and a path, an option that would change
+/// Fails (usage), before anything is loaded, where cameras and a path are both given, or an option would change
 /// nothing. `is_given`: whether an option, without dashes, was given. `filmed`: --metric
 /// shimmer, whose path is the film's.
 Expected<void> check_views(const ViewListOptions& views, const std::string& camera, const FilmOptions& film,
                            bool filmed, const std::function<bool(std::string_view)>& is_given);
 
-/// The views of a scene; none where a single picture was asked for. `lights`: a scene with the lights that are kept, and
+/// Returns the views of a scene; none where a single picture was asked for. `lights`: a scene with the lights that are kept, and
 /// the camera that a path begins at. Errors: usage for a camera or path that there is not; bad input for a place along
 /// the path that shows nothing.
 Expected<std::vector<compare::JudgedView>> resolve_views(const ViewListOptions& views,
@@ -38,7 +38,7 @@ Expected<std::vector<compare::JudgedView>> resolve_views(const ViewListOptions& 
                                                          const LoadedScene& loaded, const Scene& given,
                                                          Console& console);
 
-/// " --cameras all", " --path walk --views 5": what was given, to be typed again.
+/// Returns what was given, to be typed again: " --cameras all", " --path walk --views 5".
 std::string view_arguments(const ViewListOptions& views, const FilmOptions& film, bool filmed);
 
 }  // namespace gnomon::app

@@ -91,8 +91,8 @@ class Film {
   std::optional<double> unsnapped_texel(const Light& light) const;
   RungFrame climb_light(std::size_t i) const;
   void keep_anchors(Image<Label>& labels) const;
-  Expected<void> take_stage(int frame);
-  void keep_standing(Image<Label>& labels) const;
+  Expected<void> load_stage(int frame);
+  void leave_out_moved(Image<Label>& labels) const;
 
   // As they stand in the frame.
   const World* world_;
@@ -167,8 +167,8 @@ void Film::keep_anchors(Image<Label>& labels) const {
       if (x % step != 0 || y % step != 0) labels.at(x, y) = Label::background;
 }
 
-/// The scene as it stands then, and what is made of it.
-Expected<void> Film::take_stage(int frame) {
+/// Loads the scene as it stands in that frame, and makes its hierarchy and topology.
+Expected<void> Film::load_stage(int frame) {
   staged_tracer_.reset(), staged_topology_.reset();
   const ShimmerOptions& o = out_.options;
   const auto stage = o.stage(o.time.seconds(frame));
@@ -184,8 +184,8 @@ Expected<void> Film::take_stage(int frame) {
   return {};
 }
 
-// Of moving objects: what the pixel sees now is the very point that it saw in the first frame.
-void Film::keep_standing(Image<Label>& labels) const {
+// A receiver stands where the pixel sees the very point that it saw in the first frame.
+void Film::leave_out_moved(Image<Label>& labels) const {
   if (!out_.options.stage || out_.receivers.data.empty()) return;
   parallel_for(labels.data.size(), [&](std::size_t i) {
     const raytrace::SurfacePoint &now = truth_->receiver.data[i], &first = out_.receivers.data[i];
@@ -220,7 +220,7 @@ RungFrame Film::climb_light(std::size_t i) const {
   const LadderInput input{*tracer_, *topology_, drawn_, *truth_, i};
   Image<Label> labels = sort_pixels(input);
   keep_anchors(labels);
-  keep_standing(labels);
+  leave_out_moved(labels);
   RungFrame out{{}, Image<std::uint8_t>(labels.size), record.outside_map, record.face};
   std::transform(labels.data.begin(), labels.data.end(), out.counted.data.begin(),
                  [](Label label) { return static_cast<std::uint8_t>(is_compared(label)); });
@@ -256,7 +256,7 @@ Expected<void> Film::make_frame(int frame) {
   const Pose pose = pose_at(o.path, o.time, first_, middle_of(*out_.world, first_.camera), frame);
   if (const auto sound = check_pose(pose, frame); !sound) return sound;
   if (o.stage)
-    if (const auto taken = take_stage(frame); !taken) return taken;
+    if (const auto taken = load_stage(frame); !taken) return taken;
   scene_->lights = pose.lights;
   raster::set_map_camera(*renderer_, map_camera(pose, frame));
   auto drawn = renderer_->render(o.compare.raster, lights_);
