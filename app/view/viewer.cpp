@@ -5,6 +5,7 @@
 #include "app/view/panels/panels.h"
 #include "app/view/presets.h"
 #include "app/view/status.h"
+#include "compare/bias/bias_curve.h"
 #include "compare/result/number_text.h"
 #include "raster/gl/context.h"
 #include "scene/base/expected.h"
@@ -118,7 +119,8 @@ void Viewer::finish_preset() {
     const double texels = losing_bias_texels(c.raster.lights[light.record], light, preset_->lost_share);
     raster::MapOptions map = state_.setup.map;
     if (texels > map.bias.constant) {
-      map.bias.constant = std::stod(fmt::format("{:.3g}", texels));
+      map.bias.constant = texels;
+      map.bias = compare::with_three_digits(map.bias);
       return app::carry_out(state_, SetMap{map});
     }
   }

@@ -1,6 +1,9 @@
 #include "compare/bias/bias_curve.h"
 
+#include <fmt/core.h>
+
 #include <set>
+#include <string>
 
 #include "compare/ladder/budget.h"
 #include "compare/metrics/pixel_list.h"
@@ -137,6 +140,11 @@ raster::Bias with_constant(const raster::MapOptions& map, double constant_world,
   const bool scales = raster::scales_bias(map);
   bias.constant = scales ? constant_world / texel_world : constant_world;
   bias.unit = scales ? raster::BiasUnit::texel : raster::BiasUnit::world;
+  return bias;
+}
+
+raster::Bias with_three_digits(raster::Bias bias) {
+  bias.constant = std::stod(fmt::format("{:.3g}", bias.constant));
   return bias;
 }
 

@@ -218,16 +218,6 @@ std::vector<LightFigures> Engine::Impl::figures(const Figure& measure) const {
   return out;
 }
 
-namespace {
-
-// What people type: no figure of a comparison depends on more.
-raster::Bias with_three_digits(raster::Bias bias) {
-  bias.constant = std::stod(fmt::format("{:.3g}", bias.constant));
-  return bias;
-}
-
-}  // namespace
-
 void Engine::Impl::add_gaps_of(Probe& probe, double texel_world, bool scales) const {
   const raster::RasterFrame& frame = comparison.raster;
   for (std::size_t i = 0; i < frame.lights.size(); ++i)

@@ -156,7 +156,7 @@ main { display: flex; gap: 5mm; align-items: flex-start; } section { flex: 1 1 0
 .pair { display: flex; gap: 2mm; } figure { margin: 0; flex: 1; } figcaption, .small { font-size: 7.5pt; color: #50555e; }
 img { width: 100%; image-rendering: pixelated; display: block; } table { border-collapse: collapse; width: 100%; }
 th, td { text-align: left; vertical-align: top; padding: .15em .4em .15em 0; border-bottom: 1px solid #d8dade; font-weight: normal; }
-th { color: #50555e; white-space: nowrap; } code { font-size: 7.5pt; overflow-wrap: anywhere; } ul { margin: .3em 0; padding-left: 1.1em; font-size: 8pt; }
+th { color: #50555e; white-space: nowrap; } @media screen { body { padding: 0 1em; } } code { font-size: 7.5pt; overflow-wrap: anywhere; } ul { margin: .3em 0; padding-left: 1.1em; font-size: 8pt; }
 </style>)";
 
 }  // namespace

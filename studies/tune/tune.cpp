@@ -138,6 +138,7 @@ std::vector<raster::Bias> Tuner::biases_to_try(const TuneFamily& family, int siz
       biases.push_back(family.map.bias);
       biases.back().constant = factor * known->second;
       biases.back().unit = raster::BiasUnit::world;
+      biases.back() = with_three_digits(biases.back());
     }
   return biases;
 }

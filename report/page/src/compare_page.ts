@@ -53,6 +53,8 @@ declare global {
 
 export async function startComparison(): Promise<void> {
   showSections(reportSections());
+  for (const copy of document.querySelectorAll<HTMLImageElement>("img[data-copy]"))
+    copy.src = (document.getElementById(copy.dataset.copy!) as HTMLImageElement | null)?.src ?? "";
   // For the browser's console, and for tests: a light's numbers, unpacked.
   globalThis.gnomon = { light: Light.load };
   const sections = Array.from({ length: page.lights }, (_, i) => document.getElementById(`light-${i}`)!);

@@ -154,6 +154,7 @@ export function tuneSection(tune: TuneFacts): Markup {
 <h1 id="tune-title">Tuning ${tune.scene}</h1>
 <p class="verdict">${flowing(verdict(tune))}</p>
 <p class="command"><code>${tune.families[0]!.command}</code></p>
+<div class="trio tune-pictures" aria-hidden="true"><img data-copy="picture-raster" alt=""><img data-copy="picture-raytraced" alt=""><img data-copy="picture-labels-0" alt=""></div>
 ${proofLine(tune)}${cost && markup`<h2>What accuracy costs</h2>
 <figure>${scrollRegion("Error against time", cost)}<figcaption>Each point is a map that was drawn, at the best bias found for it; the line joins
 those that no other beats in both, the large point is the answer.</figcaption></figure>
