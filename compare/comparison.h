@@ -187,7 +187,7 @@ struct BiasKind {
   std::string_view name;  ///< "slope bias"
   raster::Bias bias;      ///< the setting
   double wrong_fraction = 0.0;
-  bool of_slope = false;  ///< from and to are multiples of the slope; else constants as bias_constant_world
+  bool of_slope = false;  ///< from and to are multiples of a slope; else constants as bias_constant_world
   double from = 0.0, to = 0.0;  ///< settings from `from` on and below `to` are hardly worse, too
 };
 

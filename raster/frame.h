@@ -27,6 +27,10 @@ struct ShadowMap {
   DepthFormat format = DepthFormat::d32f;
   std::vector<float>
       depth;  ///< stored value in [0, 1]; 1 where nothing was drawn (0 where depths are reversed); faces*size*size
+  /// Where casters have a bias of their own the same without it; else empty.
+  std::vector<float> unbiased;
+  /// What the casters' own depths are.
+  const std::vector<float>& true_depth() const { return unbiased.empty() ? depth : unbiased; }
   std::size_t texel_index(int face, int column, int row) const {
     const auto n = static_cast<std::size_t>(view.size);
     return (static_cast<std::size_t>(face) * n + static_cast<std::size_t>(row)) * n +
@@ -61,6 +65,10 @@ double automatic_bias_world(const BiasRounding& rounding, const LightView& view,
 double constant_bias_world(const Bias& bias, const BiasRounding& rounding, const LightView& view,
                            const World& world);
 
+/// The casters' constant bias in world units along the light ray; where a map's texels differ in size by design (csm,
+/// lispsm) and it is in texels, on a texel of texel_world().
+double caster_bias_world(const Bias& bias, const LightView& view, const World& world);
+
 /// How another renderer tests a map that it drew: by stored numbers, and in its own units.
 struct CapturedTest {
   /// World units that 1 of a stored number counts for; gaps and constant bias are differences of stored
@@ -83,9 +91,10 @@ struct LightRecord {
   std::uint32_t light = 0;  ///< index in Scene::lights
   ShadowMap map;
   BiasRounding rounding;
-  double bias_constant_world = 0.0;  ///< the constant bias in world units, after unit conversion
-  double texel_world = 0.0;          ///< what a bias in texels is a multiple of (texel_world())
-  double rounding_world = 0.0;       ///< what a bias that follows the receiver's plane leaves to rounding
+  double bias_constant_world = 0.0;    ///< the constant bias in world units, after unit conversion
+  double caster_constant_world = 0.0;  ///< the casters' constant bias in world units, in the same way
+  double texel_world = 0.0;            ///< what a bias in texels is a multiple of (texel_world())
+  double rounding_world = 0.0;         ///< what a bias that follows the receiver's plane leaves to rounding
   Image<float> visibility;   ///< what was drawn, in [0, 1]: 1 lit, 0 shadowed (rung V6). Not times n.l
   Image<Vec2f> texel_uv;     ///< the receiver's own map position in texels, before any offset
   Image<std::uint8_t> face;  ///< of texel_uv

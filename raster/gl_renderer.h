@@ -54,6 +54,7 @@ class GlRenderer final : public Renderer {
   Expected<std::vector<Vec3>> visible_surfaces(Job& job, const Camera& camera);
   Expected<LightView> fit(Job& job, const Light& light, const MapOptions& map);
   Expected<void> time_and_draw_map(Job& job, const MapJob& map, LightRecord* record);
+  Expected<void> read_unbiased_map(const MapJob& map, ShadowMap& out);
   Expected<void> prepare_external(Job& job, const VisibilityRequest& request, LightRecord* record);
   /// Whether what the camera sees need not be drawn again.
   bool shows(const Job& job) const;
@@ -103,7 +104,7 @@ class GlRenderer final : public Renderer {
     LightType light;
     DepthFormat format;
     Cull cull;
-    bool blur, mipmaps, for_records;
+    bool blur, mipmaps, for_records, caster_bias;
     auto operator<=>(const WarmMap&) const = default;
   };
   void keep_map(const Job& job, const Light& light, const LightRecord& record);

@@ -54,6 +54,7 @@ MapOptions effective_options(const MapOptions& options) {
   if (traits.contents == MapContents::back_depth) out.cull = Cull::front;
   if (options.cascades.fit_samples) out.cascades.snap = false;
   // What is set for another technique stays set.
+  if (!reads_setting(options, "caster-bias")) out.bias.caster_constant = out.bias.caster_slope = 0.0;
   if (!reads_setting(options, "window-size")) out.window.size = out.window.origin = {};
   if (!reads_setting(options, "window-depths")) out.window.depths = {};
   if (!options.cascades.splits.empty()) out.cascades.count = options.cascades.splits.count;
@@ -155,6 +156,11 @@ double automatic_bias_world(const BiasRounding& rounding, const LightView& view,
   if (rounding.constant_texel_world > 0.0)
     for (int i = 0; i < view.face_count; ++i) narrowest = std::min(narrowest, texel_world_size(view, i, 1.0));
   return automatic_bias_texels * base + rounding_world(rounding, view, world) * (base / narrowest);
+}
+
+double caster_bias_world(const Bias& bias, const LightView& view, const World& world) {
+  return bias.caster_unit == BiasUnit::texel ? bias.caster_constant * texel_world(view, world)
+                                             : bias.caster_constant;
 }
 
 double constant_bias_world(const Bias& bias, const BiasRounding& rounding, const LightView& view,

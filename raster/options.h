@@ -56,6 +56,14 @@ struct Bias {
   /// Dou et al. 2014, "Adaptive Depth Bias for Shadow Maps": less what the receiver's plane rises towards the
   /// light between the receiver and the texel's centre, and less adaptive_epsilon of the scene's size.
   bool adaptive = false;
+  /// Finite; along the light ray, in `caster_unit`: how much farther from the light the map's casters are stored.
+  double caster_constant = 0.0;
+  BiasUnit caster_unit = BiasUnit::world;  ///< world or texel
+  /// Finite; the casters are stored farther by this times the larger of |ds/du| and |ds/dv|, s the stored depth of their
+  /// plane and u, v in texels: the factor of glPolygonOffset, of Vulkan's and Direct3D's slope-scaled depth bias.
+  double caster_slope = 0.0;
+  /// The map's depths are not those of its casters.
+  bool moves_casters() const { return caster_constant != 0.0 || caster_slope != 0.0; }
   bool operator==(const Bias&) const = default;
 };
 

@@ -93,8 +93,12 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
 
 namespace {
 
+/// The bias of casters lies in the map.
 MapOptions without_bias(MapOptions map) {
+  const Bias drawn = map.bias;
   map.bias = {};
+  map.bias.caster_constant = drawn.caster_constant, map.bias.caster_unit = drawn.caster_unit;
+  map.bias.caster_slope = drawn.caster_slope;
   return map;
 }
 
@@ -137,6 +141,16 @@ void GlRenderer::keep_map(const Job& job, const Light& light, const LightRecord&
   kept_map_->options.map = without_bias(job.options.map);
 }
 
+namespace {
+
+CasterBias caster_bias(const MapOptions& map, const LightView& view, const World& world) {
+  const bool scales = follows_camera(map.technique) && map.bias.caster_unit == BiasUnit::texel;
+  return {caster_bias_world(map.bias, view, world), map.bias.caster_slope,
+          scales ? texel_world(view, world) : 0.0};
+}
+
+}  // namespace
+
 Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord* record) {
   const Light& light = world_->scene->lights[index];
   job.light_index = index;
@@ -156,6 +170,7 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
   if (record != nullptr) {
     record->light = index;
     record->bias_constant_world = constant;
+    record->caster_constant_world = caster_bias_world(map.bias, *view, *world_);
     record->rounding = rounding;
     record->texel_world = texel_world(*view, *world_);
     record->rounding_world = rounding_world(rounding, *view, *world_);
@@ -163,7 +178,8 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
     record->map.format = map.depth_format;
     if (!job.frame.custom_shader) job.frame.custom_shader = custom_shader(gl_->shader_folder(), map, light);
   }
-  const MapJob map_job{buffers_, light, *view, map_pass_, map, &job.view, &shading_};
+  const MapJob map_job{buffers_, light,     *view,     map_pass_,
+                       map,      &job.view, &shading_, caster_bias(map, *view, *world_)};
   const VisibilityRequest request{
       index, *view, job.view, job.options.shadow_samples, job.options.seed, job.options.analysis};
   if (map.technique == Technique::hybrid) {

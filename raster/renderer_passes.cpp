@@ -170,9 +170,19 @@ Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map) {
 Expected<void> GlRenderer::draw_map(const MapJob& map, bool for_records) {
   const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
   if (!replaced || for_records) {
-    if (auto ok = map_pass_.draw(buffers_, map.view, map.options.cull); !ok) return ok;
+    if (auto ok = map_pass_.draw(buffers_, map.view, map.options.cull, map.caster_bias); !ok) return ok;
   }
   return technique_pass_ != nullptr ? technique_pass_->draw(map) : Expected<void>{};
+}
+
+// For the records alone: what the casters' bias makes of the map is the bias step's. The map that is looked up is drawn
+// again, the same to the bit.
+Expected<void> GlRenderer::read_unbiased_map(const MapJob& map, ShadowMap& out) {
+  out.unbiased.clear();
+  if (!map.caster_bias.moves_casters()) return {};
+  if (auto ok = map_pass_.draw(buffers_, map.view, map.options.cull, {}); !ok) return ok;
+  map_pass_.read(out.unbiased);
+  return map_pass_.draw(buffers_, map.view, map.options.cull, map.caster_bias);
 }
 
 Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightRecord* record) {
@@ -199,7 +209,8 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
   if (!timed || (for_records && draws_map_for_records(map.options.technique))) {
     // What the timed runs left in the technique's pass stays: the map of depths alone is still to be drawn.
     const Pass kept = [&] {
-      return timed ? map_pass_.draw(buffers_, map.view, map.options.cull) : draw_map(map, for_records);
+      return timed ? map_pass_.draw(buffers_, map.view, map.options.cull, map.caster_bias)
+                   : draw_map(map, for_records);
     };
     if (auto ok = warm_up_map(job, map, for_records, kept); !ok) return ok;
     const TimedStage drawing("map");
@@ -207,8 +218,10 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
     (*gl_)->Finish();
   }
   const ReadBack reading(job.frame);
-  if (for_records) map_pass_.read(record->map);
+  if (for_records) map_pass_.read(record->map.depth);
   if (for_records && technique_pass_ != nullptr) technique_pass_->read(record->map);
+  if (for_records)
+    if (auto ok = read_unbiased_map(map, record->map); !ok) return ok;
   return gl_->check("drawing the shadow map");
 }
 
@@ -240,7 +253,8 @@ Expected<void> GlRenderer::warm_up_map(const Job& job, const MapJob& map, bool f
                     map.options.cull,
                     filter.blur_radius_texels > 0,
                     filter.mipmaps,
-                    for_records};
+                    for_records,
+                    map.caster_bias.moves_casters()};
   const bool first = warm_maps_.insert(key).second;
   return first || job.options.runs > 0 ? warm_up(pass) : Expected<void>{};
 }

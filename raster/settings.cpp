@@ -12,6 +12,10 @@ using Traits = TechniqueTraits;
 bool compares(const Traits& t) {
   return t.test != ShadowTest::exact;
 }
+/// A midpoint lies between two casters as they are.
+bool moves_casters(const Traits& t) {
+  return compares(t) && t.contents != MapContents::midpoint_depth;
+}
 bool compares_one_depth(const Traits& t) {
   return t.test == ShadowTest::single;
 }
@@ -132,7 +136,7 @@ constexpr MapSetting rows[] = {
      .peter_panning = "As much as the bias; hybrid and izb have none."},
     {.name = "bias",
      .group = SettingGroup::bias,
-     .kind = ConstantBiasSetting{},
+     .kind = ConstantBiasSetting{&Bias::constant, &Bias::unit, true},
      .read_by = compares,
      .type = "auto|B|Btexel",
      .help = "constant bias: a receiver is shadowed when the map's depth is nearer than this",
@@ -191,6 +195,33 @@ constexpr MapSetting rows[] = {
      .what = "As much as the receiver's plane rises up to the texel's centre (Dou et al. 2014).",
      .acne = "None is left on a plane.",
      .peter_panning = "As little as the place in the texel allows."},
+    {.name = "caster-bias",
+     .group = SettingGroup::bias,
+     .kind = ConstantBiasSetting{&Bias::caster_constant, &Bias::caster_unit, false},
+     .read_by = moves_casters,
+     .type = "B|Btexel",
+     .help = "constant bias of casters: the map stores them so much farther from the light",
+     .title = "Casters' constant bias",
+     .what = "How much farther from the light the map stores its casters.",
+     .acne = "More takes acne away, as the same constant bias of receivers does.",
+     .peter_panning = "More makes it, as the same constant bias of receivers does.",
+     .range_help =
+         "world units along the light ray, or texels with the suffix texel, any finite number; asked for, it "
+         "takes the place of the default's slope bias"},
+    {.name = "caster-slope-bias",
+     .key = "caster_slope",
+     .group = SettingGroup::bias,
+     .kind = number<of_bias, &Bias::caster_slope>("multiples of the stored depth's slope from texel to texel",
+                                                  {-1000.0, 1000.0}, {0.0, 4.0}),
+     .read_by = moves_casters,
+     .type = "NUMBER",
+     .help = "slope-scaled bias of casters, the factor of glPolygonOffset; 1 leaves no acne on a plane",
+     .title = "Casters' slope bias",
+     .what = "Stores casters farther by multiples of what their depth changes from texel to texel, as "
+             "graphics cards do.",
+     .acne = "1 leaves none on a plane.",
+     .peter_panning = "As much as the casters' own slope asks for, whatever the receiver is.",
+     .slider_unit = "x slope"},
     {.name = "depth-format",
      .key = "depth_format",
      .group = SettingGroup::map,

@@ -67,8 +67,12 @@ struct ListSetting {
   bool ascending = false;  ///< each number is above the one before
 };
 
-/// Bias::constant with its unit.
-struct ConstantBiasSetting {};
+/// A constant of Bias with its unit.
+struct ConstantBiasSetting {
+  double Bias::*constant;
+  BiasUnit Bias::*unit;
+  bool may_be_automatic;
+};
 
 struct MapSetting {
   std::string_view name;   ///< on the command line, without "--"
@@ -122,8 +126,8 @@ struct BiasValue {
   BiasUnit unit = BiasUnit::world;
 };
 inline constexpr OptionRange bias_range{-1e30, 1e30};
-/// "0.02" (world units along the light ray), "0.5texel" or "auto".
-Expected<BiasValue> parse_bias(std::string_view text);
+/// "0.02" (world units along the light ray), "0.5texel" or, where it may be, "auto".
+Expected<BiasValue> parse_bias(std::string_view text, bool may_be_automatic = true);
 /// The constant as parse_bias() reads it; an automatic one counts once.
 std::string bias_text(const Bias& bias);
 

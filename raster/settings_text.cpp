@@ -76,6 +76,11 @@ Expected<NumberList> parse_list(const ListSetting& list, std::string_view text) 
   return values;
 }
 
+std::string constant_text(double constant, BiasUnit unit) {
+  if (unit == BiasUnit::automatic) return "auto";
+  return number_text(constant) + (unit == BiasUnit::texel ? "texel" : "");
+}
+
 bool is_flag(const MapSetting& setting) {
   const auto* s = std::get_if<SwitchSetting>(&setting.kind);
   return s != nullptr && s->form != SwitchForm::word;
@@ -90,7 +95,9 @@ std::string setting_text(const MapSetting& setting, const MapOptions& map) {
               [&](const SwitchSetting& s) { return std::string(shown_on(s, map) ? "on" : "off"); },
               [&](const ChoiceSetting& c) { return std::string(c.names()[c.get(map)]); },
               [&](const ListSetting& l) { return list_text(l.get(map)); },
-              [&](const ConstantBiasSetting&) { return bias_text(map.bias); }},
+              [&](const ConstantBiasSetting& c) {
+                return constant_text(map.bias.*c.constant, map.bias.*c.unit);
+              }},
       setting.kind);
 }
 
@@ -120,9 +127,9 @@ Expected<void> set_setting(const MapSetting& setting, MapOptions& map, std::stri
               [&](const ListSetting& l) {
                 return store(parse_list(l, text), [&](const NumberList& values) { l.set(map, values); });
               },
-              [&](const ConstantBiasSetting&) {
-                return store(parse_bias(text), [&](const BiasValue& value) {
-                  map.bias.constant = value.constant, map.bias.unit = value.unit;
+              [&](const ConstantBiasSetting& c) {
+                return store(parse_bias(text, c.may_be_automatic), [&](const BiasValue& value) {
+                  map.bias.*c.constant = value.constant, map.bias.*c.unit = value.unit;
                 });
               }},
       setting.kind);
@@ -138,14 +145,15 @@ Expected<void> check_range(const MapSetting& setting, const MapOptions& map) {
     if (range.contains(value)) return {};
     return wrong_value("is out of range", number_text(value), range_text(range));
   };
-  return std::visit(Visitor{[&](const NumberSetting& n) { return check(n.get(map), n.range); },
-                            [&](const IntegerSetting& n) {
-                              return check(n.get(map), {double(n.min), double(n.max)});
-                            },
-                            [&](const ListSetting& l) { return check_list(l, l.get(map)); },
-                            [&](const ConstantBiasSetting&) { return check(map.bias.constant, bias_range); },
-                            [](const auto&) -> Expected<void> { return {}; }},
-                    setting.kind);
+  return std::visit(
+      Visitor{[&](const NumberSetting& n) { return check(n.get(map), n.range); },
+              [&](const IntegerSetting& n) {
+                return check(n.get(map), {double(n.min), double(n.max)});
+              },
+              [&](const ListSetting& l) { return check_list(l, l.get(map)); },
+              [&](const ConstantBiasSetting& c) { return check(map.bias.*c.constant, bias_range); },
+              [](const auto&) -> Expected<void> { return {}; }},
+      setting.kind);
 }
 
 std::string allowed_text(const MapSetting& setting) {
@@ -165,8 +173,8 @@ std::string allowed_text(const MapSetting& setting) {
       setting.kind);
 }
 
-Expected<BiasValue> parse_bias(std::string_view text) {
-  if (text == "auto") return BiasValue{1.0, BiasUnit::automatic};
+Expected<BiasValue> parse_bias(std::string_view text, bool may_be_automatic) {
+  if (may_be_automatic && text == "auto") return BiasValue{1.0, BiasUnit::automatic};
   std::string_view number = text;
   BiasValue bias;
   if (consume_texels(number)) bias.unit = BiasUnit::texel;
@@ -174,15 +182,15 @@ Expected<BiasValue> parse_bias(std::string_view text) {
   if (!value || !bias_range.contains(*value)) {
     return wrong_value(
         "not a bias", text,
-        "auto, or a finite number of world units, such as 0.02, or of texels, such as 0.5texel");
+        fmt::format("{}a finite number of world units, such as 0.02, or of texels, such as 0.5texel",
+                    may_be_automatic ? "auto, or " : ""));
   }
   bias.constant = *value;
   return bias;
 }
 
 std::string bias_text(const Bias& bias) {
-  if (bias.unit == BiasUnit::automatic) return "auto";
-  return number_text(bias.constant) + (bias.unit == BiasUnit::texel ? "texel" : "");
+  return constant_text(bias.constant, bias.unit);
 }
 
 std::vector<std::pair<std::string, std::string>> map_values(const MapOptions& map) {

@@ -21,14 +21,17 @@ layout(location = solid_from_frame_uniform) uniform mat4 solid_from_frame;  // l
 #ifdef PEEL
 #include "peel.glsl"
 #endif
+#ifdef CASTER_BIAS
+#include "caster_bias.glsl"
+#endif
 
 // Ray of a texel in the face's own frame (right, up, forward); t along it is the depth in both projections.
 struct TexelRay {
   vec3 origin, direction;
 };
 
-TexelRay texel_ray() {
-  vec2 offset = (2.0 * gl_FragCoord.xy / light.origin_and_size.w - 1.0) * light.extent_and_depths[face].xy;
+TexelRay texel_ray(vec2 at) {
+  vec2 offset = (2.0 * at / light.origin_and_size.w - 1.0) * light.extent_and_depths[face].xy;
 #ifdef WARP
   offset.y = unwarped(face, offset.y);
   offset.x *= warp_divisor(face, offset.y);
@@ -39,6 +42,31 @@ TexelRay texel_ray() {
   return TexelRay(vec3(offset, 0.0), vec3(0.0, 0.0, 1.0));
 #endif
 }
+
+#ifdef CASTER_BIAS
+vec3 normal_at(vec3 p) {
+#ifdef SOLID
+  return transpose(mat3(solid_from_frame)) * solid_surface(shape_at(shape_index), (solid_from_frame * vec4(p, 1.0)).xyz);
+#elif defined(SPHERE)
+  return p - shape_in_frame.xyz;
+#else
+  return shape_in_frame.xyz;
+#endif
+}
+
+// By how much the stored depth of the plane through p with normal n changes over the texel along `axis`. Infinite where
+// the plane is edge-on over it.
+float slope_along(vec2 axis, vec3 p, vec3 n) {
+  float stored[2], facing[2];
+  for (int i = 0; i < 2; ++i) {
+    vec2 at = gl_FragCoord.xy + (float(i) - 0.5) * axis;
+    TexelRay ray = texel_ray(at);
+    facing[i] = dot(n, ray.direction);
+    stored[i] = stored_at(face, at.y, dot(n, p - ray.origin) / facing[i]);
+  }
+  return facing[0] * facing[1] > 0.0 ? abs(stored[1] - stored[0]) : uintBitsToFloat(0x7f800000u);
+}
+#endif
 
 bool usable(TexelRay ray, float t) {
 #ifdef PERSPECTIVE
@@ -59,7 +87,7 @@ bool usable(TexelRay ray, float t) {
 }
 
 void main() {
-  TexelRay ray = texel_ray();
+  TexelRay ray = texel_ray(gl_FragCoord.xy);
 #ifdef SOLID
   ShapeData shape = shape_at(shape_index);
   vec3 local_origin = (solid_from_frame * vec4(ray.origin, 1.0)).xyz, local_direction = mat3(solid_from_frame) * ray.direction;
@@ -95,5 +123,10 @@ void main() {
   if (!usable(ray, t)) discard;
   float stored = stored_from_depth(ivec3(gl_FragCoord.xy, face), t);
   if (!holds_caster(stored)) discard;
-  gl_FragDepth = clamp(stored, 0.0, 1.0);
+  stored = clamp(stored, 0.0, 1.0);
+#ifdef CASTER_BIAS
+  vec3 p = ray.origin + t * ray.direction, n = normal_at(p);
+  stored = biased_caster(stored, max(slope_along(vec2(1.0, 0.0), p, n), slope_along(vec2(0.0, 1.0), p, n)));
+#endif
+  gl_FragDepth = stored;
 }

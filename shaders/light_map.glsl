@@ -150,9 +150,10 @@ float depth_from_stored(ivec3 texel, float s) {
 #endif
 }
 
-float stored_from_depth(ivec3 texel, float z) {
-  float n = light.extent_and_depths[texel.z].z;
-  float f = light.extent_and_depths[texel.z].w;
+// On the ray at height v (texels).
+float stored_at(int face, float v, float z) {
+  float n = light.extent_and_depths[face].z;
+  float f = light.extent_and_depths[face].w;
 #ifdef REVERSED
   float from_zero = f - z;
   float one = n;
@@ -163,9 +164,11 @@ float stored_from_depth(ivec3 texel, float z) {
 #ifdef PERSPECTIVE
   return one * from_zero / (z * (f - n));
 #else
-  return from_zero / (f - n) * warp_share(texel.z, float(texel.y) + 0.5);
+  return from_zero / (f - n) * warp_share(face, v);
 #endif
 }
+
+float stored_from_depth(ivec3 texel, float z) { return stored_at(texel.z, float(texel.y) + 0.5, z); }
 
 // Width along right and up of a whole texel: world units (orthographic), tangents (perspective). Of a warped face at its
 // centre: see texel_step().

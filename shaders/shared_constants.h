@@ -29,6 +29,7 @@ const int peel_uniform = 9;
 const int triangle_count_uniform = 6;
 const int part_columns_uniform = 10;  // and the next three
 const int reference_uniform = 14;
+const int caster_bias_uniform = 15;
 
 // Shader storage buffers
 const int izb_points_buffer = 10;

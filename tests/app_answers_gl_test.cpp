@@ -34,6 +34,7 @@ TEST(Answers, EachKindOfBiasLeavesWhatItPromises) {
   const Case cases[] = {
       {{"peter-panning"}, {}},
       {{"precision"}, {}},
+      {{"peter-panning"}, {"--caster-bias", "4texel", "--caster-slope-bias", "2"}},
       {{"fence"}, {"--slope-bias", "3", "--normal-offset", "2", "--receiver-plane", "--bias", "4texel"}}};
   for (const Case& c : cases) {
     const Words scene = c.scene + Words{"--size", "160x90", "--map-size", "256"};

@@ -61,6 +61,22 @@ TEST_P(AcneClosedForm, FractionOfLitFloorPixels) {
   }
 }
 
+// A factor of 1 stores the floor farther by the larger of both slopes over a texel: twice the larger of a and b.
+TEST_P(AcneClosedForm, FractionUnderASlopeBiasOfCasters) {
+  const AcneCase& c = GetParam();
+  OneWorld floor(empty_floor(c.sun));
+  for (const double factor : {0.25, 0.5, 0.7, 1.0}) {
+    auto options = test_options({640, 360}, c.map_size);
+    options.raster.map.bias.caster_slope = factor;
+    const compare::Comparison run = floor.compare(options);
+    const auto& light = run.lights[0];
+    const HalfTexelSlopes slopes = floor_slopes(run.raster.lights[0].map.view);
+    const double predicted = acne_fraction(slopes.a, slopes.b, 2.0 * factor * std::max(slopes.a, slopes.b));
+    EXPECT_NEAR(double(count(light, Label::acne)) / double(light.pixels.compared), predicted, 0.005)
+        << "map " << c.map_size << " factor " << factor;
+  }
+}
+
 const Vec3 aligned(1.0, -1.5, 0.0), oblique(0.8, -1.3, 0.45), low(-0.9, -0.6, -0.35);
 INSTANTIATE_TEST_SUITE_P(Maps, AcneClosedForm,
                          ::testing::Values(AcneCase{256, aligned}, AcneCase{256, oblique}, AcneCase{512, low},
@@ -121,6 +137,34 @@ TEST(WallOnFloor, DetachmentIsTheClosedForm) {
       }
       std::printf("  theta %.1f  bias %.2f  detachment %.4f  closed form %.4f  texel %.4f\n", theta, bias,
                   run.lights[0].detachment.max_world, expected, texel);
+    }
+  }
+}
+
+// Whoever has the constant, the shadow starts as far from the wall; and up to V4, where the stored depths are the map's own,
+// nothing knows of the casters' bias: it is the bias step's.
+TEST(WallOnFloor, CastersBiasIsTheBiasSteps) {
+  const double w = 0.05, theta = 0.9, bias = 0.3;
+  Scene scene = sunlit_scene({floor_mesh(4, 4), box_mesh({-w, -0.5, -3}, {0, 1.5, 3})},
+                             {std::sin(theta), -std::cos(theta), 0});
+  scene.camera = {{2.5, 3.0, 1.0}, {0.4, 0, 0}, {0, 1, 0}, 0.6};
+  OneWorld world(std::move(scene));
+  const compare::Comparison plain = world.compare(test_options({960, 540}, 1024));
+  auto options = test_options({960, 540}, 1024);
+  options.raster.map.bias.caster_constant = bias;
+  for (const double slope : {0.0, 1.0}) {
+    options.raster.map.bias.caster_slope = slope;
+    const compare::Comparison run = world.compare(options);
+    const compare::LightComparison& light = run.lights[0];
+    for (std::size_t k = 0; k <= 4; ++k)
+      EXPECT_EQ(light.rungs[k].data, plain.lights[0].rungs[k].data) << "V" << k;
+    EXPECT_GT(count(light, Label::caster_bias), 1000u);
+    EXPECT_LT(count(light, Label::stored_depth) + count(light, Label::peter_panning), 10u);
+    EXPECT_GE(light.budget[static_cast<std::size_t>(compare::Cause::bias)].missed_shadow,
+              count(light, Label::caster_bias));
+    if (slope == 0.0) {
+      EXPECT_NEAR(light.detachment.max_world, bias * std::sin(theta) - w,
+                  light.texel_world[1] / std::cos(theta));
     }
   }
 }
@@ -227,6 +271,29 @@ TEST(BiasKinds, AreWhatTheyDraw) {
           << kind.name << " light " << i;
     }
     EXPECT_LE(kinds.front().wrong_fraction, said.lights[i].error.wrong_fraction + 1e-3);
+  }
+}
+
+// In the casters' own terms, too: where they have a slope, slopes of theirs are tried, and a constant is theirs.
+TEST(BiasKinds, OfCastersAreWhatTheyDraw) {
+  OneWorld world(boxes_under_three_lights());
+  auto options = test_options({640, 360}, 256);
+  options.perceptual = true;
+  options.raster.map.bias.caster_constant = 0.02, options.raster.map.bias.caster_slope = 3.0;
+  const compare::Comparison said = world.compare(options);
+  for (std::size_t i = 0; i < said.lights.size(); ++i) {
+    const auto& kinds = said.lights[i].bias_kinds;
+    ASSERT_EQ(kinds.size(), 6u);
+    bool slope = false, constant = false;
+    for (const compare::BiasKind& kind : kinds) {
+      slope = slope || kind.bias.caster_slope != 0.0, constant = constant || kind.bias.caster_constant != 0.0;
+      auto drawing = options;
+      drawing.raster.map.bias = kind.bias;
+      const compare::Comparison drawn = world.compare(drawing);
+      EXPECT_NEAR(drawn.lights[i].error.wrong_fraction, kind.wrong_fraction, 1e-3)
+          << kind.name << " light " << i;
+    }
+    EXPECT_TRUE(slope && constant) << i;
   }
 }
 

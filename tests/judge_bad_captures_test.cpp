@@ -170,7 +170,12 @@ TEST(CaptureSchema, TakesWhatTheReaderTakes) {
   whole["depth"] = {{"file", "d.exr"}, {"convention", "reversed"}, {"near", 0.1}};
   EXPECT_EQ(taken(plain), std::pair(true, true));
   EXPECT_EQ(taken(whole), std::pair(true, true));
-  const std::vector<std::pair<std::string, Json>> wrong{{"/schema", "gnomon/capture/2"},
+  whole["schema"] = "gnomon/capture/2";
+  whole["strength"] = 0.8;
+  whole["map"][0]["caster_bias"] = {
+      {"constant", 0.001}, {"constant_world", -0.1}, {"slope", 2}, {"clamp", 0.01}};
+  EXPECT_EQ(taken(whole), std::pair(true, true));
+  const std::vector<std::pair<std::string, Json>> wrong{{"/schema", "gnomon/capture/3"},
                                                         {"/renderer/name", ""},
                                                         {"/renderer/settings/soft", Json::array()},
                                                         {"/light", -1},
@@ -193,6 +198,10 @@ TEST(CaptureSchema, TakesWhatTheReaderTakes) {
                                                         {"/filter/kind", "soft"},
                                                         {"/filter/radius_texels", 0},
                                                         {"/filter/radius_texels", 65},
+                                                        {"/strength", 0},
+                                                        {"/strength", 1.5},
+                                                        {"/map/0/caster_bias/factor", 1},
+                                                        {"/map/0/caster_bias/slope", "steep"},
                                                         {"/colour", 1}};
   for (const auto& [path, value] : wrong) {
     Json capture = whole;
@@ -204,6 +213,25 @@ TEST(CaptureSchema, TakesWhatTheReaderTakes) {
         "/map/0/convention", "/map/0/clip_from_world", "/depth/file", "/depth/convention", "/filter/kind"}) {
     const Json capture = whole.patch({{{"op", "remove"}, {"path", path}}});
     EXPECT_EQ(taken(capture), std::pair(false, false)) << path;
+  }
+}
+
+// What version 1 has not is refused by its name, with the version that has it.
+TEST(CaptureSchema, OfVersion1HasNoKeysOfVersion2) {
+  const std::string file = folder() + "/old.json";
+  const std::string head =
+      R"({"schema": "gnomon/capture/1", "renderer": {"name": "x"}, "scene": "fence", "size": [64, 36],
+ "visibility": "v.exr", )";
+  for (
+      const std::string key :
+      {R"("strength": 0.5})",
+       R"("map": [{"depth": "z.exr", "convention": "reversed", "rows": "top_down", "caster_bias": {"slope": 1},
+ "clip_from_world": [1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}]})"}) {
+    ASSERT_TRUE(write_file(file, head + key));
+    const auto read = compare::read_capture(file);
+    ASSERT_FALSE(read) << key;
+    EXPECT_NE(read.error().message().find("needs \"schema\": \"gnomon/capture/2\""), std::string::npos)
+        << read.error().message();
   }
 }
 

@@ -82,8 +82,12 @@ void expect_label(const JudgeOutcome& judged, Label label, const std::string& wo
   EXPECT_GE(pixels_called(judged, label) + aliasing, light.error.wrong - light.error.wrong / 50);
   EXPECT_GT(4 * pixels_called(judged, label), 3 * light.error.wrong);
   EXPECT_LE(100 * pixels_called(judged, Label::stored_depth), 2 * light.error.wrong);
-  const compare::BudgetStep& step = light.budget[compare::cause_count];
-  EXPECT_EQ(step.false_shadow + step.missed_shadow, pixels_called(judged, label));
+  // A bias of casters is the bias step's, whatever it shows as; what else a map holds is the casters'.
+  const bool bias = label == Label::caster_bias;
+  const compare::BudgetStep& step =
+      light.budget[bias ? static_cast<std::size_t>(compare::Cause::bias) : compare::cause_count];
+  EXPECT_GE(step.false_shadow + step.missed_shadow, pixels_called(judged, label));
+  EXPECT_TRUE(bias || step.false_shadow + step.missed_shadow == pixels_called(judged, label));
   EXPECT_GT(step.absolute_mean, 0.0);
   const std::string notes = fmt::format("{}", fmt::join(judged.result->judged->notes, "\n"));
   EXPECT_NE(notes.find(words), std::string::npos) << notes;
@@ -123,11 +127,13 @@ TEST(JudgeContent, OfPushedCastersHasTheirBias) {
   captured.capture.bias->constant_depth = 0.0;
   captured.hold(boxes(), 1.2);
   const JudgeOutcome judged = captured.judged();
-  expect_label(judged, Label::caster_bias, "some 1.2 world units behind where they are");
-  // A constant below 0 takes the push back.
+  expect_label(judged, Label::caster_bias, "the map was drawn with an offset of 1.2 world units");
+  // The advice is in the casters' own terms: hardly any of the push is left.
   const std::vector<compare::Advice>& advice = judged.result->judged->advice;
   ASSERT_FALSE(advice.empty());
-  EXPECT_NEAR(advice[0].instead * captured.range(), -1.15, 0.15);
+  EXPECT_EQ(advice[0].setting, "map[].caster_bias.constant");
+  EXPECT_NEAR(advice[0].now * captured.range(), 1.2, 1e-3);
+  EXPECT_NEAR(advice[0].instead * captured.range(), 0.05, 0.15);
   EXPECT_LT(advice[0].wrong_instead, 0.2 * advice[0].wrong_now);
 }
 
@@ -236,7 +242,7 @@ TEST(JudgeAdvice, LeavesAConstantBelowZeroThatIsRight) {
   for (const compare::Advice& advice : judged.result->judged->advice)
     EXPECT_LE(advice.wrong_instead, advice.wrong_now) << advice.setting;
   ASSERT_FALSE(judged.result->judged->advice.empty());
-  EXPECT_LT(judged.result->judged->advice[0].instead, 0.0);
+  EXPECT_EQ(judged.result->judged->advice[0].instead, judged.result->judged->advice[0].now) << "it stays";
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ constexpr Named constants[] = {
     GNOMON_NAMED(object_positions_unit),
     GNOMON_NAMED(part_columns_uniform),
     GNOMON_NAMED(reference_uniform),
+    GNOMON_NAMED(caster_bias_uniform),
     GNOMON_NAMED(parts_unit),
     GNOMON_NAMED(parts_header_texel_count),
     GNOMON_NAMED(part_texel_count),

@@ -23,7 +23,8 @@ std::vector<std::string> tried_values(const MapSetting& setting) {
     for (int i = 1; i < list->most; ++i) most += "," + std::to_string(i + 1);
     return {most, "auto"};
   }
-  if (std::holds_alternative<ConstantBiasSetting>(setting.kind)) return {"auto", "0.5texel", "-0.25", "0"};
+  if (const auto* constant = std::get_if<ConstantBiasSetting>(&setting.kind))
+    return {constant->may_be_automatic ? "auto" : "3", "0.5texel", "-0.25", "0"};
   const auto names = std::get<ChoiceSetting>(setting.kind).names();
   return {names.begin(), names.end()};
 }

@@ -278,8 +278,9 @@ Expected<ExitCode> run_judge(JudgeCommand& command) {
 }
 
 void add_options(CLI::App& app, JudgeCommand& command) {
-  app.add_option("CAPTURE", command.captures,
-                 "captures (gnomon/capture/1, docs/judge.md) [may be left out where the options say it all]")
+  app.add_option(
+         "CAPTURE", command.captures,
+         "captures (gnomon/capture/2 or 1, docs/judge.md) [may be left out where the options say it all]")
       ->type_name("CAPTURE.json");
   add_result_output(app, command.output, "out/NAME of the capture, out/judge of several");
   app.add_option(

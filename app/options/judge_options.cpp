@@ -73,6 +73,16 @@ void add_map_parts(CLI::App& app, CaptureOptions& o) {
            "slope bias of the test", o, [&o](double v) { o.bias_slope = v; });
   add_real(app, "--map-normal-offset", {0.0, 1e30}, "world units", "offset along the receiver's normal", o,
            [&o](double v) { o.bias_normal_offset = v; });
+  add_real(app, "--map-caster-bias", raster::bias_range, "stored depth",
+           "by how much casters were moved from the light in all layers", o,
+           [&o](double v) { o.caster_constant = v; });
+  add_real(app, "--map-caster-bias-world", raster::bias_range, "world units along the light's ray",
+           "the same in another unit", o, [&o](double v) { o.caster_constant_world = v; });
+  add_real(app, "--map-caster-slope-bias", raster::bias_range,
+           "multiples of the stored depth's slope from texel to texel",
+           "factor of the casters' polygon offset", o, [&o](double v) { o.caster_slope = v; });
+  add_real(app, "--map-caster-bias-clamp", raster::bias_range, "stored depth",
+           "the most that constant and slope add; 0 is no limit", o, [&o](double v) { o.caster_clamp = v; });
   add_named<compare::FilterName>(app, "--map-filter", "what the renderer averages", compare::filter_names, o,
                                  [&o](auto v) { o.filter_kind = v; });
   add_real(app, "--map-filter-radius", {0.0, 64.0, true}, "texels", "how far the filter reads", o,
@@ -115,6 +125,18 @@ Expected<Mat4> parse_matrix(const std::string& text) {
   return matrix;
 }
 
+void set_caster_bias(compare::CapturedLayer& layer, const CaptureOptions& o) {
+  using Bias = compare::CapturedCasterBias;
+  for (const auto& [given, field] :
+       {std::pair(o.caster_constant, &Bias::constant),
+        std::pair(o.caster_constant_world, &Bias::constant_world), std::pair(o.caster_slope, &Bias::slope),
+        std::pair(o.caster_clamp, &Bias::clamp)}) {
+    if (!given) continue;
+    if (!layer.caster_bias) layer.caster_bias.emplace();
+    (*layer.caster_bias).*field = *given;
+  }
+}
+
 Expected<void> set_map(Capture& capture, const CaptureOptions& o) {
   if (!o.map_files.empty()) {
     capture.map.clear();
@@ -132,6 +154,7 @@ Expected<void> set_map(Capture& capture, const CaptureOptions& o) {
   for (compare::CapturedLayer& layer : capture.map) {
     if (o.map_convention) layer.convention = o.map_convention;
     if (o.map_rows) layer.rows = o.map_rows;
+    set_caster_bias(layer, o);
   }
   return {};
 }
@@ -202,6 +225,8 @@ void add_capture_options(CLI::App& app, CaptureOptions& o) {
               o.any = true;
               return assign(o.given.size, parse_size(value));
             });
+  add_real(app, "--strength", {0.0, 1.0, true}, "share", "of the shadow; full shadow is drawn as 1 less that",
+           o, [&c](double v) { c.strength = v; });
   add_depth_parts(app, o);
   add_map_parts(app, o);
 }
@@ -217,6 +242,7 @@ Expected<Capture> with_options(Capture capture, const CaptureOptions& o) {
         &Capture::visibility, &Capture::shadowed, &Capture::unshadowed, &Capture::position})
     if (!(given.*field).empty()) capture.*field = given.*field;
   if (given.size.pixels() > 0) capture.size = given.size;
+  if (given.strength) capture.strength = given.strength;
   if (const auto set = set_settings(capture, o.settings); !set) return fail(set.error());
   if (given.depth) {
     compare::CapturedDepth& depth = capture.depth ? *capture.depth : capture.depth.emplace();

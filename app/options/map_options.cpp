@@ -160,7 +160,8 @@ void finish_map_options(const CLI::App& command, MapOptions& map) {
         "--cascades", fmt::format("there is one cascade for each of --cascade-splits (got {}, allowed {})",
                                   map.cascades.count, map.cascades.splits.count));
   if (given("slope-bias")) return;
-  const bool any = given("bias") || given("normal-offset") || map.bias.receiver_plane || map.bias.adaptive;
+  const bool any = given("bias") || given("normal-offset") || map.bias.receiver_plane || map.bias.adaptive ||
+                   map.bias.moves_casters();
   map.bias.slope = any ? 0.0 : raster::default_bias(map).slope;
 }
 

@@ -46,6 +46,9 @@ std::string beside_drawn(const raster::Bias& drawn) {
   if (parts == 0) return {};
   if (parts > 1) return " beside the other parts of the bias";
   if (drawn.slope != 0.0) return fmt::format(" beside the slope bias of {}", plain_number(drawn.slope));
+  if (drawn.caster_slope != 0.0)
+    return fmt::format(" beside the casters' slope bias of {}", plain_number(drawn.caster_slope));
+  if (drawn.caster_constant != 0.0) return " beside the casters' constant bias";
   if (drawn.normal_offset_texels != 0.0)
     return " beside the normal offset of " + texels_text(drawn.normal_offset_texels);
   return drawn.receiver_plane ? " beside the receiver's plane" : " beside the adaptive bias";
@@ -67,17 +70,23 @@ bool is_clearly_better(double fraction, double than, const LightComparison& ligh
 
 // Whether the drawing has the slope bias already, and nothing else beside its constant: then only that one changes.
 bool changes_constant_alone(const BiasKind& kind, const raster::Bias& drawn) {
-  return kind.of_slope && kind.bias.slope == drawn.slope &&
+  return kind.of_slope && kind.bias.slope == drawn.slope && kind.bias.caster_slope == drawn.caster_slope &&
          bias_parts(drawn).size() == (drawn.slope == 0.0 ? 0u : 1u);
+}
+
+double slope_of(const raster::Bias& bias) {
+  return bias.caster_slope != 0.0 ? bias.caster_slope : bias.slope;
 }
 
 // Settings that do as well, where there is room beside the one named.
 std::string alike_text(const BiasKind& kind, const raster::Bias& drawn) {
-  if (!kind.of_slope || changes_constant_alone(kind, drawn) || !(kind.to > 1.2 * kind.bias.slope)) return {};
+  if (!kind.of_slope || changes_constant_alone(kind, drawn) || !(kind.to > 1.2 * slope_of(kind.bias)))
+    return {};
+  const char* of = kind.bias.caster_slope != 0.0 ? " of casters" : "";
   return std::isfinite(kind.to)
-             ? fmt::format("Any slope bias from {} to {} does about as well.", plain_number(kind.from),
+             ? fmt::format("Any slope bias{} from {} to {} does about as well.", of, plain_number(kind.from),
                            plain_number(kind.to))
-             : fmt::format("Any slope bias from {} on does about as well.", plain_number(kind.from));
+             : fmt::format("Any slope bias{} from {} on does about as well.", of, plain_number(kind.from));
 }
 
 // Of all kinds the best; of a slope bias that is not needed and not set, the constant beside it.

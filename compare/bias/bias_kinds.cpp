@@ -20,6 +20,8 @@ constexpr double clearly_smaller = 0.8;  // of the best constant
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 using Kind = KindOfBias;
+constexpr std::array<std::string_view, kind_count> kind_names{
+    "constant bias", "slope bias", "receiver plane", "adaptive bias", "normal offset", "casters' slope bias"};
 
 /// Each with a setting of 1 or "on".
 raster::Bias bias_of(Kind kind, raster::Bias bias) {
@@ -27,6 +29,7 @@ raster::Bias bias_of(Kind kind, raster::Bias bias) {
   if (kind == receiver_plane) bias.receiver_plane = true;
   if (kind == adaptive) bias.adaptive = true;
   if (kind == normal_offset) bias.normal_offset_texels = 1.0;
+  if (kind == caster_slope) bias.caster_slope = 1.0;
   return bias;
 }
 
@@ -37,11 +40,33 @@ float gap_number(double gap) {
   return std::isnan(gap) ? -infinite : static_cast<float>(gap);
 }
 
+/// What a slope of 1 takes off the gap where the texel was drawn with the casters' bias.
+double gap_per_caster_slope(const raster::LightRecord& record, const raster::MapOptions& drawn,
+                            const BiasedLookup& lookup) {
+  const LightView& view = record.map.view;
+  const double along_ray =
+      view.projection == LightProjection::orthographic ? 1.0 : lookup.at.distance / lookup.at.depth;
+  const bool scales =
+      raster::follows_camera(drawn.technique) && drawn.bias.caster_unit == raster::BiasUnit::texel;
+  const double texels = scales ? texel_world_size(view, lookup.at) / record.texel_world : 1.0;
+  const double moved = caster_offset(record, lookup.key) * along_ray;
+  return (moved - record.caster_constant_world * texels) / drawn.bias.caster_slope;
+}
+
+/// Whose map has no bias in it: on another renderer's map, too, Gnomon's own kinds are tried.
+std::optional<raster::LightRecord> record_to_try(const raster::LightRecord& record) {
+  if (!record.captured && record.map.unbiased.empty()) return std::nullopt;
+  raster::LightRecord own = record;
+  own.captured.reset();
+  if (!own.map.unbiased.empty()) own.map.depth = std::move(own.map.unbiased), own.map.unbiased.clear();
+  return own;
+}
+
 /// All kinds but the normal offset look up the same texel.
 KindGaps gaps_of_kinds(const LadderInput& in, const raster::Bias& bias,
                        const std::vector<std::uint32_t>& pixels) {
-  std::optional<raster::LightRecord> own;  // on another renderer's map, too, Gnomon's own kinds are tried
-  if (in.record().captured) own = in.record(), own->captured.reset();
+  const raster::MapOptions& drawn = in.drawn.options.map;
+  const std::optional<raster::LightRecord> own = record_to_try(in.record());
   const raster::LightRecord& record = own ? *own : in.record();
   std::array<raster::Bias, kind_count> biases;
   KindGaps gaps;
@@ -59,20 +84,23 @@ KindGaps gaps_of_kinds(const LadderInput& in, const raster::Bias& bias,
     for (std::size_t k = plain; k < normal_offset; ++k)
       gaps[k][i] =
           depth ? gap_number(gap_before(record, biases[k], receiver.normal, *lookup, *depth)) : -infinite;
+    gaps[caster_slope][i] = gaps[plain][i];
+    if (depth && is_tried(caster_slope, drawn.bias))
+      gaps[caster_slope][i] -= static_cast<float>(gap_per_caster_slope(in.record(), drawn, *lookup));
   });
   return gaps;
 }
 
-/// Sets `slope` to the slopes from which on a pixel is lit beside a constant: its gap less that, over what a slope of 1
+/// Sets a kind of slope to the slopes from which on a pixel is lit beside a constant: its gap less that, over what a slope of 1
 /// takes off.
-void make_slopes(KindGaps& gaps, double constant) {
+void make_slopes(Kind kind, KindGaps& gaps, double constant) {
   for (std::size_t i = 0; i < gaps[plain].size(); ++i) {
     const double over = double{gaps[plain][i]} - constant;
-    const double taken = double{gaps[plain][i]} - double{gaps[slope][i]};
+    const double taken = double{gaps[plain][i]} - double{gaps[kind][i]};
     if (!(over > 0.0))
-      gaps[slope][i] = -infinite;
+      gaps[kind][i] = -infinite;
     else
-      gaps[slope][i] = taken > 0.0 ? static_cast<float>(over / taken) : infinite;
+      gaps[kind][i] = taken > 0.0 ? static_cast<float>(over / taken) : infinite;
   }
 }
 
@@ -94,14 +122,15 @@ BiasKind of_constant(std::string_view name, const raster::MapOptions& map, const
   return kind;
 }
 
-BiasKind of_slope(const raster::MapOptions& map, const GapLists& slopes, double automatic) {
+BiasKind of_slope(Kind which, const raster::MapOptions& map, const GapLists& slopes, double automatic) {
   const BiasRange range = smallest_good_range(slopes);
-  BiasKind kind{"slope bias", map.bias, 0.0, true, range.from, range.to};
+  BiasKind kind{kind_names[which], map.bias, 0.0, true, range.from, range.to};
   const bool world = map.bias.unit == raster::BiasUnit::world;
   kind.bias.constant = world ? automatic : 1.0;
   kind.bias.unit = world ? raster::BiasUnit::world : raster::BiasUnit::automatic;
-  kind.bias.slope = range.from <= 1.0f && range.to > 1.0f ? 1.0 : short_number_in(range.from, range.to);
-  kind.wrong_fraction = slopes.wrong_fraction_at(kind.bias.slope);
+  double& factor = which == slope ? kind.bias.slope : kind.bias.caster_slope;
+  factor = range.from <= 1.0f && range.to > 1.0f ? 1.0 : short_number_in(range.from, range.to);
+  kind.wrong_fraction = slopes.wrong_fraction_at(factor);
   return kind;
 }
 
@@ -177,8 +206,9 @@ KindSettings settings_of_kinds(const LadderInput& in, const Image<float>& truth,
   });
   KindSettings out{gaps_of_kinds(in, map.bias, pixels), std::vector<char>(pixels.size()),
                    count_ties(truth, labels)};
-  make_slopes(out.settings,
-              raster::automatic_bias_world(in.record().rounding, in.record().map.view, in.world()));
+  const double constant =
+      raster::automatic_bias_world(in.record().rounding, in.record().map.view, in.world());
+  for (const Kind kind : {slope, caster_slope}) make_slopes(kind, out.settings, constant);
   for (std::size_t i = 0; i < pixels.size(); ++i) out.lit[i] = truth.data[pixels[i]] > 0.5f ? 1 : 0;
   return out;
 }
@@ -192,16 +222,34 @@ void append_to_lists(const std::vector<float>& settings, const std::vector<char>
   }
 }
 
+bool is_tried(KindOfBias kind, const raster::Bias& drawn) {
+  return kind != caster_slope || drawn.caster_slope != 0.0;
+}
+
+namespace {
+
+/// A constant takes the same off every gap whether receivers have it or casters.
+raster::Bias as_casters(raster::Bias bias, double automatic) {
+  const bool number = bias.unit != raster::BiasUnit::automatic;
+  bias.caster_constant = number ? bias.constant : automatic;
+  bias.caster_unit = number ? bias.unit : raster::BiasUnit::world;
+  bias.constant = 0.0, bias.unit = raster::BiasUnit::world;
+  return bias;
+}
+
+}  // namespace
+
 BiasKind kind_of_bias(KindOfBias kind, const LadderInput& in, const GapLists& lists) {
-  constexpr std::array<std::string_view, kind_count> names{"constant bias", "slope bias", "receiver plane",
-                                                           "adaptive bias", "normal offset"};
   const raster::MapOptions map = plain_options(in.drawn.options.map);
   const double automatic =
       raster::automatic_bias_world(in.record().rounding, in.record().map.view, in.world());
-  if (kind == slope) return of_slope(map, lists, automatic);
+  if (kind == slope || kind == caster_slope) return of_slope(kind, map, lists, automatic);
   raster::MapOptions tried = map;
   tried.bias = bias_of(kind, map.bias);
-  return of_constant(names[kind], tried, in.record(), lists, automatic);
+  BiasKind found = of_constant(kind_names[kind], tried, in.record(), lists, automatic);
+  const raster::Bias& drawn = in.drawn.options.map.bias;
+  if (kind == plain && drawn.caster_constant != 0.0) found.bias = as_casters(found.bias, automatic);
+  return found;
 }
 
 void sort_kinds(std::vector<BiasKind>& kinds) {

@@ -23,7 +23,16 @@ double short_number_in(double from, double to);
 
 /// What kinds are compared by, of the pixels of some rows. `settings`: of each kind, for each compared pixel the setting
 /// from which on it is lit, in the order of the pixels, and which of them are truly lit; ties (GapLists) are counted.
-enum KindOfBias : std::size_t { plain, slope, receiver_plane, adaptive, normal_offset, kind_count };
+/// `caster_slope` can be tried where the casters were drawn with one.
+enum KindOfBias : std::size_t {
+  plain,
+  slope,
+  receiver_plane,
+  adaptive,
+  normal_offset,
+  caster_slope,
+  kind_count
+};
 struct KindSettings {
   std::array<std::vector<float>, kind_count> settings;
   std::vector<char> lit;
@@ -39,7 +48,8 @@ BiasKind kind_of_bias(KindOfBias kind, const LadderInput& in, const GapLists& li
 /// The best first.
 void sort_kinds(std::vector<BiasKind>& kinds);
 /// In the order in which equally good kinds are listed.
-inline constexpr std::array<KindOfBias, kind_count> kinds_in_order{slope, plain, receiver_plane,
-                                                                   normal_offset, adaptive};
+inline constexpr std::array<KindOfBias, kind_count> kinds_in_order{slope,          caster_slope,  plain,
+                                                                   receiver_plane, normal_offset, adaptive};
+bool is_tried(KindOfBias kind, const raster::Bias& drawn);
 
 }  // namespace gnomon::compare

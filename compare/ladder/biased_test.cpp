@@ -115,11 +115,29 @@ double gap_before(const raster::LightRecord& record, const raster::Bias& bias, c
   return gap;
 }
 
+namespace {
+
+std::optional<double> caster_in(const std::vector<float>& depths, const raster::ShadowMap& map,
+                                raytrace::TexelKey key) {
+  const double stored = depths[map.texel_index(key.face(), key.column(), key.row())];
+  if (!holds_caster(map.view, stored)) return std::nullopt;
+  return depth_from_stored(map.view, key.face(), key.row() + 0.5, stored);
+}
+
+}  // namespace
+
 std::optional<double> stored_caster(const raster::LightRecord& record, raytrace::TexelKey key) {
-  const LightView& view = record.map.view;
-  const double stored = record.map.depth[record.map.texel_index(key.face(), key.column(), key.row())];
-  if (!holds_caster(view, stored)) return std::nullopt;
-  return depth_from_stored(view, key.face(), key.row() + 0.5, stored);
+  return caster_in(record.map.depth, record.map, key);
+}
+
+std::optional<double> unbiased_caster(const raster::LightRecord& record, raytrace::TexelKey key) {
+  return caster_in(record.map.true_depth(), record.map, key);
+}
+
+double caster_offset(const raster::LightRecord& record, raytrace::TexelKey key) {
+  if (record.map.unbiased.empty()) return 0.0;
+  const auto moved = stored_caster(record, key), own = unbiased_caster(record, key);
+  return moved && own ? *moved - *own : 0.0;
 }
 
 double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& to_light,

@@ -33,6 +33,10 @@ std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, con
                                           std::size_t pixel);
 /// The depth along forward that is stored in a texel, if a caster is.
 std::optional<double> stored_caster(const raster::LightRecord& record, raytrace::TexelKey key);
+/// The same before the casters' own bias.
+std::optional<double> unbiased_caster(const raster::LightRecord& record, raytrace::TexelKey key);
+/// By how much the casters' own bias moved what a texel stores, depth along forward; 0 where either map stores nothing.
+double caster_offset(const raster::LightRecord& record, raytrace::TexelKey key);
 /// The gap to a caster at a depth along forward on the light ray through the looked-up texel's centre.
 double gap_before(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
                   const BiasedLookup& lookup, double caster_depth);

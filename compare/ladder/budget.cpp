@@ -71,11 +71,14 @@ void PixelTerms::add(const std::array<float, rung_count>& v, Label label, double
   absolute_ += times * std::abs(difference), squared_ += times * (difference * difference);
   for (std::size_t k = 0; k < rung_count; ++k) rungs_[k] += times * double{v[k]};
   if (is_accident(v)) accidents_[v[2] > v[0] ? 0 : 1] += times;
-  const bool of_caster = has_cause(label) && label_text(label).step == Cause::caster;
-  const auto moved = of_caster ? static_cast<std::size_t>(deciding_step(v)) : cause_count;
+  // What a map holds of its casters may show as any step's doing.
+  const bool of_casters =
+      label == Label::caster_bias || (has_cause(label) && label_text(label).step == Cause::caster);
+  const auto moved = of_casters ? static_cast<std::size_t>(deciding_step(v)) : cause_count;
+  const auto charged = of_casters ? static_cast<std::size_t>(step_of_label(label, v)) : cause_count;
   for (std::size_t k = 0; k < cause_count; ++k) {
     const double change = double{v[k + 1]} - double{v[k]};
-    Step& step = steps_[k == moved ? cause_count : k];
+    Step& step = steps_[k == moved ? charged : k];
     step.signed_sum += times * change, step.absolute_sum += times * std::abs(change);
   }
   if (!has_cause(label)) return;

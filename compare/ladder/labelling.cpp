@@ -32,6 +32,7 @@ bool stored_is_true_occluder(const LadderInput& in, Column& column, const WrongP
 }
 
 Label bias_label(const LadderInput& in, Column& column, const WrongPixel& wrong) {
+  if (wrong.unmoved_is_right) return Label::caster_bias;
   if (!wrong.false_shadow)
     return stored_is_true_occluder(in, column, wrong) ? Label::peter_panning : Label::light_leak;
   const std::uint32_t stored = stored_surface(in, wrong.lookup).primitive;

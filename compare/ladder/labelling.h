@@ -14,6 +14,8 @@ struct WrongPixel {
   bool false_shadow;          ///< drawn darker than the truth; otherwise a missed shadow
   bool exact_is_right;        ///< V5 is off, and would not be with the exact depth in place of the stored one
   float truth;                ///< V0
+  bool unmoved_is_right =
+      false;  ///< V5 is off by the casters' bias alone: it would not be with their own depth
 };
 
 /// The label of a pixel that is off, by the rules of docs/labels.md: those of wrong pixels, or those of errors of one

@@ -184,11 +184,12 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "caster bias",
      "H",
      {0x44, 0xaa, 0x99},
-     Cause::caster,
+     Cause::bias,
      "peter-panning",  // teal (Tol)
      "the map holds its casters farther from the light than they are",
-     "The renderer moved or shrank what it drew into the map: a polygon offset, a depth or normal bias of "
-     "casters. The shadow test then has that much bias, whatever it adds itself.",
+     "What was drawn into the map was moved or shrunk: a polygon offset (--caster-bias, "
+     "--caster-slope-bias), a "
+     "depth or normal bias of casters. The shadow test then has that much bias, whatever it adds itself.",
      "Less of that offset, or a bias of the opposite sign in the test."},
     {"missing_caster",
      "missing caster",

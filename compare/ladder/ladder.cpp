@@ -138,7 +138,7 @@ bool beyond_map(const LightView& view, const TexelCentre& centre) {
   return centre.hit && !(centre.depth >= range.min && centre.depth < range.max);
 }
 
-// V4: the depth really stored. Where culling kept the first surface out of the map, that is the technique's
+// V4: the depth really stored, but for the casters' own bias, which is the bias step's. Where culling kept the first surface out of the map, that is the technique's
 // doing, not a matter of precision: the rung then stays at V3 and the bias step takes the difference. So it
 // does where the map stores the midpoint between two surfaces, where its depths end before the first surface,
 // and where the stored depth is the exact one.
@@ -148,7 +148,7 @@ float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::Te
   if (raster::traits_of(in.drawn.options.map.technique).contents == raster::MapContents::midpoint_depth)
     return flat;
   if (!stores_first) return flat;
-  const double stored = map.depth[map.texel_index(key.face(), key.column(), key.row())];
+  const double stored = map.true_depth()[map.texel_index(key.face(), key.column(), key.row())];
   const double row = key.row();
   if (!holds_caster(map.view, stored)) return beyond_map(map.view, centre) ? flat : 1.0f;
   const double before = depth_from_stored(map.view, centre.face, row + 0.5, stored);

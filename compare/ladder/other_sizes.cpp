@@ -107,6 +107,7 @@ bool other_sizes_apply(const raster::RasterFrame& drawn, const raster::LightReco
   const raster::MapOptions& map = drawn.options.map;
   const raster::TechniqueTraits& traits = raster::traits_of(map.technique);
   if (drawn.custom_shader || record.captured || map.cull != raster::Cull::none) return false;
+  if (map.bias.moves_casters()) return false;
   if (traits.contents != raster::MapContents::nearest_depth) return false;
   if (map.technique == raster::Technique::csm && map.cascades.blend > 0.0) return false;
   if (traits.test == raster::ShadowTest::single) return true;

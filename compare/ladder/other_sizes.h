@@ -10,7 +10,7 @@
 namespace gnomon::compare {
 
 /// Whether a hard or averaged test of the nearest depths drew the light, whose answer follows from the texels' centres: no
-/// shader of the user's own, no culling, no blended cascades, no filter whose taps are chosen by pixel.
+/// shader of the user's own, no culling, no bias of casters, no blended cascades, no filter whose taps are chosen by pixel.
 bool other_sizes_apply(const raster::RasterFrame& drawn, const raster::LightRecord& record);
 
 /// What a map of `size` texels a side, laid as the drawn one, would give a pixel's receiver: V6 in [0, 1]. Depths are

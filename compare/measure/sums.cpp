@@ -235,10 +235,13 @@ Expected<void> LightSums::finish_curve(const LadderInput& in, LightComparison& o
     return {};
   }};
   const bool kinds = has_kinds_ && out.pixels.compared > 0;
-  if (kinds) out.bias_kinds.resize(kinds_in_order.size());
-  for (std::size_t k = 0; k < out.bias_kinds.size(); ++k)
+  std::vector<KindOfBias> tried;
+  for (const KindOfBias kind : kinds_in_order)
+    if (kinds && is_tried(kind, in.drawn.options.map.bias)) tried.push_back(kind);
+  out.bias_kinds.resize(tried.size());
+  for (std::size_t k = 0; k < tried.size(); ++k)
     steps.emplace_back([&, k]() -> Expected<void> {
-      const KindOfBias kind = kinds_in_order[k];
+      const KindOfBias kind = tried[k];
       auto lists = sorted_lists(kinds_[kind], ties_);
       if (!lists) return fail(lists.error());
       lists->lit_left_out = kinds_left_out_[kind];

@@ -327,7 +327,8 @@ Image<float> detachment_map(const raytrace::Tracer& tracer, const Light& light,
                             const std::array<Image<float>, rung_count>& rungs) {
   Image<float> map(labels.size, std::numeric_limits<float>::quiet_NaN());
   parallel_for(labels.data.size(), [&](std::size_t i) {
-    if (labels.data[i] != Label::peter_panning || !is_wrong(rungs_at(rungs, i))) return;
+    const auto levels = rungs_at(rungs, i);
+    if (!is_detached(labels.data[i], levels[6] < levels[0]) || !is_wrong(levels)) return;
     if (const auto distance = detachment_distance(tracer, light, receivers.data[i]))
       map.data[i] = static_cast<float>(*distance);
   });

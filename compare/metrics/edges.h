@@ -64,8 +64,11 @@ class EdgePaths {
   std::vector<std::uint32_t> row_ends_;  ///< into edges_
 };
 
-/// Distance along the receiver between each pixel that the bias wrongly lights next to its caster
-/// (peter_panning) and the occluder that should shadow it: t sin(angle between light and normal) for the
+/// Whether a bias, the receiver's or the casters', lights a pixel next to its caster that should be shadowed.
+inline bool is_detached(Label label, bool false_shadow) {
+  return label == Label::peter_panning || (label == Label::caster_bias && !false_shadow);
+}
+/// Distance along the receiver between each such pixel (is_detached) and the occluder that should shadow it: t sin(angle between light and normal) for the
 /// nearest occluder at t.
 Detachment measure_detachment(const Image<float>& map);
 /// The distances by pixel, world units; NaN where there is none. Of wrong pixels alone.

@@ -11,8 +11,9 @@ namespace {
 
 /// The symbols of docs/engine-units.md.
 struct Symbols {
-  double b;          ///< constant, world units along the light's ray
+  double b;          ///< constant of receivers and casters together, world units along the light's ray
   double s;          ///< slope bias
+  double f;          ///< slope bias of casters
   double n;          ///< normal offset, texels
   double w;          ///< a texel's world width
   double near, far;  ///< of the map
@@ -32,8 +33,9 @@ Symbols symbols_of(const raster::Bias& bias, double constant_world, const raster
   if (!world.finite_bounds.empty()) at = project_to_texel(view, world.finite_bounds.center());
   const LightFace& face = view.face(at.face);
   const double middle = std::sqrt(std::max(0.0, face.near_depth * face.far_depth));
-  return {constant_world,
+  return {constant_world + raster::caster_bias_world(bias, view, world),
           bias.slope,
+          bias.caster_slope,
           bias.normal_offset_texels,
           record.texel_world,
           face.near_depth,
@@ -112,8 +114,9 @@ void add_babylon(const Symbols& q, LightType light, Units& out) {
 }
 
 void add_playcanvas(const Symbols& q, Units& out) {
-  out.push_back({"PlayCanvas", "shadowBias", q.s / 10.0,
-                 "s / 10: a polygon offset of factor and units 10 each; it has no constant of its own"});
+  out.push_back(
+      {"PlayCanvas", "shadowBias", (q.s + q.f) / 10.0,
+       "(s + f) / 10: a polygon offset of factor and units 10 each; it has no constant of its own"});
 }
 
 void add_filament(const Symbols& q, Units& out) {
@@ -123,7 +126,7 @@ void add_filament(const Symbols& q, Units& out) {
 }
 
 void add_polygon_offset(const Symbols& q, raster::DepthFormat format, Units& out) {
-  out.push_back({"polygon offset", "factor", q.s, "s"});
+  out.push_back({"polygon offset", "factor", q.s + q.f, "s + f"});
   const bool floats = format == raster::DepthFormat::d32f || format == raster::DepthFormat::d32f_reversed;
   if (format == raster::DepthFormat::d32f_reversed) {
     out.push_back({"polygon offset", "units", std::nullopt,

@@ -121,6 +121,7 @@ Json bias_json(const Comparison& c, const LightComparison& light) {
   Json json{{"constant_world", if_drawn(record.bias_constant_world)},
             {"constant_texels", if_drawn(record.bias_constant_world / record.texel_world)},
             {"unit", bias_unit_name(map.bias.unit)},
+            {"caster_constant_world", drawn ? number(record.caster_constant_world) : Json(0.0)},
             {"texel_world", number(record.texel_world)},
             {"scales_with_texel", raster::scales_bias(map)}};
   for (const raster::MapSetting& setting : raster::map_settings()) {

@@ -43,8 +43,9 @@ double gap_with_bias(const LowerClimb& lower, const LadderInput& in, std::size_t
   if (!depth) return -infinity;
   const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
   const double exact = lower.centres[group];
-  if (texel == lower.groups.keys[group] && is_exact(in, *depth, exact))
-    return gap_before_exact(in, *lookup, receiver, exact);
+  const double moved = caster_offset(in.record(), texel);
+  if (texel == lower.groups.keys[group] && is_exact(in, *depth - moved, exact))
+    return gap_before_exact(in, *lookup, receiver, exact + moved);
   return gap_before(in.record(), in.drawn.options.map.bias, receiver.normal, *lookup, *depth);
 }
 
@@ -57,7 +58,8 @@ std::optional<double> gap_to_exact(const LowerClimb& lower, const LadderInput& i
   const auto depth = depth_of_stored(in, lookup->key, first_depth);
   if (!depth) return std::nullopt;
   if (std::isinf(*depth)) return -infinity;
-  return gap_before_exact(in, *lookup, in.traced.receiver.data[pixel], *depth);
+  return gap_before_exact(in, *lookup, in.traced.receiver.data[pixel],
+                          *depth + caster_offset(in.record(), lookup->key));
 }
 
 /// A shader of the user's own that names neither bias nor gap draws without a bias.
@@ -96,6 +98,24 @@ bool UpperPixel::right_with_exact_depth(Levels v, double bias_world) {
   return !is_off_at(v, 5);
 }
 
+std::optional<double> UpperPixel::unmoved_gap() const {
+  if (in_.record().map.unbiased.empty()) return std::nullopt;
+  const auto lookup = lookup_of(in_, pixel_);
+  const auto depth = lookup ? unbiased_caster(in_.record(), lookup->key) : std::nullopt;
+  if (!depth) return std::nullopt;
+  const Vec3& normal = in_.traced.receiver.data[pixel_].normal;
+  return gap_before(in_.record(), in_.drawn.options.map.bias, normal, *lookup, *depth);
+}
+
+/// V5 is off, and the depth of the casters where they are would have made the biased test right.
+bool UpperPixel::right_with_unmoved_casters(Levels v, double bias_world) const {
+  if (!is_off_at(v, 5)) return false;
+  const auto gap = unmoved_gap();
+  if (!gap) return false;
+  v[5] = lit_with(*gap, bias_world);
+  return !is_off_at(v, 5);
+}
+
 UpperPixel::Verdict UpperPixel::verdict_at(double bias_world, float drawn, bool labelled) {
   const float truth = rungs_[0].data[pixel_];
   Verdict out{tests_bias(in_) ? lit_with(gap_, bias_world) : rungs_[4].data[pixel_]};
@@ -104,7 +124,9 @@ UpperPixel::Verdict UpperPixel::verdict_at(double bias_world, float drawn, bool 
   v[5] = out.biased, v[6] = drawn;
   const bool exact = right_with_exact_depth(v, bias_world);
   out.label = label_of_error(lower_, in_, column_,
-                             {pixel_, lookup_, deciding_step(v), drawn < truth, exact, truth}, v);
+                             {pixel_, lookup_, deciding_step(v), drawn < truth, exact, truth,
+                              right_with_unmoved_casters(v, bias_world)},
+                             v);
   return out;
 }
 

@@ -32,6 +32,9 @@ class UpperPixel {
   /// It is looked for when it is first asked for.
   const std::optional<double>& exact_gap();
 
+  /// The gap of V5 to what the looked-up texel would store without the casters' bias; none where they have none.
+  std::optional<double> unmoved_gap() const;
+
   struct Verdict {
     float biased = 0.0f;         ///< V5
     Label label = Label::right;  ///< right as well where no label is asked for
@@ -42,6 +45,7 @@ class UpperPixel {
  private:
   using Levels = std::array<float, rung_count>;
   bool right_with_exact_depth(Levels v, double bias_world);
+  bool right_with_unmoved_casters(Levels v, double bias_world) const;
 
   const LowerClimb& lower_;
   const LadderInput& in_;

@@ -11,7 +11,7 @@ namespace {
 
 /// What rounding may have done to a stored depth, as a depth along forward.
 double rounding_at(const raster::LightRecord& record, raytrace::TexelKey key) {
-  const double stored = record.map.depth[record.map.texel_index(key.face(), key.column(), key.row())];
+  const double stored = record.map.true_depth()[record.map.texel_index(key.face(), key.column(), key.row())];
   const auto depth_at = [&](double s) {
     return depth_from_stored(record.map.view, key.face(), key.row() + 0.5, s);
   };
@@ -37,7 +37,7 @@ bool is_left(const raytrace::Tracer& tracer, const Ray& ray, const raytrace::Hit
 
 StoredSurface stored_surface(const raytrace::Tracer& tracer, const raster::LightRecord& record,
                              const raster::MapOptions& options, raytrace::TexelKey key) {
-  const auto wanted = stored_caster(record, key);
+  const auto wanted = unbiased_caster(record, key);
   if (!wanted) return {};
   const LightView& view = record.map.view;
   const bool takes_first =

@@ -77,11 +77,16 @@ float DepthMapPass::format_step() const {
 }
 
 Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& view, Cull cull,
-                                  const DepthMapPass* first) {
+                                  const CasterBias& bias, const DepthMapPass* first) {
   const Gl& gl = *gl_;
-  const Drawing drawing{view, cull, first != nullptr};
+  const Drawing drawing{view, cull, bias, first != nullptr};
+  const bool biased = bias.moves_casters();
   const auto programs =
-      programs_->triangles({.peel = drawing.peel, .reversed = drawing.peel && view.reversed});
+      programs_->triangles({.peel = drawing.peel,
+                            .reversed = (drawing.peel || biased) && view.reversed,
+                            .caster_bias = biased,
+                            .perspective = biased && view.projection == LightProjection::perspective,
+                            .warp = biased && face_warps(view)});
   if (!programs) return fail(programs.error());
   world.bind();
   set_state(view, cull);
@@ -93,6 +98,7 @@ Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& vi
   if (first != nullptr) first->bind(shaders::first_layer_unit);
   for (int face = 0; face < view.face_count; ++face) {
     if (first != nullptr) programs->set_peel(face, format_step());
+    if (biased) programs->set_caster_bias(bias, face);
     const Framebuffer& framebuffer = faces_[static_cast<std::size_t>(face)];
     gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     const float clear_depth = view.reversed ? 0.0f : shaders::map_clear_depth;
@@ -114,17 +120,19 @@ Expected<void> DepthMapPass::draw_shapes(const WorldBuffers& buffers, const Draw
                          .perspective = view.projection == LightProjection::perspective,
                          .warp = face_warps(view),
                          .reversed = view.reversed,
-                         .peel = drawing.peel},
+                         .peel = drawing.peel,
+                         .caster_bias = drawing.bias.moves_casters()},
                         [&](const ImpostorProgram& program) {
                           program.set_face(face, drawing.cull);
                           if (drawing.peel) program.set_peel(face, format_step());
+                          if (drawing.bias.moves_casters()) program.set_caster_bias(drawing.bias, face);
                         });
 }
 
-void DepthMapPass::read(ShadowMap& map) const {
+void DepthMapPass::read(std::vector<float>& depth) const {
   const std::size_t texels = depth_.size().pixels() * static_cast<std::size_t>(depth_.layers());
-  map.depth.resize(texels);
-  depth_.read(GL_DEPTH_COMPONENT, GL_FLOAT, std::as_writable_bytes(std::span(map.depth)));
+  depth.resize(texels);
+  depth_.read(GL_DEPTH_COMPONENT, GL_FLOAT, std::as_writable_bytes(std::span(depth)));
 }
 
 void DepthMapPass::bind_for_lookup() const {

@@ -17,9 +17,9 @@ class DepthMapPass {
   /// Clears and draws every face; the light's block must be bound.
   /// With `first`, another map of the same shape: only what lies behind what that one holds.
   Expected<void> draw(const WorldBuffers& world, const LightView& view, Cull cull,
-                      const DepthMapPass* first = nullptr);
+                      const CasterBias& bias = {}, const DepthMapPass* first = nullptr);
   /// Reads the last map drawn.
-  void read(ShadowMap& map) const;
+  void read(std::vector<float>& depth) const;
   void bind_for_lookup() const;
   void bind(int unit) const { depth_.bind(unit); }
   std::uint64_t bytes() const;
@@ -28,6 +28,7 @@ class DepthMapPass {
   struct Drawing {
     const LightView& view;
     Cull cull;
+    const CasterBias& bias;
     bool peel;
   };
   Expected<void> draw_shapes(const WorldBuffers& world, const Drawing& drawing, int face);

@@ -39,7 +39,7 @@ Expected<const Program*> MidpointPass::program(const LightView& view) {
 
 Expected<void> MidpointPass::draw(const MapJob& job) {
   const Gl& gl = *gl_;
-  if (auto ok = second_.draw(job.world, job.view, job.options.cull, &job.map); !ok) return ok;
+  if (auto ok = second_.draw(job.world, job.view, job.options.cull, {}, &job.map); !ok) return ok;
   const auto program_of_view = program(job.view);
   if (!program_of_view) return fail(program_of_view.error());
   (*program_of_view)->use();

@@ -20,6 +20,7 @@ struct MapJob {
   /// For a technique that asks for the visibility buffer, which is drawn then.
   const View* camera = nullptr;
   const ShadingPass* camera_pass = nullptr;
+  CasterBias caster_bias{};
 };
 
 /// What a technique draws between the depth map and the shading; counted and timed as part of the map.

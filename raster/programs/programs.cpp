@@ -69,9 +69,12 @@ Expected<TriangleProgram> TriangleProgram::link(const Gl& gl, const Permutation&
                            .add(p.vertex_colors && p.alpha_mask, "VERTEX_COLORS")
                            .add(p.peel, "PEEL")
                            .add(p.reversed, "REVERSED")
+                           .add(p.caster_bias, "CASTER_BIAS")
+                           .add(p.perspective, "PERSPECTIVE")
+                           .add(p.warp, "WARP")
                            .add(p.instances, "INSTANCES")
                            .add(p.kept, "KEPT");
-  const bool has_fragments = p.primitive_ids || p.alpha_mask || p.peel;
+  const bool has_fragments = p.primitive_ids || p.alpha_mask || p.peel || p.caster_bias;
   auto program = typed<TriangleProgram>(
       Program::link(gl, "triangle.vert", has_fragments ? "triangle.frag" : "", defines));
   if (program) program->reads_primitive_ = p.primitive_ids || p.alpha_mask;
@@ -108,6 +111,30 @@ void TriangleProgram::set_peel(int face, float step) const {
   gl()->ProgramUniform2f(id(), shaders::peel_uniform, static_cast<float>(face), step);
 }
 
+namespace {
+
+void set_caster_uniform(const Program& program, const Gl& gl, const CasterBias& bias, int face) {
+  gl->ProgramUniform4f(program.id(), shaders::caster_bias_uniform, static_cast<float>(bias.constant_world),
+                       static_cast<float>(bias.slope), static_cast<float>(bias.texel_world),
+                       static_cast<float>(face));
+}
+
+}  // namespace
+
+void TrianglePrograms::set_caster_bias(const CasterBias& bias, int face) const {
+  for (const auto& programs : of)
+    for (const TriangleProgram* program : programs)
+      if (program != nullptr) program->set_caster_bias(bias, face);
+}
+
+void TriangleProgram::set_caster_bias(const CasterBias& bias, int face) const {
+  set_caster_uniform(*this, gl(), bias, face);
+}
+
+void ImpostorProgram::set_caster_bias(const CasterBias& bias, int face) const {
+  set_caster_uniform(*this, gl(), bias, face);
+}
+
 void ImpostorProgram::set_peel(int face, float step) const {
   gl()->ProgramUniform2f(id(), shaders::peel_uniform, static_cast<float>(face), step);
 }
@@ -133,6 +160,7 @@ Expected<ImpostorProgram> ImpostorProgram::link(const Gl& gl, const Permutation&
                            .add(p.warp, "WARP")
                            .add(p.reversed, "REVERSED")
                            .add(p.peel, "PEEL")
+                           .add(p.caster_bias, "CASTER_BIAS")
                            .add(p.alpha_mask, "ALPHA_MASK")
                            .add(p.textures && p.alpha_mask, "TEXTURES");
   return typed<ImpostorProgram>(

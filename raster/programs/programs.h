@@ -46,15 +46,24 @@ struct SceneFeatures {
 };
 SceneFeatures scene_features(const EffectPlan& plan, const World& world);
 
+/// Of a map's casters (Bias).
+struct CasterBias {
+  double constant_world = 0.0, slope = 0.0;
+  double texel_world =
+      0.0;  ///< where the constant is a multiple of each texel's own width, what it is for; else 0
+  bool moves_casters() const { return constant_world != 0.0 || slope != 0.0; }
+};
+
 /// Triangles into the depth and, with `primitive_ids`, into the camera's image of primitive ids.
 class TriangleProgram : public Program {
  public:
   struct Permutation {
     bool primitive_ids = false;
     bool alpha_mask = false;
-    bool textures = false;                 ///< of the alpha mask
-    bool vertex_colors = false;            ///< of the alpha mask
-    bool peel = false, reversed = false;   ///< only what lies behind a map's first layer
+    bool textures = false;                ///< of the alpha mask
+    bool vertex_colors = false;           ///< of the alpha mask
+    bool peel = false, reversed = false;  ///< only what lies behind a map's first layer
+    bool caster_bias = false, perspective = false, warp = false;  ///< into a map whose casters have a bias
     bool instances = false, kept = false;  ///< the world has kept parts; this draws such a one
     auto operator<=>(const Permutation&) const = default;
   };
@@ -67,6 +76,8 @@ class TriangleProgram : public Program {
   void set_reference(const Vec3& reference) const;
   /// Sets, for a program that peels, the face of the first layer, and a step of its number format.
   void set_peel(int face, float step) const;
+  /// Of a program with the casters' bias: the face that is drawn.
+  void set_caster_bias(const CasterBias& bias, int face) const;
 
  private:
   bool reads_primitive_ = false;
@@ -77,6 +88,7 @@ struct TrianglePrograms {
   std::array<std::array<const TriangleProgram*, 2>, 2> of{};
   /// Sets on all of them what TriangleProgram::set_peel does.
   void set_peel(int face, float step) const;
+  void set_caster_bias(const CasterBias& bias, int face) const;
 };
 
 /// What an impostor program draws.
@@ -93,6 +105,7 @@ class ImpostorProgram : public Program {
     bool perspective = false;
     bool warp = false, reversed = false;  ///< of a map (light_map.glsl)
     bool peel = false;                    ///< only what lies behind a map's first layer
+    bool caster_bias = false;             ///< of a map
     bool alpha_mask = false;
     bool textures = false;
     auto operator<=>(const Permutation&) const = default;
@@ -106,6 +119,7 @@ class ImpostorProgram : public Program {
   /// Sets the face of a map.
   void set_face(int face, Cull cull) const;
   void set_peel(int face, float step) const;
+  void set_caster_bias(const CasterBias& bias, int face) const;
 };
 
 /// One light's share of the picture.

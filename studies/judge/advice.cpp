@@ -109,6 +109,62 @@ Tried try_with_offset(const FrameInput& in, const raster::Bias& bias, const Ligh
   return try_constants(record, light);
 }
 
+/// Factors of polygon offset that people set.
+constexpr double slopes_to_try[] = {0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0};
+
+/// Which of the casters' settings a constant is said by. What the test adds itself stays as it is: one less of the casters'
+/// constant is one more of the receivers'.
+struct CastersConstant {
+  const char* setting;
+  double now, unit_world;  ///< world units in one of the setting
+  const char* unit;
+
+  AdvisedSetting instead(double by_world) const { return {setting, now, now + by_world / unit_world, unit}; }
+};
+
+CastersConstant casters_constant(const CapturedCasterBias& bias, double unit_world) {
+  if (bias.constant_world != 0.0)
+    return {"map[].caster_bias.constant_world", bias.constant_world, 1.0, "world units"};
+  return {"map[].caster_bias.constant", bias.constant, unit_world, "stored depth"};
+}
+
+Tried try_with_slope(const FrameInput& in, const raster::Bias& bias, const LightComparison& light,
+                     const raster::LightRecord& drawn, const CasterBiases& casters, double slope) {
+  raster::LightRecord record = drawn;
+  record.map.depth = with_caster_slope(drawn.map, casters, slope);
+  fill_record(in, bias, record);
+  return try_constants(record, light);
+}
+
+/// In the casters' own terms.
+std::vector<Advice> advise_on_casters(const FrameInput& in, const raster::Bias& bias,
+                                      const LightComparison& light, const raster::LightRecord& record,
+                                      const CasterBiases& casters) {
+  const double unit_world = record.captured->test->unit_world, now = record.bias_constant_world / unit_world;
+  const auto moved = std::find_if(casters.faces.begin(), casters.faces.end(),
+                                  [](const CapturedCasterBias& face) { return face.moves(); });
+  const CastersConstant constant = casters_constant(*moved, unit_world);
+  const Tried tried = try_constants(record, light);
+  const double wrong_now = tried.wrong_at(record.bias_constant_world);
+  const Constant best = good_constant(tried, unit_world, now);
+  const AdvisedSetting set = constant.instead((best.stored - now) * unit_world);
+  std::vector<Advice> out{
+      {set.setting, set.now, set.instead, set.unit, wrong_now, best.wrong, best.wrong == 0.0}};
+  double least = best.wrong;
+  for (const double slope : slopes_to_try) {
+    if (slope == moved->slope) continue;
+    const Constant there =
+        good_constant(try_with_slope(in, bias, light, record, casters, slope), unit_world, now);
+    if (!(there.wrong < worth * least)) continue;
+    least = there.wrong;
+    out.resize(1);
+    out.push_back({"map[].caster_bias.slope", moved->slope, slope, "multiples of the stored depth's slope",
+                   wrong_now, there.wrong, there.wrong == 0.0,
+                   constant.instead((there.stored - now) * unit_world)});
+  }
+  return out;
+}
+
 /// How far receivers reach that the picture shows, across a parallel map's window.
 std::string window_words(const FrameInput& in, const LightComparison& light, const LightView& view) {
   const LightFace& face = view.face(0);
@@ -129,12 +185,13 @@ std::string window_words(const FrameInput& in, const LightComparison& light, con
 }  // namespace
 
 std::vector<Advice> give_advice(const FrameInput& in, const raster::Bias& bias, const LightComparison& light,
-                                const raster::LightRecord& record) {
+                                const raster::LightRecord& record, const CasterBiases& casters) {
   std::vector<Advice> out;
   const raster::CapturedTest& test = *record.captured->test;
   const std::string unit = test.distances ? "world units" : "stored depth";
   const Tried tried = try_constants(record, light);
   if (tried.gaps.lit.empty() && tried.gaps.shadowed.empty()) return out;
+  if (!casters.faces.empty()) return advise_on_casters(in, bias, light, record, casters);
   const double now = record.bias_constant_world / test.unit_world;
   const double wrong_now = tried.wrong_at(record.bias_constant_world);
   const Constant best = good_constant(tried, test.unit_world, now);

@@ -3,16 +3,18 @@
 
 #include "compare/comparison.h"
 #include "compare/result/judged.h"
-#include "studies/judge/captured_frame.h"
+#include "studies/judge/caster_bias.h"
 
 namespace gnomon::compare {
 
 /// The best constant with the renderer's own normal offset, below 0, too, and the best normal offset of a few with the
 /// best constant beside it: smaller ones than the present one, none among them, and larger ones. Shares are what the hard
 /// test with that bias draws wrong, of all compared pixels: those outside the map stay as they were drawn. Nothing is
-/// advised that is worse than the present setting.
+/// advised that is worse than the present setting. Where the casters have a bias the constant is theirs, and in place of
+/// normal offsets slopes of casters are tried, the map's depths moved accordingly.
 std::vector<Advice> give_advice(const FrameInput& input, const raster::Bias& bias,
-                                const LightComparison& light, const raster::LightRecord& record);
+                                const LightComparison& light, const raster::LightRecord& record,
+                                const CasterBiases& casters);
 
 /// Where most wrong pixels lie outside the map: what helps.
 std::vector<std::string> outside_map_notes(const FrameInput& input, const LightComparison& light,

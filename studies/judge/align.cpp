@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "scene/base/stages.h"
+#include "studies/judge/captured_map.h"
 
 namespace gnomon::compare {
 namespace {
@@ -99,12 +100,23 @@ class Aligner {
     const Light& light = scene.lights[in.light];
     suspects_ = usual_suspects({scene.camera, in.capture.size, !pictures.position.data.empty(),
                                 !pictures.depth.data.empty(), light.type != LightType::point});
+    if (!pictures.position.data.empty())
+      if (const auto world = find_world(pictures.position, in.frame)) {
+        Suspect& suspect = suspects_.emplace_back();
+        suspect.what = "the positions are " + world_words(*world);
+        suspect.place_from_captured = *world;
+        suspect.depth_scale = std::cbrt(std::abs(glm::determinant(*world)));
+      }
     samples_ = choose_samples(input(), in.frame);
   }
 
-  Expected<Aligned> run() {
+  Expected<Aligned> run_geometry() {
     if (const auto geometry = check_geometry(); !geometry) return fail(geometry.error());
-    if (const auto shadows = check_shadows(); !shadows) return fail(shadows.error());
+    return out_;
+  }
+  Expected<Aligned> run_shadows() {
+    if (!in_.shadows_believed)
+      if (const auto shadows = check_shadows(); !shadows) return fail(shadows.error());
     if (const auto encoding = check_encoding(); !encoding) return fail(encoding.error());
     note_range();
     note_resolution();
@@ -143,6 +155,8 @@ Expected<void> Aligner::accept(const Mended& mended) {
 Expected<void> Aligner::mend(const Mended& mended, const Suspect& suspect) {
   if (const auto accepted = accept(mended); !accepted) return accepted;
   undo(suspect, pictures_, sight_);
+  out_.pictures_differ = true;
+  out_.place_from_captured = suspect.place_from_captured;
   if (suspect.light_turned) {
     Light& light = scene_.lights[in_.light];
     light.direction = -light.direction;
@@ -161,6 +175,7 @@ Expected<void> Aligner::mend(const Mended& mended, const Suspect& suspect) {
 
 Expected<void> Aligner::check_geometry() {
   const auto now = gather(input(), samples_, {}).geometry();
+  if (now) judged_.agreement = {*now};
   if (!now || now->share >= least_geometry) return {};
   const auto best = best_suspect(input(), samples_, suspects_, true, false);
   const bool likely = best && best->share >= least_geometry && mends(now->share, best->share);
@@ -238,6 +253,7 @@ Expected<void> Aligner::check_encoding() {
   if (!found) return {};
   if (const auto accepted = accept(found->mended); !accepted) return accepted;
   for (float& v : pictures_.visibility.data) v = found->decode(v);
+  out_.pictures_differ = true;
   return {};
 }
 
@@ -293,10 +309,27 @@ Expected<void> check_order(const Capture& capture, bool orthographic, bool fix, 
   return {};
 }
 
-Expected<Aligned> align(const AlignInput& in, Scene& scene, Sight& sight, CapturedPictures& pictures,
-                        Judged& judged) {
+Expected<Aligned> align_geometry(const AlignInput& in, Scene& scene, Sight& sight, CapturedPictures& pictures,
+                                 Judged& judged) {
   const TimedStage stage("alignment");
-  return Aligner(in, scene, sight, pictures, judged).run();
+  return Aligner(in, scene, sight, pictures, judged).run_geometry();
+}
+
+Expected<Aligned> align_shadows(const AlignInput& in, Scene& scene, Sight& sight, CapturedPictures& pictures,
+                                Judged& judged) {
+  const TimedStage stage("alignment");
+  return Aligner(in, scene, sight, pictures, judged).run_shadows();
+}
+
+Expected<Mat3> align_map(const AlignInput& in, const Error& error, const Light& light, Judged& judged) {
+  for (const Mat3& world : usual_worlds()) {
+    if (!check_map_matrices(in_world_of_scene(in.capture, world), light, in.tracer.world())) continue;
+    const Mended mended{"the map's world is " + world_words(world), "map's rays", 0.0, 1.0};
+    if (const auto accepted = accept_mended(in.capture, in.fix, mended, judged); !accepted)
+      return fail(accepted.error());
+    return world;
+  }
+  return fail(error);
 }
 
 }  // namespace gnomon::compare

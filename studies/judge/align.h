@@ -14,18 +14,29 @@ struct AlignInput {
   bool fix = false;
   /// What the capture's map covers; null: not known. Beside it a renderer draws what it likes.
   const LightView* map = nullptr;
+  /// The shadows are those of the capture's own test (OwnTest::is_believed): no convention of theirs is suspected.
+  bool shadows_believed = false;
 };
 
 struct Aligned {
-  bool everywhere = false;   ///< the sight is another than the scene's camera's
-  bool trace_again = false;  ///< camera or light were changed
+  bool everywhere = false;        ///< the sight is another than the scene's camera's
+  bool trace_again = false;       ///< camera or light were changed
+  bool pictures_differ = false;   ///< something was undone
+  Mat3 place_from_captured{1.0};  ///< undone in the positions
 };
 
-/// Looks at silhouettes, positions or depths first, then at the shadows. What does not agree and is mended by
-/// a usual suspect is named in `judged`, and undone in scene, sight and pictures. Error (bad input) with the
-/// agreement before and after: a suspect fits and `fix` is false, or nothing fits.
-Expected<Aligned> align(const AlignInput& input, Scene& scene, Sight& sight, CapturedPictures& pictures,
-                        Judged& judged);
+/// Looks at positions, depths or silhouettes, the first that there is. What does not agree and is mended by a usual suspect is
+/// named in `judged`, and undone in scene, sight and pictures. Error (bad input) with the agreement before and after: a
+/// suspect fits and `fix` is false, or nothing fits.
+Expected<Aligned> align_geometry(const AlignInput& input, Scene& scene, Sight& sight,
+                                 CapturedPictures& pictures, Judged& judged);
+/// The same of the shadows, once the rest agrees and `frame` is of the sight.
+Expected<Aligned> align_shadows(const AlignInput& input, Scene& scene, Sight& sight,
+                                CapturedPictures& pictures, Judged& judged);
+
+/// A world in which the map's matrices are the light's, where they are not in the scene's: an error without `fix`, with it
+/// the captured world, named in `judged`. `error`: what is wrong with them as they are.
+Expected<Mat3> align_map(const AlignInput& input, const Error& error, const Light& light, Judged& judged);
 
 /// Tells of a ratio whether the picture with shadows is the one that is named as the one without, as it is where it is often
 /// brighter and hardly ever darker. An error without `fix`; with it the pictures are read again, in the other order.

@@ -12,7 +12,8 @@
 namespace gnomon::compare {
 namespace {
 
-constexpr std::string_view schema_name = "gnomon/capture/1";
+constexpr std::string_view schema_names[] = {"gnomon/capture/1", "gnomon/capture/2"};
+constexpr NumberRange strength_range{0.0, 1.0, true};
 constexpr NumberRange side_range{1.0, 16384.0, false, false, true};
 constexpr NumberRange place_range{0.0, 1e6, false, false, true};
 constexpr NumberRange radius_range{0.0, 64.0, true};
@@ -34,7 +35,10 @@ class CaptureReader {
   void read_renderer(const JsonNode& node);
   void read_size(const JsonNode& node);
   void read_depth(const JsonNode& node);
+  void read_schema(const JsonNode& node);
   void read_layer(const JsonNode& node);
+  void read_caster_bias(const JsonNode& node, CapturedLayer& layer);
+  void since_2(const JsonNode& node, const char* key);
   void read_bias(const JsonNode& node);
   void read_filter(const JsonNode& node);
   std::string text(const JsonNode& node);
@@ -43,8 +47,21 @@ class CaptureReader {
 
   JsonErrors& errors_;
   std::string folder_;
+  int version_ = 2;
   Capture out_;
 };
+
+void CaptureReader::read_schema(const JsonNode& node) {
+  const std::string name = node.as_string();
+  if (name == schema_names[0]) version_ = 1;
+  if (name != schema_names[0] && name != schema_names[1])
+    node.wrong("unknown version", fmt::format("\"{}\" or \"{}\"", schema_names[0], schema_names[1]));
+}
+
+/// A reader of version 1 would have refused the key.
+void CaptureReader::since_2(const JsonNode& node, const char* key) {
+  if (version_ < 2) node.error(fmt::format("{} needs \"schema\": \"{}\"", key, schema_names[1]));
+}
 
 std::string CaptureReader::text(const JsonNode& node) {
   std::string text = node.as_string();
@@ -100,19 +117,28 @@ void CaptureReader::read_depth(const JsonNode& node) {
 }
 
 void CaptureReader::read_layer(const JsonNode& node) {
-  const JsonObject object(node, {"depth", "convention", "rows", "clip_from_world"});
+  const JsonObject object(node, {"depth", "convention", "rows", "clip_from_world", "caster_bias"});
   CapturedLayer& layer = out_.map.emplace_back();
   if (const auto named = object.require("depth")) layer.depth = file(*named);
   if (const auto convention = object.require("convention"))
     layer.convention = static_cast<StoredDepth>(convention->as_choice(choices(stored_depth_names)));
   if (const auto rows = object.require("rows"))
     layer.rows = static_cast<RowOrder>(rows->as_choice(choices(row_order_names)));
+  if (const auto bias = object.find("caster_bias")) read_caster_bias(*bias, layer);
   const auto matrix = object.require("clip_from_world");
   if (!matrix) return;
   const auto numbers = matrix->as_array(16);
   if (numbers.size() != 16) return;
   Mat4& m = layer.clip_from_world.emplace();
   for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = numbers[static_cast<std::size_t>(i)].as_number();
+}
+
+void CaptureReader::read_caster_bias(const JsonNode& node, CapturedLayer& layer) {
+  since_2(node, "caster_bias");
+  const JsonObject object(node, {"constant", "constant_world", "slope", "clamp"});
+  const CapturedCasterBias bias{object.number("constant", 0.0), object.number("constant_world", 0.0),
+                                object.number("slope", 0.0), object.number("clamp", 0.0)};
+  layer.caster_bias = bias;
 }
 
 void CaptureReader::read_bias(const JsonNode& node) {
@@ -132,9 +158,8 @@ void CaptureReader::read_filter(const JsonNode& node) {
 Capture CaptureReader::read(const JsonValue& value) {
   const JsonObject root(JsonNode(errors_, value, ""),
                         {"$schema", "schema", "renderer", "scene", "camera", "light", "size", "visibility",
-                         "shadowed", "unshadowed", "position", "depth", "map", "bias", "filter"});
-  if (const auto schema = root.require("schema"); schema && schema->as_string() != schema_name)
-    schema->wrong("unknown version", fmt::format("\"{}\"", schema_name));
+                         "shadowed", "unshadowed", "position", "depth", "map", "bias", "filter", "strength"});
+  if (const auto schema = root.require("schema")) read_schema(*schema);
   if (const auto node = root.require("renderer")) read_renderer(*node);
   if (const auto node = root.require("scene")) {
     out_.scene = file(*node);
@@ -158,6 +183,10 @@ Capture CaptureReader::read(const JsonValue& value) {
   }
   if (const auto node = root.find("bias")) read_bias(*node);
   if (const auto node = root.find("filter")) read_filter(*node);
+  if (const auto node = root.find("strength")) {
+    since_2(*node, "strength");
+    out_.strength = node->as_number(strength_range);
+  }
   return std::move(out_);
 }
 
@@ -193,6 +222,9 @@ Expected<void> check_map(const Capture& capture) {
     if (!layer.convention) return wrong("convention", "is missing");
     if (!layer.rows) return wrong("rows", "is missing");
     if (!layer.clip_from_world) return wrong("clip_from_world", "is missing");
+    if (layer.caster_bias && layer.caster_bias->slope != 0.0 && layer.convention == StoredDepth::distance)
+      return wrong("caster_bias.slope",
+                   "is of the depths that a matrix makes; of distances constant_world is known");
     if (layer.convention != capture.map.front().convention)
       return wrong(
           "convention",

@@ -36,11 +36,22 @@ struct CapturedDepth {
   std::optional<double> near, far;  ///< world units, of zero_to_one and reversed
 };
 
+/// How far casters were moved from the light while the map was drawn; below 0 towards it.
+struct CapturedCasterBias {
+  double constant = 0.0;        ///< stored numbers; of distances, world units
+  double constant_world = 0.0;  ///< world units along the light ray
+  double slope = 0.0;           ///< raster::Bias::caster_slope: the factor of glPolygonOffset
+  double clamp = 0.0;  ///< the most that `constant` and `slope` add, below 0 the least; 0: without limit
+  bool moves() const { return constant != 0.0 || constant_world != 0.0 || slope != 0.0; }
+  bool operator==(const CapturedCasterBias&) const = default;
+};
+
 struct CapturedLayer {
   std::string depth;  ///< file
   std::optional<StoredDepth> convention;
   std::optional<RowOrder> rows;
   std::optional<Mat4> clip_from_world;
+  std::optional<CapturedCasterBias> caster_bias;
 };
 
 struct CapturedBias {
@@ -67,6 +78,7 @@ struct Capture {
   std::vector<CapturedLayer> map;
   std::optional<CapturedBias> bias;
   std::optional<CapturedFilter> filter;
+  std::optional<double> strength;  ///< of the shadow, in (0, 1]: full shadow is drawn as 1 - strength
 };
 
 /// Errors (bad input) name file, line, column and field. Whether the parts go together is check_capture's.

@@ -151,7 +151,6 @@ void fill_light(const FrameInput& in, bool known, bool distances, raster::Raster
   test.normal_offset_world = bias.normal_offset_world;
   record.bias_constant_world = map.bias.constant = bias.constant_depth * test.unit_world;
   fill_record(in, map.bias, record);
-  if (is_culled(in, record)) map.cull = raster::Cull::front;
 }
 
 }  // namespace
@@ -176,6 +175,10 @@ void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRe
     record.gap.data[i] =
         static_cast<float>(biased_gap(record, bias, light_at(light, point.position).to_light, point, i));
   });
+}
+
+void find_culling(const FrameInput& in, raster::RasterFrame& frame) {
+  if (is_culled(in, frame.lights.front())) frame.options.map.cull = raster::Cull::front;
 }
 
 Expected<raster::RasterFrame> make_frame(const FrameInput& in, std::optional<CapturedMap> map) {

@@ -21,6 +21,10 @@ struct FrameInput {
 /// no light without shadows) gets another primitive than the receiver's, so that it is counted as silhouette.
 Expected<raster::RasterFrame> make_frame(const FrameInput& input, std::optional<CapturedMap> map);
 
+/// Notes in the options that the map holds back faces in the place of the front faces before them, where it takes that to
+/// explain its depths.
+void find_culling(const FrameInput& input, raster::RasterFrame& frame);
+
 /// Fills `record`'s gaps from its map and bias, and the other fields that follow from positions alone.
 void fill_record(const FrameInput& input, const raster::Bias& bias, raster::LightRecord& record);
 

@@ -72,6 +72,7 @@ tl::expected<MatrixFace, std::string> perspective(const Vec4& x, const Vec4& y, 
   // Stored is a + b / depth.
   const double a = glm::dot(Vec3(s), face.forward) / k;
   const double b = (glm::dot(Vec3(s), out.origin) + s.w) / k;
+  if (b == 0.0) return tl::unexpected<std::string>("makes one depth of all places");
   const double at_zero = -b / a, at_one = b / (1.0 - a);
   face.near_depth = reversed ? at_one : at_zero;
   face.far_depth = reversed ? at_zero : at_one;
@@ -132,7 +133,8 @@ float stored_of_distance(const LightView& view, int face, int u, int v, double d
   return static_cast<float>(stored_from_depth(view, face, v + 0.5, depth));
 }
 
-Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored, int face, CapturedMap& out) {
+Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored, int face, double scale,
+                           CapturedMap& out) {
   const CapturedLayer& layer = capture.map[i];
   const std::string field = fmt::format("map[{}].depth", i);
   ImageSize size;
@@ -149,7 +151,7 @@ Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored,
     bad += std::isnan(value) || (!out.distances && !std::isfinite(value)) ? 1 : 0;
     beyond += !out.distances && (value < 0.0f || value > 1.0f) ? 1 : 0;
     map.depth[map.texel_index(face, u, v)] =
-        out.distances ? stored_of_distance(map.view, face, u, v, double{value}) : value;
+        out.distances ? stored_of_distance(map.view, face, u, v, scale * double{value}) : value;
   });
   if (bad > 0) return wrong(fmt::format("{} texels are not finite numbers", bad));
   if (beyond > 0)
@@ -186,29 +188,62 @@ tl::expected<MatrixFace, std::string> take_apart(const Mat4& m, StoredDepth conv
       return tl::unexpected<std::string>("has numbers that are not finite");
   const Vec4 x = row(m, 0), y = row(m, 1), w = row(m, 3);
   const Vec4 s = stored_row(row(m, 2), w, convention);
-  const double lengths = glm::length(Vec3(x)) * glm::length(Vec3(y)) * glm::length(Vec3(row(m, 2)));
-  const double volume = std::abs(glm::determinant(Mat3(Vec3(x), Vec3(y), Vec3(row(m, 2)))));
-  if (!(lengths > 0.0) || !(volume > 1e-9 * lengths)) return tl::unexpected<std::string>("is singular");
   const bool reversed = convention == StoredDepth::reversed;
   const bool parallel = glm::length(Vec3(w)) < 1e-12 * std::max(1.0, std::abs(w.w));
+  // The way along the light: of a perspective whose far plane is infinitely far the depth's row has none.
+  const Vec3 along(parallel ? row(m, 2) : w);
+  const double lengths = glm::length(Vec3(x)) * glm::length(Vec3(y)) * glm::length(along);
+  const double volume = std::abs(glm::determinant(Mat3(Vec3(x), Vec3(y), along)));
+  if (!(lengths > 0.0) || !(volume > 1e-9 * lengths)) return tl::unexpected<std::string>("is singular");
   if (!parallel) return perspective(x, y, s, w, reversed);
   if (!(w.w > 0.0)) return tl::unexpected<std::string>("is singular");
   return orthographic(x / w.w, y / w.w, s / w.w, reversed);
 }
 
-Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world) {
-  CapturedMap out;
+namespace {
+
+Expected<std::vector<MatrixFace>> read_faces(const Capture& capture, const Light& light, const World& world) {
   std::vector<MatrixFace> faces;
-  const StoredDepth convention = *capture.map.front().convention;
-  out.distances = convention == StoredDepth::distance;
   for (std::size_t i = 0; i < capture.map.size(); ++i) {
     const std::string field = fmt::format("map[{}].clip_from_world", i);
-    const auto face = take_apart(*capture.map[i].clip_from_world, convention);
+    const auto face = take_apart(*capture.map[i].clip_from_world, *capture.map.front().convention);
     if (!face) return capture_error(capture, field, face.error());
     if (const auto reason = not_of_light(*face, capture.map.size(), light, world))
       return capture_error(capture, field, *reason);
     faces.push_back(*face);
   }
+  return faces;
+}
+
+}  // namespace
+
+Capture in_world_of_scene(Capture capture, const Mat3& scene_from_captured) {
+  const double scale = std::cbrt(std::abs(glm::determinant(scene_from_captured)));
+  for (CapturedLayer& layer : capture.map) {
+    if (layer.clip_from_world) *layer.clip_from_world *= Mat4(glm::inverse(scene_from_captured));
+    if (!layer.caster_bias) continue;
+    layer.caster_bias->constant_world *= scale;
+    if (layer.convention == StoredDepth::distance) layer.caster_bias->constant *= scale;
+  }
+  if (!capture.bias || capture.map.empty()) return capture;
+  capture.bias->normal_offset_world *= scale;
+  if (capture.map.front().convention == StoredDepth::distance) capture.bias->constant_depth *= scale;
+  return capture;
+}
+
+Expected<void> check_map_matrices(const Capture& capture, const Light& light, const World& world) {
+  const auto faces = read_faces(capture, light, world);
+  if (!faces) return fail(faces.error());
+  return {};
+}
+
+Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world, double scale) {
+  CapturedMap out;
+  const StoredDepth convention = *capture.map.front().convention;
+  out.distances = convention == StoredDepth::distance;
+  const auto read = read_faces(capture, light, world);
+  if (!read) return fail(read.error());
+  const std::vector<MatrixFace>& faces = *read;
   LightView& view = out.map.view;
   view.projection = faces.front().projection;
   view.face_count = static_cast<int>(faces.size());
@@ -222,10 +257,16 @@ Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const
   view.seamless = !parallel && faces.size() == 6;
   const auto order = order_faces(capture, faces);
   if (!order) return fail(order.error());
+  out.caster_bias.resize(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const auto face = static_cast<std::size_t>((*order)[i]);
+    view.faces[face] = faces[i].face;
+    CapturedCasterBias& bias = out.caster_bias[face] =
+        capture.map[i].caster_bias.value_or(CapturedCasterBias{});
+    if (out.distances) bias.constant_world += bias.constant, bias.constant = 0.0;
+  }
   for (std::size_t i = 0; i < faces.size(); ++i)
-    view.faces[static_cast<std::size_t>((*order)[i])] = faces[i].face;
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    if (const auto read = read_texels(capture, i, faces[i].mirrored, (*order)[i], out); !read)
+    if (const auto read = read_texels(capture, i, faces[i].mirrored, (*order)[i], scale, out); !read)
       return fail(read.error());
   out.map.format = view.reversed ? raster::DepthFormat::d32f_reversed : raster::DepthFormat::d32f;
   return out;

@@ -8,14 +8,22 @@
 namespace gnomon::compare {
 
 struct CapturedMap {
-  raster::ShadowMap map;   ///< `primitive` holds no_id all over
-  bool distances = false;  ///< StoredDepth::distance
+  raster::ShadowMap map;                        ///< `primitive` holds no_id all over
+  bool distances = false;                       ///< StoredDepth::distance
+  std::vector<CapturedCasterBias> caster_bias;  ///< by face
 };
 
-/// Reads and checks the layers. Errors (bad input): a picture that cannot be read, is not square or not of the
-/// others' size; a matrix that is singular, shears, or is not the light's (its rays run elsewhere); values
-/// that are not finite, or beyond the convention's range.
-Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world);
+/// Errors (bad input): a matrix that is singular, shears, or is not the light's (its rays run elsewhere).
+Expected<void> check_map_matrices(const Capture& capture, const Light& light, const World& world);
+
+/// Reads and checks the layers. Errors (bad input): those of check_map_matrices; a picture that cannot be read, is not
+/// square or not of the others' size; values that are not finite, or beyond the convention's range. `scale`: world units of
+/// the scene in one of the capture's.
+Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world,
+                               double scale = 1.0);
+
+/// The capture with matrices and lengths of the scene's world in the place of its own; places are not touched.
+Capture in_world_of_scene(Capture capture, const Mat3& scene_from_captured);
 
 /// The face of one matrix (right x up = -forward; `mirrored`: the matrix's x runs the other way), and for a
 /// perspective matrix the place it looks from. The reason where it is no orthographic or symmetric

@@ -97,6 +97,11 @@ bool DescribedTest::is_drawn() const {
   return not_drawn < few_pixels || static_cast<double>(not_drawn) < few_share * static_cast<double>(compared);
 }
 
+bool DescribedTest::is_mostly_drawn() const {
+  constexpr double some = 0.05;
+  return static_cast<double>(not_drawn) < some * static_cast<double>(compared);
+}
+
 DescribedTest check_described_test(const FrameInput& in, const raster::RasterFrame& drawn,
                                    LightComparison& light) {
   const TimedStage stage("described test");
@@ -109,9 +114,12 @@ DescribedTest check_described_test(const FrameInput& in, const raster::RasterFra
   DescribedTest out;
   out.compared =
       pixels_where(pixels, [&](std::size_t i) { return is_compared(light.labels.data[i]); }).size();
-  out.not_drawn = pixels_where(pixels, [&](std::size_t i) {
-                    return differs(i) && !checker.may_draw(i, light.rungs[6].data[i], true);
-                  }).size();
+  const auto not_drawn = pixels_where(pixels, [&](std::size_t i) {
+    return differs(i) && !checker.may_draw(i, light.rungs[6].data[i], true);
+  });
+  out.not_drawn = not_drawn.size();
+  for (const std::uint32_t i : not_drawn)
+    out.drawn_darker += light.rungs[6].data[i] < light.rungs[5].data[i] ? 1 : 0;
   // Where the test is another, it is chance that some texel nearby agrees with the picture.
   const bool is_drawn = out.is_drawn();
   const auto unexplained = pixels_where(pixels, [&](std::size_t i) {
@@ -129,9 +137,12 @@ std::vector<std::string> described_test_notes(const DescribedTest& test,
   if (!test.is_drawn()) {
     std::string note = fmt::format(
         "the test as described (map, matrix, bias, filter) is not the one that was drawn in {} of {} "
-        "compared pixels: the wrong ones among them are unexplained, and {}",
-        grouped(test.not_drawn), grouped(test.compared),
-        advice_holds(test, other) ? "advice starts from the bias as described" : "no bias is advised");
+        "compared pixels ({} of them darker, {} lighter): the wrong ones among them are unexplained, and {}",
+        grouped(test.not_drawn), grouped(test.compared), grouped(test.drawn_darker),
+        grouped(test.not_drawn - test.drawn_darker),
+        !advice_holds(test, other) ? "no bias is advised"
+        : other                    ? "advice starts from the bias as described"
+                                   : "the bias is advised on by all others");
     if (other)
       note +=
           fmt::format("; if {}, it is the one drawn in {} of the pixels", other->what, percent(other->share));

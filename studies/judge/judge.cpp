@@ -9,39 +9,106 @@
 #include "studies/judge/advice.h"
 #include "studies/judge/align.h"
 #include "studies/judge/captured_frame.h"
+#include "studies/judge/caster_bias.h"
 #include "studies/judge/described_test.h"
 #include "studies/judge/map_content.h"
+#include "studies/judge/own_test.h"
 
 namespace gnomon::compare {
 namespace {
 
 struct Judging {
-  const Capture& capture;
+  Capture capture;  ///< in the scene's world
   Scene& scene;
   const World& world;
+  const raytrace::Tracer& tracer;
   const JudgeOptions& options;
   std::uint32_t light;
   CapturedPictures pictures;
-  Sight sight;
-  Image<std::uint8_t> elsewhere;
-  const LightView* map = nullptr;  ///< null: the capture has none
+  std::optional<CapturedMap> map;
+  std::optional<Error> matrices;  ///< what is wrong with the map's; it is not read yet then
+  Sight sight{};
+  Image<std::uint8_t> elsewhere{};
+  CasterBiases casters{};
+
+  const LightView* view() const { return map ? &map->map.view : nullptr; }
 };
 
-Expected<void> trace_truth(Judging& in, const raytrace::Tracer& tracer, const EffectPlan& plan,
-                           Comparison& out) {
+FrameInput frame_input(const Judging& in, const Comparison& c) {
+  return {in.capture,      in.pictures, in.world,     in.tracer,
+          in.scene.camera, c.raytraced, in.elsewhere, c.exposure};
+}
+
+AlignInput align_input(const Judging& in, const Comparison& c) {
+  return {in.capture, in.tracer, in.light, c.raytraced, in.options.fix, in.view()};
+}
+
+/// Receivers and truth of what the capture shows, as far as is known by now.
+void trace_again(Judging& in, const raytrace::RaytraceOptions& options, const Aligned& aligned,
+                 Comparison& out) {
+  if (aligned.trace_again)
+    out.raytraced = raytrace::trace_frame(in.tracer, out.plan, in.scene.camera, {&in.light, 1}, options);
+  in.elsewhere =
+      retrace(in.tracer, in.sight, in.pictures, aligned.everywhere, options, out.raytraced).elsewhere;
+}
+
+/// The map of another world than the scene's is read once it is known which: that of the positions, where its matrices are
+/// the light's in it.
+Expected<void> read_late_map(Judging& in, const Mat3& of_positions, const Comparison& c, Judged& judged) {
+  const bool same = of_positions == Mat3(1.0);
+  if (in.capture.map.empty() || (same && !in.matrices)) return {};
+  const Light& light = in.scene.lights[in.light];
+  Mat3 world = of_positions;
+  if (same || !check_map_matrices(in_world_of_scene(in.capture, world), light, in.world)) {
+    if (!in.matrices) return {};
+    const auto found = align_map(align_input(in, c), *in.matrices, light, judged);
+    if (!found) return fail(found.error());
+    world = *found;
+  }
+  in.capture = in_world_of_scene(std::move(in.capture), world);
+  auto map = read_map(in.capture, light, in.world, std::cbrt(std::abs(glm::determinant(world))));
+  if (!map) return fail(map.error());
+  in.map = std::move(*map);
+  return {};
+}
+
+/// A strength of the shadow is undone before anything is measured, as the capture says it, or as the test finds it.
+Expected<bool> believe_own_test(Judging& in, const Comparison& c, Judged& judged) {
+  if (in.capture.strength) stretch_to_full_shadow(1.0 - *in.capture.strength, in.pictures.visibility);
+  if (!in.map || judged.agreement.empty()) return false;
+  const FrameInput input = frame_input(in, c);
+  const auto frame = make_frame(input, *in.map);
+  if (!frame) return fail(frame.error());
+  const OwnTest test = try_own_test(input, *frame);
+  if (!test.is_believed()) return false;
+  if (test.full_shadow == 0.0) return true;
+  stretch_to_full_shadow(test.full_shadow, in.pictures.visibility);
+  judged.notes.push_back(
+      fmt::format("full shadow is drawn as {:.3g}: a strength of {:.3g}, or light of something else; judged "
+                  "is what the picture shows "
+                  "with that as 0 (`strength` says so in a capture)",
+                  test.full_shadow, 1.0 - test.full_shadow));
+  return true;
+}
+
+Expected<void> trace_truth(Judging& in, Comparison& out, Judged& judged) {
   raytrace::RaytraceOptions options = in.options.raytrace;
   options.size = in.capture.size;
   in.sight.view = make_view(in.scene.camera, in.capture.size);
-  out.raytraced = raytrace::trace_frame(tracer, plan, in.scene.camera, {&in.light, 1}, options);
-  auto judged = std::make_shared<Judged>(*out.judged);
-  const auto aligned = align({in.capture, tracer, in.light, out.raytraced, in.options.fix, in.map}, in.scene,
-                             in.sight, in.pictures, *judged);
-  out.judged = judged;
+  out.raytraced = raytrace::trace_frame(in.tracer, out.plan, in.scene.camera, {&in.light, 1}, options);
+  const auto geometry = align_geometry(align_input(in, out), in.scene, in.sight, in.pictures, judged);
+  if (!geometry) return fail(geometry.error());
+  if (const auto late = read_late_map(in, geometry->place_from_captured, out, judged); !late) return late;
+  trace_again(in, options, *geometry, out);
+  const auto believed = believe_own_test(in, out, judged);
+  if (!believed) return fail(believed.error());
+  AlignInput shadows = align_input(in, out);
+  shadows.shadows_believed = *believed;
+  auto aligned = align_shadows(shadows, in.scene, in.sight, in.pictures, judged);
   if (!aligned) return fail(aligned.error());
-  if (aligned->trace_again)
-    out.raytraced = raytrace::trace_frame(tracer, plan, in.scene.camera, {&in.light, 1}, options);
-  in.elsewhere =
-      retrace(tracer, in.sight, in.pictures, aligned->everywhere, options, out.raytraced).elsewhere;
+  if (!aligned->pictures_differ) return {};
+  aligned->everywhere = aligned->everywhere || geometry->everywhere;
+  trace_again(in, options, *aligned, out);
   return {};
 }
 
@@ -84,27 +151,46 @@ std::optional<std::uint32_t> place_of(const std::string& text, std::size_t count
   return static_cast<std::uint32_t>(place);
 }
 
-void finish(Judging& in, const raytrace::Tracer& tracer, Comparison& out) {
+void finish(Judging& in, Comparison& out) {
   auto judged = std::make_shared<Judged>(*out.judged);
   LightComparison& light = out.lights.front();
   if (judged->has_map) {
     const raster::LightRecord& record = out.raster.lights.front();
     judged->biased_is_drawn = biased_is_drawn(light);
     judged->unit_world = record.captured->test->unit_world;
-    const FrameInput frame{in.capture,      in.pictures,   in.world,     tracer,
-                           in.scene.camera, out.raytraced, in.elsewhere, out.exposure};
+    const FrameInput frame = frame_input(in, out);
+    const auto note = [&](std::vector<std::string> notes) {
+      for (std::string& one : notes) judged->notes.push_back(std::move(one));
+    };
     const DescribedTest test = check_described_test(frame, out.raster, light);
     const auto other = test.is_drawn() ? std::nullopt : find_drawn_test(frame, out.raster, light);
-    for (std::string& note : described_test_notes(test, other)) judged->notes.push_back(std::move(note));
+    note(described_test_notes(test, other));
+    note(no_shadow_notes(light, record));
+    note(caster_bias_notes(in.casters, record));
     const MapContent content = label_map_content(frame, out.raster, light, advice_holds(test, other));
-    for (std::string& note : map_content_notes(content, record)) judged->notes.push_back(std::move(note));
-    for (std::string& note : outside_map_notes(frame, light, record))
-      judged->notes.push_back(std::move(note));
+    note(map_content_notes(content, record));
+    note(outside_map_notes(frame, light, record));
     if (advice_holds(test, other) && !content.is_main_cause(light))
-      judged->advice = give_advice(frame, out.raster.options.map.bias, light, record);
+      judged->advice = give_advice(frame, out.raster.options.map.bias, light, record, in.casters);
   }
   if (!judged->has_map) forget_texels(light);
   out.judged = std::move(judged);
+}
+
+/// The capture's picture and map as a frame.
+Expected<void> take_frame(Judging& in, Comparison& out) {
+  const std::vector<CapturedCasterBias> given =
+      in.map ? in.map->caster_bias : std::vector<CapturedCasterBias>{};
+  const FrameInput input = frame_input(in, out);
+  auto frame = make_frame(input, std::move(in.map));
+  in.map.reset();
+  if (!frame) return fail(frame.error());
+  out.raster = std::move(*frame);
+  raster::LightRecord& record = out.raster.lights.front();
+  if (!record.has_known_map()) return {};
+  in.casters = take_out_caster_bias(input, given, record);
+  find_culling(input, out.raster);
+  return {};
 }
 
 }  // namespace
@@ -143,33 +229,32 @@ Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const W
       !order)
     return fail(order.error());
   std::optional<CapturedMap> map;
+  std::optional<Error> matrices;
   if (!capture.map.empty()) {
-    auto read = read_map(capture, scene.lights[*light], world);
+    const Light& own = scene.lights[*light];
+    if (const auto sound = check_map_matrices(capture, own, world); !sound) matrices = sound.error();
+    auto read = matrices ? Expected<CapturedMap>() : read_map(capture, own, world);
     if (!read) return fail(read.error());
-    map = std::move(*read);
+    if (!matrices) map = std::move(*read);
   }
   reading.end();
   Comparison out;
-  out.judged = std::make_shared<Judged>(std::move(judged));
   out.plan = plan_effects(scene);
   report("ray tracing", 0.2);
   const raytrace::Tracer tracer(world, options.accel, options.precision);
-  Judging judging{
-      capture, scene, world, options, *light, std::move(*pictures), {}, {}, map ? &map->map.view : nullptr};
-  if (const auto traced = trace_truth(judging, tracer, out.plan, out); !traced) return fail(traced.error());
+  Judging judging{capture,        scene,   world, tracer, options, *light, std::move(*pictures),
+                  std::move(map), matrices};
+  if (const auto traced = trace_truth(judging, out, judged); !traced) return fail(traced.error());
+  out.judged = std::make_shared<Judged>(std::move(judged));
   out.exposure = scene.exposure ? *scene.exposure : auto_exposure(out.raytraced.color);
   report("comparing", 0.6);
-  auto frame = make_frame({capture, judging.pictures, world, tracer, scene.camera, out.raytraced,
-                           judging.elsewhere, out.exposure},
-                          std::move(map));
-  if (!frame) return fail(frame.error());
-  out.raster = std::move(*frame);
+  if (const auto taken = take_frame(judging, out); !taken) return fail(taken.error());
   const Plan plan{.tracer = tracer,
                   .picture = capture.size,
                   .lights = {&*light, 1},
                   .measure = {.bias_curve_points = options.bias_curve_points}};
   if (const auto measured = measure_frames(out, plan); !measured) return fail(measured.error());
-  finish(judging, tracer, out);
+  finish(judging, out);
   report("compared", 1.0);
   return out;
 }

@@ -48,7 +48,7 @@ StoredDepths::StoredDepths(const FrameInput& in, const raster::LightRecord& reco
     : in_(in), record_(record), view_(record.map.view), format_step_(find_format_step(record.map)) {}
 
 double StoredDepths::stored(raytrace::TexelKey key) const {
-  return record_.map.depth[record_.map.texel_index(key.face(), key.column(), key.row())];
+  return record_.map.true_depth()[record_.map.texel_index(key.face(), key.column(), key.row())];
 }
 
 double StoredDepths::depth(raytrace::TexelKey key) const {
@@ -61,13 +61,19 @@ SurfaceOnRay StoredDepths::surface(const Ray& ray, const raytrace::Hit& hit, int
   const Vec3 outward = outward_normal(in_.world, hit.primitive, point.position);
   const bool front = glm::dot(outward, ray.direction) < 0.0;
   const Vec3 normal = glm::dot(point.normal, ray.direction) > 0.0 ? -point.normal : point.normal;
-  const auto change = [&](double du, double dv) {
+  struct Change {
+    double depth = infinity, stored = infinity;  // over a texel
+  };
+  const auto change = [&](double du, double dv) -> Change {
     const double below = plane_depth(view_, face, place.x - du, place.y - dv, point.position, normal);
     const double above = plane_depth(view_, face, place.x + du, place.y + dv, point.position, normal);
-    return std::isinf(below) || std::isinf(above) ? infinity : 0.5 * std::abs(above - below);
+    if (std::isinf(below) || std::isinf(above)) return {};
+    return {std::abs(above - below), std::abs(stored_from_depth(view_, face, place.y + dv, above) -
+                                              stored_from_depth(view_, face, place.y - dv, below))};
   };
+  const Change u = change(0.5, 0.0), v = change(0.0, 0.5);
   return {hit.primitive, glm::dot(ray.at(hit.t) - view_.origin, view_.face(face).forward),
-          change(0.5, 0.0) + change(0.0, 0.5), front};
+          0.5 * (u.depth + v.depth), std::max(u.stored, v.stored), front};
 }
 
 std::optional<SurfaceOnRay> StoredDepths::first(int face, const Vec2& place) const {

@@ -12,9 +12,10 @@ namespace gnomon::compare {
 /// A surface on the ray through a place of the map.
 struct SurfaceOnRay {
   std::uint32_t primitive = no_id;
-  double depth = infinity;  ///< along the map's forward axis
-  double across = 0.0;      ///< what its depth changes by over half a texel along both axes, added up
-  bool front = true;        ///< its front faces the light
+  double depth = infinity;    ///< along the map's forward axis
+  double across = 0.0;        ///< what its depth changes by over half a texel along both axes, added up
+  double stored_slope = 0.0;  ///< stored numbers from texel to texel, along the axis where it changes more
+  bool front = true;          ///< its front faces the light
 };
 
 class StoredDepths {
@@ -23,6 +24,7 @@ class StoredDepths {
 
   /// Smallest difference of stored numbers of the map's format, near 1.
   double format_step() const { return format_step_; }
+  /// Without the casters' bias, once that was taken out.
   double stored(raytrace::TexelKey key) const;
   bool is_empty(raytrace::TexelKey key) const { return !holds_caster(view_, stored(key)); }
   /// The stored number as a depth along the map's forward axis.

@@ -64,20 +64,36 @@ void add_views(const SuspectInput& in, std::vector<Suspect>& out) {
           other * half_y, half_y);
 }
 
-struct Axes {
-  const char* what;
-  Mat3 scene_from_captured;
-};
+const Vec3 x_axis(1, 0, 0), y_axis(0, 1, 0), z_axis(0, 0, 1);
 
-std::vector<Axes> other_axes() {
-  // Columns: where the capture's x, y and z axis point in the scene.
-  const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-  return {{"z-up, the scene y-up", Mat3(x, -z, y)},
-          {"y-up, the scene z-up", Mat3(x, z, -y)},
-          {"left-handed (z the other way)", Mat3(x, y, -z)},
-          {"left-handed (x the other way)", Mat3(-x, y, z)},
-          {"in centimetres, the scene in metres", Mat3(0.01)},
-          {"in metres, the scene in centimetres", Mat3(100.0)}};
+/// Columns: where the captured x, y and z axis point in the scene.
+const Mat3 z_up(x_axis, -z_axis, y_axis), y_up(x_axis, z_axis, -y_axis);
+
+/// The single differences, of which a whole picture may be off.
+std::vector<Mat3> other_axes() {
+  return {z_up, y_up, Mat3(x_axis, y_axis, -z_axis), Mat3(-x_axis, y_axis, z_axis), Mat3(0.01), Mat3(100.0)};
+}
+
+std::string axis_text(const Vec3& axis) {
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(axis[k]) > 0.5) return fmt::format("{}{}", axis[k] < 0.0 ? "-" : "", "xyz"[k]);
+  return "?";
+}
+
+std::string axes_text(const Mat3& axes) {
+  if (axes == z_up) return "z-up, the scene y-up";
+  if (axes == y_up) return "y-up, the scene z-up";
+  int turned = 0, of = 0;
+  for (int k = 0; k < 3; ++k)
+    if (axes[k][k] == -1.0) ++turned, of = k;
+  const bool straight = std::abs(axes[0][0]) + std::abs(axes[1][1]) + std::abs(axes[2][2]) == 3.0;
+  if (straight && turned == 1) return fmt::format("left-handed ({} the other way)", "xyz"[of]);
+  const std::string up = axes[2] == y_axis   ? "z-up, the scene y-up, "
+                         : axes[1] == z_axis ? "y-up, the scene z-up, "
+                                             : "";
+  return fmt::format("{}{} (its x, y, z are the scene's {}, {}, {})", up,
+                     glm::determinant(axes) < 0.0 ? "left-handed" : "turned", axis_text(axes[0]),
+                     axis_text(axes[1]), axis_text(axes[2]));
 }
 
 View transformed(const Camera& camera, const ImageSize& size, const Mat3& axes) {
@@ -91,18 +107,19 @@ View transformed(const Camera& camera, const ImageSize& size, const Mat3& axes) 
 }
 
 void add_axes(const SuspectInput& in, std::vector<Suspect>& out) {
-  for (const Axes& axes : other_axes()) {
+  for (const Mat3& world : other_axes()) {
+    const std::string words = world_words(world);
     Suspect suspect;
-    suspect.place_from_captured = axes.scene_from_captured;
-    const double scale = std::cbrt(std::abs(glm::determinant(axes.scene_from_captured)));
+    suspect.place_from_captured = world;
+    const double scale = std::cbrt(std::abs(glm::determinant(world)));
     const bool scaled = std::abs(scale - 1.0) > 0.5;
     if (in.has_positions || (in.has_depths && scaled)) {
-      suspect.what = fmt::format("the {} are {}", in.has_positions ? "positions" : "depths", axes.what);
+      suspect.what = fmt::format("the {} are {}", in.has_positions ? "positions" : "depths", words);
       if (scaled) suspect.depth_scale = scale;
       out.push_back(suspect);
     }
-    suspect.what = fmt::format("the camera's world is {}", axes.what);
-    suspect.view = transformed(in.camera, in.size, axes.scene_from_captured);
+    suspect.what = fmt::format("the camera's world is {}", words);
+    suspect.view = transformed(in.camera, in.size, world);
     out.push_back(suspect);
   }
 }
@@ -118,7 +135,68 @@ void flip(bool flip_x, bool flip_y, Image<T>& image) {
     }
 }
 
+/// The signed axes that lie nearest, if these columns are such.
+std::optional<Mat3> signed_axes(const Mat3& columns) {
+  constexpr double slack = 0.02;  // positions of other surfaces are among the places
+  Mat3 axes(0.0);
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) {
+      axes[k][i] = std::round(columns[k][i]);
+      if (std::abs(columns[k][i] - axes[k][i]) > slack) return std::nullopt;
+    }
+  if (std::abs(std::abs(glm::determinant(axes)) - 1.0) > 0.5) return std::nullopt;
+  return axes;
+}
+
+/// 1, or a power of ten, where it is nearly that.
+double round_unit(double scale) {
+  const double power = std::pow(10.0, std::round(std::log10(scale)));
+  return std::abs(scale / power - 1.0) < 0.01 ? power : scale;
+}
+
 }  // namespace
+
+std::string world_words(const Mat3& world) {
+  const double scale = std::cbrt(std::abs(glm::determinant(world)));
+  const bool scaled = std::abs(scale - 1.0) > 1e-6;
+  const Mat3 axes = *signed_axes(world / scale);
+  std::string text = axes == Mat3(1.0) ? "" : axes_text(axes);
+  if (!scaled) return text;
+  const std::string unit = std::abs(scale - 0.01) < 1e-6 ? "in centimetres, the scene in metres"
+                           : std::abs(scale - 100.0) < 1e-6
+                               ? "in metres, the scene in centimetres"
+                               : fmt::format("in units of {:.4g} of the scene's", scale);
+  return text.empty() ? unit : text + ", and " + unit;
+}
+
+std::vector<Mat3> usual_worlds() {
+  // Unity: left-handed, y up. Unreal: left-handed, z up, centimetres, x forward. Blender, CAD: z up.
+  const Mat3 unreal(-z_axis, x_axis, y_axis), left_z_up(x_axis, z_axis, y_axis);
+  std::vector<Mat3> out;
+  for (const double scale : {1.0, 0.01, 100.0})
+    for (const Mat3& axes : {Mat3(1.0), z_up, y_up, Mat3(x_axis, y_axis, -z_axis),
+                             Mat3(-x_axis, y_axis, z_axis), unreal, left_z_up})
+      if (scale != 1.0 || axes != Mat3(1.0)) out.push_back(scale * axes);
+  return out;
+}
+
+std::optional<Mat3> find_world(const Image<Vec3>& position, const raytrace::RayTracedFrame& frame) {
+  Mat3 both(0.0), own(0.0);  // sums of q p^T and p p^T
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < position.data.size(); i += 7) {
+    const Vec3& p = position.data[i];
+    if (frame.receiver.data[i].primitive == no_id || p == Vec3(0.0)) continue;
+    both += glm::outerProduct(frame.receiver.data[i].position, p), own += glm::outerProduct(p, p);
+    ++count;
+  }
+  if (count < 50 || !(std::abs(glm::determinant(own)) > 0.0)) return std::nullopt;
+  const Mat3 world = both * glm::inverse(own);
+  const double scale = round_unit(std::cbrt(std::abs(glm::determinant(world))));
+  if (!std::isfinite(scale) || !(scale > 0.0)) return std::nullopt;
+  const auto axes = signed_axes(world / scale);
+  if (!axes || (*axes == Mat3(1.0) && scale == 1.0)) return std::nullopt;
+  return scale * *axes;
+}
 
 std::vector<Suspect> usual_suspects(const SuspectInput& in) {
   std::vector<Suspect> out;

@@ -31,6 +31,14 @@ struct SuspectInput {
 
 std::vector<Suspect> usual_suspects(const SuspectInput& input);
 
+/// Another world's axes and unit, as words after "is": "z-up, the scene y-up, and in centimetres, the scene in metres".
+std::string world_words(const Mat3& scene_from_captured);
+/// The world of signed axes and one unit in which the captured places are those of the pixels' receivers, by least squares
+/// over the grid. None where no such world is, or it is the scene's own.
+std::optional<Mat3> find_world(const Image<Vec3>& position, const raytrace::RayTracedFrame& frame);
+/// Those that renderers have, to be tried one by one.
+std::vector<Mat3> usual_worlds();
+
 /// The place in the capture's pictures that shows pixel (x, y) of the scene.
 inline std::pair<int, int> flipped(bool flip_x, bool flip_y, const ImageSize& size, int x, int y) {
   return {flip_x ? size.width - 1 - x : x, flip_y ? size.height - 1 - y : y};

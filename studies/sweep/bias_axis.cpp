@@ -125,7 +125,11 @@ class BiasAxis {
       const std::uint32_t drawn_from = first_drawn_lit(pixel);
       const auto exact = ever_wrong(pixel) ? upper.exact_gap() : std::nullopt;
       const std::uint32_t exact_from = exact ? Biases::first_lit(biases_.ascending, *exact) : biased_from;
-      std::array<std::uint32_t, 5> ends{0, biased_from, drawn_from, exact_from, biases_.count()};
+      const auto unmoved = ever_wrong(pixel) ? upper.unmoved_gap() : std::nullopt;
+      const std::uint32_t unmoved_from =
+          unmoved ? Biases::first_lit(biases_.ascending, *unmoved) : biased_from;
+      std::array<std::uint32_t, 6> ends{0,          biased_from,  drawn_from,
+                                        exact_from, unmoved_from, biases_.count()};
       std::sort(ends.begin(), ends.end());
       for (std::size_t s = 0; s + 1 < ends.size(); ++s) {
         if (ends[s] == ends[s + 1]) continue;
@@ -133,7 +137,7 @@ class BiasAxis {
         const auto [biased, label] = upper.verdict_at(biases_.ascending[ends[s]], v[6]);
         v[5] = biased;
         add_state(pixel, v, label, ends[s], ends[s + 1]);
-        if (label == Label::peter_panning) add_gap(pixel, ends[s], ends[s + 1]);
+        if (is_detached(label, v[6] < v[0])) add_gap(pixel, ends[s], ends[s + 1]);
       }
     }
   }

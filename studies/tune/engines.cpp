@@ -36,7 +36,8 @@ bool TunedEngine::draws(const raster::MapOptions& map) const {
   const raster::Bias& bias = map.bias;
   return std::ranges::find(techniques, map.technique) != techniques.end() &&
          (slope_bias || bias.slope == 0.0) && (normal_offset || bias.normal_offset_texels == 0.0) &&
-         (front_faces_culled || map.cull != raster::Cull::front) && !bias.receiver_plane && !bias.adaptive;
+         (front_faces_culled || map.cull != raster::Cull::front) && !bias.receiver_plane && !bias.adaptive &&
+         !bias.moves_casters();
 }
 
 std::span<const TunedEngine> tuned_engines() {

@@ -140,6 +140,8 @@ def options(rng, technique):
     maybe(0.3, "--cull", rng.choice(["front", "back"]), when=mapped and technique != "second-depth")
     maybe(0.2, "--receiver-plane", when=technique in PLANE_APPLIES)
     maybe(0.2, "--adaptive-bias", when=mapped and technique not in MOMENTS)
+    maybe(0.2, "--caster-bias", rng.choice(["0.02", "1.5texel", "-0.5texel"]), when=mapped and technique != "midpoint")
+    maybe(0.2, "--caster-slope-bias", rng.choice(["0.5", "2"]), when=mapped and technique != "midpoint")
     maybe(0.2, "--snap", when=mapped and technique not in ("csm", "cube"))
     maybe(0.7, "--filter-kernel", rng.choice(["box", "hardware", "vogel", "optimised"]), when=technique == "pcf")
     maybe(0.5, "--blur-radius", rng.choice(["0", "1", "5"]), when=technique in MOMENTS)

@@ -143,8 +143,9 @@ struct RowControl {
     return entered && text.data() != now && raster::set_setting(row, map, text.data()).has_value();
   }
   /// In texels whatever the unit, and beside the slider what that is in the world.
-  bool operator()(const raster::ConstantBiasSetting&) const {
+  bool operator()(const raster::ConstantBiasSetting& constant) const {
     const LivePicture& live = context.shown.live;
+    if (!constant.may_be_automatic) return casters_constant(constant, live.texel_world);
     title_of(row, "texels");
     double texels = bias_texels(map.bias, live.bias_world, live.texel_world);
     bool changed = slider(Note(row), texels, 0.0, 10.0, false);
@@ -152,6 +153,17 @@ struct RowControl {
     faint(fmt::format("= {:.4g} world units along the ray", live.bias_world));
     changed |= unit();
     return changed;
+  }
+  /// In texels, too, whatever the unit was.
+  bool casters_constant(const raster::ConstantBiasSetting& constant, double texel_world) const {
+    double& value = map.bias.*constant.constant;
+    raster::BiasUnit& unit = map.bias.*constant.unit;
+    const bool in_texels = unit == raster::BiasUnit::texel;
+    title_of(row, "texels");
+    double texels = in_texels || !(texel_world > 0.0) ? value : value / texel_world;
+    if (!slider(Note(row), texels, 0.0, 10.0, false)) return false;
+    value = texels, unit = raster::BiasUnit::texel;
+    return true;
   }
   bool unit() const {
     constexpr const char* names[] = {"world units", "texels", "automatic"};

@@ -1,0 +1,31 @@
+// What the test that a capture describes makes of its picture, before any convention is suspected: a renderer whose own map,
+// matrix and bias draw what the picture shows has no convention wrong, however little its shadows have to do with the truth.
+#pragma once
+
+#include "compare/comparison.h"
+#include "studies/judge/captured_frame.h"
+
+namespace gnomon::compare {
+
+/// Of samples inside the map whose filter reads texels that all agree.
+struct OwnTest {
+  std::size_t pixels = 0, as_drawn = 0;
+  std::size_t dark = 0;        ///< by the test
+  std::size_t drawn_dark = 0;  ///< by the picture
+  /// What the picture shows where the test is dark, where most of that is one value; else 0.
+  double full_shadow = 0.0;
+
+  /// The test is the picture in 19 of 20 samples, and what differs is the smaller part of what either shadows.
+  bool is_believed() const;
+};
+
+/// `drawn`: the capture's frame. Darker than halfway between `full_shadow` and 1 counts as shadow.
+OwnTest try_own_test(const FrameInput& input, const raster::RasterFrame& drawn);
+
+/// That no shadow is drawn, and why, as a sentence; `drawn` shows none where the truth has some.
+std::vector<std::string> no_shadow_notes(const LightComparison& light, const raster::LightRecord& record);
+
+/// The visibility with what is drawn as `full_shadow` in [0, 1) as 0.
+void stretch_to_full_shadow(double full_shadow, Image<float>& visibility);
+
+}  // namespace gnomon::compare

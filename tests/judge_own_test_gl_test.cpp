@@ -1,0 +1,279 @@
+// Captures of real engines' kinds that a judge must believe: whatever is wrong with their shadows, their own test, map and
+// matrix draw the picture. Each has a sibling without the oddity, and is judged as that one is.
+#include <fmt/ranges.h>
+
+#include "compare/result/judged.h"
+#include "scene/files/pictures/image_io.h"
+#include "support/capture_support.h"
+
+namespace gnomon::test {
+namespace {
+
+using compare::Capture;
+using compare::Label;
+using compare::StoredDepth;
+
+/// A floor, a plate that hovers closely over it, turned, and a box that stands on it.
+Scene hovering_box(const std::string& light) {
+  Mesh high = box_mesh({-0.8, 0.0, -0.9}, {0.8, 0.03, 0.9}),
+       low = box_mesh({1.2, 0.0, -1.4}, {2.0, 0.7, -0.5});
+  for (Vec3& p : high.positions) p = Vec3(0.98 * p.x - 0.2 * p.y, 0.2 + 0.2 * p.x + 0.98 * p.y, p.z);
+  Scene scene = sunlit_scene({floor_mesh(4, 4), high, low}, {0.9, -1.0, 0.5});
+  scene.camera = {{3.5, 2.2, 4.5}, {0.4, 0.1, 0.2}, {0, 1, 0}, 0.8};
+  if (light == "sun") return scene;
+  Light& lamp = scene.lights[0];
+  lamp.type = LightType::spot;
+  lamp.position = {-1.5, 6.0, -1.0};
+  lamp.direction = glm::normalize(-lamp.position);
+  lamp.inner_angle = 0.6, lamp.outer_angle = 0.7;
+  return scene;
+}
+
+/// A light's map and the picture that another renderer draws on it with this bias.
+struct Engine {
+  explicit Engine(const std::string& name, double constant_depth, const std::string& light = "sun",
+                  StoredDepth stored = StoredDepth::zero_to_one, const raster::Bias& casters = {})
+      : drawn(draw_scene(hovering_box(light), small_picture, map_with(casters))),
+        capture(self_capture(drawn, folder_for("own-" + name), {.map = true, .stored = stored})) {
+    capture.bias = compare::CapturedBias{.constant_depth = constant_depth};
+    draw_again(capture, drawn);
+  }
+  static raster::MapOptions map_with(const raster::Bias& casters) {
+    raster::MapOptions map = hard_map(512);
+    map.bias = casters;
+    map.bias.constant = 0.0, map.bias.unit = raster::BiasUnit::world;
+    return map;
+  }
+  JudgeOutcome judged(bool fix = false) const {
+    compare::JudgeOptions options;
+    options.fix = fix;
+    return judge(capture, *drawn.scene, options);
+  }
+  const LightView& view() const { return drawn.result.raster.lights[0].map.view; }
+  double range() const { return view().face(0).far_depth - view().face(0).near_depth; }
+  void change_picture(const std::function<float(float)>& change) {
+    spoil(capture.visibility, [&](ChannelImage& image) {
+      for (float& v : image.channels[0].values) v = change(v);
+    });
+  }
+
+  Compared drawn;
+  Capture capture;
+};
+
+std::string notes_in(const JudgeOutcome& judged) {
+  return judged.result ? fmt::format("{}", fmt::join(judged.result->judged->notes, "\n")) : reason(judged);
+}
+
+std::uint64_t called(const JudgeOutcome& judged, Label label) {
+  return judged.result->lights[0].classes[static_cast<std::size_t>(label) - 1];
+}
+
+/// V5 is V6 but for the borders of texels, and labels and advice are the sibling's.
+void expect_judged_as(const JudgeOutcome& judged, const JudgeOutcome& sibling) {
+  ASSERT_TRUE(judged.result) << reason(judged);
+  ASSERT_TRUE(sibling.result) << reason(sibling);
+  EXPECT_GT(judged.result->judged->biased_is_drawn, 0.999);
+  const auto allowed =
+      static_cast<std::uint64_t>(border_share * double(sibling.result->lights[0].pixels.compared));
+  for (std::size_t k = 1; k <= compare::class_count; ++k)
+    EXPECT_NEAR(double(called(judged, static_cast<Label>(k))), double(called(sibling, static_cast<Label>(k))),
+                double(allowed))
+        << label_name(static_cast<Label>(k));
+  const auto &its = judged.result->judged->advice, &own = sibling.result->judged->advice;
+  ASSERT_EQ(its.empty(), own.empty());
+  if (!own.empty()) {
+    EXPECT_NEAR(its[0].wrong_instead, own[0].wrong_instead, border_share);
+  }
+}
+
+// ---- verdicts, not conventions ----
+
+TEST(JudgeOwnTest, ABiasThatLeavesNoShadowIsAVerdict) {
+  const Engine engine("no-shadow", 0.6);
+  const JudgeOutcome judged = engine.judged();
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_NE(notes_in(judged).find("no shadow is drawn: the bias of"), std::string::npos) << notes_in(judged);
+  const compare::LightComparison& light = judged.result->lights[0];
+  EXPECT_GT(4 * called(judged, Label::peter_panning), 3 * light.error.wrong);
+  const std::vector<compare::Advice>& advice = judged.result->judged->advice;
+  ASSERT_FALSE(advice.empty());
+  EXPECT_LT(advice.back().wrong_instead, 0.2 * advice[0].wrong_now);
+}
+
+TEST(JudgeOwnTest, AStrengthIsToldAndTakenOut) {
+  Engine engine("strength", 0.002);
+  const JudgeOutcome plain = engine.judged();
+  for (const double strength : {0.3, 0.6}) {
+    Engine weak("strength", 0.002);
+    weak.change_picture([&](float v) { return static_cast<float>(1.0 - strength + strength * double{v}); });
+    const JudgeOutcome judged = weak.judged();
+    expect_judged_as(judged, plain);
+    EXPECT_NE(notes_in(judged).find(fmt::format("a strength of {:.3g}", strength)), std::string::npos)
+        << notes_in(judged);
+    weak.capture.strength = strength;
+    const JudgeOutcome said = weak.judged();
+    expect_judged_as(said, plain);
+    EXPECT_EQ(notes_in(said).find("a strength of"), std::string::npos) << notes_in(said);
+  }
+}
+
+// Half a percent of the picture is dark for another reason: the bias is advised on all the same.
+TEST(JudgeOwnTest, AContactShadowTakesNoAdviceAway) {
+  Engine engine("contact", 0.002);
+  const JudgeOutcome plain = engine.judged();
+  ASSERT_TRUE(plain.result) << reason(plain);
+  std::size_t darkened = 0;
+  spoil(engine.capture.visibility, [&](ChannelImage& image) {
+    for (int y = 60; y < 80; ++y)
+      for (int x = 20; x < 34; ++x) {
+        float& v = image.channels[0].values[std::size_t(y * small_picture.width + x)];
+        darkened += v > 0.5f ? 1 : 0, v = 0.0f;
+      }
+  });
+  ASSERT_GT(darkened, 100U);
+  const JudgeOutcome judged = engine.judged();
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_NE(notes_in(judged).find("is not the one that was drawn in"), std::string::npos) << notes_in(judged);
+  const auto &its = judged.result->judged->advice, &own = plain.result->judged->advice;
+  ASSERT_FALSE(its.empty());
+  EXPECT_EQ(its[0].instead, own[0].instead);
+  EXPECT_LE(called(judged, Label::unexplained), darkened);
+}
+
+// ---- the casters' bias ----
+
+struct CasterCase {
+  const char* name;
+  const char* light;
+  StoredDepth stored;
+  double constant_world, slope;  ///< as drawn
+};
+
+class JudgeCasterBias : public testing::TestWithParam<CasterCase> {};
+
+// Drawn by the rasterizer with a bias of casters, handed over without a word, and again with the key that says it.
+TEST_P(JudgeCasterBias, IsFoundChargedToTheBiasAndAdvisedOn) {
+  const CasterCase& c = GetParam();
+  raster::Bias casters{.slope = 0.0};
+  casters.caster_constant = c.constant_world, casters.caster_slope = c.slope;
+  Engine engine(std::string("casters-") + c.name, 0.0, c.light, c.stored, casters);
+  const JudgeOutcome found = engine.judged();
+  ASSERT_TRUE(found.result) << reason(found);
+  EXPECT_NE(notes_in(found).find("the map was drawn with "), std::string::npos) << notes_in(found);
+  EXPECT_GT(found.result->judged->biased_is_drawn, 0.995);
+  const compare::LightComparison& light = found.result->lights[0];
+  EXPECT_GT(called(found, Label::caster_bias), 50U);
+  EXPECT_LT(called(found, Label::stored_depth) + called(found, Label::missing_caster),
+            light.error.wrong / 20 + 2);
+  EXPECT_LT(light.budget[compare::cause_count].absolute_mean, 1e-3) << "no caster lacks";
+  EXPECT_GE(light.budget[static_cast<std::size_t>(compare::Cause::bias)].missed_shadow,
+            called(found, Label::caster_bias));
+  const std::vector<compare::Advice>& advice = found.result->judged->advice;
+  ASSERT_FALSE(advice.empty());
+  EXPECT_TRUE(advice[0].setting.starts_with("map[].caster_bias.constant")) << advice[0].setting;
+  EXPECT_LT(advice.back().wrong_instead, 0.5 * advice[0].wrong_now);
+  // The rule is the drawing's own, within one percent.
+  const bool world = advice[0].setting.ends_with("_world"), parallel = std::string(c.light) == "sun";
+  if (parallel || world) {
+    EXPECT_NEAR(advice[0].now * (world ? 1.0 : engine.range()), c.constant_world,
+                0.01 * c.constant_world + 1e-4);
+  }
+  if (advice.back().setting == "map[].caster_bias.slope") {
+    EXPECT_NEAR(advice.back().now, c.slope, 0.01 * c.slope);
+  }
+  engine.capture.map[0].caster_bias =
+      compare::CapturedCasterBias{.constant_world = c.constant_world, .slope = c.slope};
+  const JudgeOutcome given = engine.judged();
+  expect_judged_as(given, found);
+  EXPECT_EQ(notes_in(given).find("the map was drawn with "), std::string::npos) << notes_in(given);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Maps, JudgeCasterBias,
+    testing::Values(CasterCase{"sun_constant", "sun", StoredDepth::zero_to_one, 0.4, 0.0},
+                    CasterCase{"sun_slope", "sun", StoredDepth::zero_to_one, 0.0, 32.0},
+                    CasterCase{"sun_both", "sun", StoredDepth::minus_one_to_one, 0.3, 10.0},
+                    CasterCase{"sun_both_reversed", "sun", StoredDepth::reversed, 0.3, 10.0},
+                    CasterCase{"spot_constant", "lamp", StoredDepth::zero_to_one, 0.4, 0.0},
+                    CasterCase{"spot_slope", "lamp", StoredDepth::zero_to_one, 0.0, 120.0}),
+    [](const auto& chosen) { return chosen.param.name; });
+
+// ---- worlds and projections ----
+
+/// The capture as a renderer hands it over whose places are `captured_from_scene` times the scene's.
+void turn_world(Capture& capture, const Mat3& captured_from_scene, bool positions = true) {
+  for (compare::CapturedLayer& layer : capture.map)
+    *layer.clip_from_world *= Mat4(glm::inverse(captured_from_scene));
+  if (!positions) return;
+  spoil(capture.position, [&](ChannelImage& image) {
+    for (std::size_t i = 0; i < image.size.pixels(); ++i) {
+      std::array<float*, 3> c{};
+      for (Channel& channel : image.channels)
+        if (channel.name != "A") c[std::size_t(channel.name[0] - 'X')] = &channel.values[i];
+      const Vec3 p = captured_from_scene * Vec3(*c[0], *c[1], *c[2]);
+      for (int k = 0; k < 3; ++k) *c[std::size_t(k)] = static_cast<float>(p[k]);
+    }
+  });
+}
+
+struct WorldCase {
+  const char* name;
+  const char* words;
+  Mat3 scene_from_captured;
+  bool positions = true;
+};
+
+class JudgeWorld : public testing::TestWithParam<WorldCase> {};
+
+TEST_P(JudgeWorld, IsNamedAndMendedOfPositionsAndMapTogether) {
+  const WorldCase& c = GetParam();
+  Engine engine(std::string("world-") + c.name, 0.002);
+  const JudgeOutcome plain = engine.judged();
+  turn_world(engine.capture, glm::inverse(c.scene_from_captured), c.positions);
+  const JudgeOutcome refused = engine.judged();
+  ASSERT_FALSE(refused.result);
+  EXPECT_NE(reason(refused).find(c.words), std::string::npos) << reason(refused);
+  EXPECT_NE(reason(refused).find("--fix undoes it"), std::string::npos) << reason(refused);
+  const JudgeOutcome mended = engine.judged(true);
+  expect_judged_as(mended, plain);
+  ASSERT_EQ(mended.result->judged->mended.size(), 1U);
+  EXPECT_NE(mended.result->judged->mended[0].what.find(c.words), std::string::npos);
+}
+
+const Vec3 x_of_scene(1, 0, 0), y_of_scene(0, 1, 0), z_of_scene(0, 0, 1);
+INSTANTIATE_TEST_SUITE_P(Worlds, JudgeWorld,
+                         testing::Values(WorldCase{"z_up", "the positions are z-up",
+                                                   Mat3(x_of_scene, -z_of_scene, y_of_scene)},
+                                         WorldCase{"left_handed", "left-handed (z the other way)",
+                                                   Mat3(x_of_scene, y_of_scene, -z_of_scene)},
+                                         WorldCase{"centimetres", "in centimetres", Mat3(0.01)},
+                                         WorldCase{"unreal", "z-up, the scene y-up, left-handed",
+                                                   0.01 * Mat3(-z_of_scene, x_of_scene, y_of_scene)},
+                                         WorldCase{"map_alone", "the map's world is z-up",
+                                                   Mat3(x_of_scene, -z_of_scene, y_of_scene), false}),
+                         [](const auto& chosen) { return chosen.param.name; });
+
+// Stored is near / depth: the matrix's row of z has no direction.
+TEST(JudgeOwnTest, AReversedInfiniteProjectionIsNotSingular) {
+  Engine engine("infinite", 0.0002, "lamp", StoredDepth::reversed);
+  const LightFace& face = engine.view().face(0);
+  LightView reversed = engine.view();
+  reversed.reversed = true;
+  Capture& capture = engine.capture;
+  spoil(capture.map[0].depth, [&](ChannelImage& image) {
+    for (float& v : image.channels[0].values)
+      if (v > 0.0f) v = static_cast<float>(face.near_depth / depth_from_stored(reversed, 0, 0.5, double{v}));
+  });
+  Mat4& matrix = *capture.map[0].clip_from_world;
+  for (int column = 0; column < 4; ++column) matrix[column][2] = column == 3 ? face.near_depth : 0.0;
+  draw_again(capture, engine.drawn);
+  const JudgeOutcome judged = engine.judged();
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_GT(judged.result->judged->biased_is_drawn, 0.999);
+  EXPECT_FALSE(judged.result->judged->advice.empty());
+  EXPECT_LT(called(judged, Label::unexplained) + called(judged, Label::stored_depth), 10U);
+}
+
+}  // namespace
+}  // namespace gnomon::test
