@@ -302,7 +302,7 @@ void add_compare(CLI::App& program, Invocation& invocation) {
       "gnomon compare fence\n"
       "gnomon compare model.glb --map-size 2048 --bias 0.5texel -o report\n"
       "gnomon compare whitted --light lamp --json - | jq .lights[0].error\n"
-      "gnomon compare level.glb --cameras all --fail-above 2%    judged by the worst view\n"
+      "gnomon compare level.glb --cameras all --fail-above 2%    by its worst view\n"
       "gnomon compare scene.json --fail-above 1% --quiet    for scripts: exit code 1");
   const auto command = std::make_shared<CompareCommand>();
   command->command_line = invocation.command_line;
