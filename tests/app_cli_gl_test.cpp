@@ -324,7 +324,7 @@ TEST(ExitCodes, AStripedFloorThatIsDrawnGreyIsNotRight) {
                    "out"};
   const ProcessResult result = run_gnomon(grey, here);
   EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
-  EXPECT_NE(result.out.find("The mean error is"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" % on average"), std::string::npos) << result.out;
   EXPECT_NE(result.err.find("that is more than --fail-above 1%"), std::string::npos) << result.err;
   const json document = json::parse(read_file(folder / "out/result.json"));
   EXPECT_GT(document["lights"][0]["error"]["mean_absolute"], 0.3);

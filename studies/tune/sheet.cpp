@@ -148,7 +148,7 @@ Expected<std::string> column(const SheetCandidate& candidate, const Comparison& 
   return text;
 }
 
-constexpr std::string_view style = R"(<style>
+constexpr std::string_view style = R"(
 @page { size: A4 landscape; margin: 10mm; }
 body { font: 9pt/1.3 system-ui, sans-serif; margin: 1em auto; max-width: 277mm; color: #1c1e22; background: #fff; }
 h1 { font-size: 14pt; margin: 0 0 .2em; } h2 { font-size: 11pt; margin: 0 0 .4em; } p { margin: .3em 0; }
@@ -157,7 +157,7 @@ main { display: flex; gap: 5mm; align-items: flex-start; } section { flex: 1 1 0
 img { width: 100%; image-rendering: pixelated; display: block; } table { border-collapse: collapse; width: 100%; }
 th, td { text-align: left; vertical-align: top; padding: .15em .4em .15em 0; border-bottom: 1px solid #d8dade; font-weight: normal; }
 th { color: #50555e; white-space: nowrap; } @media screen { body { padding: 0 1em; } } code { font-size: 7.5pt; overflow-wrap: anywhere; } ul { margin: .3em 0; padding-left: 1.1em; font-size: 8pt; }
-</style>)";
+)";
 
 }  // namespace
 
@@ -194,13 +194,13 @@ Expected<std::string> tune_sheet(Engine& engine, const SheetInput& in) {
                                  ? limit_words(*in.goal.max_error)
                                  : "at most " + milliseconds(*in.goal.max_time_ms) + " for map and shading";
   return fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Shadows of {} – "
-      "Gnomon</title>\n"
-      "{}</head><body>\n<h1>Shadows of {}</h1>\n<p>Wanted: {}. The star is the answer; the others have at "
-      "most "
-      "as much memory for their maps. Texels and taps hold on every machine, times on this one.</p>\n"
-      "<main>{}</main></body></html>\n",
-      escaped(in.scene), style, escaped(in.scene), escaped(wanted), columns);
+      "<!doctype html>\n<html lang=\"en\"><head><meta "
+      "charset=\"utf-8\">{}<style>{}</style></head><body>\n<h1>Shadows of "
+      "{}</h1>\n<p>Wanted: {}. The star is the answer; the others have at most as much memory for their "
+      "maps. Texels and "
+      "taps hold on every machine, times on this one.</p>\n<main>{}</main></body></html>\n",
+      page_head({"Shadows of " + in.scene + " – Gnomon", style}), style, escaped(in.scene), escaped(wanted),
+      columns);
 }
 
 }  // namespace gnomon::compare
