@@ -76,6 +76,28 @@ struct CapturedTest {
   double unit_world = 1.0;
   double normal_offset_world = 0.0;  ///< >= 0, along the receiver's normal, whatever the light's angle
   bool distances = false;  ///< the renderer stores distances from the light, not the depths of its matrix
+  /// Stored numbers are read between the four nearest texels, each weighed by how near it is, and then compared once.
+  bool linear_depths = false;
+  /// By face, where a picture of the renderer's fills a part of the face alone: columns and rows from the lowest u and v.
+  struct Part {
+    int column = 0, row = 0, width = 0, height = 0;
+    bool holds(int u, int v) const {
+      return u >= column && v >= row && u < column + width && v < row + height;
+    }
+    bool operator==(const Part&) const = default;
+  };
+  std::vector<Part> parts{};  ///< empty: all of each face
+  bool holds(int face, int column, int row) const {
+    return parts.empty() || parts[static_cast<std::size_t>(face)].holds(column, row);
+  }
+  /// By pixel, the face that it looks up, whichever hold its place; no_face: it looks up none. Empty: the first that holds it.
+  Image<std::uint8_t> faces{};
+  static constexpr std::uint8_t no_face = 255;
+  /// By face, what the test has beside the bias of the first: stored numbers, and world units along the normal.
+  struct LayerBias {
+    double constant = 0.0, normal_offset_world = 0.0;
+  };
+  std::vector<LayerBias> layers{};
 };
 
 /// Another renderer's picture.

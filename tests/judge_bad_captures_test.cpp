@@ -87,7 +87,8 @@ TEST(BadCaptures, AreRefusedByTheirHeaders) {
   capture.position.clear();
   capture.map = {layer(Mat4(1.0))};
   capture.map[0].depth = header_alone("oblong.exr", {8, 4});
-  expect_named(capture, "map[0].depth: is not square (got 8 x 4)");
+  capture.map[0].rect = compare::CapturedRect{4, 0, 4, 5};
+  expect_named(capture, "map[0].rect: reaches beyond its picture (got [4, 0, 4, 5], the picture is 8 x 4)");
 }
 
 TEST(BadCaptures, OfPicturesNameThePicture) {
@@ -174,6 +175,10 @@ TEST(CaptureSchema, TakesWhatTheReaderTakes) {
   whole["strength"] = 0.8;
   whole["map"][0]["caster_bias"] = {
       {"constant", 0.001}, {"constant_world", -0.1}, {"slope", 2}, {"clamp", 0.01}};
+  whole["map"][0]["rect"] = {0, 4, 8, 8};
+  whole["map"][0]["select"] = {{"near", 1}, {"far", 5.5}, {"by", "distance"}};
+  whole["map"][0]["bias"] = {{"constant_depth", 0.1}, {"normal_offset_world", 1}};
+  whole["filter"] = {{"kind", "none"}, {"read", "linear_depths"}};
   EXPECT_EQ(taken(whole), std::pair(true, true));
   const std::vector<std::pair<std::string, Json>> wrong{{"/schema", "gnomon/capture/3"},
                                                         {"/renderer/name", ""},
@@ -199,6 +204,12 @@ TEST(CaptureSchema, TakesWhatTheReaderTakes) {
                                                         {"/filter/radius_texels", 0},
                                                         {"/filter/radius_texels", 65},
                                                         {"/strength", 0},
+                                                        {"/map/0/rect", {0, 0, 8}},
+                                                        {"/map/0/rect/0", -1},
+                                                        {"/map/0/select/by", "slice"},
+                                                        {"/map/0/select/near", -1},
+                                                        {"/map/0/bias/constant", 1},
+                                                        {"/filter/read", "cubic"},
                                                         {"/strength", 1.5},
                                                         {"/map/0/caster_bias/factor", 1},
                                                         {"/map/0/caster_bias/slope", "steep"},

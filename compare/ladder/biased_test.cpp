@@ -1,5 +1,7 @@
 #include "compare/ladder/biased_test.h"
 
+#include <algorithm>
+
 #include "compare/truth/texel_groups.h"
 
 namespace gnomon::compare {
@@ -50,13 +52,19 @@ std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, con
   BiasedLookup out;
   out.position = receiver.position;
   out.at = project_to_face(view, record.face.data[pixel], receiver.position);
-  const double given = record.captured ? record.captured->test->normal_offset_world : 0.0;
+  const raster::CapturedTest* test = record.captured ? &*record.captured->test : nullptr;
+  double given = test != nullptr ? test->normal_offset_world : 0.0;
+  if (test != nullptr && !test->layers.empty())
+    given += test->layers[record.face.data[pixel]].normal_offset_world;
   if (bias.normal_offset_texels > 0.0 || given > 0.0) {
     const double sine = glm::length(glm::cross(receiver.normal, to_light));
     const double texels = bias.normal_offset_texels * texel_world_size(view, out.at) * sine;
     out.position += receiver.normal * (texels + given);
-    out.at = project_to_texel(view, out.position);
+    out.at = test != nullptr && !test->faces.data.empty()
+                 ? project_to_face(view, record.face.data[pixel], out.position)
+                 : project_to_texel(view, out.position);
     if (!out.at.inside) return std::nullopt;
+    if (test != nullptr && !test->holds(out.at.face, out.at.column(), out.at.row())) return std::nullopt;
     out.key = raytrace::TexelKey::pack(out.at.face, out.at.column(), out.at.row());
   } else if (!texel_of_pixel(record, pixel, out.key)) {
     return std::nullopt;
@@ -78,13 +86,15 @@ double captured_gap(const raster::LightRecord& record, const raster::Bias& bias,
       bias.slope != 0.0 ? bias.slope * texel_depth_slope(view, at, lookup.position, normal) : 0.0;
   if (test.distances) {
     const double along = glm::dot(texel_ray(view, face, u, v).direction, view.face(face).forward);
-    return (at.distance - caster_depth / along) * test.unit_world - slope;
+    const double constant = test.layers.empty() ? 0.0 : test.layers[static_cast<std::size_t>(face)].constant;
+    return (at.distance - caster_depth / along - constant) * test.unit_world - slope;
   }
   const double own = stored_from_depth(view, face, v, at.depth);
   const double before = stored_from_depth(view, face, v, at.depth - slope * at.depth / at.distance);
   const double caster = stored_from_depth(view, face, v, caster_depth);
   const double behind = view.reversed ? caster - own : own - caster;
-  return (behind - std::abs(own - before)) * test.unit_world;
+  const double constant = test.layers.empty() ? 0.0 : test.layers[static_cast<std::size_t>(face)].constant;
+  return (behind - std::abs(own - before) - constant) * test.unit_world;
 }
 
 }  // namespace
@@ -130,6 +140,25 @@ std::optional<double> stored_caster(const raster::LightRecord& record, raytrace:
   return caster_in(record.map.depth, record.map, key);
 }
 
+std::optional<double> compared_caster(const raster::LightRecord& record, const BiasedLookup& lookup) {
+  if (!record.captured || !record.captured->test->linear_depths) return stored_caster(record, lookup.key);
+  const raster::ShadowMap& map = record.map;
+  const double u = lookup.at.u - 0.5, v = lookup.at.v - 0.5;
+  const double across = u - std::floor(u), up = v - std::floor(v);
+  const auto stored = [&](int du, int dv) {
+    const auto within = [&](double place) {
+      return std::clamp(static_cast<int>(place), 0, map.view.size - 1);
+    };
+    return double{
+        map.depth[map.texel_index(lookup.at.face, within(std::floor(u) + du), within(std::floor(v) + dv))]};
+  };
+  const double low = (1.0 - across) * stored(0, 0) + across * stored(1, 0);
+  const double high = (1.0 - across) * stored(0, 1) + across * stored(1, 1);
+  const double read = (1.0 - up) * low + up * high;
+  if (!holds_caster(map.view, read)) return std::nullopt;
+  return depth_from_stored(map.view, lookup.at.face, lookup.key.row() + 0.5, read);
+}
+
 std::optional<double> unbiased_caster(const raster::LightRecord& record, raytrace::TexelKey key) {
   return caster_in(record.map.true_depth(), record.map, key);
 }
@@ -144,7 +173,7 @@ double biased_gap(const raster::LightRecord& record, const raster::Bias& bias, c
                   const raytrace::SurfacePoint& receiver, std::size_t pixel) {
   const auto lookup = biased_lookup(record, bias, to_light, receiver, pixel);
   if (!lookup) return -infinity;
-  const auto depth = stored_caster(record, lookup->key);
+  const auto depth = compared_caster(record, *lookup);
   return depth ? gap_before(record, bias, receiver.normal, *lookup, *depth) : -infinity;
 }
 

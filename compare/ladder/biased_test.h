@@ -33,7 +33,9 @@ std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, con
                                           std::size_t pixel);
 /// The depth along forward that is stored in a texel, if a caster is.
 std::optional<double> stored_caster(const raster::LightRecord& record, raytrace::TexelKey key);
-/// The same before the casters' own bias.
+/// The depth along forward that the test compares with: the stored one, or what is read between texels (linear_depths).
+std::optional<double> compared_caster(const raster::LightRecord& record, const BiasedLookup& lookup);
+/// The stored depth before the casters' own bias.
 std::optional<double> unbiased_caster(const raster::LightRecord& record, raytrace::TexelKey key);
 /// By how much the casters' own bias moved what a texel stores, depth along forward; 0 where either map stores nothing.
 double caster_offset(const raster::LightRecord& record, raytrace::TexelKey key);

@@ -39,7 +39,7 @@ double gap_with_bias(const LowerClimb& lower, const LadderInput& in, std::size_t
   const auto lookup = lookup_of(in, pixel);
   if (!lookup) return -infinity;
   texel = lookup->key;
-  const auto depth = stored_caster(in.record(), texel);
+  const auto depth = compared_caster(in.record(), *lookup);
   if (!depth) return -infinity;
   const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
   const double exact = lower.centres[group];
@@ -53,6 +53,9 @@ std::optional<double> gap_to_exact(const LowerClimb& lower, const LadderInput& i
                                    std::size_t pixel) {
   const auto lookup = lookup_of(in, pixel);
   if (!lookup) return std::nullopt;
+  const auto& captured = in.record().captured;
+  if (captured && captured->test && captured->test->linear_depths)
+    return std::nullopt;  // it reads no one texel
   double first_depth = lower.centres[group];
   if (lookup->key != lower.groups.keys[group]) first_depth = trace_centre(in, lookup->key).depth;
   const auto depth = depth_of_stored(in, lookup->key, first_depth);

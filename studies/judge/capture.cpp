@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "scene/files/json/json_reader.h"
@@ -38,6 +39,9 @@ class CaptureReader {
   void read_schema(const JsonNode& node);
   void read_layer(const JsonNode& node);
   void read_caster_bias(const JsonNode& node, CapturedLayer& layer);
+  void read_select(const JsonNode& node, CapturedLayer& layer);
+  void read_rect(const JsonNode& node, CapturedLayer& layer);
+  CapturedBias bias_of(const JsonNode& node);
   void since_2(const JsonNode& node, const char* key);
   void read_bias(const JsonNode& node);
   void read_filter(const JsonNode& node);
@@ -117,7 +121,8 @@ void CaptureReader::read_depth(const JsonNode& node) {
 }
 
 void CaptureReader::read_layer(const JsonNode& node) {
-  const JsonObject object(node, {"depth", "convention", "rows", "clip_from_world", "caster_bias"});
+  const JsonObject object(
+      node, {"depth", "convention", "rows", "clip_from_world", "caster_bias", "bias", "rect", "select"});
   CapturedLayer& layer = out_.map.emplace_back();
   if (const auto named = object.require("depth")) layer.depth = file(*named);
   if (const auto convention = object.require("convention"))
@@ -125,6 +130,9 @@ void CaptureReader::read_layer(const JsonNode& node) {
   if (const auto rows = object.require("rows"))
     layer.rows = static_cast<RowOrder>(rows->as_choice(choices(row_order_names)));
   if (const auto bias = object.find("caster_bias")) read_caster_bias(*bias, layer);
+  if (const auto bias = object.find("bias")) since_2(*bias, "bias of a layer"), layer.bias = bias_of(*bias);
+  if (const auto rect = object.find("rect")) read_rect(*rect, layer);
+  if (const auto select = object.find("select")) read_select(*select, layer);
   const auto matrix = object.require("clip_from_world");
   if (!matrix) return;
   const auto numbers = matrix->as_array(16);
@@ -141,18 +149,49 @@ void CaptureReader::read_caster_bias(const JsonNode& node, CapturedLayer& layer)
   layer.caster_bias = bias;
 }
 
-void CaptureReader::read_bias(const JsonNode& node) {
+void CaptureReader::read_rect(const JsonNode& node, CapturedLayer& layer) {
+  since_2(node, "rect");
+  const auto numbers = node.as_array(4);
+  if (numbers.size() != 4) return;
+  const auto whole = [&](std::size_t i, const NumberRange& range) {
+    return static_cast<int>(numbers[i].as_number(range));
+  };
+  layer.rect =
+      CapturedRect{whole(0, place_range), whole(1, place_range), whole(2, side_range), whole(3, side_range)};
+}
+
+void CaptureReader::read_select(const JsonNode& node, CapturedLayer& layer) {
+  since_2(node, "select");
+  const JsonObject object(node, {"near", "far", "by"});
+  CapturedSelect& select = layer.select.emplace();
+  select.near = object.number("near", 0.0, non_negative_number);
+  if (const auto far = object.find("far")) select.far = far->as_number(positive_number);
+  if (const auto by = object.find("by")) select.by_distance = by->as_choice(choices(select_names)) == 1;
+  if (!(select.far > select.near)) node.error("far must be more than near");
+}
+
+CapturedBias CaptureReader::bias_of(const JsonNode& node) {
   const JsonObject object(node, {"constant_depth", "slope", "normal_offset_world"});
-  out_.bias = CapturedBias{object.number("constant_depth", 0.0), object.number("slope", 0.0),
-                           object.number("normal_offset_world", 0.0, non_negative_number)};
+  return {object.number("constant_depth", 0.0), object.number("slope", 0.0),
+          object.number("normal_offset_world", 0.0, non_negative_number)};
+}
+
+void CaptureReader::read_bias(const JsonNode& node) {
+  out_.bias = bias_of(node);
 }
 
 void CaptureReader::read_filter(const JsonNode& node) {
-  const JsonObject object(node, {"kind", "radius_texels"});
+  const JsonObject object(node, {"kind", "radius_texels", "read"});
   CapturedFilter& filter = out_.filter.emplace();
   if (const auto kind = object.require("kind"))
     filter.kind = static_cast<FilterName>(kind->as_choice(choices(filter_names)));
   filter.radius_texels = object.number("radius_texels", filter.radius_texels, radius_range);
+  const auto read = object.find("read");
+  if (!read) return;
+  since_2(*read, "read");
+  filter.linear_depths = read->as_choice(choices(filter_read_names)) == 1;
+  if (filter.linear_depths && filter.kind != FilterName::none)
+    read->error("linear_depths is one comparison, with kind none; pcf averages comparisons of single texels");
 }
 
 Capture CaptureReader::read(const JsonValue& value) {
@@ -232,6 +271,17 @@ Expected<void> check_map(const Capture& capture) {
                       stored_depth_names[static_cast<std::size_t>(*layer.convention)],
                       stored_depth_names[static_cast<std::size_t>(*capture.map.front().convention)]));
   }
+  const auto has_select = [](const CapturedLayer& layer) { return layer.select.has_value(); };
+  const auto selected = std::count_if(capture.map.begin(), capture.map.end(), has_select);
+  if (selected != 0 && selected != static_cast<std::ptrdiff_t>(layers))
+    return capture_error(capture, "map",
+                         "has a select in some layers; it needs one in all of them or in none");
+  for (std::size_t i = 1; i < layers; ++i)
+    if (capture.map[i].bias && capture.map[i].bias->slope !=
+                                   capture.map[0].bias.value_or(capture.bias.value_or(CapturedBias{})).slope)
+      return capture_error(
+          capture, fmt::format("map[{}].bias.slope", i),
+          "differs from that of map[0]; layers may differ in constant_depth and normal_offset_world");
   if (layers == 0 && capture.bias) return capture_error(capture, "bias", "says nothing without map");
   if (layers == 0 && capture.filter) return capture_error(capture, "filter", "says nothing without map");
   return {};

@@ -27,6 +27,8 @@ inline constexpr std::array<std::string_view, 4> pixel_depth_names{"view_z", "di
 inline constexpr std::array<std::string_view, 4> stored_depth_names{"zero_to_one", "minus_one_to_one",
                                                                     "reversed", "distance"};
 inline constexpr std::array<std::string_view, 2> row_order_names{"top_down", "bottom_up"};
+inline constexpr std::array<std::string_view, 2> filter_read_names{"nearest", "linear_depths"};
+inline constexpr std::array<std::string_view, 2> select_names{"view_z", "distance"};
 inline constexpr std::array<std::string_view, 7> filter_names{"none", "pcf",  "pcss", "vsm",
                                                               "esm",  "evsm", "msm"};
 
@@ -46,23 +48,38 @@ struct CapturedCasterBias {
   bool operator==(const CapturedCasterBias&) const = default;
 };
 
-struct CapturedLayer {
-  std::string depth;  ///< file
-  std::optional<StoredDepth> convention;
-  std::optional<RowOrder> rows;
-  std::optional<Mat4> clip_from_world;
-  std::optional<CapturedCasterBias> caster_bias;
-};
-
 struct CapturedBias {
   double constant_depth = 0.0;  ///< stored numbers; positive takes shadow away
   double slope = 0.0;           ///< as raster::Bias::slope
   double normal_offset_world = 0.0;
 };
 
+/// Which pixels look a layer up, by how far they lie from the camera.
+struct CapturedSelect {
+  double near = 0.0, far = infinity;  ///< world units; near <= distance < far
+  bool by_distance = false;           ///< from the eye; else along the view's axis
+};
+
+/// Of a picture that several layers share: texels from its first column and row.
+struct CapturedRect {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+struct CapturedLayer {
+  std::string depth;  ///< file
+  std::optional<StoredDepth> convention;
+  std::optional<RowOrder> rows;
+  std::optional<Mat4> clip_from_world;
+  std::optional<CapturedCasterBias> caster_bias;
+  std::optional<CapturedBias> bias;  ///< in place of the capture's
+  std::optional<CapturedRect> rect;
+  std::optional<CapturedSelect> select;
+};
+
 struct CapturedFilter {
   FilterName kind = FilterName::none;
   double radius_texels = 1.5;  ///< in (0, 64]
+  bool linear_depths = false;  ///< depths are read between the four nearest texels, and then compared
 };
 
 /// Files are as they can be opened: joined with the capture's folder.

@@ -44,16 +44,22 @@ Expected<void> check_layer_sizes(const Capture& capture) {
   int side = 0;
   for (std::size_t i = 0; i < capture.map.size(); ++i) {
     const std::string field = fmt::format("map[{}].depth", i);
-    const auto size = checked_size(capture, capture.map[i].depth, field, false);
-    if (!size) return fail(size.error());
-    if (size->width != size->height)
-      return capture_error(capture, field,
-                           fmt::format("is not square (got {} x {})", size->width, size->height));
-    if (side != 0 && side != size->width)
+    const auto picture = checked_size(capture, capture.map[i].depth, field, false);
+    if (!picture) return fail(picture.error());
+    const CapturedRect rect =
+        capture.map[i].rect.value_or(CapturedRect{0, 0, picture->width, picture->height});
+    if (rect.x + rect.width > picture->width || rect.y + rect.height > picture->height)
+      return capture_error(
+          capture, fmt::format("map[{}].rect", i),
+          fmt::format("reaches beyond its picture (got [{}, {}, {}, {}], the picture is {} x {})", rect.x,
+                      rect.y, rect.width, rect.height, picture->width, picture->height));
+    if (capture.map.size() != 6)
+      continue;  // of a light in perspective six faces of a cube; read_map says so of others
+    if (side != 0 && side != rect.width && rect.width == rect.height)
       return capture_error(
           capture, field,
-          fmt::format("is of another size than the layers before (got {}, they have {})", size->width, side));
-    side = size->width;
+          fmt::format("is of another size than the layers before (got {}, they have {})", rect.width, side));
+    side = rect.width;
   }
   return {};
 }
@@ -275,6 +281,15 @@ Expected<void> check_picture_sizes(const Capture& capture) {
     if (const auto size = checked_size(capture, capture.depth->file, "depth.file", true); !size)
       return fail(size.error());
   return check_layer_sizes(capture);
+}
+
+Expected<ImageSize> layer_picture_size(const Capture& capture, std::size_t layer) {
+  return checked_size(capture, capture.map[layer].depth, fmt::format("map[{}].depth", layer), false);
+}
+
+Expected<ImageSize> layer_size(const Capture& capture, std::size_t layer) {
+  if (const auto& rect = capture.map[layer].rect) return ImageSize{rect->width, rect->height};
+  return layer_picture_size(capture, layer);
 }
 
 Expected<CapturedPictures> read_pictures(const Capture& capture, bool orthographic) {

@@ -27,8 +27,13 @@ struct CapturedPictures {
 };
 
 /// By the headers of all pictures and layers that the capture names, before anything is decoded: they are there, pictures have
-/// the capture's size, and layers are square and of one size. Errors (bad input) name picture and field.
+/// the capture's size, and the faces of a cube are square and of one size, and a layer lies within its
+/// picture. Errors (bad input) name picture and field.
 Expected<void> check_picture_sizes(const Capture& capture);
+
+/// Of a layer's picture, by its header; the layer's own: its rect, or all of it.
+Expected<ImageSize> layer_picture_size(const Capture& capture, std::size_t layer);
+Expected<ImageSize> layer_size(const Capture& capture, std::size_t layer);
 
 /// Errors (bad input) name picture and field: a file that is missing, of another size, with more channels
 /// than wanted, or with values that are not finite or not in their range. `orthographic`: the camera, whose depth buffer goes

@@ -136,20 +136,58 @@ Expected<raster::ShadowMap> empty_map(const FrameInput& in, const Light& light) 
   return map;
 }
 
-void fill_light(const FrameInput& in, bool known, bool distances, raster::RasterFrame& frame,
+/// Which face a pixel looks up; none where its distance is no layer's, and the first that holds the place where layers are
+/// not chosen by it.
+void select_faces(const FrameInput& in, const std::vector<CapturedSelect>& select,
+                  Image<std::uint8_t>& faces) {
+  faces = Image<std::uint8_t>(in.capture.size, raster::CapturedTest::no_face);
+  const View view = make_view(in.camera, in.capture.size);
+  parallel_for(faces.data.size(), [&](std::size_t i) {
+    const SurfacePoint& point = in.traced.receiver.data[i];
+    if (point.primitive == no_id) return;
+    const double along = glm::dot(point.position - view.eye, view.forward),
+                 from_eye = glm::length(point.position - view.eye);
+    for (std::size_t k = 0; k < select.size(); ++k) {
+      const double distance = select[k].by_distance ? from_eye : along;
+      if (distance >= select[k].near && distance < select[k].far) {
+        faces.data[i] = static_cast<std::uint8_t>(k);
+        return;
+      }
+    }
+  });
+}
+
+void fill_test(const FrameInput& in, const CapturedMap& map, raster::CapturedTest& test,
+               const raster::LightRecord& record) {
+  test.distances = map.distances;
+  test.unit_world = map.distances ? 1.0 : unit_world(record.map, in.traced);
+  test.parts = map.parts;
+  test.linear_depths = in.capture.filter && in.capture.filter->linear_depths;
+  const CapturedBias& first = map.bias.front();
+  test.normal_offset_world = first.normal_offset_world;
+  for (const CapturedBias& bias : map.bias)
+    test.layers.push_back(
+        {bias.constant_depth - first.constant_depth, bias.normal_offset_world - first.normal_offset_world});
+  const auto alike = [](const raster::CapturedTest::LayerBias& b) {
+    return b.constant == 0.0 && b.normal_offset_world == 0.0;
+  };
+  if (std::all_of(test.layers.begin(), test.layers.end(), alike)) test.layers.clear();
+  if (!map.select.empty()) select_faces(in, map.select, test.faces);
+}
+
+void fill_light(const FrameInput& in, const CapturedMap* captured, raster::RasterFrame& frame,
                 raster::LightRecord& record) {
   raster::MapOptions& map = frame.options.map;
   record.captured.emplace();
   record.texel_world = raster::texel_world(record.map.view, in.world);
   record.rounding = rounding_of(record.map.view, in.world);
   record.rounding_world = raster::rounding_world(record.rounding, record.map.view, in.world);
-  if (!known) return fill_record(in, map.bias, record);
+  if (captured == nullptr) return fill_record(in, map.bias, record);
   raster::CapturedTest& test = record.captured->test.emplace();
-  test.distances = distances;
-  const CapturedBias bias = in.capture.bias.value_or(CapturedBias{});
-  test.unit_world = distances ? 1.0 : unit_world(record.map, in.traced);
-  test.normal_offset_world = bias.normal_offset_world;
+  fill_test(in, *captured, test, record);
+  const CapturedBias& bias = captured->bias.front();
   record.bias_constant_world = map.bias.constant = bias.constant_depth * test.unit_world;
+  map.bias.slope = bias.slope;
   fill_record(in, map.bias, record);
 }
 
@@ -158,6 +196,8 @@ void fill_light(const FrameInput& in, bool known, bool distances, raster::Raster
 void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRecord& record) {
   const ImageSize size = in.capture.size;
   record.texel_uv = Image<Vec2f>(size, Vec2f(0.0f));
+  const raster::CapturedTest* test = !record.has_known_map() ? nullptr : &*record.captured->test;
+  const bool by_pixel = test != nullptr && !test->faces.data.empty();
   record.face = Image<std::uint8_t>(size, 0);
   record.distance = record.gap = Image<float>(size, 0.0f);
   record.outside_map = Image<std::uint8_t>(size, 0);
@@ -165,8 +205,13 @@ void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRe
   parallel_for(size.pixels(), [&](std::size_t i) {
     const SurfacePoint& point = in.traced.receiver.data[i];
     if (point.primitive == no_id) return;
-    const TexelCoordinate at = project_to_texel(record.map.view, point.position);
-    const bool looks_up = in.tracer.receives_shadow(point);  // else it is lit, whatever a map holds
+    const bool beside = by_pixel && test->faces.data[i] == raster::CapturedTest::no_face;
+    const TexelCoordinate at = by_pixel && !beside
+                                   ? project_to_face(record.map.view, test->faces.data[i], point.position)
+                                   : project_to_texel(record.map.view, point.position);
+    const bool held = test == nullptr || !at.inside || test->holds(at.face, at.column(), at.row());
+    // Else it is lit, whatever a map holds.
+    const bool looks_up = in.tracer.receives_shadow(point) && held && !beside;
     record.texel_uv.data[i] = looks_up ? Vec2f(at.u, at.v) : Vec2f(-1.0f);
     record.face.data[i] = static_cast<std::uint8_t>(at.face);
     record.distance.data[i] = static_cast<float>(at.distance);
@@ -203,7 +248,7 @@ Expected<raster::RasterFrame> make_frame(const FrameInput& in, std::optional<Cap
   frame.options.map.depth_format = record.map.format;
   frame.map_texels = map ? record.map.depth.size() : 0;
   frame.map_bytes = frame.map_texels * sizeof(float);
-  fill_light(in, map.has_value(), map && map->distances, frame, record);
+  fill_light(in, map ? &*map : nullptr, frame, record);
   return frame;
 }
 

@@ -112,15 +112,32 @@ std::optional<std::string> not_of_light(const MatrixFace& face, std::size_t face
   return std::nullopt;
 }
 
-/// Texels row by row from the bottom, and mirrored where the matrix was.
-template <class Put>
-void for_each_texel(const CapturedLayer& layer, int n, bool mirrored, const Put& put) {
-  for (int v = 0; v < n; ++v)
-    for (int u = 0; u < n; ++u) {
-      const int y = *layer.rows == RowOrder::top_down ? n - 1 - v : v;
-      const int x = mirrored ? n - 1 - u : u;
-      put(u, v, static_cast<std::size_t>(y) * static_cast<std::size_t>(n) + static_cast<std::size_t>(x));
-    }
+/// A layer's texels in its picture: rows from the bottom, and mirrored where the matrix was.
+struct LayerTexels {
+  CapturedRect rect;
+  RowOrder rows = RowOrder::top_down;
+  bool mirrored = false;
+  int picture_width = 0;
+
+  std::size_t at(int u, int v) const {
+    const int y = rect.y + (rows == RowOrder::top_down ? rect.height - 1 - v : v);
+    const int x = rect.x + (mirrored ? rect.width - 1 - u : u);
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_width) +
+           static_cast<std::size_t>(x);
+  }
+};
+
+/// The matrix of the layer alone, whose own runs over the whole picture.
+Mat4 clip_of_rect(const CapturedLayer& layer, ImageSize picture) {
+  const CapturedRect& rect = *layer.rect;
+  const double below = *layer.rows == RowOrder::top_down ? picture.height - rect.y - rect.height : rect.y;
+  const Vec2 scale(double(picture.width) / rect.width, double(picture.height) / rect.height);
+  const Vec2 middle(2.0 * (rect.x + 0.5 * rect.width) / picture.width - 1.0,
+                    2.0 * (below + 0.5 * rect.height) / picture.height - 1.0);
+  Mat4 rect_from_picture(1.0);
+  rect_from_picture[0][0] = scale.x, rect_from_picture[1][1] = scale.y;
+  rect_from_picture[3][0] = -scale.x * middle.x, rect_from_picture[3][1] = -scale.y * middle.y;
+  return rect_from_picture * *layer.clip_from_world;
 }
 
 /// A distance as the view's stored depth; what lies beyond its far plane, and 0, is nothing.
@@ -142,20 +159,55 @@ Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored,
   if (!channel) return fail(channel.error());
   const auto wrong = [&](std::string reason) { return capture_error(capture, field, std::move(reason)); };
   raster::ShadowMap& map = out.map;
-  const auto n = static_cast<std::size_t>(size.width);
-  map.view.size = size.width;
-  map.depth.resize(static_cast<std::size_t>(map.view.face_count) * n * n, 1.0f);
+  const raster::CapturedTest::Part& part = out.parts[static_cast<std::size_t>(face)];
+  const LayerTexels texels{layer.rect.value_or(CapturedRect{0, 0, size.width, size.height}), *layer.rows,
+                           mirrored, size.width};
   std::size_t bad = 0, beyond = 0;
-  for_each_texel(layer, size.width, mirrored, [&](int u, int v, std::size_t from) {
-    const float value = channel->values[from];
-    bad += std::isnan(value) || (!out.distances && !std::isfinite(value)) ? 1 : 0;
-    beyond += !out.distances && (value < 0.0f || value > 1.0f) ? 1 : 0;
-    map.depth[map.texel_index(face, u, v)] =
-        out.distances ? stored_of_distance(map.view, face, u, v, scale * double{value}) : value;
-  });
+  for (int v = 0; v < part.height; ++v)
+    for (int u = 0; u < part.width; ++u) {
+      const float value = channel->values[texels.at(u, v)];
+      bad += std::isnan(value) || (!out.distances && !std::isfinite(value)) ? 1 : 0;
+      beyond += !out.distances && (value < 0.0f || value > 1.0f) ? 1 : 0;
+      const int column = part.column + u, row = part.row + v;
+      map.depth[map.texel_index(face, column, row)] =
+          out.distances ? stored_of_distance(map.view, face, column, row, scale * double{value}) : value;
+    }
   if (bad > 0) return wrong(fmt::format("{} texels are not finite numbers", bad));
   if (beyond > 0)
     return wrong(fmt::format("{} texels lie beyond 0 to 1; minus_one_to_one stores (z/w + 1)/2", beyond));
+  return {};
+}
+
+/// Each layer in the middle of a square face of the largest side, texels alike.
+Expected<void> lay_out(const Capture& capture, const std::vector<int>& order, CapturedMap& out) {
+  LightView& view = out.map.view;
+  std::vector<ImageSize> sizes;
+  view.size = 0;
+  for (std::size_t i = 0; i < capture.map.size(); ++i) {
+    const auto picture = layer_size(capture, i);
+    if (!picture) return fail(picture.error());
+    sizes.push_back(*picture);
+    view.size = std::max({view.size, picture->width, picture->height});
+  }
+  out.parts.resize(sizes.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const auto face = static_cast<std::size_t>(order[i]);
+    const int left = view.size - sizes[i].width, below = view.size - sizes[i].height;
+    out.parts[face] = {left / 2, below / 2, sizes[i].width, sizes[i].height};
+    if (view.projection == LightProjection::perspective && (left % 2 != 0 || below % 2 != 0 || view.seamless))
+      if (left != 0 || below != 0)
+        return capture_error(capture, fmt::format("map[{}].depth", i),
+                             view.seamless ? "is not as large as the other faces of the cube, or not square"
+                                           : "has sides of which one is even and one odd");
+    LightFace& f = view.faces[face];
+    const Vec2 texel = 2.0 * f.half_extent / Vec2(sizes[i].width, sizes[i].height);
+    f.half_extent = 0.5 * double(view.size) * texel;
+    f.center += 0.5 * Vec2(left % 2, below % 2) * texel;
+  }
+  const float nothing = view.reversed ? 0.0f : 1.0f;
+  out.map.depth.assign(static_cast<std::size_t>(view.face_count) * static_cast<std::size_t>(view.size) *
+                           static_cast<std::size_t>(view.size),
+                       nothing);
   return {};
 }
 
@@ -202,11 +254,21 @@ tl::expected<MatrixFace, std::string> take_apart(const Mat4& m, StoredDepth conv
 
 namespace {
 
+Expected<Mat4> layer_matrix(const Capture& capture, std::size_t i) {
+  const CapturedLayer& layer = capture.map[i];
+  if (!layer.rect) return *layer.clip_from_world;
+  const auto picture = layer_picture_size(capture, i);
+  if (!picture) return fail(picture.error());
+  return clip_of_rect(layer, *picture);
+}
+
 Expected<std::vector<MatrixFace>> read_faces(const Capture& capture, const Light& light, const World& world) {
   std::vector<MatrixFace> faces;
   for (std::size_t i = 0; i < capture.map.size(); ++i) {
     const std::string field = fmt::format("map[{}].clip_from_world", i);
-    const auto face = take_apart(*capture.map[i].clip_from_world, *capture.map.front().convention);
+    const auto matrix = layer_matrix(capture, i);
+    if (!matrix) return fail(matrix.error());
+    const auto face = take_apart(*matrix, *capture.map.front().convention);
     if (!face) return capture_error(capture, field, face.error());
     if (const auto reason = not_of_light(*face, capture.map.size(), light, world))
       return capture_error(capture, field, *reason);
@@ -221,6 +283,9 @@ Capture in_world_of_scene(Capture capture, const Mat3& scene_from_captured) {
   const double scale = std::cbrt(std::abs(glm::determinant(scene_from_captured)));
   for (CapturedLayer& layer : capture.map) {
     if (layer.clip_from_world) *layer.clip_from_world *= Mat4(glm::inverse(scene_from_captured));
+    if (layer.select) layer.select->near *= scale, layer.select->far *= scale;
+    if (layer.bias) layer.bias->normal_offset_world *= scale;
+    if (layer.bias && layer.convention == StoredDepth::distance) layer.bias->constant_depth *= scale;
     if (!layer.caster_bias) continue;
     layer.caster_bias->constant_world *= scale;
     if (layer.convention == StoredDepth::distance) layer.caster_bias->constant *= scale;
@@ -257,17 +322,24 @@ Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const
   view.seamless = !parallel && faces.size() == 6;
   const auto order = order_faces(capture, faces);
   if (!order) return fail(order.error());
-  out.caster_bias.resize(faces.size());
+  out.caster_bias.resize(faces.size()), out.bias.resize(faces.size());
+  if (capture.map.front().select) out.select.resize(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const auto face = static_cast<std::size_t>((*order)[i]);
     view.faces[face] = faces[i].face;
+    out.bias[face] = capture.map[i].bias.value_or(capture.bias.value_or(CapturedBias{}));
+    if (capture.map[i].select) out.select[face] = *capture.map[i].select;
     CapturedCasterBias& bias = out.caster_bias[face] =
         capture.map[i].caster_bias.value_or(CapturedCasterBias{});
     if (out.distances) bias.constant_world += bias.constant, bias.constant = 0.0;
   }
+  if (const auto laid = lay_out(capture, *order, out); !laid) return fail(laid.error());
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (const auto read = read_texels(capture, i, faces[i].mirrored, (*order)[i], scale, out); !read)
       return fail(read.error());
+  const raster::CapturedTest::Part whole{0, 0, view.size, view.size};
+  if (std::all_of(out.parts.begin(), out.parts.end(), [&](const auto& part) { return part == whole; }))
+    out.parts.clear();
   out.map.format = view.reversed ? raster::DepthFormat::d32f_reversed : raster::DepthFormat::d32f;
   return out;
 }

@@ -8,9 +8,12 @@
 namespace gnomon::compare {
 
 struct CapturedMap {
-  raster::ShadowMap map;                        ///< `primitive` holds no_id all over
-  bool distances = false;                       ///< StoredDepth::distance
-  std::vector<CapturedCasterBias> caster_bias;  ///< by face
+  raster::ShadowMap map;                          ///< `primitive` holds no_id all over
+  bool distances = false;                         ///< StoredDepth::distance
+  std::vector<CapturedCasterBias> caster_bias;    ///< by face
+  std::vector<raster::CapturedTest::Part> parts;  ///< by face: where its layer lies; empty: all over it
+  std::vector<CapturedBias> bias;                 ///< by face
+  std::vector<CapturedSelect> select;             ///< by face; empty: the first that holds a place
 };
 
 /// Errors (bad input): a matrix that is singular, shears, or is not the light's (its rays run elsewhere).

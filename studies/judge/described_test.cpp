@@ -54,6 +54,12 @@ class Checker {
 
 /// What lies beyond the map's border is the renderer's own choice.
 bool Checker::some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const {
+  if (record_.captured->test->linear_depths) {
+    const auto depth = compared_caster(record_, lookup);
+    const double gap = depth ? gap_before(record_, map_.bias, normal, lookup, *depth) : -infinity;
+    const double over = gap - record_.bias_constant_world;
+    return lit ? over <= slack_ : over > -slack_;
+  }
   const auto texel = [](double place) { return static_cast<int>(std::floor(place)); };
   const int left = texel(lookup.at.u - reach_), right = texel(lookup.at.u + reach_);
   const int low = texel(lookup.at.v - reach_), high = texel(lookup.at.v + reach_);

@@ -61,7 +61,7 @@ class OwnTester {
     if (off != Vec2(0.0))
       there.key =
           raytrace::TexelKey::pack(lookup.at.face, texel(lookup.at.u + off.x), texel(lookup.at.v + off.y));
-    const auto depth = stored_caster(record_, there.key);
+    const auto depth = off == Vec2(0.0) ? compared_caster(record_, there) : stored_caster(record_, there.key);
     return depth && gap_before(record_, bias, normal, there, *depth) > record_.bias_constant_world;
   }
 

@@ -14,29 +14,51 @@ using compare::StoredDepth;
 /// Looks shadows up as engines write it: the place through the layer's matrix, one texel, two stored numbers compared.
 class OtherRenderer {
  public:
-  OtherRenderer(const Capture& capture, const Light& light, float outside)
-      : capture_(capture), light_(light), outside_(outside) {
+  OtherRenderer(const Capture& capture, const Light& light, const View& view, float outside)
+      : capture_(capture), light_(light), view_(view), outside_(outside) {
     for (const compare::CapturedLayer& layer : capture.map) texels_.push_back(*read_channels(layer.depth));
   }
 
   float visibility(const Vec3& surface, const Vec3& normal) const {
-    const Vec3 place = surface + capture_.bias->normal_offset_world * normal;
-    const auto layer = layer_of(place);
+    const auto seen = layer_of(surface);
+    const compare::CapturedBias bias = seen ? bias_of(*seen) : *capture_.bias;
+    const Vec3 place = surface + bias.normal_offset_world * normal;
+    const auto layer = selects() ? seen : layer_of(place);
     if (!layer) return outside_;
     const Vec4 clip = *capture_.map[*layer].clip_from_world * Vec4(place, 1.0);
-    const int n = texels_[*layer].size.width;
-    const auto texel = [&](double ndc) {
-      return std::clamp(static_cast<int>((0.5 * ndc + 0.5) * n), 0, n - 1);
-    };
-    const int x = texel(clip.x / clip.w), y = texel(clip.y / clip.w);
-    const int row = capture_.map[*layer].rows == RowOrder::top_down ? n - 1 - y : y;
-    const double stored = texels_[*layer].channels[0].values[static_cast<std::size_t>(row * n + x)];
-    return is_dark(clip.z / clip.w, glm::length(place - light_.position), stored) ? 0.0f : 1.0f;
+    const Vec3 ndc = Vec3(clip) / clip.w;
+    if (std::max(std::abs(ndc.x), std::abs(ndc.y)) >= 1.0) return outside_;
+    const double stored = read(*layer, ndc);
+    return is_dark(ndc.z, glm::length(place - light_.position), stored, bias_of(*layer).constant_depth)
+               ? 0.0f
+               : 1.0f;
   }
 
  private:
-  bool is_dark(double z, double distance, double stored) const {
-    const double bias = capture_.bias->constant_depth;
+  bool selects() const { return capture_.map.front().select.has_value(); }
+  compare::CapturedBias bias_of(std::size_t layer) const {
+    return capture_.map[layer].bias.value_or(*capture_.bias);
+  }
+
+  double texel(std::size_t layer, int x, int row) const {
+    const ImageSize size = texels_[layer].size;
+    x = std::clamp(x, 0, size.width - 1), row = std::clamp(row, 0, size.height - 1);
+    const int y = capture_.map[layer].rows == RowOrder::top_down ? size.height - 1 - row : row;
+    return texels_[layer].channels[0].values[static_cast<std::size_t>(y * size.width + x)];
+  }
+
+  double read(std::size_t layer, const Vec3& ndc) const {
+    const ImageSize size = texels_[layer].size;
+    const Vec2 at = (0.5 * Vec2(ndc) + 0.5) * Vec2(size.width, size.height);
+    if (!capture_.filter || !capture_.filter->linear_depths)
+      return texel(layer, static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)));
+    const Vec2 corner = glm::floor(at - 0.5), share = at - 0.5 - corner;
+    const int x = static_cast<int>(corner.x), y = static_cast<int>(corner.y);
+    return (1.0 - share.y) * ((1.0 - share.x) * texel(layer, x, y) + share.x * texel(layer, x + 1, y)) +
+           share.y * ((1.0 - share.x) * texel(layer, x, y + 1) + share.x * texel(layer, x + 1, y + 1));
+  }
+
+  bool is_dark(double z, double distance, double stored, double bias) const {
     switch (*capture_.map.front().convention) {
       case StoredDepth::zero_to_one:
         return stored < 1.0 && z - stored > bias;
@@ -50,11 +72,18 @@ class OtherRenderer {
     return stored > 0.0 && distance - stored > bias;
   }
 
-  /// A cube's face that looks at the place, or the first cascade that holds it and its neighbouring texels.
+  /// The layer whose distance it is; a cube's face that looks at the place, or the first cascade that holds it and its
+  /// neighbouring texels.
   std::optional<std::size_t> layer_of(const Vec3& place) const {
     std::optional<std::size_t> best;
     double most = 0.0;
     for (std::size_t i = 0; i < texels_.size(); ++i) {
+      if (const auto& select = capture_.map[i].select) {
+        const double along = glm::dot(place - view_.eye, view_.forward);
+        const double distance = select->by_distance ? glm::length(place - view_.eye) : along;
+        if (distance >= select->near && distance < select->far) return i;
+        continue;
+      }
       const Vec4 clip = *capture_.map[i].clip_from_world * Vec4(place, 1.0);
       const bool perspective = light_.type != LightType::directional, cube = texels_.size() == 6;
       const double margin = i + 1 < texels_.size() ? 1.0 - 2.0 / texels_[i].size.width : 1.0;
@@ -68,6 +97,7 @@ class OtherRenderer {
 
   const Capture& capture_;
   const Light& light_;
+  View view_;
   float outside_;
   std::vector<ChannelImage> texels_;
 };
@@ -82,7 +112,8 @@ Scene scene_under(const std::string& light) {
 }
 
 void draw_again(const Capture& capture, const Compared& drawn, float outside, bool by_fronts) {
-  const OtherRenderer other(capture, drawn.scene->lights[0], outside);
+  const OtherRenderer other(capture, drawn.scene->lights[0], make_view(drawn.scene->camera, capture.size),
+                            outside);
   spoil(capture.visibility, [&](ChannelImage& image) {
     for (Channel& channel : image.channels)
       for (std::size_t i = 0; channel.name != "A" && i < channel.values.size(); ++i) {
