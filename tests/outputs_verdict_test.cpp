@@ -34,7 +34,8 @@ TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
   Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
   c.light.best_bias = {0.01, 0.006, true, 0.005, 0.02, 0, 0};
   EXPECT_EQ(c.verdict(),
-            "Shadow error 4.1 % of the pixels, mostly acne. Try --slope-bias 1 --bias 0.01: 0.6 % wrong.");
+            "Shadow error 4.1 % of the pixels, mostly acne. Try --slope-bias 1 --bias 0.01 (0.8 texel): 0.6 "
+            "% wrong.");
   EXPECT_EQ(verdict_on(c.made->comparison, c.light).detail, "");
 }
 
@@ -153,7 +154,7 @@ TEST(Verdict, AsksForAKindOfBiasByItsOptions) {
   kind.name = "normal offset", kind.wrong_fraction = 0.01;
   const std::pair<raster::Bias, std::string> cases[] = {
       {{.constant = 0.4, .unit = raster::BiasUnit::world, .normal_offset_texels = 1.0},
-       " Try --normal-offset 1 --bias 0.4: 1.0 % wrong."},
+       " Try --normal-offset 1 --bias 0.4 (32 texels): 1.0 % wrong."},
       {{.constant = 0.0, .unit = raster::BiasUnit::world}, " Try --bias 0: 1.0 % wrong."},
       {{.constant = 0.0, .unit = raster::BiasUnit::texel}, " Try --bias 0texel: 1.0 % wrong."}};
   for (const auto& [bias, words] : cases) {
@@ -191,7 +192,7 @@ TEST(Verdict, NamesTheSmallerConstantOfAPlateau) {
   Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   c.light.best_bias = {0.5, 0.01, true, 0.4, 0.7, 0, 0};
   c.light.best_bias.smaller = {0.01, 0.0101};
-  EXPECT_NE(c.verdict().find(" Try --slope-bias 1 --bias 0.01: 1.0 % wrong."), std::string::npos)
+  EXPECT_NE(c.verdict().find(" Try --slope-bias 1 --bias 0.01 (0.8 texel): 1.0 % wrong."), std::string::npos)
       << c.verdict();
 }
 
@@ -212,7 +213,8 @@ TEST(Verdict, HandlesNoneFewAndNothing) {
   Case one(1000000, {0, 0, 0, 0, 1, 0, 0, 0, 0, 0});
   one.light.best_bias = {0.02, 0.0, true, 0.01, 0.03, 0, 0};
   EXPECT_EQ(one.verdict(),
-            "Shadow error in 1 of 1,000,000 pixels, aliasing. Try --slope-bias 1 --bias 0.02: none wrong.");
+            "Shadow error in 1 of 1,000,000 pixels, aliasing. Try --slope-bias 1 --bias 0.02 (1.6 texels): "
+            "none wrong.");
   Case split(1000, {10, 0, 12, 0, 5, 5, 0, 0, 0, 0});
   split.light.best_bias = {0.01, 0.032, true, 0, 1, 0, 0};
   EXPECT_NE(split.verdict().find("mainly peter-panning and acne."), std::string::npos) << split.verdict();
@@ -287,7 +289,8 @@ TEST(Verdict, NamesSoftTechniquesWhereTheLightsSizeIsMostOfTheError) {
   drawn.options.map.technique = raster::Technique::hard;
   size.absolute_mean = 0.0149;
   EXPECT_EQ(c.verdict().find("mostly the light's size"), std::string::npos) << c.verdict();
-  EXPECT_NE(c.verdict().find("Try --slope-bias 1 --bias 0.01:"), std::string::npos) << c.verdict();
+  EXPECT_NE(c.verdict().find("Try --slope-bias 1 --bias 0.01 (0.8 texel):"), std::string::npos)
+      << c.verdict();
   size.absolute_mean = 0.0601;  // a filter made up for more than half of it
   EXPECT_EQ(c.verdict().find("mostly the light's size"), std::string::npos) << c.verdict();
   size.absolute_mean = 0.02;

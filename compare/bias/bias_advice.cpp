@@ -107,9 +107,17 @@ std::string constant_alone(const LightComparison& light) {
   return {};
 }
 
+/// What a constant in world units is in texels, where that is more than rounding.
+std::string in_texels(const raster::Bias& bias, const LightComparison& light) {
+  const double texels = bias.constant / light.bias_texel_world;
+  if (bias.unit != raster::BiasUnit::world || !std::isfinite(texels) || std::abs(texels) < 0.01) return {};
+  return fmt::format(" ({})", texels_text(texels));
+}
+
 BiasAdvice try_bias(const raster::Bias& bias, double left, const LightComparison& light,
                     const raster::MapOptions& drawn) {
-  return {.best = fmt::format("Try {}: {}.", bias_arguments(bias, drawn), wrong_text(left, light))};
+  return {.best = fmt::format("Try {}{}: {}.", bias_arguments(bias, drawn), in_texels(bias, light),
+                              wrong_text(left, light))};
 }
 
 BiasAdvice advice_of_kinds(const LightComparison& light, const raster::MapOptions& drawn) {

@@ -106,12 +106,12 @@ class TrueTexels {
         plane_depth(view, face_, column + 0.5, row + 0.5, receiver_.position, receiver_.normal);
     if (std::isinf(plane)) return true;
     const Ray ray = caster_ray(in_.world(), view, face_, column + 0.5, row + 0.5);
-    return !(depth_on(ray, column, row) < plane - plane_rounding(ray, receiver_));
+    return !(depth_at(column, row) < plane - plane_rounding(ray, receiver_));
   }
 
  private:
   /// Returns the depth of the first thing that the ray through a texel's centre meets.
-  double depth_on(const Ray& ray, int column, int row) const {
+  double depth_at(int column, int row) const {
     const LightView& view = in_.record().map.view;
     if (std::min(column, row) >= 0 && std::max(column, row) < view.size) {
       const auto& keys = lower_.groups.keys;
@@ -120,8 +120,7 @@ class TrueTexels {
       if (found != keys.end() && *found == key)
         return lower_.centres[static_cast<std::size_t>(found - keys.begin())];
     }
-    const auto hit = in_.tracer.closest_hit(ray, raytrace::Sides::casting);
-    return hit ? glm::dot(ray.at(hit->t) - view.origin, view.face(face_).forward) : infinity;
+    return trace_centre(in_.tracer, view, face_, column, row).depth;
   }
 
   const LowerClimb& lower_;

@@ -128,10 +128,7 @@ bool OtherSize::is_lit(const Receiver& receiver, int column, int row) const {
   if (std::min(column, row) < 0 || std::max(column, row) >= view.size) return true;
   BiasedLookup lookup = receiver.lookup;
   lookup.key = raytrace::TexelKey::pack(face, column, row);
-  const Ray ray = caster_ray(in_.world(), view, face, column + 0.5, row + 0.5);
-  const auto hit = in_.tracer.closest_hit(ray, raytrace::Sides::casting);
-  if (!hit) return true;
-  const double depth = glm::dot(ray.at(hit->t) - view.origin, view.face(face).forward);
+  const double depth = trace_centre(in_.tracer, view, face, column, row).depth;
   const auto stored = rounded_depth(record_, face, row + 0.5, depth);
   if (!stored) return true;
   raster::Bias bias = in_.drawn.options.map.bias;

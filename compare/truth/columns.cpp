@@ -31,18 +31,22 @@ Ray caster_ray(const World& world, const LightView& view, int face_index, double
   return ray;
 }
 
-TexelCentre trace_centre(const LadderInput& in, TexelKey key) {
-  const LightView& view = in.record().map.view;
+TexelCentre trace_centre(const raytrace::Tracer& tracer, const LightView& view, int face, int column,
+                         int row) {
   TexelCentre out;
-  out.face = key.face();
-  out.ray = caster_ray(in.world(), view, key.face(), key.column() + 0.5, key.row() + 0.5);
-  out.hit = in.tracer.closest_hit(out.ray, raytrace::Sides::casting);
+  out.face = face;
+  out.ray = caster_ray(tracer.world(), view, face, column + 0.5, row + 0.5);
+  out.hit = tracer.closest_hit(out.ray, raytrace::Sides::casting);
   if (out.hit) {
-    const Vec3& forward = view.face(out.face).forward;
+    const Vec3& forward = view.face(face).forward;
     out.depth =
         glm::dot(out.ray.origin - view.origin, forward) + out.hit->t * glm::dot(out.ray.direction, forward);
   }
   return out;
+}
+
+TexelCentre trace_centre(const LadderInput& in, TexelKey key) {
+  return trace_centre(in.tracer, in.record().map.view, key.face(), key.column(), key.row());
 }
 
 std::vector<TexelCentre> trace_centres(const LadderInput& in, const std::vector<TexelKey>& keys) {

@@ -58,6 +58,9 @@ std::optional<raytrace::Hit> first_on_ray(const raytrace::Tracer& tracer, const 
   return found;
 }
 
+/// Of any map of the light's, of which texel (column, row) of a face is asked for.
+TexelCentre trace_centre(const raytrace::Tracer& tracer, const LightView& view, int face, int column,
+                         int row);
 TexelCentre trace_centre(const LadderInput& input, raytrace::TexelKey key);
 std::vector<TexelCentre> trace_centres(const LadderInput& input, const std::vector<raytrace::TexelKey>& keys);
 

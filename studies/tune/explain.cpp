@@ -20,7 +20,7 @@ std::string setting_text(const Attempt& a, const Figure& measure) {
 std::string proof(const FamilyResult& family, const Attempt& attempt) {
   if (!has_proof(attempt)) return {};
   std::string text = contradiction(attempt.best, attempt.texel_world, family.family.map.bias);
-  text.front() = text.front() == 'N' ? 'n' : 'b', text.pop_back();
+  text.front() = static_cast<char>(text.front() - 'A' + 'a'), text.pop_back();
   return "; " + text;
 }
 
