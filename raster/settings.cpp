@@ -202,7 +202,8 @@ constexpr MapSetting rows[] = {
      .type = "B|Btexel",
      .help = "constant bias of casters: the map stores them so much farther from the light",
      .title = "Casters' constant bias",
-     .what = "How much farther from the light the map stores its casters.",
+     .what = "How much farther from the light the map stores its casters. A graphics card's depth bias costs "
+             "nothing; here a shader moves each depth, so that the map takes up to twice as long to draw.",
      .acne = "More takes acne away, as the same constant bias of receivers does.",
      .peter_panning = "More makes it, as the same constant bias of receivers does.",
      .range_help =
@@ -218,7 +219,7 @@ constexpr MapSetting rows[] = {
      .help = "slope-scaled bias of casters, the factor of glPolygonOffset; 1 leaves no acne on a plane",
      .title = "Casters' slope bias",
      .what = "Stores casters farther by multiples of what their depth changes from texel to texel, as "
-             "graphics cards do.",
+             "graphics cards do, which costs them nothing; here the map takes up to twice as long to draw.",
      .acne = "1 leaves none on a plane.",
      .peter_panning = "As much as the casters' own slope asks for, whatever the receiver is.",
      .slider_unit = "x slope"},

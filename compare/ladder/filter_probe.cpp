@@ -78,8 +78,9 @@ double pixel_level(const LadderInput& in, std::size_t pixel) {
     return Vec2(at.u, at.v);
   };
   const auto width = static_cast<std::size_t>(size.width);
-  const double x = static_cast<double>(pixel % width) + 0.5;
-  const double y = in.place.first_row + static_cast<double>(pixel / width) + 0.5;
+  const std::size_t column = pixel % width, row = pixel / width;
+  const double x = static_cast<double>(column) + 0.5;
+  const double y = in.place.first_row + static_cast<double>(row) + 0.5;
   const TexelCoordinate own = project_to_face(map, face, receiver.position);
   const Vec2 here(own.u, own.v), across = place(x + 1.0, y) - here, down = place(x, y + 1.0) - here;
   const double level = 0.5 * std::log2(std::max(glm::dot(across, across), glm::dot(down, down)));
