@@ -6,7 +6,7 @@ target_compile_features(gnomon_flags INTERFACE cxx_std_20)
 target_include_directories(gnomon_flags INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gnomon>")
 # Contraction to FMA makes a watertight triangle test leak (see raytrace/shapes/intersect.h). Where GCC 12 joins neighbouring
 # scalars to vectors (-O2 and above), it leaves doubles as they are that should become floats and then doubles again
-# (tests/core_rounding_test.cpp): Vec3(Vec3f(v)) has float's digits in z alone.
+# (tests/scene/core_rounding_test.cpp): Vec3(Vec3f(v)) has float's digits in z alone.
 target_compile_options(gnomon_flags INTERFACE -ffp-contract=off -fno-tree-slp-vectorize)
 target_compile_definitions(gnomon_flags INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_SILENT_WARNINGS)
 
@@ -31,7 +31,7 @@ if(GNOMON_SANITIZE)
   target_link_options(gnomon_flags INTERFACE -fsanitize=${GNOMON_SANITIZE})
 endif()
 
-# Coverage counters that libFuzzer reads (tests/fuzz_tests.cmake), and the sanitizers that tell it of a fault.
+# Coverage counters that libFuzzer reads (tests/fuzz/tests.cmake), and the sanitizers that tell it of a fault.
 if(GNOMON_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES Clang)
     message(FATAL_ERROR "GNOMON_FUZZ: libFuzzer is a part of clang (got ${CMAKE_CXX_COMPILER_ID})")

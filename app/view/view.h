@@ -8,7 +8,7 @@
 #include "app/options/pose_options.h"
 #include "app/outputs/run_files.h"
 #include "app/strongest_lights.h"
-#include "app/view/look.h"
+#include "app/view/state/look.h"
 #include "compare/compare.h"
 
 namespace gnomon::app {

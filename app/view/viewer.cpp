@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include "app/view/panels/panels.h"
-#include "app/view/presets.h"
-#include "app/view/status.h"
+#include "app/view/state/presets.h"
+#include "app/view/state/status.h"
 #include "compare/bias/bias_curve.h"
 #include "compare/result/number_text.h"
 #include "raster/gl/context.h"

@@ -9,9 +9,9 @@
 
 #include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
-#include "app/view/scene_source.h"
-#include "app/view/status.h"
+#include "app/view/state/status.h"
 #include "app/view/viewer.h"
+#include "app/view/work/scene_source.h"
 #include "raster/settings.h"
 #include "scene/base/expected.h"
 #include "scene/base/threads.h"

@@ -5,7 +5,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "app/view/projection.h"
+#include "app/view/state/projection.h"
 #include "app/view/viewer.h"
 
 namespace gnomon::app {

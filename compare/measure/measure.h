@@ -1,6 +1,6 @@
 // The one path from two renderers' frames to a comparison. A picture is measured band by band, and a picture in one piece
 // is one band: every number, every picture and every channel is the same to the last bit, however it is cut
-// (tests/compare_bands_gl_test.cpp).
+// (tests/compare/compare_bands_gl_test.cpp).
 #pragma once
 
 #include <memory>

@@ -1,9 +1,9 @@
 #include "bench_scenes.h"
 
-#include "raytrace_support.h"
 #include "scene/generate/random.h"
 #include "scene/load.h"
 #include "tests/support/places.h"
+#include "tests/support/raytrace_support.h"
 
 namespace gnomon::bench {
 namespace {

@@ -85,7 +85,7 @@ class Embree {
   std::map<const Mesh*, RTCScene> meshes_;  ///< of kept instances
 };
 
-// tinybvh as a peer, where its header was found (GNOMON_TINYBVH, tests/raytrace_tests.cmake): BVH8_CPU, its layout for
+// tinybvh as a peer, where its header was found (GNOMON_TINYBVH, tests/bench/tests.cmake): BVH8_CPU, its layout for
 // single rays on processors with AVX2, of its best builder. The rays are Embree's.
 
 class TinyBvh {

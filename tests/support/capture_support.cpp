@@ -1,4 +1,4 @@
-#include "support/capture_support.h"
+#include "tests/support/capture_support.h"
 
 #include <fmt/format.h>
 

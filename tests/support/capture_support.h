@@ -5,7 +5,7 @@
 
 #include "studies/judge/capture_pictures.h"
 #include "studies/judge/judge.h"
-#include "support/compare_support.h"
+#include "tests/support/compare_support.h"
 
 namespace gnomon::test {
 

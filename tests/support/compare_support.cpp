@@ -1,6 +1,6 @@
-#include "support/compare_support.h"
+#include "tests/support/compare_support.h"
 
-#include "support/small_scenes.h"
+#include "tests/support/small_scenes.h"
 
 namespace gnomon::test {
 

@@ -7,7 +7,7 @@
 
 #include "compare/compare.h"
 #include "scene/world.h"
-#include "support/small_scenes.h"
+#include "tests/support/small_scenes.h"
 
 namespace gnomon::test {
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "compare/compare.h"
-#include "support/small_scenes.h"
+#include "tests/support/small_scenes.h"
 
 namespace gnomon::test {
 

@@ -1,8 +1,8 @@
-#include "support/capture_support.h"
+#include "tests/support/capture_support.h"
 
 #include "scene/files/pictures/image_io.h"
 #include "scene/light.h"
-#include "support/small_scenes.h"
+#include "tests/support/small_scenes.h"
 
 namespace gnomon::test {
 namespace {

@@ -11,13 +11,13 @@
 #include <tuple>
 #include <vector>
 
-#include "every_target.h"
 #include "raytrace/frame.h"
 #include "raytrace/packets/edge_setup.h"
 #include "raytrace/packets/shadow_pass.h"
 #include "raytrace/tiles.h"
-#include "raytrace_support.h"
 #include "scene/light.h"
+#include "tests/support/every_target.h"
+#include "tests/support/raytrace_support.h"
 
 namespace gnomon::test {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "raytrace_support.h"
+#include "tests/support/raytrace_support.h"
 
 namespace gnomon::test {
 

@@ -1,4 +1,4 @@
-#include "raytrace_support.h"
+#include "tests/support/raytrace_support.h"
 
 #include <cstdlib>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "support/small_scenes.h"
+#include "tests/support/small_scenes.h"
 
 namespace gnomon::test {
 

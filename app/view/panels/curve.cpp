@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "app/view/panels/panels.h"
-#include "app/view/presets.h"
+#include "app/view/state/presets.h"
 #include "compare/result/number_text.h"
 #include "compare/result/palette.h"
 

@@ -2,7 +2,7 @@
 #include <imgui/imgui.h>
 
 #include "app/view/panels/panels.h"
-#include "app/view/presets.h"
+#include "app/view/state/presets.h"
 #include "report/lessons.h"
 #include "scene/load.h"
 

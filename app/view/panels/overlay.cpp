@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/view/panels/panels.h"
-#include "app/view/projection.h"
+#include "app/view/state/projection.h"
 
 namespace gnomon::app {
 

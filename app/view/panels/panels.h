@@ -8,12 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "app/view/input.h"
-#include "app/view/job.h"
-#include "app/view/layout.h"
-#include "app/view/render_thread.h"
-#include "app/view/state.h"
-#include "app/view/style.h"
+#include "app/view/state/input.h"
+#include "app/view/state/state.h"
+#include "app/view/window/layout.h"
+#include "app/view/window/style.h"
+#include "app/view/work/job.h"
+#include "app/view/work/render_thread.h"
 
 namespace gnomon::app {
 

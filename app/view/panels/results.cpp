@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/view/panels/panels.h"
-#include "app/view/status.h"
+#include "app/view/state/status.h"
 #include "compare/ladder/labels.h"
 #include "compare/result/number_text.h"
 #include "compare/result/outputs.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "app/view/panels/panels.h"
-#include "app/view/presets.h"
-#include "app/view/style.h"
+#include "app/view/state/presets.h"
+#include "app/view/window/style.h"
 #include "raster/settings.h"
 
 namespace gnomon::app {

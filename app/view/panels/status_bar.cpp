@@ -3,7 +3,7 @@
 #include <imgui/imgui.h>
 
 #include "app/view/panels/panels.h"
-#include "app/view/status.h"
+#include "app/view/state/status.h"
 #include "scene/base/expected.h"
 
 namespace gnomon::app {

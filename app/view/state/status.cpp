@@ -1,0 +1,185 @@
+#include "app/view/state/status.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "app/options/options.h"
+#include "app/options/values.h"
+#include "compare/result/number_text.h"
+#include "raster/settings.h"
+
+namespace gnomon::app {
+
+namespace {
+
+std::string bias_words(const raster::Bias& bias, const Readings& readings) {
+  const double texels = bias.unit == raster::BiasUnit::texel ? bias.constant
+                        : readings.texel_world > 0.0         ? readings.bias_world / readings.texel_world
+                                                             : 0.0;
+  std::string text = fmt::format("bias {:.4g} = {:.4g} texel", readings.bias_world, texels);
+  if (bias.slope != 0.0) text += fmt::format(" + {:.4g} slope", bias.slope);
+  if (bias.normal_offset_texels != 0.0)
+    text += fmt::format(", normal offset {:.4g} texel", bias.normal_offset_texels);
+  if (bias.receiver_plane) text += ", receiver plane";
+  if (bias.adaptive) text += ", adaptive bias";
+  return text;
+}
+
+std::string compared_words(const std::optional<Readings::Compared>& compared) {
+  if (!compared) return "comparing…";
+  std::string text = "wrong " + compare::percent(compared->wrong_fraction) + ", mean error " +
+                     compare::percent(compared->mean_absolute);
+  if (!compared->current || compared->preview) return text + (compared->current ? " (preview)" : " (before)");
+  return text + fmt::format(" | map {}, shading {}, exact shadows {}",
+                            compare::milliseconds(compared->map_ms),
+                            compare::milliseconds(compared->shade_ms),
+                            compare::milliseconds(compared->exact_shadows_ms));
+}
+
+using Words = std::vector<std::string>;
+
+/// A value that begins with a dash is joined to its option, so as not to look like one.
+void add_if(Words& words, bool wanted, std::string_view key, const std::string& value) {
+  if (!wanted) return;
+  if (value.starts_with('-')) {
+    words.push_back(fmt::format("{}={}", key, value));
+  } else {
+    words.emplace_back(key);
+    words.push_back(value);
+  }
+}
+
+void add_poses(Words& words, const Setup& setup) {
+  if (setup.camera) {
+    const CameraPose& pose = *setup.camera;
+    add_if(words, true, "--camera-orbit",
+           fmt::format("{},{}", number_text(pose.azimuth_degrees), number_text(pose.elevation_degrees)));
+    add_if(words, true, "--camera-distance", number_text(pose.distance));
+    const auto vector = [&](std::string_view key, const std::optional<Vec3>& v) {
+      if (v)
+        add_if(words, true, key,
+               fmt::format("{},{},{}", number_text(v->x), number_text(v->y), number_text(v->z)));
+    };
+    vector("--camera-target", pose.target);
+    vector("--camera-up", pose.up);
+    if (pose.height) add_if(words, true, "--camera-height", number_text(*pose.height));
+  }
+  if (const std::optional<LightPose>& pose = setup.lights[setup.light]) {
+    add_if(words, true, "--light-azimuth", number_text(pose->azimuth_degrees));
+    add_if(words, true, "--light-elevation", number_text(pose->elevation_degrees));
+    if (pose->distance) add_if(words, true, "--light-distance", number_text(*pose->distance));
+    if (pose->size) add_if(words, true, "--light-size", number_text(*pose->size));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> other_turned_lights(const ViewState& state) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < state.given.lights.size(); ++i) {
+    if (i != state.setup.light && state.setup.lights[i]) names.push_back(state.given.lights[i].name);
+  }
+  return names;
+}
+
+std::string status_line(const ViewState& state, const Readings& readings, const std::string& scene) {
+  std::string text = fmt::format("{} | {}", scene, picture_name(state.picture));
+  if (state.given.lights.size() > 1) text += fmt::format(" | {}", state.light_name());
+  text += fmt::format(" | {} {}² | {}", raster::technique_name(state.setup.map.technique),
+                      state.setup.map.size, bias_words(state.setup.map.bias, readings));
+  return text + fmt::format(" | live {} | {}", compare::milliseconds(readings.raster_ms),
+                            compared_words(readings.compared));
+}
+
+std::vector<std::string> backend_words(raster::Backend backend) {
+  Words words;
+  std::istringstream text(backend_argument(backend));
+  for (std::string word; text >> word;) words.push_back(word);
+  return words;
+}
+
+std::vector<std::string> pose_words(const ViewState& state) {
+  Words words;
+  add_if(words, state.given.lights.size() > 1, "--light", std::string(state.light_name()));
+  add_poses(words, state.setup);
+  return words;
+}
+
+namespace {
+
+/// What compare and tune take alike: of the view's settings all but the picture's size and the map.
+void add_truth(Words& words, const ViewState& state, const ViewOptions& options) {
+  const compare::CompareOptions plain;
+  for (std::string& word : pose_words(state)) words.push_back(std::move(word));
+  add_if(words, options.compare.accel != plain.accel, "--accel",
+         std::string(raytrace::accel_name(options.compare.accel)));
+  add_if(words, state.setup.precision != plain.precision, "--precision",
+         std::string(raytrace::precision_name(state.setup.precision)));
+  add_if(words, options.compare.raytrace.min_contribution != plain.raytrace.min_contribution,
+         "--min-contribution", number_text(options.compare.raytrace.min_contribution));
+  add_if(words, options.max_lights != usual_max_lights, "--max-lights", std::to_string(options.max_lights));
+  for (std::string& word : backend_words(options.backend)) words.push_back(std::move(word));
+  add_if(words, !options.shader_folder.empty(), "--shader-dir", options.shader_folder);
+}
+
+std::string size_text(const ImageSize& size) {
+  return fmt::format("{}x{}", size.width, size.height);
+}
+
+/// Returns a size of the same shape that has at most `most` pixels.
+ImageSize with_at_most(const ImageSize& size, double most) {
+  const double scale = std::min(1.0, std::sqrt(most / static_cast<double>(size.pixels())));
+  const auto scaled = [&](int n) { return std::max(1, static_cast<int>(std::lround(scale * n))); };
+  return {scaled(size.width), scaled(size.height)};
+}
+
+}  // namespace
+
+std::vector<std::string> setting_words(const ViewState& state, const ViewOptions& options) {
+  Words words;
+  add_if(words, !options.camera.empty(), "--camera", options.camera);
+  add_if(words, options.tessellate > 0, "--tessellate", std::to_string(options.tessellate));
+  add_if(words, true, "--size", size_text(state.setup.size));
+  const Words of_map = raster::map_arguments(state.setup.map);
+  words.insert(words.end(), of_map.begin(), of_map.end());
+  add_truth(words, state, options);
+  if (options.exposure)
+    add_if(words, true, "--exposure", *options.exposure ? number_text(**options.exposure) : "auto");
+  return words;
+}
+
+std::vector<std::string> tuning_words(const ViewState& state, const ViewOptions& options) {
+  Words words;
+  add_if(words, !options.camera.empty(), "--camera", options.camera);
+  add_if(words, true, "--size", size_text(with_at_most(state.setup.size, tuned_pixels)));
+  add_truth(words, state, options);
+  return words;
+}
+
+std::string compare_command(const ViewState& state, const ViewOptions& options, const std::string& scene) {
+  std::string text = "gnomon compare " + scene;
+  for (const std::string& word : setting_words(state, options))
+    text += fmt::format(" {}", shell_quoted(word));
+  return text;
+}
+
+Readings readings_of(const Snapshot& shown, const ViewState& state) {
+  Readings out{shown.live.bias_world, shown.live.texel_world, shown.live.raster_ms, {}};
+  const ComparisonOutcome* outcome = shown.outcome.get();
+  if (outcome == nullptr) return out;
+  const compare::LightComparison& light = outcome->comparison.lights.front();
+  const raster::LightRecord& drawn = outcome->comparison.raster.lights.front();
+  out.compared = Readings::Compared{outcome->revision == state.revision,
+                                    outcome->preview,
+                                    light.error.wrong_fraction,
+                                    drawn.map_pass.median(),
+                                    drawn.shade_pass.median(),
+                                    outcome->comparison.raytraced.lights.front().exact_times().median(),
+                                    light.error.mean_absolute};
+  return out;
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,212 @@
+#include "app/view/work/render_thread.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <exception>
+
+#include "app/view/work/priority.h"
+#include "scene/base/threads.h"
+
+namespace gnomon::app {
+
+namespace {
+
+constexpr std::chrono::milliseconds file_interval{500};  // between looks at the files
+
+}  // namespace
+
+RenderThread::RenderThread(MakeContext context, SceneSource first, StudioOptions options,
+                           std::function<void()> wake)
+    : context_(std::move(context)),
+      options_(std::move(options)),
+      wake_(std::move(wake)),
+      first_(std::move(first)),
+      published_(std::make_shared<const Snapshot>()),
+      thread_([this] { run(); }) {}
+
+RenderThread::~RenderThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void RenderThread::post(std::uint64_t scene, DrawOrder order) {
+  {
+    const std::lock_guard lock(mutex_);
+    asked_order_ = std::pair{scene, std::move(order)};
+  }
+  changed_.notify_one();
+}
+
+void RenderThread::open(SceneArgument scene) {
+  {
+    const std::lock_guard lock(mutex_);
+    asked_scene_ = std::move(scene);
+  }
+  changed_.notify_one();
+}
+
+std::shared_ptr<const Snapshot> RenderThread::snapshot() const {
+  const std::lock_guard lock(mutex_);
+  return published_;
+}
+
+void RenderThread::give_back(std::shared_ptr<const Snapshot> snapshot) {
+  {
+    const std::lock_guard lock(mutex_);
+    given_back_.push_back(std::move(snapshot));
+  }
+  changed_.notify_one();
+}
+
+/// A comparison has finished: from the worker's thread.
+void RenderThread::wake_thread() {
+  {
+    const std::lock_guard lock(mutex_);
+    finished_ = true;
+  }
+  changed_.notify_one();
+}
+
+void RenderThread::publish() {
+  if (studio_) {
+    now_.live = studio_->live();
+    now_.outcome = studio_->outcome();
+  }
+  auto snapshot = std::make_shared<const Snapshot>(now_);
+  {
+    const std::lock_guard lock(mutex_);
+    published_ = std::move(snapshot);
+  }
+  wake_();
+}
+
+RenderThread::Task RenderThread::next_task() {
+  std::vector<std::shared_ptr<const Snapshot>> given_back;  // freed last, without the lock
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, file_interval, [this] {
+    return quit_ || asked_scene_ || asked_order_ || finished_ || !given_back_.empty();
+  });
+  given_back.swap(given_back_);
+  Task task;
+  task.quit = quit_;
+  task.open = std::exchange(asked_scene_, std::nullopt);
+  finished_ = false;
+  if (auto asked = std::exchange(asked_order_, std::nullopt);
+      asked && now_.scene && asked->first == now_.scene->number)
+    task.order = std::move(asked->second);
+  return task;
+}
+
+void RenderThread::run() {
+  give_way(drawing_gives_way);  // and so do the threads of its OpenGL in software
+  try {
+    install(*first_, false);
+    first_.reset();
+    for (;;) {
+      Task task = next_task();
+      if (task.quit) break;
+      if (task.open) read_scene(*task.open, {}, false);
+      read_changed_files();
+      if (task.order) {
+        last_order_ = std::move(task.order);
+        if (std::exchange(only_said_, false)) now_.unreadable.reset();
+      }
+      if (last_order_ && studio_) carry_out(*last_order_);
+    }
+  } catch (const std::exception& error) {
+    now_.unreadable = unforeseen(error);
+    publish();
+  }
+  studio_.reset();  // while its context is current here
+}
+
+void RenderThread::read_scene(const SceneArgument& argument, const std::string& camera, bool again) {
+  now_.opening = true;
+  publish();
+  auto source = read_source(argument, camera, options_);
+  now_.opening = false;
+  if (source) return install(*source, again);
+  now_.unreadable = source.error();
+  only_said_ = !again;
+  publish();
+}
+
+/// What was shown of a scene that is read again must be drawable with it, too: a shader may fail only then.
+Expected<std::unique_ptr<Studio>> RenderThread::make_studio(const SceneSource& source, bool& again) {
+  auto context = context_();
+  if (!context) return fail(context.error());
+  auto studio = Studio::create(std::move(*context), source.loaded, options_.compare, options_.shader_folder,
+                               [this] { wake_thread(); });
+  if (!studio) return studio;
+  again = again && last_order_ && (*studio)->given().lights.size() == last_order_->setup.lights.size();
+  if (!again) return studio;
+  if (const auto drawn = (*studio)->draw(*last_order_); !drawn) return fail(drawn.error());
+  return studio;
+}
+
+/// Where a new studio for the scene cannot be made the one before stays.
+void RenderThread::install(const SceneSource& source, bool again) {
+  const auto fail_with = [this, again](const Error& error) {
+    now_.unreadable = error;
+    only_said_ = !again;
+    publish();
+  };
+  const auto map = first_map_options(source.argument);
+  if (!map) return fail_with(map.error());
+  auto studio = make_studio(source, again);
+  if (!studio) return fail_with(studio.error());
+  studio_ = std::move(*studio);
+  scene_files_.watch(source.files);
+  if (!options_.shader_folder.empty()) shader_files_.watch({options_.shader_folder});
+  auto scene = std::make_shared<OpenedScene>();
+  scene->number = now_.scene ? now_.scene->number + 1 : 1;
+  scene->again = again;
+  scene->argument = source.argument;
+  scene->camera = source.camera;
+  scene->name = source.loaded->scene->name;
+  scene->given = studio_->given();
+  scene->lights_left_out = source.loaded->lights_left_out;
+  scene->map = *map;
+  now_ = Snapshot{};
+  now_.scene = std::move(scene);
+  now_.max_map_size = studio_->context_info().max_map_size;
+  now_.renderer = studio_->context_info().renderer;
+  if (!again) last_order_.reset();
+  publish();
+}
+
+void RenderThread::read_changed_files() {
+  if (!now_.scene) return;
+  const bool scene = scene_files_.changed(), shaders = shader_files_.changed();
+  if (scene || shaders) read_scene(now_.scene->argument, now_.scene->camera, true);
+}
+
+void RenderThread::carry_out(const DrawOrder& order) {
+  const std::uint64_t live = studio_->live().revision;
+  const auto outcome = studio_->outcome();
+  const auto already = [&](const std::optional<Snapshot::Failure>& failure) {
+    return failure && failure->revision == order.revision;
+  };
+  if (already(now_.undrawable)) return;
+  if (const auto drawn = studio_->draw(order); !drawn) {
+    now_.undrawable = Snapshot::Failure{order.revision, drawn.error()};
+    return publish();
+  }
+  now_.undrawable.reset();
+  if (studio_->live().revision != live) publish();
+  if (already(now_.incomparable)) return;
+  if (const auto compared = studio_->compare(order); !compared) {
+    now_.incomparable = Snapshot::Failure{order.revision, compared.error()};
+    publish();
+  } else if (studio_->outcome() != outcome) {
+    now_.incomparable.reset();
+    publish();
+  }
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,110 @@
+// The thread that draws and compares: it owns the studio, so that the window never waits for a picture. The
+// window posts what it wants, of which the newest wins, and reads what is there as snapshots that never change.
+// The thread also looks after the scene's files and the shader folder, and reads them again when they change.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/view/work/file_watch.h"
+#include "app/view/work/scene_source.h"
+#include "app/view/work/studio.h"
+
+namespace gnomon::app {
+
+/// A scene as it was opened.
+struct OpenedScene {
+  std::uint64_t number = 0;  ///< grows with each scene that is opened or read again
+  bool again = false;        ///< the same as before, read again: what was set stays set
+  SceneArgument argument;
+  std::string camera;  ///< SceneSource::camera
+  std::string name;
+  GivenScene given;
+  std::size_t lights_left_out = 0;  ///< by --max-lights
+  raster::MapOptions map;           ///< what a lesson or the file asks for, else the defaults
+};
+
+/// What there is to show, at one moment.
+struct Snapshot {
+  std::shared_ptr<const OpenedScene> scene;
+  LivePicture live;
+  std::shared_ptr<const ComparisonOutcome> outcome;
+  int max_map_size = 0;
+  std::string renderer;  ///< GL_RENDERER
+  struct Failure {
+    std::uint64_t revision = 0;
+    Error error;
+  };
+  std::optional<Failure> undrawable;    ///< this revision cannot be drawn
+  std::optional<Failure> incomparable;  ///< nor compared
+  std::optional<Error>
+      unreadable;  ///< the scene or the shaders as they are now; the last good ones are shown
+  bool opening = false;
+
+  bool is_drawn(const ViewState& state) const { return live.revision == state.revision; }
+  bool is_done(const ViewState& state) const {
+    return is_drawn(state) && outcome && !outcome->preview && outcome->revision == state.revision;
+  }
+};
+
+class RenderThread {
+ public:
+  using MakeContext = std::function<Expected<std::unique_ptr<raster::Context>>()>;
+  /// `context` is called on the thread, for each scene; `wake` from it whenever there is a new snapshot.
+  RenderThread(MakeContext context, SceneSource first, StudioOptions options, std::function<void()> wake);
+  ~RenderThread();
+
+  /// Draws and compares this next. Orders for another scene than `scene` (OpenedScene::number) are dropped.
+  void post(std::uint64_t scene, DrawOrder order);
+  /// Reads another scene; until it is there the one before stays.
+  void open(SceneArgument scene);
+  std::shared_ptr<const Snapshot> snapshot() const;
+  /// One that is not needed any longer, to be freed on this thread: giving memory back takes time.
+  void give_back(std::shared_ptr<const Snapshot> snapshot);
+
+ private:
+  struct Task {
+    std::optional<SceneArgument> open;
+    std::optional<DrawOrder> order;
+    bool quit = false;
+  };
+  void run();
+  Task next_task();
+  void read_scene(const SceneArgument& argument, const std::string& camera, bool again);
+  void install(const SceneSource& source, bool again);
+  Expected<std::unique_ptr<Studio>> make_studio(const SceneSource& source, bool& again);
+  void read_changed_files();
+  void carry_out(const DrawOrder& order);
+  void publish();
+  void wake_thread();
+
+  MakeContext context_;
+  StudioOptions options_;
+  std::function<void()> wake_;
+  std::optional<SceneSource> first_;
+
+  // The thread's own.
+  std::unique_ptr<Studio> studio_;
+  FileWatch scene_files_, shader_files_;
+  Snapshot now_;
+  std::optional<DrawOrder> last_order_;
+  bool only_said_ = false;  ///< what is unreadable is another scene than the one that is shown
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<SceneArgument> asked_scene_;
+  std::optional<std::pair<std::uint64_t, DrawOrder>> asked_order_;
+  bool finished_ = false;  ///< a comparison has finished
+  bool quit_ = false;
+  std::shared_ptr<const Snapshot> published_;
+  std::vector<std::shared_ptr<const Snapshot>> given_back_;
+  std::thread thread_;  ///< last
+};
+
+}  // namespace gnomon::app

@@ -1,0 +1,43 @@
+// CLI11 throws; what is thrown here is caught here.
+#include "app/view/work/scene_source.h"
+
+#include <CLI/App.hpp>
+
+#include "app/lessons/lesson_scene.h"
+#include "app/options/map_options.h"
+#include "app/options/options.h"
+
+namespace gnomon::app {
+
+Expected<SceneSource> read_source(const SceneArgument& argument, const std::string& camera,
+                                  const StudioOptions& options) {
+  Console quiet(true);
+  RunFiles files;
+  files.reads(argument);
+  auto loaded = load(argument, files, quiet, options.tessellate, camera, true);
+  if (!loaded) return fail(loaded.error());
+  keep_strongest_lights(*loaded, options.max_lights, {}, {}, quiet);
+  if (options.exposure) loaded->scene->exposure = *options.exposure;
+  return SceneSource{argument, camera, std::make_shared<const LoadedScene>(std::move(*loaded)),
+                     files.inputs()};
+}
+
+Expected<raster::MapOptions> first_map_options(const SceneArgument& argument) {
+  CLI::App command;
+  command.set_help_flag();
+  SceneArgument scene;
+  raster::MapOptions map;
+  add_scene(command, scene);
+  add_map_options(command, map);
+  try {
+    command.parse(std::vector<std::string>{argument.name});
+    add_lesson_settings(command);
+    if (const auto added = add_scene_settings(command); !added) return fail(added.error());
+    finish_map_options(command, map);
+  } catch (const CLI::ParseError& error) {
+    return fail(ErrorKind::bad_input, error.what());
+  }
+  return map;
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,119 @@
+#include "app/view/work/studio.h"
+
+#include <algorithm>
+
+#include "compare/result/outputs.h"
+#include "scene/base/timing.h"
+#include "scene/exposure.h"
+#include "scene/files/pictures/image_io.h"
+
+namespace gnomon::app {
+
+namespace {
+
+constexpr int preview_divisor = 4;  // of width and height
+
+ImageSize preview_size(ImageSize full) {
+  return {std::max(1, full.width / preview_divisor), std::max(1, full.height / preview_divisor)};
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Studio>> Studio::create(std::unique_ptr<raster::Context> context,
+                                                 std::shared_ptr<const LoadedScene> loaded,
+                                                 const compare::CompareOptions& options,
+                                                 const std::string& shader_folder,
+                                                 std::function<void()> on_finished) {
+  auto renderer = make_renderer(std::move(context), *loaded, shader_folder);
+  if (!renderer) return fail(renderer.error());
+  return std::unique_ptr<Studio>(
+      new Studio(std::move(*renderer), std::move(loaded), options, std::move(on_finished)));
+}
+
+Studio::Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const LoadedScene> loaded,
+               const compare::CompareOptions& options, std::function<void()> on_finished)
+    : loaded_(std::move(loaded)),
+      options_(options),
+      given_(given_scene(*loaded_->scene, *loaded_->world, loaded_->paths)),
+      renderer_(std::move(renderer)),
+      exposure_(loaded_->scene->exposure),
+      worker_(*loaded_->scene, *loaded_->world, options, std::move(on_finished)) {}
+
+Expected<raster::RasterFrame> Studio::render(const Setup& setup, ImageSize size, bool analysis, int runs) {
+  raster::RasterOptions options = options_.raster;
+  options.size = size;
+  options.map = setup.map;
+  options.runs = runs;
+  options.analysis = analysis;
+  const std::vector<std::uint32_t> lights{setup.light};
+  return renderer_->render(options, lights);
+}
+
+Expected<void> Studio::draw(const DrawOrder& order) {
+  if (live_.revision == order.revision) return {};
+  place(given_, order.setup, *loaded_->scene);
+  const Stopwatch watch;
+  auto frame = render(order.setup, order.setup.size, false, 0);
+  if (!frame) return fail(frame.error());
+  const raster::LightRecord& record = frame->lights.front();
+  live_.raster_ms = watch.elapsed_ms();
+  live_.revision = order.revision;
+  live_.camera = loaded_->scene->camera;
+  live_.light = loaded_->scene->lights[order.setup.light];
+  live_.map = record.map.view;
+  live_.bias_world = record.bias_constant_world;
+  live_.texel_world = raster::texel_world(record.map.view, *loaded_->world);
+  live_color_ = std::move(frame->color);
+  if (!exposure_) exposure_ = auto_exposure(live_color_);
+  encode_live();
+  return {};
+}
+
+/// A light's size is what can call for another effect than the scene's own.
+EffectPlan Studio::plan_of(const Setup& setup) const {
+  const bool resized = std::any_of(setup.lights.begin(), setup.lights.end(),
+                                   [](const std::optional<LightPose>& pose) { return pose && pose->size; });
+  return resized ? plan_effects(*loaded_->scene) : loaded_->plan;
+}
+
+/// The picture as `compare` would write it, with the factor that the newest comparison chose.
+void Studio::encode_live() {
+  live_.picture = std::make_shared<const Rgb8Image>(display_image(live_color_, *exposure_));
+}
+
+Expected<void> Studio::compare(const DrawOrder& order) {
+  const Expected<void> taken = receive_outcome();
+  const Expected<void> started = start_next(order);
+  return taken ? started : taken;
+}
+
+Expected<void> Studio::receive_outcome() {
+  std::optional<Expected<ComparisonOutcome>> taken = worker_.take();
+  if (!taken) return {};
+  if (!*taken) return fail(taken->error());
+  outcome_ = std::make_shared<const ComparisonOutcome>(std::move(**taken));
+  if (exposure_ == outcome_->comparison.exposure) return {};
+  exposure_ = outcome_->comparison.exposure;
+  encode_live();
+  return {};
+}
+
+Expected<void> Studio::start_next(const DrawOrder& order) {
+  const bool same = started_revision_ == order.revision;
+  if (same && started_full_) return {};
+  if (worker_.busy()) {
+    if (!same) worker_.give_up();
+    return {};
+  }
+  const ImageSize small = preview_size(order.setup.size);
+  const bool preview = !same && !(small == order.setup.size);
+  started_revision_ = order.revision;
+  started_full_ = !preview;
+  auto drawn = render(order.setup, preview ? small : order.setup.size, true, preview ? 0 : 1);
+  if (!drawn) return fail(drawn.error());
+  worker_.start({order.revision, preview, order.setup.precision, plan_of(order.setup), loaded_->scene->camera,
+                 loaded_->scene->lights, std::move(*drawn)});
+  return {};
+}
+
+}  // namespace gnomon::app

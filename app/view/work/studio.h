@@ -1,0 +1,81 @@
+// Keeps every picture of the window up to date with its setup: the rasterizer at once, on the caller's thread;
+// rays and comparison beside it, first at a quarter of the picture's width and height, then in full. Knows no
+// window: any OpenGL context will do. All pictures but those of map_pictures.h are made by compare's own code.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/session.h"
+#include "app/view/state/state.h"
+#include "app/view/work/worker.h"
+#include "raster/renderer.h"
+
+namespace gnomon::app {
+
+/// What is to be drawn.
+struct DrawOrder {
+  std::uint64_t revision = 0;
+  Setup setup;
+};
+
+/// The picture of the shadow map, and what it was drawn with.
+struct LivePicture {
+  std::uint64_t revision = 0;  ///< 0: nothing is drawn yet
+  std::shared_ptr<const Rgb8Image> picture;
+  Camera camera;
+  Light light;
+  LightView map;  ///< of the light that is compared
+  double bias_world = 0.0, texel_world = 0.0;
+  double raster_ms = 0.0;  ///< with reading it back
+};
+
+class Studio {
+ public:
+  /// `on_finished` is called from another thread when it is worth calling compare() again.
+  static Expected<std::unique_ptr<Studio>> create(std::unique_ptr<raster::Context> context,
+                                                  std::shared_ptr<const LoadedScene> loaded,
+                                                  const compare::CompareOptions& options,
+                                                  const std::string& shader_folder,
+                                                  std::function<void()> on_finished);
+
+  /// Draws the live picture where the revision is another. Error: this cannot be drawn.
+  Expected<void> draw(const DrawOrder& order);
+
+  /// Takes what is finished and starts what is next, for an order that was drawn. Error, once: a comparison
+  /// failed.
+  Expected<void> compare(const DrawOrder& order);
+
+  const LivePicture& live() const { return live_; }
+  /// The newest; none yet: null.
+  std::shared_ptr<const ComparisonOutcome> outcome() const { return outcome_; }
+  const GivenScene& given() const { return given_; }
+  const raster::ContextInfo& context_info() const { return renderer_->info(); }
+
+ private:
+  Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const LoadedScene> loaded,
+         const compare::CompareOptions& options, std::function<void()> on_finished);
+  Expected<raster::RasterFrame> render(const Setup& setup, ImageSize size, bool analysis, int runs);
+  Expected<void> receive_outcome();
+  Expected<void> start_next(const DrawOrder& order);
+  EffectPlan plan_of(const Setup& setup) const;
+  void encode_live();
+
+  std::shared_ptr<const LoadedScene> loaded_;
+  compare::CompareOptions options_;
+  GivenScene given_;
+  std::unique_ptr<raster::Renderer> renderer_;
+
+  LivePicture live_;
+  ColorImage live_color_;
+  std::optional<double> exposure_;
+
+  std::uint64_t started_revision_ = 0;  ///< of the newest request
+  bool started_full_ = false;
+  std::shared_ptr<const ComparisonOutcome> outcome_;  ///< the newest
+  CompareWorker worker_;                              ///< last: its thread ends first
+};
+
+}  // namespace gnomon::app

@@ -1,0 +1,192 @@
+// The documents cannot rot: every command in them is one that the program takes, the chapters that it writes
+// of itself are current, links lead somewhere, and the shaders of the manual compile.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <span>
+#include <sstream>
+
+#include "app/command_line.h"
+#include "compare/comparison.h"
+#include "compare/ladder/labels.h"
+#include "report/lessons.h"
+#include "scene/load.h"
+#include "tests/support/app_process.h"
+#include "tests/support/places.h"
+
+namespace gnomon::app_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> documents() {
+  std::vector<fs::path> files;
+  const fs::path root = test::source_dir();
+  for (const char* name : {"README.md", "CONTRIBUTING.md"}) files.push_back(root / name);
+  for (const auto& entry : fs::recursive_directory_iterator(root / "docs"))
+    if (entry.path().extension() == ".md") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Blocks between ```language and ```.
+std::vector<std::string> blocks(const fs::path& file, const std::string& language) {
+  std::vector<std::string> found;
+  std::ifstream lines(file);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) {
+      inside = !inside && line == "```" + language;
+      if (inside) found.emplace_back();
+    } else if (inside) {
+      found.back() += line + "\n";
+    }
+  }
+  return found;
+}
+
+/// A line as a shell would split it, up to a comment, a pipe or a redirection.
+Words shell_words(const std::string& line) {
+  Words words;
+  std::string word;
+  bool is_word = false;
+  char quote = 0;
+  for (const char c : line + " ") {
+    if (quote != 0) {
+      if (c == quote)
+        quote = 0;
+      else
+        word += c;
+    } else if (c == '\'' || c == '"') {
+      quote = c, is_word = true;
+    } else if (c == ' ') {
+      if (is_word) words.push_back(word);
+      word.clear(), is_word = false;
+    } else if (!is_word && (c == '#' || c == '|' || c == '>' || c == ';')) {
+      return words;
+    } else {
+      word += c, is_word = true;
+    }
+  }
+  return words;
+}
+
+struct Shown {
+  std::string file, line;
+  Words words;  ///< without "gnomon"
+};
+
+std::vector<Shown> shown_commands() {
+  std::vector<Shown> commands;
+  for (const fs::path& file : documents()) {
+    for (const std::string& block : blocks(file, "sh")) {
+      std::istringstream lines(block);
+      for (std::string line; std::getline(lines, line);) {
+        Words words = shell_words(line);
+        if (words.empty() || (words[0] != "gnomon" && words[0] != "./gnomon")) continue;
+        const Words script = {"build", "test", "format", "tidy"};  // the script's own
+        if (words.size() > 1 && std::find(script.begin(), script.end(), words[1]) != script.end()) continue;
+        // Three blanks or more part a command from what is said of it in the help's examples.
+        const std::size_t gap = line.find("   ");
+        if (gap != std::string::npos && line.find('#') == std::string::npos)
+          words = shell_words(line.substr(0, gap));
+        words.erase(words.begin());
+        commands.push_back({file.lexically_relative(test::source_dir()).string(), line, words});
+      }
+    }
+  }
+  return commands;
+}
+
+int parsed(const Words& words) {
+  std::vector<const char*> argv{"gnomon"};
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  return app::check_command_line(static_cast<int>(argv.size()), argv.data());
+}
+
+bool is_scene(const std::string& word) {
+  const std::span<const compare::Lesson> lessons = compare::all_lessons();
+  return fs::path(word).has_extension() || find_builtin_scene(word).has_value() ||
+         std::any_of(lessons.begin(), lessons.end(),
+                     [&](const compare::Lesson& lesson) { return lesson.name == word; });
+}
+
+// In a folder that holds what the commands name.
+TEST(Documents, CommandsAreTheProgramsOwn) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "mine");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  const std::vector<Shown> commands = shown_commands();
+  EXPECT_GE(commands.size(), 60u);
+  for (const Shown& shown : commands) {
+    EXPECT_EQ(parsed(shown.words), 0) << shown.file << ": " << shown.line;
+    const Words without_scene = {"scenes",  "verify", "merge", "bench",
+                                 "shaders", "judge",  "grade", "lessons"};
+    if (shown.words.size() < 2 || shown.words[0].starts_with("-") || shown.words[1] == "--suite" ||
+        std::find(without_scene.begin(), without_scene.end(), shown.words[0]) != without_scene.end())
+      continue;
+    EXPECT_TRUE(is_scene(shown.words[1])) << shown.file << ": " << shown.line;
+  }
+  EXPECT_EQ(parsed({"compare", "fence", "--bais", "1"}), 2);  // this test can fail
+  fs::current_path(before);
+}
+
+TEST(Documents, ChaptersOfTheProgramAreCurrent) {
+  for (const std::string chapter : {"options", "json", "techniques"}) {
+    const std::string path = test::source_dir() + "/docs/manual/" + chapter + ".md";
+    EXPECT_EQ(read_file(path), run_gnomon({"--manual", chapter}).out)
+        << path << " is not what the program writes; run docs/make_manual.sh";
+  }
+  expect_one_line(run_gnomon({"--manual", "labels"}), 2, "(got labels, allowed options, json, techniques)");
+}
+
+TEST(Documents, LinksLeadSomewhere) {
+  const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
+  for (const fs::path& file : documents()) {
+    const std::string text = read_file(file.string());
+    for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found)
+      EXPECT_TRUE(fs::exists(file.parent_path() / (*found)[1].str())) << file << ": " << (*found)[1];
+  }
+}
+
+TEST(Documents, ChannelsOfTheManualAreThoseOfTheFile) {
+  const std::string manual = read_file(test::source_dir() + "/docs/manual/aov.md");
+  const std::string source = read_file(test::source_dir() + "/compare/result/aov.cpp");
+  const std::regex channel(R"re("([a-z_]+\.[A-Z])")re");
+  int count = 0;
+  for (std::sregex_iterator found(source.begin(), source.end(), channel), end; found != end; ++found, ++count)
+    EXPECT_NE(manual.find(std::string("`").append((*found)[1].str()).append("`")), std::string::npos)
+        << (*found)[1];
+  EXPECT_GE(count, 7);
+  for (std::size_t k = 0; k < compare::rung_count; ++k) {
+    const std::string rung = fmt::format("`{}.V`", compare::rung_text(static_cast<compare::Rung>(k)).name);
+    EXPECT_NE(manual.find(rung), std::string::npos) << rung;
+  }
+  for (std::size_t k = 0; k <= compare::class_count; ++k) {
+    const std::string label =
+        std::to_string(k).append(" ").append(compare::label_name(static_cast<compare::Label>(k)));
+    EXPECT_NE(manual.find(label), std::string::npos) << label;
+  }
+}
+
+// Each block says in its first line which file it is.
+TEST(Documents, ShadersOfTheManualDraw) {
+  const std::vector<std::string> shaders = blocks(test::source_dir() + "/docs/manual/shaders.md", "glsl");
+  EXPECT_EQ(shaders.size(), 2u);
+  for (const std::string& shader : shaders) {
+    const TemporaryFolder folder;
+    const std::string name = shader.substr(3, shader.find(':') - 3);
+    fs::create_directories(fs::path(folder / name).parent_path());
+    write_text(folder / name, shader);
+    const ProcessResult drawn = run_gnomon({"raster", "fence", "--size", "64x36", "--map-size", "128",
+                                            "--shader-dir", folder.path(), "-o", folder / "picture.png"});
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err << shader;
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::app_test

@@ -1,0 +1,104 @@
+// gnomon lessons: how a lesson's Markdown is taken apart, and what is said of wrong names and folders. The pages
+// themselves are looked at in a browser (lessons_browser_test.mjs).
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "app/lessons/figures.h"
+#include "app/lessons/flatland.h"
+#include "app/lessons/lesson_text.h"
+#include "app/lessons/site.h"
+#include "tests/support/app_process.h"
+
+namespace gnomon::app_test {
+namespace {
+
+using app::lessons::read_lesson;
+
+TEST(LessonText, PartsBeginAtHeadingsAndMarks) {
+  const auto text = read_lesson("# T\n\nOne\n\n## A\n\n```sh\n## no heading\n```\n<!-- slide -->\nTwo\n");
+  ASSERT_EQ(text.parts.size(), 3u);
+  EXPECT_EQ(text.parts[0], "# T\n\nOne\n\n");
+  EXPECT_NE(text.parts[1].find("## no heading"), std::string::npos);
+  EXPECT_EQ(text.parts[2], "Two\n");
+  EXPECT_TRUE(text.marks.empty());
+}
+
+TEST(LessonText, MarkTakesThePictureBehindIt) {
+  const auto text = read_lesson("<!-- live: bias scene=acne-floor bias=0 -->\n![a](b.png)\n\nText\n");
+  ASSERT_EQ(text.marks.size(), 1u);
+  EXPECT_EQ(text.marks[0].name, "bias");
+  EXPECT_EQ(text.marks[0].setting("scene"), "acne-floor");
+  EXPECT_EQ(text.marks[0].setting("bias"), "0");
+  EXPECT_EQ(text.marks[0].setting("size"), "");
+  const auto html = app::lessons::html_of(text.parts[0]);
+  ASSERT_TRUE(html.has_value());
+  EXPECT_NE(html->find("<div class=\"live\" data-figure=\"0\">"), std::string::npos) << *html;
+  EXPECT_LT(html->find("<img"), html->find("</div>"));
+  EXPECT_LT(html->find("</div>"), html->find("Text"));
+}
+
+TEST(LessonText, MarkWithoutPictureHasNone) {
+  const auto text = read_lesson("<!-- live: whitted -->\nText\n\n```\n<!-- live: x -->\n```\n");
+  ASSERT_EQ(text.marks.size(), 1u) << "in code it is no mark";
+  EXPECT_LT(text.parts[0].find("</div>"), text.parts[0].find("Text"));
+}
+
+TEST(LessonMarkdown, LinksLeadWithinTheSite) {
+  const auto target = [](std::string_view file) { return std::string(file == "a.md" ? "a.html" : ""); };
+  const std::string html =
+      R"(<a href="a.md">A</a> <a href="../defaults.md">D</a> <a href="https://x.org">X</a>)";
+  EXPECT_EQ(app::lessons::with_links(html, target),
+            R"(<a href="a.html">A</a> D (<code>docs/defaults.md</code>) <a href="https://x.org">X</a>)");
+}
+
+TEST(LessonMarkdown, PictureThatIsMissingIsAnError) {
+  EXPECT_FALSE(app::lessons::with_pictures(R"(<img src="../images/none.png" alt="">)").has_value());
+  const auto shown = app::lessons::with_pictures(R"(<img src="../images/lesson-acne.png" alt="x">)");
+  ASSERT_TRUE(shown.has_value());
+  EXPECT_TRUE(shown->starts_with("<img src=\"data:image/png;base64,")) << shown->substr(0, 80);
+}
+
+// The wall of thin-wall is 0.05 thick and 0.8 high and stands about x = 0 on the floor.
+TEST(LessonFlatland, IsTheSceneCut) {
+  const auto wall = app::lessons::flatland("wall");
+  ASSERT_TRUE(wall.has_value());
+  double left = 0.0, right = 0.0, top = 0.0;
+  for (const auto& segment : (*wall)["segments"]) {
+    if (segment[1] == 0.0 && segment[3] == 0.0) continue;  // the floor, and the wall's foot
+    for (const int end : {0, 2}) {
+      left = std::min(left, segment[end].get<double>()), right = std::max(right, segment[end].get<double>());
+      top = std::max(top, segment[end + 1].get<double>());
+    }
+  }
+  EXPECT_NEAR(left, -0.025, 1e-12);
+  EXPECT_NEAR(right, 0.025, 1e-12);
+  EXPECT_NEAR(top, 0.8, 1e-12);
+  EXPECT_NEAR((*wall)["light"]["direction"][0].get<double>(), -std::sqrt(3.0) / 2.0, 1e-12);
+  EXPECT_FALSE(app::lessons::flatland("nowhere").has_value());
+  EXPECT_FALSE(app::lessons::structure_cut("trie", "fence").has_value());
+}
+
+TEST(LessonsCommand, SaysWhatIsWrong) {
+  const TemporaryFolder folder;
+  expect_one_line(run_gnomon({"lessons", "-o", folder / "site", "--only", "acn"}), 2, "acne");
+  EXPECT_FALSE(std::filesystem::exists(folder / "site"));
+  std::ofstream(folder / "file") << "x";
+  expect_one_line(run_gnomon({"lessons", "-o", folder / "file", "--only", "precision"}), 4, "file");
+}
+
+TEST(LessonsCommand, WritesThePagesThatAreAskedFor) {
+  const TemporaryFolder folder;
+  const ProcessResult made = run_gnomon({"lessons", "-o", folder / "site", "--only", "precision,hybrid"});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(made.out, "");
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "site"))
+    files.push_back(entry.path().filename().string());
+  std::sort(files.begin(), files.end());
+  EXPECT_EQ(files, (std::vector<std::string>{"hybrid.html", "index.html", "precision.html"}));
+}
+
+}  // namespace
+}  // namespace gnomon::app_test

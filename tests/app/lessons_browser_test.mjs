@@ -1,0 +1,373 @@
+// The lessons as a site, in a real browser: every page is text, pictures and nothing from outside; fits a phone; has no
+// accessibility violation, light or dark; its slides turn by arrow keys; and its live figures say what the program says.
+// Needs what report_browser_test needs, and OpenGL in software. Usage: node lessons_browser_test.mjs GNOMON_PROGRAM
+// WORK_FOLDER
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readdirSync, rmSync, statSync } from "node:fs";
+import { join } from "node:path";
+import { browser, close, colours, open, violations } from "../browser/open_page.mjs";
+
+const [program, folder] = process.argv.slice(2), site = join(folder, "site");
+rmSync(folder, { recursive: true, force: true });
+execFileSync(program, ["lessons", "-o", site, "--quiet"], { stdio: "inherit" });
+const pages = readdirSync(site), lessons = JSON.parse(execFileSync(program, ["scenes", "--json", "-"])).lessons.map(({ name }) => name);
+assert.deepEqual([...pages].sort(), ["index.html", ...lessons.map((name) => `${name}.html`)].sort());
+const bytes = pages.reduce((sum, page) => sum + statSync(join(site, page)).size, 0);
+assert.ok(bytes < 30e6, `the site weighs ${bytes} bytes`);
+
+const at = (page, options = {}, hash = "") => open(site, { file: page, ...options }, hash);
+
+/** Every link within the site leads to one of its pages; every picture is there; nothing is wider than a phone. */
+async function checkContent(page, name) {
+  const links = await page.locator("a[href]").evaluateAll((all) => all.map((a) => a.getAttribute("href")));
+  for (const link of links.filter((l) => !l.startsWith("#") && !l.includes("://"))) assert.ok(pages.includes(link), `${name} links to ${link}`);
+  const broken = await page.locator("img").evaluateAll((all) => all.filter((i) => i.complete && i.naturalWidth === 0).map((i) => i.alt));
+  assert.deepEqual(broken, [], name);
+  assert.equal(await page.locator("h1").count(), 1, name);
+  const text = await page.locator("main").innerText();
+  assert.ok(!/```|\]\(|<!--/.test(text), `${name} shows Markdown`);
+  await page.setViewportSize({ width: 390, height: 844 });
+  const width = await page.evaluate(() => document.scrollingElement.scrollWidth);
+  assert.ok(width <= 390, `${name} is ${width} pixels wide on a phone`);
+  await page.setViewportSize({ width: 1440, height: 900 });
+}
+
+/** Nothing but the colours differs in the dark. */
+async function checkAxe(page, name) {
+  for (const [colorScheme, rules] of [["light", {}], ["dark", colours]]) {
+    await page.emulateMedia({ colorScheme });
+    assert.deepEqual(await violations(page, rules), [], `axe, ${name}, ${colorScheme}`);
+  }
+}
+
+/** From the first slide to the last by keys; each shows something and fits the screen. */
+async function checkSlides(page, name) {
+  await page.click(".open-slides");
+  await page.waitForFunction(() => location.hash === "#slide-1");
+  const count = Number((await page.locator(".slide-bar output").textContent()).replace(/^1 of /, ""));
+  assert.ok(count >= 3, `${name} has ${count} slides`);
+  for (let slide = 1; slide <= count; ++slide) {
+    await page.waitForFunction((n) => location.hash === `#slide-${n}`, slide);
+    const { seen, over } = await page.evaluate(() => {
+      const part = document.querySelector(".part.on-slide");
+      return { seen: [...part.children].filter((e) => e.getClientRects().length > 0).length,
+        over: Math.max(part.scrollHeight - part.clientHeight, part.scrollWidth - part.clientWidth) };
+    });
+    assert.ok(seen >= 1, `${name}, slide ${slide} is empty`);
+    assert.ok(over <= 0, `${name}, slide ${slide} is ${over} pixels too large`);
+    await page.keyboard.press("ArrowRight");
+  }
+  await page.keyboard.press("Home");
+  await page.waitForFunction(() => location.hash === "#slide-1");
+  await page.keyboard.press("Escape");
+  await page.waitForFunction(() => document.documentElement.dataset.view === "page");
+}
+
+const result = (figure, extra = []) => {
+  const { scene, sizes, ...options } = figure.settings;
+  const words = Object.entries(options).flatMap(([key, value]) => [`--${key}`, value]);
+  return JSON.parse(execFileSync(program, ["compare", scene, ...words, ...extra, "--size", "480x270", "--runs", "1", "--quiet", "--no-report", "--json", "-"])).lights[0];
+};
+const counts = (said) => said.evaluate(({ dataset }) => ({ false_shadow: Number(dataset.falseShadow), missed_shadow: Number(dataset.missedShadow) }));
+const until = (page, id, key, value) => page.waitForFunction(([i, k, v]) => document.querySelector(`${i} [role=status]`).dataset[k] === v, [id, key, value]);
+
+/** Each live figure is operated, and says what the program says. */
+const operate = {
+  async bias(page, figure, id) {
+    const light = result(figure), said = page.locator(`${id} .bias-counts`);
+    for (const { bias, bias_texels: _, ...wanted } of [3, 17, 60].map((i) => light.bias_curve[i])) {
+      await page.locator(`${id} input[type=number]`).fill(String(bias));
+      await page.keyboard.press("Enter");
+      await page.waitForFunction(([i, b]) => document.querySelector(`${i} .bias-counts`).dataset.bias === b, [id, String(bias)]);
+      assert.deepEqual(await counts(said), wanted, `bias ${bias}`);
+    }
+    const drawing = page.locator(`${id} .light-space`), before = await drawing.textContent();
+    await page.locator(`${id} .bias-picture canvas`).click({ position: { x: 20, y: 60 } });
+    await page.waitForFunction(([i, text]) => document.querySelector(`${i} .light-space`)?.textContent !== text, [id, before]);
+  },
+  async "map-size"(page, figure, id) {
+    const sizes = figure.settings.sizes.split(",");
+    for (const at of [0, sizes.length - 1]) {
+      const size = sizes[at];
+      await page.locator(`${id} input[type=range]`).fill(String(at));
+      await until(page, id, "size", size);
+      const { false_shadow, missed_shadow } = result(figure, ["--map-size", size]).error;
+      assert.deepEqual(await counts(page.locator(`${id} [role=status]`)), { false_shadow, missed_shadow }, `size ${size}`);
+    }
+  },
+  async "two-passes"(page, figure, id) {
+    const range = page.locator(`${id} input[type=range]`);
+    await range.fill("50");
+    await until(page, id, "rows", String((figure.settings["map-size"] ?? 64) / 2));
+    await range.fill("150");
+    await until(page, id, "pixels", String((480 * 270) / 2));
+    assert.equal(await page.locator(`${id} .light-space`).count(), 0);
+    await range.fill("200");
+    await page.locator(`${id} .light-space`).waitFor();
+    const before = await page.locator(`${id} .story`).textContent();
+    await page.locator(`${id} [role=application]`).click({ position: { x: 150, y: 120 } });
+    await page.waitForFunction(([i, text]) => document.querySelector(`${i} .story`).textContent !== text, [id, before]);
+  },
+};
+/** As if dragged there: a slider takes the nearest of its steps, and its end for what lies beyond, which not every version of
+    fill() allows. One after the other, and then a drawing later: the figure has taken all of them. */
+const slide = (page, id, values) => page.evaluate(([figure, all]) => {
+  for (const [slider, value] of Object.entries(all)) {
+    const input = document.querySelector(`${figure} [data-slider=${slider}]`);
+    input.value = value;
+    input.dispatchEvent(new Event("input", { bubbles: true }));
+    input.dispatchEvent(new Event("change", { bubbles: true }));
+  }
+  return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+}, [id, values]);
+const said = (page, id) => page.locator(`${id} [role=status]`).evaluate(({ dataset }) => Object.fromEntries(Object.entries(dataset).map(([key, value]) => [key, Number(value)])));
+const words = (page, id) => page.locator(`${id} [role=status]`).textContent();
+const near = (value, wanted, tolerance, what) => assert.ok(Math.abs(value - wanted) <= tolerance, `${what}: ${value}, wanted ${wanted} within ${tolerance}`);
+const radians = (degrees) => (degrees * Math.PI) / 180;
+
+/** With every slider at one end all points of a figure may be the same, and lie on its border. What the browser cannot draw is an
+    offence of the page; what is written stays in the drawing, and nothing is written over anything else. On a phone letters are larger. */
+async function checkSliderEnds(page) {
+  for (const [size, end] of [[1440, "min"], [1440, "max"], [390, "max"], [390, "min"]]) {
+    await page.setViewportSize({ width: size, height: 844 });
+    const [outside, over] = await page.evaluate((limit) => {
+      for (const input of document.querySelectorAll("[data-slider]")) {
+        input.value = input[limit];
+        input.dispatchEvent(new Event("input", { bubbles: true }));
+      }
+      const isOutside = (text) => {
+        const at = text.getBoundingClientRect(), all = text.ownerSVGElement.getBoundingClientRect();
+        return at.left < all.left - 2 || at.top < all.top - 2 || at.right > all.right + 2 || at.bottom > all.bottom + 2;
+      };
+      const meets = (one, other) => {
+        const a = one.getBoundingClientRect(), b = other.getBoundingClientRect();
+        return a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1;
+      };
+      return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(() => {
+        const drawings = [...document.querySelectorAll("svg.flatland")].map((drawing) => [...drawing.querySelectorAll("text")]);
+        done([drawings.flat().filter(isOutside).map((text) => text.textContent),
+          drawings.flatMap((texts) => texts.flatMap((a, i) => texts.slice(i + 1).filter((b) => meets(a, b)).map((b) => `${a.textContent}, ${b.textContent}`)))]);
+      }))));
+    }, end);
+    assert.deepEqual(outside, [], `${page.url()}, ${size} pixels wide, with every slider at its ${end}`);
+    assert.deepEqual(over, [], `${page.url()}, ${size} pixels wide, with every slider at its ${end}`);
+  }
+  await page.setViewportSize({ width: 1440, height: 900 });
+}
+
+/** The flatlands against closed forms worked out here, from the scenes' own numbers. */
+const flatlands = {
+  // The floor is measured in 640 pieces; each edge of a texel's dark half falls into one of them.
+  async acne(page, id) {
+    near((await said(page, id)).angle, 90 - 42, 0.5, "the sun of acne-floor");
+    for (const [angle, texels, bias] of [[48, 14, 0], [48, 20, 0.06], [-30, 10, 0.03], [60, 30, 0.3]]) {
+      await slide(page, id, { angle, texels, bias });
+      const { texel, falseShare, missedShare, bias: used } = await said(page, id);
+      const a = 0.5 * texel * Math.tan(radians(Math.abs(angle)));
+      near(falseShare, a > used ? 0.5 * (1 - used / a) : 0, texels / 640, `acne at ${angle} degrees, ${texels} texels, bias ${bias}`);
+      near(texel, (6 * Math.cos(radians(angle))) / texels, 1e-9, "width of a texel");
+      assert.equal(missedShare, 0);
+    }
+  },
+  // A texel's width on the floor, and a piece's.
+  async wall(page, id) {
+    near((await said(page, id)).angle, 60, 0.5, "the sun of thin-wall");
+    for (const [angle, texels, bias] of [[60, 128, 0.2], [-45, 128, 0.3], [60, 100, 0.03]]) {
+      await slide(page, id, { angle, texels, bias });
+      const { texel, measured, bias: used } = await said(page, id);
+      near(measured, Math.max(0, used * Math.sin(radians(Math.abs(angle))) - 0.05), texel / Math.cos(radians(angle)) + 0.006, `wall at ${angle} degrees, bias ${bias}`);
+    }
+    // Square to the floor there is nothing for a bias to cure, and no shadow.
+    await slide(page, id, { angle: 0, bias: 0 });
+    assert.match(await words(page, id), /no shadow is drawn/);
+    assert.equal((await said(page, id)).falseShare, 0);
+    await slide(page, id, { angle: 60 });
+  },
+  async penumbra(page, id) {
+    for (const [radius, height] of [[0.4, 4], [0.2, 3], [0, 4], [0.9, 4]]) {
+      await slide(page, id, { radius, height, x: 0 });
+      const { umbra, penumbra } = await said(page, id), h = 1.6, a = 0.6;
+      near(umbra, Math.max(0, (a * height - radius * h) / (height - h)), 1e-6, "umbra");
+      near(penumbra, (a * height + radius * h) / (height - h), 1e-6, "penumbra");
+    }
+    // So wide a lamp leaves no umbra, and of one so far aside the umbra lies beyond the drawing.
+    await slide(page, id, { radius: 1, height: 2, x: 0 });
+    assert.match(await words(page, id), /there is no umbra/);
+    assert.ok(!(await page.locator(`${id} svg text`).allTextContents()).includes("umbra"));
+    await slide(page, id, { radius: 0.1, height: 2, x: 1.5 });
+    assert.deepEqual(await page.locator(`${id} svg text`).allTextContents(), ["penumbra"]);
+  },
+  async terminator(page, id) {
+    for (const [angle, sides] of [[35, 14], [-100, 9], [0, 60]]) {
+      await slide(page, id, { angle, sides });
+      const { lostLeft, lostRight, formulaLeft, formulaRight } = await said(page, id), piece = 360 / sides / 60;
+      near(lostLeft, formulaLeft, piece, "left");
+      near(lostRight, formulaRight, piece, "right");
+      assert.ok(Math.max(lostLeft, lostRight) <= 180 / sides + 1e-9);
+    }
+    // Below the floor: the sun is drawn there, and what the floor shadows is no fault of the ball's faces.
+    await slide(page, id, { angle: 180, sides: 14 });
+    const { lostLeft, lostRight } = await said(page, id), round = 2 * Math.PI * 0.7 * (960 / 5);
+    const [low, orange] = await page.locator(`${id} svg`).evaluate((svg) => [Number(svg.querySelector(".sun").getAttribute("cy")), svg.querySelector(".surface.false").getTotalLength()]);
+    assert.ok(low > (960 / 5) * 2.3, `the sun is drawn at ${low}`);
+    near(orange, ((lostLeft + lostRight) / 360) * round, 0.02 * round, "orange");
+  },
+  // Bias cures false shadow, and takes true shadow with it.
+  async shadow(page, id) {
+    await slide(page, id, (await page.locator(`${id} [data-slider=offset]`).count()) > 0 ? { bias: 0, offset: 0 } : { bias: 0 });
+    const without = await said(page, id);
+    assert.ok(without.falseShare > 0.1, `false shadow ${without.falseShare}`);
+    await slide(page, id, { bias: 9 });
+    const most = await said(page, id);
+    assert.ok(most.falseShare < 0.02 && most.missedShare > without.missedShare, `${most.falseShare} false, ${most.missedShare} missed`);
+  },
+};
+operate.flatland = async (page, { settings: { show, scene } }, id) => {
+  if (show !== "shadow") return flatlands[show](page, id);
+  if (scene === "wall") await flatlands.wall(page, id);
+  await flatlands.shadow(page, id);
+};
+// The page's walks count what the program counted for the same rays: cells or nodes, and primitives; and hit where it hit.
+operate.structure = async (page, figure, id) => {
+  const at = Number(/\d+/.exec(id)[0]), walks = await page.evaluate((i) => globalThis.gnomonWalks(i).map(({ wanted, walk: { boxes, primitives, t } }) => ({ wanted, boxes, primitives, t: isFinite(t) ? t : null })), at);
+  assert.ok(walks.length >= 8 && walks.some(({ t }) => t !== null));
+  for (const { wanted, boxes, primitives, t } of walks) {
+    assert.deepEqual({ boxes, primitives }, { boxes: wanted.boxes, primitives: wanted.primitives }, JSON.stringify([figure.settings, wanted]));
+    // Both meet the same segment in doubles; in the page its ends were cut out of a triangle first.
+    if (wanted.t === null) assert.equal(t, null);
+    else near(t, wanted.t, 1e-6 * wanted.t, "hit");
+  }
+  await slide(page, id, { step: 1 });
+  const whole = await said(page, id);
+  await slide(page, id, { step: 0 });
+  const none = await said(page, id);
+  assert.ok(none.cells === 0 && none.primitives === 0 && whole.cells >= 1 && whole.boxes > 1, JSON.stringify([none, whole]));
+  await slide(page, id, { step: 1, toY: 0.02, zoom: 2 });
+  assert.notDeepEqual(await said(page, id), whole);
+};
+// Against what the ray tracer finds for the same rays.
+operate.intersection = async (page, { settings: { kind }, data: { checks } }, id) => {
+  assert.ok(checks.some(({ t }) => t === null) && checks.some(({ t }) => t !== null));
+  if (kind === "triangle") {
+    for (const { corners, t } of checks) {
+      await slide(page, id, Object.fromEntries(corners.flatMap(([x, y], i) => [[`${"ABC"[i]}x`, x], [`${"ABC"[i]}y`, y]])));
+      const { hit, z } = (await page.locator(`${id} [role=status]`).evaluate(({ dataset }) => ({ ...dataset })));
+      assert.equal(hit === "true", t !== null, JSON.stringify(corners));
+      if (t !== null) near(Number(z), t, 1e-9, "z");
+    }
+    await slide(page, id, { Ax: 1, Ay: 1, Bx: 1, By: 1, Cx: 1, Cy: 1 });
+    assert.match(await words(page, id), /the triangle has no area/);
+    return;
+  }
+  for (const { from, to, t } of checks) {
+    await slide(page, id, { ox: from[0], oy: from[1], ax: to[0], ay: to[1] });
+    const found = await page.locator(`${id} [role=status]`).evaluate(({ dataset }) => ({ ...dataset }));
+    const roots = kind === "box" ? (found.hit === "true" ? [Number(found.entry)] : []) : found.roots.split(" ").filter((r) => r !== "").map(Number).filter((r) => r > 0);
+    if (t === null) assert.deepEqual(roots, [], `${kind} from ${from} to ${to}`);
+    else near(roots[0], t, 1e-6, `${kind} from ${from} to ${to}`);
+  }
+  // A ray that begins where it touches the ball, and one of a single stretch.
+  await slide(page, id, kind === "sphere" ? { ox: 0.2, oy: 0.9, ax: 2, ay: 0.9 } : { ox: 2.5, oy: 1, ax: 3, ay: 1.5 });
+  if (kind === "sphere") assert.match(await words(page, id), /t = 0, 0\.$/);
+  if (kind === "implicit") assert.match(await words(page, id), /^1 stretch after 0 halvings: /);
+};
+// The lookup of a cube map, worked out here; and what the texel in the middle below the lamp stores.
+operate["cube-faces"] = async (page, figure, id) => {
+  for (const [lampX, lampY, x, texels] of [[-0.9, 2, 1.6, 8], [1.5, 1, 1.5, 9], [-1.5, 0.5, 2.5, 16]]) {
+    await slide(page, id, { lampX, lampY, x, texels });
+    const { z, u, wide, texel, stored } = await said(page, id), d = [x - lampX, -lampY], along = Math.max(Math.abs(d[0]), Math.abs(d[1]));
+    near(z, along, 1e-9, "z");
+    near(wide, (2 * along) / texels, 1e-9, "width of a texel");
+    assert.ok(u > 0 && u < 1 && texel === Math.floor(u * texels));
+    if (lampX === x) near(stored, lampY, 1e-9, "depth below the lamp");
+  }
+  await slide(page, id, { lampX: 0, lampY: 0.85, x: 0, texels: 9 });  // the middle of the ball: it stores the ball's far side
+  near((await said(page, id)).stored, 0.7, 1e-9, "depth within the ball");
+};
+operate.whitted = async (page, { data: { fresnel } }, id) => {
+  const shares = await page.evaluate((all) => all.map(({ cosine, ratio }) => globalThis.gnomonFresnel(cosine, ratio)), fresnel);
+  fresnel.forEach(({ reflected }, i) => near(shares[i], reflected, 1e-12, "Fresnel"));
+  await slide(page, id, { step: 1 });
+  const { total } = await said(page, id);
+  assert.ok(total >= 6, `${total} rays`);
+  await slide(page, id, { step: 0 });
+  for (let ray = 1; ray <= 3; ++ray) {
+    await page.locator(`${id} .next-ray`).click();
+    await page.waitForFunction(([i, n]) => document.querySelector(`${i} [role=status]`).dataset.rays === n, [id, String(ray)]);
+  }
+  // The floor below the glass ball, and the lamp above it: two surfaces with 4 % reflected at each, and a shadow ray more behind each.
+  await slide(page, id, { eyeX: 0.6 / 8.2, eyeY: 1.4 / 4.6, aimX: 3.6 / 8.2, aimY: 0.4 / 4.6, lampX: 3.6 / 8.2, lampY: 4.4 / 4.6, step: 1 });
+  assert.equal((await said(page, id)).total, 4);
+  assert.match(await words(page, id), /the surfaces of the glass let 92\.2 % of the light through/);
+};
+/** A drag holds its handle, past the other one as well, and the handle stays under the pointer: also on a slide, where the drawing is
+    narrower than its element. */
+async function checkDrag() {
+  const page = await at("intersections.html", { viewport: { width: 1024, height: 768 } }), id = '[data-figure="0"]', drawing = page.locator(`${id} svg.flatland`);
+  await page.click(".open-slides");
+  for (let i = 0; i < 40 && !(await drawing.isVisible()); ++i) await page.keyboard.press("ArrowRight");
+  const screen = (at) => drawing.evaluate((svg, [x, y]) => {
+    const place = new DOMPoint(160 * (x + 3), 160 * (1.5 - y)).matrixTransform(svg.getScreenCTM());
+    return [place.x, place.y];
+  }, at);
+  await slide(page, id, { ox: -2, oy: 0, ax: 0, ay: 0.02 });
+  await page.mouse.move(...await screen([-2, 0]));
+  await page.mouse.down();
+  await page.mouse.move(...await screen([2, 0.1]), { steps: 40 });
+  await page.mouse.up();
+  await slide(page, id, {});
+  const { ox, oy, ax, ay } = await said(page, id);
+  near(ox, 2, 0.01, "the start, dragged");
+  near(oy, 0.1, 0.01, "the start, dragged");
+  assert.deepEqual([ax, ay], [0, 0.02]);
+  await close(page);
+}
+
+/** What is written in the drawings can be read from a projector of 1024 × 768. */
+async function checkProjector() {
+  const page = await at("shadow-map.html", { viewport: { width: 1024, height: 768 } }), drawing = page.locator(".light-space");
+  await page.click(".open-slides");
+  for (let i = 0; i < 40 && !(await drawing.isVisible()); ++i) await page.keyboard.press("ArrowRight");
+  const pixels = await drawing.evaluate((svg) => svg.getScreenCTM().a * parseFloat(getComputedStyle(svg.querySelector("text")).fontSize));
+  assert.ok(pixels >= 11, `the drawing on a slide is written in ${pixels} pixels`);
+  await close(page);
+}
+
+const operated = new Set();
+/** What the lessons have: a figure that no lesson asks for would be looked at by nobody. */
+const wanted = ["bias", "cube-faces", "flatland", "intersection", "map-size", "structure", "two-passes", "whitted"];
+async function checkFigures(page) {
+  const figures = await page.evaluate(() => JSON.parse(document.getElementById("page-data").textContent).figures);
+  for (const [i, figure] of figures.entries()) {
+    if (!figure) continue;
+    await operate[figure.name](page, figure, `[data-figure="${i}"]`);
+    operated.add(figure.name);
+  }
+}
+
+try {
+  for (const name of pages) {
+    const page = await at(name);
+    await checkContent(page, name);
+    await checkAxe(page, name);
+    await checkFigures(page);
+    await checkSliderEnds(page);
+    if (name !== "index.html") await checkSlides(page, name);
+    await close(page);
+  }
+  assert.deepEqual([...operated].sort(), wanted);
+  await checkDrag();
+  await checkProjector();
+  const linked = await at("acne.html", {}, "#slide-2");
+  assert.equal(await linked.locator(".slide-bar output").textContent().then((text) => text.slice(0, 5)), "2 of ");
+  await checkAxe(linked, "a slide");
+  await close(linked);
+  const plain = await at("acne.html", { javaScriptEnabled: false });
+  assert.ok(await plain.locator(".lesson-text img").first().isVisible());
+  await close(plain);
+  console.log(`live figures: ${[...operated].join(", ") || "none"}`);
+  console.log(`${pages.length} pages, ${(bytes / 1e6).toFixed(1)} MB`);
+} finally {
+  await browser.close();
+}

@@ -1,0 +1,364 @@
+// What is said of a light, from counts that are set by hand.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include "compare/result/judged.h"
+#include "compare/result/verdict.h"
+#include "studies/tune/page.h"
+#include "tests/support/synthetic_comparison.h"
+
+namespace gnomon::compare {
+namespace {
+
+// A light whose counts are set by hand.
+struct Case {
+  std::unique_ptr<Synthetic> made = make_synthetic();
+  LightComparison& light = made->comparison.lights[0];
+  Case(std::uint64_t compared, std::array<std::uint64_t, class_count> classes) {
+    light.pixels = {compared, 0, 0, 0, 0, compared};
+    light.classes = classes;
+    for (std::size_t k = 0; k < class_count; ++k)
+      light.class_errors[k] = static_cast<double>(classes[k]) / static_cast<double>(compared);
+    light.error.wrong = 0;
+    for (const std::uint64_t n : classes) light.error.wrong += n;
+    light.error.ties = light.error.fractional = 0;
+    light.error.wrong_fraction = static_cast<double>(light.error.wrong) / static_cast<double>(compared);
+    light.error.mean_absolute = light.error.wrong_fraction;
+    light.texel_world = {0.01, 0.0125, 0.02};
+    light.bias_texel_world = 0.0125;
+  }
+  std::string verdict() const { return verdict_on(made->comparison, light).whole(); }
+};
+
+TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
+  Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
+  c.light.best_bias = {0.01, 0.006, true, 0.005, 0.02, 0, 0};
+  EXPECT_EQ(c.verdict(),
+            "Shadow error 4.1 % of the pixels, mostly acne. Try --slope-bias 1 --bias 0.01 (0.8 texel): 0.6 "
+            "% wrong.");
+  EXPECT_EQ(verdict_on(c.made->comparison, c.light).detail, "");
+}
+
+TEST(Verdict, SaysWhenNoBiasCanBeRight) {
+  Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.made->comparison.raster.options.map.bias.slope = 0.0;
+  c.light.best_bias = {0.02, 0.041, false, 0.031, 0.012, 213, 97};
+  EXPECT_EQ(c.verdict(),
+            "Shadow error 4.1 % of the pixels, all of them acne. No other constant bias does better. No "
+            "constant bias "
+            "fits all: 213 lit pixels stay dark below 2.5 texels, and 97 shadowed pixels are lit from 0.96 "
+            "texel on.");
+  const auto reason = [&](double needs_more_than, double needs_less_than) {
+    c.light.best_bias.needs_more_than = needs_more_than, c.light.best_bias.needs_less_than = needs_less_than;
+    return verdict_on(c.made->comparison, c.light).detail;
+  };
+  EXPECT_EQ(reason(1e-4, 1.55e-5),
+            "No constant bias fits all: 213 lit pixels stay dark below 0.01 texel, and 97 shadowed pixels "
+            "are lit from "
+            "0.01 texel on.");
+  const std::string lit_anyway = "Bias cannot fix the rest: 97 shadowed pixels are lit even at bias 0.";
+  EXPECT_EQ(reason(0.031, -5.01e-6), lit_anyway);
+  EXPECT_EQ(reason(-1e-6, -5.01e-6), lit_anyway);
+  EXPECT_EQ(reason(0.031, -infinity),
+            "Bias cannot fix the rest: some shadowed pixels find no caster in the map.");
+}
+
+// The constants are tried with what else the drawing's bias has.
+TEST(Verdict, SaysBesideWhatNoConstantCanBeRight) {
+  Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.best_bias = {0.02, 0.041, false, 0.031, 0.012, 213, 97};
+  const std::pair<raster::Bias, std::string> cases[] = {
+      {{.slope = 1.5}, "No constant bias beside the slope bias of 1.5 fits all: 213 lit"},
+      {{.normal_offset_texels = 2.0}, "No constant bias beside the normal offset of 2 texels fits all"},
+      {{.receiver_plane = true}, "No constant bias beside the receiver's plane fits all"},
+      {{.adaptive = true}, "No constant bias beside the adaptive bias fits all"},
+      {{.slope = 1.0, .receiver_plane = true},
+       "No constant bias beside the other parts of the bias fits all"}};
+  for (const auto& [bias, words] : cases) {
+    c.made->comparison.raster.options.map.bias = bias;
+    EXPECT_NE(c.verdict().find(words), std::string::npos) << c.verdict();
+  }
+}
+
+TEST(Verdict, OffersNoBiasWhoseGainNoFigureShows) {
+  Case c(100000, {1600, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.best_bias = {3.67e-6, 0.01559, true, 0.0, 1.0, 0, 0};
+  const std::string wrong = "Shadow error 1.6 % of the pixels, all of them acne.";
+  EXPECT_EQ(c.verdict(), wrong + " No other constant bias does clearly better.");
+  c.light.best_bias.wrong_fraction = 0.0154;  // written as 1.5 %, and hardly less
+  EXPECT_EQ(c.verdict(), wrong + " No other constant bias does clearly better.");
+  c.light.best_bias.wrong_fraction = 0.0151;
+  EXPECT_EQ(c.verdict(), wrong + " Try --slope-bias 1 --bias 3.67e-06: 1.5 % wrong.");
+  BiasKind slope, constant;
+  slope.name = "slope bias", slope.of_slope = true, slope.bias.slope = 1.0, slope.wrong_fraction = 0.01555;
+  constant.name = "constant bias", constant.wrong_fraction = 0.0156;
+  c.light.bias_kinds = {slope, constant};
+  EXPECT_EQ(c.verdict(), wrong + " No other bias does clearly better.");
+  c.light.bias_kinds[0].wrong_fraction = 0.0101;
+  EXPECT_NE(c.verdict().find(" 1.0 % wrong. A constant bias alone leaves 1.6 % wrong."), std::string::npos)
+      << c.verdict();
+  c.light.bias_kinds[0].wrong_fraction = 0.0107, c.light.bias_kinds[1].wrong_fraction = 0.0114;
+  EXPECT_EQ(c.verdict().find("alone"), std::string::npos) << c.verdict();
+}
+
+TEST(Verdict, LeavesReasonsToItsDetail) {
+  Case c(100000, {1600, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.pixels.uncertain = 100;
+  c.light.best_bias = {0.01, 0.0151, false, 0.031, 0.012, 213, 97};
+  BiasKind slope, constant;
+  slope.name = "slope bias", slope.of_slope = true, slope.bias.slope = 1.0, slope.wrong_fraction = 0.0101;
+  constant.name = "constant bias", constant.wrong_fraction = 0.0156;
+  c.light.bias_kinds = {slope, constant};
+  const Verdict verdict = verdict_on(c.made->comparison, c.light);
+  EXPECT_EQ(
+      verdict.headline(),
+      "Shadow error 1.6 % of the pixels, all of them acne. Try --slope-bias 1 --bias auto: 1.0 % wrong.");
+  EXPECT_EQ(verdict.detail,
+            "100 more (0.1 %) are uncertain: the truth there lies within its own error bound. A constant "
+            "bias alone "
+            "leaves 1.6 % wrong. No constant bias beside the slope bias of 1 fits all: 213 lit pixels stay "
+            "dark below "
+            "2.5 texels, and 97 shadowed pixels are lit from 0.96 texel on.");
+}
+
+TEST(Verdict, OffersAnotherRenderersSettingOnlyForAGain) {
+  Case c(100000, {1600, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  auto judged = std::make_shared<Judged>();
+  judged->advice = {{"bias.constant_depth", 0.0, 0.5, "stored depth", 0.016, 0.002, false}};
+  c.made->comparison.judged = judged;
+  EXPECT_NE(c.verdict().find(" Try bias.constant_depth 0.5 instead of 0: 0.2 % wrong."), std::string::npos)
+      << c.verdict();
+  for (const double left : {0.0159, 0.016, 0.02}) {
+    judged->advice[0].wrong_instead = left;
+    EXPECT_EQ(c.verdict().find("Try "), std::string::npos) << c.verdict();
+  }
+  judged->advice[0] = {"bias.normal_offset_world",
+                       0.3,
+                       0.1,
+                       "world units",
+                       0.016,
+                       0.002,
+                       false,
+                       AdvisedSetting{"bias.constant_depth", 0.0, 0.5, "stored depth"}};
+  EXPECT_NE(c.verdict().find(
+                " Try bias.normal_offset_world 0.1 instead of 0.3 and bias.constant_depth 0.5 instead of 0: "
+                "0.2 % wrong."),
+            std::string::npos)
+      << c.verdict();
+}
+
+TEST(Verdict, AsksForAKindOfBiasByItsOptions) {
+  Case c(100000, {4000, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.best_bias.feasible = true;
+  BiasKind kind;
+  kind.name = "normal offset", kind.wrong_fraction = 0.01;
+  const std::pair<raster::Bias, std::string> cases[] = {
+      {{.constant = 0.4, .unit = raster::BiasUnit::world, .normal_offset_texels = 1.0},
+       " Try --normal-offset 1 --bias 0.4 (32 texels): 1.0 % wrong."},
+      {{.constant = 0.0, .unit = raster::BiasUnit::world}, " Try --bias 0: 1.0 % wrong."},
+      {{.constant = 0.0, .unit = raster::BiasUnit::texel}, " Try --bias 0texel: 1.0 % wrong."}};
+  for (const auto& [bias, words] : cases) {
+    kind.bias = bias;
+    c.light.bias_kinds = {kind};
+    EXPECT_NE(c.verdict().find(words), std::string::npos) << c.verdict();
+  }
+}
+
+// The drawing has the slope bias that would be recommended: only its constant is to change.
+TEST(Verdict, NamesTheConstantWhereTheSlopeBiasIsSetAlready) {
+  Case c(100000, {4000, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.best_bias.feasible = true;
+  raster::Bias& drawn = c.made->comparison.raster.options.map.bias;
+  drawn = {.constant = 0.0, .unit = raster::BiasUnit::world, .slope = 1.0};
+  BiasKind slope, constant;
+  slope.name = "slope bias", slope.of_slope = true, slope.wrong_fraction = 0.01;
+  slope.bias = {.constant = 1.0, .unit = raster::BiasUnit::automatic, .slope = 1.0};
+  slope.from = 0.8, slope.to = infinity;
+  constant.name = "constant bias", constant.wrong_fraction = 0.01;
+  constant.bias = {.constant = 1.0, .unit = raster::BiasUnit::automatic};
+  c.light.bias_kinds = {slope, constant};
+  EXPECT_NE(c.verdict().find(" Try --slope-bias 1 --bias auto: 1.0 % wrong."), std::string::npos)
+      << c.verdict();
+  EXPECT_EQ(c.verdict().find("about as well"), std::string::npos) << c.verdict();
+  drawn = {.constant = 0.0, .unit = raster::BiasUnit::world, .slope = 0.5};
+  EXPECT_NE(c.verdict().find(" Any slope bias from 0.8 on does about as well."), std::string::npos)
+      << c.verdict();
+  // Nor is a slope bias recommended that is neither set nor needed.
+  drawn.slope = c.light.bias_kinds[0].from = 0.0;
+  EXPECT_NE(c.verdict().find(" Try --bias auto: 1.0 % wrong."), std::string::npos) << c.verdict();
+}
+
+TEST(Verdict, NamesTheSmallerConstantOfAPlateau) {
+  Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  c.light.best_bias = {0.5, 0.01, true, 0.4, 0.7, 0, 0};
+  c.light.best_bias.smaller = {0.01, 0.0101};
+  EXPECT_NE(c.verdict().find(" Try --slope-bias 1 --bias 0.01 (0.8 texel): 1.0 % wrong."), std::string::npos)
+      << c.verdict();
+}
+
+TEST(Verdict, SaysNothingOfABiasWhoseCurveIsWithheld) {
+  Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
+  c.made->comparison.raster.options.map.technique = raster::Technique::pcf;
+  c.light.bias_curve_withheld = "It filters.";
+  EXPECT_EQ(c.verdict(), "Shadow error 4.1 % of the pixels, mostly acne.");
+}
+
+TEST(Verdict, HandlesNoneFewAndNothing) {
+  Case none(5000, {});
+  none.light.best_bias = {0.01, 0.0, true, -infinity, infinity, 0, 0};
+  EXPECT_EQ(none.verdict(), "No shadow error: all 5,000 pixels compared are right.");
+  Case single(1, {});
+  single.light.best_bias = none.light.best_bias;
+  EXPECT_EQ(single.verdict(), "No shadow error: the one pixel compared is right.");
+  Case one(1000000, {0, 0, 0, 0, 1, 0, 0, 0, 0, 0});
+  one.light.best_bias = {0.02, 0.0, true, 0.01, 0.03, 0, 0};
+  EXPECT_EQ(one.verdict(),
+            "Shadow error in 1 of 1,000,000 pixels, aliasing. Try --slope-bias 1 --bias 0.02 (1.6 texels): "
+            "none wrong.");
+  Case split(1000, {10, 0, 12, 0, 5, 5, 0, 0, 0, 0});
+  split.light.best_bias = {0.01, 0.032, true, 0, 1, 0, 0};
+  EXPECT_NE(split.verdict().find("mainly peter-panning and acne."), std::string::npos) << split.verdict();
+  Case nothing(1, {});
+  nothing.light.pixels = {100, 60, 30, 8, 2, 0};
+  EXPECT_EQ(nothing.verdict(),
+            "No pixel could be compared: of 100, 60 show no surface, 30 face away from the light, 8 are "
+            "silhouettes and 2 are uncertain.");
+  nothing.made->scene.lights[nothing.light.light].type = LightType::spot;
+  EXPECT_NE(nothing.verdict().find("30 face away from the light or lie outside its cone, 8 are"),
+            std::string::npos)
+      << nothing.verdict();
+}
+
+// Of many biases the best one mends two pixels of nine by chance.
+TEST(Verdict, AdvisesNothingThatChanceExplains) {
+  Case few(43000, {0, 0, 0, 0, 9, 0, 0, 0, 0, 0});
+  few.light.best_bias = {0.57, 7.0 / 43000.0, false, 0.6, 1e-9, 7, 2};
+  EXPECT_EQ(few.verdict().find("Try "), std::string::npos) << few.verdict();
+  EXPECT_NE(few.verdict().find("No other constant bias does clearly better."), std::string::npos)
+      << few.verdict();
+  few.light.best_bias.wrong_fraction = 1.0 / 43000.0;
+  EXPECT_NE(few.verdict().find("Try "), std::string::npos) << few.verdict();
+}
+
+TEST(Verdict, LeadsWithTheMeanErrorWhereSomethingIsPartlyLit) {
+  Case grey(5000, {});
+  grey.light.error.fractional = 4000;
+  grey.light.error.mean_absolute = 0.35;
+  grey.light.best_bias = {0.01, 0.0, true, -infinity, infinity, 0, 0};
+  EXPECT_EQ(grey.verdict(), "Shadow error 35.0 % on average; no pixel is off by more than one half.");
+  grey.light.class_errors[static_cast<std::size_t>(Label::acne) - 1] = 0.35;
+  EXPECT_EQ(grey.verdict(),
+            "Shadow error 35.0 % on average, all of it acne; no pixel is off by more than one half.");
+  grey.light.class_errors[static_cast<std::size_t>(Label::acne) - 1] = 0.2;
+  grey.light.class_errors[static_cast<std::size_t>(Label::blur) - 1] = 0.15;
+  EXPECT_NE(grey.verdict().find("average, mostly acne; no pixel"), std::string::npos) << grey.verdict();
+  Case soft(5000, {0, 0, 0, 0, 100, 0, 0, 0, 0, 0});
+  soft.light.error.fractional = 900;
+  soft.light.error.mean_absolute = 0.03;
+  soft.light.best_bias = {0.01, 0.02, true, 0, 1, 0, 0};
+  EXPECT_EQ(soft.verdict(),
+            "Shadow error 3.0 % on average, all of it aliasing; 2.0 % of the pixels are off by more than one "
+            "half. No "
+            "other constant bias does better.");
+  soft.light.error.ties = 50,
+  soft.light.error.wrong_fraction = 0.025;  // no more than one half, and not among them
+  EXPECT_NE(soft.verdict().find("; 2.0 % of the pixels are off by more than one half"), std::string::npos)
+      << soft.verdict();
+}
+
+TEST(Verdict, NamesSoftTechniquesWhereTheLightsSizeIsMostOfTheError) {
+  Case c(5000, {0, 0, 0, 0, 0, 0, 0, 0, 100, 0});
+  c.light.error.fractional = 900;
+  c.light.error.mean_absolute = 0.03;
+  c.light.best_bias = {0.01, 0.01, false, 0.031, 0.012, 213, 97};
+  c.light.budget = {};
+  BudgetStep& size = c.light.budget[static_cast<std::size_t>(Cause::light_size)];
+  size.absolute_mean = 0.015;
+  const std::string advice =
+      "Try --technique pcss or --technique hybrid: the error is mostly the light's size, which no bias "
+      "mends.";
+  EXPECT_EQ(c.verdict(),
+            "Shadow error 3.0 % on average, all of it light size; 2.0 % of the pixels are off by more than "
+            "one half. " +
+                advice);
+  raster::RasterFrame& drawn = c.made->comparison.raster;
+  drawn.options.map.technique = raster::Technique::pcss;
+  EXPECT_EQ(c.verdict().find("mostly the light's size"), std::string::npos) << c.verdict();
+  drawn.options.map.technique = raster::Technique::pcf;  // whose biases do not follow from one drawing
+  EXPECT_NE(c.verdict().find(advice), std::string::npos) << c.verdict();
+  drawn.options.map.technique = raster::Technique::hard;
+  size.absolute_mean = 0.0149;
+  EXPECT_EQ(c.verdict().find("mostly the light's size"), std::string::npos) << c.verdict();
+  EXPECT_NE(c.verdict().find("Try --slope-bias 1 --bias 0.01 (0.8 texel):"), std::string::npos)
+      << c.verdict();
+  size.absolute_mean = 0.0601;  // a filter made up for more than half of it
+  EXPECT_EQ(c.verdict().find("mostly the light's size"), std::string::npos) << c.verdict();
+  size.absolute_mean = 0.02;
+  BudgetStep& filter = c.light.budget[static_cast<std::size_t>(Cause::filter)];
+  filter.absolute_mean = 0.021;  // blurs more than the light does
+  EXPECT_EQ(c.verdict().find("mostly the light's size"), std::string::npos) << c.verdict();
+  filter.absolute_mean = 0.019;
+  EXPECT_NE(c.verdict().find(advice), std::string::npos) << c.verdict();
+  c.light.class_errors[static_cast<std::size_t>(Label::blur) - 1] = 101.0 / 5000.0;
+  EXPECT_EQ(c.verdict().find("mostly the light's size"), std::string::npos) << c.verdict();
+}
+
+// Sizes of maps are estimates: only a gain beyond their own error is advised, and praise needs hardly any error.
+TEST(Verdict, AdvisesTheMapsSize) {
+  Case c(100000, {0, 0, 0, 0, 4000, 0, 0, 0, 0, 0});
+  c.light.best_bias = {0.01, 0.04, true, 0.0, 1.0, 0, 0};
+  const int drawn = c.made->comparison.raster.lights[0].map.view.size;
+  const auto advice = [&](const OtherMapSize& half, const OtherMapSize& twice) {
+    c.light.other_sizes = {half, twice};
+    return verdict_on(c.made->comparison, c.light).advice;
+  };
+  EXPECT_EQ(advice({drawn / 2, 0.08, 0.002}, {2 * drawn, 0.022, 0.002}),
+            fmt::format("Try --map-size {}: about 2.2 % wrong.", 2 * drawn));
+  EXPECT_EQ(advice({drawn / 2, 0.08, 0.002}, {2 * drawn, 0.022, 0.006}),
+            "No other constant bias does better.");
+  c.light.error.mean_absolute = c.light.error.wrong_fraction = c.light.best_bias.wrong_fraction = 0.0012;
+  EXPECT_EQ(advice({drawn / 2, 0.003, 0.0005}, {2 * drawn, 0.0006, 0.0001}),
+            fmt::format("A map of {0} would do (--map-size {0}: about 0.3 % wrong).", drawn / 2));
+  EXPECT_EQ(advice({drawn / 2, 0.0045, 0.0005}, {2 * drawn, 0.0006, 0.0001}),
+            "No other constant bias does better.");
+}
+
+TEST(Verdict, CountsWhatIsUncertain) {
+  Case c(5000, {});
+  c.light.pixels.uncertain = 15000;
+  c.light.best_bias = {0.01, 0.0, true, -infinity, infinity, 0, 0};
+  EXPECT_EQ(c.verdict(),
+            "No shadow error: all 5,000 pixels compared are right. 15,000 more (75.0 %) are "
+            "uncertain: the truth there lies within its own error bound.");
+}
+
+std::string tuned_page(double needs_more_than, double needs_less_than) {
+  TuneGoal goal;
+  goal.max_error = Threshold{find_measure("wrong"), 1e-6};
+  TuneResult result;
+  FamilyResult& family = result.families.emplace_back();
+  family.family.name = "slope bias 1";
+  family.family.map.bias.slope = 1.0;
+  family.closest.size = 64, family.closest.texel_world = 0.0125;
+  family.closest.best = {0.0, 0.01, false, needs_more_than, needs_less_than, 213, 97};
+  const std::vector<std::string> commands{"gnomon compare ball"};
+  return tune_introduction({"ball", goal, result, commands, {}}).facts;
+}
+
+// The tuner says why no constant bias is right as the verdict does.
+TEST(TunePage, NamesNoNeedThatIsNone) {
+  const std::string both = tuned_page(0.031, 0.012);
+  EXPECT_NE(both.find("No constant bias beside the slope bias of"), std::string::npos) << both;
+  EXPECT_NE(both.find("lit pixels stay dark below"), std::string::npos) << both;
+  EXPECT_NE(both.find("\"proof_has_both\":true"), std::string::npos) << both;
+  const std::string shadowed = tuned_page(-0.00012, -0.003);
+  EXPECT_EQ(shadowed.find("stay dark below"), std::string::npos) << shadowed;
+  EXPECT_NE(shadowed.find("shadowed pixels are lit even at bias 0."), std::string::npos) << shadowed;
+  EXPECT_NE(shadowed.find("\"proof_has_both\":false"), std::string::npos) << shadowed;
+  const std::string nothing = tuned_page(0.031, -infinity);
+  EXPECT_NE(nothing.find("some shadowed pixels find no caster in the map."), std::string::npos);
+  EXPECT_EQ(nothing.find("unlimited"), std::string::npos) << nothing;
+}
+
+}  // namespace
+}  // namespace gnomon::compare

@@ -1,0 +1,127 @@
+// Outputs are whole or not at all: full disks, size limits, folders that cannot be written.
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "scene/files/write_file.h"
+#include "tests/support/scene_files_support.h"
+
+namespace gnomon {
+namespace {
+
+TEST(WriteFile, WritesAndReplaces) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.txt");
+  ASSERT_TRUE(write_file(path, "first"));
+  EXPECT_EQ(slurp(path), "first");
+  ASSERT_TRUE(write_file(path, std::string(100000, 'x')));
+  EXPECT_EQ(slurp(path), std::string(100000, 'x'));
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(WriteFile, EndIsWrittenOverInItsPlace) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.txt");
+  ASSERT_TRUE(write_file(path, "takes 1 s"));
+  ASSERT_TRUE(write_over_end(path, "2 s"));
+  EXPECT_EQ(slurp(path), "takes 2 s");
+  EXPECT_FALSE(write_over_end(path, "longer than the file"));
+  EXPECT_EQ(slurp(path), "takes 2 s");
+  EXPECT_FALSE(write_over_end(folder.file("none.txt"), "x"));
+}
+
+TEST(WriteFile, KeepsPermissionsAndLinks) {
+  const TemporaryFolder folder;
+  const std::string path = folder.put("real.txt", "old");
+  ASSERT_EQ(::chmod(path.c_str(), 0640), 0);
+  std::filesystem::create_symlink("real.txt", folder.file("link.txt"));
+  ASSERT_TRUE(write_file(folder.file("link.txt"), "new"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link.txt")));
+  EXPECT_EQ(slurp(path), "new");
+  struct stat status {};
+  ASSERT_EQ(::stat(path.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0640u);
+}
+
+TEST(PartFile, KeepsPermissions) {
+  const TemporaryFolder folder;
+  const std::string path = folder.put("real.exr", "old");
+  ASSERT_EQ(::chmod(path.c_str(), 0600), 0);
+  auto file = PartFile::create(path);
+  ASSERT_TRUE(file);
+  std::ofstream(file->path()) << "new";
+  ASSERT_TRUE(file->publish());
+  EXPECT_EQ(slurp(path), "new");
+  struct stat status {};
+  ASSERT_EQ(::stat(path.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0600u);
+}
+
+TEST(WriteFile, FullDeviceIsAnError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  const auto written = write_file("/dev/full", "x");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().kind, ErrorKind::cannot_write);
+  EXPECT_EQ(written.error().message(), "/dev/full: cannot write: No space left on device");
+}
+
+TEST(WriteFile, DevicesAreWrittenToDirectly) {
+  EXPECT_TRUE(write_file("/dev/null", "x"));
+}
+
+TEST(WriteFile, FoldersAreErrors) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(write_file(folder.path(), "x").error().kind, ErrorKind::cannot_write);
+  EXPECT_EQ(write_file(folder.file("missing/a.txt"), "x").error().kind, ErrorKind::cannot_write);
+  const std::string file = folder.put("plain", "");
+  EXPECT_EQ(write_file(file + "/a.txt", "x").error().kind, ErrorKind::cannot_write);
+  EXPECT_EQ(make_output_folder(file + "/sub").error().kind, ErrorKind::cannot_write);
+  EXPECT_EQ(make_output_folder(file).error().kind, ErrorKind::cannot_write);
+}
+
+TEST(WriteFile, UnwritableFolderIsFoundBeforehand) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  const TemporaryFolder folder;
+  ASSERT_EQ(::chmod(folder.path().c_str(), 0555), 0);
+  EXPECT_EQ(make_output_folder(folder.path()).error().kind, ErrorKind::cannot_write);
+  EXPECT_EQ(write_file(folder.file("a"), "x").error().kind, ErrorKind::cannot_write);
+  ::chmod(folder.path().c_str(), 0755);
+}
+
+TEST(WriteFile, OutputFolderIsMadeAndLeftEmpty) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(make_output_folder(folder.file("a/b/c")));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.file("a/b/c")));
+  EXPECT_TRUE(make_output_folder(folder.file("a/b/c")));
+}
+
+// In a child process, with the signal's deadly default in force: 0 when all is as it should be.
+int write_past_limit(const std::string& path) {
+  ::signal(SIGXFSZ, SIG_DFL);
+  const rlimit limit{4096, 4096};
+  if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;
+  const auto written = write_file(path, std::string(100000, 'x'));
+  if (written) return 3;
+  return written.error().kind == ErrorKind::cannot_write ? 0 : 4;
+}
+
+TEST(WriteFile, FileSizeLimitLeavesTheOldFile) {
+  const TemporaryFolder folder;
+  const std::string path = folder.put("a.txt", "old");
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) ::_exit(write_past_limit(path));
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(slurp(path), "old");
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+}  // namespace
+}  // namespace gnomon

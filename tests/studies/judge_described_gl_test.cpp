@@ -1,0 +1,232 @@
+// What is said of the test that a capture describes: which bias would have been better, and where the map or the test
+// is not that of the picture.
+#include <fmt/ranges.h>
+
+#include "compare/result/judged.h"
+#include "compare/result/verdict.h"
+#include "scene/files/pictures/image_io.h"
+#include "tests/support/capture_support.h"
+
+namespace gnomon::test {
+namespace {
+
+using compare::Capture;
+using compare::StoredDepth;
+
+/// A sun's map of 512 texels and the picture that another renderer draws on it with this bias.
+struct OtherPicture {
+  Compared drawn = draw_scene(scene_under("sun"), small_picture, hard_map(512));
+  Capture capture;
+  OtherPicture(const std::string& name, const compare::CapturedBias& bias) {
+    capture = self_capture(drawn, folder_for(name), {.map = true, .stored = StoredDepth::zero_to_one});
+    draw_with(bias);
+  }
+  void draw_with(const compare::CapturedBias& bias) {
+    capture.bias = bias;
+    draw_again(capture, drawn);
+  }
+  JudgeOutcome judged() const { return judge(capture, *drawn.scene); }
+};
+
+/// The bias that the advice asks for.
+compare::CapturedBias advised(const Capture& capture, const std::vector<compare::Advice>& advice) {
+  compare::CapturedBias bias = *capture.bias;
+  const compare::Advice& last = advice.back();
+  (last.setting == "bias.normal_offset_world" ? bias.normal_offset_world : bias.constant_depth) =
+      last.instead;
+  if (last.with) bias.constant_depth = last.with->instead;
+  return bias;
+}
+
+// A normal offset of many texels moves the shadows' edges: without it, or with less, a constant does better.
+TEST(JudgeAdvice, LowersANormalOffsetThatIsTooLarge) {
+  OtherPicture picture("offset", {.constant_depth = 0.0002, .normal_offset_world = 0.3});
+  const JudgeOutcome judged = picture.judged();
+  ASSERT_TRUE(judged.result) << reason(judged);
+  const std::vector<compare::Advice>& advice = judged.result->judged->advice;
+  ASSERT_EQ(advice.size(), 2U);
+  ASSERT_TRUE(advice[1].with.has_value()) << "what is set together is one line with one figure";
+  EXPECT_EQ(advice[1].with->setting, "bias.constant_depth");
+  EXPECT_EQ(advice[1].setting, "bias.normal_offset_world");
+  EXPECT_LT(advice[1].instead, 0.15);
+  EXPECT_LT(advice[1].wrong_instead, 0.5 * judged.result->lights[0].error.wrong_fraction);
+  EXPECT_NE(compare::verdict_on(*judged.result, judged.result->lights[0])
+                .headline()
+                .find("bias.normal_offset_world"),
+            std::string::npos);
+  // What the advice promises is what the other renderer then draws.
+  picture.draw_with(advised(picture.capture, advice));
+  const JudgeOutcome again = picture.judged();
+  ASSERT_TRUE(again.result) << reason(again);
+  EXPECT_NEAR(again.result->lights[0].error.wrong_fraction, advice[1].wrong_instead, 2e-4);
+}
+
+// ---- the test that was drawn ----
+
+std::string notes_of(const JudgeOutcome& judged) {
+  return judged.result ? fmt::format("{}", fmt::join(judged.result->judged->notes, "\n")) : reason(judged);
+}
+
+std::uint64_t count_of(const JudgeOutcome& judged, compare::Label label) {
+  return judged.result->lights[0].classes[static_cast<std::size_t>(label) - 1];
+}
+
+constexpr compare::CapturedBias enough_bias{.constant_depth = 0.001};
+
+void turn_rows(Capture& capture) {
+  compare::RowOrder& rows = *capture.map[0].rows;
+  rows = rows == compare::RowOrder::top_down ? compare::RowOrder::bottom_up : compare::RowOrder::top_down;
+}
+
+/// That the test described is not the one drawn is said, with this in it, and no reason is given that would be that of
+/// another test. Nor is advice, unless the constant alone is another.
+void expect_other_test(const JudgeOutcome& judged, const std::string& named, bool advice = false) {
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_NE(notes_of(judged).find("is not the one that was drawn"), std::string::npos) << notes_of(judged);
+  EXPECT_NE(notes_of(judged).find(named), std::string::npos) << notes_of(judged);
+  EXPECT_EQ(judged.result->judged->advice.empty(), !advice);
+  EXPECT_LT(double(count_of(judged, compare::Label::stored_depth)),
+            1e-3 * double(judged.result->lights[0].pixels.compared));
+}
+
+TEST(JudgeDescribed, MapReadUpsideDownIsTheRenderersDoing) {
+  OtherPicture picture("upside", enough_bias);
+  turn_rows(picture.capture);
+  picture.draw_with(enough_bias);
+  turn_rows(picture.capture);
+  const JudgeOutcome judged = picture.judged();
+  expect_other_test(judged, "if the renderer reads its map upside down");
+  EXPECT_GT(count_of(judged, compare::Label::unexplained), judged.result->lights[0].error.wrong / 2);
+}
+
+TEST(JudgeDescribed, RowsOfTheOtherOrderAreTheCapturesDoing) {
+  OtherPicture picture("rows", enough_bias);
+  turn_rows(picture.capture);
+  expect_other_test(picture.judged(), "if `rows` of the map is the other one");
+}
+
+TEST(JudgeDescribed, BiasOfTheOtherSignIsNamed) {
+  OtherPicture picture("sign", {.constant_depth = 0.0001});  // the other sign leaves some of it lit
+  picture.capture.bias->constant_depth *= -1.0;
+  expect_other_test(picture.judged(), "if `constant_depth` has the other sign", true);
+  picture.draw_with(*picture.capture.bias);
+  picture.capture.bias->constant_depth *= -1.0;
+  expect_other_test(picture.judged(), "if the renderer applies its bias with the other sign");
+}
+
+TEST(JudgeDescribed, OtherMatricesAndConstantsAreNamed) {
+  OtherPicture picture("matrix", enough_bias);
+  const Capture right = picture.capture;
+  Mat4& matrix = *picture.capture.map[0].clip_from_world;
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 2; ++row) matrix[column][row] = 0.5 * (matrix[column][row] + matrix[column][3]);
+  expect_other_test(picture.judged(),
+                    "if `clip_from_world` holds the scale and shift to texture coordinates");
+  // With the depths' scale and shift, too: three.js' shadow.matrix, said to make depths of -1 to 1.
+  picture.capture.map[0].convention = StoredDepth::minus_one_to_one;
+  expect_other_test(
+      picture.judged(),
+      "if `clip_from_world` holds the scale and shift to texture coordinates, and the matrix makes "
+      "depths of 0 to 1");
+  picture.capture = right;
+  picture.capture.map[0].convention = StoredDepth::minus_one_to_one;
+  expect_other_test(picture.judged(), "if the matrix makes depths of 0 to 1");
+  picture.capture = right;
+  picture.capture.bias->constant_depth = 0.2;
+  expect_other_test(picture.judged(), "if `constant_depth` is about", true);
+}
+
+// A floor seen from its back: an offset along the front's normal goes into it, and it shadows itself.
+TEST(JudgeDescribed, OffsetOfTheWrongSignOnBackFacesIsNamed) {
+  Scene scene = scene_under("sun");
+  for (auto& corners : scene.meshes[0].triangles) std::swap(corners[1], corners[2]);
+  const Compared drawn = draw_scene(std::move(scene), small_picture, hard_map(512));
+  Capture capture =
+      self_capture(drawn, folder_for("back-faces"), {.map = true, .stored = StoredDepth::zero_to_one});
+  capture.bias = compare::CapturedBias{.constant_depth = 0.0002, .normal_offset_world = 0.05};
+  draw_again(capture, drawn);
+  const JudgeOutcome right = judge(capture, *drawn.scene);
+  EXPECT_EQ(notes_of(right).find("back faces"), std::string::npos) << notes_of(right);
+  draw_again(capture, drawn, 1.0f, true);
+  expect_other_test(judge(capture, *drawn.scene),
+                    "if the renderer's normal offset has the wrong sign on back faces");
+}
+
+// A normal offset that the capture does not say moves edges by some pixels, and nothing usual explains it.
+TEST(JudgeDescribed, WhatIsNotSaidIsUnexplained) {
+  OtherPicture picture("unsaid", {.constant_depth = 0.001, .normal_offset_world = 0.2});
+  picture.capture.bias->normal_offset_world = 0.0;
+  const JudgeOutcome judged = picture.judged();
+  expect_other_test(
+      judged, "the wrong ones among them are unexplained, and the bias is advised on by all others", true);
+  EXPECT_GT(count_of(judged, compare::Label::unexplained), 20U);
+}
+
+TEST(JudgeDescribed, RightCapturesAreNotDoubted) {
+  const OtherPicture picture("described", enough_bias);
+  raster::MapOptions soft = hard_map(512, raster::Technique::pcf);
+  soft.filter.radius_texels = 2.5;
+  const Compared filtered = draw_scene(scene_under("sun"), small_picture, soft);
+  Capture capture = self_capture(filtered, folder_for("described-pcf"), {.map = true});
+  capture.filter = compare::CapturedFilter{compare::FilterName::pcf, 2.5};
+  for (const JudgeOutcome& judged : {picture.judged(), judge(capture, *filtered.scene)}) {
+    EXPECT_EQ(notes_of(judged), "");
+    ASSERT_TRUE(judged.result) << reason(judged);
+    EXPECT_FALSE(judged.result->judged->advice.empty());
+    EXPECT_EQ(count_of(judged, compare::Label::unexplained), 0U);
+  }
+}
+
+// ---- what the map holds ----
+
+TEST(JudgeDescribed, CoarseDepthsAreAMatterOfPrecision) {
+  OtherPicture picture("coarse", enough_bias);
+  spoil(picture.capture.map[0].depth, [](ChannelImage& image) {
+    for (float& v : image.channels[0].values) v = std::round(255.0f * v) / 255.0f;
+  });
+  picture.draw_with(enough_bias);
+  const JudgeOutcome judged = picture.judged();
+  EXPECT_EQ(notes_of(judged), "");
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_GT(count_of(judged, compare::Label::stored_depth), 100U);
+  EXPECT_EQ(count_of(judged, compare::Label::unexplained), 0U);
+}
+
+// ---- a map that covers a part of the picture ----
+
+/// The middle of the map alone, each texel of it as several.
+void crop_map(Capture& capture, int times) {
+  compare::CapturedLayer& layer = capture.map[0];
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 2; ++row) (*layer.clip_from_world)[column][row] *= times;
+  spoil(layer.depth, [=](ChannelImage& image) {
+    std::vector<float>& texels = image.channels[0].values;
+    const std::vector<float> from = texels;
+    const int n = image.size.width, first = n / 2 - n / (2 * times);
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x)
+        texels[std::size_t(y * n + x)] = from[std::size_t((first + y / times) * n + first + x / times)];
+  });
+}
+
+// Most of the picture is then dark, and what is lit is right: the light does not shine the other way.
+TEST(JudgeDescribed, DarknessBesideTheMapIsNoReversedLight) {
+  OtherPicture picture("cropped", enough_bias);
+  crop_map(picture.capture, 3);
+  picture.capture.bias->constant_depth = 0.02;
+  draw_again(picture.capture, picture.drawn, 0.0f);
+  const JudgeOutcome judged = picture.judged();
+  ASSERT_TRUE(judged.result) << reason(judged);
+  const compare::LightComparison& light = judged.result->lights[0];
+  EXPECT_GT(double(count_of(judged, compare::Label::outside_map)), 0.4 * double(light.pixels.compared));
+  EXPECT_NE(notes_of(judged).find("lie outside the map"), std::string::npos) << notes_of(judged);
+  EXPECT_EQ(judged.result->judged->notes.size(), 1U) << notes_of(judged);
+  picture.capture.map.clear();
+  picture.capture.bias.reset(), picture.capture.filter.reset();
+  const JudgeOutcome without = picture.judged();
+  ASSERT_TRUE(without.result) << reason(without);
+  EXPECT_EQ(without.result->lights[0].error.wrong, light.error.wrong);
+}
+
+}  // namespace
+}  // namespace gnomon::test

@@ -1,0 +1,402 @@
+// gnomon sweep as a process: killed at any moment it goes on to the same bytes; shards merge to the same
+// bytes; another configuration is refused; an interrupt leaves whole lines.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "tests/support/json_schema_check.h"
+#include "tests/support/program_process.h"
+
+namespace gnomon::test {
+namespace {
+
+TEST_F(SweepProgram, WritesResultsWithAxes) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
+  gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
+  std::istringstream stream(lines("whole"));
+  std::vector<nlohmann::json> results;
+  for (std::string line; std::getline(stream, line);) {
+    results.push_back(nlohmann::json::parse(line));
+    for (const std::string& problem : schema.violations(results.back())) ADD_FAILURE() << problem;
+  }
+  ASSERT_EQ(results.size(), 12u);
+  EXPECT_EQ(results[5]["axes"].dump(), R"({"bias":0.0333333333333,"map_size":64})");
+  EXPECT_EQ(results[5]["command"],
+            "gnomon compare floating-box --size 96x54 --map-size 64 --bias 0.0333333333333");
+  EXPECT_TRUE(results[5]["times_ms"]["total"]["median"].is_null());
+
+  // A cell's command gives the cell's numbers.
+  ASSERT_EQ(run({"compare", "floating-box", "--size", "96x54", "--map-size", "64", "--bias",
+                 "0.0333333333333", "--threads", "2", "-o", (root / "one").string()}),
+            0)
+      << said();
+  nlohmann::json one = nlohmann::json::parse(bytes(root / "one/result.json"));
+  nlohmann::json cell = results[5];
+  for (nlohmann::json* json : {&one, &cell}) {
+    (*json)["lights"][0].erase("times_ms");
+    (*json)["lights"][0].erase("bias_kinds");       // other kinds of bias are looked at by compare alone
+    (*json)["lights"][0].erase("ray_tests");        // and rays tried
+    (*json)["lights"][0].erase("other_map_sizes");  // and maps of other sizes
+    (*json)["lights"][0]["error"].erase("flip");
+    (*json)["lights"][0]["error"].erase("ssim");
+    (*json)["lights"][0]["error"].erase("flip_compared");
+    (*json)["lights"][0]["error"].erase("ssim_compared");
+  }
+  EXPECT_EQ(one["lights"], cell["lights"]);
+  EXPECT_EQ(one["costs"], cell["costs"]);
+}
+
+// The schema, and with it the manual, says of each key that compare has and a cell lacks that it is not in sweep.jsonl.
+TEST_F(SweepProgram, WhatCellsLackOfAComparisonIsDocumented) {
+  const Words setting{"courtyard", "--technique", "csm", "--size", "64x48", "--map-size", "64"};
+  Words sweep{"sweep"}, compare{"compare"};
+  for (Words* words : {&sweep, &compare}) words->insert(words->end(), setting.begin(), setting.end());
+  sweep.insert(sweep.end(), {"--bias", "1texel,2texel", "-o", (root / "cells").string()});
+  compare.insert(compare.end(), {"--bias", "1texel", "--json", (root / "one.json").string()});
+  ASSERT_EQ(run(sweep), 0) << said();
+  ASSERT_EQ(run(compare), 0) << said();
+  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
+  const nlohmann::json schema = nlohmann::json::parse(schema_file);
+  const std::string text = lines("cells");
+  const nlohmann::json cell = nlohmann::json::parse(text.substr(0, text.find('\n')));
+  const nlohmann::json one = nlohmann::json::parse(bytes(root / "one.json"));
+  const auto check = [](const nlohmann::json& whole, const nlohmann::json& part, const nlohmann::json& keys) {
+    int lacking = 0;
+    for (const auto& [key, value] : whole.items()) {
+      if (part.contains(key)) continue;
+      ++lacking;
+      EXPECT_TRUE(keys[key]["description"].get<std::string>().starts_with("not in sweep.jsonl")) << key;
+    }
+    return lacking;
+  };
+  EXPECT_EQ(check(one, cell, schema["properties"]), 2);
+  EXPECT_EQ(check(one["lights"][0], cell["lights"][0], schema["$defs"]["light"]["properties"]), 2);
+}
+
+// Each cell's film is the one that gnomon shimmer makes, and its flips are the error of headline and table.
+TEST_F(SweepProgram, CountsFlipsOfFilms) {
+  const Words setting{"thin-wall", "--size", "192x108", "--map-size", "64"};
+  const Words film{"--frames", "3", "--path", "drift", "--drift", "0.5,0.5"};
+  const auto joined = [](Words all, const std::vector<Words>& more) {
+    for (const Words& each : more) all.insert(all.end(), each.begin(), each.end());
+    return all;
+  };
+  const std::string folder = (root / "films").string();
+  ASSERT_EQ(
+      run(joined({"sweep"}, {setting, film, {"--snap", "off,on", "--metric", "shimmer", "-o", folder}})), 0)
+      << said();
+  EXPECT_NE(said().find("Best for flips"), std::string::npos) << said();
+  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
+  gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
+  std::istringstream stream(lines("films"));
+  std::vector<nlohmann::json> cells;
+  for (std::string line; std::getline(stream, line);) cells.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(cells.size(), 2u);
+  for (const nlohmann::json& cell : cells)
+    for (const std::string& problem : schema.violations(cell)) ADD_FAILURE() << problem;
+  const std::string alone = (root / "alone.json").string();
+  ASSERT_EQ(run(joined({"shimmer"}, {setting, film, {"--json", alone, "-o", (root / "alone").string()}})), 0)
+      << said();
+  const nlohmann::json shimmer = nlohmann::json::parse(bytes(alone))["lights"][0];
+  const nlohmann::json counted = cells[0]["lights"][0]["shimmer"];
+  EXPECT_GT(counted["flips"], 0);
+  for (const char* key : {"flips", "receiver_steps", "flips_per_receiver_second"})
+    EXPECT_EQ(counted[key], shimmer[key]);
+  EXPECT_EQ(cells[1]["lights"][0]["shimmer"]["flips"], 0);
+  EXPECT_EQ(cells[1]["command"],
+            "gnomon shimmer thin-wall --size 192x108 --map-size 64 --snap --frames 3 --path drift --drift "
+            "0.5,0.5");
+  EXPECT_NE(bytes(root / "films/sweep.csv").find("shimmer_flips_per_receiver_second"), std::string::npos);
+  EXPECT_EQ(bytes(root / "films/report.html").find("\"flips_per_second\":null"), std::string::npos);
+  EXPECT_EQ(run(joined({"sweep"}, {setting, film, {"-o", folder}})), 2) << "a film's options without a film";
+}
+
+TEST_F(SweepProgram, KilledAnywhereItEndsInTheSameBytes) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  const auto begin = std::chrono::steady_clock::now();  // with warm caches
+  ASSERT_EQ(run(words("timed")), 0) << said();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  // GNOMON_SWEEP_KILLS=200 for the thorough run.
+  const char* asked = std::getenv("GNOMON_SWEEP_KILLS");
+  const int kills = asked != nullptr ? std::atoi(asked) : 5;
+  int died = 0;
+  for (int i = 0; i < kills; ++i) {
+    const std::string folder = "killed" + std::to_string(i);
+    const pid_t child = start(words(folder), log());
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds * (i + 0.5) / kills));
+    kill(child, SIGKILL);
+    died += finish(child) == 128 + SIGKILL;
+    ASSERT_EQ(run(words(folder)), 0) << said();
+    expect_same("whole", folder);
+    fs::remove_all(root / folder);
+  }
+  EXPECT_GT(died, 0);
+}
+
+// The ray tracer's own points: exact is wrong nowhere, and they survive merging and stand on the page.
+TEST_F(SweepProgram, RayTracersPointsStandBesideTheCells) {
+  ASSERT_EQ(run(words("part1", {"--shard", "1/2", "--ray-tracer"})), 0) << said();
+  ASSERT_EQ(run(words("part2", {"--shard", "2/2", "--ray-tracer"})), 0) << said();
+  EXPECT_FALSE(fs::exists(root / "part2/ray_tracer.json"));
+  ASSERT_EQ(
+      run({"merge", (root / "part1").string(), (root / "part2").string(), "-o", (root / "merged").string()}),
+      0)
+      << said();
+  const nlohmann::json points = nlohmann::json::parse(bytes(root / "merged/ray_tracer.json"))["points"];
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_EQ(points[0]["name"], "fast");
+  EXPECT_EQ(points[2]["name"], "exact");
+  EXPECT_EQ(points[2]["wrong"], 0);
+  EXPECT_EQ(points[2]["uncertain"], 0);
+  for (const auto& point : points) {
+    EXPECT_GT(point["compared"], 96 * 54 / 4);
+    EXPECT_GT(point["rays"], 96 * 54);
+    EXPECT_GT(point["boxes_per_ray"], 1.0);
+    EXPECT_GT(point["times_ms"]["median"], 0.0);
+  }
+  const std::string page = bytes(root / "merged/report.html");
+  EXPECT_NE(page.find(R"("rays":[{"name":"fast",)"), std::string::npos);
+}
+
+TEST_F(SweepProgram, ShardsMergeToTheSameBytes) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  ASSERT_EQ(run(words("part1", {"--shard", "1/2"})), 0) << said();
+  const auto merge = [&](const Words& folders) {
+    Words all{"merge"};
+    for (const std::string& folder : folders) all.push_back((root / folder).string());
+    all.insert(all.end(), {"-o", (root / "merged").string()});
+    return run(all);
+  };
+  EXPECT_EQ(merge({"part1"}), 2);
+  EXPECT_NE(said().find("8 of 12 cells are there"), std::string::npos) << said();
+  ASSERT_EQ(run(words("part2", {"--shard", "2/2"})), 0) << said();
+  ASSERT_EQ(merge({"part2", "part1"}), 0) << said();
+  expect_same("whole", "merged");
+  EXPECT_EQ(bytes(root / "whole/sweep.json"), bytes(root / "merged/sweep.json"));
+  for (const auto& entry : fs::directory_iterator(root / "whole/thumbnails"))
+    EXPECT_TRUE(bytes(entry.path()) == bytes(root / "merged/thumbnails" / entry.path().filename()));
+  EXPECT_FALSE(bytes(root / "merged/report.html").empty());
+}
+
+// An option of one technique is an axis of all: where it has no effect the cell says so, its command leaves
+// it out, and its numbers are those of its neighbour.
+TEST_F(SweepProgram, AnAxisThatATechniqueDoesNotReadIsNamed) {
+  const auto sweep = [&](const std::string& folder, const Words& more) {
+    Words all{
+        "sweep",    "floating-box",    "--size", "96x54",     "--map-size", "64", "--technique",
+        "hard,pcf", "--filter-radius", "1,2",    "--threads", "2",          "-o", (root / folder).string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  };
+  ASSERT_EQ(sweep("whole", {}), 0) << said();
+  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
+  gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
+  std::istringstream stream(lines("whole"));
+  std::vector<nlohmann::json> cells;
+  for (std::string line; std::getline(stream, line);) {
+    cells.push_back(nlohmann::json::parse(line));
+    for (const std::string& problem : schema.violations(cells.back())) ADD_FAILURE() << problem;
+  }
+  ASSERT_EQ(cells.size(), 4u);
+  const std::string base = "gnomon compare floating-box --size 96x54 --map-size 64 --technique ";
+  EXPECT_EQ(cells[1]["command"], base + "hard");
+  EXPECT_EQ(cells[1]["no_effect"].dump(), R"(["filter_radius"])");
+  EXPECT_EQ(cells[0]["lights"], cells[1]["lights"]);
+  EXPECT_EQ(cells[3]["command"], base + "pcf --filter-radius 2");
+  EXPECT_FALSE(cells[3].contains("no_effect"));
+  EXPECT_NE(cells[2]["lights"], cells[3]["lights"]);
+  EXPECT_NE(bytes(root / "whole/report.html").find(R"("no_effect":["filter_radius"])"), std::string::npos);
+  EXPECT_NE(bytes(root / "whole/sweep.csv").find(",no_effect,"), std::string::npos);
+  ASSERT_EQ(sweep("part1", {"--shard", "1/2"}), 0) << said();
+  ASSERT_EQ(sweep("part2", {"--shard", "2/2"}), 0) << said();
+  ASSERT_EQ(
+      run({"merge", (root / "part1").string(), (root / "part2").string(), "-o", (root / "merged").string()}),
+      0)
+      << said();
+  expect_same("whole", "merged");
+}
+
+// A stand-in for sbatch that runs the array's tasks one after another shows what the script does; whether
+// Slurm itself takes it is the next test.
+TEST_F(SweepProgram, SlurmScriptMakesTheShards) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  fs::create_directories(root / "bin");
+  std::ofstream(root / "bin/sbatch")
+      << "#!/bin/sh\nset -e\nfor word in \"$@\"; do case $word in --array=1-*) "
+         "n=${word#--array=1-};; --*) ;; *) script=$word;; esac; done\n"
+         "for i in $(seq $n); do SLURM_ARRAY_TASK_ID=$i sh \"$script\"; done\n";
+  fs::permissions(root / "bin/sbatch", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", ((root / "bin").string() + ":" + path).c_str(), 1);
+  const int code = run(words("array", {"--slurm", "2"}));
+  setenv("PATH", path.c_str(), 1);
+  ASSERT_EQ(code, 0) << said();
+  expect_same("whole", "array");
+}
+
+/// A real Slurm of one node, for as long as this lives; not running where it cannot.
+class PrivateSlurm {
+ public:
+  explicit PrivateSlurm(const fs::path& folder) : folder_(folder.string()) {
+    const int status =
+        std::system((command("start") + " >" + folder_ + ".conf 2>" + folder_ + ".log").c_str());
+    std::ifstream conf(folder_ + ".conf");
+    std::string path;
+    running = status == 0 && std::getline(conf, path);
+    if (running) setenv("SLURM_CONF", path.c_str(), 1);
+  }
+  ~PrivateSlurm() {
+    unsetenv("SLURM_CONF");
+    if (std::system(command("stop").c_str()) != 0) std::perror("private_slurm.sh stop");
+  }
+  PrivateSlurm(const PrivateSlurm&) = delete;
+  PrivateSlurm& operator=(const PrivateSlurm&) = delete;
+  std::string why_not() const { return bytes(folder_ + ".log"); }
+  bool running = false;
+
+ private:
+  std::string command(const std::string& action) const {
+    return "sh " + gnomon::test::source_dir() + "/tests/support/private_slurm.sh " + action + " " + folder_;
+  }
+  std::string folder_;
+};
+
+TEST_F(SweepProgram, SlurmTakesTheArray) {
+  const PrivateSlurm slurm(root / "slurm");
+  if (!slurm.running) GTEST_SKIP() << slurm.why_not();
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  ASSERT_EQ(run(words("array", {"--slurm", "2"})), 0) << said();
+  expect_same("whole", "array");
+  EXPECT_TRUE(fs::exists(root / "array/slurm-1.log"));
+
+  // A task that fails is told apart from one that is done.
+  EXPECT_EQ(run({"sweep", (root / "none.json").string(), "--bias", "0,1", "--slurm", "2", "-o",
+                 (root / "broken").string()}),
+            5)
+      << said();
+  EXPECT_NE(said().find("the job array failed"), std::string::npos) << said();
+}
+
+TEST_F(SweepProgram, TornLastLineIsMadeAnew) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  fs::copy(root / "whole", root / "torn", fs::copy_options::recursive);
+  fs::resize_file(root / "torn/sweep.jsonl", lines("whole").size() - 100);
+  ASSERT_EQ(run(words("torn")), 0);
+  EXPECT_NE(said().find("torn"), std::string::npos);
+  expect_same("whole", "torn");
+}
+
+TEST_F(SweepProgram, RefusesAnotherConfiguration) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  const std::string before = lines("whole");
+  EXPECT_EQ(run(words("whole", {"--slope-bias", "1"})), 2);
+  EXPECT_NE(said().find("holds another sweep"), std::string::npos) << said();
+  EXPECT_EQ(lines("whole"), before);
+  EXPECT_EQ(run(words("whole", {"--slope-bias", "1", "--restart"})), 0) << said();
+  EXPECT_NE(lines("whole"), before);
+}
+
+TEST_F(SweepProgram, TwoBackendsAreNotMixedWithoutAWord) {
+  const auto part = [&](const char* folder, const char* shard, const char* backend) {
+    return run(words(folder, {"--shard", shard, "--backend", backend}));
+  };
+  if (part("part1", "1/2", "osmesa") != 0 || part("part2", "2/2", "egl-software") != 0)
+    GTEST_SKIP() << "one backend alone: " << said();
+  fs::resize_file(root / "part1/sweep.jsonl", lines("part1").size() - 100);
+  EXPECT_EQ(part("part1", "1/2", "egl-software"), 2);
+  EXPECT_NE(said().find("were drawn by osmesa"), std::string::npos) << said();
+  EXPECT_EQ(part("part1", "1/2", "osmesa"), 0) << said();
+  EXPECT_EQ(
+      run({"merge", (root / "part1").string(), (root / "part2").string(), "-o", (root / "all").string()}), 0);
+  EXPECT_NE(said().find("not all cells were drawn alike: egl-software"), std::string::npos) << said();
+}
+
+TEST_F(SweepProgram, InterruptLeavesWholeLines) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  const pid_t child = start(words("stopped"), log());
+  while (lines("stopped").empty()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  kill(child, SIGINT);
+  const int code = finish(child);
+  EXPECT_TRUE(code == 130 || code == 0) << code;  // 0: it was done before the signal came
+  const std::string part = lines("stopped");
+  EXPECT_TRUE(lines("whole").starts_with(part) && part.ends_with('\n'));
+  ASSERT_EQ(run(words("stopped")), 0);
+  expect_same("whole", "stopped");
+}
+
+TEST_F(SweepProgram, SweepNamesItsBestCells) {
+  ASSERT_EQ(run(words("whole", {"--max-error", "wrong:100%"})), 0) << said();
+  const std::string out = said();
+  EXPECT_NE(out.find("Cheapest with at most 100 % wrong: cell "), std::string::npos) << out;
+  EXPECT_NE(out.find("Best for "), std::string::npos) << out;
+  EXPECT_NE(bytes(root / "whole/report.html")
+                .find(R"("headline":[{"title":"Cheapest with at most 100 % wrong","cell":)"),
+            std::string::npos);
+  EXPECT_EQ(run(words("whole", {"--max-error", "0"})), 1) << said();
+  EXPECT_NE(said().find("No cell has at most 0 % wrong"), std::string::npos) << said();
+}
+
+// The same columns, but for a cell's own.
+TEST_F(SweepProgram, TablesOfSweepAndCompareHaveOneSetOfColumns) {
+  ASSERT_EQ(run(words("whole")), 0) << said();
+  ASSERT_EQ(run({"compare", "floating-box", "--size", "96x54", "-o", (root / "one").string()}), 0) << said();
+  const auto columns = [](const std::string& table) {
+    std::istringstream head(table.substr(0, table.find('\r')));
+    std::set<std::string> names;
+    for (std::string name; std::getline(head, name, ',');) names.insert(name);
+    return names;
+  };
+  std::set<std::string> sweep = columns(bytes(root / "whole/sweep.csv"));
+  const std::set<std::string> one = columns(bytes(root / "one/result.csv"));
+  for (const char* own : {"cell", "axes_map_size", "axes_bias", "derived", "cell_ms"})
+    EXPECT_EQ(sweep.erase(own), 1u) << own;
+  for (const std::string& name : sweep) EXPECT_EQ(one.count(name), 1u) << name << " is in sweep.csv alone";
+  for (const char* timed : {"times_ms_map_pass_median", "times_ms_shade_pass_median",
+                            "times_ms_shadow_rays_median", "times_ms_primary_rays_median"})
+    EXPECT_EQ(sweep.count(timed), 1u) << timed;
+}
+
+// What shadows cost is told apart from what the picture costs, on both sides.
+TEST_F(SweepProgram, ShadowsAreTimedApartFromThePicture) {
+  ASSERT_EQ(run(words("whole", {"--ray-tracer"})), 0) << said();
+  const std::string page = bytes(root / "whole/report.html");
+  std::istringstream stream(bytes(root / "whole/sweep_times.jsonl"));
+  for (std::string line; std::getline(stream, line);) {
+    const nlohmann::json light = nlohmann::json::parse(line)["lights"][0];
+    EXPECT_EQ(light["shadow_lookups"]["runs"].size(), light["shade_pass"]["runs"].size());
+    EXPECT_EQ(light["shadow_lookups"]["runs"].size(), 3u);
+    const double map = light["map_pass"]["median"], lookups = light["shadow_lookups"]["median"];
+    EXPECT_GE(light["shadow_lookups"]["low"], 0.0);
+    EXPECT_LE(light["shadow_lookups"]["low"], lookups);
+    EXPECT_LE(lookups, light["shadow_lookups"]["high"]);
+    const std::string shadows = nlohmann::json(map + lookups).dump();
+    EXPECT_NE(page.find("," + shadows + ","), std::string::npos) << shadows;  // of low, median and high
+  }
+  const nlohmann::json points = nlohmann::json::parse(bytes(root / "whole/ray_tracer.json"))["points"];
+  EXPECT_FALSE(points.empty());
+  for (const nlohmann::json& point : points) {
+    EXPECT_GT(point["shadow_times_ms"]["median"], 0.0);
+    EXPECT_LT(point["shadow_times_ms"]["median"], point["times_ms"]["median"]);
+  }
+}
+
+TEST_F(SweepProgram, UsageErrors) {
+  EXPECT_EQ(run({"sweep", "floating-box", "--bias", "0:1"}), 2);
+  EXPECT_NE(said().find("--bias: not a range (got 0:1, allowed START:END:COUNT"), std::string::npos)
+      << said();
+  EXPECT_EQ(run({"sweep", "floating-box", "--map-size", "128,0"}), 2);
+  EXPECT_NE(said().find("(got 0, allowed 1 to 65536)"), std::string::npos) << said();
+  EXPECT_EQ(run({"sweep", "floating-box", "--shard", "3/2"}), 2);
+  EXPECT_EQ(run({"sweep", "floating-box", "--receiver-plane", "maybe"}), 2);
+  EXPECT_EQ(run({"sweep", "floating-box", "--map-size", "1,2", "--bias", "0,1,2", "--zip"}), 2);
+  EXPECT_NE(said().find("one length"), std::string::npos) << said();
+}
+
+}  // namespace
+}  // namespace gnomon::test

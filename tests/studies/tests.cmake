@@ -1,0 +1,33 @@
+# Sweeps: axes, journal and metrics; the engine against single comparisons; the command line with real signals.
+gnomon_test(sweep_test SOURCES sweep_axis_test.cpp sweep_headline_test.cpp sweep_journal_test.cpp sweep_merge_test.cpp sweep_ssim_test.cpp LIBS gnomon::studies)
+gnomon_test(sweep_engine_gl_test TIMEOUT 900
+  SOURCES sweep_engine_gl_test.cpp sweep_edge_gl_test.cpp sweep_theory_gl_test.cpp tune_grid_gl_test.cpp sweep_cell_pictures_gl_test.cpp
+  LIBS compare_support gnomon::app)
+gnomon_test(sweep_program_gl_test TIMEOUT 900 SOURCES sweep_program_gl_test.cpp tune_program_gl_test.cpp tune_lights_gl_test.cpp views_program_gl_test.cpp LIBS nlohmann_json::nlohmann_json)
+add_dependencies(sweep_program_gl_test gnomon_program)
+
+gnomon_test(shimmer_gl_test
+  SOURCES shimmer_gl_test.cpp shimmer_parts_test.cpp
+  LIBS small_scenes gnomon::studies nlohmann_json::nlohmann_json)
+gnomon_test(shimmer_program_gl_test SOURCES shimmer_program_gl_test.cpp LIBS app_process gnomon::scene nlohmann_json::nlohmann_json)
+add_dependencies(shimmer_program_gl_test gnomon_program)
+
+gnomon_test(judge_gl_test
+  SOURCES judge_gl_test.cpp judge_parts_gl_test.cpp judge_values_gl_test.cpp judge_described_gl_test.cpp
+          judge_content_gl_test.cpp judge_own_test_gl_test.cpp
+  LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
+gnomon_test(judge_bad_captures_test SOURCES judge_bad_captures_test.cpp judge_several_test.cpp LIBS gnomon::studies nlohmann_json::nlohmann_json)
+gnomon_test(judge_identify_gl_test
+  SOURCES judge_identify_gl_test.cpp
+  LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
+# The adapters on real engines, as far as they are installed.
+gnomon_node_test(adapters_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_browser")
+gnomon_node_test(adapters_blender_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_blender")
+
+# gnomon grade, on shaders with known faults.
+gnomon_test(grade_gl_test SOURCES grade_gl_test.cpp grade_class_gl_test.cpp LIBS app_process nlohmann_json::nlohmann_json)
+add_dependencies(grade_gl_test gnomon_program)
+
+# The pages of sweeps and films in a real browser.
+gnomon_node_test(shimmer_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/shimmer_browser")
+gnomon_node_test(sweep_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/sweep_browser")

@@ -1,0 +1,93 @@
+// The title and the command line in words.
+#include "app/view/state/status.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "raster/settings.h"
+#include "tests/view/view_fixture.h"
+
+namespace gnomon::app {
+namespace {
+
+TEST(ViewStatus, CommandSaysWhatDiffers) {
+  ViewOptions options;
+  options.scene.name = "my scene.json";
+  ViewState state = two_light_state();
+  EXPECT_EQ(compare_command(state, options, options.scene.words()),
+            "gnomon compare 'my scene.json' --size 1280x720 --map-size 1024 --bias auto --slope-bias 1 "
+            "--light sun");
+  carry_out(state, OrbitTo{-30.0, 20.5});
+  carry_out(state, PickLight{1});
+  carry_out(state, LightAzimuthTo{45.0});
+  carry_out(state, SetMapOption{"bias", "-0.25"});
+  carry_out(state, SetMapOption{"slope-bias", "2"});
+  carry_out(state, NextCull{});
+  options.exposure = std::optional<double>(1.5);
+  EXPECT_EQ(compare_command(state, options, options.scene.words()),
+            "gnomon compare 'my scene.json' --size 1280x720 --map-size 1024 --bias=-0.25 --slope-bias 2 "
+            "--cull front "
+            "--light lamp --camera-orbit=-30,20.5 --camera-distance 5 --light-azimuth 45 --light-elevation 0 "
+            "--exposure 1.5");
+}
+
+// Camera and light as they are shown, in the picture's shape, and nothing of the map.
+TEST(ViewStatus, TheTunerIsAskedForThePictureShown) {
+  ViewOptions options;
+  options.max_lights = 7;
+  ViewState state = two_light_state();
+  carry_out(state, OrbitTo{-30.0, 20.5});
+  carry_out(state, LightAzimuthTo{45.0});
+  carry_out(state, SetMapOption{"bias", "-0.25"});
+  state.setup.size = {376, 554};
+  std::string words;
+  for (const std::string& word : tuning_words(state, options)) words += " " + word;
+  EXPECT_EQ(words.find(
+                " --size 297x437 --light sun --camera-orbit=-30,20.5 --camera-distance 5 --light-azimuth 45"),
+            0u)
+      << words;
+  EXPECT_NE(words.find(" --max-lights 7"), std::string::npos) << words;
+  EXPECT_EQ(words.find("bias"), std::string::npos) << words;
+  EXPECT_EQ(words.find("map"), std::string::npos) << words;
+  state.setup.size = {96, 64};
+  EXPECT_EQ(tuning_words(state, options)[1], "96x64");
+}
+
+// As every command takes it, the sweep with them.
+TEST(ViewStatus, AFlagOfTheMapsSettingsIsOn) {
+  raster::MapOptions map;
+  map.bias.receiver_plane = true;
+  const auto settings = raster::map_values(map);
+  EXPECT_EQ(std::count(settings.begin(), settings.end(),
+                       std::pair<std::string, std::string>("receiver-plane", "on")),
+            1);
+}
+
+TEST(ViewStatus, LightsThatTheCommandCannotTurnAreNamed) {
+  ViewState state = two_light_state();
+  carry_out(state, TurnLightBy{5.0, 0.0});
+  EXPECT_TRUE(other_turned_lights(state).empty());
+  carry_out(state, NextLight{});
+  EXPECT_EQ(other_turned_lights(state), std::vector<std::string>{"sun"});
+}
+
+TEST(ViewStatus, LineHasBiasInBothUnitsAndSaysWhatIsStale) {
+  ViewState state = two_light_state();
+  state.setup.map.bias = {0.02, raster::BiasUnit::world};
+  Readings readings{0.02, 0.01, 12.0, {}};
+  std::string line = status_line(state, readings, "fence");
+  EXPECT_NE(line.find("fence | raster | sun | hard 1024² | bias 0.02 = 2 texel"), std::string::npos) << line;
+  EXPECT_NE(line.find("comparing"), std::string::npos) << line;
+  readings.compared = Readings::Compared{true, false, 0.041, 1.0, 2.0, 30.0};
+  line = status_line(state, readings, "fence");
+  EXPECT_NE(line.find("wrong 4.1 %"), std::string::npos) << line;
+  EXPECT_NE(line.find("exact shadows 30 ms"), std::string::npos) << line;
+  readings.compared->preview = true;
+  EXPECT_NE(status_line(state, readings, "fence").find("(preview)"), std::string::npos);
+  readings.compared->current = false;
+  EXPECT_NE(status_line(state, readings, "fence").find("(before)"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gnomon::app

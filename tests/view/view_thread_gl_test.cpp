@@ -1,0 +1,231 @@
+// The thread that draws and compares for the window, without a window: any offscreen context will do. Each test waits
+// for what it needs and for nothing else.
+#include "app/view/work/render_thread.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <future>
+#include <random>
+#include <set>
+
+#include "app/view/state/presets.h"
+#include "raster/programs/shader_folder.h"
+#include "tests/support/app_process.h"
+#include "tests/view/view_thread_fixture.h"
+
+namespace gnomon::app {
+namespace {
+
+std::string own_shader(std::string_view name) {
+  for (const raster::ShaderFile& file : raster::own_shaders())
+    if (file.name == name) return std::string(file.text);
+  ADD_FAILURE() << "no shader " << name;
+  return {};
+}
+
+/// The comparison of a preset's setting, with the bias that it asks for.
+std::shared_ptr<const Snapshot> shown_by(Lab& lab, ViewState state, const Preset& preset) {
+  const auto done = [&] {
+    lab.thread().post(1, {state.revision, state.setup});
+    return lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+  };
+  carry_out(state, SetMap{preset.apply(state.setup.map)});
+  auto shown = done();
+  if (preset.lost_share == 0.0) return shown;
+  const compare::Comparison& c = shown->outcome->comparison;
+  raster::MapOptions map = state.setup.map;
+  map.bias.constant =
+      std::max(map.bias.constant, losing_bias_texels(c.raster.lights[0], c.lights[0], preset.lost_share));
+  carry_out(state, SetMap{map});
+  return done();
+}
+
+// By the labels of the pixels. Nothing can cast a shadow on the acne floor: it shows acne alone.
+TEST(ViewPresets, ShowTheirArtifactOnEveryScene) {
+  for (const std::string scene :
+       {"fence", "acne-floor", "floating-box", "thin-wall", "wires", "sphere-plane", "penumbra"}) {
+    Lab lab(scene, {});
+    ViewState state = lab.state(*lab.until(is_open));
+    state.setup.size = {128, 96};
+    for (const Preset& preset : presets()) {
+      const auto shown = shown_by(lab, state, preset);
+      const double share = shown_share(preset, shown->outcome->comparison.lights[0]);
+      const bool casts = scene != "acne-floor" || &preset == &presets()[0];
+      EXPECT_EQ(share > (preset.lost_share > 0.0 ? 0.01 : 0.001), casts)
+          << preset.title << " on " << scene << ": " << share;
+      state.revision += 10;  // the next order is a newer one
+    }
+  }
+}
+
+TEST(RenderThread, TheNewestOrderIsTheOneThatIsFinished) {
+  Lab lab("floating-box", {});
+  ViewState state = lab.state(*lab.until(is_open));
+  for (int i = 0; i < 20; ++i) {
+    carry_out(state, TurnLightBy{1.0, 0.0});
+    lab.thread().post(1, {state.revision, state.setup});
+  }
+  const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+  EXPECT_EQ(done->outcome->labels.size, lab_size);
+  EXPECT_EQ(done->outcome->light, posed_light(state));
+}
+
+// All are asked for while the thread has something else to do.
+TEST(RenderThread, OrdersThatANewerOneFollowsAreNotDrawn) {
+  std::promise<void> begin;
+  Lab first("floating-box", {}), lab("floating-box", {}, begin.get_future().share());
+  ViewState state = first.state(*first.until(is_open));
+  for (int i = 0; i < 20; ++i) {
+    carry_out(state, TurnLightBy{1.0, 0.0});
+    lab.thread().post(1, {state.revision, state.setup});
+  }
+  begin.set_value();
+  lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+  EXPECT_EQ(lab.drawn(), (std::set<std::uint64_t>{0, state.revision}));
+}
+
+/// Some setting, light and camera.
+void change_at_random(ViewState& state, std::mt19937& random) {
+  const auto number = [&](double from, double to) {
+    return from + (to - from) * double(random()) / double(std::mt19937::max());
+  };
+  using enum raster::Technique;
+  constexpr std::array techniques{hard, pcf, vsm, csm};
+  raster::MapOptions map;
+  map.technique = techniques[random() % techniques.size()];
+  map.size = 64 << random() % 3;
+  map.bias.slope = number(0.0, 2.0);
+  set_bias_texels(map.bias, number(0.0, 3.0), 1.0);
+  carry_out(state, SetMap{map});
+  carry_out(state, LightAzimuthTo{number(-180.0, 180.0)});
+  carry_out(state, LightElevationTo{number(20.0, 80.0)});
+  carry_out(state, OrbitTo{number(-180.0, 180.0), number(10.0, 60.0)});
+  carry_out(state, PanBy{number(-0.2, 0.2), number(-0.2, 0.2)});
+}
+
+/// What `gnomon compare` makes of it, in one go.
+Image<compare::Label> compared_labels(const ViewState& state, const LoadedScene& loaded,
+                                      raster::Renderer& renderer) {
+  place(state.given, state.setup, *loaded.scene);
+  compare::CompareOptions options;
+  options.raster.size = options.raytrace.size = state.setup.size;
+  options.raster.map = state.setup.map;
+  options.raster.runs = 1;
+  const std::vector<std::uint32_t> lights{state.setup.light};
+  auto comparison = compare::compare_world(*loaded.world, renderer, lights, options);
+  if (comparison) return std::move(comparison->lights.front().labels);
+  ADD_FAILURE() << comparison.error().message();
+  return {};
+}
+
+TEST(RenderThread, LabelsAreThoseOfCompareInTwentyRandomStates) {
+  Lab lab("floating-box", {});
+  ViewState state = lab.state(*lab.until(is_open));
+  const auto source = read_source({"floating-box", false}, {}, {});
+  ASSERT_TRUE(source);
+  auto renderer = make_renderer(raster::Backend::automatic, *source->loaded);
+  ASSERT_TRUE(renderer);
+  std::mt19937 random(11);
+  for (int i = 0; i < 20; ++i) {
+    change_at_random(state, random);
+    lab.thread().post(1, {state.revision, state.setup});
+    const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+    EXPECT_EQ(done->outcome->comparison.lights.front().labels.data,
+              compared_labels(state, *source->loaded, **renderer).data)
+        << i;
+  }
+}
+
+// A light that gets a size calls for soft shadows, which the scene itself has none of.
+TEST(RenderThread, ALightThatGetsASizeCastsSoftShadows) {
+  Lab lab("floating-box", {});
+  ViewState state = lab.state(*lab.until(is_open));
+  const auto penumbra = [&] {
+    lab.thread().post(1, {state.revision, state.setup});
+    const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+    const Image<float>& truth = done->outcome->comparison.lights.front().rungs.front();
+    return std::count_if(truth.data.begin(), truth.data.end(), [](float v) { return v > 0.0f && v < 1.0f; });
+  };
+  EXPECT_EQ(penumbra(), 0);
+  carry_out(state, LightSizeTo{8.0});
+  EXPECT_GT(penumbra(), 20);
+  const auto source = read_source({"floating-box", false}, {}, {});
+  ASSERT_TRUE(source);
+  auto renderer = make_renderer(raster::Backend::automatic, *source->loaded);
+  ASSERT_TRUE(renderer);
+  const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+  EXPECT_EQ(done->outcome->comparison.lights.front().labels.data,
+            compared_labels(state, *source->loaded, **renderer).data);
+  carry_out(state, LightSizeTo{0.0});
+  EXPECT_EQ(penumbra(), 0);
+}
+
+TEST(RenderThread, WhatCannotBeDrawnLeavesThePictureThatWasThere) {
+  Lab lab("floating-box", {});
+  ViewState state = lab.state(*lab.until(is_open));
+  lab.thread().post(1, {state.revision, state.setup});
+  const auto good = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+  carry_out(state, SetMapOption{"map-size", "65536"});
+  lab.thread().post(1, {state.revision, state.setup});
+  const auto bad = lab.until([](const Snapshot& shown) { return shown.undrawable.has_value(); });
+  EXPECT_EQ(bad->undrawable->revision, state.revision);
+  EXPECT_EQ(bad->live.picture, good->live.picture);
+  EXPECT_EQ(bad->outcome, good->outcome);
+}
+
+TEST(RenderThread, AChangedSceneIsReadAgainAndABrokenOneIsSaid) {
+  const app_test::TemporaryFolder folder;
+  const std::string path = folder / "plain.json";
+  write_whole(path, scene_with_radius("0.5"));
+  Lab lab(path, {});
+  ViewState state = lab.state(*lab.until(is_open));
+  lab.thread().post(1, {state.revision, state.setup});
+  const auto small = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+  write_whole(path, scene_with_radius("1.25"));
+  const auto again = lab.until([](const Snapshot& shown) { return shown.scene->number == 2; });
+  EXPECT_TRUE(again->scene->again);
+  EXPECT_NE(again->live.picture->data, small->live.picture->data);
+  write_whole(path, "{ this is no scene");
+  const auto broken = lab.until([](const Snapshot& shown) { return shown.unreadable.has_value(); });
+  EXPECT_NE(broken->unreadable->file.find("plain.json"), std::string::npos);
+  EXPECT_EQ(broken->scene->number, 2u);  // its exposure may be that of a comparison that has ended since
+  EXPECT_NE(broken->live.picture->data, small->live.picture->data);
+  write_whole(path, scene_with_radius("0.75"));
+  const auto mended = lab.until([](const Snapshot& shown) { return shown.scene->number == 3; });
+  EXPECT_FALSE(mended->unreadable);
+}
+
+TEST(RenderThread, AShaderThatDoesNotCompileLeavesTheLastGoodPicture) {
+  const app_test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "technique");
+  const std::string path = folder / "technique/hard.glsl", own = own_shader("technique/hard.glsl");
+  write_whole(path, own + "// mine\n");
+  Lab lab("floating-box", folder.path());
+  ViewState state = lab.state(*lab.until(is_open));
+  lab.thread().post(1, {state.revision, state.setup});
+  const auto good = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
+  write_whole(path, own + "float mistake = ;\n");
+  const auto broken = lab.until([](const Snapshot& shown) { return shown.unreadable.has_value(); });
+  EXPECT_NE(broken->unreadable->message().find("hard.glsl"), std::string::npos)
+      << broken->unreadable->message();
+  EXPECT_EQ(broken->live.picture->data, good->live.picture->data);
+  write_whole(path, own + "// mine once more\n");
+  const auto mended = lab.until([](const Snapshot& shown) { return shown.scene->number == 2; });
+  EXPECT_FALSE(mended->unreadable);
+}
+
+TEST(RenderThread, AnotherSceneBringsItsOwnSettings) {
+  Lab lab("floating-box", {});
+  lab.until(is_open);
+  lab.thread().open({"peter-panning", false});
+  const auto shown = lab.until([](const Snapshot& now) { return now.scene && now.scene->number == 2; });
+  EXPECT_FALSE(shown->scene->again);
+  EXPECT_NE(shown->scene->map, raster::MapOptions{});
+  lab.thread().open({"no-such-scene", false});
+  EXPECT_TRUE(lab.until([](const Snapshot& now) { return now.unreadable.has_value(); })->scene->number == 2);
+}
+
+}  // namespace
+}  // namespace gnomon::app
