@@ -369,8 +369,9 @@ struct Comparison {
   Image<SeenSurface> seen;
   std::vector<LightComparison> lights;
   ViewErrors views;
-  std::optional<Threshold> fail_above;  ///< what the errors were held against
-  double exposure = 1.0;                ///< linear factor applied to both pictures before sRGB encoding
+  const Figure* measure = &wrong_and_mean();  ///< what errors are counted in, where the user chose
+  std::optional<Threshold> fail_above;        ///< what the errors were held against
+  double exposure = 1.0;                      ///< linear factor applied to both pictures before sRGB encoding
   double load_ms = 0.0, accel_build_ms = 0.0, topology_ms = 0.0, report_ms = 0.0, total_ms = 0.0;
   std::uint64_t peak_memory_bytes = 0;
 };

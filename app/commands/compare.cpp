@@ -153,6 +153,7 @@ Expected<Compared> render_and_compare(const CompareCommand& command, const Loade
   comparison.seed = command.seed;
   comparison.machine = machine_info();
   comparison.fail_above = command.output.fail_above;
+  comparison.measure = command.output.measure;
   comparison.load_ms = loaded.load_ms;
   comparison.peak_memory_bytes = peak_memory_bytes();
   return compared;
@@ -183,7 +184,7 @@ Expected<compare::ViewErrors> judge_views(const CompareCommand& command, LoadedS
   const auto lights = choose_lights(*loaded.scene, command.setting.light);
   if (!lights) return fail(lights.error());
   compare::ViewErrors errors;
-  if (command.output.fail_above) errors.measure = command.output.fail_above->measure;
+  errors.measure = command.output.fail_above ? command.output.fail_above->measure : command.output.measure;
   compare::CompareOptions options = command.setting.options;
   options.raster.runs = 0, options.raster.shadow_cost = false;
   options.raytrace.runs = 1, options.raytrace.warm_up = options.raytrace.picture = false;

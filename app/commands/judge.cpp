@@ -88,6 +88,7 @@ Expected<JudgedScene> judge_one(const JudgeCommand& command, const compare::Capt
   out.comparison.seed = command.seed;
   out.comparison.machine = machine_info();
   out.comparison.fail_above = command.output.fail_above;
+  out.comparison.measure = command.output.measure;
   out.comparison.load_ms = out.loaded.load_ms;
   out.comparison.peak_memory_bytes = peak_memory_bytes();
   for (const compare::Mended& mended : out.comparison.judged->mended)

@@ -94,8 +94,8 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
   if (!renderer) return fail(renderer.error());
   if (const auto same = check_same_drawer(journal, (*renderer)->info()); !same) return same;
   compare::Engine engine(*loaded.scene, *loaded.world, **renderer, command.perceptual);
-  if (command.metric.is_filmed()) {
-    const auto film = resolve_film(command.metric.film, loaded.paths, *loaded.scene, console);
+  if (command.asked.is_filmed()) {
+    const auto film = resolve_film(command.asked.film, loaded.paths, *loaded.scene, console);
     if (!film) return fail(film.error());
     engine.film_with(*film);
   }
@@ -159,21 +159,20 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
 
 Expected<ExitCode> run_sweep(SweepCommand& command) {
   const Stopwatch total;
-  if (command.max_error && command.max_error->measure->needs == compare::FigureNeeds::perception)
-    command.perceptual = true;
-  if (const auto fine = finish_metric(command.metric, command.max_error); !fine) return fail(fine.error());
+  if (view_measure(command).needs == compare::FigureNeeds::perception) command.perceptual = true;
+  if (const auto fine = check_film_use(command.asked); !fine) return fail(fine.error());
   const auto is_given = [&](std::string_view name) { return !command.options.values_given(name).empty(); };
-  if (const auto fine = check_views(command.views, command.camera, command.metric.film,
-                                    command.metric.is_filmed(), is_given);
+  if (const auto fine =
+          check_views(command.views, command.camera, command.asked.film, command.asked.is_filmed(), is_given);
       !fine)
     return fail(fine.error());
-  const bool several = command.views.by_cameras() || follows_path(command.metric.film);
+  const bool several = command.views.by_cameras() || follows_path(command.asked.film);
   if (several && command.ray_tracer)
     return fail(ErrorKind::usage, "--ray-tracer: its points are of one camera, not of --cameras or --path");
   if (command.folder.empty()) command.folder = default_output(command.scene.name) + "-sweep";
   RunFiles files;
   files.reads(command.scene);
-  files.reads(path_file(command.metric.film));
+  files.reads(path_file(command.asked.film));
   files.reads_shaders(command.shader_folder);
   files.writes("--trace", command.trace);
   files.writes_folder("-o", command.folder, compare::sweep_file_names);
@@ -185,7 +184,7 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
   if (!shaders) return fail(shaders.error());
   command.replaced_shaders = shaders->replaced();
-  auto loaded = load(command.scene, files, console, 0, command.camera, command.metric.is_filmed() || several,
+  auto loaded = load(command.scene, files, console, 0, command.camera, command.asked.is_filmed() || several,
                      true, command.views.by_cameras());
   if (!loaded) return fail(loaded.error());
   LightSelection selection(*loaded, command.max_lights);
@@ -279,11 +278,12 @@ void add_options(CLI::App& app, SweepCommand& command) {
       "also time the ray tracer's precisions, and its samples of lights with size, at the first cell's "
       "camera and lights, as points of the report's chart; ray_tracer.json has them [default off]");
   app.add_flag("--restart", command.restart, "discard what the folder holds of a sweep [default off]");
-  add_threshold(app, "--max-error", command.max_error,
-                "name the cheapest cell whose every light has at most this error, and exit with 1 when there "
-                "is none; flip includes --perceptual",
-                "none", true);
-  add_metric_options(app, command.metric);
+  add_measured_limit(
+      app, "--max-error", {command.asked.measure, command.max_error},
+      "name the cheapest cell whose every light has at most this error, and exit with 1 when there "
+      "is none; flip includes --perceptual",
+      "none", true);
+  add_film_options(app, command.asked.film);
   add_view_options(app, command.views);
   add_report_max_mb(app, command.report_max_mb);
   add_run_options(app, command);
@@ -306,7 +306,7 @@ void add_sweep(CLI::App& program, Invocation& invocation) {
       "gnomon sweep fence --bias 0:0.1:64                   64 biases from one drawing\n"
       "gnomon sweep courtyard --map-size 128:8192:x2 --slope-bias 0,1,2 -o sizes\n"
       "gnomon sweep fence --map-size 256:4096:x2 --technique hard,pcf --max-error mean:0.5%\n"
-      "gnomon sweep courtyard --technique hard,pcf,csm,lispsm --snap off,on --metric shimmer --frames 24\n"
+      "gnomon sweep courtyard --technique hard,pcf,csm,lispsm --snap off,on --measure shimmer --frames 24\n"
       "gnomon sweep model.glb --camera-orbit 0,30:330,30:12    a path around it\n"
       "gnomon sweep model.glb --map-size 256,512 --bias 0.5texel,1texel --zip");
   const auto command = std::make_shared<SweepCommand>();

@@ -61,7 +61,7 @@ struct TuneCommand {
   double report_max_mb = compare::default_report_max_mb;
   SweepOptions options;
   compare::TuneGoal goal;
-  MetricOptions metric;
+  FilmedMeasure asked;
   ViewListOptions views;
   raster::Backend backend = raster::Backend::automatic;
   std::optional<int> runs;
@@ -182,12 +182,12 @@ Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
   auto fitting = fitting_families(families, *loaded.scene, setting->compared);
   if (!fitting) return fail(fitting.error());
   Bench bench{loaded, std::move(*renderer), *loaded.scene, std::move(*fitting), std::move(*setting), {}};
-  if (command.metric.is_filmed()) {
-    auto film = resolve_film(command.metric.film, loaded.paths, *loaded.scene, console);
+  if (command.asked.is_filmed()) {
+    auto film = resolve_film(command.asked.film, loaded.paths, *loaded.scene, console);
     if (!film) return fail(film.error());
     bench.film = std::move(*film);
   }
-  auto views = resolve_views(command.views, command.metric.film, command.metric.is_filmed(), loaded,
+  auto views = resolve_views(command.views, command.asked.film, command.asked.is_filmed(), loaded,
                              *loaded.scene, console);
   if (!views) return fail(views.error());
   bench.views = std::move(*views);
@@ -264,7 +264,7 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   if (!shaders) return fail(shaders.error());
   const TuneQuestion question{command.scene,           command.camera,     command.shader_folder,
                               command.options.fixed(), command.goal,       shaders->replaced(),
-                              command.metric,          command.max_lights, command.engine,
+                              command.asked,           command.max_lights, command.engine,
                               command.most_seconds,    command.backend,    command.views};
   const TuneAnswer answer{question, bench.families, *result};
   if (with_page) {
@@ -286,7 +286,7 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
 Expected<RunFiles> check_files(const TuneCommand& command) {
   RunFiles files;
   files.reads(command.scene);
-  files.reads(path_file(command.metric.film));
+  files.reads(path_file(command.asked.film));
   files.reads_shaders(command.shader_folder);
   files.writes("--json", command.json);
   files.writes("--trace", command.trace);
@@ -301,19 +301,18 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
   const Stopwatch total;
   Console console(command.quiet);
   if (const auto checked = check_lists(command); !checked) return fail(checked.error());
-  if (const auto fine = finish_metric(command.metric, command.goal.max_error); !fine)
-    return fail(fine.error());
-  if (command.metric.is_filmed()) command.goal.of_time = compare::find_measure("shimmer");
+  if (const auto fine = check_film_use(command.asked); !fine) return fail(fine.error());
+  command.goal.of_time = command.asked.measure;
   const auto is_given = [&](std::string_view name) { return !command.options.values_given(name).empty(); };
-  if (const auto fine = check_views(command.views, command.camera, command.metric.film,
-                                    command.metric.is_filmed(), is_given);
+  if (const auto fine =
+          check_views(command.views, command.camera, command.asked.film, command.asked.is_filmed(), is_given);
       !fine)
     return fail(fine.error());
-  const auto families = make_families(command.options, command.metric.is_filmed(), command.engine);
+  const auto families = make_families(command.options, command.asked.is_filmed(), command.engine);
   if (!families) return fail(families.error());
   auto files = check_files(command);
   if (!files) return fail(files.error());
-  const bool with_paths = command.metric.is_filmed() || follows_path(command.metric.film);
+  const bool with_paths = command.asked.is_filmed() || follows_path(command.asked.film);
   auto loaded =
       load(command.scene, *files, console, 0, command.camera, with_paths, true, command.views.by_cameras());
   if (!loaded) return fail(loaded.error());
@@ -343,10 +342,10 @@ void add_tune(CLI::App& program, Invocation& invocation) {
   const auto command = std::make_shared<TuneCommand>();
   add_scene(*app, command->scene);
   add_camera(*app, command->camera);
-  add_threshold(*app, "--max-error", command->goal.max_error,
-                "the largest error that is good enough, of the worst light; this or --max-time", "none",
-                true);
-  add_metric_options(*app, command->metric);
+  add_measured_limit(*app, "--max-error", {command->asked.measure, command->goal.max_error},
+                     "the largest error that is good enough, of the worst light; this or --max-time", "none",
+                     true);
+  add_film_options(*app, command->asked.film);
   add_view_options(*app, command->views);
   add_checked(*app, "--max-time", "MS",
               fmt::format("the longest time for map and shading [milliseconds, {}; this or --max-error]",

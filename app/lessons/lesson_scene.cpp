@@ -75,11 +75,11 @@ bool is_map_setting(const std::string& option) {
 
 /// Whether the command makes a film: sweep and tune do only where errors are flips.
 bool makes_film(const CLI::App& command) {
-  if (command.get_option_no_throw("--metric") == nullptr) return true;
+  if (command.get_option_no_throw("--measure") == nullptr) return true;
   const auto starts = [&](const char* name, std::string_view value) {
     return was_given(command, name) && command.get_option(name)->results().back().starts_with(value);
   };
-  return starts("--metric", "shimmer") || starts("--max-error", "shimmer:");
+  return starts("--measure", "shimmer") || starts("--max-error", "shimmer:");
 }
 
 std::string usual_technique() {

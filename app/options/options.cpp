@@ -227,19 +227,58 @@ void add_checked(CLI::App& command, const std::string& name, const char* type, c
   add_value(command, name, type, text, store);
 }
 
-void add_threshold(CLI::App& command, const std::string& name, std::optional<compare::Threshold>& threshold,
-                   std::string_view what, std::string_view fallback, bool filmed) {
-  add_value(command, name, "LIMIT", describe(what, filmed ? film_threshold_range : threshold_range, fallback),
-            [&threshold, filmed](const std::string& value) -> Expected<void> {
-              const auto parsed = parse_threshold(value);
-              if (!parsed) return fail(parsed.error());
-              if (parsed->measure->needs == compare::FigureNeeds::film && !filmed)
-                return fail(
-                    ErrorKind::usage,
-                    fmt::format("a still picture has no flips (got {}; gnomon shimmer counts them)", value));
-              threshold = *parsed;
+namespace {
+
+std::vector<std::string_view> measure_names(bool filmed) {
+  std::vector<std::string_view> names;
+  for (const compare::Figure& figure : compare::figures())
+    if (!figure.measure.name.empty() && (filmed || figure.needs != compare::FigureNeeds::film))
+      names.push_back(figure.measure.name);
+  return names;
+}
+
+Expected<void> store_limit(const std::string& value, MeasuredLimit asked, bool filmed) {
+  const auto parsed = parse_threshold(value, *asked.measure);
+  if (!parsed) return fail(parsed.error());
+  const bool of_film = parsed->measure->needs == compare::FigureNeeds::film;
+  if (of_film && !filmed)
+    return fail(ErrorKind::usage,
+                fmt::format("a still picture has no flips (got {}; gnomon shimmer counts them)", value));
+  if (asked.measure != &compare::wrong_and_mean() && parsed->measure != asked.measure)
+    return fail(ErrorKind::usage, fmt::format("is no limit of --measure {0} (got {1}, allowed {0}:LIMIT)",
+                                              asked.measure->measure.name, value));
+  if (of_film) asked.measure = parsed->measure;
+  asked.limit = *parsed;
+  return {};
+}
+
+}  // namespace
+
+// Options are parsed in the order in which they are added, so the limit knows the measure.
+void add_measured_limit(CLI::App& command, const std::string& name, MeasuredLimit asked,
+                        std::string_view what, std::string_view fallback, bool filmed) {
+  const std::vector<std::string_view> names = measure_names(filmed);
+  const std::string film =
+      filmed ? "; shimmer: flips per receiver and second of a film, as gnomon shimmer makes it" : "";
+  add_value(command, "--measure", "NAME",
+            describe("what errors are counted in: the share of wrong pixels, the mean error of visibility, "
+                     "FLIP, or how far edges are off, in texels" +
+                         film,
+                     fmt::format("{}", fmt::join(names, " or ")), "the larger of wrong and mean"),
+            [&measure = asked.measure, names](const std::string& text) -> Expected<void> {
+              if (std::find(names.begin(), names.end(), text) == names.end())
+                return fail(ErrorKind::usage, fmt::format("unknown value (got {}, allowed {}){}", text,
+                                                          fmt::join(names, ", "), did_you_mean(text, names)));
+              measure = compare::find_measure(text);
               return {};
             });
+  add_value(command, name, "LIMIT", describe(what, filmed ? film_threshold_range : threshold_range, fallback),
+            [asked, filmed](const std::string& value) { return store_limit(value, asked, filmed); });
+}
+
+std::string measure_argument(const compare::Figure& measure) {
+  return &measure == &compare::wrong_and_mean() ? std::string()
+                                                : fmt::format(" --measure {}", measure.measure.name);
 }
 
 void add_report_max_mb(CLI::App& command, double& megabytes) {

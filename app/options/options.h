@@ -57,9 +57,18 @@ void add_checked(CLI::App& command, const std::string& name, const char* type, c
                  const std::function<Expected<void>(const std::string&)>& store);
 /// Left alone: each light's own number.
 void add_samples(CLI::App& command, int& samples);
-/// --fail-above, --max-error: an error and its limit; `what` happens at it. `filmed`: also of flips.
-void add_threshold(CLI::App& command, const std::string& name, std::optional<compare::Threshold>& threshold,
-                   std::string_view what, std::string_view fallback, bool filmed = false);
+/// What errors are counted in and how much is good enough, as a command takes them.
+struct MeasuredLimit {
+  const compare::Figure*& measure;  ///< --measure
+  std::optional<compare::Threshold>& limit;
+};
+/// Adds --measure and the limit `name` (--fail-above, --max-error); `what` happens at the limit, which is one of the measure
+/// where it names none, and of no other where both are given. `filmed`: flips of films, too, which become the measure
+/// where the limit is one of them.
+void add_measured_limit(CLI::App& command, const std::string& name, MeasuredLimit asked,
+                        std::string_view what, std::string_view fallback, bool filmed = false);
+/// Returns " --measure mean"; nothing where none was asked for.
+std::string measure_argument(const compare::Figure& measure);
 /// --report-max-mb.
 void add_report_max_mb(CLI::App& command, double& megabytes);
 /// What is said of a page that grew larger than that.

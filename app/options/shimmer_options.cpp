@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "app/options/option_kinds.h"
-#include "compare/result/threshold.h"
 #include "scene/base/option_text.h"
 #include "scene/files/read_file.h"
 
@@ -19,8 +18,6 @@ using compare::Moves;
 
 constexpr std::pair<std::string_view, Moves> all_moves[] = {
     {"camera", Moves::camera}, {"light", Moves::light}, {"both", Moves::both}};
-constexpr std::pair<std::string_view, Metric> metrics[] = {{"still", Metric::still},
-                                                           {"shimmer", Metric::shimmer}};
 constexpr std::pair<std::string_view, CameraPath> camera_paths[] = {{"orbit", CameraPath::orbit},
                                                                     {"walk", CameraPath::walk},
                                                                     {"turn", CameraPath::turn},
@@ -273,28 +270,11 @@ bool is_film_option(std::string_view name) {
   return app.get_option_no_throw(std::string(name)) != nullptr;
 }
 
-void add_metric_options(CLI::App& app, MetricOptions& options) {
-  add_choice(app, "--metric", options.metric, metrics, "NAME",
-             "what errors are: of the still picture, or the flips per receiver and second of a film as "
-             "gnomon shimmer "
-             "makes it (docs/shimmer.md), which the options below describe");
-  add_film_options(app, options.film);
-}
-
-Expected<void> finish_metric(MetricOptions& options, std::optional<compare::Threshold>& threshold) {
-  const compare::Figure* shimmer = compare::find_measure("shimmer");
-  if (threshold && threshold->measure == shimmer) options.metric = Metric::shimmer;
-  if (options.is_filmed() && threshold) {
-    if (threshold->measure == &compare::wrong_and_mean()) threshold->measure = shimmer;
-    if (threshold->measure != shimmer)
-      return fail(ErrorKind::usage,
-                  fmt::format("--max-error: --metric shimmer counts flips (got {}, allowed shimmer:0.1)",
-                              compare::threshold_text(*threshold)));
-  }
-  if (options.is_filmed()) return {};
+Expected<void> check_film_use(const FilmedMeasure& asked) {
+  if (asked.is_filmed()) return {};
   for (const char* of_films : {"--anchors", "--drift"})
-    if (is_film_option(options.film, of_films))
-      return fail(ErrorKind::usage, fmt::format("{}: belongs to --metric shimmer", of_films));
+    if (is_film_option(asked.film, of_films))
+      return fail(ErrorKind::usage, fmt::format("{}: belongs to --measure shimmer", of_films));
   return {};
 }
 

@@ -1,9 +1,11 @@
-// The options that say what a film of shadows shows: of `gnomon shimmer`, and of `sweep` and `tune` with --metric shimmer.
+// The options that say what a film of shadows shows: of `gnomon shimmer`, and of `sweep` and `tune` with --measure shimmer.
 #pragma once
 
 #include <optional>
 
 #include "app/session.h"
+#include "compare/result/figures.h"
+#include "compare/result/threshold.h"
 #include "studies/shimmer/shimmer.h"
 
 namespace CLI {
@@ -36,18 +38,14 @@ std::string path_file(const FilmOptions& film);
 Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const std::vector<KeyedPath>& own_paths,
                                          const Scene& scene, Console& console, bool plays_objects = false);
 
-/// What errors of a sweep or of the tuner are about.
-enum class Metric : std::uint8_t { still, shimmer };
-struct MetricOptions {
-  Metric metric = Metric::still;
+/// What errors of a sweep or of the tuner are counted in, and the film where they are flips.
+struct FilmedMeasure {
+  const compare::Figure* measure = &compare::wrong_and_mean();
   FilmOptions film;
-  bool is_filmed() const { return metric == Metric::shimmer; }
+  bool is_filmed() const { return measure->needs == compare::FigureNeeds::film; }
 };
-/// --metric and the film's options.
-void add_metric_options(CLI::App& app, MetricOptions& options);
-/// A threshold of flips asks for films, and of films a plain --max-error is one of flips. Error (usage): --anchors or --drift
-/// without a film; a threshold of another measure of films.
-Expected<void> finish_metric(MetricOptions& options, std::optional<compare::Threshold>& threshold);
+/// Fails (usage) for --anchors or --drift without a film.
+Expected<void> check_film_use(const FilmedMeasure& asked);
 /// " --frames 24 --path walk": what was given, to be typed again.
 std::string film_arguments(const FilmOptions& film);
 

@@ -27,8 +27,8 @@ Expected<double> parse_share(std::string_view text) {
   return share;
 }
 
-Expected<compare::Threshold> parse_threshold(std::string_view text) {
-  compare::Threshold out;
+Expected<compare::Threshold> parse_threshold(std::string_view text, const compare::Figure& plain) {
+  compare::Threshold out{&plain};
   std::string_view number = text;
   if (const std::size_t colon = text.find(':'); colon != std::string_view::npos) {
     out.measure = compare::find_measure(text.substr(0, colon));

@@ -70,7 +70,7 @@ Expected<std::vector<compare::JudgedView>> views_along(const compare::FilmPlan& 
                                                        const std::string& name) {
   if (film.path.camera == compare::CameraPath::drift)
     return fail(ErrorKind::usage,
-                "--path drift: goes by parts of a texel, which is a film's (--metric shimmer)");
+                "--path drift: goes by parts of a texel, which is a film's (--measure shimmer)");
   std::vector<compare::JudgedView> views;
   for (int view = 0; view < std::min(count, film.time.frames); ++view) {
     const int frame = frame_of(view, std::min(count, film.time.frames), film.time);

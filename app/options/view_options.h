@@ -25,7 +25,7 @@ void add_view_options(CLI::App& app, ViewListOptions& views);
 bool follows_path(const FilmOptions& film);
 
 /// Fails (usage), before anything is loaded, where cameras and a path are both given, or an option would change
-/// nothing. `is_given`: whether an option, without dashes, was given. `filmed`: --metric
+/// nothing. `is_given`: whether an option, without dashes, was given. `filmed`: --measure
 /// shimmer, whose path is the film's.
 Expected<void> check_views(const ViewListOptions& views, const std::string& camera, const FilmOptions& film,
                            bool filmed, const std::function<bool(std::string_view)>& is_given);

@@ -181,9 +181,9 @@ void add_result_output(CLI::App& app, ResultOutput& output, const std::string& d
 
 void add_result_limits(CLI::App& app, ResultOutput& output) {
   add_report_max_mb(app, output.report_max_mb);
-  add_threshold(app, "--fail-above", output.fail_above,
-                "exit with 1 when the error of any light is more than this, or so many pixels are uncertain",
-                "never");
+  add_measured_limit(
+      app, "--fail-above", {output.measure, output.fail_above},
+      "exit with 1 when the error of any light is more than this, or so many pixels are uncertain", "never");
   add_output(app, "--aov", output.aov, "FILE.exr",
              "also write every per-pixel number as 32-bit channels, one file per light [default off]");
   add_json(app, output.json, "the result");

@@ -17,6 +17,7 @@ namespace gnomon::app {
 struct ResultOutput {
   std::string folder, json, aov;
   std::string shown_folder{};  ///< what messages call the folder; empty: by its path
+  const compare::Figure* measure = &compare::wrong_and_mean();  ///< what errors are counted in
   std::optional<compare::Threshold> fail_above;
   double report_max_mb = compare::default_report_max_mb;
   bool no_report = false;  ///< no page; all other files as ever
@@ -25,7 +26,7 @@ struct ResultOutput {
 
 /// -o; `default_folder` as its help says it.
 void add_result_output(CLI::App& app, ResultOutput& output, const std::string& default_folder);
-/// --report-max-mb, --fail-above, --aov, --json, --verbose, --quiet.
+/// --report-max-mb, --measure, --fail-above, --aov, --json, --verbose, --quiet.
 void add_result_limits(CLI::App& app, ResultOutput& output);
 
 /// Adds them to what the run writes. Error where one cannot be written or would take another file's place,

@@ -25,11 +25,11 @@ std::string exposure_argument(const SweepCommand& command) {
 }
 
 // A film's receivers and frames, and what its file of keys says.
-nlohmann::ordered_json film_configuration(const MetricOptions& metric) {
-  if (!metric.is_filmed()) return nullptr;
+nlohmann::ordered_json film_configuration(const FilmedMeasure& asked) {
+  if (!asked.is_filmed()) return nullptr;
   nlohmann::ordered_json film = nlohmann::ordered_json::object();
-  for (const auto& [option, value] : metric.film.given) film[option.substr(2)] = value;
-  if (const std::string file = path_file(metric.film); !file.empty())
+  for (const auto& [option, value] : asked.film.given) film[option.substr(2)] = value;
+  if (const std::string file = path_file(asked.film); !file.empty())
     if (const auto bytes = read_file(file)) film["sha256"] = sha256_hex(*bytes);
   return film;
 }
@@ -42,9 +42,9 @@ FilmOptions with_whole_path(FilmOptions film) {
   return film;
 }
 
-std::string metric_arguments(const MetricOptions& metric) {
-  if (!metric.is_filmed()) return {};
-  return " --metric shimmer" + film_arguments(with_whole_path(metric.film));
+std::string measure_arguments(const FilmedMeasure& asked) {
+  const std::string measure = measure_argument(*asked.measure);
+  return asked.is_filmed() ? measure + film_arguments(with_whole_path(asked.film)) : measure;
 }
 
 }  // namespace
@@ -71,18 +71,18 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
             {"perceptual", command.perceptual},
             {"runs", command.runs.value_or(usual_runs)},
             {"seed", command.seed}};
+  if (command.asked.measure != &compare::wrong_and_mean())
+    json["measure"] = command.asked.measure->measure.name;
   if (command.max_lights != usual_max_lights) json["max_lights"] = command.max_lights;
-  if (Json film = film_configuration(command.metric); !film.is_null()) json["film"] = std::move(film);
-  if (const std::string views =
-          view_arguments(command.views, command.metric.film, command.metric.is_filmed());
+  if (Json film = film_configuration(command.asked); !film.is_null()) json["film"] = std::move(film);
+  if (const std::string views = view_arguments(command.views, command.asked.film, command.asked.is_filmed());
       !views.empty())
     json["views"] = {{"arguments", views}, {"measure", view_measure(command).measure.name}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 const compare::Figure& view_measure(const SweepCommand& command) {
-  if (command.max_error) return *command.max_error->measure;
-  return command.metric.is_filmed() ? *compare::find_measure("shimmer") : compare::wrong_and_mean();
+  return command.max_error ? *command.max_error->measure : *command.asked.measure;
 }
 
 void set_runs(const SweepCommand& command, compare::CompareOptions& options) {
@@ -91,11 +91,12 @@ void set_runs(const SweepCommand& command, compare::CompareOptions& options) {
 }
 
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {
-  const bool filmed = command.metric.is_filmed();
+  const bool filmed = command.asked.is_filmed();
   std::string text = (filmed ? "gnomon shimmer " : "gnomon compare ") + command.scene.words() +
                      camera_argument(command) + command.options.cell_arguments(plan.grid, cell);
-  text += filmed ? film_arguments(command.metric.film) : exposure_argument(command);
-  text += filmed ? std::string() : view_arguments(command.views, command.metric.film, false);
+  text += filmed ? film_arguments(command.asked.film)
+                 : measure_argument(*command.asked.measure) + exposure_argument(command);
+  text += filmed ? std::string() : view_arguments(command.views, command.asked.film, false);
   text += max_lights_argument(command.max_lights) + backend_argument(command.backend);
   if (!command.shader_folder.empty()) text += " --shader-dir " + shell_quoted(command.shader_folder);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
@@ -108,9 +109,9 @@ std::string task_arguments(const SweepCommand& command) {
   if (fs::path(scene.name).has_extension()) scene.name = fs::absolute(scene.name).string();
   std::string text = fmt::format(" {}", scene.words());
   text += camera_argument(command) + command.options.arguments() + exposure_argument(command);
-  const bool filmed = command.metric.is_filmed();
-  text += metric_arguments(command.metric) +
-          view_arguments(command.views, with_whole_path(command.metric.film), filmed) +
+  const bool filmed = command.asked.is_filmed();
+  text += measure_arguments(command.asked) +
+          view_arguments(command.views, with_whole_path(command.asked.film), filmed) +
           max_lights_argument(command.max_lights);
   if (command.seed != 0) text += fmt::format(" --seed {}", command.seed);
   if (!command.shader_folder.empty())

@@ -48,7 +48,7 @@ struct SweepCommand : RunOptions {
   compare::Shard shard;
   std::optional<int> slurm_tasks;
   std::optional<compare::Threshold> max_error;
-  MetricOptions metric;
+  FilmedMeasure asked;
   ViewListOptions views;
   double report_max_mb = compare::default_report_max_mb;
   bool zip = false, perceptual = false, ray_tracer = false, restart = false, quiet = false;

@@ -35,7 +35,7 @@ struct MadeCell {
 Expected<void> look_from_views(const SweepCommand& command, const LoadedScene& loaded, const Scene& given,
                                compare::Engine& engine, Console& console) {
   auto views =
-      resolve_views(command.views, command.metric.film, command.metric.is_filmed(), loaded, given, console);
+      resolve_views(command.views, command.asked.film, command.asked.is_filmed(), loaded, given, console);
   if (!views) return fail(views.error());
   if (!views->empty()) engine.look_from(std::move(*views), view_measure(command));
   return {};
@@ -51,8 +51,8 @@ Expected<void> apply_lights(SweepRun& run, const SettingOptions& options) {
   Console quiet(true);  // its notes were there before the first cell
   if (const auto looked = look_from_views(run.command, run.loaded, run.given, run.engine, quiet); !looked)
     return looked;
-  if (!run.command.metric.is_filmed()) return {};
-  const auto film = resolve_film(run.command.metric.film, run.loaded.paths, run.given, quiet);
+  if (!run.command.asked.is_filmed()) return {};
+  const auto film = resolve_film(run.command.asked.film, run.loaded.paths, run.given, quiet);
   if (!film) return fail(film.error());
   run.engine.film_with(*film);
   return {};

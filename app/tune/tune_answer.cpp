@@ -132,12 +132,13 @@ std::string TuneAnswer::line(std::size_t family, const compare::Attempt& attempt
   const auto option = [](const char* name, const std::string& value) {
     return value.empty() ? std::string() : fmt::format(" {} {}", name, shell_quoted(value));
   };
-  const bool filmed = question.metric.is_filmed();
+  const bool filmed = question.asked.is_filmed();
   return (filmed ? "gnomon shimmer " : "gnomon compare ") + question.scene.words() +
          option("--camera", question.camera) +
          setting_arguments(answer_values(question.fixed, families[family], attempt)) +
-         (filmed ? film_arguments(question.metric.film)
-                 : view_arguments(question.views, question.metric.film, false)) +
+         (filmed ? film_arguments(question.asked.film)
+                 : measure_argument(*question.asked.measure) +
+                       view_arguments(question.views, question.asked.film, false)) +
          option("--shader-dir", question.shader_folder) + max_lights_argument(question.max_lights) +
          backend_argument(question.backend);
 }
@@ -175,6 +176,11 @@ std::vector<std::size_t> TuneAnswer::rivals() const {
 }
 
 namespace {
+
+/// What the table's column of errors is about: "error (wrong and mean)", "error (flip)".
+std::string error_head(const compare::Figure& measure) {
+  return fmt::format("error ({})", measure.measure.name);
+}
 
 std::string row_text(const compare::FamilyResult& family, const compare::TuneGoal& goal) {
   const compare::Attempt& a = family.attempt();
@@ -218,12 +224,13 @@ std::string begin_of(const TuneAnswer& answer) {
 
 std::string TuneAnswer::text() const {
   std::string text = begin_of(*this);
-  text += fmt::format("\n  {:<34} {:>6} {:>10} {:>10}  {}\n", "", "texels", "time", "map", "error");
+  text += fmt::format("\n  {:<34} {:>6} {:>10} {:>10}  {}\n", "", "texels", "time", "map",
+                      error_head(question.goal.measure()));
   text += row_text(result.families[result.winner], question.goal);
   for (const std::size_t i : rivals()) text += row_text(result.families[i], question.goal);
   text += own_units(*this) + untried_text(*this);
   return text + fmt::format("{} {}s; -v says why the others lost{}\n", result.renders,
-                            question.metric.is_filmed() ? "film" : "drawing",
+                            question.asked.is_filmed() ? "film" : "drawing",
                             question.engine == nullptr ? ", and the bias in the units of engines" : "");
 }
 
@@ -231,8 +238,8 @@ std::string TuneAnswer::whole_text() const {
   std::string text = begin_of(*this);
   text +=
       fmt::format("{} {}{} made; the command's own {} gave the error.\n", result.renders,
-                  question.metric.is_filmed() ? "film" : "drawing", result.renders == 1 ? " was" : "s were",
-                  question.metric.is_filmed() ? "film" : "comparison");
+                  question.asked.is_filmed() ? "film" : "drawing", result.renders == 1 ? " was" : "s were",
+                  question.asked.is_filmed() ? "film" : "comparison");
   text += untried_text(*this);
   text += units_text(result);
   const std::vector<std::size_t> order = others();

@@ -21,7 +21,7 @@ struct TuneQuestion {
   OptionValues fixed;  ///< options with one value
   compare::TuneGoal goal;
   std::vector<raster::ReplacedShader> shaders;  ///< of shader_folder
-  MetricOptions metric{};
+  FilmedMeasure asked{};
   int max_lights = usual_max_lights;
   const compare::TunedEngine* engine = nullptr;  ///< the one asked about
   double most_seconds = 0.0;                     ///< of processor time

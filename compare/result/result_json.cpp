@@ -38,6 +38,10 @@ Json costs_json(const Comparison& c) {
 }
 
 // What --fail-above was held against; absent where nothing was asked for.
+void add_measure(const Comparison& c, Json& json) {
+  if (c.measure != &wrong_and_mean()) json["measure"] = c.measure->measure.name;
+}
+
 void add_threshold(const Comparison& c, Json& json) {
   if (!c.fail_above) return;
   const std::vector<LightFigures> lights = judged_lights(c);
@@ -212,6 +216,7 @@ std::string result_json(const Comparison& c, double report_ms, double total_ms) 
     if (c.lights[i].seams) json["lights"][i]["seams"] = block_json("seams", c.lights[i]);
   }
   if (c.judged) json["judged"] = judged_json(*c.judged);
+  add_measure(c, json);
   add_threshold(c, json);
   return dumped(json, 2);
 }

@@ -9,6 +9,7 @@
 #include "compare/bias/bias_advice.h"
 #include "compare/bias/bias_curve.h"
 #include "compare/ladder/labels.h"
+#include "compare/result/figures.h"
 #include "compare/result/judged.h"
 #include "compare/result/number_text.h"
 #include "compare/result/output_parts.h"
@@ -95,8 +96,28 @@ std::string soft_technique_advice() {
   return fmt::format("Try {}: the error is mostly the light's size, which no bias mends.", options);
 }
 
-std::string error_part(const LightComparison& light) {
-  return light.error.fractional > 0 ? fractional_part(light) : yes_or_no_part(light);
+/// "Shadow error: mean FLIP 0.078; 4.7 % of the pixels wrong, mostly aliasing."
+std::string measured_part(const LightComparison& light, const Figure& measure) {
+  const double figure = measure.of(light);
+  const std::string said =
+      std::isnan(figure) ? fmt::format("{} not known", figure_name(measure))
+                         : fmt::format(fmt::runtime(measure.measure.said), figure_text(measure, figure));
+  if (light.error.wrong == 0)
+    return fmt::format("Shadow error: {}; no pixel {}.", said,
+                       light.error.fractional > 0 ? "is off by more than one half" : "is wrong");
+  return fmt::format("Shadow error: {}; {} of the pixels wrong, {}.", said,
+                     percent(light.error.wrong_fraction), main_reasons(light.classes, "all of them "));
+}
+
+/// Where nobody chose a measure, pixels are counted, or errors averaged where something is partly lit.
+std::string error_part(const LightComparison& light, const Figure& measure) {
+  const bool partly_lit = light.error.fractional > 0;
+  if (&measure == &wrong_and_mean()) return partly_lit ? fractional_part(light) : yes_or_no_part(light);
+  if (&measure == find_measure("mean") && (partly_lit || light.error.wrong > 0))
+    return fractional_part(light);
+  return &measure == find_measure("wrong") && (!partly_lit || light.error.wrong > 0)
+             ? yes_or_no_part(light)
+             : measured_part(light, measure);
 }
 
 std::string nothing_compared(const PixelCounts& p, LightType light) {
@@ -161,7 +182,7 @@ std::string Verdict::whole() const {
 Verdict verdict_on(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0)
     return {.error = nothing_compared(light.pixels, c.world->scene->lights[light.light].type)};
-  const std::string error = error_part(light), uncertain = uncertain_part(light.pixels);
+  const std::string error = error_part(light, *c.measure), uncertain = uncertain_part(light.pixels);
   if (c.judged) return {error, judged_advice(*c.judged, light), uncertain, uncertain};
   if (lacks_light_size(c.raster, light)) return {error, soft_technique_advice(), uncertain, uncertain};
   // What other biases would do follows from the gaps of a hard test alone.

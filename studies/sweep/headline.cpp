@@ -17,6 +17,13 @@ HeadlineItem item(std::string title, const CellSummary& cell, const Figure& meas
   return {std::move(title), cell.cell, axes_words(cell), std::move(figures)};
 }
 
+// "Best for error" of what nobody chose; else for "wrong pixels", "mean error", "FLIP", "edge error" or "flips".
+std::string error_words(const Figure& measure) {
+  if (&measure == &wrong_and_mean()) return "error";
+  if (measure.needs == FigureNeeds::film) return "flips";
+  return measure.measure.by_halves ? std::string(measure.mark.words) : figure_name(measure);
+}
+
 // Some other cell may have taken less time, but by no more than such times spread.
 std::string time_title(const std::vector<CellSummary>& cells, std::size_t fastest) {
   const bool tied = std::any_of(cells.begin(), cells.end(),
@@ -89,7 +96,7 @@ Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector
   if (limit) add_limit(cells, *limit, out);
   if (cells.size() < 2) return out;
   const Figure& measure = cells.front().measure();
-  const std::string error = measure.needs == FigureNeeds::film ? "flips" : "error";
+  const std::string error = error_words(measure);
   if (front.empty()) {
     const auto least = std::min_element(cells.begin(), cells.end(),
                                         [](const auto& a, const auto& b) { return a.error() < b.error(); });

@@ -1,6 +1,8 @@
 // What the sweep's page shows, as one document (page/src/sweep_document.ts): the sweep's own settings, its cells over all
 // lights together, those worth having, and the ray tracer's points. The cells' pictures are parts of the page's data, or
 // files beside the page (cell_files.h).
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -17,6 +19,13 @@ Json shadows_json(const TimeDifference& shadows) {
   return {number(shadows.low), number(shadows.median), number(shadows.high)};
 }
 
+/// "1.2 %", "1.6 texels"; of films "0.012 flips per receiver and second".
+std::string error_text(const CellSummary& cell) {
+  const Figure& measure = cell.measure();
+  const std::string text = figure_text(measure, cell.error());
+  return cell.is_filmed() ? fmt::format(fmt::runtime(measure.measure.said), text) : text;
+}
+
 Json cell_json(const SweepPageInput& in, const CellSummary& cell, bool on_front) {
   Json values = Json::array(), shown = Json::array();
   for (const auto& [name, value] : cell.axes) values.push_back(value), shown.push_back(value_words(value));
@@ -31,6 +40,7 @@ Json cell_json(const SweepPageInput& in, const CellSummary& cell, bool on_front)
           {"technique", cell.technique},
           {"compared", cell.figures.pixels.compared},
           {"error", number(cell.error())},
+          {"error_words", error_text(cell)},
           {"wrong_fraction", number(cell.figures.error.wrong_fraction)},
           {"false_shadow", cell.figures.error.false_shadow},
           {"missed_shadow", cell.figures.error.missed_shadow},
@@ -54,6 +64,15 @@ Json cell_json(const SweepPageInput& in, const CellSummary& cell, bool on_front)
           {"drawn", is_pictured && !pictures->second.drawing.empty()}};
 }
 
+/// What the page's errors are: how charts and captions call them, and whether they are shares.
+Json measure_json(const Figure& measure) {
+  const std::string words = &measure == &wrong_and_mean() ? "the larger of wrong pixels and mean error"
+                            : measure.measure.by_halves   ? std::string(measure.mark.words)
+                                                          : figure_head(measure);
+  return {
+      {"name", measure.measure.name}, {"words", words}, {"shares", measure.form() == FigureForm::percent}};
+}
+
 Json headline_json(const Headline& headline) {
   Json items = Json::array();
   for (const HeadlineItem& item : headline.items)
@@ -75,6 +94,7 @@ std::string sweep_document(const SweepPageInput& in) {
     cells.push_back(cell_json(in, in.cells[i], std::find(front.begin(), front.end(), i) != front.end()));
   return Json{{"version", program_version()},
               {"configuration", Json::parse(in.header.configuration)},
+              {"measure", measure_json(in.cells.front().measure())},
               {"axes", std::move(axes)},
               {"headline", headline_json(sweep_headline(in.cells, front, in.limit))},
               {"front", std::move(best)},

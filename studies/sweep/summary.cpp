@@ -77,6 +77,14 @@ void add_times(const Json& times, CellSummary& sum) {
   }
 }
 
+/// What --measure asked for; a configuration without it, or with a film, has none.
+const Figure* measure_of(const SweepHeader& header) {
+  const Json configuration = Json::parse(header.configuration, nullptr, false);
+  if (!configuration.is_object()) return &wrong_and_mean();
+  const Figure* asked = find_measure(configuration.value("measure", std::string()));
+  return asked == nullptr ? &wrong_and_mean() : asked;
+}
+
 }  // namespace
 
 Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
@@ -103,11 +111,13 @@ Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
 }
 
 Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep) {
+  const Figure* asked = measure_of(sweep.header);
   std::vector<Expected<CellSummary>> read(sweep.lines.size());
   parallel_for(read.size(), [&](std::size_t i) { read[i] = summarise(sweep.lines[i], sweep.times[i]); });
   std::vector<CellSummary> cells;
   for (Expected<CellSummary>& cell : read) {
     if (!cell) return fail(cell.error());
+    cell->asked = asked;
     cells.push_back(std::move(*cell));
   }
   return cells;

@@ -21,10 +21,11 @@ struct CellSummary {
   std::vector<std::pair<std::string, std::string>> axes;  ///< names as in "axes", values as text
   std::vector<std::string> no_effect;  ///< of those names: the technique does not read them
   std::string command, technique;
-  LightFigures figures;              ///< of all lights together
-  std::vector<LightFigures> lights;  ///< of each: thresholds are held against the worst
-  std::string main_label;            ///< of most of the error; empty when there is none
-  double map_size = 0.0;             ///< texels on a side
+  const Figure* asked = &wrong_and_mean();  ///< what a still picture's errors are counted in
+  LightFigures figures;                     ///< of all lights together
+  std::vector<LightFigures> lights;         ///< of each: thresholds are held against the worst
+  std::string main_label;                   ///< of most of the error; empty when there is none
+  double map_size = 0.0;                    ///< texels on a side
   std::uint64_t map_texels = 0, map_bytes = 0;
   /// Median times of the map and the shading passes, all lights; NaN when not timed.
   double raster_ms = 0.0;
@@ -36,11 +37,11 @@ struct CellSummary {
   TimeDifference shadows;
   double exact_shadow_ms = 0.0;
   bool derived = false;  ///< the times are those of the drawing that it was made from
-  /// Share of wrong pixels or mean error, whichever is more: of yes-or-no shadows they are equal. With films what they
-  /// are about: flips per receiver and second.
+  /// In measure(): by default the share of wrong pixels or the mean error, whichever is more, which are equal of yes-or-no
+  /// shadows. With films what they are about: flips per receiver and second.
   double error() const { return measure().of(figures); }
   bool is_filmed() const { return figures.shimmer.has_value(); }
-  const Figure& measure() const { return is_filmed() ? *find_measure("shimmer") : wrong_and_mean(); }
+  const Figure& measure() const { return is_filmed() ? *find_measure("shimmer") : *asked; }
 };
 
 /// a takes less time than b by more than their runs leave open (time_difference.h).

@@ -1,6 +1,9 @@
 // Commands that sweep and tune hand out, to make one of their results again; and what their limits are of.
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
+
+#include "app/options/options.h"
 #include "app/options/shimmer_options.h"
 #include "app/sweep/command.h"
 #include "app/tune/tune_answer.h"
@@ -18,8 +21,11 @@ TEST(RepeatedCommands, ACellIsDrawnByTheSameBackendAndFilmedWhereItWas) {
   ASSERT_TRUE(grid.has_value());
   const Plan plan = make_plan(std::move(*grid), command.shard);
   EXPECT_EQ(compare_command(command, plan, 1), "gnomon compare fence --map-size 128 --backend osmesa");
-  command.metric.metric = Metric::shimmer;
-  command.metric.film.given.emplace_back("--frames", "3");
+  command.asked.measure = compare::find_measure("mean");
+  EXPECT_EQ(compare_command(command, plan, 1),
+            "gnomon compare fence --map-size 128 --measure mean --backend osmesa");
+  command.asked.measure = compare::find_measure("shimmer");
+  command.asked.film.given.emplace_back("--frames", "3");
   EXPECT_EQ(compare_command(command, plan, 1),
             "gnomon shimmer fence --map-size 128 --frames 3 --backend osmesa");
 }
@@ -37,20 +43,43 @@ TEST(RepeatedCommands, AnAnswerNamesItsBackend) {
   EXPECT_EQ(answer.line(0), "gnomon compare fence --map-size 64 --backend osmesa");
 }
 
-TEST(Metric, APlainLimitOfFilmsIsOneOfFlips) {
+struct Asked {
+  const compare::Figure *measure, *limit;
+};
+
+/// What --measure and --max-error ask for together; nothing where they are refused.
+std::optional<Asked> asked(const char* words) {
+  CLI::App app;
+  const compare::Figure* measure = &compare::wrong_and_mean();
+  std::optional<compare::Threshold> limit;
+  add_measured_limit(app, "--max-error", {measure, limit}, "", "", true);
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError&) {
+    return std::nullopt;
+  }
+  return Asked{measure, limit->measure};
+}
+
+TEST(Measure, APlainLimitIsOneOfItAndFlipsAreOfFilms) {
   const compare::Figure *both = &compare::wrong_and_mean(), *mean = compare::find_measure("mean"),
                         *shimmer = compare::find_measure("shimmer");
-  const auto finished = [](Metric metric, const compare::Figure* measure) {
-    MetricOptions options;
-    options.metric = metric;
-    std::optional<compare::Threshold> limit = compare::Threshold{measure, 0.1};
-    return finish_metric(options, limit) ? std::optional(limit->measure) : std::nullopt;
-  };
-  EXPECT_EQ(finished(Metric::shimmer, both), shimmer);
-  EXPECT_EQ(finished(Metric::shimmer, shimmer), shimmer);
-  EXPECT_EQ(finished(Metric::still, both), both);
-  EXPECT_EQ(finished(Metric::still, shimmer), shimmer);
-  EXPECT_FALSE(finished(Metric::shimmer, mean).has_value());
+  const std::tuple<const char*, const compare::Figure*, const compare::Figure*> cases[] = {
+      {"--measure shimmer --max-error 0.1", shimmer, shimmer},
+      {"--max-error 0.1 --measure shimmer", shimmer, shimmer},
+      {"--measure shimmer --max-error shimmer:0.1", shimmer, shimmer},
+      {"--max-error shimmer:0.1", shimmer, shimmer},
+      {"--measure mean --max-error 10%", mean, mean},
+      {"--max-error 10%", both, both},
+      {"--max-error mean:10%", both, mean}};
+  for (const auto& [words, measure, limit] : cases) {
+    const auto both_asked = asked(words);
+    ASSERT_TRUE(both_asked.has_value()) << words;
+    EXPECT_EQ(both_asked->measure, measure) << words;
+    EXPECT_EQ(both_asked->limit, limit) << words;
+  }
+  EXPECT_FALSE(asked("--measure shimmer --max-error mean:10%").has_value());
+  EXPECT_FALSE(asked("--max-error shimmer:0.1 --measure mean").has_value());
 }
 
 }  // namespace

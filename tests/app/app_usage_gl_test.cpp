@@ -73,19 +73,24 @@ TEST(Usage, ValuesOutOfRange) {
 }
 
 TEST(Usage, OptionsInTheWrongPlaceOrNumber) {
-  expect_refused({{{"--size", "8x8", "compare", "fence"}, "--size stands behind the command's name"},
-                  {fence({"--bias", "1", "--bias", "2"}), "--bias: too often (got 2 times, allowed once)"},
-                  {fence({"--quiet=maybe"}), "--quiet: not a switch's value (got maybe, allowed on, off)"},
-                  {fence({"--map-size"}), "--map-size: has no value (allowed N)"},
-                  {fence({"--bias"}), "--bias"},
-                  {{"--bogus"}, "--bogus"},
-                  {{"compare"}, "SCENE is required"},
-                  {fence({"other"}), "one argument too many (got other)"},
-                  {{"raster", "fence", "-o", "x.jpg"}, "(got x.jpg, allowed .png .exr)"},
-                  {{"verify", "--rays", "1000.5"}, "--rays: is not a whole number (got 1000.5, allowed "},
-                  {{"raytrace", "fence", "--map-size", "64"}, "unknown option --map-size"},
-                  {{"raster", "fence", "--accel", "bvh"}, "unknown option --accel"},
-                  {{"plan", "fence", "--map-size", "1"}, "unknown option --map-size"}});
+  expect_refused(
+      {{{"--size", "8x8", "compare", "fence"}, "--size stands behind the command's name"},
+       {fence({"--bias", "1", "--bias", "2"}), "--bias: too often (got 2 times, allowed once)"},
+       {fence({"--quiet=maybe"}), "--quiet: not a switch's value (got maybe, allowed on, off)"},
+       {fence({"--map-size"}), "--map-size: has no value (allowed N)"},
+       {fence({"--bias"}), "--bias"},
+       {{"--bogus"}, "--bogus"},
+       {{"compare"}, "SCENE is required"},
+       {fence({"other"}), "one argument too many (got other)"},
+       {fence({"--measure", "shimmer"}), "--measure: unknown value (got shimmer, allowed wrong, "},
+       {fence({"--fail-above", "mean:1%", "--measure", "flip"}),
+        "--fail-above: is no limit of --measure flip (got mean:1%, allowed flip:LIMIT)"},
+       {{"tune", "fence", "--max-error", "0.1", "--anchors", "2"}, "--anchors: belongs to --measure shimmer"},
+       {{"raster", "fence", "-o", "x.jpg"}, "(got x.jpg, allowed .png .exr)"},
+       {{"verify", "--rays", "1000.5"}, "--rays: is not a whole number (got 1000.5, allowed "},
+       {{"raytrace", "fence", "--map-size", "64"}, "unknown option --map-size"},
+       {{"raster", "fence", "--accel", "bvh"}, "unknown option --accel"},
+       {{"plan", "fence", "--map-size", "1"}, "unknown option --map-size"}});
   EXPECT_EQ(run_gnomon({}).exit_code, 2);
 }
 

@@ -61,6 +61,11 @@ TEST(Values, Thresholds) {
     ASSERT_TRUE(again) << compare::threshold_text(*parsed);
     EXPECT_EQ(*again, wanted) << text;
   }
+  EXPECT_EQ(parse_threshold("0.5", *find_measure("edge")).value(), (Threshold{find_measure("edge"), 0.5}));
+  EXPECT_EQ(parse_threshold("1%", *find_measure("mean")).value(), (Threshold{find_measure("mean"), 0.01}));
+  EXPECT_EQ(parse_threshold("wrong:1%", *find_measure("mean")).value(),
+            (Threshold{find_measure("wrong"), 0.01}))
+      << "what names a measure means it";
   for (const char* text : {"", "101%", "-1%", "median:1%", ":1%", "wrong:", "wrong:2", "flip:1.5",
                            "edge:-1texel", "edge:1px", "edge:1texeltexels", "mean:1%x", "wrong and mean:1%"})
     EXPECT_FALSE(parse_threshold(text)) << text;

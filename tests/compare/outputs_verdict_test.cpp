@@ -39,6 +39,25 @@ TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
   EXPECT_EQ(verdict_on(c.made->comparison, c.light).detail, "");
 }
 
+TEST(Verdict, BeginsWithTheMeasureThatWasChosen) {
+  Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
+  c.light.error.flip = 0.0774, c.light.edges.rms_texels = 1.7;
+  const auto begins = [&](const char* measure) {
+    c.made->comparison.measure = find_measure(measure);
+    return verdict_on(c.made->comparison, c.light).error;
+  };
+  EXPECT_EQ(begins("wrong"), "Shadow error 4.1 % of the pixels, mostly acne.");
+  EXPECT_EQ(begins("mean"),
+            "Shadow error 4.1 % on average, mostly acne; 4.1 % of the pixels are off by more than one half.");
+  EXPECT_EQ(begins("flip"), "Shadow error: mean FLIP 0.0774; 4.1 % of the pixels wrong, mostly acne.");
+  EXPECT_EQ(begins("edge"),
+            "Shadow error: edges off by 1.7 texels (RMS); 4.1 % of the pixels wrong, mostly acne.");
+  c.light.error.fractional = 50000;
+  EXPECT_EQ(begins("wrong"), "Shadow error 4.1 % of the pixels, mostly acne.") << "of partly lit ones, too";
+  c.light.error.wrong = 0, c.light.error.wrong_fraction = 0.0;
+  EXPECT_EQ(begins("wrong"), "Shadow error: 0 % wrong; no pixel is off by more than one half.");
+}
+
 TEST(Verdict, SaysWhenNoBiasCanBeRight) {
   Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   c.made->comparison.raster.options.map.bias.slope = 0.0;

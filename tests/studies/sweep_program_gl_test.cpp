@@ -79,6 +79,26 @@ TEST_F(SweepProgram, WhatCellsLackOfAComparisonIsDocumented) {
   EXPECT_EQ(check(one["lights"][0], cell["lights"][0], schema["$defs"]["light"]["properties"]), 2);
 }
 
+// The measure is what cells are ranked by, and a plain limit is one of it; the folder remembers it.
+TEST_F(SweepProgram, RanksByTheMeasureThatWasChosen) {
+  const std::string folder = (root / "measured").string();
+  const Words sweep{"sweep", "fence", "--size", "64x36", "--map-size", "64,128,256", "-o", folder};
+  const auto with = [&](const Words& more) {
+    Words words = sweep;
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  ASSERT_EQ(run(with({"--measure", "edge", "--max-error", "1e6"})), 0) << said();
+  EXPECT_NE(said().find("Cheapest with shadow edges displaced by at most 1000000 texels (RMS): "),
+            std::string::npos)
+      << said();
+  EXPECT_NE(said().find("Best for edge error"), std::string::npos) << said();
+  const std::string page = bytes(folder + "/report.html");
+  EXPECT_NE(page.find(R"("measure":{"name":"edge","words":"edge error, texels","shares":false})"),
+            std::string::npos);
+  EXPECT_EQ(run(with({"--measure", "mean"})), 2) << "another sweep: " << said();
+}
+
 // Each cell's film is the one that gnomon shimmer makes, and its flips are the error of headline and table.
 TEST_F(SweepProgram, CountsFlipsOfFilms) {
   const Words setting{"thin-wall", "--size", "192x108", "--map-size", "64"};
@@ -89,7 +109,7 @@ TEST_F(SweepProgram, CountsFlipsOfFilms) {
   };
   const std::string folder = (root / "films").string();
   ASSERT_EQ(
-      run(joined({"sweep"}, {setting, film, {"--snap", "off,on", "--metric", "shimmer", "-o", folder}})), 0)
+      run(joined({"sweep"}, {setting, film, {"--snap", "off,on", "--measure", "shimmer", "-o", folder}})), 0)
       << said();
   EXPECT_NE(said().find("Best for flips"), std::string::npos) << said();
   std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");

@@ -1,7 +1,7 @@
 // A sweep's charts: error against time, and against the map's size. Each point leads to its cell.
 import { chartFrame, ChartLabels, chartSvg, fixed, leastError, LogPlot, logTicks } from "./log_chart";
 import { general, milliseconds, percent } from "./number_text";
-import { errorWords, isFilmed, settingWords, type RayPoint, type SweepCell, type SweepResult } from "./sweep_document";
+import { settingWords, type RayPoint, type SweepCell, type SweepResult } from "./sweep_document";
 import { markup, type Markup } from "./template";
 
 const styles = 6;  // line-0 ... in report.css
@@ -13,8 +13,11 @@ const cellPoint = (cell: SweepCell, kind: string, x: number, y: number, radius: 
 type Tracer = Pick<RayPoint, "name" | "compared" | "wrong" | "mean_absolute" | "times_ms">;
 const tracersOf = ({ rays, cells: [first] }: SweepResult): Tracer[] =>
   rays.length > 0 || !(first!.rays_ms! > 0) ? rays : [{ name: "ray tracing", compared: 0, wrong: 0, mean_absolute: 0, times_ms: { median: first!.rays_ms! } }];
-// Exact shadows do not flip.
-const errorOf = (tracer: Tracer, filmed: boolean): number => (filmed ? 0 : Math.max(tracer.wrong / Math.max(tracer.compared, 1), tracer.mean_absolute));
+// In the sweep's measure. Exact shadows do not flip; what only pictures tell is 0 of the truth, and not known of other points.
+function errorOf(tracer: Tracer, measure: string): number {
+  const wrong = tracer.wrong / Math.max(tracer.compared, 1), mean = tracer.mean_absolute;
+  return { wrong, mean, shimmer: 0, "wrong and mean": Math.max(wrong, mean) }[measure] ?? (Math.max(wrong, mean) === 0 ? 0 : NaN);
+}
 
 /** What tells a cell of the front from the others: its technique and map size, where the cells differ in them. */
 function shortName(cell: SweepCell, cells: SweepCell[]): string {
@@ -24,24 +27,25 @@ function shortName(cell: SweepCell, cells: SweepCell[]): string {
 
 /** Null where nothing is timed. */
 export function paretoChart(result: SweepResult): Markup | null {
-  const { cells, axes } = result, filmed = isFilmed(cells[0]!), tracers = tracersOf(result);
+  const { cells, axes } = result, { name: measure, shares } = result.measure;
+  const tracers = tracersOf(result).filter((tracer) => !Number.isNaN(errorOf(tracer, measure)));
   const front = result.front.map((number) => cells.find(({ cell }) => cell === number)!), timed = cells.filter(({ raster_ms }) => raster_ms !== null);
   if (front.length === 0) return null;
   const times = [...timed.map(({ raster_ms }) => raster_ms!), ...tracers.map(({ times_ms }) => times_ms.median)];
-  const errors = [...cells.map(({ error }) => error), ...tracers.map((tracer) => errorOf(tracer, filmed))], least = leastError(errors);
-  const plot = new LogPlot(Math.min(...times) / 1.15, Math.max(...times) * 1.15, least, Math.max(4 * least, 1.3 * Math.max(...errors)), !filmed);
+  const errors = [...cells.map(({ error }) => error), ...tracers.map((tracer) => errorOf(tracer, measure))], least = leastError(errors);
+  const plot = new LogPlot(Math.min(...times) / 1.15, Math.max(...times) * 1.15, least, Math.max(4 * least, 1.3 * Math.max(...errors)), shares);
   const at = (cell: SweepCell): [number, number] => [plot.x(cell.raster_ms!), plot.y(cell.error)];
   const labels = new ChartLabels();
-  for (const tracer of tracers) labels.keepFree(plot.x(tracer.times_ms.median), plot.y(errorOf(tracer, filmed)), 7);
+  for (const tracer of tracers) labels.keepFree(plot.x(tracer.times_ms.median), plot.y(errorOf(tracer, measure)), 7);
   front.forEach((cell, k) => {
     labels.keepFree(...at(cell), 6);
     if (k > 0) labels.keepLineFree(...at(front[k - 1]!), ...at(cell));
   });
   const point = (cell: SweepCell): Markup => cellPoint(cell, cell.front ? "dot best-dot" : "dot", ...at(cell), cell.front ? 5 : 3.5,
-    `${settingWords(axes, cell)}: ${filmed ? `${errorWords(cell)}, ` : ""}${percent(cell.wrong_fraction)} wrong, mean error ${percent(cell.mean_absolute)}, ${milliseconds(cell.raster_ms!)}`);
+    `${settingWords(axes, cell)}: ${measure === "wrong and mean" ? "" : `${cell.error_words}, `}${percent(cell.wrong_fraction)} wrong, mean error ${percent(cell.mean_absolute)}, ${milliseconds(cell.raster_ms!)}`);
   const diamond = (tracer: Tracer): Markup => {
-    const error = errorOf(tracer, filmed), x = plot.x(tracer.times_ms.median), y = plot.y(error);
-    return markup`<path class="rays" d="M${fixed(x)},${fixed(y - 7)}l7,7l-7,7l-7,-7z"><title>${tracer.name}: ${error === 0 ? "none" : percent(error)} ${filmed ? "flip" : "wrong"}, ${
+    const error = errorOf(tracer, measure), x = plot.x(tracer.times_ms.median), y = plot.y(error);
+    return markup`<path class="rays" d="M${fixed(x)},${fixed(y - 7)}l7,7l-7,7l-7,-7z"><title>${tracer.name}: ${error === 0 ? "none" : percent(error)} ${measure === "shimmer" ? "flip" : "wrong"}, ${
       milliseconds(tracer.times_ms.median)}</title></path>${labels.place(x, y, tracer.name)}`;
   };
   return chartSvg("Error against time, each cell a point, the best of them joined", markup`${
@@ -72,12 +76,12 @@ function samplingSlope(plot: LogPlot, lines: [string, SweepCell[]][], first: num
 }
 
 /** Null with fewer than three sizes. */
-export function sizeChart(cells: SweepCell[]): Markup | null {
+export function sizeChart({ cells, measure }: SweepResult): Markup | null {
   const lines = linesOf(cells), shown = lines.flatMap(([, line]) => line);
   const sizes = [...new Set(shown.map(({ map_size }) => map_size))].sort((a, b) => a - b), [first, last] = [sizes[0]!, sizes.at(-1)!];
   if (sizes.length < 3) return null;
   const errors = shown.map(({ error }) => error), least = leastError(errors), several = lines.length > 1;
-  const plot = new LogPlot(first / 1.1, last * 1.1, least, Math.max(4 * least, 1.5 * Math.max(...errors)), !isFilmed(cells[0]!));
+  const plot = new LogPlot(first / 1.1, last * 1.1, least, Math.max(4 * least, 1.5 * Math.max(...errors)), measure.shares);
   const at = (cell: SweepCell): [number, number] => [plot.x(cell.map_size), plot.y(cell.error)], labels = new ChartLabels();
   for (const [, line] of lines)
     line.forEach((cell, k) => {
@@ -86,7 +90,7 @@ export function sizeChart(cells: SweepCell[]): Markup | null {
     });
   const names = several ? lines.map(([name, line]) => labels.place(...at(line.at(-1)!), name)) : null;
   const drawing = (line: SweepCell[], stroke: string, fill: string): Markup => markup`<polyline class="curve ${stroke}" points="${line.map((cell) => at(cell).map(fixed).join(",")).join(" ")}"/>${
-    line.map((cell) => cellPoint(cell, fill, ...at(cell), 4, `${cell.technique}, ${general(cell.map_size, 6)} texels: error ${errorWords(cell)}`))}`;
+    line.map((cell) => cellPoint(cell, fill, ...at(cell), 4, `${cell.technique}, ${general(cell.map_size, 6)} texels: error ${cell.error_words}`))}`;
   return chartSvg("Least error against map size, a line for each technique", markup`${chartFrame(plot, sizes, "texels on a side")}${
     plot.shares && samplingSlope(plot, lines, first, last, labels)}${
     lines.map(([, line], i) => (several ? drawing(line, `line-${i % styles}`, `line-${i % styles}`) : drawing(line, "front", "dot best-dot")))}${names}`);

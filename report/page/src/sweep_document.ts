@@ -1,6 +1,4 @@
 // The document of a sweep's page (studies/sweep/page_document.cpp): its cells, each over all lights together.
-import { percent, plainNumber } from "./number_text";
-
 export interface SweepCell {
   cell: number;
   values: string[];     // by axis
@@ -10,7 +8,8 @@ export interface SweepCell {
   command: string;
   technique: string;
   compared: number;
-  error: number;        // that the page is about
+  error: number;        // in the sweep's measure
+  error_words: string;  // "1.2 %"
   wrong_fraction: number;
   false_shadow: number;
   missed_shadow: number;
@@ -51,6 +50,7 @@ export interface RayPoint {
 /** What the sweep was asked to do, as it stands in the head of sweep.jsonl. */
 export interface Configuration {
   scene: Record<string, string>;
+  measure?: string;
   options: Record<string, unknown>;
   film?: Record<string, string>;
   axes?: { name: string; values: string[] }[];
@@ -62,6 +62,7 @@ export interface Configuration {
 export interface SweepResult {
   version: string;
   configuration: Configuration;
+  measure: { name: string; words: string; shares: boolean };
   axes: string[];
   headline: { title: string; cell: number | null; setting: string; figures: string }[];
   front: number[];  // cells worth having, cheapest first
@@ -74,10 +75,6 @@ export interface SweepResult {
 export const inWords = (axis: string): string => axis.replaceAll("_", " ");
 
 export const isFilmed = (cell: SweepCell): boolean => cell.flips_per_second !== null;
-
-/** "1.2 %", or of films "0.012 flips per receiver and second". */
-export const errorWords = (cell: SweepCell): string =>
-  cell.flips_per_second === null ? percent(cell.error) : `${plainNumber(cell.flips_per_second)} flips per receiver and second`;
 
 /** "map size 64, bias 0.05" */
 export const settingWords = (axes: string[], cell: SweepCell): string => axes.map((axis, k) => `${inWords(axis)} ${cell.shown[k]}`).join(", ") || "the only cell";

@@ -4,7 +4,7 @@ import type { Section } from "./frame";
 import { byteCount, grouped, milliseconds, percent, plainNumber, timeDifference } from "./number_text";
 import { isBeside } from "./parts";
 import { paretoChart, sizeChart } from "./sweep_charts";
-import { errorWords, inWords, isFilmed, type Configuration, type RayPoint, type SweepCell, type SweepResult } from "./sweep_document";
+import { inWords, isFilmed, type Configuration, type RayPoint, type SweepCell, type SweepResult } from "./sweep_document";
 import { flowing, markup, scrollRegion, type Markup } from "./template";
 import { viewerBlock } from "./viewer_block";
 
@@ -13,7 +13,7 @@ function sentence({ cells, front }: SweepResult): string {
   if (cells.length === 1) return `The one cell leaves ${percent(cells[0]!.wrong_fraction)} wrong, with a mean error of ${percent(cells[0]!.mean_absolute)}.`;
   const [least, most] = [(a: number, b: number) => a < b, (a: number, b: number) => a >= b].map((better) =>
     cells.reduce((best, cell) => (better(cell.error, best.error) ? cell : best))) as [SweepCell, SweepCell];
-  const text = `The ${grouped(cells.length)} cells have errors between ${errorWords(least)} and ${errorWords(most)}.`;
+  const text = `The ${grouped(cells.length)} cells have errors between ${least.error_words} and ${most.error_words}.`;
   if (front.length === 1) return `${text} One of them is worth having (★): none has a smaller error, and none is clearly faster.`;
   return front.length === 0 ? text : `${text} ${front.length} of them are worth having (★): every cell with a smaller error takes clearly longer.`;
 }
@@ -60,17 +60,16 @@ ${rays.map(row)}</tbody></table>`)}<p class="hint">Camera and shadow rays of the
 }
 
 function cost(result: SweepResult): Markup {
-  const { cells, rays } = result, pareto = paretoChart(result), sizes = sizeChart(cells), filmed = isFilmed(cells[0]!);
+  const { cells, rays } = result, pareto = paretoChart(result), sizes = sizeChart(result);
   return markup`<section id="cost" aria-labelledby="cost-title"><h2 id="cost-title">What accuracy costs</h2>
 ${pareto && markup`<h3>Error against time</h3>
-<figure>${scrollRegion("Error against time", pareto)}<figcaption>Each cell is a point and opens its pictures; the error is ${
-  filmed ? "the flips per receiver and second of its film" : "the share of wrong pixels or the mean error, whichever is more"}. The line joins those that are faster than every cell with
+<figure>${scrollRegion("Error against time", pareto)}<figcaption>Each cell is a point and opens its pictures. Error: ${result.measure.words}. The line joins those that are faster than every cell with
 a smaller error, by more than the times' spread. ${rays.length > 0 ? "The diamonds are the ray tracer itself."
   : `The diamond is the ray tracer, whose shadows are the truth here; ${milliseconds(cells[0]!.exact_shadow_ms ?? NaN)} of its time are its shadows.`}${
   cells.some(({ derived }) => derived) && " Cells that differ in the constant bias alone come from one drawing and share its time."}</figcaption></figure>
 `}${sizes && markup`<h3>Error against map size</h3>
 <figure>${scrollRegion("Error against map size", sizes)}<figcaption>The best cell of each technique and size.${
-  !filmed && " Where the map's sampling is all that is wrong, the error falls along the dotted line: half of it at twice the size."}</figcaption></figure>
+  result.measure.shares && " Where the map's sampling is all that is wrong, the error falls along the dotted line: half of it at twice the size."}</figcaption></figure>
 `}${rayTable(rays, result.reference_samples)}</section>
 `;
 }
@@ -119,13 +118,13 @@ ${cells.map(row)}</tbody></table></div></section>
 
 const valuesText = (values: string[]): string => (values.length > 12 ? `${values.length} values from ${values[0]} to ${values.at(-1)}` : values.join(", "));
 
-function settings({ scene, options, film, axes = [], ...rest }: Configuration): [string, string][] {
+function settings({ scene, options, measure, film, axes = [], ...rest }: Configuration): [string, string][] {
   const words = (value: unknown): string => (typeof value === "string" ? value : JSON.stringify(value));
   const named: [string, unknown][] = [["Runs of each pass", rest.runs], ["seed", rest.seed], ["exposure", rest.exposure]];
   return [
     ...([["Scene", scene.path ?? ""], ["SHA-256 of the scene file", scene.sha256 ?? ""]] as [string, string][]).filter(([, text]) => text !== ""),
     ...Object.entries(options).map(([name, value]): [string, string] => [`--${name}`, words(value)]),
-    ...(film ? [["--metric", "shimmer"] as [string, string]] : []),
+    ...(measure || film ? [["--measure", measure ?? "shimmer"] as [string, string]] : []),
     ...Object.entries(film ?? {}).map(([name, value]): [string, string] => [name === "sha256" ? "SHA-256 of the path's file" : `--${name}`, value]),
     ...named.filter(([, value]) => value !== null && value !== undefined).map(([name, value]): [string, string] => [name, words(value)]),
     ...axes.map(({ name, values }): [string, string] => [`Swept: --${name}`, valuesText(values)]),
@@ -148,5 +147,5 @@ export function sweepSections(): Section[] {
 
 /** "4.1 % wrong, mean error 4.1 %: false shadow 12, missed shadow 3, mostly acne; 12 ms …" */
 export const cellLine = (cell: SweepCell): string =>
-  `${isFilmed(cell) ? `${errorWords(cell)}; ` : ""}${percent(cell.wrong_fraction)} wrong, mean error ${percent(cell.mean_absolute)}: false shadow ${grouped(cell.false_shadow)}, missed shadow ${
+  `${isFilmed(cell) ? `${cell.error_words}; ` : ""}${percent(cell.wrong_fraction)} wrong, mean error ${percent(cell.mean_absolute)}: false shadow ${grouped(cell.false_shadow)}, missed shadow ${
     grouped(cell.missed_shadow)}${cell.mostly && `, mostly ${cell.mostly}`}${cell.raster_ms === null ? "" : `; ${milliseconds(cell.raster_ms)} for map and shading`}`;
