@@ -1,0 +1,72 @@
+"""The command line: python3 adapters/renderdoc FRAME.rdc -o DIR [--light N] | --list."""
+import argparse
+import sys
+
+from .errors import FrameError
+
+
+def _arguments(words):
+    parser = argparse.ArgumentParser(prog="python3 adapters/renderdoc", description="Make a capture for gnomon judge of a frame that RenderDoc recorded.")
+    parser.add_argument("frame", metavar="FRAME.rdc")
+    parser.add_argument("-o", "--output", metavar="DIR", help="the capture's folder")
+    parser.add_argument("--light", type=int, metavar="N", help="which light, as --list numbers them [default 1]")
+    parser.add_argument("--list", action="store_true", help="list the lights with a shadow map, and stop")
+    parser.add_argument("--name", default="", help="the renderer's name, for the report [default: the frame's name]")
+    parser.add_argument("--encoding", choices=("srgb", "linear"), default="srgb",
+                        help="of 8-bit pictures that do not say [default srgb]; matters to partly lit pixels alone")
+    given = parser.parse_args(words)
+    if not given.list and not given.output:
+        parser.error("-o DIR is needed (or --list)")
+    if given.light is not None and given.light < 1:
+        parser.error("--light counts from 1")
+    return given
+
+
+def run(frame, given, say):
+    """Lists lights or writes one's capture; the path of capture.json, or None."""
+    from . import capture, extract, passes, report
+
+    maps = passes.find_maps(frame)
+    if not maps:
+        raise passes.why_none(frame)
+    lights, failed = [], []
+    for one in maps:
+        try:
+            found = extract.look_at(frame, one)
+            lights += [(found, layers) for layers in found.lights]
+        except FrameError as error:
+            failed.append(error)
+    if not lights:
+        raise failed[0]
+    if given.list:
+        for number, (found, layers) in enumerate(lights, 1):
+            say(report.light_line(number, frame, found, layers))
+        return None
+    number = given.light or 1
+    if number > len(lights):
+        raise FrameError(f"--light {number}: the frame has {len(lights)} (--list)")
+    found, layers = lights[number - 1]
+    numbers = extract.read_layers(frame, found, layers)
+    pixels = extract.measure(frame, found, layers, given.encoding == "srgb")
+    test = extract.find_test(found, layers, pixels, numbers)
+    for line in report.findings(found, layers, test):
+        say(line)
+    import os
+    return capture.write(given.output, frame, found, layers, pixels, test, given.name or os.path.splitext(os.path.basename(given.frame))[0])
+
+
+def main(words=None):
+    """Exit codes are those of gnomon: 0 done, 2 wrong words, 3 a frame that no capture can be made of, 5 RenderDoc is missing."""
+    given = _arguments(words)
+    try:
+        from .replay import Frame
+    except ImportError as error:
+        print(f"{error}: on Debian, apt install python3-renderdoc python3-numpy", file=sys.stderr)
+        return 5
+    try:
+        with Frame.open(given.frame) as frame:
+            run(frame, given, lambda line: print(line, flush=True))
+    except FrameError as error:
+        print(error, file=sys.stderr)
+        return 3
+    return 0

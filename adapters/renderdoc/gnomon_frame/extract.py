@@ -1,0 +1,254 @@
+"""From a frame to what is known of it: maps, camera, lights, readers' matrices, visibility. Each finding has its residual."""
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from . import fit, lookup, visibility
+from .passes import MapPasses
+from .reader import CasterShift, ReaderMatrix, caster_shift, find_reader
+from .errors import FrameError
+
+
+@dataclass
+class Layer:
+    """A part of a map that one projection draws: a whole texture, a viewport of an atlas, a slice of an array or cube."""
+
+    state: object  # the pipeline at its first draw
+    events: list
+    meshes: list
+    light: fit.LightFit | None = None
+    place: fit.LightPlace | None = None
+    matched: int = 0  # casters that the camera draws as well
+    reader: ReaderMatrix | None = None
+    shift: CasterShift | None = None
+    texels: np.ndarray | None = None  # of its own rectangle
+    matrix: np.ndarray | None = None  # clip_from_view whose z/w is what a texel stores
+    constant: float = 0.0  # the reader's own bias, stored numbers
+
+    @property
+    def stored_row(self):
+        return self.state.conventions.window_row(self.light.matrix[2], self.light.matrix[3])
+
+    @property
+    def texel(self):
+        """Width of a texel of a sun's layer, world units."""
+        return 2 / (np.linalg.norm(self.light.matrix[0, :3]) * self.state.viewport[2])
+
+
+@dataclass
+class View:
+    """The camera, and what it draws."""
+
+    lens: fit.Lens
+    meshes: list
+    positions: dict  # key -> positions in view space
+    state: object
+
+
+@dataclass
+class Found:
+    """One shadow map, its camera, and the lights whose layers it holds."""
+
+    passes: MapPasses
+    view: View
+    lights: list  # of lists of layers
+    sampler: str
+    notes: list = field(default_factory=list)
+
+
+def _is_mesh(mesh):
+    """Not a full-screen draw, nor a sky at the far plane."""
+    w = mesh.clip[:, 3]
+    return np.ptp(w) > 1e-6 * np.abs(w).max() and not np.all(mesh.clip[:, 2] >= w * (1 - 1e-7))
+
+
+def _view(frame, found):
+    meshes, known = [], set()
+    for draw in found.camera:
+        frame.state(draw.event)
+        for mesh in frame.meshes(draw, known):
+            known.add(mesh.key)
+            if _is_mesh(mesh):
+                meshes.append(mesh)
+    if not meshes:
+        raise FrameError("the camera draws no triangles in this frame")
+    state = frame.state(meshes[0].event)
+    matrices = [m for _, m in frame.constants(meshes[-1].event)[0]]
+    lens = fit.fit_lens([(m.objects, m.clip) for m in meshes], matrices)
+    return View(lens, meshes, {m.key: lens.view_of(m.clip, state.conventions.y_up) for m in meshes}, state)
+
+
+def _layers(frame, found, view):
+    grouped = {}
+    for draw in found.writers:
+        state = frame.state(draw.event)
+        layer = grouped.setdefault((state.slice, state.viewport), Layer(state, [], []))
+        layer.events.append(draw.event)
+        layer.meshes += frame.meshes(draw)
+    layers = [layer for layer in grouped.values() if _fit_layer(layer, view)]
+    whole = next((layer for layer in layers if layer.light.rank == 4), None)
+    for layer in layers:
+        if layer.light.rank < 4 and whole:
+            views, clips = _pairs(layer, view)
+            layer.light = fit.complete_flat(layer.light, views, clips, whole.light.matrix)
+        layer.place = fit.light_place(layer.light.matrix, layer.state.reversed)
+    return layers
+
+
+def _pairs(layer, view):
+    pairs = [(view.positions[m.key], m.clip) for m in layer.meshes if m.key in view.positions and len(view.positions[m.key]) == len(m.clip)]
+    layer.matched = len(pairs)
+    if not pairs:
+        return None
+    return np.concatenate([p for p, _ in pairs]), np.concatenate([c for _, c in pairs])
+
+
+def _fit_layer(layer, view):
+    pairs = _pairs(layer, view)
+    if pairs is None or len(pairs[0]) < 4:
+        return False
+    layer.light = fit.fit_light(*pairs)
+    return True
+
+
+def _by_light(layers):
+    """Layers of one light together, finest first."""
+    lights = []
+    for layer in layers:
+        same = next((light for light in lights if light[0].place.is_same(layer.place)), None)
+        if same is None:
+            lights.append([layer])
+        else:
+            same.append(layer)
+    for light in lights:
+        if light[0].place.apex is None:
+            light.sort(key=lambda layer: layer.texel)
+    return lights
+
+
+def look_at(frame, map_passes):
+    """What is known of one map before anything is replaced."""
+    view = _view(frame, map_passes)
+    layers = _layers(frame, map_passes, view)
+    if not layers:
+        raise FrameError("no mesh is drawn both by the camera and into the shadow map, so that the light cannot be told")
+    last = map_passes.readers[-1].event
+    return Found(map_passes, view, _by_light(layers), frame.reads(last).get(map_passes.texture, ""))
+
+
+def read_layers(frame, found, layers):
+    """The reader's matrix of each layer, and what moved the casters."""
+    matrices, numbers = frame.constants(found.passes.readers[-1].event)
+    for layer in layers:
+        layer.reader = find_reader(matrices, layer.light.matrix, layer.stored_row)
+        layer.matrix = np.array([*layer.light.matrix[:2], layer.stored_row, layer.light.matrix[3]])
+        if layer.reader:
+            layer.matrix = layer.reader.matrix
+            if layer.reader.has_depth:
+                layer.shift = caster_shift(layer.light.matrix, layer.stored_row, layer.reader, layer.state.reversed)
+    return [value for _, value in numbers]
+
+
+def _cut(layer, picture):
+    x, y, width, height = (int(round(v)) for v in layer.state.viewport)
+    return picture[y:y + height, x:x + width, 0]
+
+
+@dataclass
+class Pixels:
+    """The camera's picture of one light, its first row at the top."""
+
+    positions: np.ndarray  # view space
+    drawn: np.ndarray  # whether anything was
+    visibility: np.ndarray
+    asked: np.ndarray
+
+
+def positions_of(depth, view):
+    """(positions, whether anything was drawn) of the camera's depth buffer, whose own first row comes first."""
+    lens, clip = view.lens, view.state.conventions
+    depth = depth[::-1] if clip.bottom_row_first == clip.y_up else depth
+    drawn = depth != (0.0 if view.state.reversed else 1.0)
+    quotient = 2 * depth - 1 if clip.minus_one else depth
+    w = np.where(drawn, lens.zb / np.where(drawn, quotient - lens.za, 1), 0)
+    height, width = depth.shape
+    x, y = np.meshgrid((np.arange(width) + 0.5) / width * 2 - 1, 1 - (np.arange(height) + 0.5) / height * 2)
+    up = 1.0 if clip.y_up else -1.0
+    return np.stack([(x - lens.cx) * w / lens.fx, (y - up * lens.cy) * w / lens.fy, -w], -1), drawn
+
+
+def _flip(picture, view):
+    clip = view.state.conventions
+    return picture[::-1] if clip.bottom_row_first == clip.y_up else picture
+
+
+def measure(frame, found, layers, encoded):
+    """Pixels of one light, and notes: three replays."""
+    slices = sorted({layer.state.slice for layer in layers})
+    if frame.textures[found.passes.picture].samples > 1:
+        raise FrameError("the picture has several samples a pixel: record a frame without MSAA")
+    drawn = visibility.take_pictures(frame, found.passes, slices, encoded)
+    for layer in layers:
+        layer.texels = _cut(layer, drawn.maps[layer.state.slice])
+    seen = visibility.measure(frame, found.passes, layers, found.view.lens, drawn, encoded)
+    positions, is_drawn = positions_of(drawn.depth, found.view)
+    pixels = Pixels(positions, is_drawn, _flip(seen.values, found.view).copy(), _flip(seen.asked, found.view) & is_drawn)
+    if layers[0].place.apex is None:
+        _light_beside_casters(pixels, layers, seen.full_map)
+    if not seen.untouched:
+        found.notes.append("the stand-ins for the casters changed the camera's depth, too: they share a shader, and some pixels may be wrong")
+    if seen.darkest > 0.01:
+        found.notes.append(f"full shadow leaves {100 * seen.darkest:.0f} % of the lit picture: ambient light, other lights, a fade with the "
+                           f"distance, or a strength of {1 - seen.darkest:.2f}; it is taken out")
+    return pixels
+
+
+def _light_beside_casters(pixels, layers, full_maps):
+    """A sun's pixels whose texel no caster covers, or that lie outside of all layers: the stand-ins do not reach them; they are lit."""
+    unknown = pixels.drawn & ~pixels.asked
+    places = pixels.positions[unknown]
+    covered = np.zeros(len(places), bool)
+    for layer in layers:
+        column, row, _, inside = lookup.texel_places(layer, places)
+        full = _cut(layer, full_maps[layer.state.slice])
+        at = full[np.clip(row, 0, full.shape[0] - 1).astype(int), np.clip(column, 0, full.shape[1] - 1).astype(int)]
+        covered |= inside & (at == (1.0 if layer.state.reversed else 0.0))
+    lit = unknown.copy()
+    lit[unknown] = ~covered
+    pixels.visibility[lit] = 1
+    pixels.asked |= lit
+
+
+@dataclass
+class Test:
+    """How the frame's own test decides, as far as the picture tells."""
+
+    selection: lookup.Selection
+    agreement: float  # share of sure pixels that the test as described decides as the picture has them
+    without_constant: float  # the same before the reader's own bias was looked for
+    partly_lit: float  # share of pixels between lit and shadowed
+    radius: float | None  # of the filter, texels; None where there is none
+
+
+def find_test(found, layers, pixels, numbers):
+    """The choice of cascades, the reader's own bias and the filter's reach, found from the picture."""
+    value = pixels.visibility[pixels.asked]
+    places = pixels.positions[pixels.asked]
+    sure = (value < lookup.SURE) | (value > 1 - lookup.SURE)
+    lit = value[sure] > 0.5
+    at = places[sure]
+    margins = [lookup.margins(layer, at) for layer in layers]
+    keys = {"view_z": -at[:, 2], "distance": np.linalg.norm(at, axis=1)} if layers[0].place.apex is None else {}
+    selection, chosen = lookup.choose_layers(margins, lit, keys, numbers)
+    before = selection.share
+    right = np.array(chosen < 0) & lit
+    for k, layer in enumerate(layers):
+        mine = chosen == k
+        layer.constant, _, _ = lookup.best_constant(margins[k].values[mine], lit[mine], numbers)
+        right[mine] = (margins[k].values[mine] + layer.constant >= 0) == lit[mine]
+    partly = 1 - float(sure.mean()) if len(sure) else 0.0
+    radius = None
+    if partly > 2e-3:
+        reach = lookup.filter_radius(layers[0], places[~sure])
+        radius = None if reach is None else float(reach) if "compare" in found.sampler and "linear" in found.sampler else reach + 0.5
+    return Test(selection, float(right.mean()) if len(right) else 1.0, 1 - before, partly, radius)
