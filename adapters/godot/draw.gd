@@ -10,10 +10,10 @@ var settings = {
 	"mode": "orthogonal",  # orthogonal, pssm2, pssm4 of suns; cube, paraboloid of point lights
 	"bias": "0.1", "normal_bias": "0", "contact": "0", "max_distance": "0", "ambient": "0",
 	"map_size": "2048", "filter": "0",  # 0: none, 1: PCF 5, 2: PCF 13
-	"columns": "0", "vertices": "0",  # a grid of so many vertices more, for measurements
 }
 var glb  # the JSON part of the scene file
 var blob  # its binary part
+var shadow_light
 
 func _ready():
 	for word in OS.get_cmdline_args():
@@ -26,13 +26,18 @@ func _ready():
 	add_child(view)
 	for node in glb["nodes"]:
 		add_node(view, node)
-	var light = add_light(view)
+	shadow_light = add_light(view)
 	var shown = TextureRect.new()
 	shown.texture = view.get_texture()
 	add_child(shown)
 	if settings["stay"] == "0":
-		yield(write_capture(view, light), "completed")
+		yield(write_capture(view, shadow_light), "completed")
 		get_tree().quit()
+
+# Maps of spots and points are drawn anew when the light moves: it turns about its own axis, so each frame has them.
+func _process(_delta):
+	if shadow_light != null and settings["stay"] != "0":
+		shadow_light.rotate_object_local(Vector3(0, 0, 1), 0.001)
 
 func stop(text):
 	printerr("draw.gd: ", text)

@@ -72,7 +72,10 @@ def write(folder, frame, found, layers, pixels, test, name):
     near, far, _ = lens.planes(view.state.conventions.minus_one)
     height, width = pixels.drawn.shape
     drawn = pixels.drawn.astype(float)
-    files.write_exr(os.path.join(folder, "visibility.exr"), {"V": np.clip(pixels.visibility, 0, 1), "A": pixels.asked.astype(float)})
+    # As a ratio: a pixel that the light does not reach without shadows either is not compared.
+    asked = pixels.asked.astype(float)
+    files.write_exr(os.path.join(folder, "shadowed.exr"), {"Y": np.clip(pixels.visibility, 0, 1) * asked})
+    files.write_exr(os.path.join(folder, "unshadowed.exr"), {"Y": asked})
     files.write_exr(os.path.join(folder, "position.exr"), {c: pixels.positions[..., i] * drawn for i, c in enumerate("XYZ")} | {"A": drawn})
     camera = {"yfov": 2 * np.arctan(1 / lens.fy), "aspect": width / height, "near": max(near, 1e-4), "far": far}
     files.write_glb(os.path.join(folder, "scene.glb"), _shapes(view, layers), camera, light_node(layers))
@@ -85,6 +88,6 @@ def write(folder, frame, found, layers, pixels, test, name):
     kind = {"kind": "none"} if test.radius is None else {"kind": "pcf", "radius_texels": min(test.radius, 64)}
     files.write_capture(folder, {
         "renderer": {"name": name, "version": "a frame recorded with RenderDoc", "settings": settings}, "scene": "scene.glb", "size": [width, height],
-        "visibility": "visibility.exr", "position": "position.exr",
+        "shadowed": "shadowed.exr", "unshadowed": "unshadowed.exr", "position": "position.exr",
         "map": [_layer(folder, k, layer, test, len(layers)) for k, layer in enumerate(layers)], "filter": kind})
     return os.path.join(folder, "capture.json")

@@ -1,5 +1,8 @@
-"""The command line: python3 adapters/renderdoc FRAME.rdc -o DIR [--light N] | --list."""
+"""The command line: python3 adapters/renderdoc FRAME.rdc -o DIR [--light N] | --list. Its lines begin with what they are, so that
+`gnomon judge`, which starts it, can tell them from what drivers say: "found: ", "light N: ", "error: "."""
 import argparse
+import os
+import shutil
 import sys
 
 from .errors import FrameError
@@ -50,23 +53,39 @@ def run(frame, given, say):
     pixels = extract.measure(frame, found, layers, given.encoding == "srgb")
     test = extract.find_test(found, layers, pixels, numbers)
     for line in report.findings(found, layers, test):
-        say(line)
-    import os
+        say("found: " + line)
     return capture.write(given.output, frame, found, layers, pixels, test, given.name or os.path.splitext(os.path.basename(given.frame))[0])
 
 
+def _on_a_display(words):
+    """OpenGL is replayed on a display: where there is none this process goes on below xvfb-run, or returns."""
+    if shutil.which("xvfb-run"):
+        package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+        os.execvp("xvfb-run", ["xvfb-run", "--auto-servernum", "--server-args=-screen 0 64x64x24", sys.executable, "-B", package, *words])
+
+
 def main(words=None):
-    """Exit codes are those of gnomon: 0 done, 2 wrong words, 3 a frame that no capture can be made of, 5 RenderDoc is missing."""
+    """Exit codes are those of gnomon: 0 done, 2 wrong words, 3 a frame that no capture can be made of, 4 a folder that cannot be
+    written, 5 RenderDoc's module or a display is missing."""
+    words = sys.argv[1:] if words is None else words
     given = _arguments(words)
+    say = lambda line: print(line, flush=True)
     try:
-        from .replay import Frame
+        from .replay import Frame, NoDisplay
     except ImportError as error:
-        print(f"{error}: on Debian, apt install python3-renderdoc python3-numpy", file=sys.stderr)
+        say(f"error: {error}. Frames are replayed by RenderDoc's module for Python (Debian: apt install python3-renderdoc python3-numpy)")
         return 5
     try:
         with Frame.open(given.frame) as frame:
-            run(frame, given, lambda line: print(line, flush=True))
+            run(frame, given, say)
+    except NoDisplay as error:
+        _on_a_display(words)
+        say(f"error: {error}")
+        return 5
     except FrameError as error:
-        print(error, file=sys.stderr)
+        say(f"error: {error}")
         return 3
+    except OSError as error:
+        say(f"error: {error}")
+        return 4
     return 0

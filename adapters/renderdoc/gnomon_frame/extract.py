@@ -144,6 +144,7 @@ def read_layers(frame, found, layers):
         layer.matrix = np.array([*layer.light.matrix[:2], layer.stored_row, layer.light.matrix[3]])
         if layer.reader:
             layer.matrix = layer.reader.matrix
+            layer.place = fit.light_place(layer.matrix, layer.state.reversed)
             if layer.reader.has_depth:
                 layer.shift = caster_shift(layer.light.matrix, layer.stored_row, layer.reader, layer.state.reversed)
     return [value for _, value in numbers]

@@ -3,6 +3,7 @@
 Written for RenderDoc 1.24, which Debian 12 has, on OpenGL and Vulkan; what Direct3D and the bindings of later versions need is
 here as well, and has not been run. Events and resources are plain integers outside of this file.
 """
+import os
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
@@ -11,6 +12,10 @@ import renderdoc as rd
 
 from . import conventions, formats, stand_ins
 from .errors import FrameError
+
+
+class NoDisplay(FrameError):
+    """OpenGL is replayed on a display of X11, and there is none."""
 
 
 @dataclass(frozen=True)
@@ -96,6 +101,8 @@ class Frame:
             if file.LocalReplaySupport() != rd.ReplaySupport.Supported:
                 raise FrameError(f"{path} was recorded with {file.DriverName()}, which cannot be replayed on this system: "
                                  "open it in qrenderdoc where it was recorded")
+            if file.DriverName() == "OpenGL" and os.name == "posix" and not os.environ.get("DISPLAY"):
+                raise NoDisplay("frames of OpenGL are replayed on a display, and DISPLAY names none (Debian: apt install xvfb)")
             status, controller = file.OpenCapture(rd.ReplayOptions(), None)
             if status != rd.ResultCode.Succeeded:
                 raise FrameError(f"{path} cannot be replayed here: {status.Message()}")
