@@ -20,6 +20,7 @@ func _ready():
 		var pair = word.trim_prefix("--").split("=")
 		if pair.size() == 2 and settings.has(pair[0]):
 			settings[pair[0]] = pair[1]
+	ProjectSettings.set_setting("rendering/quality/shadows/filter_mode", int(settings["filter"]))
 	if not read_glb(settings["scene"]):
 		return stop("--scene: %s is no GLB that can be read" % settings["scene"])
 	var view = make_view()

@@ -124,7 +124,8 @@ std::string name_of(const std::string& path) {
 }
 
 /// Makes a capture of a recorded frame in `folder` and puts its capture.json in the frame's place.
-Expected<void> make_capture(const JudgeCommand& command, std::string& path, const std::string& folder, Console& console) {
+Expected<void> make_capture(const JudgeCommand& command, std::string& path, const std::string& folder,
+                            Console& console) {
   const OutputGuard whole_outputs;
   auto staged = StagedFolder::open(folder);
   if (!staged) return fail(staged.error());
@@ -146,8 +147,9 @@ Expected<void> make_captures(JudgeCommand& command, Console& console) {
     command.light = std::exchange(command.parts.given.light, "");
     const std::string name = name_of(path);
     if (single && command.output.folder.empty()) command.output.folder = "out/" + name;
-    const std::string folder = single ? command.output.folder
-                                      : (command.output.folder.empty() ? "out/judge" : command.output.folder) + "/" + name;
+    const std::string folder =
+        single ? command.output.folder
+               : (command.output.folder.empty() ? "out/judge" : command.output.folder) + "/" + name;
     if (const auto made = make_capture(command, path, folder + "-capture", console); !made) return made;
   }
   return {};
@@ -324,14 +326,15 @@ Expected<ExitCode> run_judge(JudgeCommand& command) {
 }
 
 void add_options(CLI::App& app, JudgeCommand& command) {
-  app.add_option(
-         "CAPTURE", command.captures,
-         "captures (gnomon/capture/2 or 1, docs/judge.md), or frames that RenderDoc recorded, of which captures are "
-         "made in folders that end in -capture [may be left out where the options say it all]")
+  app.add_option("CAPTURE", command.captures,
+                 "captures (gnomon/capture/2 or 1, docs/judge.md), or frames that RenderDoc recorded, of "
+                 "which captures are "
+                 "made in folders that end in -capture [may be left out where the options say it all]")
       ->type_name("CAPTURE.json|FRAME.rdc");
-  app.add_flag("--list", command.list,
-               "print the lights of a recorded frame that have a shadow map; --light N takes another than the first "
-               "[default off]");
+  app.add_flag(
+      "--list", command.list,
+      "print the lights of a recorded frame that have a shadow map; --light N takes another than the first "
+      "[default off]");
   add_result_output(app, command.output, "out/NAME of the capture, out/judge of several");
   app.add_option(
          "--suite", command.suite,
@@ -363,7 +366,7 @@ void add_judge(CLI::App& program, Invocation& invocation) {
       "gnomon judge capture.json -o report\n"
       "gnomon judge capture.json --fix --fail-above 1%\n"
       "gnomon judge a.json b.json -o verdicts      one table, the worst first\n"
-      "gnomon judge frame.rdc --light 2            of any engine, recorded with RenderDoc\n"
+      "gnomon judge frame.rdc --light 2            of any engine, by RenderDoc\n"
       "gnomon judge --renderer mine --scene model.glb --size 640x360 --visibility shadow.png");
   const auto command = std::make_shared<JudgeCommand>();
   command->command_line = invocation.command_line;

@@ -25,7 +25,8 @@ struct ProgramEnd {
 };
 
 /// As run_program(), but what the program says is kept and returned. ErrorKind::graphics, too, where there is no memory for it.
-Expected<ProgramEnd> run_and_listen(std::vector<std::string> words, std::optional<double> longest_s = std::nullopt);
+Expected<ProgramEnd> run_and_listen(std::vector<std::string> words,
+                                    std::optional<double> longest_s = std::nullopt);
 
 /// Programs that run are ended, which is waited for some seconds at most, and no other is started any more: this process is
 /// about to end.

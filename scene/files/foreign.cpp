@@ -76,8 +76,9 @@ Expected<std::string> converted(const std::string& file) {
       {"prlimit", "--as=4000000000", "--cpu=120", "assimp", "export", path, glb.path(), "-fglb2"}, longest_s);
   if (!end) return foreign_error(file, end.error().kind, end.error().reason);
   constexpr int not_found = 127, not_started = 1;  // prlimit's own ends
-  const bool is_missing = end->code == not_found ||
-                          (end->code == not_started && end->said.find("failed to execute") != std::string::npos);
+  const bool is_missing =
+      end->code == not_found ||
+      (end->code == not_started && end->said.find("failed to execute") != std::string::npos);
   if (is_missing)
     return foreign_error(
         file, ErrorKind::bad_input,

@@ -37,8 +37,10 @@ std::vector<std::string> lines_with(const std::string& said, std::string_view wo
 }
 
 ErrorKind kind_of(int code) {
-  return code == 2 ? ErrorKind::usage : code == 3 ? ErrorKind::bad_input : code == 4 ? ErrorKind::cannot_write
-                                                                                     : ErrorKind::graphics;
+  return code == 2   ? ErrorKind::usage
+         : code == 3 ? ErrorKind::bad_input
+         : code == 4 ? ErrorKind::cannot_write
+                     : ErrorKind::graphics;
 }
 
 Expected<std::string> run_script(const std::string& frame, std::vector<std::string> options) {
@@ -46,16 +48,18 @@ Expected<std::string> run_script(const std::string& frame, std::vector<std::stri
   if (!there) return fail(there.error());
   if (!*there) return frame_error(frame, ErrorKind::bad_input, "no such file");
   // Debian's own Python has the module for RenderDoc; another one of the PATH does not.
-  const std::string python = file_kind_or_none("/usr/bin/python3") == FileKind::file ? "/usr/bin/python3" : "python3";
-  std::vector<std::string> words{"prlimit", "--as=16000000000", python, "-B", script(),
-                                 (frame.starts_with('-') ? "./" : "") + frame};
+  const std::string python =
+      file_kind_or_none("/usr/bin/python3") == FileKind::file ? "/usr/bin/python3" : "python3";
+  std::vector<std::string> words{"prlimit", "--as=16000000000", python,
+                                 "-B",      script(),           (frame.starts_with('-') ? "./" : "") + frame};
   words.insert(words.end(), options.begin(), options.end());
   const auto end = run_and_listen(std::move(words), longest_s);
   if (!end) return frame_error(frame, end.error().kind, end.error().reason);
   if (end->code == 0) return end->said;
   const auto errors = lines_with(end->said, "error: ", false);
-  return frame_error(frame, kind_of(end->code),
-                     errors.empty() ? fmt::format("the replay ended with code {}", end->code) : errors.front());
+  return frame_error(
+      frame, kind_of(end->code),
+      errors.empty() ? fmt::format("the replay ended with code {}", end->code) : errors.front());
 }
 
 }  // namespace

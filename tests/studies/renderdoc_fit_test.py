@@ -145,6 +145,14 @@ class Reader(unittest.TestCase):
         casters, stored = self.casters(projection, 0)
         self.assertEqual(reader.find_reader([("shadow", BIAS @ projection @ TO_SUN @ np.diag([1, 1, -1, 1.0]))], casters, stored).before, "view space")
 
+    def test_depths_decide_where_all_axes_could_be_turned_round(self):
+        for k in range(20):
+            to_light = turned(0.3 + 0.1 * k, (1, 0.2 * k, 0.5)) @ shifted(k, 1, 6)
+            casters = parallel(3 + k, -10, 20) @ to_light
+            stored = conventions.opengl().window_row(casters[2], casters[3])
+            found = reader.find_reader([("shadow", (BIAS @ casters).astype(np.float32).astype(float))], casters, stored)
+            self.assertTrue(found.has_depth)
+
     def test_another_lights_matrix_is_none(self):
         casters, stored = self.casters(parallel(8, -10, 20), 0)
         other = BIAS @ parallel(8, -10, 20) @ turned(0.05, (1, 0, 0)) @ TO_SUN

@@ -79,12 +79,13 @@ def _match(name, candidates, ways, casters, stored_row):
             _misfit(t[:, r], [casters[r], w])
         turned = np.abs(t[:, r, :3] @ casters[r, :3]) < 1e-9 * np.linalg.norm(casters[r, :3])
         off = np.maximum(off, np.where(turned, 1.0, direct))
-    k = int(np.argmin(off))
-    if off[k] > ENOUGH:
-        return None
-    depth, has_depth = _depth_row(t[k], stored_row)
-    matrix = np.array([casters[0], casters[1], depth, t[k, 3]])
-    return float(off[k]), kept[k][0], matrix, has_depth
+    # All axes turned round give a sun the same x and y: its depths decide.
+    best = None
+    for k in np.flatnonzero(off <= ENOUGH):
+        depth, has_depth = _depth_row(t[k], stored_row)
+        if best is None or (has_depth, -off[k]) > (best[3], -best[0]):
+            best = float(off[k]), kept[k][0], np.array([casters[0], casters[1], depth, t[k, 3]]), has_depth
+    return best
 
 
 def _depth_row(t, stored_row):

@@ -1,0 +1,130 @@
+"""Frames that Godot draws, recorded, judged, and drawn again as advised. /usr/bin/python3 renderdoc_engine_test.py GNOMON SOURCE FOLDER"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+GNOMON, SOURCE, FOLDER = (os.path.abspath(word) for word in sys.argv[1:4])
+del sys.argv[1:4]
+PYTHON = "/usr/bin/python3"
+
+
+def skip(why):
+    print("skipped: " + why)
+    sys.exit(77)
+
+
+for package, code in (("python3-numpy", "import numpy"), ("python3-renderdoc", "import renderdoc")):
+    if subprocess.run([PYTHON, "-c", code], stderr=subprocess.DEVNULL).returncode:
+        skip(f"{package} is not installed")
+if not shutil.which("godot3") or not shutil.which("xvfb-run"):
+    skip("godot3 is not installed (or xvfb)")
+os.makedirs(FOLDER, exist_ok=True)
+# Mesa's software: the same pictures on every machine.
+SOFTWARE = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1"}
+SOFTWARE.pop("DISPLAY", None)
+LAMPS = {
+    "spot": {"type": "spot", "position": [2.5, 5, 4], "direction": [-2.2, -5, -3.8], "inner_angle_degrees": 28, "outer_angle_degrees": 32},
+    "point": {"type": "point", "position": [1.5, 3, 2]},
+}
+
+
+def run(*words):
+    done = subprocess.run([str(w) for w in words], env=SOFTWARE, cwd=FOLDER, capture_output=True, text=True)
+    if done.returncode:
+        raise AssertionError(f"{' '.join(map(str, words))}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def scene(lamp=None):
+    """A GLB of the scene floating-box, with another lamp in its sun's place."""
+    path = os.path.join(FOLDER, f"{lamp or 'sun'}.glb")
+    if os.path.exists(path):
+        return path
+    source = "floating-box"
+    if lamp:
+        with open(os.path.join(SOURCE, "scene/builtin/floating-box.json"), encoding="utf-8") as file:
+            document = json.loads("".join(line for line in file if not line.startswith("//")))
+        document["lights"] = [{"name": "lamp", "intensity": [60, 60, 60], **LAMPS[lamp]}]
+        source = os.path.join(FOLDER, f"{lamp}.json")
+        with open(source, "w", encoding="utf-8") as file:
+            json.dump(document, file)
+    run(GNOMON, "export", source, "-o", path)
+    return path
+
+
+def frame(name, glb, **settings):
+    """Records a frame of Godot."""
+    path = os.path.join(FOLDER, name + ".rdc")
+    run("xvfb-run", "-a", "-s", "-screen 0 640x480x24", PYTHON, "-B", os.path.join(SOURCE, "adapters/renderdoc/record.py"), "-o", path, "godot3",
+        "--path", os.path.join(SOURCE, "adapters/godot"), "--stay=1", f"--scene={glb}", *[f"--{k}={v}" for k, v in settings.items()])
+    return path
+
+
+def judged(name, glb, **settings):
+    """(capture.json, result.json) of a frame of Godot."""
+    run(GNOMON, "judge", frame(name, glb, **settings), "-o", name)
+    documents = []
+    for path in (f"{name}-capture/capture.json", f"{name}/result.json"):
+        with open(os.path.join(FOLDER, path), encoding="utf-8") as file:
+            documents.append(json.load(file))
+    return documents
+
+
+class Godot(unittest.TestCase):
+    def check(self, result, least=0.999):
+        """V5 is V6 but on borders of texels, and nothing is unexplained."""
+        self.assertGreaterEqual(result["judged"]["biased_is_drawn"], least)
+        self.assertLess(result["lights"][0]["classes"]["unexplained"], 3)
+
+    def bias(self, capture, layer=0):
+        return capture["map"][layer].get("caster_bias", {}).get("constant_world", 0)
+
+    def test_a_suns_bias_is_recovered_and_what_is_advised_is_what_is_then_drawn(self):
+        for setting in (0.1, 0.3, 0.7):
+            capture, result = judged(f"sun-{setting}", scene(), bias=setting)
+            self.check(result)
+            self.assertAlmostEqual(self.bias(capture) / setting, 1, delta=0.01)
+        advice = result["judged"]["advice"][0]
+        self.assertEqual(advice["setting"], "map[].caster_bias.constant_world")
+        self.assertLess(advice["wrong_instead"], 0.8 * advice["wrong_now"])
+        again = judged("sun-advised", scene(), bias=setting * advice["instead"] / advice["now"])[1]
+        self.assertAlmostEqual(again["lights"][0]["error"]["wrong_fraction"], advice["wrong_instead"], delta=0.0005)
+
+    def test_ambient_light_and_filters_are_taken_for_what_they_are(self):
+        capture, result = judged("sun-filtered", scene(), bias=0.1, filter=1, ambient=0.5)
+        self.check(result)
+        self.assertEqual(capture["filter"], {"kind": "pcf", "radius_texels": 2.0})
+
+    def test_cascades_are_told_apart(self):
+        for mode in ("pssm2", "pssm4"):
+            capture, result = judged(mode, scene(), mode=mode)
+            self.check(result)
+        self.assertGreater(len(capture["map"]), 1)
+        self.assertEqual({layer["select"]["by"] for layer in capture["map"]}, {"view_z"})
+
+    def test_a_spot_is_judged_from_its_own_apex(self):
+        capture, result = judged("spot", scene("spot"))
+        self.check(result)
+        self.assertAlmostEqual(self.bias(capture), 0.1, delta=0.001)
+
+    def test_lights_are_listed(self):
+        listed = run(GNOMON, "judge", frame("listed", scene()), "--list")
+        self.assertRegex(listed, r"^light 1: sun, map 2048 x 2048 D24 .*, 6 draws of casters, read by 6 draws from event \d+ on\n$")
+
+    def test_the_scene_script_writes_a_capture_by_itself(self):
+        folder = os.path.join(FOLDER, "alone")
+        os.makedirs(folder, exist_ok=True)
+        run("xvfb-run", "-a", "-s", "-screen 0 640x480x24", "godot3", "--path", os.path.join(SOURCE, "adapters/godot"), f"--scene={scene()}",
+            f"--output={folder}")
+        run(GNOMON, "judge", "alone/capture.json", "-o", "alone-verdict")
+        with open(os.path.join(FOLDER, "alone-verdict/result.json"), encoding="utf-8") as file:
+            result = json.load(file)
+        self.assertTrue(result["judged"]["renderer"]["version"].startswith("3."))
+        self.assertLess(result["lights"][0]["error"]["wrong_fraction"], 0.005)
+
+
+if __name__ == "__main__":
+    unittest.main()
