@@ -1,4 +1,5 @@
-"""Frames that Godot draws, recorded, judged, and drawn again as advised. /usr/bin/python3 renderdoc_engine_test.py GNOMON SOURCE FOLDER"""
+"""Frames that engines draw, recorded, judged, and drawn again as advised, as far as the engines are installed.
+/usr/bin/python3 renderdoc_engine_test.py GNOMON SOURCE FOLDER"""
 import json
 import os
 import shutil
@@ -19,11 +20,17 @@ def skip(why):
 for package, code in (("python3-numpy", "import numpy"), ("python3-renderdoc", "import renderdoc")):
     if subprocess.run([PYTHON, "-c", code], stderr=subprocess.DEVNULL).returncode:
         skip(f"{package} is not installed")
-if not shutil.which("godot3") or not shutil.which("xvfb-run"):
-    skip("godot3 is not installed (or xvfb)")
+QML = "/usr/lib/qt6/bin/qml"
+LAVAPIPE = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json"
+HAS_GODOT = bool(shutil.which("godot3"))
+HAS_QUICK3D = all(os.path.exists(p) for p in (QML, LAVAPIPE, "/usr/lib/x86_64-linux-gnu/qt6/qml/QtQuick3D"))
+if not shutil.which("xvfb-run"):
+    skip("xvfb-run is not installed")
+if not HAS_GODOT and not HAS_QUICK3D:
+    skip("godot3 is not installed, nor Qt Quick 3D")
 os.makedirs(FOLDER, exist_ok=True)
 # Mesa's software: the same pictures on every machine.
-SOFTWARE = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1"}
+SOFTWARE = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1", "VK_ICD_FILENAMES": LAVAPIPE, "QSG_RHI_BACKEND": "vulkan", "QSG_RENDER_LOOP": "basic"}
 SOFTWARE.pop("DISPLAY", None)
 LAMPS = {
     "spot": {"type": "spot", "position": [2.5, 5, 4], "direction": [-2.2, -5, -3.8], "inner_angle_degrees": 28, "outer_angle_degrees": 32},
@@ -55,24 +62,31 @@ def scene(lamp=None):
     return path
 
 
-def frame(name, glb, **settings):
-    """Records a frame of Godot."""
+def record(name, *words):
+    """Records a frame of a program."""
     path = os.path.join(FOLDER, name + ".rdc")
-    run("xvfb-run", "-a", "-s", "-screen 0 640x480x24", PYTHON, "-B", os.path.join(SOURCE, "adapters/renderdoc/record.py"), "-o", path, "godot3",
-        "--path", os.path.join(SOURCE, "adapters/godot"), "--stay=1", f"--scene={glb}", *[f"--{k}={v}" for k, v in settings.items()])
+    run("xvfb-run", "-a", "-s", "-screen 0 640x480x24", PYTHON, "-B", os.path.join(SOURCE, "adapters/renderdoc/record.py"), "-o", path, *words)
     return path
 
 
-def judged(name, glb, **settings):
-    """(capture.json, result.json) of a frame of Godot."""
-    run(GNOMON, "judge", frame(name, glb, **settings), "-o", name)
+def frame(name, glb, **settings):
+    """Records a frame of Godot."""
+    return record(name, "godot3", "--path", os.path.join(SOURCE, "adapters/godot"), "--stay=1", f"--scene={glb}",
+                  *[f"--{k}={v}" for k, v in settings.items()])
+
+
+def judged(path):
+    """(capture.json, result.json) of a frame."""
+    name = os.path.splitext(os.path.basename(path))[0]
+    run(GNOMON, "judge", path, "-o", name)
     documents = []
-    for path in (f"{name}-capture/capture.json", f"{name}/result.json"):
-        with open(os.path.join(FOLDER, path), encoding="utf-8") as file:
+    for document in (f"{name}-capture/capture.json", f"{name}/result.json"):
+        with open(os.path.join(FOLDER, document), encoding="utf-8") as file:
             documents.append(json.load(file))
     return documents
 
 
+@unittest.skipUnless(HAS_GODOT, "godot3 is not installed")
 class Godot(unittest.TestCase):
     def check(self, result, least=0.999):
         """V5 is V6 but on borders of texels, and nothing is unexplained."""
@@ -84,31 +98,40 @@ class Godot(unittest.TestCase):
 
     def test_a_suns_bias_is_recovered_and_what_is_advised_is_what_is_then_drawn(self):
         for setting in (0.1, 0.3, 0.7):
-            capture, result = judged(f"sun-{setting}", scene(), bias=setting)
+            capture, result = judged(frame(f"sun-{setting}", scene(), bias=setting))
             self.check(result)
             self.assertAlmostEqual(self.bias(capture) / setting, 1, delta=0.01)
         advice = result["judged"]["advice"][0]
         self.assertEqual(advice["setting"], "map[].caster_bias.constant_world")
         self.assertLess(advice["wrong_instead"], 0.8 * advice["wrong_now"])
-        again = judged("sun-advised", scene(), bias=setting * advice["instead"] / advice["now"])[1]
+        again = judged(frame("sun-advised", scene(), bias=setting * advice["instead"] / advice["now"]))[1]
         self.assertAlmostEqual(again["lights"][0]["error"]["wrong_fraction"], advice["wrong_instead"], delta=0.0005)
 
     def test_ambient_light_and_filters_are_taken_for_what_they_are(self):
-        capture, result = judged("sun-filtered", scene(), bias=0.1, filter=1, ambient=0.5)
+        capture, result = judged(frame("sun-filtered", scene(), bias=0.1, filter=1, ambient=0.5))
         self.check(result)
         self.assertEqual(capture["filter"], {"kind": "pcf", "radius_texels": 2.0})
 
     def test_cascades_are_told_apart(self):
         for mode in ("pssm2", "pssm4"):
-            capture, result = judged(mode, scene(), mode=mode)
+            capture, result = judged(frame(mode, scene(), mode=mode))
             self.check(result)
         self.assertGreater(len(capture["map"]), 1)
         self.assertEqual({layer["select"]["by"] for layer in capture["map"]}, {"view_z"})
 
     def test_a_spot_is_judged_from_its_own_apex(self):
-        capture, result = judged("spot", scene("spot"))
+        capture, result = judged(frame("spot", scene("spot")))
         self.check(result)
         self.assertAlmostEqual(self.bias(capture), 0.1, delta=0.001)
+
+    def test_a_points_map_is_no_projection_but_its_bias_is_told(self):
+        for mode in ("paraboloid", "cube"):
+            capture, result = judged(frame(mode, scene("point"), mode=mode))
+            self.assertNotIn("map", capture)
+            self.assertLess(result["lights"][0]["error"]["wrong_fraction"], 0.005)
+        said = subprocess.run([PYTHON, "-B", os.path.join(SOURCE, "adapters/renderdoc"), "paraboloid.rdc", "-o", "paraboloid-again"], cwd=FOLDER,
+                              env=SOFTWARE, capture_output=True, text=True).stdout
+        self.assertIn("found: casters are drawn 0.1000 world units away from the light", said)
 
     def test_lights_are_listed(self):
         listed = run(GNOMON, "judge", frame("listed", scene()), "--list")
@@ -126,5 +149,21 @@ class Godot(unittest.TestCase):
         self.assertLess(result["lights"][0]["error"]["wrong_fraction"], 0.005)
 
 
+@unittest.skipUnless(HAS_QUICK3D, "Qt Quick 3D is not installed")
+class Quick3D(unittest.TestCase):
+    def test_an_exponential_map_is_judged_with_its_blur_and_factor_named(self):
+        capture, result = judged(record("quick3d", "--frame", "20", QML, os.path.join(SOURCE, "adapters/quick3d/draw.qml")))
+        self.assertEqual(capture["filter"]["kind"], "esm")
+        # shadowFactor is 75; half floats and eight bits of the picture leave it within a tenth.
+        self.assertAlmostEqual(capture["renderer"]["settings"]["exponent"] / 75, 1, delta=0.1)
+        self.assertEqual(capture["renderer"]["settings"]["matrix"], "cbMain_var.qt_shadowmap0_matrix")
+        self.assertNotIn("caster_bias", capture["map"][0])
+        self.assertTrue(result["judged"]["map"])
+        self.assertLess(result["lights"][0]["classes"]["unexplained"], 3)
+
+
 if __name__ == "__main__":
+    for engine, there in (("godot3", HAS_GODOT), ("qt6-quick3d", HAS_QUICK3D)):
+        if not there:
+            print(f"skipped: {engine} is not installed")
     unittest.main()

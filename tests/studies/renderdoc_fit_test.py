@@ -1,5 +1,6 @@
 """The numbers of adapters/renderdoc on vertices, constants and maps that are made here, so that everything is known beforehand;
 RenderDoc is not needed. /usr/bin/python3 renderdoc_fit_test.py FOLDER_OF_THE_ADAPTER"""
+import importlib.util
 import json
 import os
 import struct
@@ -14,8 +15,9 @@ except ImportError:
     print("skipped: python3-numpy is not installed")
     sys.exit(77)
 
-sys.path.insert(0, sys.argv.pop(1))
-from gnomon_frame import conventions, files, fit, formats, lookup, passes, reader, spirv, stand_ins  # noqa: E402
+ADAPTER = os.path.abspath(sys.argv.pop(1))
+sys.path.insert(0, ADAPTER)
+from gnomon_frame import conventions, files, fit, formats, lookup, pairing, passes, reader, spirv, stand_ins  # noqa: E402
 
 ARITHMETIC = 2e-6  # positions are kept as 32-bit floats
 CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
@@ -108,10 +110,41 @@ class Light(unittest.TestCase):
         found = fit.complete_flat(found, flat, drawn(far, flat), near)
         self.assertLess(np.abs(found.matrix[:2] - far[:2]).max(), 1e-5)
 
+    def test_of_a_flat_face_of_a_cube_takes_another_faces_axes(self):
+        faces = [perspective(1, 1, 0.1, 50, True) @ turned(angle, axis) @ TO_SUN for angle, axis in ((0, (1, 0, 0)), (np.pi / 2, (0, 1, 0)))]
+        flat = VIEWS * [1, 0, 1]
+        found = fit.complete_flat(fit.fit_light(flat, drawn(faces[1], flat)), flat, drawn(faces[1], flat), faces[0])
+        self.assertLess(np.abs(found.matrix - faces[1]).max(), 1e-5)
+
     def test_is_one_for_cascades_and_another_for_another_sun(self):
         one, coarse, other = (fit.light_place(parallel(h, 0, 9) @ m) for h, m in ((3, TO_SUN), (9, TO_SUN), (3, turned(0.02, (1, 0, 0)) @ TO_SUN)))
         self.assertTrue(one.is_same(coarse))
         self.assertFalse(one.is_same(other))
+
+
+    def test_whose_map_stores_distances_is_found_with_what_moved_the_casters(self):
+        apex = np.array([0.5, 2.0, -4.0])
+        stored = (np.linalg.norm(VIEWS - apex, axis=1) + 0.1) / 40
+        found = fit.fit_distance(VIEWS, stored.astype(np.float32).astype(float))
+        self.assertLess(np.abs(found.apex - apex).max(), 1e-3)
+        self.assertAlmostEqual(found.moved, 0.1, delta=1e-3)
+        self.assertIsNone(fit.fit_distance(VIEWS, VIEWS[:, 2] ** 3))
+
+
+class Pairing(unittest.TestCase):
+    def test_objects_of_one_mesh_are_told_apart_though_each_pass_has_its_order(self):
+        light = parallel(8, -10, 20) @ TO_SUN
+        views = [(fit.homogeneous(CUBE) @ m.T)[:, :3] for m in PLACES]
+        floor = CUBE * [9, 0, 9]
+        cameras = [("box", v) for v in views] + [("floor", floor)]
+        casters = [("floor", drawn(light, floor))] + [("box", drawn(light, views[k])) for k in (2, 0, 3)] + [("other", drawn(light, CUBE))]
+        self.assertEqual(pairing.pair(casters, cameras), [4, 2, 0, 3, None])
+
+    def test_a_caster_that_the_camera_does_not_draw_has_no_pair(self):
+        light = parallel(8, -10, 20) @ TO_SUN
+        views = [(fit.homogeneous(CUBE) @ m.T)[:, :3] for m in PLACES]
+        casters = [("box", drawn(light, v)) for v in views]
+        self.assertEqual(pairing.pair(casters, [("box", v) for v in views[1:]]), [None, 0, 1, 2])
 
 
 class Reader(unittest.TestCase):
@@ -139,6 +172,17 @@ class Reader(unittest.TestCase):
         found = reader.find_reader([("shadow", BIAS @ projection @ TO_SUN)], casters, stored)
         self.assertIsNotNone(found)
         self.assertAlmostEqual(reader.caster_shift(casters, stored, found).world, 0.2, delta=1e-6)
+
+    def test_world_is_reached_through_a_models_matrix(self):
+        world = turned(1.1, (0, 1, 0.2)) @ shifted(3, -2, 8)  # the engine's world from view space
+        model = world @ PLACES[1]
+        ways = reader.through_model([("model", model.T), ("other", TO_SUN)], CUBE, (fit.homogeneous(CUBE) @ PLACES[1].T)[:, :3])
+        self.assertTrue(any(np.allclose(m, world) for _, m in ways))
+        projection = parallel(8, -10, 20)
+        casters, stored = self.casters(projection, 0)
+        constants = [("shadow", BIAS @ projection @ TO_SUN @ np.linalg.inv(world))]
+        self.assertIsNone(reader.find_reader(constants, casters, stored))
+        self.assertEqual(reader.find_reader(constants, casters, stored, ways).name, "shadow")
 
     def test_other_axes_of_the_engine_are_tried(self):
         projection = parallel(8, -10, 20)
@@ -285,6 +329,11 @@ class Passes(unittest.TestCase):
         found = passes.find_maps(frame)
         self.assertEqual([(m.texture, m.picture, m.camera_depth) for m in found], [(1, 3, 2)])
 
+    def test_map_that_is_copied_leads_to_where_its_casters_are_drawn(self):
+        frame = FakeFrame([texture(1, 512, 512), texture(5, 256, 256), texture(2, 64, 36), texture(3, 64, 36, False)],
+                          [draw(10, 5), draw(12, 1, vertices=4), draw(30, 2, [3])], {1: [30], 5: [12]})
+        self.assertEqual([(m.texture, [w.event for w in m.writers]) for m in passes.find_maps(frame)], [(5, [10])])
+
     def test_map_of_an_earlier_frame_is_said(self):
         frame = FakeFrame([texture(1, 512, 512), texture(2, 64, 36), texture(3, 64, 36, False)], [draw(30, 2, [3])], {1: [30]})
         self.assertEqual(passes.find_maps(frame), [])
@@ -315,6 +364,27 @@ class StandIns(unittest.TestCase):
         self.assertIn("gl_FragCoord.x < 64.0", stand_ins.glsl(source))
         self.assertIn("1.0 / p.w", stand_ins.hlsl(source))
         self.assertNotIn("gl_FragCoord.w", stand_ins.glsl(stand_ins.Source(True, True)))
+
+
+class Extension(unittest.TestCase):
+    """qrenderdoc is stood in for: that its menu calls the package is all that is looked at here."""
+
+    def test_menu_asks_for_a_frame_and_a_folder(self):
+        said, menus = [], {}
+        extensions = SimpleNamespace(RegisterWindowMenu=lambda base, path, callback: menus.update({tuple(path): callback}),
+                                     ErrorDialog=lambda text, title: said.append(text), OpenDirectoryName=lambda *words: "")
+        context = SimpleNamespace(Extensions=lambda: extensions, IsCaptureLoaded=lambda: False)
+        sys.modules["qrenderdoc"] = SimpleNamespace(WindowMenu=SimpleNamespace(Tools=1))
+        spec = importlib.util.spec_from_file_location("gnomon", os.path.join(ADAPTER, "__init__.py"), submodule_search_locations=[ADAPTER])
+        module = sys.modules["gnomon"] = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        module.register("1.24", context)
+        menus["Judge this frame",](context, None)
+        self.assertEqual(said, ["Open a frame first."])
+        context.IsCaptureLoaded = lambda: True
+        menus["Judge this frame",](context, None)
+        with open(os.path.join(ADAPTER, "extension.json"), encoding="utf-8") as file:
+            self.assertEqual(json.load(file)["extension_api"], 1)
 
 
 class Files(unittest.TestCase):

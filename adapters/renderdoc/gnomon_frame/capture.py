@@ -21,7 +21,7 @@ def light_node(layers):
     if place.apex is None:
         return {"type": "directional", "matrix": matrix}
     matrix[:3, 3] = place.apex
-    if len(layers) > 1:
+    if len(layers) > 1 or layers[0].distance:
         return {"type": "point", "matrix": matrix}
     m = layers[0].light.matrix
     half = np.arctan(np.linalg.norm(m[3, :3]) / min(np.linalg.norm(m[0, :3]), np.linalg.norm(m[1, :3])))
@@ -30,16 +30,19 @@ def light_node(layers):
 
 def _shapes(view, layers):
     """Meshes as the camera draws them, then casters that it does not draw, brought back through the light's matrix."""
-    shapes = [(view.positions[m.key], m.corners) for m in view.meshes]
-    known = set(view.positions)
+    shapes = [(place, m.corners) for m, place in zip(view.meshes, view.positions)]
+    known = set()
     for layer in layers:
-        back = np.linalg.inv(layer.light.matrix) if layer.light.rank == 4 else None
-        for mesh in layer.meshes:
-            if mesh.key in known or back is None:
+        back = np.linalg.inv(layer.light.matrix) if layer.light.rank == 4 and not layer.distance else None
+        for place, mesh in layer.pairs:
+            if place is not None or back is None:
                 continue
-            known.add(mesh.key)
             points = mesh.clip @ back.T
-            shapes.append((points[:, :3] / points[:, 3:], mesh.corners))
+            points = points[:, :3] / points[:, 3:]
+            seen = (mesh.source, np.round(points[:8], 2).tobytes())
+            if seen not in known:
+                known.add(seen)
+                shapes.append((points, mesh.corners))
     return [(p, c) for p, c in shapes if len(c) >= 3]
 
 
@@ -56,11 +59,18 @@ def _layer(folder, k, layer, test, count):
     out = {"depth": name, "convention": "reversed" if layer.state.reversed else "zero_to_one",
            "rows": "bottom_up" if layer.state.conventions.bottom_row_first else "top_down",
            "clip_from_world": files.column_major(layer.matrix), **_select(test.selection, k, count)}
-    if layer.shift and abs(layer.shift.world) > 1e-6:
+    if layer.has_caster_bias:
         out["caster_bias"] = {"constant_world": layer.shift.world}
     if layer.constant:
         out["bias"] = {"constant_depth": layer.constant}
     return out
+
+
+def _filter(layers, test):
+    blurred = any(not np.array_equal(layer.texels, layer.read) for layer in layers)
+    if test.radius is None and not blurred:
+        return {"kind": "none"}
+    return {"kind": "esm" if test.exponent else "vsm" if blurred else "pcf", "radius_texels": min(test.radius or 1.5, 64)}
 
 
 def write(folder, frame, found, layers, pixels, test, name):
@@ -85,9 +95,12 @@ def write(folder, frame, found, layers, pixels, test, name):
         settings["sampler"] = found.sampler
     if layers[0].reader:
         settings["matrix"] = layers[0].reader.name
-    kind = {"kind": "none"} if test.radius is None else {"kind": "pcf", "radius_texels": min(test.radius, 64)}
+    if test.exponent:
+        settings["exponent"] = round(test.exponent.factor, 2)
+    known_map = {} if layers[0].matrix is None else {
+        "map": [_layer(folder, k, layer, test, len(layers)) for k, layer in enumerate(layers)], "filter": _filter(layers, test)}
     files.write_capture(folder, {
         "renderer": {"name": name, "version": "a frame recorded with RenderDoc", "settings": settings}, "scene": "scene.glb", "size": [width, height],
         "shadowed": "shadowed.exr", "unshadowed": "unshadowed.exr", "position": "position.exr",
-        "map": [_layer(folder, k, layer, test, len(layers)) for k, layer in enumerate(layers)], "filter": kind})
+        **known_map})
     return os.path.join(folder, "capture.json")

@@ -8,15 +8,16 @@ import sys
 from .errors import FrameError
 
 
-def _arguments(words):
+def arguments(words):
     parser = argparse.ArgumentParser(prog="python3 adapters/renderdoc", description="Make a capture for gnomon judge of a frame that RenderDoc recorded.")
     parser.add_argument("frame", metavar="FRAME.rdc")
     parser.add_argument("-o", "--output", metavar="DIR", help="the capture's folder")
     parser.add_argument("--light", type=int, metavar="N", help="which light, as --list numbers them [default 1]")
     parser.add_argument("--list", action="store_true", help="list the lights with a shadow map, and stop")
     parser.add_argument("--name", default="", help="the renderer's name, for the report [default: the frame's name]")
-    parser.add_argument("--encoding", choices=("srgb", "linear"), default="srgb",
-                        help="of 8-bit pictures that do not say [default srgb]; matters to partly lit pixels alone")
+    parser.add_argument("--encoding", choices=("auto", "srgb", "linear"), default="auto",
+                        help="of 8-bit pictures that do not say; matters to partly lit pixels alone [default auto: srgb, unless an "
+                             "exponential map fits better without]")
     given = parser.parse_args(words)
     if not given.list and not given.output:
         parser.error("-o DIR is needed (or --list)")
@@ -26,7 +27,7 @@ def _arguments(words):
 
 
 def run(frame, given, say):
-    """Lists lights or writes one's capture; the path of capture.json, or None."""
+    """Lists lights, or writes the capture of one: the path of capture.json then, else None."""
     from . import capture, extract, passes, report
 
     maps = passes.find_maps(frame)
@@ -50,8 +51,8 @@ def run(frame, given, say):
         raise FrameError(f"--light {number}: the frame has {len(lights)} (--list)")
     found, layers = lights[number - 1]
     numbers = extract.read_layers(frame, found, layers)
-    pixels = extract.measure(frame, found, layers, given.encoding == "srgb")
-    test = extract.find_test(found, layers, pixels, numbers)
+    pixels, exponent = extract.measure(frame, found, layers, given.encoding)
+    test = extract.find_test(found, layers, pixels, numbers, exponent)
     for line in report.findings(found, layers, test):
         say("found: " + line)
     return capture.write(given.output, frame, found, layers, pixels, test, given.name or os.path.splitext(os.path.basename(given.frame))[0])
@@ -68,7 +69,7 @@ def main(words=None):
     """Exit codes are those of gnomon: 0 done, 2 wrong words, 3 a frame that no capture can be made of, 4 a folder that cannot be
     written, 5 RenderDoc's module or a display is missing."""
     words = sys.argv[1:] if words is None else words
-    given = _arguments(words)
+    given = arguments(words)
     say = lambda line: print(line, flush=True)
     try:
         from .replay import Frame, NoDisplay

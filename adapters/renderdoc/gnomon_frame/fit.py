@@ -5,6 +5,7 @@ camera's view space: x to the right, y up, looking along -z, which any engine's 
 largest difference between what a fit gives and what was drawn, as a share of the largest number that was drawn.
 """
 from dataclasses import dataclass
+from itertools import permutations, product
 
 import numpy as np
 
@@ -109,16 +110,56 @@ def fit_light(views, clips):
     return LightFit(matrix, off, int(np.linalg.matrix_rank(points, 1e-5 * np.linalg.norm(points))))
 
 
+def _with_residuals(rows, points, clips):
+    return LightFit(rows, np.abs(points @ rows.T - clips).max(0) / max(np.abs(clips).max(), 1e-30), 4)
+
+
 def complete_flat(fit, views, clips, other):
-    """The matrix of a layer whose casters lie in one plane, with the axes of another layer's: of cascades these are parallel."""
+    """The matrix of a layer whose casters lie in one plane, by another layer's `other`: cascades have parallel axes, and a cube's face
+    is one of the 48 ways in which the axes of another can be exchanged."""
     points = homogeneous(views)
-    rows = fit.matrix.copy()
-    for r in range(3):
-        scale, shift = np.linalg.lstsq(np.c_[points @ other[r], points @ other[3]], clips[:, r], rcond=None)[0]
-        rows[r] = scale * other[r] + shift * other[3]
-    rows[3] = other[3]
-    off = np.abs(points @ rows.T - clips).max(0) / max(np.abs(clips).max(), 1e-30)
-    return LightFit(rows, off, 4)
+    if np.linalg.norm(other[3, :3]) * 1e5 < abs(other[3, 3]):
+        rows = fit.matrix.copy()
+        for r in range(3):
+            scale, shift = np.linalg.lstsq(np.c_[points @ other[r], points @ other[3]], clips[:, r], rcond=None)[0]
+            rows[r] = scale * other[r] + shift * other[3]
+        rows[3] = other[3]
+        return _with_residuals(rows, points, clips)
+    length = [np.linalg.norm(other[r, :3]) for r in (0, 1, 3)]
+    axes = [other[r] / length[k] for k, r in enumerate((0, 1, 3))]
+    steep = np.linalg.norm(other[2, :3]) * np.sign(other[2, :3] @ other[3, :3]) / length[2]
+    constant = other[2, 3] - steep * other[3, 3]
+    faces = []
+    for order in permutations(range(3)):
+        for signs in product((1, -1), repeat=3):
+            x, y, w = (sign * axes[k] for sign, k in zip(signs, order))
+            w = w * length[2]
+            faces.append(_with_residuals(np.array([x * length[0], y * length[1], steep * w + [0, 0, 0, constant], w]), points, clips))
+    return min(faces, key=lambda face: face.residuals.max())
+
+
+@dataclass(frozen=True)
+class DistanceFit:
+    """A map that stores the distance from a point: stored = (|place - apex| + moved) / range."""
+
+    apex: np.ndarray
+    range: float  # world units
+    moved: float  # by how much the casters were moved away from the light, world units
+    residual: float  # relative to the largest squared distance
+
+
+def fit_distance(views, stored):
+    """The point whose distance the vertices' stored numbers are, or None. It is linear: |p|^2 = 2 p.apex + c0 + c1 s + c2 s^2."""
+    terms = np.c_[2 * views, np.ones(len(views)), stored, stored**2]
+    squares = (views**2).sum(1)
+    if np.linalg.matrix_rank(terms, 1e-9 * np.linalg.norm(terms)) < 6:
+        return None
+    found = np.linalg.lstsq(terms, squares, rcond=None)[0]
+    off = residual(terms @ found, squares)
+    if off > 1e-4 or found[5] <= 0:
+        return None
+    reach = float(np.sqrt(found[5]))
+    return DistanceFit(found[:3], reach, float(-found[4] / (2 * reach)), off)
 
 
 @dataclass(frozen=True)

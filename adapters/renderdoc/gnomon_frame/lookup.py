@@ -119,6 +119,25 @@ def choose_layers(all_margins, lit, keys, numbers=()):
     return best, chosen
 
 
+@dataclass(frozen=True)
+class Exponent:
+    """visibility = exp(factor * (stored - depth)): an exponential shadow map."""
+
+    factor: float  # for stored numbers of 0 to 1
+    correlation: float  # of the visibility's logarithm and the margins, squared
+
+
+def exponent(margins_read, visibility):
+    """The exponential map's factor from the margins against the map as it was read (blurred) of places that are partly lit; None
+    where these do not follow an exponential."""
+    partly = (visibility > 0.05) & (visibility < 0.95)
+    if partly.sum() < 50:
+        return None
+    x, y = margins_read[partly], np.log(visibility[partly])
+    correlation = float(np.corrcoef(x, y)[0, 1] ** 2) if np.ptp(x) > 0 else 0.0
+    return Exponent(float((x @ y) / (x @ x)), correlation) if correlation > 0.8 else None
+
+
 def filter_radius(layer, positions, widest=8):
     """How far from its own texel a partly lit place must read to find both answers: texels, the 99th hundredth of the places;
     None where most find none within `widest`."""

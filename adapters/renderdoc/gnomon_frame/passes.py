@@ -16,6 +16,7 @@ class MapPasses:
     picture: int  # the colour texture that the readers draw into
     camera_depth: int
     camera: list  # draws into the camera's depth, before the last reader has drawn
+    is_copied: bool  # whether the readers read a copy of the map, of another layout
 
 
 def _writers(frame, colour_maps):
@@ -45,6 +46,14 @@ def _size(frame, texture):
     return t.width, t.height
 
 
+def _copied_from(frame, texture, written):
+    """The texture that full-screen draws copy into this one, such as a cube that becomes a paraboloid; else the texture itself."""
+    copies = {d.event for d in written[texture]}
+    if any(d.vertices > FULL_SCREEN for d in written[texture]):
+        return texture
+    return next((t for t in written if t != texture and copies & set(frame.readers_of(t))), texture)
+
+
 def _as_map(frame, texture, written, by_event):
     """The texture's passes if it is a shadow map of some picture, else None."""
     writers = written[texture]
@@ -57,10 +66,13 @@ def _as_map(frame, texture, written, by_event):
     if not camera_depth or camera_depth == texture:
         return None
     picture = last.colours[0]
+    readers = [d for d in readers if d.colours[0] == picture]
     if _size(frame, texture) == _size(frame, picture):
         return None  # a camera's own depth, read by an effect
     camera = [d for d in written[camera_depth] if d.event <= last.event]
-    return MapPasses(texture, [w for w in writers if w.event < last.event], readers, picture, camera_depth, camera)
+    origin = _copied_from(frame, texture, written)
+    casters = [w for w in written[origin] if w.event < last.event]
+    return MapPasses(origin, casters, readers, picture, camera_depth, camera, origin != texture)
 
 
 def find_maps(frame, colour_maps=False):

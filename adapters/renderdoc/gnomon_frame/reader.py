@@ -43,14 +43,26 @@ def _usable(matrices):
     return out
 
 
-def _ways(usable):
+def _ways(usable, more):
     """[(name, matrix)] from view space to the space in which a constant may work."""
-    rigid = [("view space", np.eye(4))]
+    rigid = [("view space", np.eye(4)), *more]
     for name, m in usable:
         if is_rigid(m):
             rigid += [(name, m), (name + " (inverse)", np.linalg.inv(m))]
     axes = [np.diag([*signs, 1.0]) for signs in product((1, -1), repeat=3)]
     return [(name, m @ turn) for name, m in rigid for turn in axes]
+
+
+def through_model(matrices, objects, view):
+    """[(name, matrix)]: from view space to the engine's world, of constants that take a mesh from its own space to the world, where
+    what the camera makes of the mesh (`objects` to `view`) is solid enough to be turned back."""
+    points = np.c_[objects, np.ones(len(objects))]
+    if np.linalg.matrix_rank(points, 1e-6 * np.linalg.norm(points)) < 4:
+        return []
+    view_from_object = np.eye(4)
+    view_from_object[:3] = np.linalg.lstsq(points, view, rcond=None)[0].T
+    back = np.linalg.inv(view_from_object)
+    return [(name, m @ back) for name, m in _usable(matrices) if np.allclose(m[3], [0, 0, 0, 1], atol=1e-6) and is_rigid(m @ back)]
 
 
 def _misfit(rows, wanted):
@@ -97,11 +109,11 @@ def _depth_row(t, stored_row):
     return stored_row, False
 
 
-def find_reader(matrices, casters, stored_row):
+def find_reader(matrices, casters, stored_row, more_ways=()):
     """The reader's matrix among constants [(name, 4x4)], or None. `casters`: clip_from_view as they were drawn; `stored_row`: its
-    row whose quotient by w is stored."""
+    row whose quotient by w is stored; `more_ways`: as through_model() gives them."""
     usable = _usable(matrices)
-    ways = _ways(usable)
+    ways = _ways(usable, more_ways)
     turns = np.array([m for _, m in ways])
     best = None
     for name, m in usable:

@@ -5,7 +5,7 @@ here as well, and has not been run. Events and resources are plain integers outs
 """
 import os
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import renderdoc as rd
@@ -50,7 +50,7 @@ class Mesh:
     clip: np.ndarray  # [vertices, 4], each vertex once
     objects: np.ndarray | None  # the same vertices before the shader, where an attribute of three floats tells
     corners: np.ndarray  # three vertices for each triangle
-    key: tuple  # equal for the same vertices in the same order, whichever shader moved them
+    source: tuple  # equal for the same vertices in the same order, whichever shader moved them
 
 
 @dataclass
@@ -88,6 +88,14 @@ class Frame:
                            tuple(int(o) for o in a.outputs if int(o)), int(a.depthOut)) for a in self._actions.values()]
         self._event = None
         self._states = {}
+        self.draws = [self._with_targets(draw) for draw in self.draws]
+
+    def _with_targets(self, draw):
+        """Draws into a window's own pictures come without their targets on Vulkan."""
+        if draw.colours or draw.depth:
+            return draw
+        state = self.state(draw.event)
+        return replace(draw, colours=tuple(state.colours), depth=state.depth)
 
     @classmethod
     @contextmanager
@@ -232,16 +240,13 @@ class Frame:
         raw = np.frombuffer(data, kind, len(data) // stride)[:count]
         return raw.astype(np.int64) + base, raw == np.iinfo(kind).max
 
-    def meshes(self, draw, known=()):
-        """A Mesh for each instance of a draw whose key is not in `known`."""
+    def meshes(self, draw):
+        """A Mesh for each instance of a draw that is made of triangles."""
         self.go_to(draw.event)
         pipe, action = self.controller.GetPipelineState(), self._actions[draw.event]
         source = self._source(pipe, action)
         out = []
         for instance in range(draw.instances):
-            key = (source[1] if source else draw.event, instance)
-            if key in known:
-                continue
             drawn = self._clip(action, instance)
             if drawn is None:
                 continue
@@ -251,7 +256,7 @@ class Frame:
             if source and len(source[0]) > places.max():
                 objects = np.empty((len(kept), 3))
                 objects[corners] = source[0][places]
-            out.append(Mesh(draw.event, vertices[kept].astype(float), objects, corners, key))
+            out.append(Mesh(draw.event, vertices[kept].astype(float), objects, corners, source[1] if source else (draw.event, instance)))
         return out
 
     def _clip(self, action, instance):

@@ -16,6 +16,7 @@ DIM = 0.02  # of the light's brightest hundredth: pixels with less cannot say wh
 @dataclass
 class Visibility:
     values: np.ndarray  # 1 lit, 0 shadowed
+    encoded: bool  # whether the picture's numbers were taken for sRGB-encoded ones
     asked: np.ndarray  # pixels in which the light can be told
     darkest: float  # what full shadow leaves of the lit picture: ambient light, or a strength below 1
     full_map: np.ndarray  # the map as the stand-ins filled it
@@ -55,38 +56,50 @@ def _stages():
 
 @dataclass
 class Pictures:
-    """The picture, the camera's depth and the map after the last reader has drawn."""
+    """The picture and the camera's depth after the last reader has drawn, and the map after its last caster: some renderers blur it
+    in place."""
 
     colour: np.ndarray
     depth: np.ndarray
     maps: dict  # slice -> texels
+    read: dict  # slice -> texels as the readers found them
+
+    def linear(self, encoded):
+        return formats.linear(self.colour) if encoded else self.colour
 
 
-def take_pictures(frame, passes, slices, encoded):
-    """`encoded`: whether 8-bit pictures hold sRGB values without saying so, as a window's mostly do."""
-    frame.go_to(passes.readers[-1].event, again=True)
-    colour = frame.picture(passes.picture)[..., :3]
-    if encoded and frame.textures[passes.picture].format.endswith("8_UNORM"):
-        colour = formats.linear(colour)
+def take_pictures(frame, passes, slices):
+    frame.go_to(passes.writers[-1].event, again=True)
     maps = {s: frame.picture(passes.texture, s) for s in slices}
-    return Pictures(colour, frame.picture(passes.camera_depth)[..., 0], maps)
+    frame.go_to(passes.readers[-1].event, again=True)
+    read = {s: frame.picture(passes.texture, s) for s in slices}
+    return Pictures(frame.picture(passes.picture)[..., :3], frame.picture(passes.camera_depth)[..., 0], maps, read)
 
 
-def measure(frame, passes, layers, lens, drawn, encoded):
-    """The visibility of the light whose layers are given; `drawn` are the pictures as they are."""
+def does_not_say(frame, passes):
+    """Whether the picture has eight bits without a format that says what they mean: a window's are mostly sRGB-encoded."""
+    return frame.textures[passes.picture].format.endswith("8_UNORM")
+
+
+def replay(frame, passes, layers, lens, drawn):
+    """(the pictures with the map empty, with the map full) of the light whose layers are given."""
     plan = _plan(frame, passes, layers, lens)
-    slices = list(drawn.maps)
-    pictures = {}
+    pictures = []
     for full in (False, True):
         with frame.replaced({key: Source(**{**vars(source), "full": full}) for key, source in plan.items()}):
-            pictures[full] = take_pictures(frame, passes, slices, encoded)
-    empty, full = pictures[False].colour, pictures[True].colour
-    light = (empty - full).sum(-1)
+            pictures.append(take_pictures(frame, passes, list(drawn.maps)))
+    return pictures
+
+
+def work_out(drawn, empty, full, encoded):
+    """The visibility of three pictures."""
+    lit, dark = empty.linear(encoded), full.linear(encoded)
+    light = (lit - dark).sum(-1)
     bright = np.percentile(light, 99)
     if bright <= 0:
         raise FrameError("the picture is the same with the map empty and full: nothing that is seen in this frame reads it")
     asked = light > DIM * bright
-    values = np.where(asked, (drawn.colour - full).sum(-1) / np.where(asked, light, 1), 0)
-    left = full.sum(-1)[asked].sum() / max(empty.sum(-1)[asked].sum(), 1e-30)
-    same = all(np.array_equal(p.depth, drawn.depth) for p in pictures.values())
-    return Visibility(values, asked, float(left), pictures[True].maps, same)
+    values = np.where(asked, (drawn.linear(encoded) - dark).sum(-1) / np.where(asked, light, 1), 0)
+    left = dark.sum(-1)[asked].sum() / max(lit.sum(-1)[asked].sum(), 1e-30)
+    same = np.array_equal(empty.depth, drawn.depth) and np.array_equal(full.depth, drawn.depth)
+    return Visibility(values, encoded, asked, float(left), full.maps, same)
