@@ -100,7 +100,7 @@ def write(folder, frame, found, layers, pixels, test, name):
     known_map = {} if layers[0].matrix is None else {
         "map": [_layer(folder, k, layer, test, len(layers)) for k, layer in enumerate(layers)], "filter": _filter(layers, test)}
     files.write_capture(folder, {
-        "renderer": {"name": name, "version": "a frame recorded with RenderDoc", "settings": settings}, "scene": "scene.glb", "size": [width, height],
+        "renderer": {"name": name, "version": "(RenderDoc)", "settings": settings}, "scene": "scene.glb", "size": [width, height],
         "shadowed": "shadowed.exr", "unshadowed": "unshadowed.exr", "position": "position.exr",
         **known_map})
     return os.path.join(folder, "capture.json")
