@@ -1,14 +1,16 @@
 // Qt Quick 3D (Qt 6): draws the boxes of Gnomon's scene floating-box with the engine's own shadows, so that RenderDoc can record a
-// frame: QSG_RHI_BACKEND=vulkan QSG_RENDER_LOOP=basic qml6 draw.qml. Something has to move, or the shadow's pass is not in
+// frame: QSG_RHI_BACKEND=vulkan QSG_RENDER_LOOP=basic /usr/lib/qt6/bin/qml draw.qml -- --size=320x180. Something has to move, or the shadow's pass is not in
 // every frame; what moves is a red dot in the window's corner and the camera's far plane, by a tenth of a millimetre.
 import QtQuick
 import QtQuick.Window
 import QtQuick3D
 
 Window {
+  readonly property var sides: (Qt.application.arguments.find(word => word.startsWith("--size=")) || "--size=320x180").slice(7).split("x")
+
   visible: true
-  width: 320
-  height: 180
+  width: Number(sides[0])
+  height: Number(sides[1])
   color: "transparent"
 
   component Box: Model {
