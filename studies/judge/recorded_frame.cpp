@@ -57,9 +57,9 @@ Expected<std::string> run_script(const std::string& frame, std::vector<std::stri
   if (!end) return frame_error(frame, end.error().kind, end.error().reason);
   if (end->code == 0) return end->said;
   const auto errors = lines_with(end->said, "error: ", false);
-  return frame_error(
-      frame, kind_of(end->code),
-      errors.empty() ? fmt::format("the replay ended with code {}", end->code) : errors.front());
+  if (errors.empty())
+    return frame_error(frame, ErrorKind::graphics, fmt::format("the replay ended with code {}", end->code));
+  return frame_error(frame, kind_of(end->code), errors.front());
 }
 
 }  // namespace

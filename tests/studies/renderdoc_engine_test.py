@@ -156,7 +156,7 @@ class Quick3D(unittest.TestCase):
         self.assertEqual(capture["filter"]["kind"], "esm")
         # shadowFactor is 75; half floats and eight bits of the picture leave it within a tenth.
         self.assertAlmostEqual(capture["renderer"]["settings"]["exponent"] / 75, 1, delta=0.1)
-        self.assertEqual(capture["renderer"]["settings"]["matrix"], "cbMain_var.qt_shadowmap0_matrix")
+        self.assertTrue(capture["renderer"]["settings"]["matrix"].startswith("cbMain_var.qt_shadowmap0_matrix"))
         self.assertNotIn("caster_bias", capture["map"][0])
         self.assertTrue(result["judged"]["map"])
         self.assertLess(result["lights"][0]["classes"]["unexplained"], 3)

@@ -17,7 +17,7 @@ except ImportError:
 
 ADAPTER = os.path.abspath(sys.argv.pop(1))
 sys.path.insert(0, ADAPTER)
-from gnomon_frame import conventions, files, fit, formats, lookup, pairing, passes, reader, spirv, stand_ins  # noqa: E402
+from gnomon_frame import conventions, extract, files, fit, formats, lookup, pairing, passes, reader, spirv, stand_ins  # noqa: E402
 
 ARITHMETIC = 2e-6  # positions are kept as 32-bit floats
 CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
@@ -266,6 +266,16 @@ class Lookup(unittest.TestCase):
         for radius in (1, 3):
             partly = (column >= 32 - radius) & (column < 32 + radius)
             self.assertEqual(lookup.filter_radius(self.layer(texels), places[partly]), radius)
+
+
+class PolygonOffset(unittest.TestCase):
+    def test_is_stored_numbers_away_from_the_light(self):
+        layer = SimpleNamespace(state=SimpleNamespace(reversed=False, depth_bias={"constant": 4, "slope": 1.5, "clamp": 0}))
+        depth = SimpleNamespace(is_depth=True, format="D16_UNORM")
+        self.assertEqual(extract.polygon_offset(layer, depth), {"constant": 4 / 65536, "slope": 1.5, "clamp": 0})
+        layer.state.reversed, layer.state.depth_bias = True, {"constant": -4, "slope": -1.5, "clamp": 0}
+        self.assertEqual(extract.polygon_offset(layer, depth), {"constant": 4 / 65536, "slope": 1.5, "clamp": 0})
+        self.assertEqual(extract.polygon_offset(layer, SimpleNamespace(is_depth=False, format="R16_FLOAT")), {})
 
 
 class Formats(unittest.TestCase):

@@ -3,7 +3,7 @@ import os
 
 import numpy as np
 
-from . import files, lookup
+from . import extract, files
 from .errors import FrameError
 
 MOST_LAYERS = 6  # of a capture's map
@@ -53,14 +53,17 @@ def _select(selection, k, count):
     return {"select": {"near": limits[k], "far": limits[k + 1], "by": selection.by}} if limits[k + 1] > limits[k] else {}
 
 
-def _layer(folder, k, layer, test, count):
+def _layer(folder, texture, k, layer, test, count):
     name = f"map{k}.exr"
     files.write_exr(os.path.join(folder, name), {"Z": layer.texels})
     out = {"depth": name, "convention": "reversed" if layer.state.reversed else "zero_to_one",
            "rows": "bottom_up" if layer.state.conventions.bottom_row_first else "top_down",
            "clip_from_world": files.column_major(layer.matrix), **_select(test.selection, k, count)}
+    moved = extract.polygon_offset(layer, texture)
     if layer.has_caster_bias:
-        out["caster_bias"] = {"constant_world": layer.shift.world}
+        moved["constant_world"] = layer.shift.world
+    if moved:
+        out["caster_bias"] = moved
     if layer.constant:
         out["bias"] = {"constant_depth": layer.constant}
     return out
@@ -94,11 +97,15 @@ def write(folder, frame, found, layers, pixels, test, name):
     if found.sampler:
         settings["sampler"] = found.sampler
     if layers[0].reader:
-        settings["matrix"] = layers[0].reader.name
+        settings["matrix"] = f"{layers[0].reader.name} (residual {layers[0].reader.residual:.1e})"
+    if layers[0].has_caster_bias:
+        settings["casters moved"] = f"{layers[0].shift.world:.4g} world units (residual {layers[0].shift.residual:.1e})"
+    if test.agreement is not None:
+        settings["test found"] = f"decides {100 * test.agreement:.2f} % of the pixels as drawn"
     if test.exponent:
         settings["exponent"] = round(test.exponent.factor, 2)
     known_map = {} if layers[0].matrix is None else {
-        "map": [_layer(folder, k, layer, test, len(layers)) for k, layer in enumerate(layers)], "filter": _filter(layers, test)}
+        "map": [_layer(folder, texture, k, layer, test, len(layers)) for k, layer in enumerate(layers)], "filter": _filter(layers, test)}
     files.write_capture(folder, {
         "renderer": {"name": name, "version": "(RenderDoc)", "settings": settings}, "scene": "scene.glb", "size": [width, height],
         "shadowed": "shadowed.exr", "unshadowed": "unshadowed.exr", "position": "position.exr",

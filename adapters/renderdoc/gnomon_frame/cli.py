@@ -8,8 +8,14 @@ import sys
 from .errors import FrameError
 
 
+class _Parser(argparse.ArgumentParser):
+    def error(self, message):
+        self.exit(2, f"error: {message}\n")
+
+
 def arguments(words):
-    parser = argparse.ArgumentParser(prog="python3 adapters/renderdoc", description="Make a capture for gnomon judge of a frame that RenderDoc recorded.")
+    """What the words ask for; wrong ones end the process with exit code 2."""
+    parser = _Parser(prog="python3 adapters/renderdoc", description="Make a capture for gnomon judge of a frame that RenderDoc recorded.")
     parser.add_argument("frame", metavar="FRAME.rdc")
     parser.add_argument("-o", "--output", metavar="DIR", help="the capture's folder")
     parser.add_argument("--light", type=int, metavar="N", help="which light, as --list numbers them [default 1]")
@@ -53,7 +59,7 @@ def run(frame, given, say):
     numbers = extract.read_layers(frame, found, layers)
     pixels, exponent = extract.measure(frame, found, layers, given.encoding)
     test = extract.find_test(found, layers, pixels, numbers, exponent)
-    for line in report.findings(found, layers, test):
+    for line in report.findings(frame, found, layers, test):
         say("found: " + line)
     return capture.write(given.output, frame, found, layers, pixels, test, given.name or os.path.splitext(os.path.basename(given.frame))[0])
 

@@ -198,6 +198,17 @@ def _ways_through_meshes(frame, found):
     return []
 
 
+def polygon_offset(layer, texture):
+    """The rasterizer's depth bias as a capture has it, away from the light: {constant, slope, clamp}, stored numbers; {} where there
+    is none, or where the map is a colour, which it does not move. A float's step is that of the largest depths."""
+    bias = layer.state.depth_bias
+    if not texture.is_depth or not (bias["constant"] or bias["slope"]):
+        return {}
+    away = -1.0 if layer.state.reversed else 1.0
+    step = 2.0**-16 if texture.format.startswith("D16") else 2.0**-24
+    return {"constant": away * bias["constant"] * step, "slope": away * bias["slope"], "clamp": away * bias["clamp"]}
+
+
 def _cut(layer, picture):
     x, y, width, height = (int(round(v)) for v in layer.state.viewport)
     return picture[y:y + height, x:x + width, 0]
@@ -286,7 +297,7 @@ class Test:
     """How the frame's own test decides, as far as the picture tells."""
 
     selection: lookup.Selection
-    agreement: float | None  # None where the map is no projection; share of sure pixels that the test as described decides as the picture has them
+    agreement: float | None  # None where the map is no projection, or an exponential one; share of sure pixels that the test as described decides as the picture has them
     without_constant: float  # the same before the reader's own bias was looked for
     partly_lit: float  # share of pixels between lit and shadowed
     radius: float | None  # of the filter, texels; None where there is none
@@ -317,4 +328,5 @@ def find_test(found, layers, pixels, numbers, exponent):
     if partly > 2e-3:
         reach = lookup.filter_radius(layers[0], places[~sure])
         radius = None if reach is None else float(reach) if "compare" in found.sampler and "linear" in found.sampler else reach + 0.5
-    return Test(selection, float(right.mean()) if len(right) else 1.0, 1 - before, partly, radius, exponent)
+    agreement = None if exponent else float(right.mean()) if len(right) else 1.0
+    return Test(selection, agreement, 1 - before, partly, radius, exponent)

@@ -1,6 +1,8 @@
 """What was found, in sentences for a person: each finding with how it was found and its residual."""
 import numpy as np
 
+from .extract import polygon_offset
+
 
 def _kind(layers):
     place = layers[0].place
@@ -18,10 +20,11 @@ def light_line(number, frame, found, layers):
             f"from {x:.0f}, {y:.0f}), {casters} draws of casters, read by {len(found.passes.readers)} draws from event {found.passes.readers[0].event} on")
 
 
-def findings(found, layers, test):
+def findings(frame, found, layers, test):
     """Sentences, the most important first."""
     lens = found.view.lens
     out = []
+    texture = frame.textures[found.passes.texture]
     part = "cascade" if layers[0].place.apex is None else "part"
     for k, layer in enumerate(layers):
         which = f"{part} {k + 1}: " if len(layers) > 1 else ""
@@ -31,9 +34,9 @@ def findings(found, layers, test):
                        f"{layer.shift.residual:.1e})")
         if layer.constant:
             out.append(f"{which}the reader's test lets {layer.constant:.3g} of stored depth pass (found from the picture)")
-        bias = layer.state.depth_bias
-        if bias["constant"] or bias["slope"]:
-            out.append(f"{which}the rasterizer's depth bias is {bias['constant']:g}, slope {bias['slope']:g}, clamp {bias['clamp']:g}")
+        offset = polygon_offset(layer, texture)
+        if offset:
+            out.append(f"{which}the rasterizer's depth bias moves casters by {offset['constant']:.3g} of stored depth and {offset['slope']:g} slopes")
     one = layers[0]
     if one.matrix is None:
         kind = (f"distances from a point, up to {one.distance.range:.4g} world units, as of a paraboloid" if one.distance else
