@@ -2,8 +2,10 @@
 // Pixel arrays are row-major, row 0 at the top. Map arrays are face by face, row 0 = lowest v (light_view.h).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "raster/external_visibility.h"
@@ -69,13 +71,28 @@ double constant_bias_world(const Bias& bias, const BiasRounding& rounding, const
 /// lispsm) and it is in texels, on a texel of texel_world().
 double caster_bias_world(const Bias& bias, const LightView& view, const World& world);
 
+/// How a bias grows with the angle between the receiver's normal and the light.
+enum class AngleForm : std::uint8_t { none, sine, tangent, one_minus_cosine };
+inline constexpr std::array<std::string_view, 4> angle_form_names{"none", "sine", "tangent",
+                                                                  "one_minus_cosine"};
+
 /// How another renderer tests a map that it drew: by stored numbers, and in its own units.
 struct CapturedTest {
   /// World units that 1 of a stored number counts for; gaps and constant bias are differences of stored
   /// numbers times this, as the renderer itself tests.
   double unit_world = 1.0;
-  double normal_offset_world = 0.0;  ///< >= 0, along the receiver's normal, whatever the light's angle
-  bool distances = false;  ///< the renderer stores distances from the light, not the depths of its matrix
+  double normal_offset_world = 0.0;  ///< >= 0, along the receiver's normal
+  /// By which the offset is multiplied; `none`: it has one length at every angle.
+  AngleForm normal_offset_angle = AngleForm::none;
+  /// By which the constant is multiplied; the product is held within `least` and `most`, stored numbers.
+  AngleForm constant_angle = AngleForm::none;
+  double least = -infinity, most = infinity;
+  bool has_angle() const {
+    return constant_angle != AngleForm::none || least != -infinity || most != infinity;
+  }
+  /// What the renderer stores: the depths of its matrix, distances from the light, or depths along the light's axis that
+  /// are linear in world units.
+  enum class Stores : std::uint8_t { depths, distances, linear_z } stores = Stores::depths;
   /// Stored numbers are read between the four nearest texels, each weighed by how near it is, and then compared once.
   bool linear_depths = false;
   /// By face, where a picture of the renderer's fills a part of the face alone: columns and rows from the lowest u and v.
@@ -90,9 +107,12 @@ struct CapturedTest {
   bool holds(int face, int column, int row) const {
     return parts.empty() || parts[static_cast<std::size_t>(face)].holds(column, row);
   }
-  /// By pixel, the face that it looks up, whichever hold its place; no_face: it looks up none. Empty: the first that holds it.
+  /// By pixel, the face that it looks up, whichever hold its place; no_face: it looks up none and is lit; any_face: the
+  /// first that holds it. Empty: any_face for all.
   Image<std::uint8_t> faces{};
-  static constexpr std::uint8_t no_face = 255;
+  static constexpr std::uint8_t no_face = 255, any_face = 254;
+  /// Returns any_face or the one that the pixel looks up, or no_face.
+  std::uint8_t face_of(std::size_t pixel) const { return faces.data.empty() ? any_face : faces.data[pixel]; }
   /// By face, what the test has beside the bias of the first: stored numbers, and world units along the normal.
   struct LayerBias {
     double constant = 0.0, normal_offset_world = 0.0;

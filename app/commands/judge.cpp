@@ -5,10 +5,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <set>
-#include <utility>
 
 #include "app/options/judge_options.h"
 #include "app/options/option_kinds.h"
@@ -21,7 +21,6 @@
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 #include "studies/judge/identify.h"
-#include "studies/judge/recorded_frame.h"
 #include "studies/judge/several.h"
 
 namespace gnomon::app {
@@ -35,8 +34,6 @@ struct JudgeCommand : RunOptions {
   ResultOutput output;
   bool identify = false;
   std::string suite;
-  bool list = false;
-  std::string light;  ///< of recorded frames, counted from 1; of captures it is one of the parts
   std::string command_line;
 };
 
@@ -45,18 +42,28 @@ struct JudgedScene {
   compare::Comparison comparison;
 };
 
-Expected<compare::Capture> capture_of(const JudgeCommand& command, const std::string& path) {
-  compare::Capture capture;
+/// A capture's lights, each with the options' parts in place of its own; of several --light chooses one.
+Expected<std::vector<compare::Capture>> lights_of(const JudgeCommand& command, const std::string& path) {
+  std::vector<compare::Capture> lights(1);
+  CaptureOptions parts = command.parts;
   if (!path.empty()) {
-    auto read = compare::read_capture(path);
-    if (!read) return read;
-    capture = std::move(*read);
+    auto read = compare::read_captures(path);
+    if (!read) return fail(read.error());
+    lights = std::move(*read);
   }
-  auto whole = with_options(std::move(capture), command.parts);
-  if (!whole) return whole;
-  if (const auto sound = compare::check_capture(*whole); !sound)
-    return fail(whole->path.empty() ? usage_error(sound.error(), command.parts) : sound.error());
-  return whole;
+  if (!lights.front().within.empty() && !parts.given.light.empty()) {
+    auto chosen = compare::read_capture(path, parts.given.light);
+    if (!chosen) return fail(chosen.error());
+    lights = {std::move(*chosen)}, parts.given.light.clear();
+  }
+  for (compare::Capture& light : lights) {
+    auto whole = with_options(std::move(light), parts);
+    if (!whole) return fail(whole.error());
+    light = std::move(*whole);
+    if (const auto sound = compare::check_capture(light); !sound)
+      return fail(light.path.empty() ? usage_error(sound.error(), parts) : sound.error());
+  }
+  return lights;
 }
 
 Expected<void> identify_map(const JudgeCommand& command, JudgedScene& judged, Console& console) {
@@ -108,7 +115,7 @@ RunFiles inputs_of(const compare::Capture& capture) {
   files.reads(capture.path);
   files.reads(SceneArgument{capture.scene});
   for (const std::string* picture :
-       {&capture.visibility, &capture.shadowed, &capture.unshadowed, &capture.position})
+       {&capture.visibility, &capture.shadowed, &capture.unshadowed, &capture.also, &capture.position})
     files.reads(*picture);
   if (capture.depth) files.reads(capture.depth->file);
   for (const compare::CapturedLayer& layer : capture.map) files.reads(layer.depth);
@@ -123,57 +130,15 @@ std::string name_of(const std::string& path) {
                  : file.stem().string();
 }
 
-/// Makes a capture of a recorded frame in `folder` and puts its capture.json in the frame's place.
-Expected<void> make_capture(const JudgeCommand& command, std::string& path, const std::string& folder,
-                            Console& console) {
-  const OutputGuard whole_outputs;
-  auto staged = StagedFolder::open(folder);
-  if (!staged) return fail(staged.error());
-  console.progress("replaying the frame", 0.0);
-  const auto found = compare::capture_recorded_frame(path, staged->path(), command.light);
-  if (!found) return fail(found.error());
-  if (const auto sealed = staged->seal(std::vector{path}); !sealed) return sealed;
-  if (const auto published = staged->publish("capture.json"); !published) return published;
-  for (const std::string& finding : *found) console.note(finding);
-  path = folder + "/capture.json";
-  return {};
-}
-
-/// Makes captures of all recorded frames, beside the folders of their verdicts: "wall-capture" of "wall".
-Expected<void> make_captures(JudgeCommand& command, Console& console) {
-  const bool single = command.captures.size() == 1 && command.suite.empty();
-  for (std::string& path : command.captures) {
-    if (!compare::is_recorded_frame(path)) continue;
-    command.light = std::exchange(command.parts.given.light, "");
-    const std::string name = name_of(path);
-    if (single && command.output.folder.empty()) command.output.folder = "out/" + name;
-    const std::string folder =
-        single ? command.output.folder
-               : (command.output.folder.empty() ? "out/judge" : command.output.folder) + "/" + name;
-    if (const auto made = make_capture(command, path, folder + "-capture", console); !made) return made;
-  }
-  return {};
-}
-
-Expected<ExitCode> list_lights(const JudgeCommand& command) {
-  if (command.captures.size() != 1 || !compare::is_recorded_frame(command.captures.front()))
-    return fail(ErrorKind::usage, "--list: needs one frame that RenderDoc recorded (.rdc)");
-  const auto lights = compare::recorded_lights(command.captures.front());
-  if (!lights) return fail(lights.error());
-  for (const std::string& light : *lights) print_data(light + "\n");
-  return ExitCode::done;
-}
-
-Expected<ExitCode> judge_single(JudgeCommand& command, const std::string& path, Console& console) {
+Expected<ExitCode> judge_single(JudgeCommand& command, const compare::Capture& capture, Console& console) {
   const Stopwatch total;
-  const auto capture = capture_of(command, path);
-  if (!capture) return fail(capture.error());
   if (command.output.folder.empty() && !only_prints_json(command.output))
-    command.output.folder = path.empty() ? default_output(capture->scene) : "out/" + name_of(path);
-  RunFiles files = inputs_of(*capture);
+    command.output.folder =
+        capture.path.empty() ? default_output(capture.scene) : "out/" + name_of(capture.path);
+  RunFiles files = inputs_of(capture);
   files.writes("--trace", command.trace);
   if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
-  auto judged = judge_one(command, *capture, files, console);
+  auto judged = judge_one(command, capture, files, console);
   if (!judged) return fail(judged.error());
   judged->comparison.total_ms = total.elapsed_ms();
   console.progress("writing", 1.0);
@@ -182,21 +147,41 @@ Expected<ExitCode> judge_single(JudgeCommand& command, const std::string& path, 
   return write_folder(command.output, judged->comparison, judged->loaded, files, total, console);
 }
 
-/// One of several.
+/// One of several: a light of a capture, or why the capture cannot be read.
 struct NamedCapture {
-  std::string path, name;  ///< no two have one name
+  std::string name;  ///< no two have one name
+  Expected<compare::Capture> capture;
 };
 
-std::vector<NamedCapture> with_names(const std::vector<std::string>& paths) {
-  std::vector<NamedCapture> captures;
+std::string unused_name(const std::string& base, std::set<std::string>& taken) {
+  std::string name = base;
+  for (int count = 2; !taken.insert(name).second; ++count) name = fmt::format("{}-{}", base, count);
+  return name;
+}
+
+/// A letter, digit, dot, dash or underscore stays; what else a light's name has becomes a dash.
+std::string file_name_of(std::string light) {
+  for (char& c : light)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_') c = '-';
+  return light;
+}
+
+/// The lights of all captures; those of a capture of several are called by it and the light.
+std::vector<NamedCapture> all_lights(const JudgeCommand& command) {
+  std::vector<NamedCapture> out;
   std::set<std::string> taken;
-  for (const std::string& path : paths) {
+  for (const std::string& path : command.captures) {
     const std::string base = name_of(path);
-    std::string name = base;
-    for (int count = 2; !taken.insert(name).second; ++count) name = fmt::format("{}-{}", base, count);
-    captures.push_back({path, name});
+    auto lights = lights_of(command, path);
+    if (!lights) out.push_back({unused_name(base, taken), fail(lights.error())});
+    if (!lights) continue;
+    for (compare::Capture& light : *lights) {
+      const bool alone = lights->size() == 1;
+      const std::string name = alone ? base : base + "-" + file_name_of(light.light);
+      out.push_back({unused_name(name, taken), std::move(light)});
+    }
   }
-  return captures;
+  return out;
 }
 
 /// Its own folder below the common one, which is still in the making at `place`.
@@ -210,9 +195,8 @@ ResultOutput folder_output(const JudgeCommand& command, const NamedCapture& name
 /// No capture's folder takes the place of what the capture names. One that cannot be read is refused in its turn.
 Expected<void> check_folders(const JudgeCommand& command, const std::vector<NamedCapture>& captures) {
   for (const NamedCapture& named : captures) {
-    const auto capture = capture_of(command, named.path);
-    if (!capture) continue;
-    RunFiles files = inputs_of(*capture);
+    if (!named.capture) continue;
+    RunFiles files = inputs_of(*named.capture);
     if (const auto fine = check_outputs(folder_output(command, named, command.output.folder), files); !fine)
       return fine;
   }
@@ -229,12 +213,11 @@ struct SetInTheMaking {
 Expected<ExitCode> judge_next(JudgeCommand& command, const NamedCapture& named, SetInTheMaking& making,
                               Console& console) {
   const Stopwatch total;
-  const auto capture = capture_of(command, named.path);
-  if (!capture) return fail(capture.error());
+  if (!named.capture) return fail(named.capture.error());
   const ResultOutput output = folder_output(command, named, making.staged.path());
-  RunFiles files = inputs_of(*capture);
+  RunFiles files = inputs_of(*named.capture);
   if (const auto fine = check_outputs(output, files); !fine) return fail(fine.error());
-  auto judged = judge_one(command, *capture, files, console);
+  auto judged = judge_one(command, *named.capture, files, console);
   if (!judged) return fail(judged.error());
   judged->comparison.total_ms = total.elapsed_ms();
   making.set.add(named.name, judged->comparison);
@@ -256,15 +239,18 @@ Expected<SetInTheMaking> begin_set(const std::string& folder) {
   return SetInTheMaking{std::move(*staged)};
 }
 
-Expected<ExitCode> judge_several(JudgeCommand& command, Console& console) {
-  if (command.output.folder.empty()) command.output.folder = "out/judge";
+Expected<ExitCode> judge_several(JudgeCommand& command, const std::vector<NamedCapture>& captures,
+                                 Console& console) {
+  if (command.output.folder.empty())
+    command.output.folder =
+        command.captures.size() == 1 ? "out/" + name_of(command.captures.front()) : "out/judge";
   if (!command.output.json.empty() || !command.output.aov.empty())
-    return fail(ErrorKind::usage, "judge: --json and --aov are of one capture; several write judge.jsonl");
+    return fail(ErrorKind::usage,
+                "judge: --json and --aov are of one light (--light chooses it); several write judge.jsonl");
   RunFiles files;
   for (const std::string& path : command.captures) files.reads(path);
   files.writes("--trace", command.trace);
   if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
-  const std::vector<NamedCapture> captures = with_names(command.captures);
   if (const auto apart = check_folders(command, captures); !apart) return fail(apart.error());
   auto making = begin_set(command.output.folder);
   if (!making) return fail(making.error());
@@ -314,27 +300,24 @@ Expected<ExitCode> run_judge(JudgeCommand& command) {
   command.options.raytrace.seed = command.seed;
   if (command.captures.empty() && command.suite.empty() && !command.parts.any)
     return fail(ErrorKind::usage, "judge: needs a capture (a file, or its parts as options)");
-  if (command.list) return list_lights(command);
-  if (const auto made = make_captures(command, console); !made) return fail(made.error());
   if (!command.suite.empty()) {
     auto found = captures_below(command.suite);
     if (!found) return fail(found.error());
     command.captures.insert(command.captures.end(), found->begin(), found->end());
   }
-  if (command.captures.size() > 1 || !command.suite.empty()) return judge_several(command, console);
-  return judge_single(command, command.captures.empty() ? "" : command.captures.front(), console);
+  if (command.captures.size() > 1 || !command.suite.empty())
+    return judge_several(command, all_lights(command), console);
+  const auto lights = lights_of(command, command.captures.empty() ? "" : command.captures.front());
+  if (!lights) return fail(lights.error());
+  if (lights->size() > 1) return judge_several(command, all_lights(command), console);
+  return judge_single(command, lights->front(), console);
 }
 
 void add_options(CLI::App& app, JudgeCommand& command) {
-  app.add_option("CAPTURE", command.captures,
-                 "captures (gnomon/capture/2 or 1, docs/judge.md), or frames that RenderDoc recorded, of "
-                 "which captures are "
-                 "made in folders that end in -capture [may be left out where the options say it all]")
-      ->type_name("CAPTURE.json|FRAME.rdc");
-  app.add_flag(
-      "--list", command.list,
-      "print the lights of a recorded frame that have a shadow map; --light N takes another than the first "
-      "[default off]");
+  app.add_option(
+         "CAPTURE", command.captures,
+         "captures (gnomon/capture/2 or 1, docs/judge.md) [may be left out where the options say it all]")
+      ->type_name("CAPTURE.json");
   add_result_output(app, command.output, "out/NAME of the capture, out/judge of several");
   app.add_option(
          "--suite", command.suite,
@@ -366,7 +349,7 @@ void add_judge(CLI::App& program, Invocation& invocation) {
       "gnomon judge capture.json -o report\n"
       "gnomon judge capture.json --fix --fail-above 1%\n"
       "gnomon judge a.json b.json -o verdicts      one table, the worst first\n"
-      "gnomon judge frame.rdc --light 2            of any engine, by RenderDoc\n"
+      "gnomon judge frame.json --light sun         one of a capture's lights\n"
       "gnomon judge --renderer mine --scene model.glb --size 640x360 --visibility shadow.png");
   const auto command = std::make_shared<JudgeCommand>();
   command->command_line = invocation.command_line;

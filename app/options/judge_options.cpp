@@ -213,7 +213,7 @@ void add_capture_options(CLI::App& app, CaptureOptions& o) {
   add_text(app, "--scene", "SCENE", "what it loaded [default the capture's]", o, c.scene);
   add_text(app, "--camera", "NAME", "name or number, from 0 [default the capture's]", o, c.camera);
   add_text(app, "--light", "NAME",
-           "name or number, from 0; of a recorded frame from 1 [default the capture's]", o, c.light);
+           "name or number, from 0; of several the one to judge [default the capture's]", o, c.light);
   add_text(app, "--visibility", "FILE", "picture of the visibility [EXR or PNG; default the capture's]", o,
            c.visibility);
   add_text(app, "--shadowed", "FILE",
@@ -254,12 +254,14 @@ Expected<Capture> with_options(Capture capture, const CaptureOptions& o) {
   }
   if (o.bias_constant || o.bias_slope || o.bias_normal_offset) {
     compare::CapturedBias& bias = capture.bias ? *capture.bias : capture.bias.emplace();
-    bias = {o.bias_constant.value_or(bias.constant_depth), o.bias_slope.value_or(bias.slope),
-            o.bias_normal_offset.value_or(bias.normal_offset_world)};
+    bias.constant_depth = o.bias_constant.value_or(bias.constant_depth);
+    bias.slope = o.bias_slope.value_or(bias.slope);
+    bias.normal_offset_world = o.bias_normal_offset.value_or(bias.normal_offset_world);
   }
   if (o.filter_kind || o.filter_radius) {
     compare::CapturedFilter& filter = capture.filter ? *capture.filter : capture.filter.emplace();
-    filter = {o.filter_kind.value_or(filter.kind), o.filter_radius.value_or(filter.radius_texels)};
+    filter.kind = o.filter_kind.value_or(filter.kind);
+    filter.radius_texels = o.filter_radius.value_or(filter.radius_texels);
   }
   if (const auto set = set_map(capture, o); !set) return fail(set.error());
   return capture;

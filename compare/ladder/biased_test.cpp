@@ -45,6 +45,32 @@ double texel_depth_slope(const LightView& view, const TexelCoordinate& at, const
   return (slope(0.5, 0.0) + slope(0.0, 0.5)) * scale;
 }
 
+double angle_factor(raster::AngleForm form, double cosine) {
+  const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  switch (form) {
+    case raster::AngleForm::sine:
+      return sine;
+    case raster::AngleForm::tangent:
+      return cosine > 0.0 ? sine / cosine : infinity;
+    case raster::AngleForm::one_minus_cosine:
+      return 1.0 - cosine;
+    case raster::AngleForm::none:
+      break;
+  }
+  return 1.0;
+}
+
+namespace {
+
+/// Returns by how much another renderer moves a receiver along its normal, world units.
+double captured_offset(const raster::CapturedTest& test, int face, double cosine) {
+  double offset = test.normal_offset_world;
+  if (!test.layers.empty()) offset += test.layers[static_cast<std::size_t>(face)].normal_offset_world;
+  return offset == 0.0 ? 0.0 : offset * angle_factor(test.normal_offset_angle, cosine);
+}
+
+}  // namespace
+
 std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, const raster::Bias& bias,
                                           const Vec3& to_light, const raytrace::SurfacePoint& receiver,
                                           std::size_t pixel) {
@@ -52,17 +78,16 @@ std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, con
   BiasedLookup out;
   out.position = receiver.position;
   out.at = project_to_face(view, record.face.data[pixel], receiver.position);
+  out.cosine = std::clamp(glm::dot(receiver.normal, to_light), 0.0, 1.0);
   const raster::CapturedTest* test = record.captured ? &*record.captured->test : nullptr;
-  double given = test != nullptr ? test->normal_offset_world : 0.0;
-  if (test != nullptr && !test->layers.empty())
-    given += test->layers[record.face.data[pixel]].normal_offset_world;
+  const double given = test != nullptr ? captured_offset(*test, record.face.data[pixel], out.cosine) : 0.0;
   if (bias.normal_offset_texels > 0.0 || given > 0.0) {
     const double sine = glm::length(glm::cross(receiver.normal, to_light));
     const double texels = bias.normal_offset_texels * texel_world_size(view, out.at) * sine;
     out.position += receiver.normal * (texels + given);
-    out.at = test != nullptr && !test->faces.data.empty()
-                 ? project_to_face(view, record.face.data[pixel], out.position)
-                 : project_to_texel(view, out.position);
+    const bool by_place = test == nullptr || test->face_of(pixel) == raster::CapturedTest::any_face;
+    out.at = by_place ? project_to_texel(view, out.position)
+                      : project_to_face(view, record.face.data[pixel], out.position);
     if (!out.at.inside) return std::nullopt;
     if (test != nullptr && !test->holds(out.at.face, out.at.column(), out.at.row())) return std::nullopt;
     out.key = raytrace::TexelKey::pack(out.at.face, out.at.column(), out.at.row());
@@ -74,27 +99,49 @@ std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, con
 
 namespace {
 
-/// Returns the gap as another renderer tests its own map: a difference of stored numbers.
-double captured_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
-                    const BiasedLookup& lookup, double caster_depth) {
+/// Returns the constant, stored numbers, from which on the test draws light where the receiver lies this far behind what is
+/// stored: the two are compared after the constant was multiplied by the angle's factor and held within its limits.
+double constant_that_lights(const raster::CapturedTest& test, double behind, double cosine) {
+  if (!test.has_angle()) return behind;
+  if (behind <= test.least) return -infinity;
+  if (behind > test.most) return infinity;
+  const double factor = angle_factor(test.constant_angle, cosine);
+  if (factor == 0.0) return behind > 0.0 ? infinity : -infinity;
+  return std::isinf(factor) ? 0.0 : behind / factor;
+}
+
+/// Returns by how many stored numbers the receiver lies behind a caster, its slope bias taken off.
+double stored_behind(const raster::LightRecord& record, double slope_world, const BiasedLookup& lookup,
+                     double caster_depth) {
   const LightView& view = record.map.view;
   const TexelCoordinate& at = lookup.at;
   const raster::CapturedTest& test = *record.captured->test;
   const int face = lookup.key.face();
   const double u = lookup.key.column() + 0.5, v = lookup.key.row() + 0.5;
-  const double slope =
-      bias.slope != 0.0 ? bias.slope * texel_depth_slope(view, at, lookup.position, normal) : 0.0;
-  if (test.distances) {
+  if (test.stores == raster::CapturedTest::Stores::distances) {
     const double along = glm::dot(texel_ray(view, face, u, v).direction, view.face(face).forward);
-    const double constant = test.layers.empty() ? 0.0 : test.layers[static_cast<std::size_t>(face)].constant;
-    return (at.distance - caster_depth / along - constant) * test.unit_world - slope;
+    return (at.distance - caster_depth / along - slope_world) / test.unit_world;
   }
+  if (test.stores == raster::CapturedTest::Stores::linear_z)
+    return (at.depth - caster_depth - slope_world * at.depth / at.distance) / test.unit_world;
   const double own = stored_from_depth(view, face, v, at.depth);
-  const double before = stored_from_depth(view, face, v, at.depth - slope * at.depth / at.distance);
+  const double before = stored_from_depth(view, face, v, at.depth - slope_world * at.depth / at.distance);
   const double caster = stored_from_depth(view, face, v, caster_depth);
   const double behind = view.reversed ? caster - own : own - caster;
-  const double constant = test.layers.empty() ? 0.0 : test.layers[static_cast<std::size_t>(face)].constant;
-  return (behind - std::abs(own - before) - constant) * test.unit_world;
+  return behind - std::abs(own - before);
+}
+
+/// Returns the gap as another renderer tests its own map: a difference of stored numbers.
+double captured_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
+                    const BiasedLookup& lookup, double caster_depth) {
+  const raster::CapturedTest& test = *record.captured->test;
+  const double slope =
+      bias.slope != 0.0 ? bias.slope * texel_depth_slope(record.map.view, lookup.at, lookup.position, normal)
+                        : 0.0;
+  const double behind = stored_behind(record, slope, lookup, caster_depth);
+  const double beside =
+      test.layers.empty() ? 0.0 : test.layers[static_cast<std::size_t>(lookup.key.face())].constant;
+  return (constant_that_lights(test, behind, lookup.cosine) - beside) * test.unit_world;
 }
 
 }  // namespace

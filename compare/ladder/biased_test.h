@@ -21,11 +21,15 @@ double texel_depth_slope(const LightView& view, const TexelCoordinate& at, const
 double plane_depth(const LightView& view, int face, double u, double v, const Vec3& position,
                    const Vec3& normal);
 
+/// Returns the factor >= 0 at the angle with this cosine, which is at least 0; infinite for the tangent of a right angle.
+double angle_factor(raster::AngleForm form, double cosine);
+
 /// Where the biased test looks: the receiver's own place, or that of its normal offset.
 struct BiasedLookup {
   raytrace::TexelKey key;
   TexelCoordinate at;
   Vec3 position;
+  double cosine = 1.0;  ///< of the angle between the receiver's normal and the light, in [0, 1]
 };
 /// None where the lookup is outside the map.
 std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, const raster::Bias& bias,

@@ -160,11 +160,19 @@ float point_rung(const LadderInput& in, std::size_t pixel) {
   return lit(in.truth().centre.data[pixel] == PointVisibility::lit);
 }
 
+// Another renderer's test of a pixel that looks up none of its layers.
+bool is_lit_without_map(const raster::LightRecord& record, std::size_t pixel) {
+  return record.captured && record.captured->test &&
+         record.captured->test->face_of(pixel) == raster::CapturedTest::no_face;
+}
+
 void climb_outside(const LadderInput& in, std::size_t pixel, Climb& out) {
   const float truth = out.rungs[0].data[pixel];
   const float drawn = in.record().visibility.data[pixel];
   out.rungs[1].data[pixel] = point_rung(in, pixel);
-  for (std::size_t k = 2; k < rung_count; ++k) out.rungs[k].data[pixel] = drawn;
+  const float test = is_lit_without_map(in.record(), pixel) ? 1.0f : drawn;
+  for (std::size_t k = 2; k < 6; ++k) out.rungs[k].data[pixel] = test;
+  out.rungs[6].data[pixel] = drawn;
   if (is_compared(out.labels.data[pixel]) && has_error(drawn, truth))
     out.labels.data[pixel] = Label::outside_map;
 }

@@ -3,6 +3,7 @@
 // nothing outside the casters' rectangle can be in shadow, and nothing outside the frustum can be seen). Spot
 // and point: the light's own cone or cube, with the tightest depth range that clips nothing.
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -375,7 +376,7 @@ Expected<LightView> fit_light_view(const World& world, const Light& light, const
     half_extent = Vec2(std::tan(light.outer_angle) * size / std::max(1.0, size - 2.0));
   } else {
     out.face_count = 6;
-    out.faces = cube_faces();
+    std::ranges::copy(cube_faces(), out.faces.begin());
   }
   if (world.primitive_count() == 0)
     return fail(ErrorKind::graphics, "the shadow map has nothing to cover: the scene has no surface");

@@ -55,7 +55,9 @@ struct LightView {
   int size = 0;  ///< texels on a side
   int face_count =
       1;  ///< 6 for a point light, in the order +x -x +y -y +z -z; orthographic: cascades, finest first
-  std::array<LightFace, 6> faces{};
+  /// Gnomon's own maps have six at most; cascades and levels of another renderer's may be more.
+  static constexpr std::size_t most_faces = 32;
+  std::array<LightFace, most_faces> faces{};
   Vec3 origin{0.0};       ///< the light's position, or where depth is 0 and centres are measured from
   bool seamless = false;  ///< of a cube: no point falls beside the face that it belongs to
   bool reversed = false;  ///< stored depth is 1 at the near depth and 0 at the far one

@@ -188,7 +188,9 @@ std::vector<Advice> give_advice(const FrameInput& in, const raster::Bias& bias, 
                                 const raster::LightRecord& record, const CasterBiases& casters) {
   std::vector<Advice> out;
   const raster::CapturedTest& test = *record.captured->test;
-  const std::string unit = test.distances ? "world units" : "stored depth";
+  using Stores = raster::CapturedTest::Stores;
+  const std::string unit =
+      test.stores == Stores::depths || test.unit_world != 1.0 ? "stored depth" : "world units";
   const Tried tried = try_constants(record, light);
   if (tried.gaps.lit.empty() && tried.gaps.shadowed.empty()) return out;
   if (!casters.faces.empty()) return advise_on_casters(in, bias, light, record, casters);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "raster/frame.h"
 #include "scene/base/expected.h"
 #include "scene/image.h"
 #include "scene/math.h"
@@ -18,14 +19,18 @@ namespace gnomon::compare {
 /// What a depth buffer of the camera holds.
 enum class PixelDepth : std::uint8_t { view_z, distance, zero_to_one, reversed };
 /// What the light's matrix makes of depth, and what a texel of its map holds.
-enum class StoredDepth : std::uint8_t { zero_to_one, minus_one_to_one, reversed, distance };
+enum class StoredDepth : std::uint8_t { zero_to_one, minus_one_to_one, reversed, distance, linear_z };
 enum class RowOrder : std::uint8_t { top_down, bottom_up };
 enum class FilterName : std::uint8_t { none, pcf, pcss, vsm, esm, evsm, msm };
 
 inline constexpr std::array<std::string_view, 4> pixel_depth_names{"view_z", "distance", "zero_to_one",
                                                                    "reversed"};
-inline constexpr std::array<std::string_view, 4> stored_depth_names{"zero_to_one", "minus_one_to_one",
-                                                                    "reversed", "distance"};
+inline constexpr std::array<std::string_view, 5> stored_depth_names{"zero_to_one", "minus_one_to_one",
+                                                                    "reversed", "distance", "linear_z"};
+/// Whether stored numbers are world units, or evenly spaced in them (CapturedLayer::range), whatever the matrix makes of depth.
+constexpr bool is_linear(StoredDepth stored) {
+  return stored == StoredDepth::distance || stored == StoredDepth::linear_z;
+}
 inline constexpr std::array<std::string_view, 2> row_order_names{"top_down", "bottom_up"};
 inline constexpr std::array<std::string_view, 2> filter_read_names{"nearest", "linear_depths"};
 inline constexpr std::array<std::string_view, 2> select_names{"view_z", "distance"};
@@ -52,18 +57,31 @@ struct CapturedBias {
   double constant_depth = 0.0;  ///< stored numbers; positive takes shadow away
   double slope = 0.0;           ///< as raster::Bias::slope
   double normal_offset_world = 0.0;
+  /// By what the constant is multiplied before it is held within `min` and `max`, stored numbers.
+  raster::AngleForm angle = raster::AngleForm::none;
+  double min = -infinity, max = infinity;
+  raster::AngleForm normal_offset_angle = raster::AngleForm::none;  ///< no tangent
 };
 
 /// Which pixels look a layer up, by how far they lie from the camera.
 struct CapturedSelect {
   double near = 0.0, far = infinity;  ///< world units; near <= distance < far
   bool by_distance = false;           ///< from the eye; else along the view's axis
+  double blend = 0.0;  ///< world units before `far` over which the next layer takes over, linearly
+};
+
+/// Where shadows fade out, linearly with the distance from the camera: whole up to `from`, none beyond `to`.
+struct CapturedFade {
+  double from = 0.0, to = infinity;  ///< world units, from <= to
+  bool by_distance = false;          ///< from the eye; else along the view's axis
 };
 
 /// Of a picture that several layers share: texels from its first column and row.
 struct CapturedRect {
   int x = 0, y = 0, width = 0, height = 0;
 };
+
+inline constexpr std::size_t most_layers = LightView::most_faces;
 
 struct CapturedLayer {
   std::string depth;  ///< file
@@ -74,6 +92,8 @@ struct CapturedLayer {
   std::optional<CapturedBias> bias;  ///< in place of the capture's
   std::optional<CapturedRect> rect;
   std::optional<CapturedSelect> select;
+  /// World units that are stored as 0 and as 1, where is_linear(); left out: 0 and 1, stored are world units.
+  std::optional<Vec2> range;
 };
 
 struct CapturedFilter {
@@ -96,15 +116,22 @@ struct Capture {
   std::optional<CapturedBias> bias;
   std::optional<CapturedFilter> filter;
   std::optional<double> strength;  ///< of the shadow, in (0, 1]: full shadow is drawn as 1 - strength
+  std::optional<CapturedFade> fade;
+  std::string also;    ///< file: what else darkens the picture, to be divided out
+  std::string within;  ///< "lights[1]." before the fields of one light of several; else empty
 };
 
+/// Reads a capture's lights: one Capture for each of `lights`, each with what they share; of a capture without `lights` one.
 /// Errors (bad input) name file, line, column and field. Whether the parts go together is check_capture's.
-Expected<Capture> read_capture(const std::string& path);
+Expected<std::vector<Capture>> read_captures(const std::string& path);
+/// Reads the capture of one light: that of the name, or, where none has it, in that place of `lights`, from 0. Empty: the only
+/// one; an error (bad input) where there are several.
+Expected<Capture> read_capture(const std::string& path, const std::string& light = {});
 
 /// Says what is missing or contradicts: ErrorKind::bad_input with the field.
 Expected<void> check_capture(const Capture& capture);
 
 /// An error of a field of this capture.
-tl::unexpected<Error> capture_error(const Capture& capture, std::string field, std::string reason);
+tl::unexpected<Error> capture_error(const Capture& capture, const std::string& field, std::string reason);
 
 }  // namespace gnomon::compare

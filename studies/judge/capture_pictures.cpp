@@ -17,6 +17,8 @@ constexpr float range_slack = 1e-3f;
 /// The share of the brightest unshadowed value below which a ratio says nothing: a 16-bit PNG's step is
 /// 1.5e-5, so that the ratio is known within 2 % there.
 constexpr float least_light = 1e-3f;
+/// The share that something else leaves below which eight bits know the shadow's no better than to 6 %.
+constexpr float least_also = 1.0f / 16.0f;
 /// What noise and eight bits do not make: a quarter of the value and a hundredth of the brightest.
 constexpr float clear_share = 0.25f, clear_light = 0.01f;
 
@@ -41,7 +43,6 @@ Expected<ImageSize> checked_size(const Capture& capture, const std::string& file
 }
 
 Expected<void> check_layer_sizes(const Capture& capture) {
-  int side = 0;
   for (std::size_t i = 0; i < capture.map.size(); ++i) {
     const std::string field = fmt::format("map[{}].depth", i);
     const auto picture = checked_size(capture, capture.map[i].depth, field, false);
@@ -53,13 +54,6 @@ Expected<void> check_layer_sizes(const Capture& capture) {
           capture, fmt::format("map[{}].rect", i),
           fmt::format("reaches beyond its picture (got [{}, {}, {}, {}], the picture is {} x {})", rect.x,
                       rect.y, rect.width, rect.height, picture->width, picture->height));
-    if (capture.map.size() != 6)
-      continue;  // of a light in perspective six faces of a cube; read_map says so of others
-    if (side != 0 && side != rect.width && rect.width == rect.height)
-      return capture_error(
-          capture, field,
-          fmt::format("is of another size than the layers before (got {}, they have {})", rect.width, side));
-    side = rect.width;
   }
   return {};
 }
@@ -193,6 +187,26 @@ Expected<void> read_ratio(const Capture& capture, CapturedPictures& out) {
   return {};
 }
 
+/// Divides out what else darkens the picture. Where that leaves next to nothing the picture does not tell.
+Expected<void> divide_out(const Capture& capture, CapturedPictures& out) {
+  ImageSize size = capture.size;
+  const auto also = read_single_channel(capture, capture.also, "also", visibility_names, size);
+  if (!also) return fail(also.error());
+  if (const auto finite = check_finite(*also, capture.also, "also", false); !finite) return finite;
+  const auto [low, high] = std::minmax_element(also->values.begin(), also->values.end());
+  if (*low < -range_slack || *high > 1.0f + range_slack)
+    return picture_error(
+        capture.also, "also",
+        fmt::format("values beyond their range (got {:.4g} to {:.4g}, allowed 0 to 1)", *low, *high));
+  for (std::size_t i = 0; i < out.visibility.data.size(); ++i) {
+    const bool tells = also->values[i] >= least_also;
+    if (!tells) out.reached.data[i] = 0;
+    float& v = out.visibility.data[i];
+    v = tells ? std::min(1.0f, v / also->values[i]) : 1.0f;
+  }
+  return {};
+}
+
 Expected<void> read_positions(const Capture& capture, CapturedPictures& out) {
   const std::string& file = capture.position;
   auto picture = read_picture(capture, file, "position", true);
@@ -273,7 +287,8 @@ Expected<Channel> read_single_channel(const Capture& capture, const std::string&
 Expected<void> check_picture_sizes(const Capture& capture) {
   for (const auto& [field, file] :
        {std::pair{"visibility", &capture.visibility}, std::pair{"shadowed", &capture.shadowed},
-        std::pair{"unshadowed", &capture.unshadowed}, std::pair{"position", &capture.position}}) {
+        std::pair{"unshadowed", &capture.unshadowed}, std::pair{"also", &capture.also},
+        std::pair{"position", &capture.position}}) {
     if (file->empty()) continue;
     if (const auto size = checked_size(capture, *file, field, true); !size) return fail(size.error());
   }
@@ -299,6 +314,8 @@ Expected<CapturedPictures> read_pictures(const Capture& capture, bool orthograph
   out.color = ColorImage(capture.size, Vec3f(0.0f));
   const auto read = capture.visibility.empty() ? read_ratio(capture, out) : read_visibility(capture, out);
   if (!read) return fail(read.error());
+  if (!capture.also.empty())
+    if (const auto divided = divide_out(capture, out); !divided) return fail(divided.error());
   if (!capture.position.empty())
     if (const auto positions = read_positions(capture, out); !positions) return fail(positions.error());
   if (capture.depth)

@@ -136,35 +136,32 @@ Expected<raster::ShadowMap> empty_map(const FrameInput& in, const Light& light) 
   return map;
 }
 
-/// Which face a pixel looks up; none where its distance is no layer's, and the first that holds the place where layers are
-/// not chosen by it.
-void select_faces(const FrameInput& in, const std::vector<CapturedSelect>& select,
-                  Image<std::uint8_t>& faces) {
-  faces = Image<std::uint8_t>(in.capture.size, raster::CapturedTest::no_face);
-  const View view = make_view(in.camera, in.capture.size);
-  parallel_for(faces.data.size(), [&](std::size_t i) {
-    const SurfacePoint& point = in.traced.receiver.data[i];
-    if (point.primitive == no_id) return;
-    const double along = glm::dot(point.position - view.eye, view.forward),
-                 from_eye = glm::length(point.position - view.eye);
-    for (std::size_t k = 0; k < select.size(); ++k) {
-      const double distance = select[k].by_distance ? from_eye : along;
-      if (distance >= select[k].near && distance < select[k].far) {
-        faces.data[i] = static_cast<std::uint8_t>(k);
-        return;
-      }
-    }
-  });
+/// The layer of which most is drawn: where one gives way to the next that is the next from the middle on.
+std::uint8_t selected_face(const View& view, const std::vector<CapturedSelect>& select, const Vec3& place) {
+  using Test = raster::CapturedTest;
+  if (select.empty()) return Test::any_face;
+  for (std::size_t k = 0; k < select.size(); ++k) {
+    const double distance = from_camera(view, select[k].by_distance, place);
+    if (!(distance >= select[k].near && distance < select[k].far)) continue;
+    const bool gives_way = select[k].blend > 0.0 && distance >= select[k].far - 0.5 * select[k].blend;
+    return static_cast<std::uint8_t>(gives_way ? k + 1 : k);
+  }
+  return Test::no_face;
 }
 
 void fill_test(const FrameInput& in, const CapturedMap& map, raster::CapturedTest& test,
                const raster::LightRecord& record) {
-  test.distances = map.distances;
-  test.unit_world = map.distances ? 1.0 : unit_world(record.map, in.traced);
+  using Stores = raster::CapturedTest::Stores;
+  test.stores = map.stored == StoredDepth::distance   ? Stores::distances
+                : map.stored == StoredDepth::linear_z ? Stores::linear_z
+                                                      : Stores::depths;
+  test.unit_world = test.stores == Stores::depths ? unit_world(record.map, in.traced) : map.unit_world;
   test.parts = map.parts;
   test.linear_depths = in.capture.filter && in.capture.filter->linear_depths;
   const CapturedBias& first = map.bias.front();
   test.normal_offset_world = first.normal_offset_world;
+  test.normal_offset_angle = first.normal_offset_angle, test.constant_angle = first.angle;
+  test.least = first.min, test.most = first.max;
   for (const CapturedBias& bias : map.bias)
     test.layers.push_back(
         {bias.constant_depth - first.constant_depth, bias.normal_offset_world - first.normal_offset_world});
@@ -172,7 +169,7 @@ void fill_test(const FrameInput& in, const CapturedMap& map, raster::CapturedTes
     return b.constant == 0.0 && b.normal_offset_world == 0.0;
   };
   if (std::all_of(test.layers.begin(), test.layers.end(), alike)) test.layers.clear();
-  if (!map.select.empty()) select_faces(in, map.select, test.faces);
+  test.faces = looked_up_faces(in, map.select, in.capture.fade);
 }
 
 void fill_light(const FrameInput& in, const CapturedMap* captured, raster::RasterFrame& frame,
@@ -193,11 +190,37 @@ void fill_light(const FrameInput& in, const CapturedMap* captured, raster::Raste
 
 }  // namespace
 
+double from_camera(const View& view, bool by_distance, const Vec3& place) {
+  return by_distance ? glm::length(place - view.eye) : glm::dot(place - view.eye, view.forward);
+}
+
+std::vector<CapturedSelect> captured_selects(const Capture& capture) {
+  std::vector<CapturedSelect> out;
+  for (const CapturedLayer& layer : capture.map)
+    if (layer.select) out.push_back(*layer.select);
+  return out;
+}
+
+Image<std::uint8_t> looked_up_faces(const FrameInput& in, const std::vector<CapturedSelect>& select,
+                                    const std::optional<CapturedFade>& fade) {
+  if (select.empty() && !fade) return {};
+  Image<std::uint8_t> faces(in.capture.size, raster::CapturedTest::no_face);
+  const View view = make_view(in.camera, in.capture.size);
+  parallel_for(faces.data.size(), [&](std::size_t i) {
+    const SurfacePoint& point = in.traced.receiver.data[i];
+    if (point.primitive == no_id) return;
+    const bool faded =
+        fade && from_camera(view, fade->by_distance, point.position) > 0.5 * (fade->from + fade->to);
+    if (!faded) faces.data[i] = selected_face(view, select, point.position);
+  });
+  return faces;
+}
+
 void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRecord& record) {
   const ImageSize size = in.capture.size;
   record.texel_uv = Image<Vec2f>(size, Vec2f(0.0f));
   const raster::CapturedTest* test = !record.has_known_map() ? nullptr : &*record.captured->test;
-  const bool by_pixel = test != nullptr && !test->faces.data.empty();
+  using Test = raster::CapturedTest;
   record.face = Image<std::uint8_t>(size, 0);
   record.distance = record.gap = Image<float>(size, 0.0f);
   record.outside_map = Image<std::uint8_t>(size, 0);
@@ -205,10 +228,11 @@ void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRe
   parallel_for(size.pixels(), [&](std::size_t i) {
     const SurfacePoint& point = in.traced.receiver.data[i];
     if (point.primitive == no_id) return;
-    const bool beside = by_pixel && test->faces.data[i] == raster::CapturedTest::no_face;
-    const TexelCoordinate at = by_pixel && !beside
-                                   ? project_to_face(record.map.view, test->faces.data[i], point.position)
-                                   : project_to_texel(record.map.view, point.position);
+    const std::uint8_t face = test != nullptr ? test->face_of(i) : Test::any_face;
+    const bool beside = face == Test::no_face;
+    const TexelCoordinate at = beside || face == Test::any_face
+                                   ? project_to_texel(record.map.view, point.position)
+                                   : project_to_face(record.map.view, face, point.position);
     const bool held = test == nullptr || !at.inside || test->holds(at.face, at.column(), at.row());
     // Else it is lit, whatever a map holds.
     const bool looks_up = in.tracer.receives_shadow(point) && held && !beside;

@@ -21,6 +21,17 @@ struct FrameInput {
 /// no light without shadows) gets another primitive than the receiver's, so that it is counted as silhouette.
 Expected<raster::RasterFrame> make_frame(const FrameInput& input, std::optional<CapturedMap> map);
 
+/// How far a place lies from the camera, world units: along the view's axis, or from the eye.
+double from_camera(const View& view, bool by_distance, const Vec3& place);
+
+/// By which distances the capture says that its layers are looked up; empty where it does not.
+std::vector<CapturedSelect> captured_selects(const Capture& capture);
+
+/// raster::CapturedTest::faces: which face a pixel looks up; no_face where its distance is no layer's or more than half of its
+/// shadow has faded. Empty where neither says anything.
+Image<std::uint8_t> looked_up_faces(const FrameInput& input, const std::vector<CapturedSelect>& select,
+                                    const std::optional<CapturedFade>& fade);
+
 /// Notes in the options that the map holds back faces in the place of the front faces before them, where it takes that to
 /// explain its depths.
 void find_culling(const FrameInput& input, raster::RasterFrame& frame);

@@ -23,7 +23,7 @@ Vec4 row(const Mat4& m, int i) {
 
 /// Returns the row as stored: z/w or (z/w + 1)/2, so that both run over [0, 1].
 Vec4 stored_row(const Vec4& z, const Vec4& w, StoredDepth convention) {
-  const bool halves = convention == StoredDepth::minus_one_to_one || convention == StoredDepth::distance;
+  const bool halves = convention == StoredDepth::minus_one_to_one || is_linear(convention);
   return halves ? 0.5 * (z + w) : z;
 }
 
@@ -140,18 +140,27 @@ Mat4 clip_of_rect(const CapturedLayer& layer, ImageSize picture) {
   return rect_from_picture * *layer.clip_from_world;
 }
 
-/// A distance as the view's stored depth; what lies beyond its far plane, and 0, is nothing.
-float stored_of_distance(const LightView& view, int face, int u, int v, double distance) {
-  const float nothing = view.reversed ? 0.0f : 1.0f;
-  if (!(distance > 0.0) || !std::isfinite(distance)) return nothing;
-  const double depth =
-      distance * glm::dot(texel_ray(view, face, u + 0.5, v + 0.5).direction, view.face(face).forward);
-  if (distance > view.face(face).far_depth * 1.7321) return nothing;  // a cube's corner
-  return static_cast<float>(stored_from_depth(view, face, v + 0.5, depth));
+/// Returns the world units that a stored number stands for; 0 of the far end of a range, where nothing was drawn.
+double linear_world(const std::optional<Vec2>& range, double stored) {
+  if (!range) return stored;
+  const bool empty = range->y > range->x ? stored >= 1.0 : stored <= 0.0;
+  return empty ? 0.0 : range->x + stored * (range->y - range->x);
 }
 
-Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored, int face, double scale,
-                           CapturedMap& out) {
+/// A distance or a depth along the axis, world units, as the view's stored depth; what lies beyond its far plane, and 0, is
+/// nothing.
+float stored_of_linear(const LightView& view, StoredDepth stored, int face, int u, int v, double value) {
+  const float nothing = view.reversed ? 0.0f : 1.0f;
+  if (!(value > 0.0) || !std::isfinite(value)) return nothing;
+  const bool distance = stored == StoredDepth::distance;
+  const double to_depth =
+      distance ? glm::dot(texel_ray(view, face, u + 0.5, v + 0.5).direction, view.face(face).forward) : 1.0;
+  // A cube's corner lies that much farther than its far plane; a number that is kept may round beyond it.
+  if (value > view.face(face).far_depth * (distance ? 1.7321 : 1.0)) return nothing;
+  return static_cast<float>(stored_from_depth(view, face, v + 0.5, value * to_depth));
+}
+
+Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored, int face, CapturedMap& out) {
   const CapturedLayer& layer = capture.map[i];
   const std::string field = fmt::format("map[{}].depth", i);
   ImageSize size;
@@ -162,15 +171,18 @@ Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored,
   const raster::CapturedTest::Part& part = out.parts[static_cast<std::size_t>(face)];
   const LayerTexels texels{layer.rect.value_or(CapturedRect{0, 0, size.width, size.height}), *layer.rows,
                            mirrored, size.width};
+  const bool linear = is_linear(out.stored);
   std::size_t bad = 0, beyond = 0;
   for (int v = 0; v < part.height; ++v)
     for (int u = 0; u < part.width; ++u) {
       const float value = channel->values[texels.at(u, v)];
-      bad += std::isnan(value) || (!out.distances && !std::isfinite(value)) ? 1 : 0;
-      beyond += !out.distances && (value < 0.0f || value > 1.0f) ? 1 : 0;
+      bad += std::isnan(value) || (!linear && !std::isfinite(value)) ? 1 : 0;
+      beyond += !linear && (value < 0.0f || value > 1.0f) ? 1 : 0;
       const int column = part.column + u, row = part.row + v;
       map.depth[map.texel_index(face, column, row)] =
-          out.distances ? stored_of_distance(map.view, face, column, row, scale * double{value}) : value;
+          linear ? stored_of_linear(map.view, out.stored, face, column, row,
+                                    linear_world(layer.range, double{value}))
+                 : value;
     }
   if (bad > 0) return wrong(fmt::format("{} texels are not finite numbers", bad));
   if (beyond > 0)
@@ -269,7 +281,12 @@ Expected<std::vector<MatrixFace>> read_faces(const Capture& capture, const Light
     const auto matrix = layer_matrix(capture, i);
     if (!matrix) return fail(matrix.error());
     const auto face = take_apart(*matrix, *capture.map.front().convention);
-    if (!face) return capture_error(capture, field, face.error());
+    if (!face)
+      return capture_error(
+          capture, field,
+          face.error() + (capture.map[i].rect ? "; with rect the matrix is that into the whole picture, and "
+                                                "`rows` says at which end its y begins"
+                                              : ""));
     if (const auto reason = not_of_light(*face, capture.map.size(), light, world))
       return capture_error(capture, field, *reason);
     faces.push_back(*face);
@@ -283,16 +300,14 @@ Capture in_world_of_scene(Capture capture, const Mat3& scene_from_captured) {
   const double scale = std::cbrt(std::abs(glm::determinant(scene_from_captured)));
   for (CapturedLayer& layer : capture.map) {
     if (layer.clip_from_world) *layer.clip_from_world *= Mat4(glm::inverse(scene_from_captured));
-    if (layer.select) layer.select->near *= scale, layer.select->far *= scale;
+    if (layer.select) layer.select->near *= scale, layer.select->far *= scale, layer.select->blend *= scale;
     if (layer.bias) layer.bias->normal_offset_world *= scale;
-    if (layer.bias && layer.convention == StoredDepth::distance) layer.bias->constant_depth *= scale;
-    if (!layer.caster_bias) continue;
-    layer.caster_bias->constant_world *= scale;
-    if (layer.convention == StoredDepth::distance) layer.caster_bias->constant *= scale;
+    if (layer.convention && is_linear(*layer.convention))
+      layer.range = scale * layer.range.value_or(Vec2(0.0, 1.0));
+    if (layer.caster_bias) layer.caster_bias->constant_world *= scale;
   }
-  if (!capture.bias || capture.map.empty()) return capture;
-  capture.bias->normal_offset_world *= scale;
-  if (capture.map.front().convention == StoredDepth::distance) capture.bias->constant_depth *= scale;
+  if (capture.fade) capture.fade->from *= scale, capture.fade->to *= scale;
+  if (capture.bias) capture.bias->normal_offset_world *= scale;
   return capture;
 }
 
@@ -302,10 +317,13 @@ Expected<void> check_map_matrices(const Capture& capture, const Light& light, co
   return {};
 }
 
-Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world, double scale) {
+Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world) {
   CapturedMap out;
   const StoredDepth convention = *capture.map.front().convention;
-  out.distances = convention == StoredDepth::distance;
+  out.stored = convention;
+  const bool linear = is_linear(convention);
+  if (const auto& range = capture.map.front().range; linear && range)
+    out.unit_world = std::abs(range->y - range->x);
   const auto read = read_faces(capture, light, world);
   if (!read) return fail(read.error());
   const std::vector<MatrixFace>& faces = *read;
@@ -315,10 +333,14 @@ Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const
   const bool parallel = view.projection == LightProjection::orthographic;
   if (!parallel && faces.size() != 1 && faces.size() != 6)
     return capture_error(capture, "map", "of a light in perspective has one layer, or six of a cube");
-  if (parallel && out.distances)
-    return capture_error(capture, "map[0].convention", "distance does not go with an orthographic matrix");
+  if (parallel && linear)
+    return capture_error(
+        capture, "map[0].convention",
+        fmt::format("{} does not go with an orthographic matrix, whose own depths are linear: "
+                    "zero_to_one, minus_one_to_one or reversed says how they are stored",
+                    stored_depth_names[static_cast<std::size_t>(convention)]));
   view.origin = faces.front().origin;
-  view.reversed = convention == StoredDepth::reversed || out.distances;
+  view.reversed = convention == StoredDepth::reversed || linear;
   view.seamless = !parallel && faces.size() == 6;
   const auto order = order_faces(capture, faces);
   if (!order) return fail(order.error());
@@ -331,11 +353,11 @@ Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const
     if (capture.map[i].select) out.select[face] = *capture.map[i].select;
     CapturedCasterBias& bias = out.caster_bias[face] =
         capture.map[i].caster_bias.value_or(CapturedCasterBias{});
-    if (out.distances) bias.constant_world += bias.constant, bias.constant = 0.0;
+    if (linear) bias.constant_world += bias.constant * out.unit_world, bias.constant = 0.0;
   }
   if (const auto laid = lay_out(capture, *order, out); !laid) return fail(laid.error());
   for (std::size_t i = 0; i < faces.size(); ++i)
-    if (const auto read = read_texels(capture, i, faces[i].mirrored, (*order)[i], scale, out); !read)
+    if (const auto read = read_texels(capture, i, faces[i].mirrored, (*order)[i], out); !read)
       return fail(read.error());
   const raster::CapturedTest::Part whole{0, 0, view.size, view.size};
   if (std::all_of(out.parts.begin(), out.parts.end(), [&](const auto& part) { return part == whole; }))

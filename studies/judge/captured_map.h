@@ -8,8 +8,9 @@
 namespace gnomon::compare {
 
 struct CapturedMap {
-  raster::ShadowMap map;                          ///< `primitive` holds no_id all over
-  bool distances = false;                         ///< StoredDepth::distance
+  raster::ShadowMap map;  ///< `primitive` holds no_id all over
+  StoredDepth stored = StoredDepth::zero_to_one;
+  double unit_world = 1.0;  ///< where is_linear(stored): world units in one of the stored numbers
   std::vector<CapturedCasterBias> caster_bias;    ///< by face
   std::vector<raster::CapturedTest::Part> parts;  ///< by face: where its layer lies; empty: all over it
   std::vector<CapturedBias> bias;                 ///< by face
@@ -20,10 +21,8 @@ struct CapturedMap {
 Expected<void> check_map_matrices(const Capture& capture, const Light& light, const World& world);
 
 /// Reads and checks the layers. Errors (bad input): those of check_map_matrices; a picture that cannot be read, is not
-/// square or not of the others' size; values that are not finite, or beyond the convention's range. `scale`: world units of
-/// the scene in one of the capture's.
-Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world,
-                               double scale = 1.0);
+/// square or not of the others' size; values that are not finite, or beyond the convention's range.
+Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world);
 
 /// The capture with matrices and lengths of the scene's world in the place of its own; places are not touched.
 Capture in_world_of_scene(Capture capture, const Mat3& scene_from_captured);

@@ -35,6 +35,9 @@ class Checker {
   }
 
   bool may_draw(std::size_t pixel, float visibility, bool any_cascade) const;
+  /// What an average of single comparisons over a square of texels, each as much as it lies in that, makes of a pixel; none
+  /// beyond the map's border.
+  std::optional<double> mean_light(std::size_t pixel, double radius_texels) const;
 
  private:
   bool is_hard() const { return map_.technique == raster::Technique::hard; }
@@ -79,13 +82,15 @@ bool Checker::some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, b
 
 bool Checker::may_draw(std::size_t pixel, float visibility, bool any_cascade) const {
   if (std::isinf(reach_)) return true;
+  if (record_.captured->test->face_of(pixel) == raster::CapturedTest::no_face) return visibility > 0.5f;
   auto lookup = lookup_of(pixel);
   if (!lookup) return true;
   const Vec3& normal = in_.traced.receiver.data[pixel].normal;
   const bool lit = visibility > 0.5f;
   if (some_texel_draws(*lookup, normal, lit)) return true;
   const LightView& view = record_.map.view;
-  if (!any_cascade || view.projection != LightProjection::orthographic) return false;
+  const bool by_place = record_.captured->test->face_of(pixel) == raster::CapturedTest::any_face;
+  if (!any_cascade || !by_place || view.projection != LightProjection::orthographic) return false;
   for (int face = 0; face < view.face_count; ++face) {
     lookup->at = project_to_face(view, face, lookup->position);
     if (lookup->at.inside && some_texel_draws(*lookup, normal, lit)) return true;
@@ -93,8 +98,45 @@ bool Checker::may_draw(std::size_t pixel, float visibility, bool any_cascade) co
   return false;
 }
 
+std::optional<double> Checker::mean_light(std::size_t pixel, double radius) const {
+  const auto lookup = lookup_of(pixel);
+  if (!lookup) return std::nullopt;
+  const double u = lookup->at.u, v = lookup->at.v, size = record_.map.view.size;
+  if (u < radius || v < radius || u + radius >= size || v + radius >= size) return std::nullopt;
+  const auto part = [radius](double middle, int texel) {
+    return std::min(middle + radius, texel + 1.0) - std::max(middle - radius, double(texel));
+  };
+  const Vec3& normal = in_.traced.receiver.data[pixel].normal;
+  double light = 0.0;
+  for (int row = int(v - radius); row <= int(v + radius); ++row)
+    for (int column = int(u - radius); column <= int(u + radius); ++column) {
+      BiasedLookup there = *lookup;
+      there.key = raytrace::TexelKey::pack(lookup->at.face, column, row);
+      const auto depth = stored_caster(record_, there.key);
+      const double gap = depth ? gap_before(record_, map_.bias, normal, there, *depth) : -infinity;
+      if (gap <= record_.bias_constant_world) light += part(u, column) * part(v, row);
+    }
+  return light / (4.0 * radius * radius);
+}
+
 bool keeps_label(Label label) {
   return label == Label::outside_map || label == Label::light_size;
+}
+
+/// The radius of the average of comparisons that comes nearest to what was drawn of these pixels; 0: none comes near.
+double find_filter_radius(const Checker& checker, const LightComparison& light,
+                          const std::vector<std::uint32_t>& not_drawn) {
+  constexpr double radii[] = {0.5, 1.0, 1.5, 2.0, 2.5, 3.5, 4.5, 5.5, 6.5, 8.5};
+  constexpr double near_enough = 0.15;  // a mean difference; kernels differ in their weights
+  double best = 0.0, least = near_enough;
+  for (const double radius : radii) {
+    double sum = 0.0, count = 0.0;
+    for (const std::uint32_t i : not_drawn)
+      if (const auto mean = checker.mean_light(i, radius))
+        sum += std::abs(*mean - double{light.rungs[6].data[i]}), count += 1.0;
+    if (count > 0.5 * double(not_drawn.size()) && sum < least * count) best = radius, least = sum / count;
+  }
+  return best;
 }
 
 }  // namespace
@@ -124,6 +166,7 @@ DescribedTest check_described_test(const FrameInput& in, const raster::RasterFra
     return differs(i) && !checker.may_draw(i, light.rungs[6].data[i], true);
   });
   out.not_drawn = not_drawn.size();
+  if (!out.is_drawn()) out.filter_radius = find_filter_radius(checker, light, not_drawn);
   for (const std::uint32_t i : not_drawn)
     out.drawn_darker += light.rungs[6].data[i] < light.rungs[5].data[i] ? 1 : 0;
   // Where the test is another, it is chance that some texel nearby agrees with the picture.
@@ -152,6 +195,13 @@ std::vector<std::string> described_test_notes(const DescribedTest& test,
     if (other)
       note +=
           fmt::format("; if {}, it is the one drawn in {} of the pixels", other->what, percent(other->share));
+    else if (test.filter_radius > 0.0)
+      note += fmt::format(
+          "; an average over {:g} texels to each side would draw them (`filter.kind`, "
+          "`filter.radius_texels`)",
+          test.filter_radius);
+    else if (test.is_mostly_drawn() && 20 * test.drawn_darker > 19 * test.not_drawn)
+      note += "; what else takes light away (contact shadows, a cookie) is said by `also`";
     out.push_back(std::move(note));
   }
   return out;

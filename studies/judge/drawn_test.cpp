@@ -1,5 +1,4 @@
-// Usual mistakes in the description of a shadow test, each tried against the picture: the map's rows, the bias's sign,
-// the matrix, and the offset's sign on back faces.
+// The usual mistakes in the description of a shadow test (test_suspects.h), each tried against the picture.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,77 +6,13 @@
 #include "compare/bias/bias_curve.h"
 #include "scene/base/parallel.h"
 #include "studies/judge/described_test.h"
+#include "studies/judge/test_suspects.h"
 
 namespace gnomon::compare {
 namespace {
 
 /// The test must then be drawn nearly everywhere, and on most of the pixels where it was not.
 constexpr double least_drawn = 0.98, most_not_drawn = 1.0 / 3.0;
-
-struct TestSuspect {
-  const char* of_capture;                       ///< what is wrong where the test so changed is the better one
-  const char* of_renderer;                      ///< null: the capture is wrong in any case
-  bool (*change)(raster::LightRecord& record);  ///< false: does not apply
-  bool by_fronts = false;  ///< offsets go along the front's normal, also where the back is seen
-};
-
-bool turn_rows(raster::LightRecord& record) {
-  raster::ShadowMap& map = record.map;
-  const int n = map.view.size;
-  for (int face = 0; face < map.view.face_count; ++face)
-    for (int row = 0; row < n / 2; ++row) {
-      const auto low = map.depth.begin() + static_cast<std::ptrdiff_t>(map.texel_index(face, 0, row));
-      const auto high =
-          map.depth.begin() + static_cast<std::ptrdiff_t>(map.texel_index(face, 0, n - 1 - row));
-      std::swap_ranges(low, low + n, high);
-    }
-  return true;
-}
-
-bool turn_sign(raster::LightRecord& record) {
-  record.bias_constant_world = -record.bias_constant_world;
-  return record.bias_constant_world != 0.0;
-}
-
-bool is_parallel(const raster::LightRecord& record) {
-  return record.map.view.projection == LightProjection::orthographic;
-}
-
-template <class Change>
-bool change_faces(raster::LightRecord& record, const Change& change) {
-  if (!is_parallel(record)) return false;
-  for (int i = 0; i < record.map.view.face_count; ++i)
-    change(record.map.view.faces[static_cast<std::size_t>(i)]);
-  return true;
-}
-
-/// x / 2 + 1 / 2 in the place of x.
-bool take_off_texture_matrix(raster::LightRecord& record) {
-  return change_faces(record, [](LightFace& face) {
-    face.half_extent = 0.5 * face.half_extent;
-    face.center += face.half_extent;
-  });
-}
-
-/// The depths' range so many times as long, up to the same far plane.
-bool stretch_depths(raster::LightRecord& record, double times) {
-  if (record.map.view.reversed) return false;
-  record.captured->test->unit_world *= times, record.bias_constant_world *= times;
-  return change_faces(record, [=](LightFace& face) {
-    face.near_depth = face.far_depth - times * (face.far_depth - face.near_depth);
-  });
-}
-
-/// Changes the lookup to that of a renderer that takes one side of the window for the other's.
-bool take_side_for(raster::LightRecord& record, int axis) {
-  const LightFace& face = record.map.view.face(0);
-  if (std::abs(face.half_extent.x - face.half_extent.y) < 0.01 * face.half_extent.x) return false;
-  return change_faces(record, [axis](LightFace& f) { f.half_extent[axis] = f.half_extent[1 - axis]; });
-}
-
-bool has_offset(raster::LightRecord& record) {
-  return record.captured->test->normal_offset_world > 0.0;
-}
 
 /// The receivers with the normals of their triangles' fronts; none where no back is seen.
 std::optional<raytrace::RayTracedFrame> receivers_by_fronts(const FrameInput& in) {
@@ -93,41 +28,41 @@ std::optional<raytrace::RayTracedFrame> receivers_by_fronts(const FrameInput& in
   return turned;
 }
 
-constexpr TestSuspect test_suspects[] = {
-    {"`rows` of the map is the other one", "the renderer reads its map upside down (v runs the other way)",
-     turn_rows},
-    {"`constant_depth` has the other sign (positive takes shadow away)",
-     "the renderer applies its bias with the other sign", turn_sign},
-    {"`clip_from_world` holds the scale and shift to texture coordinates", nullptr, take_off_texture_matrix},
-    {"the matrix makes depths of -1 to 1 (`minus_one_to_one`)", nullptr,
-     [](raster::LightRecord& record) { return stretch_depths(record, 2.0); }},
-    {"the matrix makes depths of 0 to 1 (`zero_to_one`)", nullptr,
-     [](raster::LightRecord& record) { return stretch_depths(record, 0.5); }},
-    {"the matrix has the window's height for its width",
-     "the renderer takes the window's height for its width",
-     [](raster::LightRecord& record) { return take_side_for(record, 0); }},
-    {"the matrix has the window's width for its height",
-     "the renderer takes the window's width for its height",
-     [](raster::LightRecord& record) { return take_side_for(record, 1); }},
-    {"the offset goes along the front's normal, on back faces into the surface",
-     "the renderer's normal offset has the wrong sign on back faces", has_offset, true}};
-
 /// Shares of the compared pixels.
 struct Fit {
   double drawn = 0.0, wrong = 0.0;
 };
 
+/// What a test draws of a pixel: nothing is known of what lies beyond the map's border, the renderer's own choice.
+enum class Drawn : std::uint8_t { lit, dark, unknown };
+
+Drawn drawn_by(const raster::LightRecord& record, std::size_t i) {
+  // What looks nothing up is lit.
+  if (record.captured->test->face_of(i) == raster::CapturedTest::no_face) return Drawn::lit;
+  if (record.outside_map.data[i] != 0) return Drawn::unknown;
+  return double{record.gap.data[i]} > record.bias_constant_world ? Drawn::dark : Drawn::lit;
+}
+
+/// What is drawn beyond the border is taken for light, or for shadow where most of it is that.
 Fit fit_of(const raster::LightRecord& record, const LightComparison& light) {
-  std::size_t count = 0, drawn = 0, wrong = 0;
+  std::size_t count = 0, drawn = 0, wrong = 0, beyond = 0, beyond_dark = 0;
+  const auto take = [&](std::size_t i, bool dark) {
+    const float test = dark ? 0.0f : 1.0f;
+    drawn += std::abs(test - light.rungs[6].data[i]) <= 0.5f ? 1 : 0;
+    wrong += std::abs(test - light.rungs[0].data[i]) > 0.5f ? 1 : 0;
+  };
   for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
     if (!is_compared(light.labels.data[i])) continue;
-    const float picture = light.rungs[6].data[i];
-    const bool dark = double{record.gap.data[i]} > record.bias_constant_world;
-    const float test = record.outside_map.data[i] != 0 ? picture : dark ? 0.0f : 1.0f;
+    const Drawn by = drawn_by(record, i);
     ++count;
-    drawn += std::abs(test - picture) <= 0.5f ? 1 : 0;
-    wrong += std::abs(test - light.rungs[0].data[i]) > 0.5f ? 1 : 0;
+    if (by != Drawn::unknown)
+      take(i, by == Drawn::dark);
+    else
+      ++beyond, beyond_dark += light.rungs[6].data[i] < 0.5f ? 1 : 0;
   }
+  for (std::size_t i = 0; beyond > 0 && i < light.labels.data.size(); ++i)
+    if (is_compared(light.labels.data[i]) && drawn_by(record, i) == Drawn::unknown)
+      take(i, 2 * beyond_dark > beyond);
   const auto all = static_cast<double>(std::max<std::size_t>(1, count));
   return {static_cast<double>(drawn) / all, static_cast<double>(wrong) / all};
 }
@@ -178,10 +113,10 @@ class Search {
     if (!fits(fit, now_) || (best_ && best_->share >= fit.drawn - clearly)) return;
     OtherTest found{"", fit.drawn, suspects.size() == 1};
     for (const TestSuspect* suspect : suspects) {
-      const bool renderer = suspect->of_renderer != nullptr && fit.wrong > now_.wrong;
-      found.what += (found.what.empty() ? "" : ", and ") +
-                    std::string(renderer ? suspect->of_renderer : suspect->of_capture);
-      found.of_constant &= suspect->change == turn_sign && !renderer;
+      const bool renderer = !suspect->of_renderer.empty() && fit.wrong > now_.wrong;
+      found.what +=
+          (found.what.empty() ? "" : ", and ") + (renderer ? suspect->of_renderer : suspect->of_capture);
+      found.of_constant &= suspect->of_constant && !renderer;
     }
     best_ = std::move(found);
   }
@@ -208,11 +143,13 @@ class Search {
 std::optional<OtherTest> find_drawn_test(const FrameInput& in, const raster::RasterFrame& drawn,
                                          const LightComparison& light) {
   Search search(in, drawn, light);
-  for (const TestSuspect& one : test_suspects) search.try_suspects({&one});
+  const std::vector<TestSuspect> suspects = test_suspects(in, drawn.lights.front(), light);
+  for (const TestSuspect& one : suspects) search.try_suspects({&one});
   search.try_constant();
-  for (const TestSuspect& one : test_suspects)
-    for (const TestSuspect* other = &one + 1; other != std::end(test_suspects); ++other)
-      search.try_suspects({&one, other});
+  for (std::size_t i = 0; i < suspects.size(); ++i)
+    for (std::size_t k = i + 1; k < suspects.size(); ++k)
+      if (suspects[i].with_others && suspects[k].with_others)
+        search.try_suspects({&suspects[i], &suspects[k]});
   return search.best();
 }
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "compare/result/number_text.h"
 #include "scene/base/stages.h"
 #include "scene/exposure.h"
+#include "scene/light.h"
 #include "studies/judge/advice.h"
 #include "studies/judge/align.h"
 #include "studies/judge/captured_frame.h"
@@ -66,15 +68,56 @@ Expected<void> read_late_map(Judging& in, const Mat3& of_positions, const Compar
     world = *found;
   }
   in.capture = in_world_of_scene(std::move(in.capture), world);
-  auto map = read_map(in.capture, light, in.world, std::cbrt(std::abs(glm::determinant(world))));
+  auto map = read_map(in.capture, light, in.world);
   if (!map) return fail(map.error());
   in.map = std::move(*map);
   return {};
 }
 
+/// Says a strength that the capture does not, or says otherwise. `full_shadow`: what is left of it in the picture once what
+/// the capture says is undone.
+std::string strength_note(const std::optional<double>& said, double full_shadow) {
+  const double strength = said.value_or(1.0) * (1.0 - full_shadow);
+  if (said)
+    return fmt::format(
+        "`strength` is {:.3g} (got {:.3g}): full shadow is drawn as {:.3g}; judged is what the picture "
+        "shows with that as 0",
+        strength, *said, 1.0 - strength);
+  return fmt::format(
+      "full shadow is drawn as {:.3g}: a strength of {:.3g}, or light of something else; judged "
+      "is what the picture shows "
+      "with that as 0 (`strength` says so in a capture)",
+      full_shadow, strength);
+}
+
+/// Undoes the strength that the capture says; a note where a part of the picture is darker than that allows.
+void undo_strength(Judging& in, const raytrace::RayTracedFrame& traced, Judged& judged) {
+  const Capture& capture = in.capture;
+  Image<float>& visibility = in.pictures.visibility;
+  if (!capture.strength) return;
+  constexpr float one_value = 0.02f;
+  constexpr std::size_t few = 50;
+  const float full = static_cast<float>(1.0 - *capture.strength), least = full - one_value;
+  const Light& light = in.scene.lights[in.light];
+  std::vector<float> darker;
+  for (std::size_t i = 0; i < visibility.data.size(); ++i) {
+    const raytrace::SurfacePoint& point = traced.receiver.data[i];
+    const bool reached = point.primitive != no_id && !light_cannot_reach(light, point.position, point.normal);
+    if (reached && visibility.data[i] < least) darker.push_back(visibility.data[i]);
+  }
+  if (darker.size() >= few) {
+    const auto middle = darker.begin() + static_cast<std::ptrdiff_t>(darker.size() / 2);
+    std::nth_element(darker.begin(), middle, darker.end());
+    judged.notes.push_back(fmt::format(
+        "`strength` is more than {:.3g}: {} pixels are darker than {:.3g}, half of them than {:.3g}",
+        *capture.strength, grouped(darker.size()), double{full}, double{*middle}));
+  }
+  stretch_to_full_shadow(1.0 - *capture.strength, visibility);
+}
+
 /// A strength of the shadow is undone before anything is measured, as the capture says it, or as the test finds it.
 Expected<bool> believe_own_test(Judging& in, const Comparison& c, Judged& judged) {
-  if (in.capture.strength) stretch_to_full_shadow(1.0 - *in.capture.strength, in.pictures.visibility);
+  undo_strength(in, c.raytraced, judged);
   if (!in.map || judged.agreement.empty()) return false;
   const FrameInput input = frame_input(in, c);
   const auto frame = make_frame(input, *in.map);
@@ -83,11 +126,7 @@ Expected<bool> believe_own_test(Judging& in, const Comparison& c, Judged& judged
   if (!test.is_believed()) return false;
   if (test.full_shadow == 0.0) return true;
   stretch_to_full_shadow(test.full_shadow, in.pictures.visibility);
-  judged.notes.push_back(
-      fmt::format("full shadow is drawn as {:.3g}: a strength of {:.3g}, or light of something else; judged "
-                  "is what the picture shows "
-                  "with that as 0 (`strength` says so in a capture)",
-                  test.full_shadow, 1.0 - test.full_shadow));
+  judged.notes.push_back(strength_note(in.capture.strength, test.full_shadow));
   return true;
 }
 

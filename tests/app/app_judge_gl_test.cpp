@@ -65,6 +65,31 @@ TEST(JudgeProgram, NoTwoCapturesShareAName) {
             std::string::npos);
 }
 
+// Each light of a capture has a verdict and a folder of its own; --light takes one of them.
+TEST(JudgeProgram, LightsOfACaptureAreJudgedOneByOne) {
+  const JudgeFolder world;
+  ASSERT_EQ(
+      run_gnomon({"raytrace", "teapot", "--size", "96x54", "-o", world.folder / "traced.exr"}).exit_code, 0);
+  const auto image = read_channels(world.folder / "traced.exr");
+  ASSERT_TRUE(image && image->find("truth.V") != nullptr);
+  const Channel seen{"V", image->find("truth.V")->values};
+  ASSERT_TRUE(write_exr(world.folder / "v.exr", image->size, std::span(&seen, 1)));
+  world.put(
+      "frame.json",
+      R"({"schema": "gnomon/capture/2", "renderer": {"name": "mine"}, "scene": "teapot", "size": [96, 54],
+ "lights": [{"light": 7, "visibility": "v.exr"}, {"light": 0, "visibility": "v.exr"}]})");
+  const ProcessResult all = world.judge({"frame.json"});
+  EXPECT_EQ(all.exit_code, 3) << all.err;
+  EXPECT_NE(all.out.find("\nframe-0  "), std::string::npos) << all.out;
+  EXPECT_NE(all.out.find("\nframe-7   not judged: "), std::string::npos) << all.out;
+  EXPECT_TRUE(fs::exists(world.folder / "out/frame/frame-0/report.html"));
+  const ProcessResult one = world.judge({"frame.json", "--light", "0", "-o", "one"});
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_TRUE(fs::exists(world.folder / "one/result.json"));
+  expect_one_line(world.judge({"frame.json", "--light", "moon"}), 3,
+                  "lights: has no such light (got moon, allowed 7, 0)");
+}
+
 // What the ray tracer sees of the light is a right picture of the visibility.
 TEST(JudgeProgram, AGenericNameIsThatOfItsFolder) {
   const JudgeFolder world;

@@ -118,8 +118,18 @@ TEST(BadCaptures, OfMapsNameTheField) {
   capture.map = {layer(Mat4(1.0))};
   capture.map[0].rows.reset();
   expect_named(capture, "map[0].rows: is missing");
-  capture.map.assign(7, layer(Mat4(1.0)));
-  expect_named(capture, "map: needs one layer to six");
+  capture.map.assign(33, layer(Mat4(1.0)));
+  expect_named(capture, "map: needs one layer to 32");
+  capture.map = {layer(Mat4(1.0))};
+  capture.map[0].range = Vec2(0.1, 20.0);
+  expect_named(capture, "map[0].range: is of distance and linear_z");
+  capture.map[0].range.reset();
+  capture.map[0].select = compare::CapturedSelect{.near = 0.0, .far = 4.0, .blend = 1.0};
+  expect_named(capture, "map[0].select.blend: is towards the next layer, and there is none");
+  capture.map.push_back(layer(Mat4(1.0)));
+  capture.map[0].select.reset();
+  capture.map[1].bias = compare::CapturedBias{.angle = raster::AngleForm::sine};
+  expect_named(capture, "map[1].bias.angle: differs from that of map[0]");
 }
 
 TEST(BadCaptures, ThatContradictNameTheField) {
@@ -178,8 +188,17 @@ TEST(CaptureSchema, TakesWhatTheReaderTakes) {
   whole["map"][0]["rect"] = {0, 4, 8, 8};
   whole["map"][0]["select"] = {{"near", 1}, {"far", 5.5}, {"by", "distance"}};
   whole["map"][0]["bias"] = {{"constant_depth", 0.1}, {"normal_offset_world", 1}};
+  whole["map"][0]["select"]["blend"] = 0;
+  whole["map"][0]["bias"].update(
+      {{"angle", "tangent"}, {"min", 0}, {"max", 0.5}, {"normal_offset_angle", "sine"}});
   whole["filter"] = {{"kind", "none"}, {"read", "linear_depths"}};
+  whole["fade"] = {{"from", 5}, {"to", 6}, {"by", "distance"}};
+  whole["also"] = "contact.exr";
   EXPECT_EQ(taken(whole), std::pair(true, true));
+  Json linear = whole;
+  linear["map"][0].erase("caster_bias");
+  linear["map"][0]["convention"] = "linear_z", linear["map"][0]["range"] = {20, 0.1};
+  EXPECT_EQ(taken(linear), std::pair(true, true));
   const std::vector<std::pair<std::string, Json>> wrong{{"/schema", "gnomon/capture/3"},
                                                         {"/renderer/name", ""},
                                                         {"/renderer/settings/soft", Json::array()},
@@ -209,6 +228,14 @@ TEST(CaptureSchema, TakesWhatTheReaderTakes) {
                                                         {"/map/0/select/by", "slice"},
                                                         {"/map/0/select/near", -1},
                                                         {"/map/0/bias/constant", 1},
+                                                        {"/map/0/select/blend", -1},
+                                                        {"/map/0/range", {1}},
+                                                        {"/map/0/bias/angle", "cosine"},
+                                                        {"/map/0/bias/normal_offset_angle", "tangent"},
+                                                        {"/fade/from", -1},
+                                                        {"/fade/start", 1},
+                                                        {"/also", ""},
+                                                        {"/lights", Json::array()},
                                                         {"/filter/read", "cubic"},
                                                         {"/strength", 1.5},
                                                         {"/map/0/caster_bias/factor", 1},
@@ -225,6 +252,54 @@ TEST(CaptureSchema, TakesWhatTheReaderTakes) {
     const Json capture = whole.patch({{{"op", "remove"}, {"path", path}}});
     EXPECT_EQ(taken(capture), std::pair(false, false)) << path;
   }
+}
+
+TEST(CaptureSchema, TakesSeveralLightsThatShareTheRest) {
+  using Json = nlohmann::json;
+  Json several = Json::parse(R"({"schema": "gnomon/capture/2", "renderer": {"name": "x"}, "scene": "fence",
+    "size": [64, 36], "position": "p.exr", "lights": [{"light": "sun", "visibility": "s.exr"},
+    {"light": 1, "visibility": "l.exr", "strength": 0.5}, {"light": "lamp", "shadowed": "a.exr", "unshadowed": "b.exr"}]})");
+  const std::string file = folder() + "/schema.json";
+  std::ifstream schema(source_dir() + "/studies/judge/capture.schema.json");
+  SchemaCheck check(Json::parse(schema));
+  const auto read_of = [&](const Json& capture) {
+    EXPECT_TRUE(write_file(file, capture.dump()));
+    return compare::read_captures(file);
+  };
+  const auto read = read_of(several);
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_TRUE(check.violations(several).empty());
+  ASSERT_EQ(read->size(), 3U);
+  EXPECT_EQ((*read)[1].strength, 0.5);
+  EXPECT_FALSE((*read)[2].strength);
+  for (const Capture& light : *read) EXPECT_EQ(light.position, folder() + "/p.exr");
+  // By name; then by place in the list.
+  for (const auto& [said, light] : {std::pair{"lamp", "lamp"}, {"1", "1"}, {"0", "sun"}, {"2", "lamp"}})
+    EXPECT_EQ(compare::read_capture(file, said)->light, light) << said;
+  EXPECT_NE(compare::read_capture(file).error().message().find(
+                "lights: has 3 lights, and one is wanted (allowed sun, 1, lamp)"),
+            std::string::npos);
+  EXPECT_NE(compare::read_capture(file, "moon").error().message().find("has no such light (got moon"),
+            std::string::npos);
+  several["lights"][1].erase("visibility");
+  const auto lacks = read_of(several);
+  ASSERT_TRUE(lacks);
+  EXPECT_NE(compare::check_capture((*lacks)[1]).error().message().find("lights[1].visibility: is missing"),
+            std::string::npos);
+  several["lights"][1]["visibility"] = "l.exr";
+  for (const auto& [path, value] :
+       std::vector<std::pair<std::string, Json>>{{"/visibility", "v.exr"},
+                                                 {"/strength", 0.5},
+                                                 {"/light", 0},
+                                                 {"/lights/0/position", "p.exr"},
+                                                 {"/lights/0/lights", Json::array()}}) {
+    Json wrong = several;
+    wrong[Json::json_pointer(path)] = value;
+    EXPECT_FALSE(read_of(wrong)) << path;
+    EXPECT_FALSE(check.violations(wrong).empty()) << path;
+  }
+  several["lights"][1]["light"] = "sun";
+  EXPECT_NE(read_of(several).error().message().find("is of a light that stands before"), std::string::npos);
 }
 
 // What version 1 has not is refused by its name, with the version that has it.

@@ -1,10 +1,8 @@
 // Captures of real engines' kinds that a judge must believe: whatever is wrong with their shadows, their own test, map and
 // matrix draw the picture. Each has a sibling without the oddity, and is judged as that one is.
-#include <fmt/ranges.h>
-
 #include "compare/result/judged.h"
 #include "scene/files/pictures/image_io.h"
-#include "tests/support/capture_support.h"
+#include "tests/support/judged_engine.h"
 
 namespace gnomon::test {
 namespace {
@@ -12,59 +10,6 @@ namespace {
 using compare::Capture;
 using compare::Label;
 using compare::StoredDepth;
-
-/// A floor, a plate that hovers closely over it, turned, and a box that stands on it.
-Scene hovering_box(const std::string& light) {
-  Mesh high = box_mesh({-0.8, 0.0, -0.9}, {0.8, 0.03, 0.9}),
-       low = box_mesh({1.2, 0.0, -1.4}, {2.0, 0.7, -0.5});
-  for (Vec3& p : high.positions) p = Vec3(0.98 * p.x - 0.2 * p.y, 0.2 + 0.2 * p.x + 0.98 * p.y, p.z);
-  Scene scene = sunlit_scene({floor_mesh(4, 4), high, low}, {0.9, -1.0, 0.5});
-  scene.camera = {{3.5, 2.2, 4.5}, {0.4, 0.1, 0.2}, {0, 1, 0}, 0.8};
-  if (light == "sun") return scene;
-  Light& lamp = scene.lights[0];
-  lamp.type = LightType::spot;
-  lamp.position = {-1.5, 6.0, -1.0};
-  lamp.direction = glm::normalize(-lamp.position);
-  lamp.inner_angle = 0.6, lamp.outer_angle = 0.7;
-  return scene;
-}
-
-/// A light's map and the picture that another renderer draws on it with this bias.
-struct Engine {
-  explicit Engine(const std::string& name, double constant_depth, const std::string& light = "sun",
-                  StoredDepth stored = StoredDepth::zero_to_one, const raster::Bias& casters = {},
-                  raster::Technique technique = raster::Technique::hard)
-      : drawn(draw_scene(hovering_box(light), small_picture, map_with(casters, technique))),
-        capture(self_capture(drawn, folder_for("own-" + name), {.map = true, .stored = stored})) {
-    capture.bias = compare::CapturedBias{.constant_depth = constant_depth};
-    draw_again(capture, drawn);
-  }
-  static raster::MapOptions map_with(const raster::Bias& casters, raster::Technique technique) {
-    raster::MapOptions map = hard_map(512, technique);
-    map.bias = casters;
-    map.bias.constant = 0.0, map.bias.unit = raster::BiasUnit::world;
-    return map;
-  }
-  JudgeOutcome judged(bool fix = false) const {
-    compare::JudgeOptions options;
-    options.fix = fix;
-    return judge(capture, *drawn.scene, options);
-  }
-  const LightView& view() const { return drawn.result.raster.lights[0].map.view; }
-  double range() const { return view().face(0).far_depth - view().face(0).near_depth; }
-  void change_picture(const std::function<float(float)>& change) {
-    spoil(capture.visibility, [&](ChannelImage& image) {
-      for (float& v : image.channels[0].values) v = change(v);
-    });
-  }
-
-  Compared drawn;
-  Capture capture;
-};
-
-std::string notes_in(const JudgeOutcome& judged) {
-  return judged.result ? fmt::format("{}", fmt::join(judged.result->judged->notes, "\n")) : reason(judged);
-}
 
 std::uint64_t called(const JudgeOutcome& judged, Label label) {
   return judged.result->lights[0].classes[static_cast<std::size_t>(label) - 1];
@@ -274,124 +219,6 @@ TEST(JudgeOwnTest, AReversedInfiniteProjectionIsNotSingular) {
   EXPECT_GT(judged.result->judged->biased_is_drawn, 0.999);
   EXPECT_FALSE(judged.result->judged->advice.empty());
   EXPECT_LT(called(judged, Label::unexplained) + called(judged, Label::stored_depth), 10U);
-}
-
-// ---- what a capture's keys say of a map ----
-
-void expect_own_test(const JudgeOutcome& judged) {
-  ASSERT_TRUE(judged.result) << reason(judged);
-  EXPECT_GT(judged.result->judged->biased_is_drawn, 0.999);
-  EXPECT_EQ(called(judged, Label::unexplained), 0U) << notes_in(judged);
-  EXPECT_FALSE(judged.result->judged->advice.empty());
-}
-
-/// Three cascades chosen by the distance from the camera, which is not the first that holds a place.
-Engine cascades(const std::string& name, bool by_distance) {
-  Engine engine(name, 0.002, "sun", StoredDepth::zero_to_one, {}, raster::Technique::csm);
-  const double ends[] = {0.0, 5.0, 6.5, 1e3};
-  for (std::size_t i = 0; i < engine.capture.map.size(); ++i)
-    engine.capture.map[i].select = compare::CapturedSelect{
-        ends[std::min<std::size_t>(i, 2)], ends[std::min<std::size_t>(i + 1, 3)], by_distance};
-  engine.capture.map.resize(3);
-  return engine;
-}
-
-TEST(JudgeKeys, CascadesAreChosenByDistance) {
-  for (const bool by_distance : {false, true}) {
-    Engine engine = cascades("select", by_distance);
-    // Each layer with its own bias, too.
-    for (const std::size_t layer : {1, 2})
-      engine.capture.map[layer].bias =
-          compare::CapturedBias{.constant_depth = 0.05, .normal_offset_world = 0.01};
-    draw_again(engine.capture, engine.drawn);
-    expect_own_test(engine.judged());
-    // Without the key another cascade is looked up somewhere, and without the layer's bias another test is drawn.
-    Engine unsaid = cascades("select", by_distance);
-    for (const std::size_t layer : {1, 2}) unsaid.capture.map[layer].bias = engine.capture.map[layer].bias;
-    draw_again(unsaid.capture, unsaid.drawn);
-    for (compare::CapturedLayer& layer : unsaid.capture.map) layer.bias.reset();
-    const JudgeOutcome without_bias = unsaid.judged();
-    ASSERT_TRUE(without_bias.result) << reason(without_bias);
-    EXPECT_LT(without_bias.result->judged->biased_is_drawn, 0.999);
-    for (compare::CapturedLayer& layer : engine.capture.map) layer.select.reset();
-    const JudgeOutcome without_select = engine.judged();
-    ASSERT_TRUE(without_select.result) << reason(without_select);
-    EXPECT_LT(without_select.result->judged->biased_is_drawn, 0.999);
-  }
-}
-
-TEST(JudgeKeys, DepthsMayBeReadBetweenTexels) {
-  Engine engine("linear", 0.002);
-  engine.capture.filter = compare::CapturedFilter{.linear_depths = true};
-  draw_again(engine.capture, engine.drawn);
-  expect_own_test(engine.judged());
-  engine.capture.filter->linear_depths = false;
-  const JudgeOutcome unsaid = engine.judged();
-  ASSERT_TRUE(unsaid.result) << reason(unsaid);
-  EXPECT_LT(unsaid.result->judged->biased_is_drawn, 0.999);
-}
-
-/// The layer in a part of a larger picture, its matrix into the whole of that.
-void put_into_atlas(Capture& capture, const compare::CapturedRect& rect, ImageSize atlas) {
-  spoil(capture.map[0].depth, [&](ChannelImage& image) {
-    std::vector<float> whole(atlas.pixels(), 0.37f);
-    for (int y = 0; y < rect.height; ++y)
-      for (int x = 0; x < rect.width; ++x)
-        whole[std::size_t((rect.y + y) * atlas.width + rect.x + x)] =
-            image.channels[0].values[std::size_t(y * image.size.width + x)];
-    image.size = atlas, image.channels[0].values = std::move(whole);
-  });
-  const double below =
-      capture.map[0].rows == compare::RowOrder::top_down ? atlas.height - rect.y - rect.height : rect.y;
-  Mat4 atlas_from_rect(1.0);
-  atlas_from_rect[0][0] = double(rect.width) / atlas.width,
-  atlas_from_rect[1][1] = double(rect.height) / atlas.height;
-  atlas_from_rect[3][0] = 2.0 * (rect.x + 0.5 * rect.width) / atlas.width - 1.0;
-  atlas_from_rect[3][1] = 2.0 * (below + 0.5 * rect.height) / atlas.height - 1.0;
-  *capture.map[0].clip_from_world = atlas_from_rect * *capture.map[0].clip_from_world;
-  capture.map[0].rect = rect;
-}
-
-TEST(JudgeKeys, ALayerMayBePartOfAnAtlas) {
-  for (const char* light : {"sun", "lamp"})
-    for (const compare::RowOrder rows : {compare::RowOrder::top_down, compare::RowOrder::bottom_up}) {
-      Engine engine("atlas", std::string(light) == "sun" ? 0.002 : 0.0004, light);
-      const JudgeOutcome alone = engine.judged();
-      if (rows != engine.capture.map[0].rows) {
-        engine.capture.map[0].rows = rows;
-        spoil(engine.capture.map[0].depth, [](ChannelImage& image) {
-          std::vector<float>& v = image.channels[0].values;
-          for (int y = 0; y < image.size.height / 2; ++y)
-            std::swap_ranges(v.begin() + y * image.size.width, v.begin() + (y + 1) * image.size.width,
-                             v.begin() + (image.size.height - 1 - y) * image.size.width);
-        });
-      }
-      put_into_atlas(engine.capture, {512, 100, 512, 512}, {1024, 700});
-      expect_judged_as(engine.judged(), alone);
-    }
-}
-
-// A part of the window, whose texels are those of the whole: what lies beside it is outside the map.
-TEST(JudgeKeys, ALayerNeedNotBeSquare) {
-  for (const char* light : {"sun", "lamp"}) {
-    Engine engine("oblong", std::string(light) == "sun" ? 0.002 : 0.0004, light);
-    Capture& capture = engine.capture;
-    constexpr int low = 224, height = 64;
-    spoil(capture.map[0].depth, [&](ChannelImage& image) {
-      std::vector<float>& v = image.channels[0].values;
-      v = std::vector<float>(v.begin() + low * 512, v.begin() + (low + height) * 512);
-      image.size.height = height;
-    });
-    Mat4 part_from_whole(1.0);
-    part_from_whole[1][1] = 512.0 / height;
-    *capture.map[0].clip_from_world = part_from_whole * *capture.map[0].clip_from_world;
-    draw_again(capture, engine.drawn);
-    const JudgeOutcome judged = engine.judged();
-    ASSERT_TRUE(judged.result) << reason(judged);
-    EXPECT_GT(judged.result->judged->biased_is_drawn, 0.999);
-    EXPECT_EQ(called(judged, Label::unexplained), 0U) << notes_in(judged);
-    EXPECT_GT(called(judged, Label::outside_map), 20U);
-  }
 }
 
 }  // namespace

@@ -33,11 +33,12 @@ std::vector<Channel> position_channels(const raytrace::RayTracedFrame& frame) {
 /// What a texel of the capture's map holds for one of the drawn map.
 double converted(const LightView& view, int face, Vec2 texel, double stored, const LightView& captured,
                  compare::StoredDepth convention) {
-  const bool distance = convention == compare::StoredDepth::distance;
-  if (!holds_caster(view, stored)) return distance || captured.reversed ? 0.0 : 1.0;
-  if (!distance && view.reversed == captured.reversed) return stored;
+  const bool linear = compare::is_linear(convention);
+  if (!holds_caster(view, stored)) return linear || captured.reversed ? 0.0 : 1.0;
+  if (!linear && view.reversed == captured.reversed) return stored;
   const double depth = depth_from_stored(view, face, texel.y, stored);
-  if (!distance) return stored_from_depth(captured, face, texel.y, depth);
+  if (!linear) return stored_from_depth(captured, face, texel.y, depth);
+  if (convention == compare::StoredDepth::linear_z) return depth;
   return depth / glm::dot(texel_ray(view, face, texel.x, texel.y).direction, view.face(face).forward);
 }
 
@@ -58,7 +59,7 @@ std::vector<float> layer_texels(const raster::ShadowMap& map, int face, const Li
 /// Returns the matrix as the convention has it: z from [0, w] to [-w, w] for two of them.
 Mat4 layer_matrix(const LightView& captured, int face, compare::StoredDepth convention) {
   Mat4 matrix = light_clip_from_relative(captured, face, Vec3(0.0));
-  if (convention == compare::StoredDepth::minus_one_to_one || convention == compare::StoredDepth::distance)
+  if (convention == compare::StoredDepth::minus_one_to_one || compare::is_linear(convention))
     for (int column = 0; column < 4; ++column)
       matrix[column][2] = 2.0 * matrix[column][2] - matrix[column][3];
   return matrix;
@@ -81,7 +82,7 @@ void capture_map(const Compared& drawn, const std::string& folder, const Capture
     write(layer.depth, {view.size, view.size}, {{"Z", layer_texels(record.map, face, view, layer)}});
   }
   // One difference of stored numbers is one distance of a sun's map, and of distances; else only none is.
-  const bool even = parallel || convention == compare::StoredDepth::distance;
+  const bool even = parallel || compare::is_linear(convention);
   EXPECT_TRUE(even || record.bias_constant_world == 0.0);
   const double unit = parallel ? view.face(0).far_depth - view.face(0).near_depth : 1.0;
   out.bias = compare::CapturedBias{.constant_depth = record.bias_constant_world / unit,

@@ -21,23 +21,80 @@ class OtherRenderer {
 
   float visibility(const Vec3& surface, const Vec3& normal) const {
     const auto seen = layer_of(surface);
+    float light = layer_visibility(surface, normal, seen);
+    if (selects() && seen && capture_.map[*seen].select->blend > 0.0) {
+      const compare::CapturedSelect& select = *capture_.map[*seen].select;
+      const double left = select.far - from_camera(select.by_distance, surface);
+      const double next = std::clamp(1.0 - left / select.blend, 0.0, 1.0);
+      light = float((1.0 - next) * light + next * layer_visibility(surface, normal, *seen + 1));
+    }
+    if (const auto& fade = capture_.fade) {
+      const double at = from_camera(fade->by_distance, surface);
+      const double gone = fade->to > fade->from
+                              ? std::clamp((at - fade->from) / (fade->to - fade->from), 0.0, 1.0)
+                              : (at > fade->from ? 1.0 : 0.0);
+      light = float(gone + (1.0 - gone) * light);
+    }
+    return float(1.0 - capture_.strength.value_or(1.0) * (1.0 - light));
+  }
+
+ private:
+  double from_camera(bool by_distance, const Vec3& place) const {
+    return by_distance ? glm::length(place - view_.eye) : glm::dot(place - view_.eye, view_.forward);
+  }
+
+  float layer_visibility(const Vec3& surface, const Vec3& normal, std::optional<std::size_t> seen) const {
     const compare::CapturedBias bias = seen ? bias_of(*seen) : *capture_.bias;
-    const Vec3 place = surface + bias.normal_offset_world * normal;
+    const double cosine = std::max(0.0, glm::dot(normal, light_at(light_, surface).to_light));
+    const Vec3 place =
+        surface + bias.normal_offset_world * by_angle(bias.normal_offset_angle, cosine) * normal;
     const auto layer = selects() ? seen : layer_of(place);
     if (!layer) return outside_;
     const Vec4 clip = *capture_.map[*layer].clip_from_world * Vec4(place, 1.0);
     const Vec3 ndc = Vec3(clip) / clip.w;
-    if (std::max(std::abs(ndc.x), std::abs(ndc.y)) >= 1.0) return outside_;
-    const double stored = read(*layer, ndc);
-    return is_dark(ndc.z, glm::length(place - light_.position), stored, bias_of(*layer).constant_depth)
+    if (!holds(*layer, ndc, 0.0)) return outside_;
+    const compare::CapturedBias own = bias_of(*layer);
+    const double constant = std::clamp(own.constant_depth * by_angle(own.angle, cosine), own.min, own.max);
+    const Vec2 range = capture_.map[*layer].range.value_or(Vec2(0.0, 1.0));
+    const auto stored = [&](double world) { return (world - range.x) / (range.y - range.x); };
+    const double sign = range.y > range.x ? 1.0 : -1.0;
+    const double texel = sign * read(*layer, ndc);
+    return is_dark(ndc.z, sign * stored(clip.w), sign * stored(glm::length(place - light_.position)), texel,
+                   constant)
                ? 0.0f
                : 1.0f;
   }
 
- private:
+  /// As shaders write it, of the dot product of normal and light.
+  static double by_angle(raster::AngleForm form, double cosine) {
+    switch (form) {
+      case raster::AngleForm::sine:
+        return std::sqrt(1.0 - cosine * cosine);
+      case raster::AngleForm::tangent:
+        return std::tan(std::acos(cosine));
+      case raster::AngleForm::one_minus_cosine:
+        return 1.0 - cosine;
+      case raster::AngleForm::none:
+        break;
+    }
+    return 1.0;
+  }
+
   bool selects() const { return capture_.map.front().select.has_value(); }
   compare::CapturedBias bias_of(std::size_t layer) const {
     return capture_.map[layer].bias.value_or(*capture_.bias);
+  }
+
+  /// Whether a place lies on the layer's part of its picture, with so many texels around it.
+  bool holds(std::size_t layer, const Vec3& ndc, double margin) const {
+    const ImageSize size = texels_[layer].size;
+    const compare::CapturedRect rect =
+        capture_.map[layer].rect.value_or(compare::CapturedRect{0, 0, size.width, size.height});
+    const bool top_down = capture_.map[layer].rows == RowOrder::top_down;
+    const int low = top_down ? size.height - rect.y - rect.height : rect.y;
+    const Vec2 at = (0.5 * Vec2(ndc) + 0.5) * Vec2(size.width, size.height);
+    return at.x >= rect.x + margin && at.x < rect.x + rect.width - margin && at.y >= low + margin &&
+           at.y < low + rect.height - margin;
   }
 
   double texel(std::size_t layer, int x, int row) const {
@@ -58,7 +115,8 @@ class OtherRenderer {
            share.y * ((1.0 - share.x) * texel(layer, x, y + 1) + share.x * texel(layer, x + 1, y + 1));
   }
 
-  bool is_dark(double z, double distance, double stored, double bias) const {
+  /// `along`: the depth along the light's axis, and `distance` that from the light, as they are stored.
+  bool is_dark(double z, double along, double distance, double stored, double bias) const {
     switch (*capture_.map.front().convention) {
       case StoredDepth::zero_to_one:
         return stored < 1.0 && z - stored > bias;
@@ -66,10 +124,12 @@ class OtherRenderer {
         return stored < 1.0 && 0.5 * z + 0.5 - stored > bias;
       case StoredDepth::reversed:
         return stored > 0.0 && stored - z > bias;
+      case StoredDepth::linear_z:
+        return stored != 0.0 && along - stored > bias;
       case StoredDepth::distance:
         break;
     }
-    return stored > 0.0 && distance - stored > bias;
+    return stored != 0.0 && distance - stored > bias;
   }
 
   /// The layer whose distance it is; a cube's face that looks at the place, or the first cascade that holds it and its
@@ -79,16 +139,14 @@ class OtherRenderer {
     double most = 0.0;
     for (std::size_t i = 0; i < texels_.size(); ++i) {
       if (const auto& select = capture_.map[i].select) {
-        const double along = glm::dot(place - view_.eye, view_.forward);
-        const double distance = select->by_distance ? glm::length(place - view_.eye) : along;
+        const double distance = from_camera(select->by_distance, place);
         if (distance >= select->near && distance < select->far) return i;
         continue;
       }
       const Vec4 clip = *capture_.map[i].clip_from_world * Vec4(place, 1.0);
       const bool perspective = light_.type != LightType::directional, cube = texels_.size() == 6;
-      const double margin = i + 1 < texels_.size() ? 1.0 - 2.0 / texels_[i].size.width : 1.0;
-      const double beside = std::max(std::abs(clip.x), std::abs(clip.y)) / clip.w;
-      if (clip.w <= most || (!cube && beside >= margin)) continue;
+      const double margin = i + 1 < texels_.size() ? 1.0 : 0.0;
+      if (clip.w <= most || (!cube && !holds(i, Vec3(clip) / clip.w, margin))) continue;
       best = i, most = clip.w;
       if (!perspective) break;
     }

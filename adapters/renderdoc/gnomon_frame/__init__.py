@@ -1,1 +1,0 @@
-"""Makes captures for `gnomon judge` of frames that RenderDoc recorded, of any engine."""

@@ -1,0 +1,407 @@
+// Every key of a capture, right and with one fault: where all is said as it was drawn, the test that the capture describes
+// draws its picture; with the fault the verdict names the key. The picture is another renderer's (other_renderer.cpp), written
+// with nothing but the capture.
+#include "scene/files/pictures/image_io.h"
+#include "tests/support/judged_engine.h"
+
+namespace gnomon::test {
+namespace {
+
+using compare::Capture;
+using compare::CapturedBias;
+using compare::CapturedFade;
+using compare::CapturedSelect;
+using compare::StoredDepth;
+using raster::AngleForm;
+using raster::Technique;
+
+/// What an Engine is made with.
+struct Drawing {
+  const char* light = "sun";
+  StoredDepth stored = StoredDepth::zero_to_one;
+  double constant = 0.002;
+  double caster_constant = 0.0, caster_slope = 0.0;
+};
+
+struct KeyCase {
+  const char* name;
+  Drawing drawing;
+  std::function<void(Engine&)> say;     ///< what is drawn and said
+  std::function<void(Capture&)> fault;  ///< what is said otherwise
+  const char* named;                    ///< words of the verdict on that
+};
+
+// ---- what is said ----
+
+void put_texels(Capture& capture, const std::function<float(float)>& change) {
+  for (const compare::CapturedLayer& layer : capture.map)
+    spoil(layer.depth, [&](ChannelImage& image) {
+      for (float& v : image.channels[0].values) v = change(v);
+    });
+}
+
+/// Stored numbers that run over [0, 1] from one end of the range to the other; nothing drawn: the far end's.
+std::function<void(Engine&)> in_range(double near, double far) {
+  return [=](Engine& engine) {
+    for (compare::CapturedLayer& layer : engine.capture.map) layer.range = Vec2(near, far);
+    put_texels(engine.capture, [=](float v) {
+      return v > 0.0f ? static_cast<float>((double{v} - near) / (far - near)) : near < far ? 1.0f : 0.0f;
+    });
+    engine.capture.bias->constant_depth /= std::abs(far - near);
+  };
+}
+
+std::function<void(Engine&)> with_bias(const CapturedBias& bias) {
+  return [=](Engine& engine) { engine.capture.bias = bias; };
+}
+
+/// Three layers by these distances, the second with a bias that leaves no shadow; all hold the same.
+void select_three(Capture& capture, bool by_distance, double blend = 0.0) {
+  capture.map.resize(1);
+  capture.map.assign(3, capture.map[0]);
+  const double ends[] = {0.0, 5.5, 6.2, 1e3};
+  for (std::size_t i = 0; i < 3; ++i)
+    capture.map[i].select = CapturedSelect{ends[i], ends[i + 1], by_distance, i < 2 ? blend : 0.0};
+  capture.map[1].bias = CapturedBias{.constant_depth = 0.05, .normal_offset_world = 0.01};
+}
+
+std::function<void(Engine&)> selected(bool by_distance, double blend = 0.0) {
+  return [=](Engine& engine) { select_three(engine.capture, by_distance, blend); };
+}
+
+std::function<void(Engine&)> faded(const CapturedFade& fade) {
+  return [=](Engine& engine) { engine.capture.fade = fade; };
+}
+
+/// The one layer cut into n x n that overlap, each a picture of its own.
+void cut_into(Capture& capture, int n, int overlap) {
+  const compare::CapturedLayer whole = capture.map[0];
+  const auto picture = read_channels(whole.depth);
+  const int size = picture->size.width, side = size / n + overlap;
+  capture.map.clear();
+  for (int k = 0; k < n * n; ++k) {
+    const int x = std::min(k % n * (size / n), size - side), y = std::min(k / n * (size / n), size - side);
+    compare::CapturedLayer& layer = capture.map.emplace_back(whole);
+    layer.depth = whole.depth + std::to_string(k) + ".exr";
+    Channel part{"Z", {}};
+    for (int row = 0; row < side; ++row)
+      for (int column = 0; column < side; ++column)
+        part.values.push_back(picture->channels[0].values[std::size_t((y + row) * size + x + column)]);
+    EXPECT_TRUE(write_exr(layer.depth, {side, side}, std::array{part}));
+    Mat4 part_from_whole(1.0);
+    part_from_whole[0][0] = part_from_whole[1][1] = double(size) / side;
+    part_from_whole[3][0] = -(2.0 * x + side - size) / side;
+    part_from_whole[3][1] = -(2.0 * y + side - size) / side;
+    layer.clip_from_world = part_from_whole * *whole.clip_from_world;
+  }
+}
+
+/// The layer in a part of a larger picture, its matrix into the whole of that.
+void put_into_atlas(Engine& engine, const compare::CapturedRect& rect, ImageSize atlas) {
+  Capture& capture = engine.capture;
+  spoil(capture.map[0].depth, [&](ChannelImage& image) {
+    std::vector<float> whole(atlas.pixels(), 0.37f);
+    for (int y = 0; y < rect.height; ++y)
+      for (int x = 0; x < rect.width; ++x)
+        whole[std::size_t((rect.y + y) * atlas.width + rect.x + x)] =
+            image.channels[0].values[std::size_t(y * image.size.width + x)];
+    image.size = atlas, image.channels[0].values = std::move(whole);
+  });
+  const double below =
+      capture.map[0].rows == compare::RowOrder::top_down ? atlas.height - rect.y - rect.height : rect.y;
+  Mat4 atlas_from_rect(1.0);
+  atlas_from_rect[0][0] = double(rect.width) / atlas.width,
+  atlas_from_rect[1][1] = double(rect.height) / atlas.height;
+  atlas_from_rect[3][0] = 2.0 * (rect.x + 0.5 * rect.width) / atlas.width - 1.0;
+  atlas_from_rect[3][1] = 2.0 * (below + 0.5 * rect.height) / atlas.height - 1.0;
+  *capture.map[0].clip_from_world = atlas_from_rect * *capture.map[0].clip_from_world;
+  capture.map[0].rect = rect;
+}
+
+/// A strip of the map, whose texels are those of the whole: what lies beside it is outside the map.
+void cut_to_strip(Engine& engine) {
+  constexpr int low = 160, height = 192;
+  spoil(engine.capture.map[0].depth, [&](ChannelImage& image) {
+    std::vector<float>& v = image.channels[0].values;
+    v = std::vector<float>(v.begin() + low * 512, v.begin() + (low + height) * 512);
+    image.size.height = height;
+  });
+  Mat4 part_from_whole(1.0);
+  part_from_whole[1][1] = 512.0 / height;
+  *engine.capture.map[0].clip_from_world = part_from_whole * *engine.capture.map[0].clip_from_world;
+}
+
+/// A strip of the picture at a fifth of its light.
+void darken_by_another(Engine& engine) {
+  engine.capture.also = folder_for("keys-also") + ".exr";
+  Channel also{"V", std::vector<float>(small_picture.pixels(), 1.0f)};
+  for (std::size_t i = 0; i < also.values.size(); ++i)
+    if (i % small_picture.width < 8 && i > also.values.size() / 2) also.values[i] = 0.2f;
+  EXPECT_TRUE(write_exr(engine.capture.also, small_picture, std::array{also}));
+}
+
+void draw_with_also(Engine& engine) {
+  if (engine.capture.also.empty()) return;
+  const auto also = read_channels(engine.capture.also);
+  spoil(engine.capture.visibility, [&](ChannelImage& image) {
+    for (std::size_t i = 0; i < image.size.pixels(); ++i)
+      image.channels[0].values[i] *= also->channels[0].values[i];
+  });
+}
+
+void shift_matrix(Capture& capture, double texels) {
+  Mat4 shifted(1.0);
+  shifted[3][0] = 2.0 * texels / 512.0;
+  *capture.map[0].clip_from_world = shifted * *capture.map[0].clip_from_world;
+}
+
+void to_texture(Capture& capture) {
+  Mat4 texture_from_clip(1.0);
+  for (int i = 0; i < 2; ++i) texture_from_clip[i][i] = 0.5, texture_from_clip[3][i] = 0.5;
+  *capture.map[0].clip_from_world = texture_from_clip * *capture.map[0].clip_from_world;
+}
+
+// ---- faults ----
+
+void nothing(Engine&) {}
+void turn_rows(Capture& c) {
+  for (compare::CapturedLayer& layer : c.map)
+    layer.rows = layer.rows == compare::RowOrder::top_down ? compare::RowOrder::bottom_up
+                                                           : compare::RowOrder::top_down;
+}
+void turn_sign(Capture& c) {
+  c.bias->constant_depth = -c.bias->constant_depth;
+}
+std::function<void(Capture&)> stored_as(StoredDepth stored) {
+  return [=](Capture& c) {
+    for (compare::CapturedLayer& layer : c.map) layer.convention = stored;
+  };
+}
+std::function<void(Capture&)> said_bias(const CapturedBias& bias) {
+  return [=](Capture& c) { c.bias = bias; };
+}
+void other_measure(Capture& c) {
+  for (compare::CapturedLayer& layer : c.map) layer.select->by_distance = !layer.select->by_distance;
+}
+void no_layer_bias(Capture& c) {
+  for (compare::CapturedLayer& layer : c.map) layer.bias.reset();
+}
+
+const char* const rows_words = "`rows` of the map is the other one";
+const char* const sign_words = "`constant_depth` has the other sign";
+const Drawing lamp{.light = "lamp", .constant = 0.0004};
+const Drawing lamp_distance{.light = "lamp", .stored = StoredDepth::distance, .constant = 0.02};
+const Drawing lamp_far{.light = "lamp", .stored = StoredDepth::distance, .constant = 0.15};
+const Drawing lamp_linear{.light = "lamp", .stored = StoredDepth::linear_z, .constant = 0.02};
+const Drawing wide{.constant = 0.03};
+const CapturedBias sine{.constant_depth = 0.3, .angle = AngleForm::sine};
+const CapturedBias tangent{.constant_depth = 0.6, .angle = AngleForm::tangent, .min = 0.01, .max = 2.0};
+const CapturedBias haversine{.constant_depth = 0.6, .angle = AngleForm::one_minus_cosine, .min = 0.01};
+const CapturedBias plain{.constant_depth = 0.3};
+const CapturedBias offset_sine{
+    .constant_depth = 0.02, .normal_offset_world = 0.2, .normal_offset_angle = AngleForm::sine};
+const CapturedBias offset_haversine{
+    .constant_depth = 0.02, .normal_offset_world = 0.6, .normal_offset_angle = AngleForm::one_minus_cosine};
+const CapturedBias offset{.constant_depth = 0.02, .normal_offset_world = 0.2};
+
+const KeyCase key_cases[] = {
+    // conventions
+    {"rows", {}, nothing, turn_rows, rows_words},
+    {"reversed", {.stored = StoredDepth::reversed}, nothing, turn_rows, rows_words},
+    {"minus_one",
+     {.stored = StoredDepth::minus_one_to_one},
+     nothing,
+     stored_as(StoredDepth::zero_to_one),
+     "`minus_one_to_one`"},
+    {"zero_to_one", {}, nothing, stored_as(StoredDepth::minus_one_to_one), "`zero_to_one`"},
+    {"lamp", lamp, nothing, turn_rows, rows_words},
+    {"lamp_reversed",
+     {.light = "lamp", .stored = StoredDepth::reversed, .constant = 0.0004},
+     nothing,
+     turn_rows,
+     rows_words},
+    {"distance", lamp_far, nothing, stored_as(StoredDepth::linear_z), "`convention` of the map is distance"},
+    {"linear_z", lamp_linear, nothing, stored_as(StoredDepth::distance),
+     "`convention` of the map is linear_z"},
+    {"distance_range", lamp_far, in_range(1.0, 20.0), stored_as(StoredDepth::linear_z),
+     "`convention` of the map is distance"},
+    {"linear_range", lamp_linear, in_range(20.0, 1.0), turn_sign, sign_words},
+    {"cube",
+     {.light = "bulb", .stored = StoredDepth::distance, .constant = 0.02},
+     nothing,
+     turn_sign,
+     sign_words},
+    {"cube_range",
+     {.light = "bulb", .stored = StoredDepth::distance, .constant = 0.02},
+     in_range(0.5, 40.0),
+     turn_sign,
+     sign_words},
+    {"texture_matrix",
+     {},
+     nothing,
+     to_texture,
+     "`clip_from_world` holds the scale and shift to texture coordinates"},
+    {"half_texel", {}, nothing, [](Capture& c) { shift_matrix(c, 0.5); }, "0.5, 0 texels off"},
+    // the bias
+    {"constant", wide, nothing, said_bias({}), "`constant_depth` is about 0.03"},
+    {"sign", {}, nothing, turn_sign, sign_words},
+    {"sine", lamp_distance, with_bias(sine), said_bias(plain), "`bias.angle` is sine"},
+    {"tangent", lamp_distance, with_bias(tangent), [](Capture& c) { c.bias->angle = AngleForm::none; },
+     "`bias.angle` is tangent"},
+    {"haversine", lamp_distance, with_bias(haversine), [](Capture& c) { c.bias->angle = AngleForm::none; },
+     "`bias.angle` is one_minus_cosine"},
+    {"no_angle", lamp_distance, with_bias(plain),
+     [](Capture& c) { c.bias->angle = AngleForm::one_minus_cosine; }, "`bias.angle` is none"},
+    {"limits", lamp_distance, with_bias(plain), [](Capture& c) { c.bias->max = 0.05; },
+     "nothing limits the bias (`bias.min`, `bias.max`)"},
+    {"offset", lamp_distance, with_bias(offset),
+     [](Capture& c) { c.bias->normal_offset_angle = AngleForm::sine; }, "`bias.normal_offset_angle` is none"},
+    {"offset_sine", lamp_distance, with_bias(offset_sine), said_bias(offset),
+     "`bias.normal_offset_angle` is sine"},
+    {"offset_haversine", lamp_distance, with_bias(offset_haversine),
+     [](Capture& c) { c.bias->normal_offset_angle = AngleForm::none; },
+     "`bias.normal_offset_angle` is one_minus_cosine"},
+    {"no_offset", lamp_distance, nothing, said_bias(offset), "no offset along the normal is drawn"},
+    {"caster_constant",
+     {.constant = 0.0, .caster_constant = 0.4},
+     nothing,
+     [](Capture&) {},
+     "the map was drawn with "},
+    {"caster_slope",
+     {.constant = 0.0, .caster_slope = 32.0},
+     nothing,
+     [](Capture&) {},
+     "the map was drawn with "},
+    // layers
+    {"select", {}, selected(false), other_measure, "layers are chosen by view_z (`select.by`)"},
+    {"select_distance", {}, selected(true), other_measure, "layers are chosen by distance (`select.by`)"},
+    {"blend", {}, selected(true, 0.2), other_measure, "layers are chosen by distance (`select.by`)"},
+    {"by_place",
+     {},
+     nothing,
+     [](Capture& c) { select_three(c, false), no_layer_bias(c), c.map.resize(2); },
+     "(no `select`)"},
+    {"layer_bias", {}, selected(false), no_layer_bias, "`map[1].bias.constant_depth` is about 0.0"},
+    {"no_layer_bias",
+     {},
+     [](Engine& e) { select_three(e.capture, false), no_layer_bias(e.capture); },
+     [](Capture& c) { c.map[1].bias = CapturedBias{.constant_depth = 0.05}; },
+     "(`map[].bias`) are not drawn"},
+    {"nine_layers",
+     {},
+     [](Engine& e) { cut_into(e.capture, 3, 6); },
+     [](Capture& c) { std::swap(c.map[3].depth, c.map[4].depth); },
+     "the pictures of map[3] and map[4] are exchanged"},
+    {"sixteen_layers", {}, [](Engine& e) { cut_into(e.capture, 4, 6); }, turn_rows, rows_words},
+    {"atlas",
+     {},
+     [](Engine& e) {
+       put_into_atlas(e, {512, 100, 512, 512}, {1024, 700});
+     },
+     [](Capture& c) {
+       Mat4 rect_from_atlas(1.0);
+       rect_from_atlas[0][0] = 2.0, rect_from_atlas[3][0] = -1.0;
+       rect_from_atlas[1][1] = 700.0 / 512,
+       rect_from_atlas[3][1] = -(2.0 * (100 + 256) / 700 - 1.0) * 700 / 512;
+       *c.map[0].clip_from_world = rect_from_atlas * *c.map[0].clip_from_world;
+     },
+     "`clip_from_world` is that of the layer alone"},
+    {"atlas_lamp", lamp,
+     [](Engine& e) {
+       put_into_atlas(e, {512, 100, 512, 512}, {1024, 700});
+     },
+     turn_rows, "`rows` says at which end its y begins"},
+    {"strip", {}, cut_to_strip, turn_sign, sign_words},
+    // how it is read and drawn
+    {"linear_depths",
+     {},
+     [](Engine& e) { e.capture.filter = compare::CapturedFilter{.linear_depths = true}; },
+     [](Capture& c) { c.filter->linear_depths = false; },
+     "`filter.read` is linear_depths"},
+    {"nearest",
+     {},
+     nothing,
+     [](Capture& c) { c.filter = compare::CapturedFilter{.linear_depths = true}; },
+     "`filter.read` is nearest"},
+    {"fade",
+     {},
+     faded({4.8, 5.2, false}),
+     [](Capture& c) { c.fade.reset(); },
+     "world units along the view's axis (`fade`)"},
+    {"fade_distance",
+     {},
+     faded({5.0, 5.0, true}),
+     [](Capture& c) { c.fade.reset(); },
+     "world units from the eye (`fade`)"},
+    {"no_fade",
+     {},
+     nothing,
+     [](Capture& c) {
+       c.fade = CapturedFade{4.8, 5.2, false};
+     },
+     "shadows do not end (`fade`)"},
+    {"strength",
+     {},
+     [](Engine& e) { e.capture.strength = 0.5; },
+     [](Capture& c) { c.strength.reset(); },
+     "a strength of 0.5"},
+    {"strength_more",
+     {},
+     [](Engine& e) { e.capture.strength = 0.5; },
+     [](Capture& c) { c.strength = 0.8; },
+     "`strength` is 0.5 (got 0.8)"},
+    {"strength_less",
+     {},
+     [](Engine& e) { e.capture.strength = 0.8; },
+     [](Capture& c) { c.strength = 0.5; },
+     "`strength` is more than 0.5"},
+    {"also", {}, darken_by_another, [](Capture& c) { c.also.clear(); }, "is said by `also`"},
+};
+
+class JudgeEveryKey : public testing::TestWithParam<KeyCase> {};
+
+TEST_P(JudgeEveryKey, IsReadAndItsFaultNamed) {
+  const KeyCase& c = GetParam();
+  const Drawing& d = c.drawing;
+  raster::Bias casters{.slope = 0.0};
+  casters.caster_constant = d.caster_constant, casters.caster_slope = d.caster_slope;
+  Engine engine(std::string("keys-") + c.name, d.constant, d.light, d.stored, casters);
+  c.say(engine);
+  draw_again(engine.capture, engine.drawn);
+  draw_with_also(engine);
+  const JudgeOutcome right = engine.judged();
+  ASSERT_TRUE(right.result) << reason(right);
+  EXPECT_GT(right.result->judged->biased_is_drawn, 0.999) << notes_in(right);
+  const auto unexplained =
+      right.result->lights[0].classes[static_cast<std::size_t>(compare::Label::unexplained) - 1];
+  EXPECT_EQ(unexplained, 0U) << notes_in(right);
+  if (d.caster_constant == 0.0 && d.caster_slope == 0.0) {
+    EXPECT_EQ(notes_in(right).find(c.named), std::string::npos) << notes_in(right);
+  }
+  c.fault(engine.capture);
+  const JudgeOutcome faulty = engine.judged();
+  EXPECT_NE(notes_in(faulty).find(c.named), std::string::npos) << notes_in(faulty);
+}
+
+INSTANTIATE_TEST_SUITE_P(Keys, JudgeEveryKey, testing::ValuesIn(key_cases),
+                         [](const auto& chosen) { return chosen.param.name; });
+
+// The filter's picture is Gnomon's own.
+TEST(JudgeEveryKeyOfFilters, NamesAFilterThatIsNotSaid) {
+  raster::MapOptions map = Engine::map_with({.slope = 1.0}, Technique::pcf);
+  map.filter.radius_texels = 5.5;
+  const Compared drawn = draw_scene(hovering_box("sun"), small_picture, map);
+  Capture capture = self_capture(drawn, folder_for("keys-pcf"), {.map = true});
+  for (const double radius : {5.5, 0.0}) {
+    capture.filter =
+        radius > 0.0 ? compare::CapturedFilter{compare::FilterName::pcf, radius} : compare::CapturedFilter{};
+    const JudgeOutcome judged = judge(capture, *drawn.scene);
+    ASSERT_TRUE(judged.result) << reason(judged);
+    EXPECT_EQ(notes_in(judged).find("(`filter.kind`, `filter.radius_texels`)") != std::string::npos,
+              radius == 0.0)
+        << notes_in(judged);
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::test
