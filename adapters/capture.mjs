@@ -1,6 +1,7 @@
 // Draws a glTF scene with an engine and writes a capture for `gnomon judge`:
 //   node adapters/capture.mjs ENGINE SCENE -o DIR [--size 640x360] [--light NAME] [--NAME VALUE ...]
-// ENGINE is a file of adapters/engines: a page's module, run in headless Chromium with WebGL 2, or a script for Blender.
+// ENGINE is a file of adapters/engines: a page's module, run in headless Chromium with WebGL 2, or a script for Blender; or one of
+// recorded.mjs, whose frames RenderDoc records.
 // Every further option is one of that engine's own (see its head).
 // Writes DIR/capture.json, the pictures that it names, and DIR/picture.png, what the engine itself shows.
 import { spawnSync } from "node:child_process";
@@ -10,6 +11,7 @@ import { basename, dirname, join, relative, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 import { exr } from "./exr.mjs";
+import { captureRecorded, isRecorded } from "./recorded.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const importMap = JSON.stringify({ imports: { three: "/node_modules/three/build/three.module.js", "three/addons/": "/node_modules/three/examples/jsm/", playcanvas: "/node_modules/playcanvas/build/playcanvas.mjs" } });
@@ -118,8 +120,14 @@ function write(job, result) {
 const job = readArguments();
 if (!existsSync(job.scene)) stop(`${job.scene}: no such file`);
 const isIn = (extension) => job.engine !== "common" && existsSync(join(here, "engines", `${job.engine}.${extension}`));
-if (!isIn("js") && !isIn("py")) stop(`no such engine (got ${job.engine}): see adapters/engines`);
+if (!isIn("js") && !isIn("py") && !isRecorded(job.engine)) stop(`no such engine (got ${job.engine}): see adapters/engines`);
+if (isRecorded(job.engine) && job.light !== undefined) stop("--light: a frame's lights are numbered, --light NUMBER of adapters/renderdoc takes one");
 try {
+  if (isRecorded(job.engine)) {
+    captureRecorded(job);
+    console.error(`${job.engine}: ${join(job.folder, "capture.json")}`);
+    process.exit(0);
+  }
   const result = isIn("py") ? drawInBlender(job) : await drawInPage(job);
   write(job, result);
   console.error(`${result.renderer.name} ${result.renderer.version}: ${join(job.folder, "capture.json")}`);

@@ -22,6 +22,9 @@ const rows = [
   ["filament", "default", ""],
   ["eevee", "default", ""],
   ["eevee", "advised", "--cascadeSize 4096 --highBitDepth true"],
+  ["godot", "default", "--mode pssm4"],
+  ["godot", "one map", "--mode orthogonal"],
+  ["quick3d", "default", ""],
 ];
 const cycles = ["cycles", "rays", ""], cyclesAsShipped = ["cycles", "offset", "--shadowTerminatorOffset 0.1"];
 
@@ -91,7 +94,7 @@ function main() {
   console.log(`# Engines, judged
 
 For whoever asks what engines draw: four of Gnomon's scenes, each with a sun, drawn at ${size} by engines of the web in
-headless Chromium and by Blender's EEVEE and Cycles, and judged by \`gnomon judge\`. \`docs/make_engines.sh\` wrote this page
+headless Chromium, by Blender's EEVEE and Cycles, and by Godot and Qt Quick 3D, of which RenderDoc recorded a frame, and judged by \`gnomon judge\`. \`docs/make_engines.sh\` wrote this page
 with the [adapters](../adapters/README.md); versions and options stand in each row.
 
 One picture of one light is compared in each scene, at settings that nobody has tuned for it: *default* is what the engine

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "app/options/judge_options.h"
 #include "app/options/option_kinds.h"
@@ -21,6 +22,7 @@
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 #include "studies/judge/identify.h"
+#include "studies/judge/recorded_frame.h"
 #include "studies/judge/several.h"
 
 namespace gnomon::app {
@@ -34,6 +36,8 @@ struct JudgeCommand : RunOptions {
   ResultOutput output;
   bool identify = false;
   std::string suite;
+  bool list = false;
+  std::string light;  ///< of recorded frames, counted from 1; of captures it is one of the parts
   std::string command_line;
 };
 
@@ -128,6 +132,46 @@ std::string name_of(const std::string& path) {
   const bool generic = file.stem() == "capture" && file.parent_path().has_filename();
   return generic ? std::filesystem::weakly_canonical(file).parent_path().filename().string()
                  : file.stem().string();
+}
+
+/// Makes a capture of a recorded frame in `folder` and puts its capture.json in the frame's place.
+Expected<void> make_capture(const JudgeCommand& command, std::string& path, const std::string& folder,
+                            Console& console) {
+  const OutputGuard whole_outputs;
+  auto staged = StagedFolder::open(folder);
+  if (!staged) return fail(staged.error());
+  console.progress("replaying the frame", 0.0);
+  const auto found = compare::capture_recorded_frame(path, staged->path(), command.light);
+  if (!found) return fail(found.error());
+  if (const auto sealed = staged->seal(std::vector{path}); !sealed) return sealed;
+  if (const auto published = staged->publish("capture.json"); !published) return published;
+  for (const std::string& finding : *found) console.note(finding);
+  path = folder + "/capture.json";
+  return {};
+}
+
+/// Makes captures of all recorded frames, beside their verdicts: "wall-capture" of "wall", "walls-captures/a" of "walls/a".
+Expected<void> make_captures(JudgeCommand& command, Console& console) {
+  if (std::ranges::none_of(command.captures, compare::is_recorded_frame)) return {};
+  command.light = std::exchange(command.parts.given.light, "");
+  const bool single = command.captures.size() == 1 && command.suite.empty();
+  std::string& folder = command.output.folder;
+  if (folder.empty()) folder = single ? "out/" + name_of(command.captures.front()) : "out/judge";
+  for (std::string& path : command.captures) {
+    if (!compare::is_recorded_frame(path)) continue;
+    const std::string place = single ? folder + "-capture" : folder + "-captures/" + name_of(path);
+    if (const auto made = make_capture(command, path, place, console); !made) return made;
+  }
+  return {};
+}
+
+Expected<ExitCode> list_lights(const JudgeCommand& command) {
+  if (command.captures.size() != 1 || !compare::is_recorded_frame(command.captures.front()))
+    return fail(ErrorKind::usage, "--list: needs one frame that RenderDoc recorded (.rdc)");
+  const auto lights = compare::recorded_lights(command.captures.front());
+  if (!lights) return fail(lights.error());
+  for (const std::string& light : *lights) print_data(light + "\n");
+  return ExitCode::done;
 }
 
 Expected<ExitCode> judge_single(JudgeCommand& command, const compare::Capture& capture, Console& console) {
@@ -300,6 +344,8 @@ Expected<ExitCode> run_judge(JudgeCommand& command) {
   command.options.raytrace.seed = command.seed;
   if (command.captures.empty() && command.suite.empty() && !command.parts.any)
     return fail(ErrorKind::usage, "judge: needs a capture (a file, or its parts as options)");
+  if (command.list) return list_lights(command);
+  if (const auto made = make_captures(command, console); !made) return fail(made.error());
   if (!command.suite.empty()) {
     auto found = captures_below(command.suite);
     if (!found) return fail(found.error());
@@ -314,10 +360,15 @@ Expected<ExitCode> run_judge(JudgeCommand& command) {
 }
 
 void add_options(CLI::App& app, JudgeCommand& command) {
-  app.add_option(
-         "CAPTURE", command.captures,
-         "captures (gnomon/capture/2 or 1, docs/judge.md) [may be left out where the options say it all]")
-      ->type_name("CAPTURE.json");
+  app.add_option("CAPTURE", command.captures,
+                 "captures (gnomon/capture/2 or 1, docs/judge.md), or frames that RenderDoc recorded, whose "
+                 "captures are "
+                 "made in a folder beside the verdict's [may be left out where the options say it all]")
+      ->type_name("CAPTURE.json|FRAME.rdc");
+  app.add_flag(
+      "--list", command.list,
+      "print the lights of a recorded frame that have a shadow map; --light N takes another than the first "
+      "[default off]");
   add_result_output(app, command.output, "out/NAME of the capture, out/judge of several");
   app.add_option(
          "--suite", command.suite,
@@ -350,6 +401,7 @@ void add_judge(CLI::App& program, Invocation& invocation) {
       "gnomon judge capture.json --fix --fail-above 1%\n"
       "gnomon judge a.json b.json -o verdicts      one table, the worst first\n"
       "gnomon judge frame.json --light sun         one of a capture's lights\n"
+      "gnomon judge frame.rdc --light 2            of any engine, by RenderDoc\n"
       "gnomon judge --renderer mine --scene model.glb --size 640x360 --visibility shadow.png");
   const auto command = std::make_shared<JudgeCommand>();
   command->command_line = invocation.command_line;

@@ -212,8 +212,11 @@ void add_capture_options(CLI::App& app, CaptureOptions& o) {
   add_text(app, "--renderer-version", "TEXT", "its version [default the capture's]", o, c.version);
   add_text(app, "--scene", "SCENE", "what it loaded [default the capture's]", o, c.scene);
   add_text(app, "--camera", "NAME", "name or number, from 0 [default the capture's]", o, c.camera);
-  add_text(app, "--light", "NAME",
-           "name or number, from 0; of several the one to judge [default the capture's]", o, c.light);
+  add_text(
+      app, "--light", "NAME",
+      "name or number, from 0; of several the one to judge; of a recorded frame a number from 1 [default the "
+      "capture's]",
+      o, c.light);
   add_text(app, "--visibility", "FILE", "picture of the visibility [EXR or PNG; default the capture's]", o,
            c.visibility);
   add_text(app, "--shadowed", "FILE",

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -110,6 +111,23 @@ Expected<int> run_program(std::vector<std::string> words, std::optional<double> 
   if (late) return failed(fmt::format("did not end within {:.3g} s, and was ended", *longest_s));
   if (process_ends) return failed("was ended");
   return code;
+}
+
+Expected<ProgramEnd> run_and_listen(std::vector<std::string> words, std::optional<double> longest_s) {
+  constexpr std::size_t longest_said = 1 << 20;
+  const int file = memfd_create("gnomon-said", MFD_CLOEXEC);
+  if (file < 0)
+    return fail(ErrorKind::graphics, fmt::format("cannot make a file in memory: {}", std::strerror(errno)));
+  const auto code = run_program(std::move(words), longest_s, file);
+  ProgramEnd end{code.value_or(0), std::string(longest_said, '\0')};
+  const ssize_t read = pread(file, end.said.data(), end.said.size(), 0);
+  const int error = errno;
+  close(file);
+  if (!code) return fail(code.error());
+  if (read < 0)
+    return fail(ErrorKind::graphics, fmt::format("cannot read what it said: {}", std::strerror(error)));
+  end.said.resize(static_cast<std::size_t>(read));
+  return end;
 }
 
 }  // namespace gnomon

@@ -18,6 +18,16 @@ namespace gnomon {
 Expected<int> run_program(std::vector<std::string> words, std::optional<double> longest_s = std::nullopt,
                           int output = 2);
 
+/// How a program ended, and the first megabyte of what it said.
+struct ProgramEnd {
+  int code = 0;
+  std::string said{};
+};
+
+/// As run_program(), but what the program says is kept and returned. ErrorKind::graphics, too, where there is no memory for it.
+Expected<ProgramEnd> run_and_listen(std::vector<std::string> words,
+                                    std::optional<double> longest_s = std::nullopt);
+
 /// Programs that run are ended, which is waited for some seconds at most, and no other is started any more: this process is
 /// about to end.
 void end_programs();

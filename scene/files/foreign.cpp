@@ -67,25 +67,23 @@ std::string why_not(const std::string& said) {
 }
 
 Expected<std::string> converted(const std::string& file) {
-  const MemoryFile glb("gnomon-glb"), said("gnomon-said");
-  if (!glb.is_open() || !said.is_open())
+  const MemoryFile glb("gnomon-glb");
+  if (!glb.is_open())
     return foreign_error(file, ErrorKind::graphics,
                          fmt::format("cannot make a file in memory: {}", std::strerror(errno)));
   const std::string path = (file.starts_with('-') ? "./" : "") + file;
-  const auto code =
-      run_program({"prlimit", "--as=4000000000", "--cpu=120", "assimp", "export", path, glb.path(), "-fglb2"},
-                  longest_s, said.number());
-  if (!code) return foreign_error(file, code.error().kind, code.error().reason);
+  const auto end = run_and_listen(
+      {"prlimit", "--as=4000000000", "--cpu=120", "assimp", "export", path, glb.path(), "-fglb2"}, longest_s);
+  if (!end) return foreign_error(file, end.error().kind, end.error().reason);
   constexpr int not_found = 127, not_started = 1;  // prlimit's own ends
-  const auto words = said.bytes();
-  if (!words) return fail(words.error());
   const bool is_missing =
-      *code == not_found || (*code == not_started && words->find("failed to execute") != std::string::npos);
+      end->code == not_found ||
+      (end->code == not_started && end->said.find("failed to execute") != std::string::npos);
   if (is_missing)
     return foreign_error(
         file, ErrorKind::bad_input,
         "this format is read by the program assimp, which is not there (Debian: assimp-utils)");
-  if (*code != 0) return foreign_error(file, ErrorKind::bad_input, why_not(*words));
+  if (end->code != 0) return foreign_error(file, ErrorKind::bad_input, why_not(end->said));
   return glb.bytes();
 }
 

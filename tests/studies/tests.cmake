@@ -24,6 +24,14 @@ gnomon_test(judge_identify_gl_test
 # The adapters on real engines, as far as they are installed.
 gnomon_node_test(adapters_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_browser")
 gnomon_node_test(adapters_blender_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_blender")
+# The adapter for frames that RenderDoc recorded: its numbers, for which Debian's Python and NumPy are enough.
+add_test(NAME renderdoc_fit_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/renderdoc_fit_test.py"
+  "${PROJECT_SOURCE_DIR}/adapters/renderdoc")
+set_tests_properties(renderdoc_fit_test PROPERTIES SKIP_RETURN_CODE 77)
+# The same on frames of real engines, as far as these and RenderDoc are installed.
+add_test(NAME renderdoc_engine_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/renderdoc_engine_test.py"
+  $<TARGET_FILE:gnomon_program> "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/renderdoc_engine")
+set_tests_properties(renderdoc_engine_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1500)
 
 # gnomon grade, on shaders with known faults.
 gnomon_test(grade_gl_test SOURCES grade_gl_test.cpp grade_class_gl_test.cpp LIBS app_process nlohmann_json::nlohmann_json)

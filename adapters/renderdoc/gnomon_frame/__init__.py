@@ -1,0 +1,1 @@
+"""Makes captures for `gnomon judge` of frames that RenderDoc recorded, of any engine."""

@@ -1,0 +1,113 @@
+"""Writes what was found of one light as a capture for `gnomon judge`."""
+import os
+
+import numpy as np
+
+from . import extract, files
+from .errors import FrameError
+
+MOST_LAYERS = 32  # of a capture's map
+
+
+def light_node(layers):
+    """The glTF light of a sun, spot or point light: it shines along its node's -z."""
+    place = layers[0].place
+    z = -place.direction
+    up = np.array([0.0, 1.0, 0.0]) if abs(z[1]) < 0.9 else np.array([1.0, 0.0, 0.0])
+    x = np.cross(up, z)
+    x /= np.linalg.norm(x)
+    matrix = np.eye(4)
+    matrix[:3, 0], matrix[:3, 1], matrix[:3, 2] = x, np.cross(z, x), z
+    if place.apex is None:
+        return {"type": "directional", "matrix": matrix}
+    matrix[:3, 3] = place.apex
+    if len(layers) > 1 or layers[0].distance:
+        return {"type": "point", "matrix": matrix}
+    m = layers[0].light.matrix
+    half = np.arctan(np.linalg.norm(m[3, :3]) / min(np.linalg.norm(m[0, :3]), np.linalg.norm(m[1, :3])))
+    return {"type": "spot", "matrix": matrix, "inner": min(0.99 * half, 1.5), "outer": min(1.42 * half, 1.55)}  # to the map's corners
+
+
+def _shapes(view, layers):
+    """Meshes as the camera draws them, then casters that it does not draw, brought back through the light's matrix."""
+    shapes = [(place, m.corners) for m, place in zip(view.meshes, view.positions)]
+    known = set()
+    for layer in layers:
+        back = np.linalg.inv(layer.light.matrix) if layer.light.rank == 4 and not layer.distance else None
+        for place, mesh in layer.pairs:
+            if place is not None or back is None:
+                continue
+            points = mesh.clip @ back.T
+            points = points[:, :3] / points[:, 3:]
+            seen = (mesh.source, np.round(points[:8], 2).tobytes())
+            if seen not in known:
+                known.add(seen)
+                shapes.append((points, mesh.corners))
+    return [(p, c) for p, c in shapes if len(c) >= 3]
+
+
+def _select(selection, k, count):
+    if selection.by == "first":
+        return {}
+    limits = (0.0, *selection.limits)
+    return {"select": {"near": limits[k], "far": limits[k + 1], "by": selection.by}} if limits[k + 1] > limits[k] else {}
+
+
+def _layer(folder, texture, k, layer, test, count):
+    name = f"map{k}.exr"
+    files.write_exr(os.path.join(folder, name), {"Z": layer.texels})
+    out = {"depth": name, "convention": "reversed" if layer.state.reversed else "zero_to_one",
+           "rows": "bottom_up" if layer.state.conventions.bottom_row_first else "top_down",
+           "clip_from_world": files.column_major(layer.matrix), **_select(test.selection, k, count)}
+    moved = extract.polygon_offset(layer, texture)
+    if layer.has_caster_bias:
+        moved["constant_world"] = layer.shift.world
+    if moved:
+        out["caster_bias"] = moved
+    if layer.constant:
+        out["bias"] = {"constant_depth": layer.constant}
+    return out
+
+
+def _filter(layers, test):
+    blurred = any(not np.array_equal(layer.texels, layer.read) for layer in layers)
+    if test.radius is None and not blurred:
+        return {"kind": "none"}
+    return {"kind": "esm" if test.exponent else "vsm" if blurred else "pcf", "radius_texels": min(test.radius or 1.5, 64)}
+
+
+def write(folder, frame, found, layers, pixels, test, name):
+    """The capture's folder; returns the path of capture.json."""
+    if len(layers) > MOST_LAYERS:
+        raise FrameError(f"the light has {len(layers)} maps, and a capture holds {MOST_LAYERS}")
+    os.makedirs(folder, exist_ok=True)
+    lens, view = found.view.lens, found.view
+    near, far, _ = lens.planes(view.state.conventions.minus_one)
+    height, width = pixels.drawn.shape
+    drawn = pixels.drawn.astype(float)
+    # As a ratio: a pixel that the light does not reach without shadows either is not compared.
+    asked = pixels.asked.astype(float)
+    files.write_exr(os.path.join(folder, "shadowed.exr"), {"Y": np.clip(pixels.visibility, 0, 1) * asked})
+    files.write_exr(os.path.join(folder, "unshadowed.exr"), {"Y": asked})
+    files.write_exr(os.path.join(folder, "position.exr"), {c: pixels.positions[..., i] * drawn for i, c in enumerate("XYZ")} | {"A": drawn})
+    camera = {"yfov": 2 * np.arctan(1 / lens.fy), "aspect": width / height, "near": max(near, 1e-4), "far": far}
+    files.write_glb(os.path.join(folder, "scene.glb"), _shapes(view, layers), camera, light_node(layers))
+    texture = frame.textures[found.passes.texture]
+    settings = {"map": f"{texture.width} x {texture.height}", "format": texture.format}
+    if found.sampler:
+        settings["sampler"] = found.sampler
+    if layers[0].reader:
+        settings["matrix"] = f"{layers[0].reader.name} (residual {layers[0].reader.residual:.1e})"
+    if layers[0].has_caster_bias:
+        settings["casters moved"] = f"{layers[0].shift.world:.4g} world units (residual {layers[0].shift.residual:.1e})"
+    if test.agreement is not None:
+        settings["test found"] = f"decides {100 * test.agreement:.2f} % of the pixels as drawn"
+    if test.exponent:
+        settings["exponent"] = round(test.exponent.factor, 2)
+    known_map = {} if layers[0].matrix is None else {
+        "map": [_layer(folder, texture, k, layer, test, len(layers)) for k, layer in enumerate(layers)], "filter": _filter(layers, test)}
+    files.write_capture(folder, {
+        "renderer": {"name": name, "version": "(RenderDoc)", "settings": settings}, "scene": "scene.glb", "size": [width, height],
+        "shadowed": "shadowed.exr", "unshadowed": "unshadowed.exr", "position": "position.exr",
+        **known_map})
+    return os.path.join(folder, "capture.json")

@@ -1,0 +1,158 @@
+"""The reader's test, done again: which texel a place looks up, what a constant bias, the choice of a cascade and a filter make of it.
+
+Margins are stored numbers, positive where the place is lit: what the texel holds minus the place's depth, or, where depths are
+reversed, the other way round. They are what the picture is held against to find how the frame was drawn.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+SURE = 0.02  # a pixel so near to lit or shadowed was decided by one comparison
+NOISE = 1e-3  # of the pixels: on borders of texels, arithmetic decides
+
+
+@dataclass
+class Margins:
+    """Of each place in one layer."""
+
+    values: np.ndarray  # 1 where outside
+    inside: np.ndarray
+    column: np.ndarray  # the texel, in the layer's own rectangle
+    row: np.ndarray
+
+
+def texel_places(layer, positions):
+    """(column, row, depth, inside) of view-space positions in a layer: texels as real numbers, depths as stored."""
+    clip = positions @ layer.matrix[:, :3].T + layer.matrix[:, 3]
+    w = clip[:, 3]
+    front = w > 0
+    w = np.where(front, w, 1)
+    x, y, z = clip[:, 0] / w, clip[:, 1] / w, clip[:, 2] / w
+    rows, columns = layer.texels.shape
+    up = y if layer.state.conventions.bottom_row_first else -y
+    return (x * 0.5 + 0.5) * columns, (up * 0.5 + 0.5) * rows, z, front & (np.abs(x) < 1) & (np.abs(y) < 1)
+
+
+def margins(layer, positions):
+    column, row, depth, inside = texel_places(layer, positions)
+    column = np.clip(np.where(inside, column, 0).astype(int), 0, layer.texels.shape[1] - 1)
+    row = np.clip(np.where(inside, row, 0).astype(int), 0, layer.texels.shape[0] - 1)
+    stored = layer.texels[row, column]
+    values = depth - stored if layer.state.reversed else stored - depth
+    return Margins(np.where(inside, values, 1.0), inside, column, row)
+
+
+def best_constant(values, lit, candidates=()):
+    """(constant, share of pixels that it decides otherwise than the picture, the share without one): the bias in stored numbers
+    with which margins give the picture. 0 where it is as good; one of the reader's own numbers, of either sign, where one is."""
+    order = np.argsort(values)
+    sorted_values, sorted_lit = values[order], lit[order]
+    # With a threshold before place k, all from k on are lit.
+    wrong = np.concatenate([[0], np.cumsum(sorted_lit)]) + np.concatenate([np.cumsum(~sorted_lit[::-1])[::-1], [0]])
+    count = max(len(values), 1)
+    at = lambda constant: float(np.mean((values + constant >= 0) != lit)) if len(values) else 0.0
+    least, now = wrong.min() / count, at(0.0)
+    if now <= least + NOISE:
+        return 0.0, now, now
+    k = int(np.argmin(wrong))
+    middle = -0.5 * (sorted_values[max(k - 1, 0)] + sorted_values[min(k, len(values) - 1)])
+    near = [c for number in candidates for c in (number, -number) if c and at(c) <= least + NOISE]
+    constant = min(near, key=at) if near else float(middle)
+    return constant, at(constant), now
+
+
+@dataclass(frozen=True)
+class Selection:
+    """How a layer of several is chosen: "first" that holds the place, or by "view_z" or "distance" up to each of `limits`."""
+
+    by: str
+    limits: tuple
+    share: float  # pixels that it decides otherwise than the picture
+
+
+def _first(all_margins):
+    chosen = np.full(len(all_margins[0].values), -1)
+    for k in range(len(all_margins) - 1, -1, -1):
+        chosen[all_margins[k].inside] = k
+    return chosen
+
+
+def _limits(cost, keys, numbers):
+    """Ends of the layers along sorted keys: least cost, found layer by layer; a number of the reader's where one is as good."""
+    layers, count = cost.shape
+    prefix = np.concatenate([np.zeros((layers, 1)), np.cumsum(cost, axis=1)], axis=1)
+    best = [prefix[0]]
+    for k in range(1, layers):
+        best.append(prefix[k] + np.minimum.accumulate(best[-1] - prefix[k]))
+    ends, end = [], count
+    for k in range(layers - 1, 0, -1):
+        part = (best[k - 1] - prefix[k])[:end + 1]
+        fine = np.flatnonzero(part <= part.min() + NOISE * count)
+        low, high = keys[max(fine[0] - 1, 0)], keys[min(fine[-1], count - 1)]
+        end = int(np.argmin(part))
+        here = keys[min(end, count - 1)]
+        known = sorted((n for n in numbers if low <= n <= high), key=lambda n: part[min(int(np.searchsorted(keys, n)), len(part) - 1)])
+        ends.append(float(known[0]) if known else float(here))
+    return tuple(reversed(ends))
+
+
+def choose_layers(all_margins, lit, keys, numbers=()):
+    """(Selection, index of each place's layer, -1 where none): `keys` {"view_z": .., "distance": ..} of the places."""
+    values = np.array([m.values for m in all_margins])
+    wrong = (values >= 0) != lit
+    first = _first(all_margins)
+    picked = np.where(first >= 0, np.take_along_axis(values, np.maximum(first, 0)[None], 0)[0], 1.0)
+    best = Selection("first", (), float(np.mean((picked >= 0) != lit)))
+    chosen = first
+    if len(all_margins) == 1:
+        return best, chosen
+    for by, key in keys.items():
+        order = np.argsort(key)
+        none = (~lit)[order][None]  # beyond the last layer everything is lit
+        ends = _limits(np.concatenate([wrong[:, order], none]).astype(float), key[order], numbers)
+        index = np.searchsorted(np.array(ends), key, side="right")
+        index = np.where(index >= len(all_margins), -1, index)
+        picked = np.where(index >= 0, np.take_along_axis(values, np.maximum(index, 0)[None], 0)[0], 1.0)
+        share = float(np.mean((picked >= 0) != lit))
+        if share < best.share - 0.2 * NOISE:
+            best, chosen = Selection(by, ends, share), index
+    return best, chosen
+
+
+@dataclass(frozen=True)
+class Exponent:
+    """visibility = exp(factor * (stored - depth)): an exponential shadow map."""
+
+    factor: float  # for stored numbers of 0 to 1
+    correlation: float  # of the visibility's logarithm and the margins, squared
+
+
+def exponent(margins_read, visibility):
+    """The exponential map's factor from the margins against the map as it was read (blurred) of places that are partly lit; None
+    where these do not follow an exponential."""
+    partly = (visibility > 0.05) & (visibility < 0.95)
+    if partly.sum() < 50:
+        return None
+    x, y = margins_read[partly], np.log(visibility[partly])
+    correlation = float(np.corrcoef(x, y)[0, 1] ** 2) if np.ptp(x) > 0 else 0.0
+    return Exponent(float((x @ y) / (x @ x)), correlation) if correlation > 0.8 else None
+
+
+def filter_radius(layer, positions, widest=8):
+    """How far from its own texel a partly lit place must read to find both answers: texels, the 99th hundredth of the places;
+    None where most find none within `widest`."""
+    column, row, depth, inside = texel_places(layer, positions)
+    rows, columns = layer.texels.shape
+    inside &= (column > widest) & (row > widest) & (column < columns - widest - 1) & (row < rows - widest - 1)
+    column, row, depth = column[inside].astype(int)[:20000], row[inside].astype(int)[:20000], depth[inside][:20000]
+    if not len(column):
+        return None
+    own = layer.texels[row, column] >= depth
+    needed = np.full(len(column), widest + 1)
+    for far in range(widest, 0, -1):
+        for step in range(-far, far + 1):
+            for dx, dy in ((step, -far), (step, far), (-far, step), (far, step)):
+                needed[(layer.texels[row + dy, column + dx] >= depth) != own] = far
+    needed = np.sort(needed)
+    radius = int(needed[int(0.99 * (len(needed) - 1))])
+    return radius if radius <= widest else (int(np.median(needed)) if np.median(needed) <= widest else None)

@@ -1,0 +1,99 @@
+"""Which textures of a frame are shadow maps, who draws into them and who reads them; which draws are the camera's."""
+from dataclasses import dataclass
+
+from .errors import FrameError
+
+FULL_SCREEN = 6  # a draw of so few vertices covers the picture and shows no mesh
+
+
+@dataclass
+class MapPasses:
+    """A shadow map, and the picture that it is read for."""
+
+    texture: int
+    writers: list  # draws
+    readers: list  # draws, the last of which completes the picture
+    picture: int  # the colour texture that the readers draw into
+    camera_depth: int
+    camera: list  # draws into the camera's depth, before the last reader has drawn
+    is_copied: bool  # whether the readers read a copy of the map, of another layout
+
+
+def _writers(frame, colour_maps):
+    """{texture: draws that write it}: depth textures, and colour textures that are drawn with a depth test."""
+    written = {}
+    for draw in frame.draws:
+        if draw.depth:
+            written.setdefault(draw.depth, []).append(draw)
+        if colour_maps and draw.depth:
+            for texture in draw.colours:
+                written.setdefault(texture, []).append(draw)
+    return written
+
+
+def _camera_depth(frame, last, readers, written):
+    """The depth texture of the camera's view: that of the last reader, or, where that is a full-screen draw, one of the same
+    size that it reads or that was drawn most into."""
+    if last.depth in written and last.vertices > FULL_SCREEN:
+        return last.depth
+    size = _size(frame, last.colours[0])
+    fit = [t for t in written if frame.textures[t].is_depth and _size(frame, t) == size]
+    return max(fit, key=lambda t: sum(d.vertices for d in written[t]), default=0)
+
+
+def _size(frame, texture):
+    t = frame.textures[texture]
+    return t.width, t.height
+
+
+def _copied_from(frame, texture, written):
+    """The texture that full-screen draws copy into this one, such as a cube that becomes a paraboloid; else the texture itself."""
+    copies = {d.event for d in written[texture]}
+    if any(d.vertices > FULL_SCREEN for d in written[texture]):
+        return texture
+    return next((t for t in written if t != texture and copies & set(frame.readers_of(t))), texture)
+
+
+def _as_map(frame, texture, written, by_event):
+    """The texture's passes if it is a shadow map of some picture, else None."""
+    writers = written[texture]
+    reads = [by_event[e] for e in frame.readers_of(texture) if e in by_event]
+    readers = [d for d in reads if d.colours and d.event > writers[0].event and texture != d.depth and texture not in d.colours]
+    if not readers:
+        return None
+    last = readers[-1]
+    camera_depth = _camera_depth(frame, last, readers, written)
+    if not camera_depth or camera_depth == texture:
+        return None
+    picture = last.colours[0]
+    readers = [d for d in readers if d.colours[0] == picture]
+    if _size(frame, texture) == _size(frame, picture):
+        return None  # a camera's own depth, read by an effect
+    camera = [d for d in written[camera_depth] if d.event <= last.event]
+    origin = _copied_from(frame, texture, written)
+    casters = [w for w in written[origin] if w.event < last.event]
+    return MapPasses(origin, casters, readers, picture, camera_depth, camera, origin != texture)
+
+
+def find_maps(frame, colour_maps=False):
+    """Shadow maps of a frame, the most read first. Colour textures are looked at only where asked for, or where no depth texture
+    is a map."""
+    written = _writers(frame, colour_maps)
+    by_event = {d.event: d for d in frame.draws}
+    wanted = [t for t in written if t in frame.textures and frame.textures[t].is_depth != colour_maps]
+    found = [m for t in wanted if (m := _as_map(frame, t, written, by_event)) is not None]
+    found.sort(key=lambda m: (-len(m.readers), m.texture))
+    if not found and not colour_maps:
+        return find_maps(frame, True)
+    return found
+
+
+def why_none(frame):
+    """The error for a frame without a shadow map."""
+    drawn = {d.depth for d in frame.draws} | {c for d in frame.draws for c in d.colours}
+    by_event = {d.event for d in frame.draws}
+    old = [t for t in frame.textures.values() if t.is_depth and t.id not in drawn and any(e in by_event for e in frame.readers_of(t.id))]
+    if old:
+        return FrameError(f"a depth texture of {old[0].width} x {old[0].height} is read, but no draw of this frame writes it: its shadow map "
+                          "was drawn in an earlier frame. Record a frame in which the light or a caster moves")
+    return FrameError("no texture is drawn with depth and then read by a later draw: this frame has no shadow map")

@@ -1,0 +1,360 @@
+"""A recorded frame, replayed: all that this package asks of RenderDoc's own module, `renderdoc`.
+
+Written for RenderDoc 1.24, which Debian 12 has, on OpenGL and Vulkan; what Direct3D and the bindings of later versions need is
+here as well, and has not been run. Events and resources are plain integers outside of this file.
+"""
+import os
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import renderdoc as rd
+
+from . import conventions, formats, stand_ins
+from .errors import FrameError
+
+
+class NoDisplay(FrameError):
+    """OpenGL is replayed on a display of X11, and there is none."""
+
+
+@dataclass(frozen=True)
+class Texture:
+    id: int
+    width: int
+    height: int
+    slices: int
+    samples: int
+    format: str
+
+    @property
+    def is_depth(self):
+        return self.format.startswith("D") and self.format[1:2].isdigit()
+
+
+@dataclass(frozen=True)
+class Draw:
+    event: int
+    name: str
+    vertices: int
+    instances: int
+    colours: tuple  # textures drawn into
+    depth: int  # the depth texture drawn into, or 0
+
+
+@dataclass
+class Mesh:
+    """What one draw call made of one instance."""
+
+    event: int
+    clip: np.ndarray  # [vertices, 4], each vertex once
+    objects: np.ndarray | None  # the same vertices before the shader, where an attribute of three floats tells
+    corners: np.ndarray  # three vertices for each triangle
+    source: tuple  # equal for the same vertices in the same order, whichever shader moved them
+
+
+@dataclass
+class State:
+    """The pipeline as it is at a draw."""
+
+    viewport: tuple  # x, y, width, height, texels; y from the row that the API counts first
+    colours: list
+    depth: int
+    slice: int
+    conventions: conventions.Conventions
+    reversed: bool  # nearer is a larger number
+    depth_bias: dict = field(default_factory=dict)  # constant, slope, clamp as the API has them
+    shaders: dict = field(default_factory=dict)  # stage -> id
+
+
+def _actions(roots):
+    for action in roots:
+        if action.flags & rd.ActionFlags.Drawcall:
+            yield action
+        yield from _actions(action.children)
+
+
+class Frame:
+    """A frame under replay. `with Frame.open(path) as frame` replays a file here; Frame(controller) works in qrenderdoc's own."""
+
+    def __init__(self, controller):
+        self.controller = controller
+        self._ids = {int(t.resourceId): t.resourceId for t in controller.GetTextures()}
+        self.textures = {int(t.resourceId): Texture(int(t.resourceId), t.width, t.height, max(t.arraysize, t.depth), t.msSamp, t.format.Name())
+                         for t in controller.GetTextures()}
+        names = controller.GetStructuredFile()
+        self._actions = {a.eventId: a for a in _actions(controller.GetRootActions())}
+        self.draws = [Draw(a.eventId, a.GetName(names), a.numIndices, max(1, a.numInstances),
+                           tuple(int(o) for o in a.outputs if int(o)), int(a.depthOut)) for a in self._actions.values()]
+        self._event = None
+        self._states = {}
+        self.draws = [self._with_targets(draw) for draw in self.draws]
+
+    def _with_targets(self, draw):
+        """Draws into a window's own pictures come without their targets on Vulkan."""
+        if draw.colours or draw.depth:
+            return draw
+        state = self.state(draw.event)
+        return replace(draw, colours=tuple(state.colours), depth=state.depth)
+
+    @classmethod
+    @contextmanager
+    def open(cls, path):
+        rd.InitialiseReplay(rd.GlobalEnvironment(), [])
+        file = rd.OpenCaptureFile()
+        try:
+            opened = file.OpenFile(path, "", None)
+            if opened != rd.ResultCode.Succeeded:
+                raise FrameError(f"{path} is no frame that RenderDoc {rd.GetVersionString()} can read: {opened.Message()}")
+            if file.LocalReplaySupport() != rd.ReplaySupport.Supported:
+                raise FrameError(f"{path} was recorded with {file.DriverName()}, which cannot be replayed on this system: "
+                                 "open it in qrenderdoc where it was recorded")
+            if file.DriverName() == "OpenGL" and os.name == "posix" and not os.environ.get("DISPLAY"):
+                raise NoDisplay("frames of OpenGL are replayed on a display, and DISPLAY names none (Debian: apt install xvfb)")
+            status, controller = file.OpenCapture(rd.ReplayOptions(), None)
+            if status != rd.ResultCode.Succeeded:
+                raise FrameError(f"{path} cannot be replayed here: {status.Message()}")
+            try:
+                yield cls(controller)
+            finally:
+                controller.Shutdown()
+        finally:
+            file.Shutdown()
+            rd.ShutdownReplay()
+
+    # --- Which draw does what -------------------------------------------------------------------------------------
+
+    def readers_of(self, texture):
+        """Events of draws whose fragments read a texture, in their order."""
+        return [u.eventId for u in self.controller.GetUsage(self._ids[texture])
+                if u.usage in (rd.ResourceUsage.PS_Resource, rd.ResourceUsage.All_Resource) and u.eventId in self._actions]
+
+    def is_copied_to(self, texture):
+        """Whether something copies, resolves or blits into a texture."""
+        written = (rd.ResourceUsage.CopyDst, rd.ResourceUsage.ResolveDst)
+        return any(u.usage in written for u in self.controller.GetUsage(self._ids[texture]))
+
+    def go_to(self, event, again=False):
+        """The frame as it is after an event."""
+        if again or event != self._event:
+            self.controller.SetFrameEvent(event, again)
+            self._event = event
+
+    # --- The pipeline -----------------------------------------------------------------------------------------------
+
+    def _api_state(self, pipe):
+        """(conventions of clip space, depth state, rasterizer's depth bias)"""
+        view = pipe.GetViewport(0)
+        if pipe.IsCaptureGL():
+            s = self.controller.GetGLPipelineState()
+            clip = s.vertexProcessing
+            bias = s.rasterizer.state
+            return (conventions.opengl(clip.clipOriginLowerLeft, clip.clipNegativeOneToOne), s.depthState.depthFunction,
+                    (bias.depthBias, bias.slopeScaledDepthBias, bias.offsetClamp))
+        if pipe.IsCaptureVK():
+            s = self.controller.GetVulkanPipelineState()
+            bias = s.rasterizer
+            on = getattr(bias, "depthBiasEnable", True)
+            return (conventions.vulkan(view.height), s.depthStencil.depthFunction,
+                    (bias.depthBias, bias.slopeScaledDepthBias, bias.depthBiasClamp) if on else (0, 0, 0))
+        s = self.controller.GetD3D11PipelineState() if pipe.IsCaptureD3D11() else self.controller.GetD3D12PipelineState()
+        bias = s.rasterizer.state
+        return (conventions.DIRECT3D, s.outputMerger.depthStencilState.depthFunction,
+                (bias.depthBias, bias.slopeScaledDepthBias, bias.depthBiasClamp))
+
+    def state(self, event):
+        """The pipeline at a draw; going to an event costs a replay, so what was seen is kept."""
+        if event not in self._states:
+            self._states[event] = self._state(event)
+        return self._states[event]
+
+    def _state(self, event):
+        self.go_to(event)
+        pipe = self.controller.GetPipelineState()
+        view, target = pipe.GetViewport(0), pipe.GetDepthTarget()
+        clip, compare, bias = self._api_state(pipe)
+        target = getattr(target, "resource", target) if not hasattr(target, "resourceId") else target
+        colours = [int(t.resourceId) for t in pipe.GetOutputTargets() if int(t.resourceId)]
+        y, height = (view.y, view.height) if view.height >= 0 else (view.y + view.height, -view.height)
+        shaders = {stage: int(pipe.GetShader(stage)) for stage in (rd.ShaderStage.Vertex, rd.ShaderStage.Fragment) if int(pipe.GetShader(stage))}
+        return State((view.x, y, view.width, height), colours, int(target.resourceId), getattr(target, "firstSlice", 0), clip,
+                     compare in (rd.CompareFunction.Greater, rd.CompareFunction.GreaterEqual),
+                     dict(zip(("constant", "slope", "clamp"), bias)), shaders)
+
+    def reads(self, event):
+        """{texture: what its sampler does} of the fragment shader's textures; "" where it is not told."""
+        self.go_to(event)
+        pipe, stage = self.controller.GetPipelineState(), rd.ShaderStage.Fragment
+        shader = pipe.GetShaderReflection(stage)
+        if not shader:
+            return {}
+        if not hasattr(pipe, "GetBindpointMapping"):  # RenderDoc 1.33 and later
+            return {int(d.descriptor.resource): "" for d in pipe.GetReadOnlyResources(stage, True) if int(d.descriptor.resource)}
+        places = pipe.GetBindpointMapping(stage).readOnlyResources
+        used = {(places[r.bindPoint].bindset, places[r.bindPoint].bind) for r in shader.readOnlyResources if places[r.bindPoint].used}
+        return {int(one.resourceId): self._sampler(pipe, bound.bindPoint) for bound in pipe.GetReadOnlyResources(stage)
+                if (bound.bindPoint.bindset, bound.bindPoint.bind) in used for one in bound.resources if int(one.resourceId)}
+
+    def _sampler(self, pipe, place):
+        """"linear compare", "nearest compare", "linear" or "nearest"; "" where this API's state is not looked at."""
+        if pipe.IsCaptureGL():
+            samplers = self.controller.GetGLPipelineState().samplers
+            if place.bind >= len(samplers):
+                return ""
+            s = samplers[place.bind]
+        elif pipe.IsCaptureVK():
+            s = self.controller.GetVulkanPipelineState().graphics.descriptorSets[place.bindset].bindings[place.bind].binds[0]
+        else:
+            return ""
+        way = "linear" if rd.FilterMode.Linear in (s.filter.magnify, s.filter.minify) else "nearest"
+        return way + (" compare" if s.filter.filter == rd.FilterFunction.Comparison else "")
+
+    def constants(self, event):
+        """([(name, 4x4 matrix)], [(name, number)]) of both shaders of a draw."""
+        self.go_to(event)
+        pipe = self.controller.GetPipelineState()
+        matrices, numbers = [], []
+        for stage in (rd.ShaderStage.Vertex, rd.ShaderStage.Fragment):
+            shader = pipe.GetShaderReflection(stage)
+            for index, block in enumerate(shader.constantBlocks if shader else ()):
+                for variable in self._block(pipe, stage, shader, index) if len(block.variables) else ():
+                    _gather(variable, block.name + "." if block.name else "", matrices, numbers)
+        return matrices, numbers
+
+    def _block(self, pipe, stage, shader, index):
+        if hasattr(pipe, "GetConstantBuffer"):
+            buffer = pipe.GetConstantBuffer(stage, index, 0)
+            resource = buffer.resourceId
+        else:  # RenderDoc 1.33 and later
+            buffer = pipe.GetConstantBlock(stage, index, 0).descriptor
+            resource = buffer.resource
+        size = buffer.byteSize if buffer.byteSize < 1 << 40 else 0
+        return self.controller.GetCBufferVariableContents(pipe.GetGraphicsPipelineObject(), shader.resourceId, stage, shader.entryPoint,
+                                                          index, resource, buffer.byteOffset, size)
+
+    # --- Geometry ---------------------------------------------------------------------------------------------------
+
+    def _indices(self, resource, offset, stride, count, base):
+        data = self.controller.GetBufferData(resource, offset, count * stride)
+        kind = {1: np.uint8, 2: np.uint16, 4: np.uint32}[stride]
+        raw = np.frombuffer(data, kind, len(data) // stride)[:count]
+        return raw.astype(np.int64) + base, raw == np.iinfo(kind).max
+
+    def meshes(self, draw):
+        """A Mesh for each instance of a draw that is made of triangles."""
+        self.go_to(draw.event)
+        pipe, action = self.controller.GetPipelineState(), self._actions[draw.event]
+        source = self._source(pipe, action)
+        out = []
+        for instance in range(draw.instances):
+            drawn = self._clip(action, instance)
+            if drawn is None:
+                continue
+            vertices, indices, places = drawn
+            kept, corners = formats.numbered(indices[places])
+            objects = None
+            if source and len(source[0]) > places.max():
+                objects = np.empty((len(kept), 3))
+                objects[corners] = source[0][places]
+            out.append(Mesh(draw.event, vertices[kept].astype(float), objects, corners, source[1] if source else (draw.event, instance)))
+        return out
+
+    def _clip(self, action, instance):
+        """(clip positions of vertices, each index, corners of triangles as places among the indices), or None."""
+        mesh = self.controller.GetPostVSData(instance, 0, rd.MeshDataStage.VSOut)
+        if not int(mesh.vertexResourceId) or not mesh.numIndices:
+            return None
+        stride = mesh.vertexByteStride
+        data = self.controller.GetBufferData(mesh.vertexResourceId, mesh.vertexByteOffset, 0)
+        count = (len(data) - 16) // stride + 1
+        values = np.frombuffer(data, np.float32, len(data) // 4)
+        vertices = np.lib.stride_tricks.as_strided(values, (count, 4), (stride, 4))
+        if int(mesh.indexResourceId) and mesh.indexByteStride:
+            indices, restart = self._indices(mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.numIndices, mesh.baseVertex)
+            restart = restart if action.flags & rd.ActionFlags.Indexed else np.zeros(len(restart), bool)
+        else:
+            indices, restart = np.arange(mesh.numIndices), np.zeros(mesh.numIndices, bool)
+        corners = formats.corners(_topology(mesh.topology), restart)
+        if corners is None or not len(corners):
+            return None
+        used = indices[corners]
+        if used.min() < 0 or used.max() >= count:
+            indices = indices - used.min()
+        return vertices, np.clip(indices, 0, count - 1), corners
+
+    def _source(self, pipe, action):
+        """(object position of each index, what names the vertices), or None where no attribute is three floats."""
+        fit = [a for a in pipe.GetVertexInputs()
+               if a.format.compType == rd.CompType.Float and a.format.compCount >= 3 and a.format.compByteWidth == 4 and not a.perInstance]
+        if not fit:
+            return None
+        attribute = next((a for a in fit if any(word in a.name.lower() for word in ("pos", "vert"))), fit[0])
+        buffer = pipe.GetVBuffers()[attribute.vertexBuffer]
+        indexed = bool(action.flags & rd.ActionFlags.Indexed)
+        index = pipe.GetIBuffer()
+        if indexed:
+            order, restart = self._indices(index.resourceId, index.byteOffset + action.indexOffset * index.byteStride, index.byteStride,
+                                           action.numIndices, action.baseVertex)
+            order = np.where(restart, 0, order)
+        else:
+            order = np.arange(action.numIndices) + action.vertexOffset
+        stride = buffer.byteStride or 4 * attribute.format.compCount
+        data = self.controller.GetBufferData(buffer.resourceId, buffer.byteOffset + attribute.byteOffset, (int(order.max()) + 1) * stride)
+        values = np.frombuffer(data, np.float32, len(data) // 4)
+        count = (len(data) // 4 * 4 - 12) // stride + 1
+        points = np.lib.stride_tricks.as_strided(values, (count, 3), (stride, 4))
+        name = (int(buffer.resourceId), buffer.byteOffset, int(index.resourceId) if indexed else 0, action.indexOffset, action.vertexOffset,
+                action.baseVertex, action.numIndices, action.instanceOffset)
+        return points[np.clip(order, 0, count - 1)].astype(float), name
+
+    # --- Pictures ---------------------------------------------------------------------------------------------------
+
+    def picture(self, texture, slice_=0):
+        """Channels of a texture as they are now, [rows, columns, channels], the texture's own first row first."""
+        t = self.textures[texture]
+        data = self.controller.GetTextureData(self._ids[texture], rd.Subresource(0, slice_, 0))
+        opengl = self.controller.GetPipelineState().IsCaptureGL()
+        return formats.decode(data, t.format, t.width, t.height, opengl)
+
+    @contextmanager
+    def replaced(self, shaders):
+        """The frame with shaders exchanged: {(id, stage): stand_ins.Source}."""
+        pipe = self.controller.GetPipelineState()
+        made = []
+        try:
+            for (shader, stage), source in shaders.items():
+                encoding, code = stand_ins.encoded(source, pipe, self.controller.GetTargetShaderEncodings())
+                new, message = self.controller.BuildTargetShader("main", encoding, code, rd.ShaderCompileFlags(), stage)
+                if not int(new):
+                    raise FrameError(f"a shader that takes a caster away cannot be built here: {message}")
+                original = self._shader_id(shader, stage)
+                self.controller.ReplaceResource(original, new)
+                made.append((original, new))
+            self._event = None
+            yield
+        finally:
+            for original, new in made:
+                self.controller.RemoveReplacement(original)
+                self.controller.FreeTargetResource(new)
+            self._event = None
+
+    def _shader_id(self, shader, stage):
+        return next(r.resourceId for r in self.controller.GetResources() if int(r.resourceId) == shader)
+
+
+def _gather(variable, path, matrices, numbers):
+    name = path + variable.name
+    if len(variable.members):
+        for member in variable.members:
+            _gather(member, name + ("" if member.name.startswith("[") else "."), matrices, numbers)
+    elif variable.type == rd.VarType.Float:
+        count = variable.rows * variable.columns
+        values = np.array([variable.value.f32v[k] for k in range(count)], float)
+        if variable.rows == 4 and variable.columns == 4:
+            matrices.append((name, values.reshape(4, 4)))
+        elif count <= 4:
+            numbers += [(f"{name}{'.' + 'xyzw'[k] if count > 1 else ''}", float(v)) for k, v in enumerate(values)]
+
+
+def _topology(topology):
+    return {rd.Topology.TriangleList: "list", rd.Topology.TriangleStrip: "strip", rd.Topology.TriangleFan: "fan"}.get(topology, "")

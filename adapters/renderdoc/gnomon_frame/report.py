@@ -1,0 +1,62 @@
+"""What was found, in sentences for a person: each finding with how it was found and its residual."""
+import numpy as np
+
+from .extract import polygon_offset
+
+
+def _kind(layers):
+    place = layers[0].place
+    if place.apex is None:
+        return "sun" if len(layers) == 1 else f"sun with {len(layers)} cascades"
+    return "spot light" if len(layers) == 1 and not layers[0].distance else f"point light with a map of {len(layers)} parts"
+
+
+def light_line(number, frame, found, layers):
+    """A line of --list."""
+    texture = frame.textures[found.passes.texture]
+    x, y, width, height = layers[0].state.viewport
+    casters = sum(len(layer.events) for layer in layers)
+    return (f"light {number}: {_kind(layers)}, map {texture.width} x {texture.height} {texture.format} (texture {texture.id}, {width:.0f} x {height:.0f} "
+            f"from {x:.0f}, {y:.0f}), {casters} draws of casters, read by {len(found.passes.readers)} draws from event {found.passes.readers[0].event} on")
+
+
+def findings(frame, found, layers, test):
+    """Sentences, the most important first."""
+    lens = found.view.lens
+    out = []
+    texture = frame.textures[found.passes.texture]
+    part = "cascade" if layers[0].place.apex is None else "part"
+    for k, layer in enumerate(layers):
+        which = f"{part} {k + 1}: " if len(layers) > 1 else ""
+        how = "the distances that they store are larger" if layer.distance else "their matrix and the reader's differ by that"
+        if layer.has_caster_bias:
+            out.append(f"{which}casters are drawn {layer.shift.world:.4f} world units away from the light ({how}; residual "
+                       f"{layer.shift.residual:.1e})")
+        if layer.constant:
+            out.append(f"{which}the reader's test lets {layer.constant:.3g} of stored depth pass (found from the picture)")
+        offset = polygon_offset(layer, texture)
+        if offset:
+            out.append(f"{which}the rasterizer's depth bias moves casters by {offset['constant']:.3g} of stored depth and {offset['slope']:g} slopes")
+    one = layers[0]
+    if one.matrix is None:
+        kind = (f"distances from a point, up to {one.distance.range:.4g} world units, as of a paraboloid" if one.distance else
+                "a cube that is read by way of a copy, or of which faces were not drawn")
+        out.append(f"map: {kind}; no capture can say how such a map is looked up, so that the verdict says where the shadow is wrong and not why")
+    elif one.reader:
+        out.append(f"map: read with the constant {one.reader.name} after {one.reader.before} (its rows and the casters' differ by {one.reader.residual:.1e})")
+    else:
+        out.append("map: no constant of the reader is the casters' matrix; theirs is taken")
+    off = max(layer.distance.residual if layer.distance else float(np.max(layer.light.residuals)) for layer in layers)
+    out.append(f"light: from {sum(layer.matched for layer in layers)} meshes that camera and light both draw, residual {off:.1e}")
+    out.append(f"camera: {2 * np.degrees(np.arctan(1 / lens.fy)):.2f} degrees high, residual {lens.residual:.1e}")
+    if test.selection.by != "first":
+        limits = ", ".join(f"{limit:.4g}" for limit in test.selection.limits)
+        out.append(f"cascades end at {limits} world units ({test.selection.by})")
+    if test.exponent:
+        out.append(f"an exponential map of the factor {test.exponent.factor:.3g} (correlation {test.exponent.correlation:.4f}) of depths that are "
+                   "blurred after the casters are drawn")
+    if test.radius:
+        out.append(f"a filter reads {test.radius:g} texels around ({100 * test.partly_lit:.1f} % of the pixels are partly lit)")
+    if test.agreement is not None:
+        out.append(f"the test as found decides {100 * test.agreement:.2f} % of the pixels as the picture has them")
+    return out + found.notes

@@ -1,0 +1,100 @@
+"""Just enough of an assembler for SPIR-V (Khronos, SPIR-V 1.0) to write the stand-ins of stand_ins.py without a compiler."""
+import struct
+
+CAPABILITY_SHADER, MODEL_LOGICAL, MODEL_GLSL450 = 1, 0, 1
+VERTEX, FRAGMENT = 0, 4
+INPUT, OUTPUT = 1, 3
+POSITION, FRAG_COORD, FRAG_DEPTH, VERTEX_INDEX = 0, 15, 22, 42
+FABS = 4  # of GLSL.std.450
+
+
+def _text(text):
+    data = text.encode() + b"\0"
+    data += b"\0" * (-len(data) % 4)
+    return list(struct.unpack(f"<{len(data) // 4}I", data))
+
+
+class Module:
+    """A module of one entry point, main. Every method returns the new id."""
+
+    def __init__(self, stage):
+        self.stage = stage
+        self.bound = 1
+        self.decorations, self.types, self.body, self.interface, self.modes = [], [], [], [], []
+        self._known = {}
+        self.library, self.main = self.new(), self.new()
+        self.void, self.float, self.int, self.bool = (self._declare(op, *words) for op, words in ((19, ()), (22, (32,)), (21, (32, 1)), (20, ())))
+        self.function_type = self._declare(33, self.void)
+
+    def new(self):
+        self.bound += 1
+        return self.bound - 1
+
+    def _declare(self, op, *words):
+        if (op, words) not in self._known:
+            made = self._known[op, words] = self.new()
+            self.types.append((op, [made, *words]))
+        return self._known[op, words]
+
+    def number(self, value):
+        return self._constant(self.float, struct.unpack("<I", struct.pack("<f", value))[0])
+
+    def whole(self, value):
+        return self._constant(self.int, value)
+
+    def _constant(self, kind, word):
+        key = ("constant", kind, word)
+        if key not in self._known:
+            made = self._known[key] = self.new()
+            self.types.append((43, [kind, made, word]))
+        return self._known[key]
+
+    def vector(self, size):
+        return self._declare(23, self.float, size)
+
+    def builtin(self, storage, kind, which):
+        """A variable of the shader's interface."""
+        pointer = self._declare(32, storage, kind)
+        variable = self.new()
+        self.types.append((59, [pointer, variable, storage]))
+        self.decorations.append((71, [variable, 11, which]))
+        if kind == self.int and self.stage == FRAGMENT:
+            self.decorations.append((71, [variable, 14]))
+        self.interface.append(variable)
+        return variable
+
+    def output(self, kind, location):
+        pointer = self._declare(32, OUTPUT, kind)
+        variable = self.new()
+        self.types.append((59, [pointer, variable, OUTPUT]))
+        self.decorations.append((71, [variable, 30, location]))
+        self.interface.append(variable)
+        return variable
+
+    def op(self, op, kind, *words):
+        """An instruction with a result."""
+        made = self.new()
+        self.body.append((op, [kind, made, *words]))
+        return made
+
+    def do(self, op, *words):
+        """One without."""
+        self.body.append((op, list(words)))
+
+    def load(self, kind, variable):
+        return self.op(61, kind, variable)
+
+    def part(self, vector, index):
+        return self.op(81, self.float, vector, index)
+
+    def absolute(self, value):
+        return self.op(12, self.float, self.library, FABS, value)
+
+    def assembled(self):
+        code = [(17, [CAPABILITY_SHADER]), (11, [self.library, *_text("GLSL.std.450")]), (14, [MODEL_LOGICAL, MODEL_GLSL450]),
+                (15, [self.stage, self.main, *_text("main"), *self.interface]), *[(16, [self.main, mode]) for mode in self.modes],
+                *self.decorations, *self.types, (54, [self.void, self.main, 0, self.function_type]), *self.body, (56, [])]
+        words = [0x07230203, 0x00010000, 0, self.bound, 0]
+        for op, operands in code:
+            words += [(len(operands) + 1) << 16 | op, *operands]
+        return struct.pack(f"<{len(words)}I", *words)

@@ -1,0 +1,148 @@
+"""Shaders that stand in for those of the casters: one leaves the map empty, the other fills it with the nearest depth.
+
+The fragment shader is exchanged where the casters have one, else the vertex shader. A fragment shader may be shared with draws
+that belong to no map of this light, such as a depth prepass or another light's: the stand-in then acts only where a fragment
+lies in the light's part of the map, and not on the camera's line z/w = za + zb / w, which no other projection has.
+"""
+from dataclasses import dataclass
+
+from . import spirv
+
+# Fragments' z and w are floats: on the camera's line to some units in the last place of 1 (2^-24 each).
+ON_LINE = 2e-6
+
+
+@dataclass(frozen=True)
+class Source:
+    fragment: bool  # which of both shaders it stands in for
+    full: bool  # whether the map becomes full, or empty
+    nearest: float = 0.0  # what a texel stores of the nearest thing: 0, or 1 where depths are reversed
+    line: tuple | None = None  # (za, zb, whether z/w runs from -1) of the camera, left alone
+    rects: tuple = ()  # (x0, y0, x1, y1), texels: what lies outside of all is left alone
+    colour: bool = False  # whether the map is a colour texture
+
+
+def encoded(source, pipe, encodings):
+    """(encoding, code) for the API of a pipeline state of RenderDoc."""
+    import renderdoc as rd
+
+    if pipe.IsCaptureGL():
+        return rd.ShaderEncoding.GLSL, glsl(source).encode()
+    if pipe.IsCaptureVK():
+        return rd.ShaderEncoding.SPIRV, spir_v(source)
+    return rd.ShaderEncoding.HLSL, hlsl(source).encode()
+
+
+# --- The C-like languages ------------------------------------------------------------------------------------------------
+
+def _condition(source, coord, inverse_w):
+    """An expression: whether a fragment is one of the light's."""
+    words = []
+    if source.rects:
+        inside = " || ".join(f"({coord}.x >= {x0:.1f} && {coord}.x < {x1:.1f} && {coord}.y >= {y0:.1f} && {coord}.y < {y1:.1f})"
+                             for x0, y0, x1, y1 in source.rects)
+        words.append(f"({inside})")
+    if source.line:
+        za, zb, minus_one = source.line
+        z = f"({coord}.z * 2.0 - 1.0)" if minus_one else f"{coord}.z"
+        words.append(f"(abs({z} - ({za:.9g}f + {zb:.9g}f * {inverse_w})) > {ON_LINE})".replace("e-06", "e-6"))
+    return " && ".join(words) or "true"
+
+
+def glsl(source):
+    if not source.fragment:
+        place = "vec4(k == 1 ? 3.0 : -1.0, k == 2 ? 3.0 : -1.0, -1.0, 1.0)" if source.full else "vec4(2.0, 2.0, 2.0, 1.0)"
+        return f"#version 330\nvoid main() {{ int k = gl_VertexID % 3; gl_Position = {place}; }}\n"
+    here = _condition(source, "gl_FragCoord", "gl_FragCoord.w")
+    if not source.full:
+        return f"#version 330\nvoid main() {{ if ({here}) discard; }}\n"
+    colour = ("layout(location = 0) out vec4 colour;\n", f" colour = vec4({source.nearest:.1f});") if source.colour else ("", "")
+    return (f"#version 330\n{colour[0]}void main() {{ gl_FragDepth = ({here}) ? {source.nearest:.1f} : gl_FragCoord.z;{colour[1]} }}\n")
+
+
+def hlsl(source):
+    if not source.fragment:
+        place = "float4(k == 1 ? 3.0 : -1.0, k == 2 ? 3.0 : -1.0, %.1f, 1.0)" % source.nearest if source.full else "float4(2.0, 2.0, 2.0, 1.0)"
+        return f"float4 main(uint id : SV_VertexID) : SV_Position {{ uint k = id % 3; return {place}; }}\n"
+    here = _condition(source, "p", "(1.0 / p.w)")
+    if not source.full:
+        return f"void main(float4 p : SV_Position) {{ if ({here}) discard; }}\n"
+    colour = (", out float4 colour : SV_Target0", f" colour = {source.nearest:.1f};") if source.colour else ("", "")
+    return (f"void main(float4 p : SV_Position, out float depth : SV_Depth{colour[0]}) "
+            f"{{ depth = ({here}) ? {source.nearest:.1f} : p.z;{colour[1]} }}\n")
+
+
+# --- SPIR-V --------------------------------------------------------------------------------------------------------------
+
+def spir_v(source):
+    return _spirv_fragment(source) if source.fragment else _spirv_vertex(source)
+
+
+def _spirv_vertex(source):
+    m = spirv.Module(spirv.VERTEX)
+    four = m.vector(4)
+    position = m.builtin(spirv.OUTPUT, four, spirv.POSITION)
+    index = m.builtin(spirv.INPUT, m.int, spirv.VERTEX_INDEX) if source.full else 0
+    m.do(248, m.new())
+    one = m.number(1.0)
+    if source.full:
+        k = m.op(139, m.int, m.load(m.int, index), m.whole(3))
+        sides = [m.op(169, m.float, m.op(170, m.bool, k, m.whole(which)), m.number(3.0), m.number(-1.0)) for which in (1, 2)]
+        place = m.op(80, four, *sides, m.number(source.nearest), one)
+    else:
+        two = m.number(2.0)
+        place = m.op(80, four, two, two, two, one)
+    m.do(62, position, place)
+    m.do(253)
+    return m.assembled()
+
+
+def _spirv_condition(m, source, coord):
+    """The id of a truth value: whether a fragment is one of the light's."""
+    conditions = []
+    inside = None
+    for x0, y0, x1, y1 in source.rects:
+        tests = [m.op(op, m.bool, m.part(coord, axis), m.number(limit))
+                 for op, axis, limit in ((190, 0, x0), (184, 0, x1), (190, 1, y0), (184, 1, y1))]
+        one = tests[0]
+        for test in tests[1:]:
+            one = m.op(167, m.bool, one, test)
+        inside = one if inside is None else m.op(166, m.bool, inside, one)
+    if inside is not None:
+        conditions.append(inside)
+    if source.line:
+        za, zb, _ = source.line
+        line = m.op(129, m.float, m.number(za), m.op(133, m.float, m.number(zb), m.part(coord, 3)))
+        off = m.absolute(m.op(131, m.float, m.part(coord, 2), line))
+        conditions.append(m.op(186, m.bool, off, m.number(ON_LINE)))
+    if not conditions:
+        zero = m.number(0.0)
+        return m.op(180, m.bool, zero, zero)
+    return conditions[0] if len(conditions) == 1 else m.op(167, m.bool, *conditions)
+
+
+def _spirv_fragment(source):
+    m = spirv.Module(spirv.FRAGMENT)
+    m.modes = [7, 12] if source.full else [7]  # the origin is at the upper left; depth is replaced
+    four = m.vector(4)
+    coord_at = m.builtin(spirv.INPUT, four, spirv.FRAG_COORD)
+    depth = m.builtin(spirv.OUTPUT, m.float, spirv.FRAG_DEPTH) if source.full else 0
+    colour = m.output(four, 0) if source.full and source.colour else 0
+    m.do(248, m.new())
+    coord = m.load(four, coord_at)
+    here = _spirv_condition(m, source, coord)
+    nearest = m.number(source.nearest)
+    if source.full:
+        m.do(62, depth, m.op(169, m.float, here, nearest, m.part(coord, 2)))
+        if colour:
+            m.do(62, colour, m.op(80, four, *[nearest] * 4))
+        m.do(253)
+    else:
+        killed, alive = m.new(), m.new()
+        m.do(247, alive, 0)
+        m.do(250, here, killed, alive)
+        m.do(248, killed)
+        m.do(252)
+        m.do(248, alive)
+        m.do(253)
+    return m.assembled()

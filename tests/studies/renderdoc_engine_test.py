@@ -1,0 +1,186 @@
+"""Frames that engines draw, recorded, judged, and drawn again as advised, as far as the engines are installed.
+/usr/bin/python3 renderdoc_engine_test.py GNOMON SOURCE FOLDER"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+GNOMON, SOURCE, FOLDER = (os.path.abspath(word) for word in sys.argv[1:4])
+del sys.argv[1:4]
+PYTHON = "/usr/bin/python3"
+
+
+def skip(why):
+    print("skipped: " + why)
+    sys.exit(77)
+
+
+for package, code in (("python3-numpy", "import numpy"), ("python3-renderdoc", "import renderdoc")):
+    if subprocess.run([PYTHON, "-c", code], stderr=subprocess.DEVNULL).returncode:
+        skip(f"{package} is not installed")
+QML = "/usr/lib/qt6/bin/qml"
+LAVAPIPE = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json"
+HAS_GODOT = bool(shutil.which("godot3"))
+HAS_QUICK3D = all(os.path.exists(p) for p in (QML, LAVAPIPE, "/usr/lib/x86_64-linux-gnu/qt6/qml/QtQuick3D"))
+if not shutil.which("xvfb-run"):
+    skip("xvfb-run is not installed")
+if not HAS_GODOT and not HAS_QUICK3D:
+    skip("godot3 is not installed, nor Qt Quick 3D")
+os.makedirs(FOLDER, exist_ok=True)
+# Mesa's software: the same pictures on every machine.
+SOFTWARE = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1", "VK_ICD_FILENAMES": LAVAPIPE, "QSG_RHI_BACKEND": "vulkan", "QSG_RENDER_LOOP": "basic"}
+SOFTWARE.pop("DISPLAY", None)
+LAMPS = {
+    "spot": {"type": "spot", "position": [2.5, 5, 4], "direction": [-2.2, -5, -3.8], "inner_angle_degrees": 28, "outer_angle_degrees": 32},
+    "point": {"type": "point", "position": [1.5, 3, 2]},
+}
+
+
+def run(*words):
+    done = subprocess.run([str(w) for w in words], env=SOFTWARE, cwd=FOLDER, capture_output=True, text=True)
+    if done.returncode:
+        raise AssertionError(f"{' '.join(map(str, words))}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def scene(name="floating-box"):
+    """A GLB of a built-in scene, or of floating-box with a lamp in its sun's place."""
+    path = os.path.join(FOLDER, f"{name}.glb")
+    if os.path.exists(path):
+        return path
+    source = name
+    if name in LAMPS:
+        with open(os.path.join(SOURCE, "scene/builtin/floating-box.json"), encoding="utf-8") as file:
+            document = json.loads("".join(line for line in file if not line.startswith("//")))
+        document["lights"] = [{"name": "lamp", "intensity": [60, 60, 60], **LAMPS[name]}]
+        source = os.path.join(FOLDER, f"{name}.json")
+        with open(source, "w", encoding="utf-8") as file:
+            json.dump(document, file)
+    run(GNOMON, "export", source, "-o", path)
+    return path
+
+
+def record(name, *words):
+    """Records a frame of a program."""
+    path = os.path.join(FOLDER, name + ".rdc")
+    run("xvfb-run", "-a", "-s", "-screen 0 640x480x24", PYTHON, "-B", os.path.join(SOURCE, "adapters/renderdoc/record.py"), "-o", path, *words)
+    return path
+
+
+def frame(name, glb, **settings):
+    """Records a frame of Godot."""
+    return record(name, "godot3", "--path", os.path.join(SOURCE, "adapters/godot"), "--stay=1", f"--scene={glb}",
+                  *[f"--{k}={v}" for k, v in settings.items()])
+
+
+def judged(path):
+    """(capture.json, result.json) of a frame."""
+    name = os.path.splitext(os.path.basename(path))[0]
+    run(GNOMON, "judge", path, "-o", name)
+    documents = []
+    for document in (f"{name}-capture/capture.json", f"{name}/result.json"):
+        with open(os.path.join(FOLDER, document), encoding="utf-8") as file:
+            documents.append(json.load(file))
+    return documents
+
+
+class Refusals(unittest.TestCase):
+    def test_what_is_no_frame_is_said_in_one_line(self):
+        with open(os.path.join(FOLDER, "no-frame.rdc"), "w", encoding="utf-8") as file:
+            file.write("{}")
+        for words, code, said in ((["no-frame.rdc"], 3, "is no frame that RenderDoc"), (["missing.rdc"], 3, "no such file"),
+                                  (["no-frame.rdc", "--light", "sun"], 2, "--light"), (["capture.json", "--list"], 2, "--list: needs one frame")):
+            done = subprocess.run([GNOMON, "judge", *words, "-o", "refused"], cwd=FOLDER, env=SOFTWARE, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout), (code, ""), done.stderr)
+            self.assertRegex(done.stderr, said)
+            self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertFalse(os.path.exists(os.path.join(FOLDER, "refused-capture")))
+
+
+@unittest.skipUnless(HAS_GODOT, "godot3 is not installed")
+class Godot(unittest.TestCase):
+    def check(self, result, least=0.999):
+        """V5 is V6 but on borders of texels, and nothing is unexplained."""
+        self.assertGreaterEqual(result["judged"]["biased_is_drawn"], least)
+        self.assertLess(result["lights"][0]["classes"]["unexplained"], 3)
+
+    def bias(self, capture, layer=0):
+        return capture["map"][layer].get("caster_bias", {}).get("constant_world", 0)
+
+    def test_a_suns_bias_is_recovered_and_what_is_advised_is_what_is_then_drawn(self):
+        for setting in (0.1, 0.3, 0.7):
+            capture, result = judged(frame(f"sun-{setting}", scene(), bias=setting))
+            self.check(result)
+            self.assertAlmostEqual(self.bias(capture) / setting, 1, delta=0.01)
+        advice = result["judged"]["advice"][0]
+        self.assertEqual(advice["setting"], "map[].caster_bias.constant_world")
+        self.assertLess(advice["wrong_instead"], 0.8 * advice["wrong_now"])
+        again = judged(frame("sun-advised", scene(), bias=setting * advice["instead"] / advice["now"]))[1]
+        self.assertAlmostEqual(again["lights"][0]["error"]["wrong_fraction"], advice["wrong_instead"], delta=0.0005)
+
+    def test_a_bias_is_recovered_where_an_objects_shift_would_explain_the_map_as_well(self):
+        capture, _ = judged(frame("wires-frame", scene("wires"), bias=0.2))
+        self.assertAlmostEqual(self.bias(capture) / 0.2, 1, delta=0.01)
+
+    def test_ambient_light_and_filters_are_taken_for_what_they_are(self):
+        capture, result = judged(frame("sun-filtered", scene(), bias=0.1, filter=1, ambient=0.5))
+        self.check(result)
+        self.assertEqual(capture["filter"], {"kind": "pcf", "radius_texels": 2.0})
+
+    def test_cascades_are_told_apart(self):
+        for mode in ("pssm2", "pssm4"):
+            capture, result = judged(frame(mode, scene(), mode=mode))
+            self.check(result)
+        self.assertGreater(len(capture["map"]), 1)
+        self.assertEqual({layer["select"]["by"] for layer in capture["map"]}, {"view_z"})
+
+    def test_a_spot_is_judged_from_its_own_apex(self):
+        capture, result = judged(frame("spot", scene("spot")))
+        self.check(result)
+        self.assertAlmostEqual(self.bias(capture), 0.1, delta=0.001)
+
+    def test_a_points_map_is_no_projection_but_its_bias_is_told(self):
+        for mode in ("paraboloid", "cube"):
+            capture, result = judged(frame(mode, scene("point"), mode=mode))
+            self.assertNotIn("map", capture)
+            self.assertLess(result["lights"][0]["error"]["wrong_fraction"], 0.005)
+        said = subprocess.run([PYTHON, "-B", os.path.join(SOURCE, "adapters/renderdoc"), "paraboloid.rdc", "-o", "paraboloid-again"], cwd=FOLDER,
+                              env=SOFTWARE, capture_output=True, text=True).stdout
+        self.assertIn("found: casters are drawn 0.1000 world units away from the light", said)
+
+    def test_lights_are_listed(self):
+        listed = run(GNOMON, "judge", frame("listed", scene()), "--list")
+        self.assertRegex(listed, r"^light 1: sun, map 2048 x 2048 D24 .*, 6 draws of casters, read by 6 draws from event \d+ on\n$")
+
+    def test_the_scene_script_writes_a_capture_by_itself(self):
+        folder = os.path.join(FOLDER, "alone")
+        os.makedirs(folder, exist_ok=True)
+        run("xvfb-run", "-a", "-s", "-screen 0 640x480x24", "godot3", "--path", os.path.join(SOURCE, "adapters/godot"), f"--scene={scene()}",
+            f"--output={folder}")
+        run(GNOMON, "judge", "alone/capture.json", "-o", "alone-verdict")
+        with open(os.path.join(FOLDER, "alone-verdict/result.json"), encoding="utf-8") as file:
+            result = json.load(file)
+        self.assertTrue(result["judged"]["renderer"]["version"].startswith("3."))
+        self.assertLess(result["lights"][0]["error"]["wrong_fraction"], 0.005)
+
+
+@unittest.skipUnless(HAS_QUICK3D, "Qt Quick 3D is not installed")
+class Quick3D(unittest.TestCase):
+    def test_an_exponential_map_is_judged_with_its_blur_and_factor_named(self):
+        capture, result = judged(record("quick3d", "--frame", "20", QML, os.path.join(SOURCE, "adapters/quick3d/draw.qml")))
+        self.assertEqual(capture["filter"]["kind"], "esm")
+        # shadowFactor is 75; half floats and eight bits of the picture leave it within a tenth.
+        self.assertAlmostEqual(capture["renderer"]["settings"]["exponent"] / 75, 1, delta=0.1)
+        self.assertTrue(capture["renderer"]["settings"]["matrix"].startswith("cbMain_var.qt_shadowmap0_matrix"))
+        self.assertNotIn("caster_bias", capture["map"][0])
+        self.assertTrue(result["judged"]["map"])
+        self.assertLess(result["lights"][0]["classes"]["unexplained"], 3)
+
+
+if __name__ == "__main__":
+    for engine, there in (("godot3", HAS_GODOT), ("qt6-quick3d", HAS_QUICK3D)):
+        if not there:
+            print(f"skipped: {engine} is not installed")
+    unittest.main()
