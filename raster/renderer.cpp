@@ -35,6 +35,7 @@ Expected<void> GlRenderer::compile() {
 
 Expected<RasterFrame> GlRenderer::render(const RasterOptions& options,
                                          std::span<const std::uint32_t> lights) {
+  const TimedStage stage("drawing");
   if (!context_->make_current())
     return fail(ErrorKind::graphics, "the OpenGL context cannot be made current");
   Expected<RasterFrame> frame;

@@ -75,19 +75,24 @@ class PlainTables {
     return columns;
   }
 
+  /// Of a long list the first rows: who wants all of them opens the data files.
   void add_table(const std::string& key, const Json& list) {
+    constexpr std::size_t most_rows = 100;
     const std::vector<std::string> columns = columns_of(list);
     tables_ += fmt::format("<table><caption>{}</caption><thead><tr>", escaped(spoken(key)));
     for (const std::string& name : columns)
       tables_ += fmt::format("<th scope=\"col\">{}</th>", escaped(spoken(name)));
     tables_ += "</tr></thead><tbody>\n";
-    for (const Json& row : list) {
+    for (std::size_t i = 0; i < std::min(list.size(), most_rows); ++i) {
+      const Json& row = list[i];
       tables_ += "<tr>";
       for (const std::string& name : columns)
         tables_ += "<td>" + (row.contains(name) ? bare(row[name]) : "") + "</td>";
       tables_ += "</tr>\n";
     }
     tables_ += "</tbody></table>\n";
+    if (list.size() > most_rows)
+      tables_ += fmt::format("<p>{} more rows are in the data files.</p>\n", list.size() - most_rows);
   }
 
   std::string rows_, tables_;

@@ -78,8 +78,8 @@ Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan,
 
 /// Cells that another OpenGL drew differ by more than the option that the sweep varies.
 Expected<void> check_same_drawer(const compare::Journal& journal, const raster::ContextInfo& info) {
-  if (journal.lines().empty()) return {};
-  const std::string before = compare::drawer_of_line(journal.lines().front());
+  if (journal.size() == 0) return {};
+  const std::string& before = journal.drawer();
   const std::string now = info.backend + ", " + info.renderer;
   if (before == now) return {};
   return fail(ErrorKind::usage,
@@ -101,7 +101,15 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
   }
   if (const auto looked = look_from_views(command, loaded, *loaded.scene, engine, console); !looked)
     return looked;
-  SweepRun run{command, plan, loaded, selection, {}, machine_info(), engine, {command.folder, engine},
+  SweepRun run{command,
+               plan,
+               loaded,
+               selection,
+               {},
+               machine_info(),
+               engine,
+               {command.folder, engine},
+               PicturedCells(plan.grid.cells()),
                console};
   run.given.camera = loaded.scene->camera;
   run.given.lights = loaded.scene->lights;
@@ -201,12 +209,12 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   auto journal = compare::Journal::open(command.folder, header, plan->axes, plan->cells);
   if (!journal) return fail(journal.error());
   if (journal->was_torn()) console.note("the last line was torn; its cell is made anew");
-  if (!journal->lines().empty())
-    console.message(fmt::format("{} of {} cell{} there already", journal->lines().size(), plan->cells.size(),
+  if (journal->size() > 0)
+    console.message(fmt::format("{} of {} cell{} there already", journal->size(), plan->cells.size(),
                                 plan->cells.size() == 1 ? " is" : "s are"));
   if (auto measured = measure_ray_tracer(command, *plan, *loaded, selection, console); !measured)
     return fail(measured.error());
-  if (journal->lines().size() < plan->cells.size()) {
+  if (journal->size() < plan->cells.size()) {
     if (auto filled = fill(command, *plan, *loaded, selection, *journal, console); !filled)
       return fail(filled.error());
   }

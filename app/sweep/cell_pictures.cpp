@@ -1,16 +1,31 @@
 #include "app/sweep/make_cells.h"
 
+#include <algorithm>
 #include <future>
 #include <optional>
 #include <vector>
 
 #include "app/process/interrupt.h"
 #include "compare/result/outputs.h"
+#include "scene/base/stages.h"
 #include "scene/files/pictures/image_io.h"
 #include "scene/files/write_file.h"
 #include "studies/sweep/cell_files.h"
 
 namespace gnomon::app {
+
+bool PicturedCells::take(std::size_t cell, const compare::Comparison& comparison, bool derived) {
+  if (!compare::has_thumbnail(cell, cells_)) return false;
+  std::vector<std::uint64_t> now;
+  for (const compare::LightComparison& light : comparison.lights)
+    now.insert(now.end(), light.classes.begin(), light.classes.end());
+  std::uint64_t moved = 0, wrong = 0;
+  for (std::size_t k = 0; k < now.size() && k < last_.size(); ++k)
+    moved += std::max(now[k], last_[k]) - std::min(now[k], last_[k]), wrong += last_[k];
+  if (cells_ > few && derived && now.size() == last_.size() && moved * 2 <= wrong) return false;
+  last_ = std::move(now);
+  return true;
+}
 
 Expected<void> CellPictureWriter::make_folders() const {
   if (auto made = make_output_folder(folder_ + "/thumbnails"); !made) return made;
@@ -66,6 +81,7 @@ Expected<void> CellPictureWriter::write(const Pictures& p) {
 }
 
 CellPictureWriter::Job CellPictureWriter::pictures(std::size_t cell, const compare::Comparison& comparison) {
+  const TimedStage stage("cell pictures");
   auto pictures = std::make_shared<Pictures>();
   pictures->folder = folder_;
   pictures->cell = cell;

@@ -4,9 +4,11 @@
 
 #include <deque>
 #include <future>
+#include <nlohmann/json.hpp>
 
 #include "app/process/interrupt.h"
 #include "compare/result/output_parts.h"
+#include "scene/base/stages.h"
 #include "scene/base/threads.h"
 #include "scene/base/timing.h"
 #include "studies/sweep/cell_files.h"
@@ -25,7 +27,7 @@ std::string time_left(double ms, std::size_t done, std::size_t left) {
 /// A cell that is made but for its pictures, which another thread encodes and writes. Its line goes into the
 /// journal once they are there.
 struct MadeCell {
-  std::string line, times;
+  nlohmann::ordered_json line, times;
   CellPictureWriter::Job pictures;
   std::future<Expected<void>> written;
 };
@@ -61,6 +63,7 @@ Expected<void> apply_lights(SweepRun& run, const SettingOptions& options) {
 Expected<MadeCell> make_cell(SweepRun& run, std::size_t index) {
   const Stopwatch watch;
   const std::size_t cell = run.plan.cells[index];
+  TimedStage reading("settings");
   auto options = run.command.options.parse_cell(run.plan.grid, cell);
   if (!options) return fail(options.error());
   set_runs(run.command, options->options);
@@ -69,17 +72,19 @@ Expected<MadeCell> make_cell(SweepRun& run, std::size_t index) {
   if (const auto taken = apply_lights(run, *options); !taken) return fail(taken.error());
   auto setting = resolve_setting(*options, run.given, *run.loaded.world);
   if (!setting) return fail(setting.error());
+  reading.end();
   const auto compared = run.engine.compare(*setting, compare::Detail::numbers);
   if (!compared) return fail(compared.error());
   compare::Comparison& comparison = **compared;
   comparison.command = compare_command(run.command, run.plan, cell);
   comparison.seed = run.command.seed;
   comparison.machine = run.machine;
+  const TimedStage stage("records");
   MadeCell made;
   const auto without_effect = json_names(run.command.options.axes_without_effect(run.plan.grid, cell));
-  made.line = compare::result_line(comparison, axis_values(run.plan.grid, cell), without_effect);
-  made.times = compare::times_line(comparison, cell, run.engine.last_was_derived(), watch.elapsed_ms());
-  if (compare::has_thumbnail(cell, run.plan.grid.cells()))
+  made.line = compare::line_json(comparison, axis_values(run.plan.grid, cell), without_effect);
+  made.times = compare::cell_times_json(comparison, cell, run.engine.last_was_derived(), watch.elapsed_ms());
+  if (run.pictured.take(cell, comparison, run.engine.last_was_derived()))
     made.pictures = run.pictures.pictures(cell, comparison);
   return made;
 }
@@ -112,9 +117,11 @@ class CellQueue {
     MadeCell cell = std::move(cells_.front());
     cells_.pop_front();
     if (cell.written.valid()) {
+      const TimedStage stage("cell pictures");
       --writing_;
       if (auto written = cell.written.get(); !written) return written;
     }
+    const TimedStage stage("records");
     const OutputGuard whole_lines;
     return journal_.append(cell.line, cell.times);
   }
@@ -128,7 +135,7 @@ class CellQueue {
 
 Expected<void> make_cells(SweepRun& run, compare::Journal& journal) {
   const Stopwatch watch;
-  const std::size_t all = run.plan.cells.size(), before = journal.lines().size();
+  const std::size_t all = run.plan.cells.size(), before = journal.size();
   CellQueue queue(journal);
   for (std::size_t i = before; i < all; ++i) {
     run.console.progress(

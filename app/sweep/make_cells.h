@@ -42,6 +42,20 @@ class CellPictureWriter {
   std::shared_ptr<TruthName> truth_;  ///< of that one
 };
 
+/// Chooses the cells that have pictures: of a few cells all, else those that were drawn, and of those worked out from a
+/// drawing the ones whose labels differ from the last pictured cell's by half of what is wrong there.
+class PicturedCells {
+ public:
+  explicit PicturedCells(std::size_t cells) : cells_(cells) {}
+  /// Cells are asked for in order.
+  bool take(std::size_t cell, const compare::Comparison& comparison, bool derived);
+
+ private:
+  static constexpr std::size_t few = 48;
+  std::size_t cells_;
+  std::vector<std::uint64_t> last_;  ///< pixels by light and label of the last pictured cell
+};
+
 /// What stays the same for all cells.
 struct SweepRun {
   const SweepCommand& command;
@@ -52,6 +66,7 @@ struct SweepRun {
   compare::MachineInfo machine;
   compare::Engine& engine;
   CellPictureWriter pictures;
+  PicturedCells pictured;
   Console& console;
 };
 

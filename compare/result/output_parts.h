@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -60,16 +61,20 @@ std::string result_csv(std::string_view result);
 
 /// Names and values of a sweep's axes.
 using AxisValues = std::vector<std::pair<std::string, std::string>>;
-/// result.json on one line, with "axes" and without times (every one is "not timed"), so that the same
-/// setting gives the same bytes; ends with a line break. `no_effect`: the axes that the cell's technique does
-/// not read.
-std::string result_line(const Comparison& comparison, const AxisValues& axes,
-                        const std::vector<std::string>& no_effect = {});
+/// Returns result.json with "axes" and without times (every one is "not timed"), so that the same setting gives the
+/// same bytes. `no_effect`: the axes that the cell's technique does not read.
+nlohmann::ordered_json line_json(const Comparison& comparison, const AxisValues& axes,
+                                 const std::vector<std::string>& no_effect = {});
+/// Returns a document on one line, which ends with a line break.
+std::string on_one_line(const nlohmann::ordered_json& json);
+/// Returns the text of line_json().
+std::string result_line(const Comparison& comparison, const AxisValues& axes);
 /// The object "axes" of that line, as its JSON text.
 std::string axes_text(const AxisValues& axes);
-/// The times that belong to a cell's line. `derived`: made from the gaps of the last drawn frame, whose times
+/// Returns the times that belong to a cell's line. `derived`: made from the gaps of the last drawn frame, whose times
 /// these are; `cell_ms`: what making the cell took.
-std::string times_line(const Comparison& comparison, std::size_t cell, bool derived, double cell_ms);
+nlohmann::ordered_json cell_times_json(const Comparison& comparison, std::size_t cell, bool derived,
+                                       double cell_ms);
 
 // The channels of a comparison's EXR files, of a whole picture or of some of its rows.
 

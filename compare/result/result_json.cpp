@@ -221,21 +221,28 @@ std::string result_json(const Comparison& c, double report_ms, double total_ms) 
   return dumped(json, 2);
 }
 
-std::string result_line(const Comparison& c, const AxisValues& axes,
-                        const std::vector<std::string>& no_effect) {
+Json line_json(const Comparison& c, const AxisValues& axes, const std::vector<std::string>& no_effect) {
   Json json = result_object(c, 0.0, 0.0);
   drop_times(json);
   if (c.judged) json["judged"] = judged_json(*c.judged);
   json["axes"] = axes_object(axes);
   if (!no_effect.empty()) json["no_effect"] = no_effect;
+  return json;
+}
+
+std::string on_one_line(const Json& json) {
   return dumped(json, -1);
+}
+
+std::string result_line(const Comparison& c, const AxisValues& axes) {
+  return on_one_line(line_json(c, axes));
 }
 
 std::string axes_text(const AxisValues& axes) {
   return axes_object(axes).dump();
 }
 
-std::string times_line(const Comparison& c, std::size_t cell, bool derived, double cell_ms) {
+Json cell_times_json(const Comparison& c, std::size_t cell, bool derived, double cell_ms) {
   Json lights = Json::array();
   for (const LightComparison& light : c.lights) {
     Json entry = Json::object();
@@ -243,13 +250,12 @@ std::string times_line(const Comparison& c, std::size_t cell, bool derived, doub
     entry.update(light_times_json(c, light));
     lights.push_back(std::move(entry));
   }
-  return dumped({{"cell", cell},
-                 {"derived", derived},
-                 {"cell_ms", number(cell_ms)},
-                 {"primary_rays", times_json(c.raytraced.primary_rays)},
-                 {"picture", one_time_json(c.raytraced.picture_ms)},
-                 {"lights", std::move(lights)}},
-                -1);
+  return {{"cell", cell},
+          {"derived", derived},
+          {"cell_ms", number(cell_ms)},
+          {"primary_rays", times_json(c.raytraced.primary_rays)},
+          {"picture", one_time_json(c.raytraced.picture_ms)},
+          {"lights", std::move(lights)}};
 }
 
 std::string result_json(const Comparison& c) {

@@ -28,14 +28,6 @@ std::string joined(const Json& names) {
   return text;
 }
 
-/// A result without what only captures have, which no column is made of and which may be long.
-Json parsed(std::string_view result) {
-  const auto keep = [](int, Json::parse_event_t event, const Json& value) {
-    return event != Json::parse_event_t::key || value != "judged";
-  };
-  return Json::parse(result, keep, false);
-}
-
 template <class Row>
 void add_flat(Row& row, const std::string& name, const Json& value) {
   if (value.is_object()) {
@@ -81,58 +73,55 @@ std::string ResultTable::row_text(const Row& row) const {
   std::string text;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (i > 0) text += ',';
-    const auto found =
-        std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == columns_[i]; });
-    if (found != row.end()) text += csv_field(found->second);
+    if (i < row.size()) text += csv_field(row[i]);
   }
   return text + "\r\n";
 }
 
-bool ResultTable::add_columns(const Row& row) {
-  bool grew = false;
-  for (const auto& [column, value] : row) {
-    if (std::find(columns_.begin(), columns_.end(), column) != columns_.end()) continue;
-    columns_.push_back(column);
-    grew = true;
+/// Returns whether a new column came up.
+bool ResultTable::add_row(Named named) {
+  const std::size_t before = columns_.size();
+  Row row(before);
+  for (auto& [column, value] : named) {
+    const auto [place, is_new] = places_.try_emplace(column, columns_.size());
+    if (is_new) columns_.push_back(column), row.emplace_back();
+    row[place->second] = std::move(value);
   }
-  return grew;
+  rows_.push_back(std::move(row));
+  return columns_.size() > before;
 }
 
-void ResultTable::add(std::string_view result) {
-  const Json json = parsed(result);
-  for (const Json& light : json.at("lights")) {
-    Row row;
-    add_light(row, json, light);
+void ResultTable::add(const Json& result) {
+  for (const Json& light : result.at("lights")) {
+    Named row;
+    add_light(row, result, light);
     add_flat(row, "times_ms", light.at("times_ms"));
-    add_flat(row, "times_ms", json.at("times_ms"));
-    add_columns(row);
-    rows_.push_back(std::move(row));
+    add_flat(row, "times_ms", result.at("times_ms"));
+    add_row(std::move(row));
   }
 }
 
-std::string ResultTable::add(std::size_t cell, std::string_view line, std::string_view times) {
-  const Json json = parsed(line), timed = Json::parse(times, nullptr, false);
-  if (!json.is_object() || !json.contains("lights")) return {};
+std::string ResultTable::add(std::size_t cell, const Json& line, const Json& times) {
+  if (!line.is_object() || !line.contains("lights")) return {};
   std::string added;
   bool grew = false;
   std::size_t index = 0;
-  for (const Json& light : json.at("lights")) {
-    Row row{{"cell", std::to_string(cell)}};
-    add_flat(row, "axes", json.value("axes", Json::object()));
-    if (json.contains("no_effect")) row.emplace_back("no_effect", joined(json.at("no_effect")));
+  for (const Json& light : line.at("lights")) {
+    Named row{{"cell", std::to_string(cell)}};
+    add_flat(row, "axes", line.value("axes", Json::object()));
+    if (line.contains("no_effect")) row.emplace_back("no_effect", joined(line.at("no_effect")));
     for (const char* key : {"derived", "cell_ms"})
-      if (timed.is_object() && timed.contains(key)) row.emplace_back(key, scalar_text(timed.at(key)));
-    add_light(row, json, light);
-    if (timed.is_object() && timed.contains("lights")) {
-      Json own = timed.at("lights").at(index), all = timed;
+      if (times.is_object() && times.contains(key)) row.emplace_back(key, scalar_text(times.at(key)));
+    add_light(row, line, light);
+    if (times.is_object() && times.contains("lights")) {
+      Json own = times.at("lights").at(index), all = times;
       own.erase("light");
       for (const char* key : {"cell", "derived", "cell_ms", "lights", "checksum"}) all.erase(key);
       add_flat(row, "times_ms", own);
       add_flat(row, "times_ms", all);
     }
-    grew = add_columns(row) || grew;
-    added += row_text(row);
-    rows_.push_back(std::move(row));
+    grew = add_row(std::move(row)) || grew;
+    added += row_text(rows_.back());
     ++index;
   }
   return grew ? std::string() : added;
@@ -151,7 +140,7 @@ std::string ResultTable::text() const {
 
 std::string result_csv(std::string_view result) {
   ResultTable table;
-  table.add(result);
+  table.add(Json::parse(result, nullptr, false));
   return table.text();
 }
 

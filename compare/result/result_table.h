@@ -5,8 +5,9 @@
 // "derived" and "cell_ms". RFC 4180: lines end with CR LF; a value that a row has not is empty.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -14,20 +15,23 @@ namespace gnomon::compare {
 
 class ResultTable {
  public:
-  /// Adds the rows of a comparison: the text of result.json.
-  void add(std::string_view result);
+  using Json = nlohmann::ordered_json;
+  /// Adds the rows of a comparison: result.json.
+  void add(const Json& result);
   /// Adds the rows of a cell; `line` is a line of sweep.jsonl, `times` that of sweep_times.jsonl. Returns
   /// what is to be appended to the text so far, or nothing when a new column came up: then text() has to be
   /// written again.
-  std::string add(std::size_t cell, std::string_view line, std::string_view times);
+  std::string add(std::size_t cell, const Json& line, const Json& times);
   /// The whole table with its head.
   std::string text() const;
 
  private:
-  using Row = std::vector<std::pair<std::string, std::string>>;  // column, value
+  using Named = std::vector<std::pair<std::string, std::string>>;  // column, value
+  using Row = std::vector<std::string>;                            // by column; later columns are empty
   std::string row_text(const Row& row) const;
-  bool add_columns(const Row& row);
+  bool add_row(Named named);
   std::vector<std::string> columns_;
+  std::unordered_map<std::string, std::size_t> places_;  // of the columns
   std::vector<Row> rows_;
 };
 

@@ -10,6 +10,7 @@
 #include "scene/base/expected.h"
 #include "scene/base/option_text.h"
 #include "studies/grade/limited_process.h"
+#include "studies/grade/mistakes.h"
 
 namespace gnomon::grade {
 
@@ -74,10 +75,11 @@ CheckRuns::CheckRuns(const Rubric& rubric, std::string shaders, std::string fold
 
 std::string CheckRuns::command(const Run& run) const {
   return fmt::format("gnomon compare {} --technique {}{}", run_text(run), rubric_->technique,
-                     shaders_.empty() ? "" : " --shader-dir " + shell_quoted(shaders_));
+                     shaders_.empty() ? "" : " --shader-dir student");
 }
 
 bool CheckRuns::needs_values(const Run& run) const {
+  if (has_known_mistakes(*rubric_)) return true;
   return std::any_of(rubric_->checks.begin(), rubric_->checks.end(), [&](const Check& check) {
     const bool asks = check.kind == CheckKind::equals || check.kind == CheckKind::time ||
                       check.measure.name == "detachment";
@@ -107,7 +109,9 @@ Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, Man
   if (manner.values) words.insert(words.end(), {"--aov", values_folder(folder) + "/values.exr"});
   const auto outcome = run_limited(words, rubric_->limits);
   if (!outcome) return fail(outcome.error());
-  const std::string failure = failure_words(*outcome, rubric_->limits);
+  std::string failure = failure_words(*outcome, rubric_->limits);
+  if (!shown_shaders_.empty() && failure.starts_with(shaders_))
+    failure.replace(0, shaders_.size(), shown_shaders_);
   if (outcome->end == Outcome::End::exited && outcome->code == 0) {
     auto result = read_run_result(folder);
     if (!result) return fail(result.error());

@@ -21,8 +21,10 @@ struct Drawing {
 
 class CheckRuns {
  public:
-  /// `shaders`: the student's folder; empty for the program's own. Drawings lie below `folder`.
+  /// `shaders`: the student's folder, or what was made of it; empty for the program's own. Drawings lie below `folder`.
   CheckRuns(const Rubric& rubric, std::string shaders, std::string folder);
+  /// What the messages of shaders' mistakes call the folder.
+  void call_shaders(std::string name) { shown_shaders_ = std::move(name); }
 
   /// A drawing that was disturbed is handed out as such the first time; drawn again it is an error, or the shader's
   /// own fault.
@@ -32,7 +34,7 @@ class CheckRuns {
   Expected<Drawing> draw_timed(const Run& run);
   /// The program's own shader with this bias in place of the run's, world units.
   Expected<Drawing> draw_own_with_bias(const Run& run, double bias) const;
-  /// "gnomon compare …", which draws it again.
+  /// "gnomon compare …", which draws it again in the exercise's folder, where student/ holds what was handed in.
   std::string command(const Run& run) const;
 
  private:
@@ -56,7 +58,8 @@ class CheckRuns {
   };
   const Rubric* rubric_;
   std::string shaders_, folder_;
-  std::deque<Made> made_;  ///< what was handed out stays where it is
+  std::string shown_shaders_;  ///< empty: as they are
+  std::deque<Made> made_;      ///< what was handed out stays where it is
 };
 
 }  // namespace gnomon::grade

@@ -43,6 +43,10 @@ RunResult figures_in(const json& result, const std::string& folder) {
   return run;
 }
 
+std::string file_in(const std::string& folder, const std::string& name) {
+  return fmt::format("{}/{}", folder, name);
+}
+
 Expected<std::vector<std::string>> value_files(const std::string& folder) {
   auto names = names_in(folder, ErrorKind::internal);
   if (names)
@@ -98,9 +102,25 @@ void raise_figure(RunResult& result, std::string_view name, double value) {
     if (measures()[i].name == name) result.figures[i] = std::max(result.figures[i], value);
 }
 
+bool is_alike(float a, float b) {
+  constexpr float half_a_step = 0.5f / 255.0f;
+  return std::fabs(a - b) <= half_a_step;
+}
+
+/// Adds one light's compared pixels.
+Expected<void> add_values(const std::string& values, DrawnValues& sum) {
+  const auto image = read_channels(values);
+  if (!image) return fail(image.error());
+  const Channel *drawn = image->find("drawn.V"), *label = image->find("class.V");
+  if (drawn == nullptr || label == nullptr)
+    return fail(Error{ErrorKind::internal, "holds no visibility to compare", values});
+  for (std::size_t i = 0; i < drawn->values.size(); ++i)
+    if (label->values[i] >= 0.0f) sum.visibility.push_back(drawn->values[i]);
+  return {};
+}
+
 /// Counts the pixels of one light.
 Expected<std::uint64_t> count_different(const std::string& a, const std::string& b) {
-  constexpr float half_a_step = 0.5f / 255.0f;
   const auto first = read_channels(a);
   if (!first) return fail(first.error());
   const auto second = read_channels(b);
@@ -111,7 +131,7 @@ Expected<std::uint64_t> count_different(const std::string& a, const std::string&
     return fail(Error{ErrorKind::internal, "holds no visibility to compare", a});
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < drawn->values.size(); ++i)
-    if (label->values[i] >= 0.0f && !(std::fabs(drawn->values[i] - other->values[i]) <= half_a_step)) ++count;
+    if (label->values[i] >= 0.0f && !is_alike(drawn->values[i], other->values[i])) ++count;
   return count;
 }
 
@@ -137,7 +157,7 @@ Expected<void> add_ties(RunResult& result) {
   const auto names = value_files(folder);
   if (!names) return fail(names.error());
   for (const std::string& name : *names) {
-    const auto light = errors_with_ties(folder + "/" + name);
+    const auto light = errors_with_ties(file_in(folder, name));
     if (!light) return fail(light.error());
     raise_figure(result, "false_shadow", light->false_shadow);
     raise_figure(result, "missed_shadow", light->missed_shadow);
@@ -151,7 +171,7 @@ Expected<double> nearest_bias(const RunResult& result) {
   const auto names = value_files(folder);
   if (!names) return fail(names.error());
   for (const std::string& name : *names)
-    if (const auto added = add_gaps(folder + "/" + name, gaps); !added) return fail(added.error());
+    if (const auto added = add_gaps(file_in(folder, name), gaps); !added) return fail(added.error());
   std::sort(gaps.lit.begin(), gaps.lit.end());
   std::sort(gaps.shadowed.begin(), gaps.shadowed.end());
   return compare::find_best_bias(gaps).constant_world;
@@ -172,11 +192,39 @@ Expected<std::uint64_t> count_different(const RunResult& a, const RunResult& b) 
   if (*names != *others || names->empty())
     return fail(Error{ErrorKind::internal, "holds other lights than the program's own drawing", a.folder});
   for (const std::string& name : *names) {
-    const auto of_light = count_different(first + "/" + name, second + "/" + name);
+    const auto of_light = count_different(file_in(first, name), file_in(second, name));
     if (!of_light) return of_light;
     count += *of_light;
   }
   return count;
+}
+
+bool DrawnValues::is_uniform() const {
+  return std::ranges::all_of(visibility, [this](float v) { return is_alike(v, visibility.front()); });
+}
+
+Expected<DrawnValues> read_values(const RunResult& result) {
+  DrawnValues sum;
+  const std::string folder = values_folder(result.folder);
+  const auto names = value_files(folder);
+  if (!names) return fail(names.error());
+  for (const std::string& name : *names)
+    if (const auto added = add_values(file_in(folder, name), sum); !added) return fail(added.error());
+  return sum;
+}
+
+Agreement compare_drawings(const DrawnValues& drawn, const DrawnValues& other, const DrawnValues& right) {
+  Agreement sum;
+  const std::size_t pixels =
+      std::min({drawn.visibility.size(), other.visibility.size(), right.visibility.size()});
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const float own = drawn.visibility[i], second = other.visibility[i], true_one = right.visibility[i];
+    const bool is_wrong = !is_alike(own, true_one);
+    ++sum.compared;
+    sum.wrong += is_wrong ? 1 : 0, sum.either += is_wrong || !is_alike(second, true_one) ? 1 : 0;
+    sum.unlike += is_alike(own, second) ? 0 : 1;
+  }
+  return sum;
 }
 
 std::vector<compare::Label> labels_of(const RunResult& result) {

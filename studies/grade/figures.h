@@ -42,6 +42,28 @@ double figure_of(const RunResult& result, std::string_view measure);
 /// 8-bit step, over all lights (values_folder).
 Expected<std::uint64_t> count_different(const RunResult& a, const RunResult& b);
 
+/// What one drawing has in common with another beside the right one, in compared pixels over all lights.
+struct Agreement {
+  std::uint64_t compared = 0;
+  std::uint64_t wrong = 0;   ///< that the first draws otherwise than the right one
+  std::uint64_t either = 0;  ///< that the first or the second does
+  std::uint64_t unlike = 0;  ///< that the two draw otherwise
+  /// The two draw all but a twentieth of what either draws wrong alike.
+  bool is_like() const { return 20 * unlike <= either; }
+  double alike() const { return 1.0 - static_cast<double>(unlike) / static_cast<double>(compared); }
+};
+
+/// The visibility of every compared pixel of a run, over all lights.
+struct DrawnValues {
+  std::vector<float> visibility;
+  bool is_uniform() const;  ///< all alike, to half an 8-bit step
+};
+/// Errors as count_different().
+Expected<DrawnValues> read_values(const RunResult& result);
+
+/// Of the same run, all three.
+Agreement compare_drawings(const DrawnValues& drawn, const DrawnValues& other, const DrawnValues& right);
+
 /// raster.png, raytrace.png and the labels' pictures that there are, by file name.
 Expected<std::vector<std::string>> pictures_of(const RunResult& result);
 /// Returns the labels of the pixels that are wrong, in any light, the most frequent first.

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <deque>
 #include <future>
 #include <mutex>
 #include <shared_mutex>
 #include <thread>
+#include <utility>
 
 #include "compare/result/number_text.h"
 #include "scene/base/expected.h"
@@ -15,6 +18,7 @@
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "studies/grade/check_runs.h"
+#include "studies/grade/mistakes.h"
 
 namespace gnomon::grade {
 
@@ -25,6 +29,8 @@ struct Class {
   const Rubric& rubric;
   std::string work_folder;
   CheckRuns own;  ///< the program's shader
+  Mistakes mistakes;
+  std::deque<std::pair<Run, DrawnValues>> own_values{};
   std::mutex own_mutex{};
   std::shared_mutex quiet{};  ///< held alone by a drawing that is timed
 };
@@ -36,7 +42,13 @@ std::string measured(double value, Measure::Unit unit) {
 struct Judgement {
   bool passed = false;
   std::string reason;
+  double share = 0.0;  ///< of the points where it did not pass, < 1
 };
+
+/// The points do not jump at a limit: they are gone where it is missed by as much again.
+double share_beyond(double value, double limit) {
+  return limit > 0.0 ? std::clamp(2.0 - value / limit, 0.0, 1.0) : 0.0;
+}
 
 Judgement judge_figure(const Check& check, const RunResult& result) {
   const double value = figure_of(result, check.measure.name);
@@ -50,8 +62,10 @@ Judgement judge_figure(const Check& check, const RunResult& result) {
           ? fmt::format(", and {} of the shader's own making (custom_shader), which may be that as well",
                         compare::percent(unknown))
           : "";
-  return {passed, fmt::format("{}: {}{} ({} {} allowed)", words, measured(value, check.measure.unit), more,
-                              passed ? "up to" : "no more than", measured(check.limit, check.measure.unit))};
+  return {passed,
+          fmt::format("{}: {}{} ({} {} allowed)", words, measured(value, check.measure.unit), more,
+                      passed ? "up to" : "no more than", measured(check.limit, check.measure.unit)),
+          share_beyond(value + unknown, check.limit)};
 }
 
 /// Draws it again, with nothing drawn beside it, where something else than the shader may have ended it.
@@ -91,7 +105,8 @@ Expected<Judgement> judge_equality(const Check& check, const RunResult& result, 
   return Judgement{
       passed,
       fmt::format("{} pixel{} from the program's own drawing ({} {} allowed)", compare::grouped(*different),
-                  *different == 1 ? " differs" : "s differ", passed ? "up to" : "no more than", check.limit)};
+                  *different == 1 ? " differs" : "s differ", passed ? "up to" : "no more than", check.limit),
+      share_beyond(static_cast<double>(*different), check.limit)};
 }
 
 /// `result`: what the other checks judge, drawn by another process.
@@ -114,9 +129,11 @@ Expected<Judgement> judge_time(const Check& check, const RunResult& result, cons
     return fail(ErrorKind::graphics, "the program's own drawing took no time that could be measured");
   const double ratio = theirs->result->shading_ms / own->result->shading_ms;
   const bool passed = ratio <= check.limit;
-  return Judgement{passed, fmt::format("{} of shading, {:.2f} times the program's own ({} {} times allowed)",
-                                       compare::milliseconds(theirs->result->shading_ms), ratio,
-                                       passed ? "up to" : "no more than", check.limit)};
+  return Judgement{passed,
+                   fmt::format("{} of shading, {:.2f} times the program's own ({} {} times allowed)",
+                               compare::milliseconds(theirs->result->shading_ms), ratio,
+                               passed ? "up to" : "no more than", check.limit),
+                   share_beyond(ratio, check.limit)};
 }
 
 Expected<Judgement> judge(const Check& check, const Run& run, const RunResult& result, CheckRuns& runs,
@@ -154,26 +171,42 @@ Expected<std::vector<Picture>> load_pictures(const RunResult& result) {
   return pictures;
 }
 
+/// Every run of the rubric once.
+std::vector<Run> all_runs(const Rubric& rubric) {
+  std::vector<Run> runs;
+  for (const Check& check : rubric.checks)
+    for (const Run& run : check.runs)
+      if (std::find(runs.begin(), runs.end(), run) == runs.end()) runs.push_back(run);
+  return runs;
+}
+
+/// Tenths of points, fewer than all of them.
+double part_of(double points, double share) {
+  return std::min(std::floor(10.0 * points * share) / 10.0, points - 0.1);
+}
+
 /// One student, or the program's own shader.
 class Grader {
  public:
-  /// `shaders`: where the drawings' shaders lie; empty for the program's own.
+  /// `shaders`: where the student's shaders lie; empty for the program's own.
   Grader(Class& of, const std::string& shaders, CheckRuns& runs)
       : class_(of), shaders_(shaders), runs_(runs) {}
 
   Expected<CheckResult> grade(const Check& check) {
     CheckResult result;
     result.command = runs_.command(check.runs.front());
+    double share = 1.0;
     for (const Run& run : check.runs) {
       const auto judgement = try_run(check, run, result);
       if (!judgement) return fail(judgement.error());
-      if (result.reason.empty() || !judgement->passed) result.reason = judgement->reason;
-      if (judgement->passed) continue;
+      if (judgement->passed && result.reason.empty()) result.reason = judgement->reason;
+      if (judgement->passed || judgement->share >= share) continue;
+      share = judgement->share, result.reason = judgement->reason;
       result.command = runs_.command(run);
-      return result;
+      if (share == 0.0) break;
     }
-    result.points = check.points;
-    result.pictures.clear();
+    result.points = share < 1.0 ? part_of(check.points, share) : check.points;
+    if (share == 1.0) result.pictures.clear();
     return result;
   }
 
@@ -187,25 +220,99 @@ class Grader {
       result.excerpt = excerpt_at((*drawing)->failure, shaders_);
       return Judgement{false, (*drawing)->failure};
     }
-    auto judgement = judge(check, run, *(*drawing)->result, runs_, class_);
+    const RunResult& drawn = *(*drawing)->result;
+    auto judgement = judge(check, run, drawn, runs_, class_);
     if (!judgement || judgement->passed) return judgement;
-    auto pictures = load_pictures(*(*drawing)->result);
+    if (check.kind != CheckKind::time) {
+      auto explained = explain(run, drawn, std::move(*judgement), result);
+      if (!explained || explained->passed) return explained;
+      judgement = std::move(explained);
+    }
+    auto pictures = load_pictures(drawn);
     if (!pictures) return fail(pictures.error());
     result.pictures = std::move(*pictures);
     return judgement;
   }
 
+  /// Names the mistake that explains a drawing which did not pass; one that was named before is taken as mended.
+  Expected<Judgement> explain(const Run& run, const RunResult& drawn, Judgement judgement,
+                              CheckResult& result) {
+    const auto right = own_values(run);
+    if (!right) return fail(right.error());
+    const auto values = read_values(drawn);
+    if (!values) return fail(values.error());
+    for (const std::size_t known : named_) {
+      const auto agreement = class_.mistakes.agreement(known, run, *values, **right);
+      if (!agreement) return fail(agreement.error());
+      if (agreement->is_like() && !result.mistake_named)
+        return Judgement{true, "right but for the mistake that is named above", 1.0};
+    }
+    auto found = class_.mistakes.explaining(run, *values, **right);
+    if (!found) return fail(found.error());
+    if (found->empty()) return judgement;
+    const auto one = most_likely(run, std::move(*found));
+    if (!one) return fail(one.error());
+    const auto agreement = class_.mistakes.agreement(*one, run, *values, **right);
+    if (!agreement) return fail(agreement.error());
+    if (!class_.mistakes.hides_rest(*one)) named_.push_back(*one), result.mistake_named = true;
+    judgement.reason = fmt::format("drawn as if {}, on {} of the pixels; {}", class_.mistakes.words(*one),
+                                   compare::percent(agreement->alike()), judgement.reason);
+    return judgement;
+  }
+
+  /// Of several mistakes that draw a run alike the one that draws the others' runs alike, too.
+  Expected<std::size_t> most_likely(const Run& known, std::vector<std::size_t> mistakes) {
+    for (const Run& run : all_runs(class_.rubric)) {
+      if (mistakes.size() == 1) break;
+      if (run == known) continue;
+      const auto drawing = draw_undisturbed(runs_, run, class_.quiet);
+      if (!drawing) return fail(drawing.error());
+      if (!(*drawing)->result) continue;
+      const auto right = own_values(run);
+      if (!right) return fail(right.error());
+      const auto values = read_values(*(*drawing)->result);
+      if (!values) return fail(values.error());
+      std::vector<std::size_t> left;
+      for (const std::size_t mistake : mistakes) {
+        const auto agreement = class_.mistakes.agreement(mistake, run, *values, **right);
+        if (!agreement) return fail(agreement.error());
+        if (agreement->is_like()) left.push_back(mistake);
+      }
+      if (!left.empty()) mistakes = std::move(left);
+    }
+    return mistakes.front();
+  }
+
+  /// What the program's own shader draws.
+  Expected<const DrawnValues*> own_values(const Run& run) {
+    const std::lock_guard lock(class_.own_mutex);
+    for (const auto& [known, values] : class_.own_values)
+      if (known == run) return &values;
+    const auto own = class_.own.draw(run);
+    if (!own) return fail(own.error());
+    auto values = read_values(*(*own)->result);
+    if (!values) return fail(values.error());
+    return &class_.own_values.emplace_back(run, std::move(*values)).second;
+  }
+
   Class& class_;
   std::string shaders_;
   CheckRuns& runs_;
+  std::vector<std::size_t> named_;  ///< mistakes
   bool hangs_ = false;
 };
+
+CheckResult no_points(std::string reason) {
+  CheckResult result;
+  result.reason = std::move(reason);
+  return result;
+}
 
 /// Why a check is not looked at; empty where it is.
 std::string missing_need(const Rubric& rubric, const Check& check, const std::vector<CheckResult>& earlier) {
   for (const std::size_t needed : check.needs)
-    if (earlier[needed].points < rubric.checks[needed].points)
-      return fmt::format("waits until \"{}\" has its points", rubric.checks[needed].name);
+    if (2.0 * earlier[needed].points <= rubric.checks[needed].points && !earlier[needed].mistake_named)
+      return fmt::format("waits until \"{}\" has more than half its points", rubric.checks[needed].name);
   return {};
 }
 
@@ -215,7 +322,7 @@ Expected<StudentResult> grade_checks(Class& of, const std::string& name, const s
   Grader grader(of, shaders, runs);
   for (const Check& check : of.rubric.checks) {
     if (std::string first = missing_need(of.rubric, check, result.checks); !first.empty()) {
-      result.checks.push_back({0.0, std::move(first), {}, {}, {}});
+      result.checks.push_back(no_points(std::move(first)));
       continue;
     }
     auto graded = grader.grade(check);
@@ -230,9 +337,15 @@ Expected<StudentResult> judge_student(Class& of, const Student& student, const s
                                       const std::string& folder) {
   const auto why_not = refusal(student, of.rubric);
   if (!why_not) return fail(why_not.error());
-  if (!why_not->empty())
-    return StudentResult{name, {of.rubric.checks.size(), CheckResult{0.0, *why_not, {}, {}, {}}}};
-  CheckRuns runs(of.rubric, student.folder, folder);
+  if (!why_not->empty()) return StudentResult{name, {of.rubric.checks.size(), no_points(*why_not)}};
+  std::string shaders = student.folder;
+  if (!of.rubric.given.empty()) {
+    shaders = folder + "/shaders";
+    if (const auto written = write_with_given(student, of.rubric, shaders); !written)
+      return fail(written.error());
+  }
+  CheckRuns runs(of.rubric, shaders, folder);
+  runs.call_shaders(student.folder);
   auto result = grade_checks(of, name, student.folder, runs);
   // A class of drawings would fill the disk.
   if (const auto removed = remove_all_of(folder); !removed && result) return fail(removed.error());
@@ -244,9 +357,7 @@ StudentResult grade_student(Class& of, const Student& student, std::size_t index
   const std::string name = one_line(student.name);
   auto result = judge_student(of, student, name, fmt::format("{}/{}", of.work_folder, index));
   if (result) return std::move(*result);
-  return {name,
-          {of.rubric.checks.size(), CheckResult{0.0, result.error().message(), {}, {}, {}}},
-          result.error()};
+  return {name, {of.rubric.checks.size(), no_points(result.error().message())}, result.error()};
 }
 
 /// What the program itself cannot draw is the rubric's fault.
@@ -273,7 +384,8 @@ double StudentResult::points() const {
 
 Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& students,
                              const std::string& work_folder, const GradeOptions& options) {
-  Class of{rubric, work_folder, CheckRuns(rubric, "", work_folder + "/own")};
+  Class of{rubric, work_folder, CheckRuns(rubric, "", work_folder + "/own"),
+           Mistakes(rubric, work_folder + "/mistakes")};
   if (const auto drawn = check_drawings(of); !drawn) return fail(drawn.error());
   auto own = grade_checks(of, std::string(own_shader_name), "", of.own);
   if (!own) return fail(own.error());

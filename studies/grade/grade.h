@@ -21,11 +21,13 @@ struct Picture {
 };
 
 struct CheckResult {
-  double points = 0.0;            ///< all of the check's, or 0
-  std::string reason;             ///< what was measured, or why there are no points; one line
-  std::string command;            ///< that draws it again; of the run that lost the points, else of the first
+  double points = 0.0;  ///< of the check's; less where a limit is missed, none where by as much again
+  std::string reason;   ///< what was measured, or why there are no points; one line
+  std::string command;  ///< that draws it again; of the run that lost the points, else of the first
   std::vector<Picture> pictures;  ///< where points were lost and something was drawn
   std::string excerpt;            ///< lines of the student's file around an error; may be empty
+  bool mistake_named =
+      false;  ///< a usual mistake explains what was drawn: later checks go on as if it were mended
 };
 
 struct StudentResult {

@@ -71,7 +71,8 @@ std::string scene_path(const JsonNode& node, const std::string& folder) {
 Run read_run(const JsonNode& node, const std::string& folder) {
   const JsonObject object(node, {"scene", "options"});
   Run run;
-  if (const auto scene = object.require("scene")) run.scene = scene_path(*scene, folder);
+  if (const auto scene = object.require("scene"))
+    run.scene = scene_path(*scene, folder), run.named = scene->as_string();
   const auto options = object.find("options");
   if (!options) return run;
   if (!options->is(JsonValue::Type::object)) {
@@ -129,12 +130,31 @@ Check read_check(const JsonNode& node, const std::string& folder, const std::vec
   return check;
 }
 
-std::vector<std::string> read_hand_in(const JsonNode& node) {
+/// Beside given files any shader may be handed in, one of the program's own otherwise.
+std::vector<std::string> read_hand_in(const JsonNode& node, bool beside_given) {
   std::vector<std::string_view> names;
   for (const raster::ShaderFile& file : raster::own_shaders()) names.push_back(file.name);
   std::vector<std::string> files;
-  for (const JsonNode& file : node.as_array()) files.emplace_back(names[file.as_choice(names)]);
+  for (const JsonNode& file : node.as_array()) {
+    files.push_back(beside_given ? file.as_string() : std::string(names[file.as_choice(names)]));
+    if (beside_given && !raster::is_shader(files.back()))
+      file.wrong("is no shader", "a name that ends in .glsl");
+  }
   if (files.empty()) node.error("is empty");
+  return files;
+}
+
+/// They lie in the folder student/ beside the rubric.
+std::vector<GivenFile> read_given(const JsonNode& node, const std::string& folder) {
+  std::vector<std::string_view> names;
+  for (const raster::ShaderFile& file : raster::own_shaders()) names.push_back(file.name);
+  std::vector<GivenFile> files;
+  for (const JsonNode& file : node.as_array()) {
+    const std::string name(names[file.as_choice(names)]);
+    const auto text = read_file(fmt::format("{}{}student/{}", folder, folder.empty() ? "" : "/", name));
+    if (!text) file.error(text.error().reason);
+    files.push_back({name, text ? *text : std::string()});
+  }
   return files;
 }
 
@@ -149,7 +169,8 @@ void check_files_are_read(const JsonNode& hand_in, raster::Technique technique) 
 }
 
 Rubric read_root(const JsonNode& node, const std::string& folder) {
-  const JsonObject object(node, {"schema", "title", "text", "technique", "hand_in", "limits", "checks"});
+  const JsonObject object(node,
+                          {"schema", "title", "text", "technique", "hand_in", "given", "limits", "checks"});
   Rubric rubric;
   if (const auto schema = object.require("schema")) schema->as_choice({"gnomon/rubric/1"});
   if (const auto title = object.require("title")) rubric.title = title->as_string();
@@ -159,9 +180,12 @@ Rubric read_root(const JsonNode& node, const std::string& folder) {
   std::size_t index = 0;
   if (const auto technique = object.require("technique")) index = technique->as_choice(names);
   rubric.technique = names[index];
+  const raster::Technique technique = raster::all_technique_traits()[index].technique;
+  const auto given = object.find("given");
+  if (given) rubric.given = read_given(*given, folder), check_files_are_read(*given, technique);
   if (const auto hand_in = object.require("hand_in")) {
-    rubric.hand_in = read_hand_in(*hand_in);
-    check_files_are_read(*hand_in, raster::all_technique_traits()[index].technique);
+    rubric.hand_in = read_hand_in(*hand_in, given.has_value());
+    if (!given) check_files_are_read(*hand_in, technique);
   }
   if (const auto limits = object.find("limits")) {
     const JsonObject of(*limits, {"seconds", "memory_mb"});
@@ -218,7 +242,7 @@ Expected<Rubric> read_rubric(const std::string& path) {
 }
 
 std::string run_text(const Run& run) {
-  std::string text = shell_quoted(run.scene);
+  std::string text = shell_quoted(run.named);
   for (const auto& [name, value] : run.options) {
     text += fmt::format(" --{}", name);
     if (!value.empty()) text += fmt::format(" {}", shell_quoted(value));

@@ -19,6 +19,7 @@ namespace gnomon::grade {
 /// One comparison that a check looks at: a scene and options of `gnomon compare`.
 struct Run {
   std::string scene;  ///< a built-in scene's name, or a path that the caller can open
+  std::string named;  ///< the scene as the rubric names it, from its own folder
   std::vector<std::pair<std::string, std::string>> options;  ///< {"map-size", "512"}, in the rubric's order
   bool operator==(const Run&) const = default;
 };
@@ -59,10 +60,17 @@ struct Limits {
       120.0;  ///< of wall time without any processor time: then a run is given up. No rubric's to set
 };
 
+/// A shader that the exercise gives: it stands in each student's folder as it is here.
+struct GivenFile {
+  std::string name, text;  ///< "technique/hard.glsl"
+};
+
 struct Rubric {
   std::string title, text;
-  std::string technique;             ///< whose shader is handed in: "hard"
-  std::vector<std::string> hand_in;  ///< the program's shaders that may be replaced
+  std::string technique;  ///< whose shader is handed in: "hard"
+  std::vector<std::string>
+      hand_in;  ///< the program's shaders that may be replaced, or files that a given one includes
+  std::vector<GivenFile> given;  ///< none: what is handed in may use all that the program's own shaders have
   Limits limits;
   std::vector<Check> checks;  ///< at least one
   double points() const;      ///< of all checks
@@ -71,7 +79,7 @@ struct Rubric {
 /// Scenes that are files are taken relative to the rubric's folder. Errors (bad input) name the field.
 Expected<Rubric> read_rubric(const std::string& path);
 
-/// "tilted.json --map-size 512 --bias 0.01": the run as words of a command line.
+/// "tilted.json --map-size 512 --bias 0.01": the run as words of a command line in the rubric's folder.
 std::string run_text(const Run& run);
 
 // What was handed in: one folder for each student.
@@ -92,5 +100,8 @@ Expected<std::vector<Student>> find_students(const std::vector<std::string>& pat
 /// not to be handed in, or none that differs from the program's own.
 /// Error (bad input): what lies there cannot be read, so that nobody can tell what was handed in.
 Expected<std::string> refusal(const Student& student, const Rubric& rubric);
+
+/// Puts what was handed in beside what the rubric gives, into `folder`.
+Expected<void> write_with_given(const Student& student, const Rubric& rubric, const std::string& folder);
 
 }  // namespace gnomon::grade

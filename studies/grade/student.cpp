@@ -8,12 +8,14 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <regex>
 #include <set>
 
 #include "raster/programs/shader_folder.h"
 #include "scene/base/expected.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
+#include "scene/files/write_file.h"
 
 namespace gnomon::grade {
 
@@ -183,14 +185,89 @@ std::string refusal_of(const raster::ShaderFolder& folder, const Rubric& rubric,
     const bool asked =
         std::find(rubric.hand_in.begin(), rubric.hand_in.end(), file.name) != rubric.hand_in.end();
     any = any || asked;
-    if (is_own && !asked)
+    const bool is_given = std::any_of(rubric.given.begin(), rubric.given.end(),
+                                      [&](const GivenFile& given) { return given.name == file.name; });
+    if (is_own && !asked && !is_given)
       return fmt::format("{} is not to be handed in (allowed {})", file.name,
                          fmt::join(rubric.hand_in, ", "));
   }
   return any ? std::string() : nothing;
 }
 
+/// The text with blanks in place of comments and of line ends that a backslash takes away (GLSL 4.50, 3.1 and 3.4).
+std::string without_comments(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::string_view rest = std::string_view(text).substr(i);
+    std::size_t length = 0;
+    if (rest.starts_with("//")) length = std::min(rest.find('\n'), rest.size());
+    if (rest.starts_with("/*")) length = std::min(rest.find("*/", 2), rest.size() - 2) + 2;
+    if (rest.starts_with("\\\n")) length = 2;
+    if (length == 0)
+      out += text[i++];
+    else
+      out += ' ', i += length;
+  }
+  return out;
+}
+
+/// Beside given files: why the text may reach what these keep to themselves; empty where it does not.
+std::string refusal_beside_given(const std::string& name, const std::string& text) {
+  static const std::regex directive(R"re((^|\n)[ \t]*#[ \t]*(undef|include)[ \t]*("([^"\n]*)")?)re");
+  const std::string bare = without_comments(text);
+  const std::vector<raster::ShaderFile> own = raster::own_shaders();
+  for (std::sregex_iterator at(bare.begin(), bare.end(), directive), end; at != end; ++at) {
+    if ((*at)[2] == "undef") return fmt::format("{} has an #undef, which this exercise does not allow", name);
+    const std::string included = (*at)[4];
+    if (std::any_of(own.begin(), own.end(), [&](const auto& o) { return o.name == included; }))
+      return fmt::format("{} includes the program's {}, which does what the exercise asks for", name,
+                         included);
+  }
+  return {};
+}
+
+/// What was handed in beside given files, by name.
+Expected<std::vector<std::pair<std::string, std::string>>> handed_in_beside_given(const Student& student) {
+  const auto names = files_below(student.folder);
+  if (!names) return fail(names.error());
+  std::vector<std::pair<std::string, std::string>> files;
+  const std::vector<raster::ShaderFile> own = raster::own_shaders();
+  for (const std::string& name : *names) {
+    if (!raster::is_shader(name) ||
+        std::any_of(own.begin(), own.end(), [&](const auto& o) { return o.name == name; }))
+      continue;
+    auto text = read_file(fmt::format("{}/{}", student.folder, name));
+    if (!text) return fail(text.error());
+    files.emplace_back(name, std::move(*text));
+  }
+  return files;
+}
+
+Expected<std::string> refusal_beside_given(const Student& student, const Rubric& rubric) {
+  const auto files = handed_in_beside_given(student);
+  if (!files) return fail(files.error());
+  bool any = false;
+  for (const auto& [name, text] : *files) {
+    any = any || std::find(rubric.hand_in.begin(), rubric.hand_in.end(), name) != rubric.hand_in.end();
+    if (std::string why_not = refusal_beside_given(name, text); !why_not.empty()) return why_not;
+  }
+  return any ? std::string()
+             : fmt::format("nothing was handed in: there is no {}", fmt::join(rubric.hand_in, " or "));
+}
+
 }  // namespace
+
+Expected<void> write_with_given(const Student& student, const Rubric& rubric, const std::string& folder) {
+  auto files = handed_in_beside_given(student);
+  if (!files) return fail(files.error());
+  for (const GivenFile& given : rubric.given) files->emplace_back(given.name, given.text);
+  for (const auto& [name, text] : *files) {
+    const std::string path = fmt::format("{}/{}", folder, name);
+    if (const auto made = make_folder_for(path); !made) return made;
+    if (const auto written = write_file(path, text); !written) return written;
+  }
+  return {};
+}
 
 Expected<std::vector<Student>> find_students(const std::vector<std::string>& paths) {
   std::vector<Student> students;
@@ -221,6 +298,7 @@ Expected<std::string> refusal(const Student& student, const Rubric& rubric) {
                                           fmt::join(rubric.hand_in, " or "));
   if (std::string why_not = refusal_of(*contents, nothing); !why_not.empty()) return why_not;
   if (const auto read = read_all(student.folder); !read) return fail(read.error());
+  if (!rubric.given.empty()) return refusal_beside_given(student, rubric);
   const auto folder = raster::ShaderFolder::read(student.folder);
   if (!folder) return folder.error().message();
   return refusal_of(*folder, rubric, nothing);

@@ -104,9 +104,9 @@ JudgedRow judged_row(const std::string& name, const Comparison& c) {
 }
 
 void JudgedSet::add(const std::string& name, const Comparison& comparison) {
-  const std::string line = result_line(comparison, {{"capture", name}});
-  lines += line;
-  table.add(rows.size(), line, times_line(comparison, rows.size(), false, comparison.total_ms));
+  const Json line = line_json(comparison, {{"capture", name}});
+  lines += on_one_line(line);
+  table.add(rows.size(), line, cell_times_json(comparison, rows.size(), false, comparison.total_ms));
   rows.push_back(judged_row(name, comparison));
 }
 

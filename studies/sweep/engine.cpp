@@ -10,6 +10,7 @@
 #include "compare/result/views.h"
 #include "raster/technique_traits.h"
 #include "scene/base/parallel.h"
+#include "scene/base/stages.h"
 #include "studies/shimmer/shimmer.h"
 #include "studies/sweep/engine_impl.h"
 
@@ -113,6 +114,7 @@ void Engine::Impl::derive(const Setting& setting, Detail detail) {
 }
 
 void Engine::Impl::climb_lower() {
+  const TimedStage stage("labels");
   const raster::RasterFrame& frame = comparison.raster;
   bool same = lower.size() == frame.lights.size();
   for (std::size_t i = 0; same && i < lower.size(); ++i) same = same_map(*lower_frame, frame, i);
@@ -150,6 +152,7 @@ bool Engine::Impl::fill_table() {
 }
 
 bool Engine::Impl::measure_from_table(const raster::Bias& bias) {
+  const TimedStage stage("biases");
   const std::size_t place = expected_place(bias);
   if (place == expected.size() || !fill_table()) return false;
   for (std::size_t i = 0; i < table.size(); ++i) comparison.lights[i] = table[i].lights[place];

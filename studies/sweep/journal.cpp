@@ -12,7 +12,9 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "compare/result/output_parts.h"
 #include "scene/base/parallel.h"
+#include "scene/base/stages.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
@@ -125,27 +127,30 @@ tl::unexpected<Error> is_claimed(const std::string& folder) {
 constexpr std::string_view edited =
     "this line is not as the sweep wrote it: its checksum does not fit (--restart makes the sweep anew)";
 
-bool is_object(std::string_view line) {
-  return Json::parse(line, nullptr, false).is_object();
+Json parsed(std::string_view line) {
+  return Json::parse(line, nullptr, false);
 }
 
 // How many of the lines are this sweep's; an error for one that is not, unless it is a torn last one.
 Expected<std::size_t> count_good(const std::string& path, const std::vector<std::string>& lines,
                                  const std::vector<std::string>& axes) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const bool belongs = i < axes.size() && axes_of_line(lines[i]) == axes[i];
+    const bool belongs = i < axes.size() && axes_of_line(parsed(lines[i])) == axes[i];
     if (belongs && is_sealed(lines[i])) continue;
-    if (i + 1 == lines.size() && !is_object(lines[i])) return i;
+    if (i + 1 == lines.size() && !parsed(lines[i]).is_object()) return i;
     return bad_line(path, i + 1,
                     belongs ? std::string(edited) : "not the line of this sweep that belongs here");
   }
   return lines.size();
 }
 
-Expected<void> check_times(const std::string& path, const std::vector<std::string>& times, std::size_t keep) {
-  for (std::size_t i = 0; i < keep; ++i)
-    if (!is_sealed(times[i])) return bad_line(path, i + 1, std::string(edited));
-  return {};
+/// Holds the first `keep` lines against their checksums.
+Expected<void> check_seals(const std::string& path, const std::vector<std::string>& lines, std::size_t keep) {
+  std::vector<char> whole(keep, 0);
+  parallel_for(keep, [&](std::size_t i) { whole[i] = static_cast<char>(is_sealed(lines[i])); });
+  const auto bad = std::find(whole.begin(), whole.end(), 0);
+  if (bad == whole.end()) return {};
+  return bad_line(path, static_cast<std::size_t>(bad - whole.begin()) + 1, std::string(edited));
 }
 
 }  // namespace
@@ -169,7 +174,7 @@ Expected<GoodLines> read_lines(const std::string& line_path, const std::string& 
   if (!good) return fail(good.error());
   // Times are written first: a line without times cannot be, but a surplus of times can.
   const std::size_t keep = std::min(*good, found.times.size());
-  if (auto fine = check_times(time_path, found.times, keep); !fine) return fail(fine.error());
+  if (auto fine = check_seals(time_path, found.times, keep); !fine) return fail(fine.error());
   found.lines.resize(keep);
   found.times.resize(keep);
   found.torn = size_of_lines(found.lines) != bytes->size();
@@ -179,7 +184,7 @@ Expected<GoodLines> read_lines(const std::string& line_path, const std::string& 
 Expected<void> fill_table(const std::string& folder, ResultTable& table, std::span<const std::size_t> cells,
                           const std::vector<std::string>& lines, const std::vector<std::string>& times) {
   for (std::size_t i = 0; i < lines.size(); ++i) try {
-      table.add(cells[i], lines[i], times[i]);
+      table.add(cells[i], parsed(lines[i]), parsed(times[i]));
     } catch (const Json::exception&) {
       return bad_line(
           path_in(folder, "sweep.jsonl"), i + 1,
@@ -243,6 +248,7 @@ Journal::~Journal() = default;
 
 Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& header,
                                 const std::vector<std::string>& axes, std::vector<std::size_t> cells) {
+  const TimedStage stage("records");
   if (auto made = make_output_folder(folder); !made) return fail(made.error());
   Journal journal;
   auto lines = File::open(path_in(folder, "sweep.jsonl"));
@@ -260,18 +266,18 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
 
   auto found = read_lines((*lines)->path, (*times)->path, axes);
   if (!found) return fail(found.error());
-  journal.lines_ = std::move(found->lines);
-  journal.times_ = std::move(found->times);
+  journal.size_ = found->lines.size();
+  if (journal.size_ > 0) journal.drawer_ = drawer_of_line(parsed(found->lines.front()));
   journal.torn_ = found->torn;
-  if (auto cut = (*lines)->cut(size_of_lines(journal.lines_)); !cut) return fail(cut.error());
-  if (auto cut = (*times)->cut(size_of_lines(journal.times_)); !cut) return fail(cut.error());
+  if (auto cut = (*lines)->cut(size_of_lines(found->lines)); !cut) return fail(cut.error());
+  if (auto cut = (*times)->cut(size_of_lines(found->times)); !cut) return fail(cut.error());
   journal.line_file_ = std::move(*lines);
   journal.time_file_ = std::move(*times);
   journal.table_file_ = std::move(*table);
   journal.cells_ = std::move(cells);
   const std::span<const std::size_t> all(journal.cells_);
-  if (auto gone = remove_strays(folder, all.subspan(journal.lines_.size())); !gone) return fail(gone.error());
-  if (auto filled = fill_table(folder, journal.table_, all, journal.lines_, journal.times_); !filled)
+  if (auto gone = remove_strays(folder, all.subspan(journal.size_)); !gone) return fail(gone.error());
+  if (auto filled = fill_table(folder, journal.table_, all, found->lines, found->times); !filled)
     return fail(filled.error());
   if (auto written = journal.write_table(); !written) return fail(written.error());
   return journal;
@@ -283,13 +289,11 @@ Expected<void> Journal::write_table() {
   return table_file_->append(table_.text());
 }
 
-Expected<void> Journal::append(const std::string& unsealed_line, const std::string& unsealed_times) {
-  const std::string line = sealed(unsealed_line), times = sealed(unsealed_times);
-  if (auto written = time_file_->append(times); !written) return written;
-  if (auto written = line_file_->append(line); !written) return written;
-  const std::string rows = table_.add(cells_[lines_.size()], line, times);
-  lines_.push_back(line);
-  times_.push_back(times);
+Expected<void> Journal::append(const Json& line, const Json& times) {
+  if (auto written = time_file_->append(sealed(on_one_line(times))); !written) return written;
+  if (auto written = line_file_->append(sealed(on_one_line(line))); !written) return written;
+  if (size_ == 0) drawer_ = drawer_of_line(line);
+  const std::string rows = table_.add(cells_[size_++], line, times);
   return rows.empty() ? write_table() : table_file_->append(rows);
 }
 
@@ -303,17 +307,12 @@ Expected<SweepLines> read_sweep(const std::string& folder) {
   if (!lines) return fail(lines.error());
   if (!times) return fail(times.error());
   sweep.lines = whole_lines(*lines), sweep.times = whole_lines(*times);
-  std::vector<char> whole(sweep.lines.size(), 0);
-  parallel_for(whole.size(), [&](std::size_t i) {
-    whole[i] = static_cast<char>(is_sealed(sweep.lines[i]) && !axes_of_line(sweep.lines[i]).empty());
-  });
-  if (const auto bad = std::find(whole.begin(), whole.end(), 0); bad != whole.end())
-    return bad_line(path_in(folder, "sweep.jsonl"), static_cast<std::size_t>(bad - whole.begin()) + 1,
-                    std::string(edited));
+  if (auto fine = check_seals(path_in(folder, "sweep.jsonl"), sweep.lines, sweep.lines.size()); !fine)
+    return fail(fine.error());
   if (sweep.times.size() < sweep.lines.size())
     return bad_line(path_in(folder, "sweep_times.jsonl"), sweep.times.size() + 1, "a line is missing");
   sweep.times.resize(sweep.lines.size());
-  if (auto fine = check_times(path_in(folder, "sweep_times.jsonl"), sweep.times, sweep.times.size()); !fine)
+  if (auto fine = check_seals(path_in(folder, "sweep_times.jsonl"), sweep.times, sweep.times.size()); !fine)
     return fail(fine.error());
   return sweep;
 }

@@ -64,14 +64,15 @@ class Journal {
   Journal& operator=(Journal&&) noexcept;
   ~Journal();
 
-  /// Whole lines found or appended so far, with their line breaks.
-  const std::vector<std::string>& lines() const { return lines_; }
-  const std::vector<std::string>& times() const { return times_; }
+  /// Cells found or appended so far.
+  std::size_t size() const { return size_; }
+  /// What drew the first of them (drawer_of_line); empty where there is none.
+  const std::string& drawer() const { return drawer_; }
   /// A torn or surplus line was cut off on opening.
   bool was_torn() const { return torn_; }
 
-  /// Appends a cell, sealed. Both texts are JSON objects and end with a line break.
-  Expected<void> append(const std::string& line, const std::string& times);
+  /// Appends a cell, sealed. Both are objects.
+  Expected<void> append(const nlohmann::ordered_json& line, const nlohmann::ordered_json& times);
 
  private:
   Journal() = default;
@@ -80,7 +81,8 @@ class Journal {
   std::unique_ptr<File> line_file_, time_file_, table_file_;
   ResultTable table_;
   std::vector<std::size_t> cells_;
-  std::vector<std::string> lines_, times_;
+  std::size_t size_ = 0;
+  std::string drawer_;
   bool torn_ = false;
 };
 

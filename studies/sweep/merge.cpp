@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "scene/files/path_status.h"
@@ -14,6 +15,8 @@
 
 namespace gnomon::compare {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 struct Cell {
   std::string line, times, folder;
@@ -73,7 +76,7 @@ Lines lines_of(const Cells& cells) {
   Lines all;
   for (const auto& [index, cell] : cells) {
     all.cells.push_back(index);
-    all.axes.push_back(axes_of_line(cell.line));
+    all.axes.push_back(axes_of_line(Json::parse(cell.line, nullptr, false)));
     all.lines.push_back(cell.line);
     all.times.push_back(cell.times);
   }
@@ -110,7 +113,8 @@ Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, cons
     if (shard->header.hash != header->hash)
       return fail(ErrorKind::usage, folder + ": a shard of another sweep than " + folders.front());
     if (auto added = add_shard(folder, *shard, cells); !added) return fail(added.error());
-    for (const std::string& line : shard->lines) drawers.insert(drawer_of_line(line));
+    for (const std::string& line : shard->lines)
+      drawers.insert(drawer_of_line(Json::parse(line, nullptr, false)));
   }
   if (!header) return fail(ErrorKind::usage, "no shard is given");
   if (cells.size() != header->cells)

@@ -10,6 +10,7 @@
 #include "report/html.h"
 #include "report/page.h"
 #include "report/shell.h"
+#include "scene/base/stages.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
@@ -131,6 +132,7 @@ Expected<WrittenPage> read_and_write_page(const std::string& folder, double repo
 
 Expected<WrittenPage> write_sweep_page(const std::string& folder, double report_max_mb,
                                        const std::optional<Threshold>& limit) {
+  const TimedStage stage("page");
   auto page = read_and_write_page(folder, report_max_mb, limit);
   if (!page && page.error().kind == ErrorKind::bad_input)  // of what was written just now
     return fail(

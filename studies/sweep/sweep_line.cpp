@@ -92,16 +92,14 @@ std::string sealed(const std::string& line) {
   return out.append(checksum_key).append(sum).append(line_end);
 }
 
-std::string axes_of_line(std::string_view line) {
-  const Json json = Json::parse(line, nullptr, false);
-  if (!json.is_object() || !json.contains("lights")) return {};
-  return json.value("axes", Json::object()).dump();
+std::string axes_of_line(const Json& line) {
+  if (!line.is_object() || !line.contains("lights")) return {};
+  return line.value("axes", Json::object()).dump();
 }
 
-std::string drawer_of_line(std::string_view line) {
-  const Json json = Json::parse(line, nullptr, false);
-  if (!json.is_object() || !json.contains("gl")) return {};
-  return json["gl"].value("backend", "") + ", " + json["gl"].value("renderer", "");
+std::string drawer_of_line(const Json& line) {
+  if (!line.is_object() || !line.contains("gl")) return {};
+  return line["gl"].value("backend", "") + ", " + line["gl"].value("renderer", "");
 }
 
 }  // namespace gnomon::compare

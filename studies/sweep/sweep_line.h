@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -38,9 +39,9 @@ std::string sealed(const std::string& line);
 bool is_sealed(std::string_view line);
 
 /// "osmesa, llvmpipe (...)": backend and renderer of a line.
-std::string drawer_of_line(std::string_view line);
+std::string drawer_of_line(const nlohmann::ordered_json& line);
 
-/// "axes" of a line, as JSON text; empty when the line is not JSON or has none.
-std::string axes_of_line(std::string_view line);
+/// "axes" of a line, as JSON text; empty when the line is no object or has none.
+std::string axes_of_line(const nlohmann::ordered_json& line);
 
 }  // namespace gnomon::compare

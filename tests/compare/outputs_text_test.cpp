@@ -1,6 +1,7 @@
 // The words: summary, CSV, numbers and file names.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "compare/ladder/budget.h"
@@ -261,7 +262,7 @@ TEST(CellSummary, WeighsEdgesByTheirNumber) {
   std::vector<LightComparison>& lights = made->comparison.lights;
   lights[0].edges = {10, 0.0, 4.0, 4.0}, lights[1].edges = {}, lights[2].edges = {30, 0.0, 2.0, 2.0};
   const auto cell = summarise(result_line(made->comparison, {{"map_size", "64"}}),
-                              times_line(made->comparison, 0, false, 1.0));
+                              on_one_line(cell_times_json(made->comparison, 0, false, 1.0)));
   ASSERT_TRUE(cell) << cell.error().message();
   EXPECT_EQ(cell->figures.edges.edges, 40u);
   EXPECT_NEAR(cell->figures.edges.rms_texels, std::sqrt((10.0 * 16.0 + 30.0 * 4.0) / 40.0), 1e-12);

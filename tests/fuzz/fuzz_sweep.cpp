@@ -1,6 +1,7 @@
 // What a sweep left behind: sweep.json, sweep.jsonl and sweep_times.jsonl, parted by form feeds, as merge and the page
 // read them and as a sweep that goes on does.
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "fuzz_target.h"
@@ -42,7 +43,8 @@ void check_folder() {
   const auto sweep = compare::read_sweep(fuzz::folder());
   fuzz::note_read(sweep ? nullptr : &sweep.error());
   if (sweep) {
-    for (const std::string& text : sweep->lines) compare::drawer_of_line(text);
+    for (const std::string& text : sweep->lines)
+      compare::drawer_of_line(nlohmann::ordered_json::parse(text, nullptr, false));
     if (const auto read = compare::summarise(*sweep); !read && read.error().kind != ErrorKind::bad_input)
       fuzz::broken("an error of another kind: " + read.error().message());
   }

@@ -17,22 +17,30 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 /// The shipped shader with its steps filled in.
-std::string solution() {
+std::string exercise_solution() {
   const std::string skeleton =
-      read_file(gnomon::test::source_dir() + "/studies/grade/kits/first-shadow-map/technique/hard.glsl");
+      read_file(gnomon::test::source_dir() + "/studies/grade/kits/first-shadow-map/shadow_map.glsl");
   return skeleton.substr(0, skeleton.find("  // TODO 1")) +
          read_file(gnomon::test::source_dir() + "/tests/data/grade/steps.glsl");
+}
+
+/// The same as the technique's own file.
+std::string solution() {
+  std::string text = exercise_solution();
+  const std::string name = "float light_that_arrives(";
+  return text.replace(text.find(name), name.size(), "float technique_visibility(ShadowTest test, ");
 }
 
 struct Edit {
   std::string from, to;
 };
-/// Checks that lose their points, by a letter: Compiles, Shadows, Light, Acne, Panning, Texel, Outside, spot (K), lamp (M),
-/// along the Ray, Quick. A check that needs a lost one is lost with it.
+/// Checks that lose points, by a letter: Compiles, Shadows, Light, Acne, Panning, Texel, Outside, spot (K), lamp (M), along
+/// the Ray, Quick. A check that needs a lost one is lost with it, unless the mistake in that one has a name.
 struct Fault {
   std::string name;
   std::vector<Edit> edits;
   std::string lost;
+  std::string mistake = "";  ///< part of its name; empty: none is named
 };
 
 constexpr std::string_view letters = "CSLAPTOKMRQ";
@@ -44,32 +52,49 @@ const std::vector<Fault>& faults() {
   static const std::vector<Fault> all = {
       {"right", {}, ""},
       {"byte-order-mark", {{"// Your first", "\xef\xbb\xbf// Your first"}}, ""},
-      {"given-gap", {{"return gap >", "return test.gap >"}}, ""},
-      {"no-bias", {{"> light.bias.x", "> 0.0"}}, "ATKMR"},
+      {"given-gap", {{"return gap >", "return test.gap >"}}, "CSLAPTOKMRQ"},
+      {"no-bias", {{"> light.bias.x", "> 0.0"}}, "A", "there was no bias"},
       {"negative-bias", {{"> light.bias.x", "> -light.bias.x"}}, "LAPTOKMRQ"},
-      {"double-bias", {{"> light.bias.x", "> 2.0 * light.bias.x"}}, "PTR"},
-      {"huge-bias", {{"> light.bias.x", "> 10.0 * light.bias.x"}}, "PTR"},
-      {"flipped-comparison", {{"? 0.0 : 1.0", "? 1.0 : 0.0"}}, "SLAPTOKMRQ"},
-      {"flipped-depth", {{"(texel, stored)", "(texel, 1.0 - stored)"}}, "APTKMR"},
-      {"stored-as-depth", {{"depth_from_stored(texel, stored)", "stored"}}, "APTKMR"},
-      {"one-texel-right", {{"ivec2(floor(place))", "ivec2(floor(place)) + ivec2(1, 0)"}}, "TK"},
-      {"one-texel-up", {{"ivec2(floor(place))", "ivec2(floor(place)) + ivec2(0, 1)"}}, "PTK"},
-      {"rounded-texel", {{"floor(place)", "floor(place + 0.5)"}}, "TK"},
-      {"no-ray-length", {{"  gap *= length(offset) / p.z;\n", ""}}, "R"},
-      {"no-divide", {{"  view /= p.z;\n", ""}}, "KMR"},
+      {"double-bias", {{"> light.bias.x", "> 2.0 * light.bias.x"}}, "P", "the bias was taken twice"},
+      {"huge-bias", {{"> light.bias.x", "> 10.0 * light.bias.x"}}, "P", "ten times as large"},
+      {"flipped-comparison", {{"? 0.0 : 1.0", "? 1.0 : 0.0"}}, "S", "the wrong way round"},
+      {"flipped-depth", {{"(texel, stored)", "(texel, 1.0 - stored)"}}, "A", "counted from the far end"},
+      {"stored-as-depth",
+       {{"depth_from_stored(texel, stored)", "stored"}},
+       "A",
+       "was a depth in world units"},
+      {"one-texel-right",
+       {{"ivec2(floor(place))", "ivec2(floor(place)) + ivec2(1, 0)"}},
+       "T",
+       "one texel off to the right"},
+      {"one-texel-up",
+       {{"ivec2(floor(place))", "ivec2(floor(place)) + ivec2(0, 1)"}},
+       "P",
+       "one texel off upward"},
+      {"rounded-texel", {{"floor(place)", "floor(place + 0.5)"}}, "T", "nearest corner of a texel"},
+      {"no-ray-length", {{"  gap *= length(offset) / p.z;\n", ""}}, "R", "measured along the view's axis"},
+      {"no-divide", {{"  view /= p.z;\n", ""}}, "K", "not divided by the depth"},
       {"no-border",
        {{"if (any(lessThan(place, vec2(0.0))) || any(" + border, "if (size < 0.0) return 1.0"}},
-       "O"},
-      {"dark-border", {{border, "greaterThanEqual(place, vec2(size)))) return 0.0"}}, "O"},
+       "O",
+       "texels were read beside the map"},
+      {"dark-border",
+       {{border, "greaterThanEqual(place, vec2(size)))) return 0.0"}},
+       "O",
+       "beside the map was in shadow"},
       {"wrong-axes",
        {{"dot(light.right[face].xyz, offset), dot(light.up[face]",
          "dot(light.up[face].xyz, offset), dot(light.right[face]"}},
-       "ATKMR"},
-      {"upside-down", {{"dot(light.up[face].xyz", "-dot(light.up[face].xyz"}}, "ATKMR"},
-      {"mirrored", {{"vec2 view = p.xy", "vec2 view = vec2(-p.x, p.y)"}}, "SAPTOKMRQ"},
-      {"no-origin", {{"position - light.origin_and_warp[face].xyz", "position"}}, "TOKMR"},
-      {"one-view", {{"cube_face(position - light.origin_and_size.xyz)", "0"}}, "MR"},
-      {"one-layer", {{"(floor(place)), face)", "(floor(place)), 0)"}}, "MR"},
+       "A",
+       "right and up were exchanged"},
+      {"upside-down", {{"dot(light.up[face].xyz", "-dot(light.up[face].xyz"}}, "A", "up was mirrored"},
+      {"mirrored", {{"vec2 view = p.xy", "vec2 view = vec2(-p.x, p.y)"}}, "S", "right was mirrored"},
+      {"no-origin",
+       {{"position - light.origin_and_warp[face].xyz", "position"}},
+       "T",
+       "from where the view stands"},
+      {"one-view", {{"cube_face(position - light.origin_and_size.xyz)", "0"}}, "M", "a lamp had one view"},
+      {"one-layer", {{"(floor(place)), face)", "(floor(place)), 0)"}}, "M", "in the map's first layer"},
       {"half-a-map", {{"0.5) * size", "0.5) * 0.5 * size"}}, "LAPTOKMRQ"},
       {"always-lit", {{test_line, "return 1.0"}}, "SAPTOKMRQ"},
       {"always-dark", {{test_line, "return 0.0"}}, "LAPTOKMRQ"},
@@ -82,7 +107,7 @@ const std::vector<Fault>& faults() {
       {"writes-nan", {{test_line, "return 0.0 / (size - size)"}}, "CSLAPTOKMRQ"},
       {"writes-two", {{"? 0.0 : 1.0", "? 0.0 : 2.0"}}, "CSLAPTOKMRQ"},
       {"does-not-compile", {{"float gap =", "flaot gap ="}}, "CSLAPTOKMRQ"},
-      {"no-function", {{"float technique_visibility", "float my_visibility"}}, "CSLAPTOKMRQ"},
+      {"no-function", {{"float light_that_arrives", "float my_visibility"}}, "CSLAPTOKMRQ"},
       {"slow",
        {{test_line,
          "float sum = 0.0;\n  for (int i = 0; i < 2000; ++i) sum += texelFetch(depth_map, texel + ivec3(i % "
@@ -110,8 +135,15 @@ std::string lost_by(const json& student) {
   return lost;
 }
 
+std::string mistake_of(const json& student) {
+  for (const json& check : student["checks"])
+    if (const std::string reason = check["reason"]; reason.starts_with("drawn as if ")) return reason;
+  return {};
+}
+
 TEST_F(Grade, EveryFaultLosesItsPointsAndNoOthers) {
-  for (const Fault& fault : faults()) hand_in(fault.name, with_edits(solution(), fault));
+  for (const Fault& fault : faults())
+    hand_in(fault.name, with_edits(exercise_solution(), fault), "shadow_map.glsl");
   const ProcessResult graded = gnomon(
       {"grade", "first-shadow-map", "class", "--json", "-", "--csv", "grades.csv", "-o", "pages", "-q"});
   ASSERT_EQ(graded.exit_code, 0) << graded.err;
@@ -119,17 +151,21 @@ TEST_F(Grade, EveryFaultLosesItsPointsAndNoOthers) {
   ASSERT_EQ(result["students"].size(), faults().size());
   std::map<std::string, json> students;
   for (const json& student : result["students"]) students[student["name"]] = student;
-  for (const Fault& fault : faults())
+  for (const Fault& fault : faults()) {
     EXPECT_EQ(lost_by(students[fault.name]), fault.lost) << students[fault.name].dump(2);
+    const std::string mistake = mistake_of(students[fault.name]);
+    EXPECT_EQ(mistake.empty(), fault.mistake.empty()) << fault.name << ": " << mistake;
+    EXPECT_NE(mistake.find(fault.mistake), std::string::npos) << fault.name << ": " << mistake;
+  }
   EXPECT_EQ(students["right"]["points"], 20);
   // The page of a lost point shows it; a page is one file.
   const std::string page = read_file(folder / "pages/double-bias.html");
   EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
-  EXPECT_NE(page.find("--shader-dir class/double-bias"), std::string::npos);
+  EXPECT_NE(page.find("--shader-dir student"), std::string::npos);
   EXPECT_NE(page.find("where it is wrong, and why: <span class=\"key\">"), std::string::npos);
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
   EXPECT_NE(read_file(folder / "pages/does-not-compile.html").find("flaot gap"), std::string::npos);
-  EXPECT_NE(read_file(folder / "grades.csv").find("\ndouble-bias,14,20,"), std::string::npos);
+  EXPECT_NE(read_file(folder / "grades.csv").find("\ndouble-bias,18,20,"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "pages/index.html"));
 }
 
