@@ -272,7 +272,7 @@ void add_measured_limit(CLI::App& command, const std::string& name, MeasuredLimi
               measure = compare::find_measure(text);
               return {};
             });
-  add_value(command, name, "LIMIT", describe(what, filmed ? film_threshold_range : threshold_range, fallback),
+  add_value(command, name, "LIMIT", describe(what, compare::threshold_range(filmed), fallback),
             [asked, filmed](const std::string& value) { return store_limit(value, asked, filmed); });
 }
 

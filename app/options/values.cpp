@@ -32,7 +32,7 @@ Expected<compare::Threshold> parse_threshold(std::string_view text, const compar
   std::string_view number = text;
   if (const std::size_t colon = text.find(':'); colon != std::string_view::npos) {
     out.measure = compare::find_measure(text.substr(0, colon));
-    if (out.measure == nullptr) return wrong_value("not a limit", text, threshold_range);
+    if (out.measure == nullptr) return wrong_value("not a limit", text, compare::threshold_range(false));
     number.remove_prefix(colon + 1);
   }
   const compare::Figure& measure = *out.measure;
@@ -47,7 +47,7 @@ Expected<compare::Threshold> parse_threshold(std::string_view text, const compar
     return out;
   }
   const Expected<double> share = parse_share(number);
-  if (!share) return wrong_value("not a limit", text, threshold_range);
+  if (!share) return wrong_value("not a limit", text, compare::threshold_range(false));
   out.limit = *share;
   out.bare_one = out.limit == 1.0 && !number.ends_with('%');
   return out;

@@ -24,12 +24,6 @@ Expected<double> parse_share(std::string_view text);
 /// "1%" (a limit of `plain`), "wrong:1%", "mean:0.5%", "flip:0.05", "edge:0.5texel", "shimmer:0.1".
 Expected<compare::Threshold> parse_threshold(std::string_view text,
                                              const compare::Figure& plain = compare::wrong_and_mean());
-inline constexpr std::string_view threshold_range =
-    "of --measure; without it a share for wrong pixels and mean error both, such as 1%, or wrong:1%, "
-    "mean:0.5%, flip:0.05, edge:0.5texel";
-inline constexpr std::string_view film_threshold_range =
-    "of --measure; without it a share for wrong pixels and mean error both, such as 1%, or wrong:1%, "
-    "mean:0.5%, flip:0.05, edge:0.5texel, shimmer:0.1 (flips per receiver and second)";
 
 inline constexpr OptionRange exposure_range{0.0, 1e6, true};
 /// "auto" (no value) or a linear factor.

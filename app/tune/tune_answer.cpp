@@ -83,27 +83,32 @@ Json goal_json(const compare::TuneGoal& goal) {
           {"limit", goal.max_error->limit}};
 }
 
+/// The figures that a threshold may be held against and that every search makes, and those of films.
+bool is_made(const compare::Figure& figure) {
+  using enum compare::FigureNeeds;
+  return !figure.measure.name.empty() && (figure.needs == nothing || figure.needs == film);
+}
+
 Json family_json(const TuneAnswer& answer, std::size_t i) {
   const compare::FamilyResult& family = answer.result.families[i];
   const compare::Attempt& attempt = attempt_of(family);
   Json options = Json::object();
   for (const auto& [name, value] : answer_values(answer.question.fixed, answer.families[i], attempt))
     options[name] = value;
-  return {
-      {"command", answer.line(i)},
-      {"technique", options.value("technique", std::string("hard"))},
-      {"options", options},
-      {"error", attempt.error},
-      {"wrong_fraction", attempt.figures.error.wrong_fraction},
-      {"mean_absolute", attempt.figures.error.mean_absolute},
-      {"flips_per_receiver_second", compare::number(compare::find_measure("shimmer")->of(attempt.figures))},
-      {"time_ms", attempt.time_ms},
-      {"runs_ms", attempt.times.runs},
-      {"costs",
-       {{"map_texels", attempt.map_texels}, {"map_bytes", attempt.map_bytes}, {"rays", attempt.rays}}},
-      {"custom_shader", attempt.custom_shader},
-      {"feasible", family.answer.has_value()},
-      {"why", family.why}};
+  Json json{{"command", answer.line(i)},
+            {"technique", options.value("technique", std::string("hard"))},
+            {"options", options},
+            {"error", attempt.error}};
+  json.update(compare::named_figures(attempt.figures, is_made));
+  json.update(
+      {{"time_ms", attempt.time_ms},
+       {"runs_ms", attempt.times.runs},
+       {"costs",
+        {{"map_texels", attempt.map_texels}, {"map_bytes", attempt.map_bytes}, {"rays", attempt.rays}}},
+       {"custom_shader", attempt.custom_shader},
+       {"feasible", family.answer.has_value()},
+       {"why", family.why}});
+  return json;
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ constexpr Figure rows[] = {
      .table = in_table,
      .needs = FigureNeeds::film,
      .measure = {"shimmer", "{} flips per receiver and second", "at most {} flips per receiver and second",
-                 "{} flips per receiver and second", "1e9"}},
+                 "{} flips per receiver and second", "0.1", "1e9"}},
     {"shimmer.mean_absolute", "share", at<film, &F::mean_absolute>(), less, none, "mean temporal error"},
 
     {"pixels.total", "pixels", at<pixels, &P::total>()},
@@ -153,7 +153,7 @@ constexpr Figure rows[] = {
      .pooling = {Kind::derived, wrong_fraction},
      .words = "wrong",
      .table = in_table,
-     .measure = {"wrong", "{} wrong", "at most {} wrong", "{} wrong", "", true},
+     .measure = {"wrong", "{} wrong", "at most {} wrong", "{} wrong", "1%", "", true},
      .mark = {"wrong", "wrong pixels"}},
     {.key = "error.false_shadow",
      .unit = "pixels",
@@ -178,7 +178,7 @@ constexpr Figure rows[] = {
      .pooling = mean,
      .words = "mean error",
      .table = in_table,
-     .measure = {"mean", "mean error {}", "a mean error of at most {}", "a mean error of {}"},
+     .measure = {"mean", "mean error {}", "a mean error of at most {}", "a mean error of {}", "0.5%"},
      .mark = {"mean_error", "a mean error"},
      .in_summary = "mean "},
     {.key = "error.rms",
@@ -197,7 +197,7 @@ constexpr Figure rows[] = {
      .words = "FLIP",
      .table = in_table,
      .needs = perception,
-     .measure = {"flip", "mean FLIP {}", "a mean FLIP of at most {}", "a mean FLIP of {}"},
+     .measure = {"flip", "mean FLIP {}", "a mean FLIP of at most {}", "a mean FLIP of {}", "0.05"},
      .in_summary = "; FLIP "},
     {"error.ssim", "share", at<error, &E::ssim>(), more, mean, "SSIM", in_table, perception},
     {.key = "error.flip_compared",
@@ -240,7 +240,7 @@ constexpr Figure rows[] = {
      .table = in_table,
      .needs = FigureNeeds::edges,
      .measure = {"edge", "edges off by {} (RMS)", "shadow edges displaced by at most {} (RMS)",
-                 "{} of displacement", "1e6"},
+                 "{} of displacement", "0.5texel", "1e6"},
      .mark = {"edge", "shadow edges off their place (root mean square)"}},
     {"edges.rms_pixels", "pixels", at<edges, &EdgeStats::rms_pixels>(), less},
     {"edges.mean_absolute_texels", "texels", at<edges, &EdgeStats::mean_absolute_texels>(), less},
@@ -283,7 +283,7 @@ constexpr Figure both{
     .unit = "share",
     .place = {larger_of_both, nullptr, FigureForm::percent},
     .measure = {"wrong and mean", "", "at most {} wrong, and a mean error of at most as much",
-                "an error of {}", "", true}};
+                "an error of {}", "1%", "", true}};
 
 }  // namespace figure_rows
 
@@ -331,6 +331,10 @@ const Figure* find_measure(std::string_view name) {
   for (const Figure& figure : figures())
     if (!name.empty() && figure.measure.name == name) return &figure;
   return nullptr;
+}
+
+std::string_view form_name(FigureForm form) {
+  return form == FigureForm::count ? "count" : form == FigureForm::percent ? "percent" : "number";
 }
 
 std::string figure_name(const Figure& figure) {

@@ -1,6 +1,6 @@
 // Every number that a comparison says of one light, one row each: its key in result.json, unit and words, which way is
 // better, how it is printed, and what it is of several lights together. The blocks of result.json and with them the columns
-// of CSV files, what sweeps read back from their lines and show, and the facts of the pages are made from these rows.
+// of CSV files, what sweeps read back from their lines and show, and the columns of the pages are made from these rows.
 // A new figure is a field of LightFigures and a row in figures.cpp.
 #pragma once
 
@@ -35,12 +35,13 @@ struct Pooling {
 
 /// What a threshold calls a figure, and how it is said, "{}" being its value.
 struct MeasureWords {
-  std::string_view name{};   ///< "flip"; "" where no threshold is held against it
-  std::string_view said{};   ///< "mean FLIP {}"
-  std::string_view limit{};  ///< "a mean FLIP of at most {}"
-  std::string_view level{};  ///< "a mean FLIP of {}"
-  std::string_view most{};   ///< the largest limit, as people write it; of a share ""
-  bool by_halves = false;    ///< it asks on which side of one half a visibility lies, not how much it is
+  std::string_view name{};     ///< "flip"; "" where no threshold is held against it
+  std::string_view said{};     ///< "mean FLIP {}"
+  std::string_view limit{};    ///< "a mean FLIP of at most {}"
+  std::string_view level{};    ///< "a mean FLIP of {}"
+  std::string_view example{};  ///< a limit as people write it: "0.05"
+  std::string_view most{};     ///< the largest limit, as people write it; of a share ""
+  bool by_halves = false;      ///< it asks on which side of one half a visibility lies, not how much it is
 };
 
 /// What a rubric calls a figure, and what it is about.
@@ -76,11 +77,8 @@ std::span<const Figure> figures();
 /// The figures of all lights together.
 LightFigures pool_lights(std::span<const LightFigures> lights);
 
-/// Writes as a JSON list what pages and other programs may know of each figure: its key, unit, words, whether tables of
-/// several settings have a column of it ("in_tables"), which way is better (null: neither) and its form ("count", "percent",
-/// "number").
-std::string figures_json();
-
+/// "count", "percent", "number"
+std::string_view form_name(FigureForm form);
 /// "edge error"
 std::string figure_name(const Figure& figure);
 /// A table's head: "edge error, texels".

@@ -5,7 +5,6 @@
 #include "compare/ladder/filter_probe.h"
 #include "compare/ladder/labels.h"
 #include "compare/result/engine_units.h"
-#include "compare/result/figures.h"
 #include "compare/result/judged.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
@@ -312,31 +311,28 @@ Json light_times_json(const Comparison& c, const LightComparison& light) {
   return json;
 }
 
+namespace {
+
+Json figure_json(const Figure& figure, const LightFigures& light) {
+  const double value = figure.of(light);
+  const bool is_count = figure.form() == FigureForm::count && std::isfinite(value);
+  return is_count ? Json(static_cast<std::uint64_t>(value)) : number(value);
+}
+
+}  // namespace
+
 Json block_json(std::string_view block, const LightFigures& light) {
   Json json = Json::object();
-  for (const Figure& figure : figures()) {
-    if (figure.block() != block) continue;
-    const double value = figure.place.get(light);
-    const bool is_count = figure.form() == FigureForm::count && std::isfinite(value);
-    json[std::string(figure.name())] = is_count ? Json(static_cast<std::uint64_t>(value)) : number(value);
-  }
+  for (const Figure& figure : figures())
+    if (figure.block() == block) json[std::string(figure.name())] = figure_json(figure, light);
   return json;
 }
 
-std::string figures_json() {
-  Json list = Json::array();
-  for (const Figure& figure : figures()) {
-    const bool known = figure.better != Better::neither;
-    list.push_back({{"key", figure.key},
-                    {"unit", figure.unit},
-                    {"words", figure_name(figure)},
-                    {"in_tables", figure.table == Figure::Table::sweep},
-                    {"better", known ? Json(figure.better == Better::less ? "less" : "more") : Json(nullptr)},
-                    {"form", figure.form() == FigureForm::count     ? "count"
-                             : figure.form() == FigureForm::percent ? "percent"
-                                                                    : "number"}});
-  }
-  return dumped(list, -1);
+Json named_figures(const LightFigures& light, bool (*takes)(const Figure&)) {
+  Json json = Json::object();
+  for (const Figure& figure : figures())
+    if (takes(figure)) json[std::string(figure.name())] = figure_json(figure, light);
+  return json;
 }
 
 LightFigures read_pooled_figures(const Json& light) {

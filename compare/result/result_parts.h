@@ -6,6 +6,7 @@
 
 #include "compare/comparison.h"
 #include "compare/ladder/budget.h"
+#include "compare/result/figures.h"
 #include "scene/base/time_difference.h"
 
 namespace gnomon::compare {
@@ -53,6 +54,8 @@ inline std::string dumped(const Json& json, int indent) {
 
 /// The figures of a block ("error", "map.texel_world") by their names.
 Json block_json(std::string_view block, const LightFigures& light);
+/// The figures that the function takes, whatever their block, by their names: {"wrong_fraction": 0.04, ...}.
+Json named_figures(const LightFigures& light, bool (*takes)(const Figure&));
 /// Every figure that is pooled over lights, from an entry of "lights". Throws Json::exception where one is missing.
 LightFigures read_pooled_figures(const Json& light);
 

@@ -15,6 +15,21 @@ std::string threshold_text(const Threshold& t) {
   return fmt::format("{}{:.6g}{}", name, t.limit, t.measure->unit == "texels" ? "texel" : "");
 }
 
+std::string threshold_range(bool filmed) {
+  std::string text = fmt::format("of --measure; without it a share for wrong pixels and mean error both, such as {}, or ",
+                                 wrong_and_mean().measure.example);
+  std::string_view between;
+  for (const bool film : {false, true})
+    for (const Figure& figure : figures()) {
+      if (figure.measure.name.empty() || (figure.needs == FigureNeeds::film) != film || (film && !filmed))
+        continue;
+      text += fmt::format("{}{}:{}", between, figure.measure.name, figure.measure.example);
+      if (film) text += fmt::format(" ({})", figure.unit);
+      between = ", ";
+    }
+  return text;
+}
+
 std::string limit_words(const Threshold& t) {
   return fmt::format(fmt::runtime(t.measure->measure.limit), figure_text(*t.measure, t.limit));
 }

@@ -27,6 +27,9 @@ struct Threshold {
 };
 /// Writes the threshold as it is given: "1%", "mean:0.5%", "flip:0.05", "edge:0.5texel", "shimmer:0.1".
 std::string threshold_text(const Threshold& threshold);
+/// "of --measure; without it a share for wrong pixels and mean error both, such as 1%, or wrong:1%, ...": what a threshold may be; of
+/// flips where `filmed`.
+std::string threshold_range(bool filmed);
 /// "at most 1.0 % wrong, and a mean error of at most as much"
 std::string limit_words(const Threshold& threshold);
 

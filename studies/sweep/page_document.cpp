@@ -26,42 +26,51 @@ std::string error_text(const CellSummary& cell) {
   return cell.is_filmed() ? fmt::format(fmt::runtime(measure.measure.said), text) : text;
 }
 
+bool in_tables(const Figure& figure) {
+  return figure.table == Figure::Table::sweep;
+}
+
+/// The columns of figures; what only some sweeps make has one where the cell has it.
+Json columns_json(const CellSummary& first) {
+  Json columns = Json::array();
+  for (const Figure& figure : figures()) {
+    const bool always = figure.needs == FigureNeeds::nothing || figure.needs == FigureNeeds::edges;
+    if (!in_tables(figure) || (!always && std::isnan(figure.of(first.figures)))) continue;
+    columns.push_back(
+        {{"key", figure.name()}, {"head", figure_head(figure)}, {"form", form_name(figure.form())}});
+  }
+  return columns;
+}
+
 Json cell_json(const SweepPageInput& in, const CellSummary& cell, bool on_front) {
   Json values = Json::array(), shown = Json::array();
   for (const auto& [name, value] : cell.axes) values.push_back(value), shown.push_back(value_words(value));
   const auto pictures = in.pictures.find(cell.cell);
   const bool is_pictured = pictures != in.pictures.end();
-  return {{"cell", cell.cell},
-          {"values", std::move(values)},
-          {"shown", std::move(shown)},
-          {"no_effect", cell.no_effect},
-          {"front", on_front},
-          {"command", cell.command},
-          {"technique", cell.technique},
-          {"compared", cell.figures.pixels.compared},
-          {"error", number(cell.error())},
-          {"error_words", error_text(cell)},
-          {"wrong_fraction", number(cell.figures.error.wrong_fraction)},
-          {"false_shadow", cell.figures.error.false_shadow},
-          {"missed_shadow", cell.figures.error.missed_shadow},
-          {"mean_absolute", number(cell.figures.error.mean_absolute)},
-          {"rms", number(cell.figures.error.rms)},
-          {"flip", number(cell.figures.error.flip)},
-          {"ssim", number(cell.figures.error.ssim)},
-          {"edge_rms_texels", number(cell.figures.edges.rms_texels)},
-          {"flips_per_second", number(find_measure("shimmer")->of(cell.figures))},
-          {"mostly", label_words_of(cell.main_label)},
-          {"map_size", number(cell.map_size)},
-          {"map_texels", cell.map_texels},
-          {"map_bytes", cell.map_bytes},
-          {"raster_ms", number(cell.raster_ms)},
-          {"rays_ms", number(cell.rays_ms)},
-          {"exact_shadow_ms", number(cell.exact_shadow_ms)},
-          {"shadows_ms", shadows_json(cell.shadows)},
-          {"shadows_told", cell.shadows.told},
-          {"derived", cell.derived},
-          {"pictures", is_pictured && !pictures->second.data.empty()},
-          {"drawn", is_pictured && !pictures->second.drawing.empty()}};
+  Json json{{"cell", cell.cell},
+            {"values", std::move(values)},
+            {"shown", std::move(shown)},
+            {"no_effect", cell.no_effect},
+            {"front", on_front},
+            {"command", cell.command},
+            {"technique", cell.technique},
+            {"compared", cell.figures.pixels.compared},
+            {"error", number(cell.error())},
+            {"error_words", error_text(cell)},
+            {"mostly", label_words_of(cell.main_label)},
+            {"map_size", number(cell.map_size)},
+            {"map_texels", cell.map_texels},
+            {"map_bytes", cell.map_bytes},
+            {"raster_ms", number(cell.raster_ms)},
+            {"rays_ms", number(cell.rays_ms)},
+            {"exact_shadow_ms", number(cell.exact_shadow_ms)},
+            {"shadows_ms", shadows_json(cell.shadows)},
+            {"shadows_told", cell.shadows.told},
+            {"derived", cell.derived},
+            {"pictures", is_pictured && !pictures->second.data.empty()},
+            {"drawn", is_pictured && !pictures->second.drawing.empty()}};
+  json.update(named_figures(cell.figures, in_tables));
+  return json;
 }
 
 /// What the page's errors are: how charts and captions call them, and whether they are shares.
@@ -96,6 +105,7 @@ std::string sweep_document(const SweepPageInput& in) {
               {"configuration", Json::parse(in.header.configuration)},
               {"measure", measure_json(in.cells.front().measure())},
               {"axes", std::move(axes)},
+              {"columns", columns_json(in.cells.front())},
               {"headline", headline_json(sweep_headline(in.cells, front, in.limit))},
               {"front", std::move(best)},
               {"rays", Json::parse(ray_points_json(in.rays)).at("points")},

@@ -133,7 +133,7 @@ TEST_F(SweepProgram, CountsFlipsOfFilms) {
             "gnomon shimmer thin-wall --size 192x108 --map-size 64 --snap --frames 3 --path drift --drift "
             "0.5,0.5");
   EXPECT_NE(bytes(root / "films/sweep.csv").find("shimmer_flips_per_receiver_second"), std::string::npos);
-  EXPECT_EQ(bytes(root / "films/report.html").find("\"flips_per_second\":null"), std::string::npos);
+  EXPECT_EQ(bytes(root / "films/report.html").find("\"flips_per_receiver_second\":null"), std::string::npos);
   EXPECT_EQ(run(joined({"sweep"}, {setting, film, {"-o", folder}})), 2) << "a film's options without a film";
 }
 

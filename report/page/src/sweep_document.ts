@@ -14,11 +14,7 @@ export interface SweepCell {
   false_shadow: number;
   missed_shadow: number;
   mean_absolute: number;
-  rms: number;
-  flip: number | null;
-  ssim: number | null;
-  edge_rms_texels: number | null;
-  flips_per_second: number | null;  // per receiver; null: no film was made
+  flips_per_receiver_second: number | null;  // null: no film was made
   mostly: string;                   // the label of most wrong pixels
   map_size: number;
   map_texels: number;
@@ -59,11 +55,19 @@ export interface Configuration {
   exposure?: number | null;
 }
 
+/** A figure that the table of cells has a column of (compare/result/figures.cpp). */
+export interface FigureColumn {
+  key: string;  // of each cell
+  head: string;
+  form: "count" | "percent" | "number";
+}
+
 export interface SweepResult {
   version: string;
   configuration: Configuration;
   measure: { name: string; words: string; shares: boolean };
   axes: string[];
+  columns: FigureColumn[];
   headline: { title: string; cell: number | null; setting: string; figures: string }[];
   front: number[];  // cells worth having, cheapest first
   cells: SweepCell[];
@@ -74,7 +78,7 @@ export interface SweepResult {
 /** "map_size": a key of the result; in words: "map size". */
 export const inWords = (axis: string): string => axis.replaceAll("_", " ");
 
-export const isFilmed = (cell: SweepCell): boolean => cell.flips_per_second !== null;
+export const isFilmed = (cell: SweepCell): boolean => cell.flips_per_receiver_second !== null;
 
 /** "map size 64, bias 0.05" */
 export const settingWords = (axes: string[], cell: SweepCell): string => axes.map((axis, k) => `${inWords(axis)} ${cell.shown[k]}`).join(", ") || "the only cell";

@@ -82,13 +82,15 @@ interface Column {
 }
 const column = (name: string, value: Column["value"], text: (value: number) => string): Column => ({ name, value, text: (_, v) => text(v) });
 
-function columns(first: SweepCell): [before: Column[], after: Column[]] {
+const forms = { count: grouped, percent, number: plainNumber };
+
+// The figures, those of pixels that are wrong before the rest, and then what it costs.
+function columns(result: SweepResult): [before: Column[], after: Column[]] {
+  const figures = result.columns.map(({ key, head, form }) => column(head, (c) => (c as unknown as Record<string, number | null>)[key]!, forms[form]));
+  const kinds = result.columns.findIndex(({ form }, k) => form === "count" && result.columns[k + 1]?.form !== "count") + 1;
   return [
-    [...(isFilmed(first) ? [column("flips per receiver and second", (c) => c.flips_per_second, plainNumber)] : []), column("wrong", (c) => c.wrong_fraction, percent),
-      column("false shadow", (c) => c.false_shadow, grouped), column("missed shadow", (c) => c.missed_shadow, grouped)],
-    [column("mean error", (c) => c.mean_absolute, percent), column("RMS error", (c) => c.rms, plainNumber),
-      ...(first.flip === null ? [] : [column("FLIP", (c) => c.flip, plainNumber), column("SSIM", (c) => c.ssim, plainNumber)]),
-      column("edge error, texels", (c) => c.edge_rms_texels, plainNumber), column("time", (c) => c.raster_ms, milliseconds),
+    figures.slice(0, kinds),
+    [...figures.slice(kinds), column("time", (c) => c.raster_ms, milliseconds),
       { name: "shadows alone", value: ({ shadows_ms }) => shadows_ms[1] ?? null, text: ({ shadows_ms, shadows_told: told }) => {
         const [low, median, high] = shadows_ms as [number, number, number];
         return timeDifference({ low, median, high, told });
@@ -97,8 +99,8 @@ function columns(first: SweepCell): [before: Column[], after: Column[]] {
   ];
 }
 
-function cellTable({ axes, cells }: SweepResult): Markup {
-  const [before, after] = columns(cells[0]!), head = (name: string, words = false): Markup => markup`<th scope="col"${!words && markup` class="n"`}>${name}</th>`;
+function cellTable(result: SweepResult): Markup {
+  const { axes, cells } = result, [before, after] = columns(result), head = (name: string, words = false): Markup => markup`<th scope="col"${!words && markup` class="n"`}>${name}</th>`;
   const number = (cell: SweepCell) => ({ value, text }: Column): Markup => {
     const v = value(cell);
     return markup`<td class="n" data-sort="${v}">${v === null ? "–" : text(cell, v)}</td>`;
