@@ -14,7 +14,6 @@
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
-#include "compare/result/palette.h"
 #include "compare/result/shadow_cost.h"
 #include "compare/result/verdict.h"
 #include "report/html.h"
@@ -27,22 +26,6 @@ using Json = nlohmann::ordered_json;
 
 std::string hex(const glm::u8vec3& colour) {
   return hex_colour(colour.r, colour.g, colour.b);
-}
-
-Json colour_facts() {
-  return {{"false_shadow", hex(false_shadow_colour)},
-          {"missed_shadow", hex(missed_shadow_colour)},
-          {"surely_lit", hex(surely_lit_colour)},
-          {"surely_shadowed", hex(surely_shadowed_colour)},
-          {"traced", hex(traced_colour)}};
-}
-
-/// Evenly spaced, from far to near.
-Json viridis_facts() {
-  constexpr int stops = 8;
-  Json colours = Json::array();
-  for (int i = 0; i <= stops; ++i) colours.push_back(hex(viridis(double(i) / stops)));
-  return colours;
 }
 
 /// Returns the lessons that the page shows: of the errors that occur, and of its own parts.
@@ -145,9 +128,7 @@ Json report_facts(const PageInput& in) {
   const Comparison& c = in.comparison;
   Json lights = Json::array();
   for (std::size_t i = 0; i < c.lights.size(); ++i) lights.push_back(light_facts(in, i));
-  Json facts{{"colours", colour_facts()},
-             {"viridis", viridis_facts()},
-             {"lessons", lesson_facts(c)},
+  Json facts{{"lessons", lesson_facts(c)},
              {"map", map_words(c)},
              {"bias_parts", bias_parts(c.raster.options.map.bias)},
              {"compares_depths", compares_depths(c)},

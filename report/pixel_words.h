@@ -1,5 +1,6 @@
 // One pixel's story in words: what the map stores there, what the test makes of it, and which step made it wrong. The
-// report page's script tells the same story (twin: page/src/words.ts), from the same phrases (phrases.json).
+// choice of the words stands in phrases.json, from which the report page's script tells the same story: both say only what
+// holds of a pixel, and its numbers.
 #pragma once
 
 #include <array>

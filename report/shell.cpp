@@ -1,9 +1,10 @@
 #include "report/shell.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <embedded/report.h>
 
+#include "compare/result/palette.h"
 #include "report/html.h"
 
 namespace gnomon::compare {
@@ -33,10 +34,25 @@ Template page_template(std::string_view name) {
 constexpr std::string_view data_file_head = "(globalThis.gnomonFiles=globalThis.gnomonFiles||{})",
                            data_file_value = "]=";
 
+/// Writes the fixed colours and scales as JSON: colours by name, the stops of scales evenly spaced from 0 to 1.
+std::string palette_json() {
+  const auto quoted = [](const glm::u8vec3& c) { return fmt::format("\"{}\"", hex_colour(c.r, c.g, c.b)); };
+  const auto stops = [&](glm::u8vec3 (*scale)(double)) {
+    std::vector<std::string> list;
+    for (int i = 0; i <= 8; ++i) list.push_back(quoted(scale(i / 8.0)));
+    return fmt::format("[{}]", fmt::join(list, ","));
+  };
+  return fmt::format(
+      R"({{"false_shadow":{},"missed_shadow":{},"surely_lit":{},"surely_shadowed":{},"traced":{},"viridis":{},"magma":{}}})",
+      quoted(false_shadow_colour), quoted(missed_shadow_colour), quoted(surely_lit_colour),
+      quoted(surely_shadowed_colour), quoted(traced_colour), stops(viridis), stops(magma));
+}
+
 // The data with its parts, which are large, or with the folder that holds them.
 void append_data(std::string& html, const PageShell& shell) {
   append_script_safe(html, std::string_view(shell.data).substr(0, shell.data.rfind('}')));
   html += shell.data.find(':') == std::string::npos ? "" : ",";
+  html += "\"palette\":" + palette_json() + ",";
   if (shell.beside) return append_script_safe(html, fmt::format("\"folder\":\"{}\"}}", shell.folder));
   html += "\"parts\":{";
   for (std::size_t i = 0; i < shell.parts.size(); ++i) {

@@ -36,7 +36,7 @@ struct PageShell {
   std::vector<PagePicture> pictures{};  ///< the same
   std::vector<PageLink> saved{};        ///< the same
   std::string result;           ///< JSON text that other programs know, under id "result"; may be empty
-  std::string data;             ///< JSON object that the script reads
+  std::string data;             ///< JSON object that the script reads; the palette is added to it
   std::vector<DataPart> parts;  ///< added to it
   bool beside = false;          ///< the parts go into files
   std::string folder = "report-data";    ///< of these files

@@ -31,7 +31,7 @@ int size_at_memory(const Attempt& attempt, const std::vector<int>& sizes, std::u
 Expected<Attempt> attempt_at(Engine& engine, const Setting& base, const TuneFamily& family, Attempt attempt,
                              const TuneGoal& goal);
 
-/// The page, one file without scripts. Each candidate is drawn, compared and, where the engine films, filmed.
+/// Returns the page, one file. Each candidate is drawn, compared and, where the engine films, filmed.
 Expected<std::string> tune_sheet(Engine& engine, const SheetInput& input);
 
 }  // namespace gnomon::compare

@@ -129,20 +129,22 @@ TEST_F(TuneProgram, WritesASheetToPrint) {
                  "--map-size", "64:256:x2", "--runs", "3", "--engine", "godot", "-o", out}),
             0)
       << said();
-  const std::string sheet = bytes(out + "/sheet.html");
-  const auto count = [&](std::string_view part) {
-    std::size_t n = 0;
-    for (std::size_t at = sheet.find(part); at != std::string::npos; at = sheet.find(part, at + 1)) ++n;
-    return n;
-  };
-  EXPECT_EQ(count("<section>"), 2u);
-  EXPECT_EQ(count("★"), 1u);
-  EXPECT_EQ(count("data:image/png"), 4u);
-  EXPECT_EQ(count("flips per receiver and second"), 2u);
-  EXPECT_EQ(count("median of 3"), 2u);
-  EXPECT_EQ(count("<code>gnomon compare floating-box"), 2u);
-  EXPECT_GT(count("<li>Godot"), 0u);
-  EXPECT_EQ(count("<script"), 0u);
+  const std::string sheet = bytes(out + "/sheet.html"), mark = "id=\"result\">";
+  const std::size_t start = sheet.find(mark) + mark.size();
+  const nlohmann::json document =
+      nlohmann::json::parse(sheet.substr(start, sheet.find("</script>", start) - start));
+  ASSERT_EQ(document["candidates"].size(), 2u);
+  for (const auto& candidate : document["candidates"]) {
+    const std::string rows = candidate["rows"].dump();
+    for (const char* part :
+         {"of the truth is open", "flips per receiver and second", "median of 3", "taps", "texels drawn"})
+      EXPECT_NE(rows.find(part), std::string::npos) << part << " in " << rows;
+    EXPECT_TRUE(candidate["command"].get<std::string>().starts_with("gnomon compare floating-box"));
+    ASSERT_FALSE(candidate["units"].empty());
+    for (const auto& unit : candidate["units"]) EXPECT_EQ(unit["engine"], "Godot");
+  }
+  for (const char* name : {"drawn-0", "truth-0", "drawn-1", "truth-1"})
+    EXPECT_NE(sheet.find(std::string("data-picture=\"") + name), std::string::npos) << name;
   const nlohmann::json result = nlohmann::json::parse(bytes(out + "/result.json"));
   EXPECT_FALSE(result["lights"][0].contains("shimmer")) << "the page is of the answer alone";
 }

@@ -1,11 +1,11 @@
 // One cell of a sweep in pictures: its labels as codes (studies/sweep/engine.h), the ray-traced picture that it is
 // compared with, and its drawing where it was drawn.
-import { falseShadow, missedShadow, type Rgb } from "./colour_maps";
+import { falseShadow, missedShadow, rgbOf, type Rgb } from "./colour_maps";
 import { wordsOf } from "./data";
 import type { SweepCell } from "./sweep_document";
 import { unpack, type Packed } from "./packed";
 import { isBeside, pageData, part } from "./parts";
-import { isolatedLabel, painted, rgbOf } from "./pictures";
+import { isolatedLabel, painted } from "./pictures";
 
 const nameOf = (cell: number): string => `cell-${String(cell).padStart(6, "0")}`;
 

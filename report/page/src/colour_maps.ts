@@ -1,12 +1,12 @@
-// The fixed scales of the pictures that show numbers (the twins of compare/result/palette.cpp), each with its legend.
+// The fixed scales of the pictures that show numbers, each with its legend; their colours are the program's.
+import { palette } from "./parts";
 import { html } from "./svg";
 
 export type Rgb = readonly [number, number, number];
-export const falseShadow: Rgb = [213, 94, 0], missedShadow: Rgb = [86, 180, 233];
+export const rgbOf = (colour: string): Rgb => [1, 3, 5].map((k) => parseInt(colour.slice(k, k + 2), 16)) as unknown as Rgb;
+export const falseShadow = rgbOf(palette.false_shadow), missedShadow = rgbOf(palette.missed_shadow);
 
-// Nine evenly spaced entries of matplotlib's magma.
-const magmaStops: Rgb[] = [[0, 0, 4], [29, 17, 71], [81, 18, 124], [130, 38, 129], [182, 54, 121], [230, 81, 100], [251, 136, 97],
-  [254, 194, 135], [252, 253, 191]];
+const magmaStops = palette.magma.map(rgbOf);
 
 /** Dark: no error; pale: 1. */
 export function magma(t: number): Rgb {

@@ -2,6 +2,7 @@
 import { beyondRounding, keyed, keyedCount, keyedDecrease, keyedSigned, keyedThings } from "./document";
 import { picture, pictureNamed } from "./frame";
 import { byteCount, grouped, milliseconds, percent, plainNumber, signedNumber, unsignedNumber } from "./number_text";
+import { palette } from "./parts";
 import { facts, lacksMap, lessonDetails, plain, stepName, type LightResult } from "./report_document";
 import { markup, scrollRegion, swatch, type Markup } from "./template";
 
@@ -18,9 +19,9 @@ export function hybridBlock({ map: { hybrid } }: LightResult, i: number): Markup
 <div class="columns">
 <div><table><thead><tr><td></td><th scope="col">of the pixels that the light can reach</th><th scope="col"
 class="n">pixels</th><th scope="col" class="n">share</th></tr></thead><tbody>
-${row(facts.colours.surely_lit, "surely lit", keyedCount(`${key}.surely_lit`), surely_lit)}${
-  row(facts.colours.surely_shadowed, "surely in shadow", keyedCount(`${key}.surely_shadowed`), surely_shadowed)}${
-  row(facts.colours.traced, "ambiguous: traced", grouped(traced), traced)}</tbody></table><p>${keyedCount(`${key}.rays`)} rays were cast where pure ray tracing asks for ${
+${row(palette.surely_lit, "surely lit", keyedCount(`${key}.surely_lit`), surely_lit)}${
+  row(palette.surely_shadowed, "surely in shadow", keyedCount(`${key}.surely_shadowed`), surely_shadowed)}${
+  row(palette.traced, "ambiguous: traced", grouped(traced), traced)}</tbody></table><p>${keyedCount(`${key}.rays`)} rays were cast where pure ray tracing asks for ${
   keyedCount(`${key}.all_rays`)}: ${share(rays, all_rays)}. The sheets took ${time("build")} to build and hold ${byteCount(bytes)}
 while light and scene stand still; each frame took ${time("receivers")} to find the receivers and ${time("shadow")} to decide and trace.</p>
 ${lessonDetails("hybrid")}</div>
@@ -100,7 +101,7 @@ function edgeMaps(i: number): Markup | null {
   if (!pictureNamed(`edges-${i}`)) return null;
   return markup`<div class="pair">
 <figure>${picture(`edges-${i}`)}<figcaption>How far drawn shadow edges lie from the true ones, on the band between the two. White: not
-at all. ${swatch(facts.colours.false_shadow, "+")} the drawn shadow is larger, ${swatch(facts.colours.missed_shadow, "−")} smaller; full colour from ${facts.edge_scale_texels} texels on.</figcaption></figure>
+at all. ${swatch(palette.false_shadow, "+")} the drawn shadow is larger, ${swatch(palette.missed_shadow, "−")} smaller; full colour from ${facts.edge_scale_texels} texels on.</figcaption></figure>
 <figure>${picture(`detachment-${i}`)}<figcaption>How far shadows stand off what casts them: black not at all, pale yellow ${facts.detachment_scale_texels} texels or
 more.</figcaption></figure>
 </div>
@@ -129,7 +130,7 @@ ${edgeMaps(i)}`;
 
 /** Viridis from far (left) to near (right). */
 const depthScale = (id: string): Markup => markup`<svg class="scale" viewBox="0 0 200 12" preserveAspectRatio="none" aria-hidden="true"
-focusable="false"><defs><linearGradient id="${id}">${facts.viridis.map((colour, k) => markup`<stop offset="${k / 8}" stop-color="${colour}"/>`)}</linearGradient></defs><rect width="200"
+focusable="false"><defs><linearGradient id="${id}">${palette.viridis.map((colour, k) => markup`<stop offset="${k / 8}" stop-color="${colour}"/>`)}</linearGradient></defs><rect width="200"
 height="12" fill="url(#${id})"/></svg>`;
 
 export function depthMapBlock({ map }: LightResult, i: number): Markup | null {

@@ -6,6 +6,7 @@ import { depthMapBlock, factsBlock, hybridBlock, ladderBlock } from "./light_num
 import { grouped, percent, plainNumber } from "./number_text";
 import { labelFigure, labelledLight } from "./overview_section";
 import { facts, lessonDetails, result, shareOf, type LabelFacts, type LightResult } from "./report_document";
+import { palette } from "./parts";
 import { flowing, markup, swatch, type Markup } from "./template";
 import { viewerBlock } from "./viewer_block";
 
@@ -21,8 +22,8 @@ in every picture.`, true);
 }
 
 const differenceFigure = (i: number): Markup => markup`<figure>${picture(`difference-${i}`, `picture-difference-${i}`)}<figcaption>${
-  swatch(facts.colours.false_shadow, "−")} <b>False shadow</b>: drawn dark, truly lit, ${keyedThings(`lights.${i}.error.false_shadow`, "pixel")}. ${
-  swatch(facts.colours.missed_shadow, "+")} <b>Missed shadow</b>: drawn lit, truly dark, ${keyedThings(`lights.${i}.error.missed_shadow`, "pixel")}.</figcaption></figure>\n`;
+  swatch(palette.false_shadow, "−")} <b>False shadow</b>: drawn dark, truly lit, ${keyedThings(`lights.${i}.error.false_shadow`, "pixel")}. ${
+  swatch(palette.missed_shadow, "+")} <b>Missed shadow</b>: drawn lit, truly dark, ${keyedThings(`lights.${i}.error.missed_shadow`, "pixel")}.</figcaption></figure>\n`;
 
 /** The errors that occur, those with most of the mean error first. */
 const occurring = ({ classes, class_errors: errors }: LightResult): LabelFacts[] =>

@@ -5,11 +5,12 @@ import "./report.css";
 import { startComparison } from "./compare_page";
 import { startJudged } from "./judged_page";
 import { pageKind } from "./parts";
+import { startSheet } from "./sheet_page";
 import { startShimmer } from "./shimmer_page";
 import { startSweep } from "./sweep_page";
 
 async function start(): Promise<void> {
-  await { compare: startComparison, judged: startJudged, shimmer: startShimmer, sweep: startSweep }[pageKind]();
+  await { compare: startComparison, judged: startJudged, sheet: startSheet, shimmer: startShimmer, sweep: startSweep }[pageKind]();
   document.documentElement.dataset.ready = "true";
 }
 void start();

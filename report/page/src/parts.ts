@@ -1,16 +1,24 @@
 // The large parts of the page's data: in the page itself, or in files beside it. A page from disk may fetch nothing, so
 // that these files are scripts that leave their value in gnomonFiles (../../shell.h).
 
+/** The fixed colours and scales of all pictures (compare/result/palette.h), as "#d55e00"; nine stops of each scale. */
+export interface Palette extends Record<"false_shadow" | "missed_shadow" | "surely_lit" | "surely_shadowed" | "traced", string> {
+  viridis: string[];
+  magma: string[];
+}
+
 interface Parted {
-  kind: "compare" | "judged" | "shimmer" | "sweep";
+  kind: "compare" | "judged" | "sheet" | "shimmer" | "sweep";
   parts?: Record<string, unknown>;
   folder?: string;
+  palette: Palette;
 }
 
 const data = JSON.parse(document.getElementById("page-data")!.textContent!) as Parted;
 
 /** What the page's data says beside its parts. */
 export const pageData = <T>(): T => data as unknown as T;
+export const palette = data.palette;
 export const pageKind = data.kind;
 /** The parts are files beside the page. */
 export const isBeside = data.folder !== undefined;

@@ -1,5 +1,5 @@
 // Pictures drawn from the pixels' numbers. Fixed scales: the same colours mean the same in every picture.
-import { falseShadow, magma, missedShadow, type Rgb } from "./colour_maps";
+import { falseShadow, magma, missedShadow, rgbOf, type Rgb } from "./colour_maps";
 import { page, wordsOf, type Light, type Pixels } from "./data";
 import { exposed } from "./linear";
 
@@ -7,7 +7,6 @@ export const byId = (id: string): HTMLImageElement | null => document.getElement
 
 export const hex = (colour: ArrayLike<number>): string =>
   "#" + [0, 1, 2].map((k) => colour[k]!.toString(16).padStart(2, "0")).join("");
-export const rgbOf = (colour: string): Rgb => [1, 3, 5].map((k) => parseInt(colour.slice(k, k + 2), 16)) as unknown as Rgb;
 
 export function dataUrl(pixels: ImageData): string {
   const canvas = document.createElement("canvas");

@@ -122,8 +122,6 @@ interface LightFacts {
 export interface Facts {
   labels: LabelFacts[];
   rungs: { symbol: string; name: string; what: string; step?: string }[];
-  colours: Record<"false_shadow" | "missed_shadow" | "surely_lit" | "surely_shadowed" | "traced", string>;
-  viridis: string[];
   lessons: Record<string, LessonFacts>;
   map: string;            // what shadows are drawn with
   bias_parts: string[];   // beside the constant

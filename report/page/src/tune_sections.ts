@@ -164,6 +164,6 @@ those that no other beats in both, the large point is the answer.</figcaption></
 ${familyTable(tune)}${biases && markup`<h3>How the error depends on the bias</h3>
 <figure>${scrollRegion("Wrong pixels against the bias of each kind", biases)}<figcaption>At most six kinds: of those that are good enough the cheapest, then the nearest. Each at the
 map size of its row above; a dot marks the best constant bias. Texels of the one map are not as wide as those of another.</figcaption></figure>
-`}<p>What follows is the comparison at that answer.</p></section>
+`}<p>The answer and its rivals on <a href="sheet.html">one page to print</a>. What follows is the comparison at that answer.</p></section>
 `;
 }
