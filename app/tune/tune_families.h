@@ -28,7 +28,7 @@ bool is_given(const OptionValues& fixed, const compare::Grid& grid, const std::s
 
 /// Every technique, with each kind of bias that goes with it, unless `options` say which; `filmed`: with the bias that
 /// each has anyway, snapped and not. Errors are ErrorKind::usage.
-/// Of one engine only what it draws.
+/// An engine that is named leaves what it draws.
 Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, bool filmed = false,
                                                   const compare::TunedEngine* engine = nullptr);
 

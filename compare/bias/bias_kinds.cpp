@@ -53,7 +53,7 @@ double gap_per_caster_slope(const raster::LightRecord& record, const raster::Map
   return (moved - record.caster_constant_world * texels) / drawn.bias.caster_slope;
 }
 
-/// Whose map has no bias in it: on another renderer's map, too, Gnomon's own kinds are tried.
+/// Returns the record with a map that has no bias in it: on another renderer's map, too, Gnomon's own kinds are tried.
 std::optional<raster::LightRecord> record_to_try(const raster::LightRecord& record) {
   if (!record.captured && record.map.unbiased.empty()) return std::nullopt;
   raster::LightRecord own = record;

@@ -30,7 +30,7 @@ double true_average(const LowerClimb& lower, const LadderInput& input, std::size
 std::string_view filter_kind(const raster::MapOptions& map);
 
 /// How far from the receiver's place the filter can read, texels: half the width of its square; 0 for none.
-/// Of pcss, the most. `level`: the mipmap level that is read; a texel of it averages 2^level, rounded up,
+/// For pcss that is the most it can be. `level`: the mipmap level that is read; a texel of it averages 2^level, rounded up,
 /// texels on a side, and its neighbours are read too.
 double filter_reach_texels(const raster::MapOptions& map, double level = 0.0);
 

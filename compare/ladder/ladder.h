@@ -84,4 +84,9 @@ bool is_off_at(const std::array<float, rung_count>& rungs, std::size_t k);
 /// and is taken away again, is not what it lacks.
 Cause deciding_step(const std::array<float, rung_count>& rungs);
 
+// The shadow terminator: where a mesh's triangle and the smooth normal that shades it do not agree on whether they face the
+// light. Both renderers let the triangle decide, so that none of it is an error of the map.
+/// Counts under the light's centre; docs/labels.md has the definition. Nothing where no mesh has normals of its own.
+TerminatorCount count_terminator(const LadderInput& in, const Image<Label>& labels);
+
 }  // namespace gnomon::compare

@@ -1,4 +1,4 @@
-#include "compare/ladder/terminator.h"
+#include "compare/ladder/ladder.h"
 
 #include "raytrace/shading/smooth_surface.h"
 #include "scene/base/parallel.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/ladder/terminator.h"
+#include "compare/ladder/ladder.h"
 #include "compare/measure/run_all.h"
 #include "compare/metrics/flip.h"
 #include "compare/metrics/ssim.h"

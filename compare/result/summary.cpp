@@ -13,8 +13,7 @@
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
-#include "compare/result/shadow_cost.h"
-#include "compare/result/text_layout.h"
+#include "compare/result/summary_page.h"
 #include "compare/result/verdict.h"
 #include "compare/result/views.h"
 #include "scene/base/expected.h"
@@ -23,46 +22,6 @@
 
 namespace gnomon::compare {
 namespace {
-
-constexpr std::size_t columns = 80;
-constexpr std::size_t field_column = 12;  // where the values begin
-
-class Page {
- public:
-  explicit Page(bool colour) : colour_(colour) {}
-
-  void heading(std::string_view text) {
-    for (const std::string& part : wrapped(one_line(text), columns)) text_ += styled("1", part) + '\n';
-  }
-  void paragraph(std::string_view text) {
-    for (const std::string& part : wrapped(text, columns - 2)) text_ += "  " + part + '\n';
-  }
-  void line(std::string_view text) {
-    for (const std::string& part : wrapped(one_line(text), columns)) text_ += part + '\n';
-  }
-  // A name and its value; longer values go on below the first.
-  void field(std::string_view name, std::string_view value) {
-    std::string label = right_padded(name, field_column - 2);
-    for (const std::string& part : wrapped(one_line(value), columns - field_column)) {
-      text_ += "  " + styled("2", label) + part + '\n';
-      label = std::string(field_column - 2, ' ');
-    }
-  }
-  void blank() { text_ += '\n'; }
-  std::string take() { return std::move(text_); }
-
- private:
-  std::string styled(std::string_view code, const std::string& text) const {
-    return colour_ ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : text;
-  }
-  bool colour_;
-  std::string text_;
-};
-
-// "1 shape", "1,024 triangles".
-std::string counted(std::uint64_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
-}
 
 std::string map_line(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
@@ -199,12 +158,8 @@ std::string budget_line(const Comparison& c, const LightComparison& light) {
   return text + "sum " + signed_number(beyond_rounding(sum, sizes));
 }
 
-std::string median_text(const Times& t) {
-  return milliseconds(t.runs.empty() ? -1.0 : t.median());
-}
-
 // The closed forms beside what was found.
-void add_theory(Page& page, const TheoryStats& t) {
+void add_theory(SummaryPage& page, const TheoryStats& t) {
   page.field("theory",
              fmt::format("half the pixels need a bias below {} against acne, 99 % below {}",
                          plain_number(t.acne_free_bias.median), plain_number(t.acne_free_bias.p99)));
@@ -216,7 +171,7 @@ void add_theory(Page& page, const TheoryStats& t) {
 }
 
 // What moments let through inside shadows, as a part of the filter step.
-void add_bleeding(Page& page, const Comparison& c, const LightComparison& light) {
+void add_bleeding(SummaryPage& page, const Comparison& c, const LightComparison& light) {
   if (!raster::uses_moments(c.raster.options.map.technique)) return;
   const BleedingStats& b = light.bleeding;
   page.field("bleeding",
@@ -225,7 +180,7 @@ void add_bleeding(Page& page, const Comparison& c, const LightComparison& light)
 }
 
 // What the truth of a light with size is known by, and median widths across shadow edges.
-void add_penumbra(Page& page, const PenumbraStats& p, int samples) {
+void add_penumbra(SummaryPage& page, const PenumbraStats& p, int samples) {
   const std::string error =
       samples == 1 ? "how far off one is cannot be told"
                    : fmt::format("where a part of it is seen its standard error is {}, at most {}",
@@ -244,85 +199,7 @@ void add_penumbra(Page& page, const PenumbraStats& p, int samples) {
                          counted(p.umbra_edges, "edge")));
 }
 
-// What the exact shadow took, and of what.
-std::string exact_shadows_line(const raytrace::LightTruth& truth) {
-  std::string text = fmt::format("exact shadows: {} for {} ray{}", median_text(truth.exact_times()),
-                                 grouped(truth.exact_rays()), truth.exact_rays() == 1 ? "" : "s");
-  if (!truth.is_soft()) return text;
-  return text + fmt::format(", of {} samples asked for ({} a receiver); and {} to the light's centre",
-                            grouped(truth.soft_rays_asked), truth.samples, median_text(truth.shadow_rays));
-}
-
-// What is left of the shading when the picture without shadows is taken from it.
-std::string lookups_text(const TimeDifference& lookups, bool hybrid) {
-  if (!lookups.timed()) return "lookups not timed";
-  return milliseconds(lookups) + (hybrid ? " for the rest" : " to look it up") +
-         (lookups.told ? "" : ", which these runs do not tell from nothing");
-}
-
-// The shadows' part of a frame on both sides, and of one in which nothing that the light sees has moved.
-void add_shadow_cost(Page& page, const Comparison& c, const LightComparison& light) {
-  const raster::LightRecord& drawn = drawn_record(c, light);
-  const raytrace::LightTruth& truth = true_record(c, light);
-  if (drawn.unshadowed_pass.runs.empty()) return;
-  const TimeDifference lookups = shadow_lookups(drawn);
-  const bool hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
-  page.field("shadows", fmt::format("without the picture: {} for the {}, {}; by rays {}, with nothing made "
-                                    "for the light",
-                                    median_text(drawn.map_pass), hybrid ? "sheets" : "map",
-                                    lookups_text(lookups, hybrid), median_text(standing_rays(truth))));
-  page.field("", fmt::format("where light and casters stand still: {} against {}", milliseconds(lookups),
-                             median_text(standing_rays(truth))));
-  page.field("picture",
-             fmt::format("without shadows: {} to shade it, {} for primary rays",
-                         median_text(drawn.unshadowed_pass), median_text(c.raytraced.primary_rays)));
-}
-
-// What does not depend on the machine.
-std::string work_line(const Comparison& c, const LightComparison& light) {
-  const raytrace::LightTruth& truth = true_record(c, light);
-  std::string text = counted(drawn_record(c, light).map_texels, "texel") + " drawn";
-  if (light.lookups)
-    text += fmt::format(", {} looked up ({} a pixel)", grouped(*light.lookups),
-                        plain_number(static_cast<double>(*light.lookups) /
-                                     static_cast<double>(std::max<std::uint64_t>(light.pixels.compared, 1))));
-  text += "; " + counted(truth.exact_rays(), "ray");
-  const RayWork& work = light.ray_work;
-  if (work.rays > 0)
-    text += fmt::format(", {} boxes and {} primitives tested for one (of {} through the tree)",
-                        plain_number(static_cast<double>(work.boxes) / static_cast<double>(work.rays)),
-                        plain_number(static_cast<double>(work.primitives) / static_cast<double>(work.rays)),
-                        grouped(work.rays));
-  return text;
-}
-
-// What the time bought: an approximation by the map, or the exact answer by rays.
-void add_times(Page& page, const Comparison& c, const LightComparison& light) {
-  const raster::LightRecord& drawn = drawn_record(c, light);
-  if (!c.judged)
-    page.field("time", fmt::format("the map: {}, and {} to shade the picture with it",
-                                   median_text(drawn.map_pass), median_text(drawn.shade_pass)));
-  page.field(c.judged ? "time" : "", exact_shadows_line(true_record(c, light)));
-  add_shadow_cost(page, c, light);
-  if (!c.judged) page.field("work", work_line(c, light));
-}
-
-// What comes before the first frame, and what only the comparison needs.
-void add_once(Page& page, const Comparison& c) {
-  double first_map = 0.0;
-  for (const LightComparison& light : c.lights) first_map += drawn_record(c, light).first_map_ms;
-  page.field(
-      "once",
-      fmt::format("{} to upload the scene, {} to make memory for the maps and draw them first; "
-                  "{} to build the tracer's hierarchy",
-                  milliseconds(c.raster.upload_ms), first_map > 0.0 ? milliseconds(first_map) : "not timed",
-                  milliseconds(c.accel_build_ms)));
-  page.field("", fmt::format("for the comparison alone: {} to join triangles, {} to read back",
-                             milliseconds(c.topology_ms), milliseconds(c.raster.read_back_ms)));
-  if (is_software(c.raster.context)) page.field("", std::string(software_note));
-}
-
-void add_light(Page& page, const Comparison& c, const LightComparison& light) {
+void add_light(SummaryPage& page, const Comparison& c, const LightComparison& light) {
   page.blank();
   page.heading(
       fmt::format("light '{}' ({})", light_of(c, light).name, light_type_name(light_of(c, light).type)));
@@ -363,7 +240,7 @@ std::string whose(const Comparison& c, const LightComparison& light) {
   return c.lights.size() > 1 ? light_of(c, light).name + ": " : std::string();
 }
 
-void add_figures_in_short(Page& page, const Comparison& c, const LightComparison& light) {
+void add_figures_in_short(SummaryPage& page, const Comparison& c, const LightComparison& light) {
   page.blank();
   if (c.lights.size() > 1) page.paragraph(one_line(light_of(c, light).name));
   page.field("map", map_line(c, light));
@@ -374,19 +251,13 @@ void add_figures_in_short(Page& page, const Comparison& c, const LightComparison
     page.field("labels", labels_line(light));
   }
   if (shows_facets(light)) page.field("facets", terminator_line(light.terminator));
-  const raster::LightRecord& drawn = drawn_record(c, light);
-  const std::string exact = exact_shadows_line(true_record(c, light));
-  if (c.judged || drawn.unshadowed_pass.runs.empty()) return page.field("time", exact);
-  const bool hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
-  page.field("time", fmt::format("shadows by the {}: {}, and {}", hybrid ? "hybrid" : "map",
-                                 median_text(drawn.map_pass), lookups_text(shadow_lookups(drawn), hybrid)));
-  page.field("", exact);
+  add_time_in_short(page, c, light);
 }
 
 }  // namespace
 
 std::string summary_in_short(const Comparison& c, std::string_view place, bool colour) {
-  Page page(colour);
+  SummaryPage page(colour);
   for (const LightComparison& light : c.lights) {
     const Verdict verdict = verdict_on(c, light);
     page.heading(whose(c, light) + joined_sentences({verdict.error, verdict.uncertain}));
@@ -405,7 +276,7 @@ std::string summary_in_short(const Comparison& c, std::string_view place, bool c
 }
 
 std::string summary_table(const Comparison& c, bool colour) {
-  Page page(colour);
+  SummaryPage page(colour);
   const ImageSize size = c.raster.options.size;
   page.heading(fmt::format("{}: {} x {} pixels, {}, {}", c.world->scene->name, size.width, size.height,
                            counted(c.world->triangle_count(), "triangle"),

@@ -16,8 +16,9 @@ std::string threshold_text(const Threshold& t) {
 }
 
 std::string threshold_range(bool filmed) {
-  std::string text = fmt::format("of --measure; without it a share for wrong pixels and mean error both, such as {}, or ",
-                                 wrong_and_mean().measure.example);
+  std::string text =
+      fmt::format("of --measure; without it a share for wrong pixels and mean error both, such as {}, or ",
+                  wrong_and_mean().measure.example);
   std::string_view between;
   for (const bool film : {false, true})
     for (const Figure& figure : figures()) {

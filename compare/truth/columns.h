@@ -58,7 +58,7 @@ std::optional<raytrace::Hit> first_on_ray(const raytrace::Tracer& tracer, const 
   return found;
 }
 
-/// Of any map of the light's, of which texel (column, row) of a face is asked for.
+/// Traces the centre of texel (column, row) of a face, in any map of the light's.
 TexelCentre trace_centre(const raytrace::Tracer& tracer, const LightView& view, int face, int column,
                          int row);
 TexelCentre trace_centre(const LadderInput& input, raytrace::TexelKey key);

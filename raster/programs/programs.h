@@ -46,7 +46,7 @@ struct SceneFeatures {
 };
 SceneFeatures scene_features(const EffectPlan& plan, const World& world);
 
-/// Of a map's casters (Bias).
+/// What a map's casters are moved by (Bias).
 struct CasterBias {
   double constant_world = 0.0, slope = 0.0;
   double texel_world =
@@ -76,7 +76,7 @@ class TriangleProgram : public Program {
   void set_reference(const Vec3& reference) const;
   /// Sets, for a program that peels, the face of the first layer, and a step of its number format.
   void set_peel(int face, float step) const;
-  /// Of a program with the casters' bias: the face that is drawn.
+  /// Sets, for a program with the casters' bias, that bias and the face that is drawn.
   void set_caster_bias(const CasterBias& bias, int face) const;
 
  private:

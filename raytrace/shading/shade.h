@@ -19,6 +19,7 @@
 #include "raytrace/shading/light_samples.h"
 #include "raytrace/shading/light_shaft.h"
 #include "raytrace/shading/microfacet.h"
+#include "raytrace/shading/path_kind.h"
 #include "raytrace/shading/smooth_surface.h"
 #include "raytrace/shapes/mask_cells.h"
 #include "scene/light.h"
@@ -44,66 +45,6 @@ inline Vec3f blinn_phong(const LightAtPoint& light, const Vec3& normal, const Ve
   }
   return radiance * light.irradiance;
 }
-
-enum class Secondary : std::uint8_t { none, mirror, glass };
-
-/// What a path may do.
-template <Secondary secondary>
-struct PathKind {
-  static constexpr bool reflects = secondary != Secondary::none;
-  static constexpr bool refracts = secondary == Secondary::glass;
-};
-
-/// The other effects that the scene calls for.
-struct ShadedEffects {
-  explicit ShadedEffects(const EffectPlan& plan)
-      : textures(plan.simulates(Effect::textures)),
-        specular(plan.simulates(Effect::specular)),
-        soft(plan.simulates(Effect::soft_shadow)),
-        glossy(plan.simulates(Effect::glossy)),
-        absorbs(plan.simulates(Effect::absorption)),
-        indirect(plan.simulates(Effect::indirect_light)),
-        vertex_colors(plan.simulates(Effect::vertex_colors)) {}
-  bool textures, specular;
-  bool soft;      ///< some light has a size
-  bool glossy;    ///< some mirror or glass is rough
-  bool absorbs;   ///< some glass takes light on the way through it
-  bool indirect;  ///< the scene asks for it
-  bool vertex_colors;
-};
-
-/// Where there is no glass there is nothing to be inside of.
-struct NoGlass {};
-
-/// What a ray has hit on its way into the recursion.
-template <class Kind>
-struct PathOf {
-  using Inside = std::conditional_t<Kind::refracts, Interior, NoGlass>;
-  Vec3 direction;                         ///< unit
-  int depth = 0;                          ///< 0: from the eye
-  double weight = 1.0;                    ///< share of the pixel
-  int siblings = 1;                       ///< paths that share the pixel's samples with this one
-  bool gathers = false;                   ///< has left a point to gather indirect light
-  [[no_unique_address]] Inside inside{};  ///< the glass that the ray runs in
-};
-
-struct UnstoredReceivers;
-
-/// What all pixels of a picture have in common.
-struct PictureInput {
-  const Tracer& tracer;
-  const View& view;
-  const RaytraceOptions& options;
-  const ShadedEffects effects;
-  Interior eye{};                               ///< the glass that the camera is in
-  const UnstoredReceivers* unstored = nullptr;  ///< where the frame stores no receivers of pixel centres
-  int first_row = 0;                            ///< of the view's picture; options.size begins there
-
-  /// The number of the first pixel in the view's picture.
-  std::size_t first_pixel() const {
-    return static_cast<std::size_t>(first_row) * static_cast<std::size_t>(view.size.width);
-  }
-};
 
 template <class Kind>
 class Shader {

@@ -30,39 +30,6 @@ std::array<LightFace, 6> cube_faces() {
           face({0, -1, 0}, {0, 0, 1}), face({0, 0, 1}, {0, 1, 0}),  face({0, 0, -1}, {0, 1, 0})};
 }
 
-// Sutherland-Hodgman against one side: keeps sign * p[axis] <= sign * bound.
-std::vector<Vec2> clip_side(const std::vector<Vec2>& polygon, int axis, double bound, double sign) {
-  std::vector<Vec2> out;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2& a = polygon[i];
-    const Vec2& b = polygon[(i + 1) % polygon.size()];
-    const double da = sign * (bound - a[axis]);
-    const double db = sign * (bound - b[axis]);
-    if (da >= 0.0) out.push_back(a);
-    if ((da >= 0.0) != (db >= 0.0)) out.push_back(a + (b - a) * (da / (da - db)));
-  }
-  return out;
-}
-
-std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(),
-            [](const Vec2& a, const Vec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  std::vector<Vec2> hull;
-  const auto turn = [](const Vec2& o, const Vec2& a, const Vec2& b) {
-    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-  };
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t start = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0.0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
 // The camera frustum down to `reach`, projected along the light and cut with the rectangle; the whole rectangle where the
 // camera sees none of it.
 Rect visible_part(const Rect& rect, const LightFace& face, const Vec3& reference, const View& view,
@@ -259,21 +226,6 @@ void fit_depth(const World& world, const Vec2& half_extent, LightView& view) {
 
 namespace light_fit {
 
-LightFace face_along(const Vec3& forward, const Vec3& hint) {
-  LightFace face;
-  face.right = glm::normalize(glm::cross(forward, hint));
-  face.up = glm::cross(face.right, forward), face.forward = forward;
-  return face;
-}
-
-LightFace face_along(const Vec3& forward) {
-  return face_along(forward, std::abs(forward.y) < 0.999 ? Vec3(0.0, 1.0, 0.0) : Vec3(0.0, 0.0, -1.0));
-}
-
-Vec3 to_light_space(const LightFace& f, const Vec3& d) {
-  return {glm::dot(f.right, d), glm::dot(f.up, d), glm::dot(f.forward, d)};
-}
-
 Rect casters_rect(const World& world, const LightFace& face, const Vec3& reference) {
   const auto inside = [](const Rect& rect, const Aabb& box) {
     return box.min.x > rect.min.x && box.min.y > rect.min.y && box.max.x < rect.max.x &&
@@ -316,40 +268,6 @@ Interval depths_over(const World& world, const LightFace& face, const Vec3& refe
   const Rect everything{Vec2(-infinity), Vec2(infinity)};
   return casters.min.x == -infinity ? Interval{0.0, 1.0}
                                     : depths_over(world, face, reference, everything, rect);
-}
-
-std::vector<Vec2> frustum_corners(const View& view, double from, double to, const LightFace& face,
-                                  const Vec3& reference) {
-  std::vector<Vec2> corners;
-  for (const double depth : {from, to})
-    for (const Vec2 s : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
-      corners.push_back(
-          Vec2(to_light_space(face, view.ray_origin(s) + depth * view.ray_direction(s) - reference)));
-  return corners;
-}
-
-std::vector<Vec2> hull_in_rect(std::vector<Vec2> points, const Rect& rect) {
-  std::vector<Vec2> polygon = convex_hull(std::move(points));
-  for (int axis = 0; axis < 2; ++axis) {
-    polygon = clip_side(polygon, axis, rect.max[axis], 1.0);
-    polygon = clip_side(polygon, axis, rect.min[axis], -1.0);
-  }
-  return polygon;
-}
-
-double finite_reach(const World& world, const View& view) {
-  double reach = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p((corner & 1) ? world.finite_bounds.max.x : world.finite_bounds.min.x,
-                 (corner & 2) ? world.finite_bounds.max.y : world.finite_bounds.min.y,
-                 (corner & 4) ? world.finite_bounds.max.z : world.finite_bounds.min.z);
-    reach = std::max(reach, glm::dot(p - view.eye, view.forward));
-  }
-  return reach;
-}
-
-View view_of(const Camera& camera, double aspect) {
-  return make_view(camera, {std::max(1, static_cast<int>(std::lround(1024 * aspect))), 1024});
 }
 
 }  // namespace light_fit

@@ -35,10 +35,10 @@ Rect casters_rect(const World& world, const LightFace& face, const Vec3& referen
 Interval depths_over(const World& world, const LightFace& face, const Vec3& reference, const Rect& casters,
                      const Rect& rect);
 
-/// The convex polygon around `points`, cut with the rectangle.
 /// What the camera sees between two depths, by its eight corners in light space.
 std::vector<Vec2> frustum_corners(const View& view, double from, double to, const LightFace& face,
                                   const Vec3& reference);
+/// The convex polygon around `points`, cut with the rectangle.
 std::vector<Vec2> hull_in_rect(std::vector<Vec2> points, const Rect& rect);
 
 /// From a point to the nearest surface, at most, and to the farthest finite one, at least; 0 where there is none.

@@ -2,7 +2,6 @@
 // (ties.h). The answer is then held to its word: the comparison
 // that its command runs measures its error.
 #include "compare/result/output_parts.h"
-#include "studies/tune/ties.h"
 #include "studies/tune/tuner.h"
 
 namespace gnomon::compare {

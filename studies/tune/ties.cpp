@@ -1,4 +1,4 @@
-#include "studies/tune/ties.h"
+#include "studies/tune/tuner.h"
 
 #include "scene/base/time_difference.h"
 

@@ -155,7 +155,7 @@ TEST(Suite, TheReadmeNamesEveryScene) {
   Console console(true);
   const auto written = write_suite(folder.path(), {16, 9}, console);
   ASSERT_TRUE(written) << written.error().message();
-  const std::string readme = slurp(folder.file("README.md"));
+  const std::string readme = test::bytes_of(folder.file("README.md"));
   for (const SuiteScene& entry : suite_scenes())
     EXPECT_NE(readme.find(fmt::format("| `{}` | {} |", entry.scene.name, entry.description)),
               std::string::npos)

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "compare/compare.h"
@@ -15,6 +13,7 @@
 #include "report/page.h"
 #include "report/pixels/page_data.h"
 #include "scene/load.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gnomon::test {
 namespace {
@@ -41,12 +40,7 @@ class CompareBands : public testing::TestWithParam<BandCase> {
     options_.raster.map.bias = GetParam().bias;
     options_.raytrace.shadow_samples = 16;
     options_.raytrace.seed = 5;
-    folder_ = std::filesystem::temp_directory_path() /
-              ("gnomon-bands-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
-               std::to_string(reinterpret_cast<std::uintptr_t>(this)));
-    std::filesystem::create_directories(folder_);
   }
-  ~CompareBands() override { std::filesystem::remove_all(folder_); }
 
   std::unique_ptr<raster::Renderer> renderer() {
     auto made = raster::Renderer::create(std::move(*raster::create_context(raster::Backend::automatic)),
@@ -55,19 +49,14 @@ class CompareBands : public testing::TestWithParam<BandCase> {
     (*made)->use_external_visibility(hybrid::make_visibility(world_));
     return std::move(*made);
   }
-  std::string path(const char* name) const { return (folder_ / name).string(); }
+  std::string path(const char* name) const { return folder_ / name; }
 
   Scene scene_;
   World world_;
   std::vector<std::uint32_t> lights_;
   compare::CompareOptions options_;
-  std::filesystem::path folder_;
+  const test::TemporaryFolder folder_;
 };
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 void expect_same(const compare::EncodedPicture& whole, const compare::EncodedPicture& banded) {
   EXPECT_EQ(whole.file_name, banded.file_name);
@@ -140,8 +129,8 @@ TEST_P(CompareBands, AreTheWhole) {
   ASSERT_TRUE(write_aov(*whole, path("whole.exr")));
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     ASSERT_TRUE((*parts)->channels[i].close());
-    EXPECT_TRUE(bytes_of(aov_path(*whole, whole->lights[i], path("whole.exr"))) ==
-                bytes_of(aov_path(*whole, whole->lights[i], path("bands.exr"))));
+    EXPECT_TRUE(test::bytes_of(aov_path(*whole, whole->lights[i], path("whole.exr"))) ==
+                test::bytes_of(aov_path(*whole, whole->lights[i], path("bands.exr"))));
   }
 }
 

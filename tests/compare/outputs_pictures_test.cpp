@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
@@ -13,18 +11,12 @@
 #include "report/write_outputs.h"
 #include "scene/files/pictures/image_io.h"
 #include "tests/support/synthetic_comparison.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gnomon::compare {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path fresh_folder(const std::string& name) {
-  const fs::path path =
-      fs::temp_directory_path() / ("gnomon_outputs_" + name + "_" + std::to_string(::getpid()));
-  fs::remove_all(path);
-  return path;
-}
 
 std::uint32_t packed(const glm::u8vec3& c) {
   return std::uint32_t{c.r} << 16 | std::uint32_t{c.g} << 8 | c.b;
@@ -130,7 +122,8 @@ TEST(Pictures, ReducedMapKeepsTheNearestDepth) {
 
 TEST(Aov, HasTheChannelsOfTheContract) {
   const auto made = make_synthetic();
-  const fs::path folder = fresh_folder("aov");
+  const test::TemporaryFolder own;
+  const fs::path folder = own / "out";
   fs::create_directories(folder);
   const std::string path = (folder / "aov.exr").string();
   LightComparison& light = made->comparison.lights[0];
@@ -163,30 +156,23 @@ TEST(Aov, HasTheChannelsOfTheContract) {
   EXPECT_EQ(image->find("normal.Y")->values[floor], 1.0f);
   EXPECT_EQ(image->find("texel_uv.V")->values[floor], 7.5f);
   EXPECT_EQ(image->find("gap.V")->values[light.labels.index(5, 60)], -std::numeric_limits<float>::infinity());
-  fs::remove_all(folder);
 }
 
 TEST(Aov, WritesOneFilePerLight) {
   const auto made = make_synthetic(2);
-  const fs::path folder = fresh_folder("aovs");
+  const test::TemporaryFolder own;
+  const fs::path folder = own / "out";
   fs::create_directories(folder);
   ASSERT_TRUE(write_aov(made->comparison, (folder / "a.exr").string()));
   EXPECT_TRUE(fs::exists(folder / "a-sun.exr"));
   EXPECT_TRUE(fs::exists(folder / "a-lamp-2.exr"));
   EXPECT_FALSE(fs::exists(folder / "a.exr"));
-  fs::remove_all(folder);
-}
-
-std::string file_text(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 TEST(WriteOutputs, WritesEveryFileAndNothingElse) {
   const auto made = make_synthetic(2);
-  const fs::path folder = fresh_folder("folder");
+  const test::TemporaryFolder own;
+  const fs::path folder = own / "out";
   const auto paths = write_outputs(made->comparison, {.folder = folder.string()});
   ASSERT_TRUE(paths) << paths.error().message();
   std::set<std::string> expected{"report.html", "result.json", "result.csv", "raster.png", "raytrace.png"},
@@ -197,18 +183,19 @@ TEST(WriteOutputs, WritesEveryFileAndNothingElse) {
   EXPECT_EQ(found, expected);
   EXPECT_EQ(paths->paths.size(), expected.size());
   EXPECT_FALSE(paths->beside);
-  const std::string page = file_text(folder / "report.html"), json = file_text(folder / "result.json");
+  const std::string page = test::bytes_of(folder / "report.html"),
+                    json = test::bytes_of(folder / "result.json");
   EXPECT_NE(page.find("ball &amp; &lt;floor&gt;"), std::string::npos);
   EXPECT_EQ(page.find("<floor>"), std::string::npos);
   const auto picture = read_channels((folder / "raster.png").string());
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->size, synthetic::image_size);
-  fs::remove_all(folder);
 }
 
 TEST(WriteOutputs, WithoutAPageAllElseIsAsEver) {
   const auto made = make_synthetic();
-  const fs::path with = fresh_folder("with-page"), without = fresh_folder("without-page");
+  const test::TemporaryFolder own;
+  const fs::path with = own / "with", without = own / "without";
   ASSERT_TRUE(write_outputs(made->comparison, {.folder = with.string()}));
   const auto written = write_outputs(made->comparison, {.folder = without.string(), .page = false});
   ASSERT_TRUE(written) << written.error().message();
@@ -218,14 +205,12 @@ TEST(WriteOutputs, WithoutAPageAllElseIsAsEver) {
     const std::string name = entry.path().filename().string();
     ASSERT_TRUE(fs::exists(without / name)) << name;
     if (!name.starts_with("result.")) {  // which hold times
-      EXPECT_EQ(file_text(without / name), file_text(with / name)) << name;
+      EXPECT_EQ(test::bytes_of(without / name), test::bytes_of(with / name)) << name;
     }
     ++files;
   }
   EXPECT_EQ(written->paths.size(), files);
   EXPECT_FALSE(fs::exists(without / "report.html"));
-  fs::remove_all(with);
-  fs::remove_all(without);
 }
 
 TEST(WriteOutputs, SaysWhereItCouldNotWrite) {

@@ -39,3 +39,6 @@ set_tests_properties(project_library_test PROPERTIES TIMEOUT 900)
 add_test(NAME docs_notebook_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_LIST_DIR}/docs_notebook_test.py"
   "$<TARGET_FILE:gnomon_program>" "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/notebook")
 set_tests_properties(docs_notebook_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
+
+# What a new metric, setting, technique, shape, format or lesson takes, by examples.
+add_test(NAME project_exercise_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_LIST_DIR}/project_exercise_test.py" "${PROJECT_SOURCE_DIR}")

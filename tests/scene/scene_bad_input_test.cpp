@@ -52,16 +52,12 @@ TEST(BadInput, AnImageNeedsBytesForItsPixels) {
 }
 
 TEST(BadInput, AnExrHasNoDateOfItsMaking) {
-  const auto folder = std::filesystem::temp_directory_path() / "gnomon-exr-date";
-  std::filesystem::create_directories(folder);
-  const std::string path = (folder / "a.exr").string();
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.exr";
   const std::vector<Channel> channels{{"R", {1.0f, 2.0f}}};
   ASSERT_TRUE(write_exr(path, {2, 1}, channels));
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(bytes.find("capDate"), std::string::npos);
+  EXPECT_EQ(test::bytes_of(path).find("capDate"), std::string::npos);
   EXPECT_TRUE(read_channels(path));
-  std::filesystem::remove_all(folder);
 }
 
 /// What is wrong with the library.
@@ -157,24 +153,20 @@ TEST(ValidGltf, IsNotRefused) {
            R"(,"material":0)"),
       gltf(node + R"(,"extensionsUsed":["KHR_draco_mesh_compression"])",
            R"(,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}})")};
-  const auto folder = std::filesystem::temp_directory_path() / "gnomon-valid-gltf";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder folder;
   for (const std::string& text : files) {
-    const std::string path = (folder / "a.gltf").string();
-    std::ofstream(path) << text;
-    const auto scene = load_scene(path);
+    const auto scene = load_scene(folder.put("a.gltf", text));
     ASSERT_TRUE(scene) << scene.error().message();
     EXPECT_EQ(scene->meshes.front().triangles.size(), 1u);
   }
   // A file beside it that is longer than the buffer, and one that is shorter.
   for (const std::size_t size : {40u, 32u}) {
-    std::ofstream(folder / "a.bin", std::ios::binary) << std::string(size, '\0');
-    std::ofstream(folder / "a.gltf") << std::string("{") + triangle +
-                                            R"(,"buffers":[{"byteLength":36,"uri":"a.bin"}],
-      "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}]})";
-    EXPECT_EQ(load_scene((folder / "a.gltf").string()).has_value(), size == 40u);
+    folder.put("a.bin", std::string(size, '\0'));
+    const std::string path = folder.put("a.gltf", std::string("{") + triangle +
+                                                      R"(,"buffers":[{"byteLength":36,"uri":"a.bin"}],
+      "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}]})");
+    EXPECT_EQ(load_scene(path).has_value(), size == 40u);
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(ValidGltf, ManyLightsOfOneName) {
@@ -187,14 +179,12 @@ TEST(ValidGltf, ManyLightsOfOneName) {
   std::string text = gltf(nodes + R"(],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}})");
   const std::string all = std::string("\"nodes\":[").append(roots).append("]");
   text.replace(text.find("\"nodes\":[0]"), 11, all);
-  const auto path = (std::filesystem::temp_directory_path() / "gnomon-lights.gltf").string();
-  std::ofstream(path) << text;
-  const auto scene = load_scene(path);
+  const TemporaryFolder folder;
+  const auto scene = load_scene(folder.put("lights.gltf", text));
   ASSERT_TRUE(scene) << scene.error().message();
   ASSERT_EQ(scene->lights.size(), static_cast<std::size_t>(lights));
   EXPECT_EQ(scene->lights[0].name, "lamp");
   EXPECT_EQ(scene->lights.back().name, "lamp-4000");
-  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST(Image, EncodedPngIsTheSameFile) {
   const auto bytes = encode_png(gradient(33, 5));
   ASSERT_TRUE(bytes);
   ASSERT_TRUE(write_png(folder.file("a.png"), gradient(33, 5)));
-  EXPECT_EQ(slurp(folder.file("a.png")), *bytes);
+  EXPECT_EQ(test::bytes_of(folder.file("a.png")), *bytes);
   EXPECT_EQ(*encode_png(gradient(33, 5)), *bytes);  // nothing of the clock in it
 }
 
@@ -141,7 +141,7 @@ TEST(Image, ExrKeepsNamesValuesAndAttributes) {
                   (std::isnan(channel.values[i]) && std::isnan(found->values[i])))
           << channel.name << " " << i;
   }
-  EXPECT_NE(slurp(folder.file("a.exr")).find("fence"), std::string::npos);
+  EXPECT_NE(test::bytes_of(folder.file("a.exr")).find("fence"), std::string::npos);
 }
 
 TEST(Image, WritesToAFullDiskAreErrors) {

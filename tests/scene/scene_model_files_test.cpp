@@ -201,7 +201,7 @@ TEST(ModelFiles, TheDigestIsTheFiles) {
     GTEST_SKIP() << "the models are not here: " << gnomon::test::shared_data();
   const auto scene = load_scene(path);
   ASSERT_TRUE(scene);
-  EXPECT_EQ(scene->sha256, sha256_hex(slurp(path)));
+  EXPECT_EQ(scene->sha256, sha256_hex(test::bytes_of(path)));
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ Contents contents(const std::string& folder) {
   Contents found;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     found[entry.path().lexically_relative(folder).string()] =
-        entry.is_regular_file() ? slurp(entry.path().string()) : "a folder";
+        entry.is_regular_file() ? test::bytes_of(entry.path().string()) : "a folder";
   return found;
 }
 
@@ -232,9 +232,9 @@ TEST(OutputFaults, WhatSomebodyWroteSinceTheKillStays) {
     folder.put("mine", "mine");
     fs::rename(folder.file("mine"), folder.file("out/b"));
     ASSERT_TRUE(StagedFolder::open(folder.file("out")));
-    EXPECT_EQ(slurp(folder.file("out/a")), "mine");
-    EXPECT_EQ(slurp(folder.file("out/b")), "mine");
-    EXPECT_EQ(slurp(folder.file("out/page")), "older page");
+    EXPECT_EQ(test::bytes_of(folder.file("out/a")), "mine");
+    EXPECT_EQ(test::bytes_of(folder.file("out/b")), "mine");
+    EXPECT_EQ(test::bytes_of(folder.file("out/page")), "older page");
   }
   EXPECT_GT(tried, 5);
 }
@@ -253,7 +253,7 @@ TEST(OutputFaults, AKillWhileUndoingLosesNothing) {
       ++tried;
       is_killed_at(again, folder.file("out"));
       const Contents left = without_staged(contents(folder.path()));
-      if (slurp(folder.file("out/page")) == "older page") {
+      if (test::bytes_of(folder.file("out/page")) == "older page") {
         EXPECT_EQ(left, before);
       }
       ASSERT_TRUE(StagedFolder::open(folder.file("out")));
@@ -273,7 +273,7 @@ TEST(OutputFaults, FoldersOfOthersAreNotTakenForAbandonedOnes) {
   for (const std::string& name : theirs) folder.put(name, "mine");
   ASSERT_TRUE(publish_newer(folder.file("out")));
   ASSERT_TRUE(publish_newer(folder.file("out")));
-  for (const std::string& name : theirs) EXPECT_EQ(slurp(folder.file(name)), "mine") << name;
+  for (const std::string& name : theirs) EXPECT_EQ(test::bytes_of(folder.file(name)), "mine") << name;
 }
 
 // What is in the way is found before anything moves, or else everything is put back.
@@ -291,8 +291,8 @@ TEST(OutputFaults, WhatIsInTheWayStays) {
     const auto published = staged->publish("page");
     ASSERT_FALSE(published) << way;
     EXPECT_EQ(published.error().kind, ErrorKind::cannot_write);
-    EXPECT_EQ(slurp(folder.file("out/a")), "older a") << way;
-    EXPECT_EQ(slurp(folder.file(way)), "older") << way;
+    EXPECT_EQ(test::bytes_of(folder.file("out/a")), "older a") << way;
+    EXPECT_EQ(test::bytes_of(folder.file(way)), "older") << way;
   }
 }
 

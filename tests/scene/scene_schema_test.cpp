@@ -11,7 +11,7 @@ namespace gnomon {
 namespace {
 
 nlohmann::json schema() {
-  return nlohmann::json::parse(slurp(gnomon::test::source_dir() + "/scene/files/scene.schema.json"));
+  return nlohmann::json::parse(test::bytes_of(gnomon::test::source_dir() + "/scene/files/scene.schema.json"));
 }
 
 std::vector<std::string> schema_keys(const nlohmann::json& object) {

@@ -69,9 +69,9 @@ TEST(StagedFolder, OfSeveralProcessesAreNeverMixed) {
                                      return true;
                                    }),
             3);
-  const std::string last = slurp(target + "/d");
+  const std::string last = test::bytes_of(target + "/d");
   EXPECT_FALSE(last.empty());
-  for (const char* name : {"/a", "/b", "/c"}) EXPECT_EQ(slurp(target + name), last);
+  for (const char* name : {"/a", "/b", "/c"}) EXPECT_EQ(test::bytes_of(target + name), last);
 }
 
 }  // namespace

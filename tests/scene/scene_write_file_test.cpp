@@ -17,9 +17,9 @@ TEST(WriteFile, WritesAndReplaces) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.txt");
   ASSERT_TRUE(write_file(path, "first"));
-  EXPECT_EQ(slurp(path), "first");
+  EXPECT_EQ(test::bytes_of(path), "first");
   ASSERT_TRUE(write_file(path, std::string(100000, 'x')));
-  EXPECT_EQ(slurp(path), std::string(100000, 'x'));
+  EXPECT_EQ(test::bytes_of(path), std::string(100000, 'x'));
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
@@ -28,9 +28,9 @@ TEST(WriteFile, EndIsWrittenOverInItsPlace) {
   const std::string path = folder.file("a.txt");
   ASSERT_TRUE(write_file(path, "takes 1 s"));
   ASSERT_TRUE(write_over_end(path, "2 s"));
-  EXPECT_EQ(slurp(path), "takes 2 s");
+  EXPECT_EQ(test::bytes_of(path), "takes 2 s");
   EXPECT_FALSE(write_over_end(path, "longer than the file"));
-  EXPECT_EQ(slurp(path), "takes 2 s");
+  EXPECT_EQ(test::bytes_of(path), "takes 2 s");
   EXPECT_FALSE(write_over_end(folder.file("none.txt"), "x"));
 }
 
@@ -41,7 +41,7 @@ TEST(WriteFile, KeepsPermissionsAndLinks) {
   std::filesystem::create_symlink("real.txt", folder.file("link.txt"));
   ASSERT_TRUE(write_file(folder.file("link.txt"), "new"));
   EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link.txt")));
-  EXPECT_EQ(slurp(path), "new");
+  EXPECT_EQ(test::bytes_of(path), "new");
   struct stat status {};
   ASSERT_EQ(::stat(path.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0640u);
@@ -55,7 +55,7 @@ TEST(PartFile, KeepsPermissions) {
   ASSERT_TRUE(file);
   std::ofstream(file->path()) << "new";
   ASSERT_TRUE(file->publish());
-  EXPECT_EQ(slurp(path), "new");
+  EXPECT_EQ(test::bytes_of(path), "new");
   struct stat status {};
   ASSERT_EQ(::stat(path.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600u);
@@ -119,7 +119,7 @@ TEST(WriteFile, FileSizeLimitLeavesTheOldFile) {
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
   EXPECT_EQ(WEXITSTATUS(status), 0);
-  EXPECT_EQ(slurp(path), "old");
+  EXPECT_EQ(test::bytes_of(path), "old");
   EXPECT_EQ(folder.file_count(), 1u);
 }
 

@@ -13,21 +13,12 @@
 #include "studies/sweep/cell_files.h"
 #include "tests/support/one_world.h"
 #include "tests/support/small_scenes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gnomon::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct TemporaryFolder {
-  std::string path = (fs::temp_directory_path() / ("gnomon-cells-" + std::to_string(::getpid()))).string();
-  ~TemporaryFolder() { fs::remove_all(path); }
-};
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 TEST(CellPictures, EveryCellNamesItsTruthWhateverTheOrderOfTheJobs) {
   OneWorld world(test::boxes_under_three_lights());
@@ -39,7 +30,7 @@ TEST(CellPictures, EveryCellNamesItsTruthWhateverTheOrderOfTheJobs) {
   setting.lights = world.scene.lights;
   setting.compared = {0};
   const TemporaryFolder folder;
-  app::CellPictureWriter writer(folder.path, engine);
+  app::CellPictureWriter writer(folder.path(), engine);
   ASSERT_TRUE(writer.make_folders());
   std::vector<app::CellPictureWriter::Job> jobs;
   for (std::size_t cell = 0; cell < 3; ++cell) {
@@ -60,13 +51,13 @@ TEST(CellPictures, EveryCellNamesItsTruthWhateverTheOrderOfTheJobs) {
   }
   std::size_t truths = 0;
   std::string truth;
-  for (const auto& file : fs::directory_iterator(compare::cells_folder(folder.path)))
+  for (const auto& file : fs::directory_iterator(compare::cells_folder(folder.path())))
     if (const std::string name = file.path().stem().string(); name.starts_with("truth-"))
       ++truths, truth = name;
   EXPECT_EQ(truths, 1u);
   for (std::size_t cell = 0; cell < jobs.size(); ++cell) {
     const std::string data =
-        text_of(fs::path(compare::cells_folder(folder.path)) / (compare::cell_name(cell) + ".js"));
+        bytes_of(fs::path(compare::cells_folder(folder.path())) / (compare::cell_name(cell) + ".js"));
     EXPECT_NE(data.find("\"truth\":\"" + truth + '"'), std::string::npos)
         << "cell " << cell << ": " << data.substr(0, 120);
   }

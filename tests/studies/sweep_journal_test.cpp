@@ -7,11 +7,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "studies/sweep/cell_files.h"
 #include "studies/sweep/journal.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gnomon::compare {
 namespace {
@@ -37,22 +37,15 @@ std::string axes(int cell) {
 
 class JournalTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder = (fs::temp_directory_path() / ("gnomon-journal-" + std::to_string(::getpid()))).string();
-    fs::remove_all(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
   Expected<Journal> open(const std::string& configuration = R"({"axes":[1]})") {
     return Journal::open(folder, make_header(configuration, 3, {}), {axes(0), axes(1), axes(2)}, {0, 1, 2});
   }
-  std::string bytes(const std::string& name) const {
-    std::ifstream file(folder + "/" + name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string bytes(const std::string& name) const { return test::bytes_of(folder + "/" + name); }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder + "/" + name, std::ios::binary) << text;
   }
-  std::string folder;
+  const test::TemporaryFolder outer;
+  const std::string folder = outer / "journal";
 };
 
 TEST_F(JournalTest, GoesOnWhereItStopped) {

@@ -75,7 +75,7 @@ class MergeTest : public ::testing::Test {
     std::map<std::string, std::string> found;
     if (!fs::exists(files.file("out"))) return found;
     for (const auto& entry : fs::recursive_directory_iterator(files.file("out")))
-      if (entry.is_regular_file()) found[entry.path().string()] = slurp(entry.path().string());
+      if (entry.is_regular_file()) found[entry.path().string()] = test::bytes_of(entry.path().string());
     return found;
   }
   TemporaryFolder files;
@@ -88,12 +88,12 @@ TEST_F(MergeTest, TakesAllThatTheShardsHold) {
     const auto merged = merge();
     ASSERT_TRUE(merged) << merged.error().message();
     EXPECT_EQ(merged->cells, 4u);
-    EXPECT_EQ(slurp(files.file("out/sweep.jsonl")),
+    EXPECT_EQ(test::bytes_of(files.file("out/sweep.jsonl")),
               merge_line(0) + merge_line(1) + merge_line(2) + merge_line(3));
-    EXPECT_EQ(slurp(files.file("out/thumbnails/cell-000003.png")), "thumbnail of cell-000003");
-    EXPECT_EQ(slurp(files.file("out/cells/truth-ba9876543210.png")), "another truth");
-    EXPECT_EQ(slurp(files.file("out/movie.mp4.part")), "mine");
-    EXPECT_EQ(slurp(files.file("out/cells/cell-7.png")), "mine");
+    EXPECT_EQ(test::bytes_of(files.file("out/thumbnails/cell-000003.png")), "thumbnail of cell-000003");
+    EXPECT_EQ(test::bytes_of(files.file("out/cells/truth-ba9876543210.png")), "another truth");
+    EXPECT_EQ(test::bytes_of(files.file("out/movie.mp4.part")), "mine");
+    EXPECT_EQ(test::bytes_of(files.file("out/cells/cell-7.png")), "mine");
     EXPECT_TRUE(fs::exists(files.file("out/report.html")));
     EXPECT_EQ(contents().size(), 2u + 5u + 12u + 2u);
   }
@@ -156,7 +156,7 @@ TEST_F(MergeTest, AnEditedLineInTheFolderIsNotReplaced) {
   files.put("out/sweep.jsonl", edited + merge_line(1));
   const auto merged = merge();
   ASSERT_FALSE(merged);
-  EXPECT_EQ(slurp(files.file("out/sweep.jsonl")), edited + merge_line(1));
+  EXPECT_EQ(test::bytes_of(files.file("out/sweep.jsonl")), edited + merge_line(1));
 }
 
 }  // namespace

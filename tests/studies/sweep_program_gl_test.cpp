@@ -36,7 +36,7 @@ TEST_F(SweepProgram, WritesResultsWithAxes) {
                  "0.0333333333333", "--threads", "2", "-o", (root / "one").string()}),
             0)
       << said();
-  nlohmann::json one = nlohmann::json::parse(bytes(root / "one/result.json"));
+  nlohmann::json one = nlohmann::json::parse(bytes_of(root / "one/result.json"));
   nlohmann::json cell = results[5];
   for (nlohmann::json* json : {&one, &cell}) {
     (*json)["lights"][0].erase("times_ms");
@@ -65,7 +65,7 @@ TEST_F(SweepProgram, WhatCellsLackOfAComparisonIsDocumented) {
   const nlohmann::json schema = nlohmann::json::parse(schema_file);
   const std::string text = lines("cells");
   const nlohmann::json cell = nlohmann::json::parse(text.substr(0, text.find('\n')));
-  const nlohmann::json one = nlohmann::json::parse(bytes(root / "one.json"));
+  const nlohmann::json one = nlohmann::json::parse(bytes_of(root / "one.json"));
   const auto check = [](const nlohmann::json& whole, const nlohmann::json& part, const nlohmann::json& keys) {
     int lacking = 0;
     for (const auto& [key, value] : whole.items()) {
@@ -123,7 +123,7 @@ TEST_F(SweepProgram, CountsFlipsOfFilms) {
   const std::string alone = (root / "alone.json").string();
   ASSERT_EQ(run(joined({"shimmer"}, {setting, film, {"--json", alone, "-o", (root / "alone").string()}})), 0)
       << said();
-  const nlohmann::json shimmer = nlohmann::json::parse(bytes(alone))["lights"][0];
+  const nlohmann::json shimmer = nlohmann::json::parse(bytes_of(alone))["lights"][0];
   const nlohmann::json counted = cells[0]["lights"][0]["shimmer"];
   EXPECT_GT(counted["flips"], 0);
   for (const char* key : {"flips", "receiver_steps", "flips_per_receiver_second"})
@@ -132,8 +132,9 @@ TEST_F(SweepProgram, CountsFlipsOfFilms) {
   EXPECT_EQ(cells[1]["command"],
             "gnomon shimmer thin-wall --size 192x108 --map-size 64 --snap --frames 3 --path drift --drift "
             "0.5,0.5");
-  EXPECT_NE(bytes(root / "films/sweep.csv").find("shimmer_flips_per_receiver_second"), std::string::npos);
-  EXPECT_EQ(bytes(root / "films/report.html").find("\"flips_per_receiver_second\":null"), std::string::npos);
+  EXPECT_NE(bytes_of(root / "films/sweep.csv").find("shimmer_flips_per_receiver_second"), std::string::npos);
+  EXPECT_EQ(bytes_of(root / "films/report.html").find("\"flips_per_receiver_second\":null"),
+            std::string::npos);
   EXPECT_EQ(run(joined({"sweep"}, {setting, film, {"-o", folder}})), 2) << "a film's options without a film";
 }
 
@@ -168,7 +169,7 @@ TEST_F(SweepProgram, RayTracersPointsStandBesideTheCells) {
       run({"merge", (root / "part1").string(), (root / "part2").string(), "-o", (root / "merged").string()}),
       0)
       << said();
-  const nlohmann::json points = nlohmann::json::parse(bytes(root / "merged/ray_tracer.json"))["points"];
+  const nlohmann::json points = nlohmann::json::parse(bytes_of(root / "merged/ray_tracer.json"))["points"];
   ASSERT_EQ(points.size(), 3u);
   EXPECT_EQ(points[0]["name"], "fast");
   EXPECT_EQ(points[2]["name"], "exact");
@@ -180,7 +181,7 @@ TEST_F(SweepProgram, RayTracersPointsStandBesideTheCells) {
     EXPECT_GT(point["boxes_per_ray"], 1.0);
     EXPECT_GT(point["times_ms"]["median"], 0.0);
   }
-  const std::string page = bytes(root / "merged/report.html");
+  const std::string page = bytes_of(root / "merged/report.html");
   EXPECT_NE(page.find(R"("rays":[{"name":"fast",)"), std::string::npos);
 }
 
@@ -198,10 +199,10 @@ TEST_F(SweepProgram, ShardsMergeToTheSameBytes) {
   ASSERT_EQ(run(words("part2", {"--shard", "2/2"})), 0) << said();
   ASSERT_EQ(merge({"part2", "part1"}), 0) << said();
   expect_same("whole", "merged");
-  EXPECT_EQ(bytes(root / "whole/sweep.json"), bytes(root / "merged/sweep.json"));
+  EXPECT_EQ(bytes_of(root / "whole/sweep.json"), bytes_of(root / "merged/sweep.json"));
   for (const auto& entry : fs::directory_iterator(root / "whole/thumbnails"))
-    EXPECT_TRUE(bytes(entry.path()) == bytes(root / "merged/thumbnails" / entry.path().filename()));
-  EXPECT_FALSE(bytes(root / "merged/report.html").empty());
+    EXPECT_TRUE(bytes_of(entry.path()) == bytes_of(root / "merged/thumbnails" / entry.path().filename()));
+  EXPECT_FALSE(bytes_of(root / "merged/report.html").empty());
 }
 
 // An option of one technique is an axis of all: where it has no effect the cell says so, its command leaves
@@ -231,8 +232,8 @@ TEST_F(SweepProgram, AnAxisThatATechniqueDoesNotReadIsNamed) {
   EXPECT_EQ(cells[3]["command"], base + "pcf --filter-radius 2");
   EXPECT_FALSE(cells[3].contains("no_effect"));
   EXPECT_NE(cells[2]["lights"], cells[3]["lights"]);
-  EXPECT_NE(bytes(root / "whole/report.html").find(R"("no_effect":["filter_radius"])"), std::string::npos);
-  EXPECT_NE(bytes(root / "whole/sweep.csv").find(",no_effect,"), std::string::npos);
+  EXPECT_NE(bytes_of(root / "whole/report.html").find(R"("no_effect":["filter_radius"])"), std::string::npos);
+  EXPECT_NE(bytes_of(root / "whole/sweep.csv").find(",no_effect,"), std::string::npos);
   ASSERT_EQ(sweep("part1", {"--shard", "1/2"}), 0) << said();
   ASSERT_EQ(sweep("part2", {"--shard", "2/2"}), 0) << said();
   ASSERT_EQ(
@@ -277,7 +278,7 @@ class PrivateSlurm {
   }
   PrivateSlurm(const PrivateSlurm&) = delete;
   PrivateSlurm& operator=(const PrivateSlurm&) = delete;
-  std::string why_not() const { return bytes(folder_ + ".log"); }
+  std::string why_not() const { return bytes_of(folder_ + ".log"); }
   bool running = false;
 
  private:
@@ -355,7 +356,7 @@ TEST_F(SweepProgram, SweepNamesItsBestCells) {
   const std::string out = said();
   EXPECT_NE(out.find("Cheapest with at most 100 % wrong: cell "), std::string::npos) << out;
   EXPECT_NE(out.find("Best for "), std::string::npos) << out;
-  EXPECT_NE(bytes(root / "whole/report.html")
+  EXPECT_NE(bytes_of(root / "whole/report.html")
                 .find(R"("headline":[{"title":"Cheapest with at most 100 % wrong","cell":)"),
             std::string::npos);
   EXPECT_EQ(run(words("whole", {"--max-error", "0"})), 1) << said();
@@ -372,8 +373,8 @@ TEST_F(SweepProgram, TablesOfSweepAndCompareHaveOneSetOfColumns) {
     for (std::string name; std::getline(head, name, ',');) names.insert(name);
     return names;
   };
-  std::set<std::string> sweep = columns(bytes(root / "whole/sweep.csv"));
-  const std::set<std::string> one = columns(bytes(root / "one/result.csv"));
+  std::set<std::string> sweep = columns(bytes_of(root / "whole/sweep.csv"));
+  const std::set<std::string> one = columns(bytes_of(root / "one/result.csv"));
   for (const char* own : {"cell", "axes_map_size", "axes_bias", "derived", "cell_ms"})
     EXPECT_EQ(sweep.erase(own), 1u) << own;
   for (const std::string& name : sweep) EXPECT_EQ(one.count(name), 1u) << name << " is in sweep.csv alone";
@@ -385,8 +386,8 @@ TEST_F(SweepProgram, TablesOfSweepAndCompareHaveOneSetOfColumns) {
 // What shadows cost is told apart from what the picture costs, on both sides.
 TEST_F(SweepProgram, ShadowsAreTimedApartFromThePicture) {
   ASSERT_EQ(run(words("whole", {"--ray-tracer"})), 0) << said();
-  const std::string page = bytes(root / "whole/report.html");
-  std::istringstream stream(bytes(root / "whole/sweep_times.jsonl"));
+  const std::string page = bytes_of(root / "whole/report.html");
+  std::istringstream stream(bytes_of(root / "whole/sweep_times.jsonl"));
   for (std::string line; std::getline(stream, line);) {
     const nlohmann::json light = nlohmann::json::parse(line)["lights"][0];
     EXPECT_EQ(light["shadow_lookups"]["runs"].size(), light["shade_pass"]["runs"].size());
@@ -398,7 +399,7 @@ TEST_F(SweepProgram, ShadowsAreTimedApartFromThePicture) {
     const std::string shadows = nlohmann::json(map + lookups).dump();
     EXPECT_NE(page.find("," + shadows + ","), std::string::npos) << shadows;  // of low, median and high
   }
-  const nlohmann::json points = nlohmann::json::parse(bytes(root / "whole/ray_tracer.json"))["points"];
+  const nlohmann::json points = nlohmann::json::parse(bytes_of(root / "whole/ray_tracer.json"))["points"];
   EXPECT_FALSE(points.empty());
   for (const nlohmann::json& point : points) {
     EXPECT_GT(point["shadow_times_ms"]["median"], 0.0);

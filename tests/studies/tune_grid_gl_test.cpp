@@ -7,7 +7,6 @@
 #include "scene/load.h"
 #include "studies/tune/full_grid.h"
 #include "studies/tune/sheet.h"
-#include "studies/tune/ties.h"
 #include "studies/tune/tuner.h"
 #include "tests/support/one_world.h"
 

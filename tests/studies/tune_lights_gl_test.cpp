@@ -39,7 +39,7 @@ class TuneLights : public SweepProgram {
     Words words{"tune", scene, "--size", "96x64", "--runs", "1", "-q", "--json", json};
     words.insert(words.end(), more.begin(), more.end());
     const int code = run(words);
-    const std::string text = bytes(json);
+    const std::string text = bytes_of(json);
     if (text.empty()) ADD_FAILURE() << said();
     return {code, text.empty() ? Json() : Json::parse(text)};
   }
@@ -54,7 +54,7 @@ class TuneLights : public SweepProgram {
     words.insert(words.end(), {"--runs", "1", "-q", "--json", json});
     words.insert(words.end(), more.begin(), more.end());
     const int code = run(words);
-    return {code, Json::parse(bytes(json))};
+    return {code, Json::parse(bytes_of(json))};
   }
 
   /// Expects that the winner and all others keep what they promise.

@@ -16,7 +16,7 @@ TEST_F(TuneProgram, AnswersWithACommandThatKeepsItsPromise) {
                  "--map-size", "32:512:x2", "--runs", "1", "--json", json}),
             0)
       << said();
-  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  const nlohmann::json answer = nlohmann::json::parse(bytes_of(json));
   EXPECT_TRUE(answer["feasible"]);
   EXPECT_LE(answer["error"].get<double>(), 0.02);
   EXPECT_GE(answer["others"].size(), 4u);
@@ -30,7 +30,7 @@ TEST_F(TuneProgram, AnswersWithACommandThatKeepsItsPromise) {
     if (value != "on") words.push_back(value);
   }
   ASSERT_EQ(run(words), 0) << said();
-  const nlohmann::json result = nlohmann::json::parse(bytes(root / "tuned/result.json"));
+  const nlohmann::json result = nlohmann::json::parse(bytes_of(root / "tuned/result.json"));
   EXPECT_EQ(result["lights"][0]["error"]["wrong_fraction"], answer["error"]);
   EXPECT_NE(answer["command"].get<std::string>().find("gnomon compare floating-box"), std::string::npos);
 }
@@ -42,7 +42,7 @@ TEST_F(TuneProgram, KeepsItsWordForLightsWithSize) {
                  "--map-size", "128,256,512", "--runs", "1", "--json", json}),
             0)
       << said();
-  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  const nlohmann::json answer = nlohmann::json::parse(bytes_of(json));
   EXPECT_EQ(answer["goal"]["threshold"], "mean:5%");
   Words words{"compare", "penumbra", "-o", (root / "tuned").string(), "--fail-above", "mean:5%"};
   for (const auto& [name, value] : answer["options"].items()) {
@@ -51,7 +51,8 @@ TEST_F(TuneProgram, KeepsItsWordForLightsWithSize) {
     if (value != "on") words.push_back(value);
   }
   ASSERT_EQ(run(words), 0) << said();
-  const nlohmann::json error = nlohmann::json::parse(bytes(root / "tuned/result.json"))["lights"][0]["error"];
+  const nlohmann::json error =
+      nlohmann::json::parse(bytes_of(root / "tuned/result.json"))["lights"][0]["error"];
   EXPECT_EQ(error["mean_absolute"], answer["error"]);
   EXPECT_EQ(error["wrong_fraction"], answer["wrong_fraction"]);
   EXPECT_NE(error["wrong_fraction"], error["mean_absolute"]);
@@ -73,13 +74,13 @@ TEST_F(TuneProgram, FindsWhatHoldsStill) {
                  "-o",          (root / "page").string()}),
             0)
       << said();
-  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  const nlohmann::json answer = nlohmann::json::parse(bytes_of(json));
   EXPECT_EQ(answer["goal"]["measure"], "shimmer");
   EXPECT_EQ(answer["options"]["snap"], "on");
   EXPECT_EQ(answer["error"], 0.0);
   ASSERT_EQ(answer["others"].size(), 1u);
   EXPECT_GT(answer["others"][0]["error"].get<double>(), 0.0);
-  EXPECT_NE(bytes(root / "page/report.html").find("flips per receiver and second"), std::string::npos);
+  EXPECT_NE(bytes_of(root / "page/report.html").find("flips per receiver and second"), std::string::npos);
   // Both families' own commands give what was said of them.
   for (const nlohmann::json* family : {&answer, &answer["others"][0]}) {
     std::istringstream command((*family)["command"].get<std::string>());
@@ -90,7 +91,7 @@ TEST_F(TuneProgram, FindsWhatHoldsStill) {
     words.insert(words.end(),
                  {"--quiet", "--json", (root / "film.json").string(), "-o", (root / "film").string()});
     ASSERT_EQ(run(words), 0) << said();
-    const nlohmann::json film = nlohmann::json::parse(bytes(root / "film.json"));
+    const nlohmann::json film = nlohmann::json::parse(bytes_of(root / "film.json"));
     EXPECT_EQ(film["lights"][0]["flips_per_receiver_second"], (*family)["error"]);
   }
 }
@@ -102,7 +103,7 @@ TEST_F(TuneProgram, AsksForOneEngineAndWithinATime) {
   const Words asked{"tune",       "floating-box", "--size", "96x54",  "--max-error", "5%",       "--map-size",
                     "64,128,256", "--runs",       "1",      "--json", json,          "--engine", "godot"};
   ASSERT_EQ(run(asked), 0) << said();
-  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  const nlohmann::json answer = nlohmann::json::parse(bytes_of(json));
   for (const auto& family : answer["others"])
     EXPECT_TRUE(family["technique"] == "hard" || family["technique"] == "pcf" || family["technique"] == "csm")
         << family["command"];
@@ -115,7 +116,7 @@ TEST_F(TuneProgram, AsksForOneEngineAndWithinATime) {
   Words hurried = asked;
   hurried.insert(hurried.end(), {"--time-limit", "1e-9"});
   ASSERT_EQ(run(hurried), 0) << said();
-  const nlohmann::json first = nlohmann::json::parse(bytes(json));
+  const nlohmann::json first = nlohmann::json::parse(bytes_of(json));
   EXPECT_EQ(first["others"].size(), 0u);
   EXPECT_EQ(first["untried"].size(), answer["others"].size());
   EXPECT_NE(said().find("Not tried within 1e-09 s"), std::string::npos) << said();
@@ -129,7 +130,7 @@ TEST_F(TuneProgram, WritesASheetToPrint) {
                  "--map-size", "64:256:x2", "--runs", "3", "--engine", "godot", "-o", out}),
             0)
       << said();
-  const std::string sheet = bytes(out + "/sheet.html"), mark = "id=\"result\">";
+  const std::string sheet = bytes_of(out + "/sheet.html"), mark = "id=\"result\">";
   const std::size_t start = sheet.find(mark) + mark.size();
   const nlohmann::json document =
       nlohmann::json::parse(sheet.substr(start, sheet.find("</script>", start) - start));
@@ -145,7 +146,7 @@ TEST_F(TuneProgram, WritesASheetToPrint) {
   }
   for (const char* name : {"drawn-0", "truth-0", "drawn-1", "truth-1"})
     EXPECT_NE(sheet.find(std::string("data-picture=\"") + name), std::string::npos) << name;
-  const nlohmann::json result = nlohmann::json::parse(bytes(out + "/result.json"));
+  const nlohmann::json result = nlohmann::json::parse(bytes_of(out + "/result.json"));
   EXPECT_FALSE(result["lights"][0].contains("shimmer")) << "the page is of the answer alone";
 }
 
@@ -155,7 +156,7 @@ TEST_F(TuneProgram, SaysWhyNothingCanWork) {
                  "--runs", "1", "--technique", "hard", "--slope-bias", "0", "--json", json}),
             1)
       << said();
-  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  const nlohmann::json answer = nlohmann::json::parse(bytes_of(json));
   EXPECT_FALSE(answer["feasible"]);
   EXPECT_NE(answer["why"].get<std::string>().find("no constant bias fits all: "), std::string::npos)
       << answer["why"];

@@ -49,7 +49,7 @@ class Views : public SweepProgram {
   nlohmann::json compared(const Words& more) {
     const std::string out = (root / "one").string();
     EXPECT_EQ(run(Words{"compare", scene, "-o", out, "--no-report"} + setting + more), 0) << said();
-    return nlohmann::json::parse(bytes(out + "/result.json"));
+    return nlohmann::json::parse(bytes_of(out + "/result.json"));
   }
   static double error_of(const nlohmann::json& result) {
     const nlohmann::json& error = result["lights"][0]["error"];
@@ -94,7 +94,7 @@ TEST_F(Views, SweepsCellsAreThoseOfCompare) {
                  "--cameras", "far,near", "--runs", "1"}),
             0)
       << said();
-  std::istringstream lines(bytes(out + "/sweep.jsonl"));
+  std::istringstream lines(bytes_of(out + "/sweep.jsonl"));
   std::string line;
   std::size_t cells = 0;
   while (std::getline(lines, line)) {
@@ -107,7 +107,7 @@ TEST_F(Views, SweepsCellsAreThoseOfCompare) {
                    "far,near"}),
               0)
         << said();
-    const nlohmann::json one = nlohmann::json::parse(bytes(out_of_one + "/result.json"));
+    const nlohmann::json one = nlohmann::json::parse(bytes_of(out_of_one + "/result.json"));
     EXPECT_EQ(cell["views"], one["views"]);
     EXPECT_EQ(cell["lights"][0]["error"]["wrong"], one["lights"][0]["error"]["wrong"]);
     EXPECT_NE(cell["command"].get<std::string>().find("--cameras far,near"), std::string::npos);
@@ -120,9 +120,9 @@ TEST_F(Views, TunesAnswerKeepsItsWordFromEveryCamera) {
   const Words words{"tune", scene,        "--size",     "120x80", "--max-error", "wrong:0.1%", "--technique",
                     "hard", "--map-size", "64:1024:x2", "--runs", "1",           "--json",     json};
   ASSERT_EQ(run(words + Words{"--camera", "far"}), 0) << said();
-  const int alone = nlohmann::json::parse(bytes(json))["options"]["map-size"] == "64" ? 64 : 0;
+  const int alone = nlohmann::json::parse(bytes_of(json))["options"]["map-size"] == "64" ? 64 : 0;
   ASSERT_EQ(run(words + Words{"--cameras", "far,near"}), 0) << said();
-  const nlohmann::json answer = nlohmann::json::parse(bytes(json));
+  const nlohmann::json answer = nlohmann::json::parse(bytes_of(json));
   EXPECT_EQ(answer["views"]["worst"], "near");
   EXPECT_LE(answer["error"].get<double>(), 0.001);
   EXPECT_GT(std::stoi(answer["options"]["map-size"].get<std::string>()), alone);

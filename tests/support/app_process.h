@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace gnomon::app_test {
 
 using Words = std::vector<std::string>;
@@ -41,23 +43,11 @@ ProcessResult run_gnomon(const Words& arguments, const ProcessOptions& options =
 /// That exit code, nothing on stdout, and on stderr one line that holds the part.
 void expect_one_line(const ProcessResult& result, int code, const std::string& part);
 
-/// A folder of its own that is removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::string& path() const { return path_; }
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  /// Names of what lies in it, sorted; folders end in '/'.
-  Words entries() const;
+using test::TemporaryFolder;
 
- private:
-  std::string path_;
-};
-
-std::string read_file(const std::string& path);
+inline std::string read_file(const std::string& path) {
+  return test::bytes_of(path);
+}
 void write_text(const std::string& path, const std::string& text);
 /// The content-security policy of a page; empty where it has none.
 std::string policy_of(const std::string& page);

@@ -7,13 +7,12 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gnomon::test {
 
@@ -43,20 +42,8 @@ inline int finish(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-inline std::string bytes(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 class SweepProgram : public ::testing::Test {
  protected:
-  void SetUp() override {
-    root = fs::temp_directory_path() / ("gnomon-sweep-" + std::to_string(getpid()));
-    fs::remove_all(root);
-    fs::create_directories(root);
-  }
-  void TearDown() override { fs::remove_all(root); }
-
   // Three drawings with four biases each.
   Words words(const std::string& folder, const Words& more = {}) const {
     Words all{"sweep",  "floating-box", "--size",    "96x54", "--map-size", "32,64,128",
@@ -66,8 +53,8 @@ class SweepProgram : public ::testing::Test {
   }
   int run(const Words& words) const { return finish(start(words, log())); }
   std::string log() const { return (root / "log").string(); }
-  std::string said() const { return bytes(log()); }
-  std::string lines(const std::string& folder) const { return bytes(root / folder / "sweep.jsonl"); }
+  std::string said() const { return bytes_of(log()); }
+  std::string lines(const std::string& folder) const { return bytes_of(root / folder / "sweep.jsonl"); }
 
   void expect_same(const std::string& a, const std::string& b) const {
     EXPECT_TRUE(lines(a) == lines(b)) << a << " and " << b << " differ in sweep.jsonl";
@@ -77,7 +64,7 @@ class SweepProgram : public ::testing::Test {
   // sweep.csv without what depends on the machine and on where the sweep was interrupted. No field of these
   // sweeps is quoted.
   std::string untimed_table(const std::string& folder) const {
-    std::istringstream table(bytes(root / folder / "sweep.csv"));
+    std::istringstream table(bytes_of(root / folder / "sweep.csv"));
     std::vector<bool> kept;
     std::string out;
     for (std::string line; std::getline(table, line);) {
@@ -93,7 +80,8 @@ class SweepProgram : public ::testing::Test {
     return out;
   }
 
-  fs::path root;
+  const TemporaryFolder folder_;
+  const fs::path root{folder_.path()};
 };
 
 }  // namespace gnomon::test

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <regex>
 #include <set>
 
 #include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gnomon::app {
 namespace {
@@ -173,8 +173,7 @@ TEST(ViewScript, IncompleteOrExcessiveLinesAreErrors) {
 }
 
 std::string text_of(const std::string& name) {
-  std::ifstream file(test::source_dir() + "/" + name);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return test::bytes_of(test::source_dir() + "/" + name);
 }
 
 /// The first word of everything between backticks.

@@ -25,7 +25,7 @@ interface Scale {
 }
 const error: Omit<Scale, "to"> = { from: "0", gradient: gradient(magmaStops) };
 
-/** Of the pictures that have one, by their names in the viewer. */
+/** The scales of the pictures that have one, by the names of these in the viewer. */
 export const scales: Record<string, Scale> = {
   truth: { from: "0, in shadow", to: "1, lit", gradient: gradient([[0, 0, 0], [255, 255, 255]]) },
   drawn: { from: "0, in shadow", to: "1, lit", gradient: gradient([[0, 0, 0], [255, 255, 255]]) },

@@ -44,7 +44,7 @@ export interface ShownMaterial {
   transmission: number;
 }
 
-/** Of one comparison: what its lights share. */
+/** What the lights of one comparison share. */
 interface ComparisonJson {
   exposure: number;  // linear factor of both pictures
   rays: PixelRays;
@@ -75,7 +75,7 @@ export const page = pageData<PageJson>();
 const labelWords = new Map(page.labels.map((label) => [label.value, label]));
 export const wordsOf = (label: number): LabelWords => labelWords.get(label)!;
 
-/** Of each comparison of the page at most one. */
+/** Makes at most one thing for each comparison of the page. */
 class Once<T> {
   private readonly made = new Map<string, Promise<T>>();
   constructor(private readonly make: (comparison: string) => Promise<T>) {}

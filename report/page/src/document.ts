@@ -29,7 +29,7 @@ export function keyed(key: string, words: (value: number) => string, shown?: num
 
 export const keyedCount = (key: string): Markup => keyed(key, grouped);
 
-/** The same with what is counted: "1 pixel", "12,713 pixels". */
+/** A count with what is counted: "1 pixel", "12,713 pixels". */
 export const keyedThings = (key: string, thing: string): Markup => markup`${keyedCount(key)} ${thing}${numberAt(key) === 1 ? "" : "s"}`;
 
 /** What something is less by, a number >= 0: shown with a minus sign before it. */

@@ -76,7 +76,7 @@ class="n" colspan="2">${signedNumber(beyondRounding(last - first, last + first))
 `;
 }
 
-/** Of one light before the pictures; of several each beside its budget, and the worst before them. */
+/** The verdict before the pictures: of several lights that of the worst, the others stand beside their budgets. */
 function firstVerdict(): Markup | null {
   const { lights } = result, worst = labelledLight();
   if (lights.length === 0) return null;

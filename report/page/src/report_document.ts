@@ -140,7 +140,7 @@ export const result = resultDocument<Result>(), facts = pageData<Facts>();
 
 /** Another renderer's picture, whose depth map is not known: two steps are told apart, light size and all the rest. */
 export const lacksMap = (): boolean => result.lights.some(({ map }) => map.size === null);
-/** Of the step that leads from rung k to the next. */
+/** The name of the step that leads from rung k to the next. */
 export const stepName = (k: number): string => (lacksMap() && k === 1 ? "unexplained" : facts.rungs[k + 1]!.step!);
 
 /** ", NAME" where there are several lights. */

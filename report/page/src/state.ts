@@ -1,7 +1,7 @@
 // What the reader looks at, kept in the URL's hash so that a view can be linked to: "#light-0?pixel=12,40&bias=0.05",
 // "#sweep?cell=12&rows=map_size". A hash without "?" is an ordinary link to a section.
 
-/** Of the viewer. */
+/** What the viewer shows. */
 export interface ViewState {
   left: string;   // pictures, by their names in the viewer
   right: string;
@@ -16,7 +16,7 @@ export interface ViewState {
   label: string | null;  // shown alone
 }
 
-/** Of one light of a comparison. */
+/** What is looked at of one light of a comparison. */
 export interface LightState extends ViewState {
   bias: number | null;  // constant, world units; null: as rendered
   cut: string;  // the cross-section's way across the map: auto, row, column
@@ -28,7 +28,7 @@ const initialView: ViewState = {
 };
 export const initialLight: LightState = { ...initialView, bias: null, cut: "auto", texels: 16 };
 
-/** Of a sweep. */
+/** What is looked at of a sweep. */
 export interface SweepState extends ViewState {
   cell: number | null;
   held: number | null;  // a cell kept for comparison

@@ -33,7 +33,7 @@ function partsOf({ slope, normal_offset: offset, receiver_plane: plane, adaptive
   return [slope !== 0 ? say("slope_bias") : "", offset !== 0 ? say("normal_offset") : "", plane ? say("receiver_plane") : "",
     adaptive !== null ? say("adaptive_bias") : ""].filter((part) => part !== "");
 }
-/** The same in words. */
+/** What a bias is made of besides its constant, in words. */
 export const otherParts = (bias: LightJson["bias"]): string => partsOf(bias).join(say("and"));
 
 function mapTest(light: Light, pixel: Pixel, bias: number): Facts {

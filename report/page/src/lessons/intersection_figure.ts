@@ -37,7 +37,7 @@ function cassiniBounds(x: Interval, y: Interval): Interval {
   const xx = square(x), yy = square(y);
   return plus(plus(square(plus(xx, yy)), scaled(-2 * c2, plus(xx, scaled(-1, yy)))), [c2 * c2 - a4, c2 * c2 - a4]);
 }
-/** Of its derivative along the ray. */
+/** Bounds of the surface function's derivative along the ray. */
 function slopeBounds(x: Interval, y: Interval, d: Vec2): Interval {
   const sum = plus(square(x), square(y)), byX = plus(scaled(4, times(x, sum)), scaled(-4 * c2, x)), byY = plus(scaled(4, times(y, sum)), scaled(4 * c2, y));
   return plus(scaled(d[0], byX), scaled(d[1], byY));

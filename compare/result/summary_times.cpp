@@ -1,0 +1,111 @@
+// What a comparison took and what that bought, as lines of the summary.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "compare/result/number_text.h"
+#include "compare/result/output_parts.h"
+#include "compare/result/outputs.h"
+#include "compare/result/shadow_cost.h"
+#include "compare/result/summary_page.h"
+
+namespace gnomon::compare {
+namespace {
+
+// What the exact shadow took, and of what.
+std::string exact_shadows_line(const raytrace::LightTruth& truth) {
+  std::string text = fmt::format("exact shadows: {} for {} ray{}", median_text(truth.exact_times()),
+                                 grouped(truth.exact_rays()), truth.exact_rays() == 1 ? "" : "s");
+  if (!truth.is_soft()) return text;
+  return text + fmt::format(", of {} samples asked for ({} a receiver); and {} to the light's centre",
+                            grouped(truth.soft_rays_asked), truth.samples, median_text(truth.shadow_rays));
+}
+
+// What is left of the shading when the picture without shadows is taken from it.
+std::string lookups_text(const TimeDifference& lookups, bool hybrid) {
+  if (!lookups.timed()) return "lookups not timed";
+  return milliseconds(lookups) + (hybrid ? " for the rest" : " to look it up") +
+         (lookups.told ? "" : ", which these runs do not tell from nothing");
+}
+
+// The shadows' part of a frame on both sides, and of one in which nothing that the light sees has moved.
+void add_shadow_cost(SummaryPage& page, const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& drawn = drawn_record(c, light);
+  const raytrace::LightTruth& truth = true_record(c, light);
+  if (drawn.unshadowed_pass.runs.empty()) return;
+  const TimeDifference lookups = shadow_lookups(drawn);
+  const bool hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
+  page.field("shadows", fmt::format("without the picture: {} for the {}, {}; by rays {}, with nothing made "
+                                    "for the light",
+                                    median_text(drawn.map_pass), hybrid ? "sheets" : "map",
+                                    lookups_text(lookups, hybrid), median_text(standing_rays(truth))));
+  page.field("", fmt::format("where light and casters stand still: {} against {}", milliseconds(lookups),
+                             median_text(standing_rays(truth))));
+  page.field("picture",
+             fmt::format("without shadows: {} to shade it, {} for primary rays",
+                         median_text(drawn.unshadowed_pass), median_text(c.raytraced.primary_rays)));
+}
+
+// What does not depend on the machine.
+std::string work_line(const Comparison& c, const LightComparison& light) {
+  const raytrace::LightTruth& truth = true_record(c, light);
+  std::string text = counted(drawn_record(c, light).map_texels, "texel") + " drawn";
+  if (light.lookups)
+    text += fmt::format(", {} looked up ({} a pixel)", grouped(*light.lookups),
+                        plain_number(static_cast<double>(*light.lookups) /
+                                     static_cast<double>(std::max<std::uint64_t>(light.pixels.compared, 1))));
+  text += "; " + counted(truth.exact_rays(), "ray");
+  const RayWork& work = light.ray_work;
+  if (work.rays > 0)
+    text += fmt::format(", {} boxes and {} primitives tested for one (of {} through the tree)",
+                        plain_number(static_cast<double>(work.boxes) / static_cast<double>(work.rays)),
+                        plain_number(static_cast<double>(work.primitives) / static_cast<double>(work.rays)),
+                        grouped(work.rays));
+  return text;
+}
+
+}  // namespace
+
+std::string median_text(const Times& t) {
+  return milliseconds(t.runs.empty() ? -1.0 : t.median());
+}
+
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
+void add_times(SummaryPage& page, const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& drawn = drawn_record(c, light);
+  if (!c.judged)
+    page.field("time", fmt::format("the map: {}, and {} to shade the picture with it",
+                                   median_text(drawn.map_pass), median_text(drawn.shade_pass)));
+  page.field(c.judged ? "time" : "", exact_shadows_line(true_record(c, light)));
+  add_shadow_cost(page, c, light);
+  if (!c.judged) page.field("work", work_line(c, light));
+}
+
+void add_once(SummaryPage& page, const Comparison& c) {
+  double first_map = 0.0;
+  for (const LightComparison& light : c.lights) first_map += drawn_record(c, light).first_map_ms;
+  page.field(
+      "once",
+      fmt::format("{} to upload the scene, {} to make memory for the maps and draw them first; "
+                  "{} to build the tracer's hierarchy",
+                  milliseconds(c.raster.upload_ms), first_map > 0.0 ? milliseconds(first_map) : "not timed",
+                  milliseconds(c.accel_build_ms)));
+  page.field("", fmt::format("for the comparison alone: {} to join triangles, {} to read back",
+                             milliseconds(c.topology_ms), milliseconds(c.raster.read_back_ms)));
+  if (is_software(c.raster.context)) page.field("", std::string(software_note));
+}
+
+void add_time_in_short(SummaryPage& page, const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& drawn = drawn_record(c, light);
+  const std::string exact = exact_shadows_line(true_record(c, light));
+  if (c.judged || drawn.unshadowed_pass.runs.empty()) return page.field("time", exact);
+  const bool hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
+  page.field("time", fmt::format("shadows by the {}: {}, and {}", hybrid ? "hybrid" : "map",
+                                 median_text(drawn.map_pass), lookups_text(shadow_lookups(drawn), hybrid)));
+  page.field("", exact);
+}
+
+}  // namespace gnomon::compare
