@@ -21,6 +21,7 @@
 #include "app/strongest_lights.h"
 #include "compare/measure/reduced.h"
 #include "compare/result/figures.h"
+#include "compare/result/places.h"
 #include "compare/result/views.h"
 #include "raster/bands.h"
 #include "scene/base/stages.h"
@@ -163,14 +164,15 @@ Expected<Compared> render_and_compare(const CompareCommand& command, const Loade
 Expected<compare::Comparison> judge_view(const CompareCommand& command,
                                          const compare::CompareOptions& options, const LoadedScene& loaded,
                                          const std::vector<std::uint32_t>& lights,
-                                         const raytrace::Tracer& tracer, raster::Renderer& renderer) {
+                                         const raytrace::Tracer& tracer, raster::Renderer& renderer,
+                                         compare::ErrorPlaces& places) {
   const raster::RasterOptions& raster = options.raster;
   const auto bytes = compare_bytes(*loaded.scene, lights, raster.size, false);
   auto bands = plan_bands(command.memory, raster.size, bytes, raster::most_pixels(renderer, raster.map));
   if (!bands) return fail(bands.error());
   compare::Plan plan = compare::plan_of(tracer, lights, options);
   plan.bands = std::move(*bands);
-  plan.page = false, plan.folder = folder_of_rows(command);
+  plan.page = false, plan.folder = folder_of_rows(command), plan.places = &places;
   compare::Comparison out;
   const auto measured =
       compare::measure(out, plan, compare::frames_of(tracer, renderer, lights, options), compare::Progress());
@@ -190,6 +192,7 @@ Expected<compare::ViewErrors> judge_views(const CompareCommand& command, LoadedS
   options.raytrace.runs = 1, options.raytrace.warm_up = options.raytrace.picture = false;
   options.perceptual = errors.measure->needs == compare::FigureNeeds::perception;
   const compare::Pose own{loaded.scene->camera, loaded.scene->lights};
+  errors.places = compare::places_of(*loaded.world, own.camera);
   {
     auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
     if (!renderer) return fail(renderer.error());
@@ -198,7 +201,7 @@ Expected<compare::ViewErrors> judge_views(const CompareCommand& command, LoadedS
       console.progress(view.name, double(errors.views.size()) / double(views.size()));
       const compare::Pose pose = view.pose(own);
       loaded.scene->camera = pose.camera, loaded.scene->lights = pose.lights;
-      const auto compared = judge_view(command, options, loaded, *lights, tracer, **renderer);
+      const auto compared = judge_view(command, options, loaded, *lights, tracer, **renderer, errors.places);
       if (!compared) return fail(compared.error());
       add_view(errors, view.name, *compared);
     }

@@ -272,6 +272,7 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
     if (!setting) return fail(setting.error());
     const auto sheet = make_sheet(command, bench, answer);
     if (!sheet) return fail(sheet.error());
+    engine.map_places();
     const auto compared = compare_at_answer(engine, answer, *setting);
     if (!compared) return fail(compared.error());
     (*compared)->load_ms = bench.loaded.load_ms;

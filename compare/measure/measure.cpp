@@ -5,6 +5,7 @@
 #include "compare/measure/pictures.h"
 #include "compare/measure/sums.h"
 #include "compare/result/figures.h"
+#include "compare/result/places.h"
 #include "raster/bands.h"
 #include "raytrace/frame.h"
 #include "scene/base/parallel.h"
@@ -86,6 +87,9 @@ Expected<void> Measuring::add_light(std::size_t i, const Frames& band, const Pic
   Climb climbed = source_.climb ? source_.climb(in) : climb(in, sort_pixels(in));
   classify_ms_[i] += classify.elapsed_ms();
   const Image<Label> labels = labels_climbed(in, climbed.labels);
+  if (plan_.places != nullptr)
+    add_errors(band.traced.receiver, climbed.labels, climbed.rungs.front(), climbed.rungs.back(),
+               *plan_.places);
   const NearLight near = near_.add(i, climbed, labels);
   auto maps = sums_[i].add_neighbours(input(near_.frames(), i, near_.first()), near, ready);
   if (!maps) return fail(maps.error());

@@ -47,6 +47,7 @@ struct Plan {
   const raytrace::Topology* topology = nullptr;  ///< of the tracer's world; null: made here
   /// From top to bottom. At most one: the picture in one piece, whose images stay in the comparison.
   std::vector<PictureRows> bands{};
+  ErrorPlaces* places = nullptr;  ///< takes the errors of all lights; null: not asked for
   // Of a picture in bands:
   bool page = true;      ///< whether the images that the report page shows are wanted
   std::string aov{};     ///< a path as write_aov() has it; "": not wanted

@@ -6,11 +6,17 @@
 
 #include "compare/result/figures.h"
 #include "compare/result/output_parts.h"
+#include "compare/result/places.h"
 
 namespace gnomon::compare {
 
 bool add_view(ViewErrors& errors, std::string name, const Comparison& comparison) {
-  ViewErrors::OfView view{std::move(name), {}, std::numeric_limits<double>::quiet_NaN()};
+  const Camera& camera = comparison.world->scene->camera;
+  ViewErrors::OfView view{std::move(name),
+                          {},
+                          std::numeric_limits<double>::quiet_NaN(),
+                          camera.eye,
+                          glm::normalize(camera.target - camera.eye)};
   for (const LightComparison& light : comparison.lights) {
     if (says_nothing({errors.measure}, {&static_cast<const LightFigures&>(light), 1})) continue;
     const double error = errors.measure->of(light);
@@ -36,20 +42,27 @@ std::string views_line(const ViewErrors& errors) {
   if (errors.views.empty()) return {};
   const ViewErrors::OfView& worst = errors.views[errors.worst];
   if (std::isnan(worst.error)) return fmt::format("Nothing is compared in {} views.", errors.views.size());
-  return fmt::format("Worst of {} views: {}, {} ({} in the mean).", errors.views.size(), worst.name,
+  const std::string where = places_line(errors.places);
+  return fmt::format("Worst of {} views: {}, {} ({} in the mean).{}{}", errors.views.size(), worst.name,
                      figure_text(*errors.measure, worst.error),
-                     figure_text(*errors.measure, mean_error(errors)));
+                     figure_text(*errors.measure, mean_error(errors)), where.empty() ? "" : " ", where);
 }
 
 Json views_json(const ViewErrors& errors) {
   Json each = Json::array();
   for (const ViewErrors::OfView& view : errors.views)
-    each.push_back({{"view", view.name}, {"light", view.light}, {"error", number(view.error)}});
-  return {{"measure", errors.measure->measure.name},
-          {"worst", errors.views[errors.worst].name},
-          {"worst_error", number(errors.views[errors.worst].error)},
-          {"mean_error", number(mean_error(errors))},
-          {"each", std::move(each)}};
+    each.push_back({{"view", view.name},
+                    {"light", view.light},
+                    {"error", number(view.error)},
+                    {"eye", vector3(view.eye)},
+                    {"direction", vector3(view.direction)}});
+  Json views{{"measure", errors.measure->measure.name},
+             {"worst", errors.views[errors.worst].name},
+             {"worst_error", number(errors.views[errors.worst].error)},
+             {"mean_error", number(mean_error(errors))},
+             {"each", std::move(each)}};
+  if (!errors.places.cells.empty()) views["places"] = places_json(errors.places);
+  return views;
 }
 
 }  // namespace gnomon::compare

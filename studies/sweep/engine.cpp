@@ -7,6 +7,7 @@
 #include <string>
 
 #include "compare/result/figures.h"
+#include "compare/result/places.h"
 #include "compare/result/views.h"
 #include "raster/technique_traits.h"
 #include "scene/base/parallel.h"
@@ -168,7 +169,8 @@ Expected<void> Engine::Impl::measure() {
                   .lights = truth_of->compared,
                   .measure = {.perceptual = perceptual, .by_cascade = false},
                   .maps = map_measures,
-                  .topology = &topology};
+                  .topology = &topology,
+                  .places = kept.places ? &*kept.places : nullptr};
   const auto measured =
       measure_frames(comparison, plan, [&](const LadderInput& in) { return climb_up(*lower[in.index], in); });
   if (!measured) return measured;
@@ -370,12 +372,17 @@ Expected<void> Engine::compare_view(std::size_t view, const Setting& setting, De
 Expected<Comparison*> Engine::compare(const Setting& setting, Detail detail) {
   shown_ = 0;
   ViewErrors errors{.measure = measure_};
+  const bool maps = maps_places_ && !views_.empty() && detail == Detail::images;
+  kept_->places.reset();
+  if (maps) kept_->places = places_of(kept_->world, setting.camera);
   for (std::size_t view = 0; view < impls_.size(); ++view) {
-    const Detail enough = views_.empty() ? detail : Detail::numbers;
+    const Detail enough = views_.empty() || maps ? detail : Detail::numbers;
     if (auto compared = compare_view(view, posed(setting, view), enough); !compared)
       return fail(compared.error());
     if (!views_.empty() && add_view(errors, views_[view].name, impls_[view]->comparison)) shown_ = view;
   }
+  if (maps) errors.places = std::move(*kept_->places);
+  kept_->places.reset();
   Impl& worst = *impls_[shown_];
   const Setting shown = posed(setting, shown_);
   kept_->scene.camera = shown.camera, kept_->scene.lights = shown.lights;

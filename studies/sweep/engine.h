@@ -85,6 +85,8 @@ class Engine {
   /// views, one after the other, gaps and best bias of all pixels, times their means. What is kept from one setting to
   /// the next is kept for each view. Without views: from the setting's own camera.
   void look_from(std::vector<JudgedView> views, const Figure& measure);
+  /// From now on compare() with all images also says where errors lie, over all views (ViewErrors::places).
+  void map_places() { maps_places_ = true; }
 
   /// The comparison at a setting, as compare_world would make it, times aside; valid until the next call, and
   /// the caller's to complete (command, seed, machine). A frame that differs from the last drawn one in its
@@ -128,6 +130,7 @@ class Engine {
   std::vector<JudgedView> views_;             ///< none: the setting's own camera
   const Figure* measure_ = &wrong_and_mean();
   std::size_t shown_ = 0;  ///< the view that was worst
+  bool maps_places_ = false;
 };
 
 /// A class code: the label's value, counted from Label::uncertain, and what the error is.

@@ -21,6 +21,8 @@ struct Engine::Kept {
   raytrace::Accel accel = raytrace::Accel::bvh;  ///< of the tracer
   std::vector<raster::Bias> expected{};
   std::optional<FilmPlan> film{};
+  std::optional<ErrorPlaces>
+      places{};  ///< takes the errors of views as they are measured; none: not asked for
   EngineWork work{};
 };
 

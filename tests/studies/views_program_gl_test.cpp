@@ -78,6 +78,30 @@ TEST_F(Views, CompareIsThatOfTheWorstCamera) {
   EXPECT_NE(said().find("Worst of 3 views: near, "), std::string::npos) << said();
 }
 
+// The squares have every compared pixel of every view, and all that they are off by.
+TEST_F(Views, PlacesHoldTheErrorsOfAllViews) {
+  const nlohmann::json far = compared({"--camera", "far"}), near = compared({"--camera", "near"});
+  const nlohmann::json places = compared({"--cameras", "all"})["views"]["places"];
+  double pixels = places["pixels_beyond"], error = pixels * places["mean_absolute_beyond"].get<double>();
+  double most = 0.0, at_worst = 0.0;
+  for (const nlohmann::json& cell : places["cells"]) {
+    const double sum = cell[2].get<double>() * cell[3].get<double>();
+    pixels += cell[2].get<double>(), error += sum, most = std::max(most, sum);
+    if (cell[0] == places["worst"][0] && cell[1] == places["worst"][1]) at_worst = sum;
+  }
+  double compared_pixels = 0.0, all_error = 0.0;
+  for (const nlohmann::json& view : {far, near}) {
+    const nlohmann::json& light = view["lights"][0];
+    const double count = light["pixels"]["compared"];
+    compared_pixels += count, all_error += count * light["error"]["mean_absolute"].get<double>();
+  }
+  EXPECT_EQ(pixels, compared_pixels);
+  const double rounding = 1e-5 * compared_pixels;
+  EXPECT_NEAR(error, all_error, rounding);
+  EXPECT_NEAR(at_worst, most, rounding);
+  EXPECT_NEAR(places["worst_share"].get<double>(), most / all_error, rounding / all_error);
+}
+
 TEST_F(Views, LimitsHoldForTheWorst) {
   const double far = error_of(compared({"--camera", "far"})), near = error_of(compared({"--camera", "near"}));
   const std::string between = std::to_string(50.0 * (far + near)) + "%";
@@ -107,7 +131,8 @@ TEST_F(Views, SweepsCellsAreThoseOfCompare) {
                    "far,near"}),
               0)
         << said();
-    const nlohmann::json one = nlohmann::json::parse(bytes_of(out_of_one + "/result.json"));
+    nlohmann::json one = nlohmann::json::parse(bytes_of(out_of_one + "/result.json"));
+    one["views"].erase("places");  // a cell's line goes without
     EXPECT_EQ(cell["views"], one["views"]);
     EXPECT_EQ(cell["lights"][0]["error"]["wrong"], one["lights"][0]["error"]["wrong"]);
     EXPECT_NE(cell["command"].get<std::string>().find("--cameras far,near"), std::string::npos);

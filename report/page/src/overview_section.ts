@@ -2,7 +2,7 @@
 import { twoSidedBar } from "./bars";
 import { beyondRounding, keyed, keyedCount, keyedDecrease } from "./document";
 import { picture } from "./frame";
-import { milliseconds, percent, plainNumber, signedNumber } from "./number_text";
+import { milliseconds, signedNumber } from "./number_text";
 import { isBeside } from "./parts";
 import { facts, result, stepName, timed, verdictBlock, type LightResult } from "./report_document";
 import { flowing, markup, type Markup } from "./template";
@@ -97,16 +97,11 @@ ${budgetTable(light, i)}</div>
 }
 
 // Where a setting was judged from several views: this page is of the worst of them.
-function viewsTable(): Markup | null {
+function viewsLine(): Markup | null {
   const { views } = result;
-  if (!views) return null;
-  const several = result.lights.length > 1, isShare = ["wrong", "mean", "wrong and mean"].includes(views.measure);
-  const amount = (error: number | null): string => (error === null ? "nothing compared" : isShare ? percent(error) : plainNumber(error));
-  return markup`<details class="views"><summary>This is the worst of ${views.each.length} views: ${views.worst}, ${amount(views.worst_error)} (${amount(views.mean_error)} in the mean)</summary>
-<table><thead><tr><th scope="col">view</th>${several && markup`<th scope="col">light that errs most</th>`}<th scope="col" class="n">${
-  views.measure === "wrong and mean" ? "wrong pixels or mean error" : views.measure}</th></tr></thead><tbody>
-${views.each.map(({ view, light, error }) => markup`<tr><th scope="row">${view}</th>${several && markup`<td>${light}</td>`}<td class="n">${amount(error)}</td></tr>\n`)}</tbody></table></details>
-`;
+  return views ? markup`<p class="setting">This is the worst of ${views.each.length} views: ${views.worst}. <a href="#views">${
+    views.places?.worst ? "All of them, and where it fails" : "All of them"}</a></p>
+` : null;
 }
 
 const figure = (name: string, caption: Markup, remark: Markup | null): Markup =>
@@ -116,7 +111,7 @@ export function overviewSection(): Markup {
   const { lights, scene } = result;
   return markup`<section id="overview" aria-labelledby="title">
 <h1 id="title">${scene.name || "Scene without a name"}</h1>
-${firstVerdict()}${viewsTable()}${settingLines()}<div class="${lights.length === 0 ? "pair" : "trio"}">
+${firstVerdict()}${viewsLine()}${settingLines()}<div class="${lights.length === 0 ? "pair" : "trio"}">
 ${figure("raster", rasterCaption(), rasterRemark())}${figure("raytraced", raytracedCaption(), raytracedRemark())}${lights.length > 0 && labelFigure(labelledLight())}</div>
 ${lights.map(card)}${lights.length === 0 && markup`<p class="verdict">The scene has no light: there is no shadow to compare.</p>\n`}</section>
 `;

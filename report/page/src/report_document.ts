@@ -76,6 +76,24 @@ export interface LightResult {
   shadow_samples?: number;  // of a light with size
 }
 
+/** What a setting errs by from several views, and where: squares seen from above. */
+export interface Views {
+  measure: string;
+  worst: string;
+  worst_error: number | null;
+  mean_error: number | null;
+  each: { view: string; light: string; error: number | null; eye: [number, number, number]; direction: [number, number, number] }[];
+  places?: {
+    corner: [x: number, z: number];
+    side: number;
+    cells: [column: number, row: number, pixels: number, error: number][];
+    worst: [column: number, row: number] | null;
+    worst_share: number | null;
+    pixels_beyond: number;
+    mean_absolute_beyond: number | null;
+  };
+}
+
 export interface Result {
   command: string;
   version: string;
@@ -88,7 +106,7 @@ export interface Result {
   costs: Record<string, number>;
   times_ms: Record<string, Times>;
   lights: LightResult[];
-  views?: { measure: string; worst: string; worst_error: number | null; mean_error: number | null; each: { view: string; light: string; error: number | null }[] };
+  views?: Views;
   time_budget?: { stage: string; wall_ms: number }[];
   judged?: { renderer: { name: string; version: string }; ratio: boolean; identified: object | null };
 }

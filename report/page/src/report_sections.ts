@@ -9,6 +9,7 @@ import { provenance, type Entry } from "./provenance";
 import { facts, plain, result } from "./report_document";
 import { flowing, markup, scrollRegion, type Markup } from "./template";
 import { tuneSection } from "./tune_sections";
+import { viewsSection } from "./views_section";
 
 // Who drew a picture of another renderer's and how, whether it shows the scene as Gnomon sees it, and what to set.
 function judgeSection(lines: [name: string, value: string][]): Markup {
@@ -43,6 +44,6 @@ const after = (): Entry[] => [...result.shaders.map(({ replaced, sha256 }): Entr
 export function reportSections(): Section[] {
   const named = (id: string, link: string, html: Markup): Section => ({ id, link, html });
   return [...(facts.judged ? [named("judge", "Capture", judgeSection(facts.judged))] : []), ...(facts.tune ? [named("tune", "Answer", tuneSection(facts.tune))] : []),
-    named("overview", "Overview", overviewSection()), ...result.lights.map((light, i) => named(`light-${i}`, `Light: ${facts.light_facts[i]!.name}`, lightSection(light, i))),
+    named("overview", "Overview", overviewSection()), ...(result.views ? [named("views", "Views", viewsSection(result.views))] : []), ...result.lights.map((light, i) => named(`light-${i}`, `Light: ${facts.light_facts[i]!.name}`, lightSection(light, i))),
     named("cost", "Time and work", costSection()), named("effects", "Effects", effectsSection()), named("provenance", "Provenance", provenance(before(), after()))];
 }
