@@ -13,6 +13,7 @@
 #include "compare/result/option_names.h"
 #include "scene/base/stages.h"
 #include "scene/light.h"
+#include "studies/judge/turned_sun.h"
 
 namespace gnomon::compare {
 namespace {
@@ -31,6 +32,8 @@ constexpr int bias_steps = 12;
 /// Are shares of the error: a model that explains less than the first labels nothing, and below the second labels are
 /// guesses.
 constexpr double least_explained = 0.5, well_explained = 0.8;
+/// A turn of less than this, degrees, is what a bias or a coarse map make of shadows, too.
+constexpr double least_turn = 1.0;
 
 std::size_t index_of_size(int map_size) {
   return static_cast<std::size_t>(std::find(map_sizes.begin(), map_sizes.end(), map_size) -
@@ -288,6 +291,25 @@ Expected<void> put_below(Comparison& judged, raster::RasterFrame model, const Id
   return {};
 }
 
+/// Names a sun that stands elsewhere where that explains most of the error, and clearly more than the nearest setting
+/// does. No setting labels anything then.
+bool note_turned_sun(Judged& told, double explained_by_setting, const Comparison& judged,
+                     const IdentifyOptions& options) {
+  if (explained_by_setting >= well_explained) return false;
+  const raytrace::Tracer tracer(*judged.world, options.accel, options.precision);
+  const auto sun = find_turned_sun(judged, tracer);
+  if (!sun || sun->angle_degrees < least_turn || sun->explained < least_explained ||
+      1.0 - sun->explained > simpler * (1.0 - explained_by_setting))
+    return false;
+  const Vec3& d = sun->direction;
+  told.notes.push_back(fmt::format(
+      "the sun stands elsewhere: shadows are those of a light along ({:.4g}, {:.4g}, {:.4g}), {:.3g} "
+      "degrees from what the capture says, which explains {} of the error; correct the capture's "
+      "direction, or look for what clamps or delays it in the renderer",
+      d.x, d.y, d.z, sun->angle_degrees, percent(sun->explained)));
+  return true;
+}
+
 }  // namespace
 
 void mark_unexplained(const Image<float>& drawn_by_model, LightComparison& light) {
@@ -338,6 +360,11 @@ Expected<void> identify(Comparison& judged, raster::Renderer& renderer, const Id
   if (found.picture_error > 0.0)
     found.explained = std::clamp(1.0 - found.model_error / found.picture_error, 0.0, 1.0);
   found.renders = identifier.renders();
+  if (note_turned_sun(*told, found.explained, judged, options)) {
+    told->identified.reset();
+    judged.judged = std::move(told);
+    return {};
+  }
   const auto explained = fmt::format("the nearest setting ({}) explains {} of the error", found.options,
                                      percent(found.explained));
   const bool labels = found.explained >= least_explained;

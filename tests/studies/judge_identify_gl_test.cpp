@@ -8,6 +8,7 @@
 
 #include "compare/result/option_names.h"
 #include "compare/result/outputs.h"
+#include "scene/load.h"
 #include "studies/judge/identify.h"
 #include "tests/support/capture_support.h"
 #include "tests/support/synthetic_comparison.h"
@@ -130,6 +131,36 @@ TEST(JudgeIdentify, CountsTheDetachmentOfWhatIsExplainedAlone) {
   compare::mark_unexplained(model, light);
   EXPECT_EQ(light.classes[static_cast<std::size_t>(compare::Label::peter_panning) - 1], kept);
   EXPECT_EQ(light.detachment.pixels, kept);
+}
+
+/// Judges a drawing of the scene against the scene with its sun elsewhere, and returns what is noted and identified.
+std::pair<std::string, bool> judged_under_turned_sun(double degrees) {
+  const Compared drawn = draw_builtin("floating-box", picture, setting(Technique::hard, 1024, 0.6));
+  const compare::Capture capture =
+      self_capture(drawn, testing::TempDir() + "/gnomon-turned-sun", {.positions = true});
+  Scene said = *load_scene("floating-box");
+  said.lights.resize(1);
+  Vec3& sun = said.lights.front().direction;
+  const double turn = glm::radians(degrees);
+  sun = {std::cos(turn) * sun.x + std::sin(turn) * sun.z, sun.y,
+         std::cos(turn) * sun.z - std::sin(turn) * sun.x};
+  JudgeOutcome judged = judge(capture, said);
+  EXPECT_TRUE(judged.result) << reason(judged);
+  if (!judged.result) return {};
+  identify_in(judged);
+  std::string notes;
+  for (const std::string& note : judged.result->judged->notes) notes += note + "\n";
+  return {notes, judged.result->judged->identified.has_value()};
+}
+
+// Shadows of another sun are no setting's: the sun is named, and nothing is labelled by a setting.
+TEST(JudgeIdentify, NamesASunThatStandsElsewhere) {
+  const auto [turned, labels] = judged_under_turned_sun(12.0);
+  EXPECT_NE(turned.find("the sun stands elsewhere: "), std::string::npos) << turned;
+  EXPECT_FALSE(labels);
+  const auto [right, labels_right] = judged_under_turned_sun(0.0);
+  EXPECT_EQ(right.find("the sun stands elsewhere"), std::string::npos) << right;
+  EXPECT_TRUE(labels_right);
 }
 
 // Gnomon's own pcf compares with the receiver's plane, which few other renderers do.
