@@ -259,6 +259,12 @@ struct TerminatorCount {
   std::uint64_t unlit = 0;  ///< compared, though the smooth normal faces away, so that no light is seen there
 };
 
+/// Counts compared pixels whose lookup falls beside the map, or beyond its depths where it holds nothing.
+struct OutsideMap {
+  std::uint64_t receivers = 0;
+  std::uint64_t shadowed = 0;  ///< of them those truly in shadow, for the larger part
+};
+
 /// Describes the compared pixels that look up one cascade.
 struct CascadeFigures {
   std::uint64_t compared = 0;
@@ -278,6 +284,7 @@ struct LightFigures {
   std::optional<PenumbraStats> penumbra;  ///< of a light with size
   std::optional<SeamCount> seams;         ///< of the hard test in several maps
   TerminatorCount terminator;
+  OutsideMap outside;
   std::optional<ShimmerFigures> shimmer;  ///< where a film was asked for, too
   std::array<double, 3> texel_world{};    ///< min, median, max over compared receivers
   std::optional<std::uint64_t> lookups;   ///< LightRecord::lookups of the compared pixels; none: not counted

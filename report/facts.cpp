@@ -10,6 +10,7 @@
 #include "compare/ladder/labels.h"
 #include "compare/measure/reduced.h"
 #include "compare/result/judged.h"
+#include "compare/result/layout.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
@@ -86,6 +87,7 @@ Json light_facts(const PageInput& in, std::size_t index) {
   return {
       {"name", shown_light_name(c, index)},
       {"verdict", {{"headline", verdict.headline()}, {"detail", verdict.detail}, {"whole", verdict.whole()}}},
+      {"window", window_words(c, light)},
       {"contradiction",
        has_curve && !light.best_bias.feasible
            ? contradiction(light.best_bias, light.bias_texel_world, c.raster.options.map.bias)

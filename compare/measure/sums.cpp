@@ -106,6 +106,20 @@ Expected<void> LightSums::finish_theory() {
   return run_all(steps, steps_together(bytes));
 }
 
+namespace {
+
+/// Adds the compared pixels of some rows that lie outside the map; `outside` of the drawing may be empty.
+void add_outside(const Image<std::uint8_t>& outside, const Image<Label>& labels, const Image<float>& truth,
+                 OutsideMap& out) {
+  for (std::size_t i = 0; i < outside.data.size(); ++i) {
+    if (outside.data[i] == 0 || !is_compared(labels.data[i])) continue;
+    ++out.receivers;
+    if (truth.data[i] < 0.5f) ++out.shadowed;
+  }
+}
+
+}  // namespace
+
 Expected<Image<float>> LightSums::add_pixels(const LadderInput& in, const Climb& climb,
                                              const Image<Label>& labels_climbed) {
   const TimedStage stage("metrics");
@@ -132,6 +146,7 @@ Expected<Image<float>> LightSums::add_pixels(const LadderInput& in, const Climb&
     const TerminatorCount here = count_terminator(in, labels);
     map_.terminator.dark += here.dark, map_.terminator.unlit += here.unlit;
   }
+  add_outside(in.record().outside_map, labels, climb.rungs.front(), outside_);
   if (const auto lookups = count_lookups(in.drawn, in.record(), labels))
     lookups_ = lookups_.value_or(0) + *lookups;
   if (options_.perceptual) {
@@ -198,7 +213,7 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
   }
   out.bias_texel_world = in.record().texel_world;
   out.seams = seams_;
-  out.lookups = lookups_;
+  out.lookups = lookups_, out.outside = outside_;
   out.ray_work = ray_work_;
   out.other_sizes = other_sizes_.figures(out.error.mean_absolute);
   const MapMeasures& map = options_.map != nullptr ? *options_.map : map_;

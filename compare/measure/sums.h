@@ -85,6 +85,7 @@ class LightSums {
   PenumbraMeasure penumbra_;
   std::optional<SeamCount> seams_;
   std::optional<std::uint64_t> lookups_;
+  OutsideMap outside_;
   RayWork ray_work_;
   OtherSizesSum other_sizes_;
   EdgeSums edges_;

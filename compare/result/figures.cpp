@@ -215,6 +215,9 @@ constexpr Figure rows[] = {
     {"seams.at_border", "receivers", at<&L::seams, &SeamCount::at_border>()},
     {"seams.changed", "receivers", at<&L::seams, &SeamCount::changed>(), less},
 
+    {"outside_map.receivers", "pixels", at<&L::outside, &OutsideMap::receivers>()},
+    {"outside_map.shadowed", "pixels", at<&L::outside, &OutsideMap::shadowed>(), less},
+
     {"terminator.dark", "pixels", at<&L::terminator, &TerminatorCount::dark>()},
     {"terminator.unlit", "pixels", at<&L::terminator, &TerminatorCount::unlit>()},
 

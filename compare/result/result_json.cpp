@@ -8,6 +8,7 @@
 #include "compare/ladder/budget.h"
 #include "compare/result/figures.h"
 #include "compare/result/judged.h"
+#include "compare/result/layout.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
@@ -213,8 +214,10 @@ std::string result_json(const Comparison& c, double report_ms, double total_ms) 
   for (std::size_t i = 0; i < c.lights.size(); ++i) {
     if (!c.judged && !c.lights[i].cascades.empty())
       json["lights"][i]["by_cascade"] = by_cascade_json(c.lights[i].cascades);
+    json["lights"][i]["map"]["windows"] = windows_json(c, c.lights[i]);
     if (c.lights[i].seams) json["lights"][i]["seams"] = block_json("seams", c.lights[i]);
   }
+  json["camera"] = camera_json(c);
   if (c.judged) json["judged"] = judged_json(*c.judged);
   add_measure(c, json);
   add_threshold(c, json);

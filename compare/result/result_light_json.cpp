@@ -359,6 +359,7 @@ Json light_block(const Comparison& c, const LightComparison& light) {
              {"classes", classes_json(light)},
              {"class_errors", class_errors_json(light)},
              {"right_by_accident", block_json("right_by_accident", light)},
+             {"outside_map", block_json("outside_map", light)},
              {"terminator", block_json("terminator", light)},
              {"edges", block_json("edges", light)},
              {"detachment", block_json("detachment", light)},

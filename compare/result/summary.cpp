@@ -9,6 +9,7 @@
 #include "compare/ladder/labels.h"
 #include "compare/result/figures.h"
 #include "compare/result/judged.h"
+#include "compare/result/layout.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
@@ -54,23 +55,6 @@ std::string window_line(const Comparison& c, const LightComparison& light) {
                      plain_number(2.0 * face.half_extent.x), plain_number(2.0 * face.half_extent.y),
                      plain_number(face.near_depth), plain_number(face.far_depth), plain_number(origin.x),
                      plain_number(origin.y), plain_number(origin.z));
-}
-
-/// Says what a window that was given leaves out.
-std::string left_out_line(const Comparison& c, const LightComparison& light) {
-  if (c.raster.options.map.window.empty() || c.world == nullptr) return {};
-  const WindowCasters casters = window_casters(*c.world, drawn_record(c, light).map.view);
-  if (casters.inside == casters.count()) return fmt::format("holds all {} casters", grouped(casters.count()));
-  std::string text =
-      fmt::format("of {} casters {} lie inside", grouped(casters.count()), grouped(casters.inside));
-  const auto add = [&](std::uint64_t count, std::string_view where) {
-    if (count > 0) text += fmt::format(", {} {}", grouped(count), where);
-  };
-  add(casters.cut, "across its border");
-  add(casters.beside, "beside it (their shadows are missing)");
-  add(casters.before, "before the near plane (drawn at it)");
-  add(casters.beyond, "beyond the far plane (not drawn)");
-  return text;
 }
 
 std::string hybrid_line(const raster::ExternalCosts& e) {
@@ -207,7 +191,8 @@ void add_light(SummaryPage& page, const Comparison& c, const LightComparison& li
   page.blank();
   page.field("map", map_line(c, light));
   if (const std::string window = window_line(c, light); !window.empty()) page.field("window", window);
-  if (const std::string left_out = left_out_line(c, light); !left_out.empty()) page.field("", left_out);
+  if (const std::string words = window_words(c, light); !words.empty())
+    page.field(window_line(c, light).empty() ? "window" : "", words);
   const std::string filter = filter_text(c.raster.options.map);
   if (!filter.empty()) page.field("filter", filter);
   if (const auto& external = drawn_record(c, light).external) page.field("hybrid", hybrid_line(*external));
@@ -250,6 +235,8 @@ void add_figures_in_short(SummaryPage& page, const Comparison& c, const LightCom
     page.field("wrong", wrong_line(light.error));
     page.field("labels", labels_line(light));
   }
+  if (light.outside.receivers > 0 || !c.raster.options.map.window.empty())
+    page.field("window", window_words(c, light));
   if (shows_facets(light)) page.field("facets", terminator_line(light.terminator));
   add_time_in_short(page, c, light);
 }

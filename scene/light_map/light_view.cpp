@@ -59,6 +59,19 @@ Interval LightView::depth_range() const {
   return range;
 }
 
+std::array<Vec3, 8> face_corners(const LightView& view, int face) {
+  const LightFace& f = view.face(face);
+  const bool parallel = view.projection == LightProjection::orthographic;
+  std::array<Vec3, 8> corners;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec2 at = corner_places[k % 4] * f.half_extent;
+    const double depth = k < 4 ? f.near_depth : f.far_depth, wide = 1.0 + f.warp * at.y;
+    corners[k] = parallel ? face_origin(view, f) + depth * f.forward + at.x * wide * f.right + at.y * f.up
+                          : view.origin + depth * (f.forward + at.x * f.right + at.y * f.up);
+  }
+  return corners;
+}
+
 int cube_face(const Vec3& d) {
   const Vec3 a = glm::abs(d);
   if (a.x >= a.y && a.x >= a.z) return d.x >= 0.0 ? 0 : 1;

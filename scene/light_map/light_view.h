@@ -85,6 +85,13 @@ inline Vec3 face_origin(const LightView& view, const LightFace& face) {
   return view.origin + face.center.x * face.right + face.center.y * face.up;
 }
 
+/// Corners of a picture as shares of its half sides, in turn.
+inline constexpr std::array<Vec2, 4> corner_places{Vec2{-1.0, -1.0}, Vec2{1.0, -1.0}, Vec2{1.0, 1.0},
+                                                   Vec2{-1.0, 1.0}};
+/// What a face covers, in the world: its corners at the near depth in the order of corner_places, then those at the far
+/// depth.
+std::array<Vec3, 8> face_corners(const LightView& view, int face);
+
 /// Point lights choose the face of the largest |component|; ties go to x, then y, then z.
 int cube_face(const Vec3& from_light);
 

@@ -164,7 +164,7 @@ LightComparison without_images(const LightComparison& light) {
   out.record = light.record;
   out.pixels = light.pixels;
   out.best_bias = light.best_bias;
-  out.lookups = light.lookups;
+  out.lookups = light.lookups, out.outside = light.outside;
   out.texel_world = light.texel_world;
   out.bias_texel_world = light.bias_texel_world;
   out.theory = light.theory, out.terminator = light.terminator;

@@ -102,6 +102,25 @@ TEST_F(Views, PlacesHoldTheErrorsOfAllViews) {
   EXPECT_NEAR(places["worst_share"].get<double>(), most / all_error, rounding / all_error);
 }
 
+// Of hard shadows those that lie outside the map are what is wrong there; the map's corners are its window's.
+TEST_F(Views, AWindowsCornersAndWhatLiesOutsideIt) {
+  const nlohmann::json result = compared({"--camera", "far", "--window-size", "4,3"});
+  const nlohmann::json &light = result["lights"][0], &outside = light["outside_map"];
+  EXPECT_GT(outside["shadowed"], 0);
+  EXPECT_GT(outside["receivers"], outside["shadowed"]);
+  EXPECT_EQ(outside["shadowed"], light["classes"]["outside_map"]);
+  const nlohmann::json &window = light["map"]["window"], &corners = light["map"]["windows"][0];
+  const auto apart = [&](int a, int b) {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) sum += std::pow(corners[a][k].get<double>() - corners[b][k].get<double>(), 2);
+    return std::sqrt(sum);
+  };
+  EXPECT_NEAR(apart(0, 1), 4.0, 1e-9);
+  EXPECT_NEAR(apart(1, 2), 3.0, 1e-9);
+  EXPECT_NEAR(apart(2, 6), window["far"].get<double>() - window["near"].get<double>(), 1e-9);
+  EXPECT_NE(said().find("is shadow that is lost."), std::string::npos) << said();
+}
+
 TEST_F(Views, LimitsHoldForTheWorst) {
   const double far = error_of(compared({"--camera", "far"})), near = error_of(compared({"--camera", "near"}));
   const std::string between = std::to_string(50.0 * (far + near)) + "%";

@@ -15,14 +15,6 @@ View square_view(const Camera& camera) {
   return make_view(camera, {1, 1});
 }
 
-Vec3 corner_of(const LightView& view, const LightFace& face, double x, double y, double depth) {
-  if (view.projection == LightProjection::perspective)
-    return view.origin +
-           depth * (face.forward + x * face.half_extent.x * face.right + y * face.half_extent.y * face.up);
-  return face_origin(view, face) + depth * face.forward + x * face.half_extent.x * face.right +
-         y * face.half_extent.y * face.up;
-}
-
 /// So that the dome lies inside the picture.
 double sun_radius(const ViewState& state) {
   const Camera camera = posed_camera(state);
@@ -92,19 +84,14 @@ Change drag_handle(const ViewState& state, const LightHandle& handle, const Scre
 }
 
 std::vector<std::pair<Vec3, Vec3>> frustum_edges(const LightView& view) {
-  constexpr std::array<std::pair<double, double>, 4> corners{
-      {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}};
   std::vector<std::pair<Vec3, Vec3>> edges;
   for (int f = 0; f < view.face_count; ++f) {
-    const LightFace& face = view.face(f);
+    const std::array<Vec3, 8> corners = face_corners(view, f);
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto [x, y] = corners[i];
-      const auto [nx, ny] = corners[(i + 1) % 4];
-      const Vec3 low = corner_of(view, face, x, y, face.near_depth),
-                 far = corner_of(view, face, x, y, face.far_depth);
-      edges.emplace_back(low, far);
-      edges.emplace_back(low, corner_of(view, face, nx, ny, face.near_depth));
-      edges.emplace_back(far, corner_of(view, face, nx, ny, face.far_depth));
+      const std::size_t next = (i + 1) % 4;
+      edges.emplace_back(corners[i], corners[i + 4]);
+      edges.emplace_back(corners[i], corners[next]);
+      edges.emplace_back(corners[i + 4], corners[next + 4]);
     }
   }
   return edges;

@@ -2,6 +2,7 @@
 import { biasBlock } from "./bias_section";
 import { keyed, keyedCount, keyedThings } from "./document";
 import { picture, pictureNamed } from "./frame";
+import { layoutFigure } from "./layout_figure";
 import { depthMapBlock, factsBlock, hybridBlock, ladderBlock } from "./light_numbers";
 import { grouped, percent, plainNumber } from "./number_text";
 import { labelFigure, labelledLight } from "./overview_section";
@@ -83,6 +84,6 @@ ${hybridBlock(light, i)}${ladderBlock(light, i)}${biasBlock(light, i)}${factsBlo
 <p class="setting">${light.light.type}, ${where(light)}; ${mapSize(light)}${bias !== null && `, bias ${plainNumber(bias)} world units`}</p>
 ${result.lights.length > 1 && markup`<p class="lead">${flowing(verdict.whole)}</p>\n`}${viewer(i)}<div class="pair">
 ${differenceFigure(i)}${i !== labelledLight() && labelFigure(i)}</div>
-${numbers}${depthMapBlock(light, i)}</section>
+${numbers}${layoutFigure(light, i)}${depthMapBlock(light, i)}</section>
 `;
 }

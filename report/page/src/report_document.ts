@@ -2,6 +2,7 @@
 // (../../facts.cpp).
 import { keyed, resultDocument } from "./document";
 import { milliseconds, percent, plainNumber, type TimeDifference } from "./number_text";
+import type { Vec3 } from "./light_view";
 import { pageData } from "./parts";
 import { flowing, markup, Markup } from "./template";
 import type { TuneFacts } from "./tune_sections";
@@ -49,6 +50,7 @@ export interface LightResult {
     size: number | null;  // null: not known
     inferred: boolean;
     faces: number;
+    windows?: Vec3[][];  // of each map four corners at its near and four at its far depth
     bias: { constant_world: number | null; texel_world: number };
     hybrid?: { receivers: number; surely_lit: number; surely_shadowed: number; rays: number; all_rays: number; bytes: number };
     texel_world: { min: number; median: number; max: number };
@@ -107,6 +109,7 @@ export interface Result {
   times_ms: Record<string, Times>;
   lights: LightResult[];
   views?: Views;
+  camera?: { eye: Vec3; forward: Vec3; corners: Vec3[]; finite_bounds: Vec3[] | null };
   time_budget?: { stage: string; wall_ms: number }[];
   judged?: { renderer: { name: string; version: string }; ratio: boolean; identified: object | null };
 }
@@ -132,6 +135,7 @@ export interface LessonFacts {
 interface LightFacts {
   name: string;
   verdict: { headline: string; detail: string; whole: string };
+  window: string;         // what the map holds, in sentences
   contradiction: string;  // of a best bias that is not right everywhere
   smaller: { constant_world: number; wrong_fraction: number } | null;  // a constant that leaves hardly more than the best
   depth: { near: number; far: number; perspective: boolean; texels_per_pixel: number } | null;
