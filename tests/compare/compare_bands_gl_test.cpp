@@ -102,7 +102,7 @@ TEST_P(CompareBands, AreTheWhole) {
   const raytrace::Tracer tracer(world_, options_.accel, options_.precision);
   Plan plan = plan_of(tracer, lights_, options_);
   plan.bands = bands_of(GetParam().size, band_step);
-  plan.folder = folder_.string(), plan.aov = path("bands.exr");
+  plan.folder = folder_.path(), plan.aov = path("bands.exr");
   Comparison banded;
   const auto parts = measure(banded, plan, frames_of(tracer, *drawn, lights_, options_));
   ASSERT_TRUE(parts) << parts.error().reason;

@@ -93,7 +93,7 @@ TEST_F(SweepProgram, RanksByTheMeasureThatWasChosen) {
             std::string::npos)
       << said();
   EXPECT_NE(said().find("Best for edge error"), std::string::npos) << said();
-  const std::string page = bytes(folder + "/report.html");
+  const std::string page = bytes_of(folder + "/report.html");
   EXPECT_NE(page.find(R"("measure":{"name":"edge","words":"edge error, texels","shares":false})"),
             std::string::npos);
   EXPECT_EQ(run(with({"--measure", "mean"})), 2) << "another sweep: " << said();
