@@ -40,22 +40,41 @@ std::string ladder_text(const Comparison& c) {
   return "light size, and one step unexplained: the capture has no map";
 }
 
+/// "; 0.04 world units, 1.2 texels" of what is advised; what the setting's unit says already is left out.
+std::string length_text(const AdvisedSetting& one) {
+  if (!(one.unit_world > 0.0)) return {};
+  const double world = one.instead * one.unit_world;
+  std::string text = one.unit == "world units" ? "" : fmt::format("; {:.3g} world units", world);
+  if (one.texel_world > 0.0)
+    text += fmt::format("{}{:.3g} texels", text.empty() ? "; " : ", ", world / one.texel_world);
+  return text;
+}
+
+std::string mean_text(const Advice& a) {
+  if (!a.mean_now || !a.mean_instead) return {};
+  return fmt::format("; through the filter a mean error of {}, as captured {}", percent(*a.mean_instead),
+                     percent(*a.mean_now));
+}
+
 }  // namespace
 
 std::string advice_text(const Advice& a) {
   const auto stays = [](const auto& one) { return one.instead == one.now; };
-  const auto text = [&](const auto& one) {
+  const auto text = [&](const AdvisedSetting& one) {
+    const std::string unit = one.unit + length_text(one);
     return stays(one)
-               ? fmt::format("{} stays {:.4g} ({})", one.setting, one.now, one.unit)
-               : fmt::format("{} {:.4g} instead of {:.4g} ({})", one.setting, one.instead, one.now, one.unit);
+               ? fmt::format("{} stays {:.4g} ({})", one.setting, one.now, unit)
+               : fmt::format("{} {:.4g} instead of {:.4g} ({})", one.setting, one.instead, one.now, unit);
   };
   std::string settings = text(a);
   if (a.with) settings += " and " + text(*a.with);
-  if (stays(a) && (!a.with || stays(*a.with)))
-    return fmt::format("{}: {:.3g} % of the pixels wrong, hardly more than with any other", settings,
-                       100.0 * a.wrong_instead);
-  return fmt::format("{}: {:.3g} % of the pixels wrong, as captured {:.3g} %", settings,
-                     100.0 * a.wrong_instead, 100.0 * a.wrong_now);
+  for (const AdvisedSetting& layer : a.layers) settings += " and " + text(layer);
+  const std::string mean = mean_text(a);
+  if (stays(a) && (!a.with || stays(*a.with)) && a.layers.empty())
+    return fmt::format("{}: {:.3g} % of the pixels wrong, hardly more than with any other{}", settings,
+                       100.0 * a.wrong_instead, mean);
+  return fmt::format("{}: {:.3g} % of the pixels wrong, as captured {:.3g} %{}", settings,
+                     100.0 * a.wrong_instead, 100.0 * a.wrong_now, mean);
 }
 
 std::string renderer_text(const Judged& j) {

@@ -37,15 +37,18 @@ struct AdvisedSetting {
   std::string setting;  ///< "bias.constant_depth"
   double now = 0.0, instead = 0.0;
   std::string unit;  ///< "stored depth", "world units"
+  /// World units in one of the unit, and in a texel of the layer; 0: the setting is no length.
+  double unit_world = 0.0, texel_world = 0.0;
 };
-struct Advice {
-  std::string setting;
-  double now = 0.0, instead = 0.0;
-  std::string unit;
+struct Advice : AdvisedSetting {
   double wrong_now = 0.0,
          wrong_instead = 0.0;  ///< shares of all compared pixels, those outside the map among them
   bool feasible = false;       ///< with it every compared pixel is right
   std::optional<AdvisedSetting> with = {};  ///< what is to be set together with it
+  std::vector<AdvisedSetting> layers =
+      {};  ///< the same of the layers after the first, where each has its own
+  /// Where the map is read by a filter that is known: what that makes of the mean error, now and instead, in [0, 1].
+  std::optional<double> mean_now = {}, mean_instead = {};
 };
 
 struct Judged {

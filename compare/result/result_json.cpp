@@ -70,6 +70,8 @@ Json identified_json(const Identified& i) {
           {"renders", i.renders}};
 }
 
+constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
+
 // Of a picture that another renderer drew.
 Json judged_json(const Judged& j) {
   Json mended = Json::array(), advice = Json::array();
@@ -80,15 +82,26 @@ Json judged_json(const Judged& j) {
                       {"evidence", m.evidence},
                       {"before", number(m.before)},
                       {"after", number(m.after)}});
-  const auto setting = [](const auto& a) {
-    return Json{
-        {"setting", a.setting}, {"now", number(a.now)}, {"instead", number(a.instead)}, {"unit", a.unit}};
+  const auto setting = [](const AdvisedSetting& a) {
+    const double world = a.unit_world > 0.0 ? a.instead * a.unit_world : quiet_nan;
+    return Json{{"setting", a.setting},
+                {"now", number(a.now)},
+                {"instead", number(a.instead)},
+                {"unit", a.unit},
+                {"instead_world", number(world)},
+                {"instead_texels", number(a.texel_world > 0.0 ? world / a.texel_world : quiet_nan)}};
+  };
+  const auto share = [](const std::optional<double>& value) {
+    return value ? number(*value) : Json(nullptr);
   };
   for (const Advice& a : j.advice) {
     Json one = setting(a);
     one["wrong_now"] = number(a.wrong_now), one["wrong_instead"] = number(a.wrong_instead);
     one["feasible"] = a.feasible;
     one["with"] = a.with ? setting(*a.with) : Json(nullptr);
+    one["layers"] = Json::array();
+    for (const AdvisedSetting& layer : a.layers) one["layers"].push_back(setting(layer));
+    one["mean_now"] = share(a.mean_now), one["mean_instead"] = share(a.mean_instead);
     advice.push_back(std::move(one));
   }
   return {{"capture", j.capture},

@@ -142,11 +142,15 @@ std::string judged_advice(const Judged& judged, const LightComparison& light) {
   if (judged.advice.empty()) return {};
   const Advice& last = judged.advice.back();
   const double drawn = light.error.wrong_fraction;
+  const bool blurs_more = last.mean_now && last.mean_instead && *last.mean_instead > *last.mean_now;
+  if (blurs_more) return {};
   if (last.wrong_instead >= drawn || percent(last.wrong_instead) == percent(drawn)) return {};
   std::string settings;
   if (last.instead != last.now) settings = instead_text(last);
   if (last.with && last.with->instead != last.with->now)
     settings += (settings.empty() ? "" : " and ") + instead_text(*last.with);
+  for (const AdvisedSetting& layer : last.layers)
+    if (layer.instead != layer.now) settings += (settings.empty() ? "" : " and ") + instead_text(layer);
   if (settings.empty()) return {};
   return fmt::format("Try {}: {} wrong.", settings, percent(last.wrong_instead));
 }

@@ -12,9 +12,8 @@ namespace gnomon::compare {
 /// test with that bias draws wrong, of all compared pixels: those outside the map stay as they were drawn. Nothing is
 /// advised that is worse than the present setting. Where the casters have a bias the constant is theirs, and in place of
 /// normal offsets slopes of casters are tried, the map's depths moved accordingly.
-std::vector<Advice> give_advice(const FrameInput& input, const raster::Bias& bias,
-                                const LightComparison& light, const raster::LightRecord& record,
-                                const CasterBiases& casters);
+std::vector<Advice> give_advice(const FrameInput& input, const raster::RasterFrame& drawn,
+                                const LightComparison& light, const CasterBiases& casters);
 
 /// Where most wrong pixels lie outside the map: what helps.
 std::vector<std::string> outside_map_notes(const FrameInput& input, const LightComparison& light,

@@ -210,7 +210,7 @@ void finish(Judging& in, Comparison& out) {
     note(map_content_notes(content, record));
     note(outside_map_notes(frame, light, record));
     if (advice_holds(test, other) && !content.is_main_cause(light))
-      judged->advice = give_advice(frame, out.raster.options.map.bias, light, record, in.casters);
+      judged->advice = give_advice(frame, out.raster, light, in.casters);
   }
   if (!judged->has_map) forget_texels(light);
   out.judged = std::move(judged);

@@ -143,7 +143,7 @@ TEST(Verdict, LeavesReasonsToItsDetail) {
 TEST(Verdict, OffersAnotherRenderersSettingOnlyForAGain) {
   Case c(100000, {1600, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   auto judged = std::make_shared<Judged>();
-  judged->advice = {{"bias.constant_depth", 0.0, 0.5, "stored depth", 0.016, 0.002, false}};
+  judged->advice = {Advice{{"bias.constant_depth", 0.0, 0.5, "stored depth"}, 0.016, 0.002, false}};
   c.made->comparison.judged = judged;
   EXPECT_NE(c.verdict().find(" Try bias.constant_depth 0.5 instead of 0: 0.2 % wrong."), std::string::npos)
       << c.verdict();
@@ -151,14 +151,11 @@ TEST(Verdict, OffersAnotherRenderersSettingOnlyForAGain) {
     judged->advice[0].wrong_instead = left;
     EXPECT_EQ(c.verdict().find("Try "), std::string::npos) << c.verdict();
   }
-  judged->advice[0] = {"bias.normal_offset_world",
-                       0.3,
-                       0.1,
-                       "world units",
-                       0.016,
-                       0.002,
-                       false,
-                       AdvisedSetting{"bias.constant_depth", 0.0, 0.5, "stored depth"}};
+  judged->advice[0] = Advice{{"bias.normal_offset_world", 0.3, 0.1, "world units"},
+                             0.016,
+                             0.002,
+                             false,
+                             AdvisedSetting{"bias.constant_depth", 0.0, 0.5, "stored depth"}};
   EXPECT_NE(c.verdict().find(
                 " Try bias.normal_offset_world 0.1 instead of 0.3 and bias.constant_depth 0.5 instead of 0: "
                 "0.2 % wrong."),

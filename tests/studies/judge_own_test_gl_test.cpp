@@ -87,6 +87,57 @@ TEST(JudgeOwnTest, AContactShadowTakesNoAdviceAway) {
   EXPECT_LE(called(judged, Label::unexplained), darkened);
 }
 
+// ---- advice ----
+
+// Of two layers one has a bias that leaves no shadow: no one constant mends both.
+TEST(JudgeAdvice, GivesEachLayerAConstantOfItsOwn) {
+  Engine engine("layers", 0.002);
+  Capture& capture = engine.capture;
+  capture.map.assign(2, compare::CapturedLayer(capture.map[0]));
+  capture.map[0].select = compare::CapturedSelect{0.0, 5.6};
+  capture.map[1].select = compare::CapturedSelect{5.6, 1e3};
+  capture.map[1].bias = compare::CapturedBias{.constant_depth = 0.06};
+  draw_again(capture, engine.drawn);
+  const JudgeOutcome judged = engine.judged();
+  ASSERT_TRUE(judged.result) << reason(judged);
+  ASSERT_FALSE(judged.result->judged->advice.empty());
+  const compare::Advice& advice = judged.result->judged->advice.back();
+  EXPECT_EQ(advice.setting, "map[0].bias.constant_depth");
+  ASSERT_EQ(advice.layers.size(), 1U);
+  EXPECT_EQ(advice.layers[0].setting, "map[1].bias.constant_depth");
+  EXPECT_EQ(advice.layers[0].now, 0.06);
+  EXPECT_LT(advice.layers[0].instead, 0.02);
+  EXPECT_NEAR(advice.layers[0].unit_world, engine.range(), 1e-6);
+  EXPECT_LT(advice.wrong_instead, 0.5 * advice.wrong_now);
+  EXPECT_NE(advice_text(advice).find(" texels)"), std::string::npos) << advice_text(advice);
+  // Taken, it leaves what is promised.
+  for (const compare::AdvisedSetting& layer : advice.layers)
+    capture.map[1].bias = compare::CapturedBias{.constant_depth = layer.instead};
+  capture.bias->constant_depth = advice.instead;
+  draw_again(capture, engine.drawn);
+  const JudgeOutcome taken = engine.judged();
+  ASSERT_TRUE(taken.result) << reason(taken);
+  EXPECT_NEAR(taken.result->lights[0].error.wrong_fraction, advice.wrong_instead, border_share);
+}
+
+TEST(JudgeAdvice, OfAFilterDoesNotRaiseTheMeanError) {
+  for (const double constant : {0.01, 0.05, 0.3}) {
+    raster::MapOptions map = Engine::map_with({.slope = 0.0}, raster::Technique::pcf);
+    map.bias.constant = constant, map.filter.radius_texels = 3.5;
+    const Compared drawn = draw_scene(hovering_box("sun"), small_picture, map);
+    Capture capture = self_capture(drawn, folder_for("own-mean"), {.map = true});
+    capture.filter = compare::CapturedFilter{compare::FilterName::pcf, 3.5};
+    const JudgeOutcome judged = judge(capture, *drawn.scene);
+    ASSERT_TRUE(judged.result) << reason(judged);
+    ASSERT_FALSE(judged.result->judged->advice.empty());
+    const compare::Advice& advice = judged.result->judged->advice[0];
+    ASSERT_TRUE(advice.mean_now && advice.mean_instead);
+    EXPECT_LE(*advice.mean_instead, *advice.mean_now);
+    EXPECT_NEAR(*advice.mean_now, judged.result->lights[0].error.mean_absolute,
+                0.25 * judged.result->lights[0].error.mean_absolute + 1e-3);
+  }
+}
+
 // ---- the casters' bias ----
 
 struct CasterCase {
