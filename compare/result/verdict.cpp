@@ -173,6 +173,14 @@ std::string size_advice(const LightComparison& light, int drawn_size) {
   return {};
 }
 
+// Most of what is wrong lies outside a window that was given, where neither a bias nor texels help.
+std::string window_advice(const Comparison& c, const LightComparison& light) {
+  const std::uint64_t outside = light.classes[static_cast<std::size_t>(Label::outside_map) - 1];
+  if (c.raster.options.map.window.empty() || 2 * outside <= light.error.wrong) return {};
+  return fmt::format("Give the light a larger window: {} of the pixels miss their shadow outside it.",
+                     percent(static_cast<double>(outside) / static_cast<double>(light.pixels.compared)));
+}
+
 }  // namespace
 
 std::string Verdict::headline() const {
@@ -189,6 +197,8 @@ Verdict verdict_on(const Comparison& c, const LightComparison& light) {
   const std::string error = error_part(light, *c.measure), uncertain = uncertain_part(light.pixels);
   if (c.judged) return {error, judged_advice(*c.judged, light), uncertain, uncertain};
   if (lacks_light_size(c.raster, light)) return {error, soft_technique_advice(), uncertain, uncertain};
+  if (std::string window = window_advice(c, light); !window.empty())
+    return {error, std::move(window), uncertain, uncertain};
   // What other biases would do follows from the gaps of a hard test alone.
   const BiasAdvice bias =
       biases_follow_from_gaps(c.raster) ? bias_advice(light, c.raster.options.map) : BiasAdvice{};

@@ -39,6 +39,24 @@ TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
   EXPECT_EQ(verdict_on(c.made->comparison, c.light).detail, "");
 }
 
+// No bias and no size of the map helps where the window ends before the shadows do.
+TEST(Verdict, AsksForALargerWindowWhereMostIsLostOutsideIt) {
+  constexpr std::size_t outside = static_cast<std::size_t>(Label::outside_map) - 1;
+  std::array<std::uint64_t, class_count> classes{100};
+  classes[outside] = 3900;
+  Case c(100000, classes);
+  c.light.best_bias = {0.01, 0.006, true, 0.005, 0.02, 0, 0};
+  EXPECT_EQ(c.verdict().find("window"), std::string::npos) << "of a fitted map";
+  c.made->comparison.raster.options.map.window.size = {.values = {6.0, 4.0}, .count = 2};
+  EXPECT_NE(c.verdict().find("Give the light a larger window: 3.9 % of the pixels miss their shadow"),
+            std::string::npos)
+      << c.verdict();
+  classes = {3900}, classes[outside] = 100;
+  Case other(100000, classes);
+  other.made->comparison.raster.options.map.window.size = {.values = {6.0, 4.0}, .count = 2};
+  EXPECT_EQ(other.verdict().find("larger window"), std::string::npos) << other.verdict();
+}
+
 TEST(Verdict, BeginsWithTheMeasureThatWasChosen) {
   Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
   c.light.error.flip = 0.0774, c.light.edges.rms_texels = 1.7;
