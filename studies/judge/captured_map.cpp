@@ -60,7 +60,10 @@ tl::expected<MatrixFace, std::string> orthographic(const Vec4& x, const Vec4& y,
 tl::expected<MatrixFace, std::string> perspective(const Vec4& x, const Vec4& y, const Vec4& s, const Vec4& w,
                                                   bool reversed) {
   if (!square(Vec3(x), Vec3(y)) || !square(Vec3(x), Vec3(w)) || !square(Vec3(y), Vec3(w)))
-    return tl::unexpected<std::string>("is no perspective that is symmetric about its axis");
+    return tl::unexpected<std::string>(
+        "is no perspective that is symmetric about its axis; of an atlas the light's own matrix belongs "
+        "here, "
+        "and map[].rect says which part of the file it fills");
   MatrixFace out;
   out.projection = LightProjection::perspective;
   set_axes(Vec3(x), Vec3(y), Vec3(w), out);
