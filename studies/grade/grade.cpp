@@ -237,6 +237,7 @@ class Grader {
   /// Names the mistake that explains a drawing which did not pass; one that was named before is taken as mended.
   Expected<Judgement> explain(const Run& run, const RunResult& drawn, Judgement judgement,
                               CheckResult& result) {
+    if (rest_is_hidden_) return judgement;
     const auto right = own_values(run);
     if (!right) return fail(right.error());
     const auto values = read_values(drawn);
@@ -254,7 +255,8 @@ class Grader {
     if (!one) return fail(one.error());
     const auto agreement = class_.mistakes.agreement(*one, run, *values, **right);
     if (!agreement) return fail(agreement.error());
-    if (!class_.mistakes.hides_rest(*one)) named_.push_back(*one), result.mistake_named = true;
+    rest_is_hidden_ = class_.mistakes.hides_rest(*one);
+    if (!rest_is_hidden_) named_.push_back(*one), result.mistake_named = true;
     judgement.reason = fmt::format("drawn as if {}, on {} of the pixels; {}", class_.mistakes.words(*one),
                                    compare::percent(agreement->alike()), judgement.reason);
     return judgement;
@@ -300,6 +302,7 @@ class Grader {
   CheckRuns& runs_;
   std::vector<std::size_t> named_;  ///< mistakes
   bool hangs_ = false;
+  bool rest_is_hidden_ = false;  ///< by a mistake that was named, so that nothing further can be
 };
 
 CheckResult no_points(std::string reason) {

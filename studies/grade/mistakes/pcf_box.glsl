@@ -1,6 +1,7 @@
 // Percentage-closer filtering over a box as a student writes it, with the usual mistakes: MISTAKE is the number of one, 0 of
-// none. The grader reads this list (mistakes.cpp); each sentence goes on from "as if".
-// mistake 1: one texel was compared with, and not a box of them
+// none. The grader reads this list (mistakes.cpp); each sentence goes on from "as if". After one that "hides the
+// rest" too little is left for later checks to go on as if it were mended.
+// mistake 1, which hides the rest: one texel was compared with, and not a box of them
 // mistake 2: the box began one texel too far to the right and up
 // mistake 3: the box began at the receiver's own texel
 // mistake 4: the box ended at the receiver's own texel
