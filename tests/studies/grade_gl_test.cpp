@@ -379,31 +379,31 @@ TEST_F(Grade, BadRubricsAndFolders) {
   expect_one_line(gnomon({"grade"}), 2, "a rubric is needed");
   expect_one_line(gnomon({"grade", "nowhere.json"}), 3, "nowhere.json");
   expect_one_line(gnomon({"grade", "first-shadow-map", "nobody"}), 2, "no such folder (got nobody)");
-  const auto rejects = [&](const std::string& members, const std::string& part) {
+  const std::string runs = R"("runs": [{"scene": "acne-floor"}]})";
+  const auto check = [](const std::string& members) {
+    return R"("checks": [{"name": "a", )" + members + "]";
+  };
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {R"("checks": [])", "checks: is empty"},
+      {R"("chekcs": [])", "unknown key"},
+      {check(R"("points": 0, "kind": "draws", )" + runs), "checks[0].points"},
+      {check(R"("points": 1, "kind": "at_most", "measure": "wrong", "at_most": "1texel", )" + runs),
+       "checks[0].at_most: is no limit of this measure"},
+      {check(R"("points": 1, "kind": "draws", "pixels": 3, )" + runs),
+       "applies to checks of the kind equals"},
+      {check(R"("points": 1, "kind": "draws", "needs": ["b"], )" + runs), "checks[0].needs[0]"},
+      {check(R"("points": 1, "kind": "draws", "runs": [{"scene": "../secret.json"}]})"),
+       "checks[0].runs[0].scene"},
+      {check(
+           R"("points": 1, "kind": "draws", "runs": [{"scene": "acne-floor", "options": {"output": "x"}}]})"),
+       "is not for a rubric to set"},
+      {check(
+           R"("points": 1, "kind": "draws", "runs": [{"scene": "acne-floor", "options": {"map-size": "none"}}]})"),
+       "check \"a\": gnomon compare acne-floor --map-size none"}};
+  for (const auto& [members, part] : wrong) {
     write_rubric(members);
     expect_one_line(gnomon({"grade", "rubric.json"}), 3, part);
-  };
-  rejects(R"("checks": [])", "checks: is empty");
-  rejects(R"("chekcs": [])", "unknown key");
-  const std::string runs = R"("runs": [{"scene": "acne-floor"}])";
-  rejects(R"("checks": [{"name": "a", "points": 0, "kind": "draws", )" + runs + "}]", "checks[0].points");
-  rejects(
-      R"("checks": [{"name": "a", "points": 1, "kind": "at_most", "measure": "wrong", "at_most": "1texel", )" +
-          runs + "}]",
-      "checks[0].at_most: is no limit of this measure");
-  rejects(R"("checks": [{"name": "a", "points": 1, "kind": "draws", "pixels": 3, )" + runs + "}]",
-          "applies to checks of the kind equals");
-  rejects(R"("checks": [{"name": "a", "points": 1, "kind": "draws", "needs": ["b"], )" + runs + "}]",
-          "checks[0].needs[0]");
-  rejects(R"("checks": [{"name": "a", "points": 1, "kind": "draws", "runs": [{"scene": "../secret.json"}]}])",
-          "checks[0].runs[0].scene");
-  rejects(
-      R"("checks": [{"name": "a", "points": 1, "kind": "draws", "runs": [{"scene": "acne-floor", "options": {"output": "x"}}]}])",
-      "is not for a rubric to set");
-  write_rubric(R"("checks": [{"name": "a", "points": 1, "kind": "draws",
-    "runs": [{"scene": "acne-floor", "options": {"map-size": "none"}}]}])");
-  expect_one_line(gnomon({"grade", "rubric.json"}), 3,
-                  "check \"a\": gnomon compare acne-floor --map-size none");
+  }
   fs::create_directories(folder / "a/anna");
   fs::create_directories(folder / "b/anna");
   write_rubric(one_check);

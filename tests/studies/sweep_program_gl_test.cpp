@@ -15,8 +15,20 @@
 namespace gnomon::test {
 namespace {
 
-TEST_F(SweepProgram, WritesResultsWithAxes) {
-  ASSERT_EQ(run(words("whole")), 0) << said();
+/// These tests look at one sweep that was never interrupted, root/"whole"; it is made once, and each has a copy.
+class WholeSweep : public SweepProgram {
+ protected:
+  void SetUp() override {
+    static const TemporaryFolder made;
+    const fs::path whole = fs::path(made.path()) / "whole";
+    if (!fs::exists(whole / "sweep.json")) {
+      ASSERT_EQ(run(words(whole.string())), 0) << said();
+    }
+    fs::copy(whole, root / "whole", fs::copy_options::recursive);
+  }
+};
+
+TEST_F(WholeSweep, WritesResultsWithAxes) {
   std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
   gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
   std::istringstream stream(lines("whole"));
@@ -139,8 +151,7 @@ TEST_F(SweepProgram, CountsFlipsOfFilms) {
   EXPECT_EQ(run(joined({"sweep"}, {setting, film, {"-o", folder}})), 2) << "a film's options without a film";
 }
 
-TEST_F(SweepProgram, KilledAnywhereItEndsInTheSameBytes) {
-  ASSERT_EQ(run(words("whole")), 0) << said();
+TEST_F(WholeSweep, KilledAnywhereItEndsInTheSameBytes) {
   const auto begin = std::chrono::steady_clock::now();  // with warm caches
   ASSERT_EQ(run(words("timed")), 0) << said();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -186,8 +197,7 @@ TEST_F(SweepProgram, RayTracersPointsStandBesideTheCells) {
   EXPECT_NE(page.find(R"("rays":[{"name":"fast",)"), std::string::npos);
 }
 
-TEST_F(SweepProgram, ShardsMergeToTheSameBytes) {
-  ASSERT_EQ(run(words("whole")), 0) << said();
+TEST_F(WholeSweep, ShardsMergeToTheSameBytes) {
   ASSERT_EQ(run(words("part1", {"--shard", "1/2"})), 0) << said();
   const auto merge = [&](const Words& folders) {
     Words all{"merge"};
@@ -246,8 +256,7 @@ TEST_F(SweepProgram, AnAxisThatATechniqueDoesNotReadIsNamed) {
 
 // A stand-in for sbatch that runs the array's tasks one after another shows what the script does; whether
 // Slurm itself takes it is the next test.
-TEST_F(SweepProgram, SlurmScriptMakesTheShards) {
-  ASSERT_EQ(run(words("whole")), 0) << said();
+TEST_F(WholeSweep, SlurmScriptMakesTheShards) {
   fs::create_directories(root / "bin");
   std::ofstream(root / "bin/sbatch")
       << "#!/bin/sh\nset -e\nfor word in \"$@\"; do case $word in --array=1-*) "
@@ -289,10 +298,9 @@ class PrivateSlurm {
   std::string folder_;
 };
 
-TEST_F(SweepProgram, SlurmTakesTheArray) {
+TEST_F(WholeSweep, SlurmTakesTheArray) {
   const PrivateSlurm slurm(root / "slurm");
   if (!slurm.running) GTEST_SKIP() << slurm.why_not();
-  ASSERT_EQ(run(words("whole")), 0) << said();
   ASSERT_EQ(run(words("array", {"--slurm", "2"})), 0) << said();
   expect_same("whole", "array");
   EXPECT_TRUE(fs::exists(root / "array/slurm-1.log"));
@@ -305,8 +313,7 @@ TEST_F(SweepProgram, SlurmTakesTheArray) {
   EXPECT_NE(said().find("the job array failed"), std::string::npos) << said();
 }
 
-TEST_F(SweepProgram, TornLastLineIsMadeAnew) {
-  ASSERT_EQ(run(words("whole")), 0) << said();
+TEST_F(WholeSweep, TornLastLineIsMadeAnew) {
   fs::copy(root / "whole", root / "torn", fs::copy_options::recursive);
   fs::resize_file(root / "torn/sweep.jsonl", lines("whole").size() - 100);
   ASSERT_EQ(run(words("torn")), 0);
@@ -314,8 +321,7 @@ TEST_F(SweepProgram, TornLastLineIsMadeAnew) {
   expect_same("whole", "torn");
 }
 
-TEST_F(SweepProgram, RefusesAnotherConfiguration) {
-  ASSERT_EQ(run(words("whole")), 0) << said();
+TEST_F(WholeSweep, RefusesAnotherConfiguration) {
   const std::string before = lines("whole");
   EXPECT_EQ(run(words("whole", {"--slope-bias", "1"})), 2);
   EXPECT_NE(said().find("holds another sweep"), std::string::npos) << said();
@@ -339,8 +345,7 @@ TEST_F(SweepProgram, TwoBackendsAreNotMixedWithoutAWord) {
   EXPECT_NE(said().find("not all cells were drawn alike: egl-software"), std::string::npos) << said();
 }
 
-TEST_F(SweepProgram, InterruptLeavesWholeLines) {
-  ASSERT_EQ(run(words("whole")), 0) << said();
+TEST_F(WholeSweep, InterruptLeavesWholeLines) {
   const pid_t child = start(words("stopped"), log());
   while (lines("stopped").empty()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   kill(child, SIGINT);
@@ -365,8 +370,7 @@ TEST_F(SweepProgram, SweepNamesItsBestCells) {
 }
 
 // The same columns, but for a cell's own.
-TEST_F(SweepProgram, TablesOfSweepAndCompareHaveOneSetOfColumns) {
-  ASSERT_EQ(run(words("whole")), 0) << said();
+TEST_F(WholeSweep, TablesOfSweepAndCompareHaveOneSetOfColumns) {
   ASSERT_EQ(run({"compare", "floating-box", "--size", "96x54", "-o", (root / "one").string()}), 0) << said();
   const auto columns = [](const std::string& table) {
     std::istringstream head(table.substr(0, table.find('\r')));
@@ -409,15 +413,18 @@ TEST_F(SweepProgram, ShadowsAreTimedApartFromThePicture) {
 }
 
 TEST_F(SweepProgram, UsageErrors) {
-  EXPECT_EQ(run({"sweep", "floating-box", "--bias", "0:1"}), 2);
-  EXPECT_NE(said().find("--bias: not a range (got 0:1, allowed START:END:COUNT"), std::string::npos)
-      << said();
-  EXPECT_EQ(run({"sweep", "floating-box", "--map-size", "128,0"}), 2);
-  EXPECT_NE(said().find("(got 0, allowed 1 to 65536)"), std::string::npos) << said();
-  EXPECT_EQ(run({"sweep", "floating-box", "--shard", "3/2"}), 2);
-  EXPECT_EQ(run({"sweep", "floating-box", "--receiver-plane", "maybe"}), 2);
-  EXPECT_EQ(run({"sweep", "floating-box", "--map-size", "1,2", "--bias", "0,1,2", "--zip"}), 2);
-  EXPECT_NE(said().find("one length"), std::string::npos) << said();
+  const std::vector<std::pair<Words, std::string>> wrong = {
+      {{"--bias", "0:1"}, "--bias: not a range (got 0:1, allowed START:END:COUNT"},
+      {{"--map-size", "128,0"}, "(got 0, allowed 1 to 65536)"},
+      {{"--shard", "3/2"}, "--shard"},
+      {{"--receiver-plane", "maybe"}, "--receiver-plane"},
+      {{"--map-size", "1,2", "--bias", "0,1,2", "--zip"}, "one length"}};
+  for (const auto& [axes, part] : wrong) {
+    Words sweep{"sweep", "floating-box"};
+    sweep.insert(sweep.end(), axes.begin(), axes.end());
+    EXPECT_EQ(run(sweep), 2) << part;
+    EXPECT_NE(said().find(part), std::string::npos) << said();
+  }
 }
 
 }  // namespace
