@@ -177,8 +177,12 @@ struct BestBias {
   /// Where the fewest lie far out on a plateau: a clearly smaller constant that is hardly wrong more often
   /// (smallest_good_range of bias_kinds.h).
   std::optional<Setting> smaller = std::nullopt;
+  /// The best constant with three digits in the unit that it is given in, and what is wrong at that.
+  std::optional<Setting> rounded = std::nullopt;
   /// What to recommend: the smaller one where there is one.
-  Setting advised() const { return smaller.value_or(Setting{constant_world, wrong_fraction}); }
+  Setting advised() const {
+    return smaller.value_or(rounded.value_or(Setting{constant_world, wrong_fraction}));
+  }
 };
 
 /// One kind of bias at its smallest setting that is hardly wrong more often than its best (bias_kinds.h), as

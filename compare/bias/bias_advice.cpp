@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compare/bias/bias_curve.h"
+#include "compare/result/figures.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
 #include "compare/result/text_layout.h"
@@ -64,7 +65,8 @@ bool is_more_than_chance(double fraction, double than, const LightComparison& li
 
 // A gain that no figure shows is none to a reader, nor is one that only rounding or chance shows.
 bool is_clearly_better(double fraction, double than, const LightComparison& light) {
-  return fraction < (1.0 - clear_gain) * than && wrong_text(fraction, light) != wrong_text(than, light) &&
+  return fraction < (1.0 - clear_gain) * than &&
+         left_text(fraction, light, wrong_and_mean()) != left_text(than, light, wrong_and_mean()) &&
          (fraction == 0.0 || is_more_than_chance(fraction, than, light));
 }
 
@@ -99,11 +101,11 @@ const BiasKind& advised_kind(const LightComparison& light, const raster::Bias& d
 }
 
 // Beside the best kind, where a constant comes to clearly less.
-std::string constant_alone(const LightComparison& light) {
+std::string constant_alone(const LightComparison& light, const Figure& measure) {
   const BiasKind& best = light.bias_kinds.front();
   for (const BiasKind& kind : light.bias_kinds)
     if (kind.name == "constant bias" && is_clearly_better(best.wrong_fraction, kind.wrong_fraction, light))
-      return fmt::format("A constant bias alone leaves {}.", wrong_text(kind.wrong_fraction, light));
+      return fmt::format("With a constant bias alone: {}.", left_text(kind.wrong_fraction, light, measure));
   return {};
 }
 
@@ -114,26 +116,27 @@ std::string in_texels(const raster::Bias& bias, const LightComparison& light) {
   return fmt::format(" ({})", texels_text(texels));
 }
 
-BiasAdvice try_bias(const raster::Bias& bias, double left, const LightComparison& light,
+BiasAdvice try_bias(const raster::Bias& bias, const std::string& left, const LightComparison& light,
                     const raster::MapOptions& drawn) {
-  return {.best = fmt::format("Try {}{}: {}.", bias_arguments(bias, drawn), in_texels(bias, light),
-                              wrong_text(left, light))};
+  return {.best = fmt::format("Try {}{}: {}.", bias_arguments(bias, drawn), in_texels(bias, light), left)};
 }
 
-BiasAdvice advice_of_kinds(const LightComparison& light, const raster::MapOptions& drawn) {
+BiasAdvice advice_of_kinds(const LightComparison& light, const raster::MapOptions& drawn,
+                           const Figure& measure) {
   const BiasKind& best = advised_kind(light, drawn.bias);
   if (!is_clearly_better(best.wrong_fraction, light.error.wrong_fraction, light))
     return {.none = "No other bias does clearly better."};
-  BiasAdvice advice = try_bias(best.bias, best.wrong_fraction, light, drawn);
-  advice.more = joined_sentences({alike_text(best, drawn.bias), constant_alone(light)});
+  BiasAdvice advice = try_bias(best.bias, left_text(best.wrong_fraction, light, measure), light, drawn);
+  advice.more = joined_sentences({alike_text(best, drawn.bias), constant_alone(light, measure)});
   return advice;
 }
 
-BiasAdvice advice_of_constants(const LightComparison& light, const raster::MapOptions& drawn) {
+BiasAdvice advice_of_constants(const LightComparison& light, const raster::MapOptions& drawn,
+                               const Figure& measure) {
   const BestBias::Setting best = light.best_bias.advised();
   if (is_clearly_better(best.wrong_fraction, light.error.wrong_fraction, light))
-    return try_bias(with_constant(drawn, best.constant_world, light.bias_texel_world), best.wrong_fraction,
-                    light, drawn);
+    return try_bias(with_three_digits(with_constant(drawn, best.constant_world, light.bias_texel_world)),
+                    left_text(best.wrong_fraction, light, measure), light, drawn);
   if (best.wrong_fraction > light.error.wrong_fraction) return {};
   return {.none = best.wrong_fraction == light.error.wrong_fraction
                       ? "No other constant bias does better."
@@ -142,7 +145,13 @@ BiasAdvice advice_of_constants(const LightComparison& light, const raster::MapOp
 
 }  // namespace
 
-std::string wrong_text(double fraction, const LightComparison& light) {
+bool counts_biases(const LightFigures& light, const Figure& measure) {
+  return measure.measure.by_halves || (&measure == find_measure("mean") && light.error.fractional == 0);
+}
+
+std::string left_text(double fraction, const LightComparison& light, const Figure& measure) {
+  if (!measure.measure.by_halves)
+    return fmt::format(fmt::runtime(measure.measure.said), figure_text(measure, fraction));
   if (fraction == 0.0) return "none wrong";
   if (fraction >= few_fraction) return percent(fraction) + " wrong";
   const double pixels = fraction * static_cast<double>(light.pixels.compared);
@@ -162,11 +171,12 @@ bool names_both_bounds(const BestBias& best) {
   return !best.feasible && best.needs_more_than > 0.0 && best.needs_less_than > 0.0;
 }
 
-BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn) {
+BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn, const Figure& measure) {
   const BestBias& best = light.best_bias;
   BiasAdvice advice;
   if (light.error.wrong > 0)
-    advice = light.bias_kinds.empty() ? advice_of_constants(light, drawn) : advice_of_kinds(light, drawn);
+    advice = light.bias_kinds.empty() ? advice_of_constants(light, drawn, measure)
+                                      : advice_of_kinds(light, drawn, measure);
   if (!best.feasible)
     advice.more = joined_sentences({advice.more, contradiction(best, light.bias_texel_world, drawn.bias)});
   return advice;

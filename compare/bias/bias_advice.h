@@ -14,11 +14,16 @@ struct BiasAdvice {
   std::string
       more{};  ///< what does as well, what a constant alone would leave, and why none is right everywhere
 };
-/// `drawn`: the options that the light was drawn with.
-BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn);
+/// `drawn`: the options that the light was drawn with; `measure`: what is advised by, one that counts_biases.
+BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn, const Figure& measure);
 
-/// "none wrong", "7 pixels wrong", "0.8 % wrong": a share of a light's compared pixels.
-std::string wrong_text(double fraction, const LightComparison& light);
+/// Whether gaps tell what another bias leaves in this measure: they count the wrong pixels, whose share is the mean error
+/// where nothing is partly lit.
+bool counts_biases(const LightFigures& light, const Figure& measure);
+
+/// "none wrong", "7 pixels wrong", "0.8 % wrong": a share of a light's compared pixels; where the mean error was asked
+/// for "mean error 0.8 %".
+std::string left_text(double fraction, const LightComparison& light, const Figure& measure);
 
 /// "No constant bias beside the slope bias of 1 fits all: 213 lit pixels stay dark below 2 texels, and …": of a best bias
 /// that is not feasible. `texel_world`: what a bias in texels is a multiple of; `drawn`: the bias drawn with.

@@ -143,8 +143,12 @@ raster::Bias with_constant(const raster::MapOptions& map, double constant_world,
   return bias;
 }
 
+double rounded_to_three(double number) {
+  return std::stod(fmt::format("{:.3g}", number));
+}
+
 raster::Bias with_three_digits(raster::Bias bias) {
-  bias.constant = std::stod(fmt::format("{:.3g}", bias.constant));
+  bias.constant = rounded_to_three(bias.constant);
   return bias;
 }
 

@@ -50,7 +50,9 @@ bool biases_follow_from_gaps(const raster::RasterFrame& drawn);
 /// The map's bias with another constant, in the unit that draws it: texels of `texel_world` where the
 /// constant scales (raster::scales_bias), else world units.
 raster::Bias with_constant(const raster::MapOptions& map, double constant_world, double texel_world);
-/// Its constant rounded to three significant digits, as it is printed and asked for.
+/// Rounded to three significant digits, as advice is printed and asked for.
+double rounded_to_three(double number);
+/// Its constant with three digits.
 raster::Bias with_three_digits(raster::Bias bias);
 
 /// Turns a record into that of another constant bias. `primitive`: what each pixel shows.

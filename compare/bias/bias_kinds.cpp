@@ -175,24 +175,27 @@ BiasRange smallest_good_range(const GapLists& gaps) {
   return good_range_of(gaps, find_best_bias(gaps));
 }
 
-BestBias find_advised_bias(const GapLists& gaps) {
+BestBias find_advised_bias(const GapLists& gaps, double unit_world) {
   BestBias best = find_best_bias(gaps);
+  const auto setting = [&](double number) {
+    return BestBias::Setting{number * unit_world, gaps.wrong_fraction_at(number * unit_world)};
+  };
+  best.rounded = setting(rounded_to_three(best.constant_world / unit_world));
   if (best.feasible) return best;  // then the best is a tenth above the least that is right
   const BiasRange range = good_range_of(gaps, best);
-  const double smaller = short_number_in(range.from, range.to);
-  if (smaller < clearly_smaller * best.constant_world)
-    best.smaller = {smaller, gaps.wrong_fraction_at(smaller)};
+  const BestBias::Setting smaller = setting(short_number_in(range.from / unit_world, range.to / unit_world));
+  if (smaller.constant_world < clearly_smaller * best.constant_world) best.smaller = smaller;
   return best;
 }
 
 double short_number_in(double from, double to) {
   if (from <= 0.0) return 0.0;
-  for (int digits = 1; digits < 17; ++digits) {
+  for (int digits = 1; digits <= 3; ++digits) {
     const double unit = std::pow(10.0, std::floor(std::log10(from)) - (digits - 1));
     const double up = std::stod(fmt::format("{:.{}e}", std::ceil(from / unit) * unit, digits - 1));
     if (up >= from && up < to && up <= 1.25 * from) return up;
   }
-  return from;
+  return rounded_to_three(from);
 }
 
 bool kinds_apply(const raster::RasterFrame& drawn, const raster::LightRecord& record) {

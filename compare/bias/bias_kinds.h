@@ -15,10 +15,12 @@ struct BiasRange {
 };
 /// `gaps` may be those of any setting that lights more pixels the larger it is.
 BiasRange smallest_good_range(const GapLists& gaps);
-/// find_best_bias, with what is clearly smaller and hardly worse.
-BestBias find_advised_bias(const GapLists& gaps);
+/// find_best_bias, with what is clearly smaller and hardly worse. `unit_world`: world units of 1 in the unit that the
+/// constant is given in.
+BestBias find_advised_bias(const GapLists& gaps, double unit_world = 1.0);
 
-/// The number with the fewest digits in [from, to), not far above from.
+/// Returns the number with the fewest digits in [from, to), not far above from; where none of three digits lies there, the
+/// one nearest to from.
 double short_number_in(double from, double to);
 
 /// What kinds are compared by, of the pixels of some rows. `settings`: of each kind, for each compared pixel the setting

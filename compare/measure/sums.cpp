@@ -244,7 +244,8 @@ Expected<void> LightSums::finish_curve(const LadderInput& in, LightComparison& o
   std::vector<Step> steps{[&]() -> Expected<void> {
     const auto gaps = sorted_lists(gaps_, ties_);
     if (!gaps) return fail(gaps.error());
-    out.best_bias = find_advised_bias(*gaps);
+    const bool in_texels = raster::scales_bias(in.drawn.options.map);
+    out.best_bias = find_advised_bias(*gaps, in_texels ? out.bias_texel_world : 1.0);
     out.bias_curve = draw_bias_curve(*gaps, out.bias_texel_world, in.record().bias_constant_world,
                                      out.best_bias.constant_world, options_.bias_curve_points);
     return {};

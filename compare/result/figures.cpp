@@ -346,6 +346,10 @@ std::string figure_name(const Figure& figure) {
   return words;
 }
 
+std::string measure_words(const Figure& measure) {
+  return measure.measure.by_halves ? std::string(measure.mark.words) : figure_name(measure);
+}
+
 std::string figure_head(const Figure& figure) {
   return figure_name(figure) + (figure.unit == "texels" ? ", texels" : "");
 }

@@ -81,6 +81,8 @@ LightFigures pool_lights(std::span<const LightFigures> lights);
 std::string_view form_name(FigureForm form);
 /// "edge error"
 std::string figure_name(const Figure& figure);
+/// What a measure is of, in running text: "wrong pixels", "mean error", "FLIP".
+std::string measure_words(const Figure& measure);
 /// A table's head: "edge error, texels".
 std::string figure_head(const Figure& figure);
 /// In running text, with texels as its unit: "4.1 %", "1.6 texels".

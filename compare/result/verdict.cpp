@@ -138,7 +138,7 @@ std::string instead_text(const Setting& one) {
 
 // Of another renderer's picture, in that renderer's own units; no option of Gnomon's own can be set there. First comes
 // the constant alone, and where a normal offset does clearly better that offset and the constant beside it.
-std::string judged_advice(const Judged& judged, const LightComparison& light) {
+std::string judged_advice(const Judged& judged, const LightComparison& light, const Figure& measure) {
   if (judged.advice.empty()) return {};
   const Advice& last = judged.advice.back();
   const double drawn = light.error.wrong_fraction;
@@ -152,23 +152,41 @@ std::string judged_advice(const Judged& judged, const LightComparison& light) {
   for (const AdvisedSetting& layer : last.layers)
     if (layer.instead != layer.now) settings += (settings.empty() ? "" : " and ") + instead_text(layer);
   if (settings.empty()) return {};
-  return fmt::format("Try {}: {} wrong.", settings, percent(last.wrong_instead));
+  if (&measure == find_measure("mean") && last.mean_instead)
+    return fmt::format("Try {}: {}.", settings, left_text(*last.mean_instead, light, measure));
+  if (!counts_biases(light, measure))
+    return fmt::format("Only a drawing tells what another bias does to the {}.", measure_words(measure));
+  return fmt::format("Try {}: {}.", settings, left_text(last.wrong_instead, light, measure));
+}
+
+/// "about 2.6 % wrong", "mean error about 2.6 %": what an estimate of the mean error leaves.
+std::string about_text(double error, const LightComparison& light, const Figure& measure) {
+  const std::string about = "about " + percent(error);
+  if (&measure == find_measure("mean")) return fmt::format(fmt::runtime(measure.measure.said), about);
+  return about + (light.error.fractional > 0 ? " on average" : " wrong");
+}
+
+// Estimates are of the mean error, which is the share of wrong pixels where nothing is partly lit.
+bool counts_sizes(const LightComparison& light, const Figure& measure) {
+  return &measure == &wrong_and_mean() || &measure == find_measure("mean") ||
+         (measure.measure.by_halves && light.error.fractional == 0);
 }
 
 // A map of another size is worth a sentence where the error falls by a fifth, by more than the estimate may be off; or,
 // where there is hardly an error, the smallest that leaves hardly one.
-std::string size_advice(const LightComparison& light, int drawn_size) {
+std::string size_advice(const LightComparison& light, int drawn_size, const Figure& measure) {
+  if (!counts_sizes(light, measure)) return {};
   constexpr double hardly_an_error = 0.005, clear_gain = 0.2, sure = 2.0;
   const double error = light.error.mean_absolute;
-  const std::string_view measure = light.error.fractional > 0 ? " on average" : " wrong";
   for (const OtherMapSize& other : light.other_sizes) {
     const bool smaller = other.size < drawn_size;
     const double at_most = other.mean_absolute + sure * other.standard_error;
     if (smaller && at_most < hardly_an_error)
-      return fmt::format("A map of {0} would do (--map-size {0}: about {1}{2}).", other.size,
-                         percent(other.mean_absolute), measure);
+      return fmt::format("A map of {0} would do (--map-size {0}: {1}).", other.size,
+                         about_text(other.mean_absolute, light, measure));
     if (!smaller && error >= hardly_an_error && at_most < (1.0 - clear_gain) * error)
-      return fmt::format("Try --map-size {}: about {}{}.", other.size, percent(other.mean_absolute), measure);
+      return fmt::format("Try --map-size {}: {}.", other.size,
+                         about_text(other.mean_absolute, light, measure));
   }
   return {};
 }
@@ -179,6 +197,23 @@ std::string window_advice(const Comparison& c, const LightComparison& light) {
   if (c.raster.options.map.window.empty() || 2 * outside <= light.error.wrong) return {};
   return fmt::format("Give the light a larger window: {} of the pixels miss their shadow outside it.",
                      percent(static_cast<double>(outside) / static_cast<double>(light.pixels.compared)));
+}
+
+/// Of a measure that nothing but a drawing tells.
+std::string untold(const LightComparison& light, const Figure& measure) {
+  if (!(measure.of(light) > 0.0)) return {};
+  return fmt::format(
+      "Only drawings tell what another bias or map does to the {}: gnomon tune --max-error {}:LIMIT makes "
+      "them.",
+      measure_words(measure), measure.measure.name);
+}
+
+// What other biases would do follows from the gaps of a hard test alone.
+BiasAdvice advised_bias(const Comparison& c, const LightComparison& light) {
+  if (!biases_follow_from_gaps(c.raster)) return {};
+  if (counts_biases(light, *c.measure)) return bias_advice(light, c.raster.options.map, *c.measure);
+  return {.none = fmt::format("Only a drawing tells what another bias does to the {}.",
+                              measure_words(*c.measure))};
 }
 
 }  // namespace
@@ -195,15 +230,15 @@ Verdict verdict_on(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0)
     return {.error = nothing_compared(light.pixels, c.world->scene->lights[light.light].type)};
   const std::string error = error_part(light, *c.measure), uncertain = uncertain_part(light.pixels);
-  if (c.judged) return {error, judged_advice(*c.judged, light), uncertain, uncertain};
-  if (lacks_light_size(c.raster, light)) return {error, soft_technique_advice(), uncertain, uncertain};
-  if (std::string window = window_advice(c, light); !window.empty())
-    return {error, std::move(window), uncertain, uncertain};
-  // What other biases would do follows from the gaps of a hard test alone.
-  const BiasAdvice bias =
-      biases_follow_from_gaps(c.raster) ? bias_advice(light, c.raster.options.map) : BiasAdvice{};
-  const std::string better =
-      joined_sentences({size_advice(light, drawn_record(c, light).map.view.size), bias.best});
+  if (c.judged) return {error, judged_advice(*c.judged, light, *c.measure), uncertain, uncertain};
+  const bool told = counts_sizes(light, *c.measure) || counts_biases(light, *c.measure);
+  std::string cause = lacks_light_size(c.raster, light) ? soft_technique_advice() : window_advice(c, light);
+  if (!told || !cause.empty())
+    return {error, joined_sentences({cause, told ? std::string() : untold(light, *c.measure)}), uncertain,
+            uncertain};
+  const BiasAdvice bias = advised_bias(c, light);
+  const int size = drawn_record(c, light).map.view.size;
+  const std::string better = joined_sentences({size_advice(light, size, *c.measure), bias.best});
   return {error, better.empty() ? bias.none : better, uncertain, joined_sentences({uncertain, bias.more})};
 }
 

@@ -21,7 +21,7 @@ HeadlineItem item(std::string title, const CellSummary& cell, const Figure& meas
 std::string error_words(const Figure& measure) {
   if (&measure == &wrong_and_mean()) return "error";
   if (measure.needs == FigureNeeds::film) return "flips";
-  return measure.measure.by_halves ? std::string(measure.mark.words) : figure_name(measure);
+  return measure_words(measure);
 }
 
 // Some other cell may have taken less time, but by no more than such times spread.

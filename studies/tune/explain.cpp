@@ -17,8 +17,8 @@ std::string setting_text(const Attempt& a, const Figure& measure) {
 }
 
 // The sentence of why no constant bias is right everywhere, as a part of a longer one.
-std::string proof(const FamilyResult& family, const Attempt& attempt) {
-  if (!has_proof(attempt)) return {};
+std::string proof(const FamilyResult& family, const Attempt& attempt, const Figure& measure) {
+  if (!has_proof(attempt, measure)) return {};
   std::string text = contradiction(attempt.best, attempt.texel_world, family.family.map.bias);
   text.front() = static_cast<char>(text.front() - 'A' + 'a'), text.pop_back();
   return "; " + text;
@@ -76,16 +76,16 @@ std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner)
   if (!loser.answer) {
     const std::string nearest = setting_text(loser.closest, measure);
     if (loser.stop == TuneStop::too_dear)
-      return "slower before it is good enough: " + nearest + proof(loser, loser.closest);
+      return "slower before it is good enough: " + nearest + proof(loser, loser.closest, measure);
     if (loser.stop == TuneStop::levels_off)
       return fmt::format("levels off near {}: {}{}",
                          fmt::format(fmt::runtime(measure.measure.level), figure_text(measure, loser.floor)),
-                         nearest, proof(loser, loser.closest));
+                         nearest, proof(loser, loser.closest, measure));
     if (loser.stop == TuneStop::no_smaller)
       return fmt::format("needs at least the map of {}: {}{}", loser.like, nearest,
-                         proof(loser, loser.closest));
+                         proof(loser, loser.closest, measure));
     return (by_error ? "not good enough at any size: at best " : "too slow at any size: at best ") + nearest +
-           proof(loser, loser.closest);
+           proof(loser, loser.closest, measure);
   }
   const Attempt& a = *loser.answer;
   const std::string text = setting_text(a, measure);
@@ -97,10 +97,11 @@ std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner)
     return (a.times.runs.empty() ? "slower, measured once: " : "slower, measured in turn with the best: ") +
            text;
   if (price(a) == price(*winner.answer)) return "as good, and slower: " + text;
-  return "less accurate: " + text + proof(loser, a);
+  return "less accurate: " + text + proof(loser, a, measure);
 }
 
 void Tuner::explain(TuneResult& result) const {
+  const Figure& measure = options_.goal.measure();
   const FamilyResult& winner = result.families[result.winner];
   for (std::size_t i = 0; i < result.families.size(); ++i) {
     FamilyResult& family = result.families[i];
@@ -111,12 +112,12 @@ void Tuner::explain(TuneResult& result) const {
     else if (result.feasible)
       family.why = (options_.goal.max_error ? "the cheapest that is good enough: "
                                             : "the best that is cheap enough: ") +
-                   setting_text(*family.answer, options_.goal.measure()) +
-                   doubtful_time(*family.answer, options_.goal) + close_race(family, options_.goal) +
-                   just_over_text(result, options_.goal.measure());
+                   setting_text(*family.answer, measure) + doubtful_time(*family.answer, options_.goal) +
+                   close_race(family, options_.goal) + just_over_text(result, measure);
     else
-      family.why = "comes nearest: " + setting_text(family.closest, options_.goal.measure()) +
-                   doubt(options_.goal.max_error, family.closest.lights) + proof(family, family.closest);
+      family.why = "comes nearest: " + setting_text(family.closest, measure) +
+                   doubt(options_.goal.max_error, family.closest.lights) +
+                   proof(family, family.closest, measure);
   }
 }
 

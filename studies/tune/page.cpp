@@ -97,7 +97,7 @@ PageIntroduction tune_introduction(const TunePageInput& in) {
   const FamilyResult& winner = in.result.families[in.result.winner];
   const Attempt& a = winner.attempt();
   const Figure& measure = in.goal.measure();
-  const bool proven = !in.result.feasible && has_proof(a);
+  const bool proven = !in.result.feasible && has_proof(a, measure);
   const std::vector<std::size_t> order = listed(in);
   Json families = Json::array(), tried = Json::array(), lines = Json::array();
   for (std::size_t place = 0; place < order.size(); ++place)

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/bias/bias_advice.h"
 #include "compare/result/engine_units.h"
 #include "studies/sweep/engine.h"
 
@@ -80,10 +81,10 @@ struct Attempt {
   bool custom_shader = false, reads_bias = true;
 };
 
-/// Whether `best` proves that no constant bias is right everywhere: where a drawing tells the error of every bias, some
-/// shadowed pixels stand in the way.
-inline bool has_proof(const Attempt& a) {
-  return !a.best.feasible && a.best.shadowed_pixels_below > 0;
+/// Whether `best` proves that no constant bias is right everywhere, which is an answer to goals that count wrong pixels:
+/// where a drawing tells the error of every bias, some shadowed pixels stand in the way.
+inline bool has_proof(const Attempt& a, const Figure& measure) {
+  return counts_biases(a.figures, measure) && !a.best.feasible && a.best.shadowed_pixels_below > 0;
 }
 
 /// Why larger maps were not tried.

@@ -1,6 +1,8 @@
 // The whole chain against closed forms (docs/design.md, section 3): acne on a tilted plane, the shadow of a sphere
 // on a plane, the gap that a bias tears between a wall and its shadow; and the sums that must hold for any
 // scene.
+#include <fmt/core.h>
+
 #include "tests/support/compare_support.h"
 #include "tests/support/one_world.h"
 
@@ -231,6 +233,10 @@ std::uint64_t expect_best_bias_is_best(Scene scene, const ImageSize& size) {
     const double best = light.best_bias.constant_world;
     const compare::Comparison render = world.compare(test_options(size, 256, best));
     EXPECT_DOUBLE_EQ(render.lights[i].error.wrong_fraction, light.best_bias.wrong_fraction);
+    const compare::BestBias::Setting advised = light.best_bias.advised();
+    EXPECT_EQ(fmt::format("{:.3g}", advised.constant_world), fmt::format("{:.9g}", advised.constant_world));
+    const compare::Comparison again = world.compare(test_options(size, 256, advised.constant_world));
+    EXPECT_DOUBLE_EQ(again.lights[i].error.wrong_fraction, advised.wrong_fraction);
     const double tied = 0.5 * double(light.error.ties);
     for (const auto& point : light.bias_curve)
       EXPECT_GE((double(point.false_shadow + point.missed_shadow) + tied) / double(light.pixels.compared),
