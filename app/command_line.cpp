@@ -191,6 +191,7 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   add_judge(*program, invocation);
   add_grade(*program, invocation);
   add_lessons(*program, invocation);
+  add_serve(*program, invocation);
   add_view(*program, invocation);
   for (const char* command : {"compare", "judge", "raster", "raytrace", "shimmer", "sweep", "tune"})
     add_trace(*program->get_subcommand(command), invocation.trace);

@@ -42,6 +42,7 @@ void add_sweep(CLI::App& program, Invocation& invocation);
 void add_tune(CLI::App& program, Invocation& invocation);
 void add_bench(CLI::App& program, Invocation& invocation);
 void add_verify(CLI::App& program, Invocation& invocation);
+void add_serve(CLI::App& program, Invocation& invocation);
 void add_view(CLI::App& program, Invocation& invocation);
 void add_judge(CLI::App& program, Invocation& invocation);
 void add_shimmer(CLI::App& program, Invocation& invocation);

@@ -17,6 +17,9 @@ find_package(PNG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(IMGUI REQUIRED imgui)
 
+# cpp-httplib, for `gnomon serve` alone.
+pkg_check_modules(HTTPLIB REQUIRED cpp-httplib)
+
 # libdeflate 1.14, Debian 12's, has no CMake file.
 find_library(LIBDEFLATE_LIBRARY deflate REQUIRED)
 find_path(LIBDEFLATE_HEADERS libdeflate.h REQUIRED)

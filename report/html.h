@@ -35,6 +35,7 @@ struct PageHead {
   std::string_view style;     ///< all that stands between <style> and </style>
   std::string_view script{};  ///< all that stands between <script> and </script>; empty: no script may run
   bool beside = false;        ///< the page has files of pictures and data beside it
+  bool live = false;  ///< the page asks the server that it came from, and shows pictures and pages of it
 };
 
 /// Elements of <head>, to follow the one that names the encoding; the style and the script themselves are not among them.

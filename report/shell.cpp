@@ -99,7 +99,8 @@ BuiltPage build_page(const PageShell& shell) {
   BuiltPage out;
   out.html.reserve(bytes_of(shell) + embedded::report(shell.built).size() + (std::size_t{1} << 16));
   out.html = built.before_head;
-  out.html.append(page_head({shell.title, built.style, built.script, shell.beside})).append(built.after_head);
+  out.html.append(page_head({shell.title, built.style, built.script, shell.beside, shell.live}))
+      .append(built.after_head);
   out.html += fmt::format(R"(<a class="skip" href="#main">{}</a>)", shell.skip);
   out.html += R"(
 <header class="bar-top"><span class="brand">Gnomon</span>

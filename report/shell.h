@@ -41,6 +41,7 @@ struct PageShell {
   bool beside = false;          ///< the parts go into files
   std::string folder = "report-data";    ///< of these files
   std::string_view built = "page.html";  ///< which of the built pages
+  bool live = false;                     ///< PageHead's
   std::string_view skip = "Skip to the report";
 };
 

@@ -56,16 +56,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
   add_scene(*app, options->scene);
   add_camera(*app, options->camera);
   add_window_size(*app, options->compare.raster.size);
-  add_tessellate(*app, options->tessellate);
-  add_map_options(*app, options->compare.raster.map);
-  app->add_option("--light", options->light, "begin with this light [a light's name; default the first]")
-      ->type_name("NAME");
-  add_max_lights(*app, options->max_lights);
-  add_shader_dir(*app, options->shader_folder);
-  add_pose_options(*app, options->poses);
-  add_tracer_options(*app, options->compare.accel, options->compare.precision);
-  add_min_contribution(*app, options->compare.raytrace.min_contribution);
-  add_exposure(*app, options->exposure);
+  add_lab_setting(*app, *options);
   add_look(*app, *options);
   app->add_option("--script", options->script, script_help)->type_name("FILE");
   add_backend(*app, options->backend);

@@ -128,7 +128,7 @@ void add_pose_options(CLI::App& command, PoseOptions& poses) {
 }
 
 Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light, const Scene& scene,
-                                      const World& world) {
+                                      const Vec3& centre) {
   ResolvedPoses resolved;
   if (poses.camera_orbit || poses.camera_distance || poses.camera_target || poses.camera_up ||
       poses.camera_height) {
@@ -149,7 +149,7 @@ Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::strin
     return resolved;
   const Expected<std::uint32_t> chosen = chosen_light(light, scene);
   if (!chosen) return fail(chosen.error());
-  LightPose pose = light_pose(scene.lights[*chosen], world.middle());
+  LightPose pose = light_pose(scene.lights[*chosen], centre);
   pose.azimuth_degrees = poses.light_azimuth.value_or(pose.azimuth_degrees);
   pose.elevation_degrees = poses.light_elevation.value_or(pose.elevation_degrees);
   if (poses.light_distance && scene.lights[*chosen].type == LightType::directional)
@@ -170,7 +170,7 @@ Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::strin
 
 Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, Scene& scene,
                            const World& world) {
-  const Expected<ResolvedPoses> resolved = resolve_poses(poses, light, scene, world);
+  const Expected<ResolvedPoses> resolved = resolve_poses(poses, light, scene, world.middle());
   if (!resolved) return fail(resolved.error());
   if (resolved->camera) scene.camera = posed_camera(scene.camera, *resolved->camera);
   if (!resolved->light_pose) return {};

@@ -48,10 +48,10 @@ struct ResolvedPoses {
 };
 
 /// The light is the one of that name or, without a name, the only one there is. Errors are ErrorKind::usage, also
-/// where the camera's pose is one that nothing can be seen with. `scene`: whose camera and lights are posed, not always
-/// as the world's own scene has them.
+/// where the camera's pose is one that nothing can be seen with. `scene`: whose camera and lights are posed; `centre`:
+/// what a lamp turns about, World::middle().
 Expected<ResolvedPoses> resolve_poses(const PoseOptions& poses, const std::string& light, const Scene& scene,
-                                      const World& world);
+                                      const Vec3& centre);
 
 /// Moves the scene's camera and turns its light.
 Expected<void> apply_poses(const PoseOptions& poses, const std::string& light, Scene& scene,

@@ -1,6 +1,6 @@
 # The shadow lab: gnomon view.
 target_sources(gnomon_app PRIVATE
-  view/work/file_watch.cpp view/state/film.cpp view/window/frame_watch.cpp view/state/input.cpp view/window/interface.cpp view/work/job.cpp view/window/layout.cpp view/state/look.cpp
+  view/work/file_watch.cpp view/state/film.cpp view/state/first_state.cpp view/window/frame_watch.cpp view/state/input.cpp view/window/interface.cpp view/work/job.cpp view/window/layout.cpp view/state/look.cpp
   view/work/map_pictures.cpp view/work/meter.cpp view/state/pixel_story.cpp view/state/presets.cpp view/work/priority.cpp view/state/projection.cpp
   view/work/render_thread.cpp view/state/save_scene.cpp view/work/scene_source.cpp view/script/script.cpp view/script/script_keys.cpp view/state/state.cpp
   view/state/status.cpp view/work/studio.cpp view/window/style.cpp view/view.cpp view/viewer.cpp view/viewer_files.cpp

@@ -4,6 +4,7 @@
 
 #include "app/outputs/run_files.h"
 #include "app/session.h"
+#include "app/view/state/first_state.h"
 #include "app/view/viewer.h"
 #include "scene/files/read_file.h"
 
@@ -49,29 +50,6 @@ Expected<std::vector<ScriptStep>> read_script(const std::string& path, const Sce
   return steps;
 }
 
-/// The state that the command line asks for.
-Expected<ViewState> first_state(const ViewOptions& options, const LoadedScene& loaded) {
-  const auto lights = choose_lights(*loaded.scene, options.light);
-  if (!lights) return fail(lights.error());
-  ViewState state;
-  state.given = given_scene(*loaded.scene, *loaded.world, loaded.paths);
-  state.setup.lights.resize(state.given.lights.size());
-  state.setup.light = lights->front();
-  state.setup.map = options.compare.raster.map;
-  state.setup.size = options.compare.raster.size;
-  state.setup.precision = options.compare.precision;
-  const auto poses = resolve_poses(options.poses, options.light, *loaded.scene, *loaded.world);
-  if (!poses) return fail(poses.error());
-  state.setup.camera = poses->camera;
-  if (poses->light_pose) state.setup.lights[poses->light] = poses->light_pose;
-  state.initial = state.setup;
-  state.look.theme = options.theme;
-  state.look.ui_scale = options.ui_scale;
-  state.look.large_type = options.large_type;
-  state.look.panels = !options.no_panels;
-  return state;
-}
-
 }  // namespace
 
 Expected<ExitCode> run_view(const ViewOptions& options) {
@@ -83,8 +61,10 @@ Expected<ExitCode> run_view(const ViewOptions& options) {
   keep_strongest_lights(*loaded, options.max_lights, named_lights(options.light), options.poses, console);
   if (options.exposure) loaded->scene->exposure = *options.exposure;
   const std::vector<std::string> scene_files = files.inputs();  // what the window watches: not the script's
-  auto state = first_state(options, *loaded);
+  auto state = first_state(options, given_scene(*loaded->scene, *loaded->world, loaded->paths));
   if (!state) return fail(state.error());
+  state->look.theme = options.theme, state->look.ui_scale = options.ui_scale;
+  state->look.large_type = options.large_type, state->look.panels = !options.no_panels;
   auto script = read_script(options.script, *loaded->scene, files);
   if (!script) return fail(script.error());
   if (const auto fine = files.check(); !fine) return fail(fine.error());

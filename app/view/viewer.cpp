@@ -282,24 +282,7 @@ void Viewer::post_changes() {
 }
 
 const Rgb8Image* Viewer::picture(Picture view) const {
-  const ComparisonOutcome* outcome = shown_->outcome.get();
-  if (outcome == nullptr || view == Picture::raster) return shown_->live.picture.get();
-  switch (view) {
-    case Picture::raytrace:
-      return &outcome->raytrace;
-    case Picture::difference:
-      return &outcome->difference;
-    case Picture::labels:
-      return &outcome->labels;
-    case Picture::truth:
-      return &outcome->truth;
-    case Picture::gap:
-      return &outcome->gap;
-    case Picture::texels:
-      return &outcome->texels;
-    default:
-      return &outcome->depth;
-  }
+  return picture_of(*shown_, view);
 }
 
 Expected<void> Viewer::draw_view(const ShownView& view) {

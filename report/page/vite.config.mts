@@ -1,4 +1,4 @@
-// Builds page.html, or with --mode lesson lesson.html, with its style and script inline: the files that the C++ writer fills
+// Builds page.html, or with --mode lesson or lab lesson.html or lab.html, with its style and script inline: the files that the C++ writer fills
 // in (../shell.cpp).
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
@@ -10,6 +10,6 @@ export default defineConfig(({ mode }) => ({
   root: folder,
   logLevel: "warn",
   plugins: [viteSingleFile({ removeViteModuleLoader: true })],
-  build: { target: "es2022", emptyOutDir: mode !== "lesson", modulePreload: false,
-    rollupOptions: { input: `${folder}${mode === "lesson" ? "lesson" : "page"}.html` } },
+  build: { target: "es2022", emptyOutDir: mode === "production", modulePreload: false,
+    rollupOptions: { input: `${folder}${mode === "production" ? "page" : mode}.html` } },
 }));

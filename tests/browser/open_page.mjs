@@ -31,25 +31,29 @@ function addBytesAsText() {
 }
 
 /** Opens FOLDER/report.html, or another file of it, and collects everything that it must not do. `hash` begins with #. */
-export async function open(folder, options = {}, hash = "") {
-  const { beside, file = "report.html", ...contextOptions } = options;
+export function open(folder, options = {}, hash = "") {
+  const { beside, file = "report.html", ...others } = options, url = pathToFileURL(resolve(folder, file)).href;
+  return openAt(url, beside ? new URL(".", url).href : null, others, hash);
+}
+
+/** The same of any address. `allowed`: what the page may ask for besides itself begins so; null: nothing. */
+export async function openAt(url, allowed, contextOptions = {}, hash = "") {
   // Without motion: a page that still scrolls when a button goes up again makes no click of it.
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce", ...contextOptions });
   await context.addInitScript(addBytesAsText);
   const page = await context.newPage();
-  const url = pathToFileURL(resolve(folder, file)).href;
   page.offences = [];
   page.requests = [];
   page.on("console", (message) => page.offences.push(`console ${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => page.offences.push(`error: ${error.message}`));
   page.on("request", (request) => {
     // A page may ask for nothing but itself, or, where it says so, for the files beside it.
-    const asked = request.url().split("#")[0], besideIt = beside && asked.startsWith(new URL(".", url).href);
+    const asked = request.url().split("#")[0], besideIt = allowed !== null && asked.startsWith(allowed);
     page.requests.push(asked);
     if (asked !== url && !asked.startsWith("data:") && !besideIt) page.offences.push(`request: ${asked}`);
   });
   await page.goto(url + hash);
-  if (options.javaScriptEnabled !== false)
+  if (contextOptions.javaScriptEnabled !== false)
     await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
   return page;
 }

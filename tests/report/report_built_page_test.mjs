@@ -15,7 +15,7 @@ if (!existsSync(vite)) {
 }
 rmSync(folder, { recursive: true, force: true });
 execFileSync(process.execPath, [join(sources, "node_modules/typescript/bin/tsc"), "--noEmit", "-p", sources], { stdio: "inherit" });
-for (const [name, ...mode] of [["page.html"], ["lesson.html", "--mode", "lesson"]]) {
+for (const [name, ...mode] of [["page.html"], ["lesson.html", "--mode", "lesson"], ["lab.html", "--mode", "lab"]]) {
   execFileSync(process.execPath, [vite, "build", sources, "--outDir", folder, ...mode], { stdio: "inherit" });
   const built = readFileSync(join(folder, name)), kept = readFileSync(join(sources, "dist", name));
   assert.ok(built.equals(kept), `dist/${name} is not what the sources build: npm run build in report/page`);

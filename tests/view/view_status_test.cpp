@@ -12,7 +12,7 @@ namespace gnomon::app {
 namespace {
 
 TEST(ViewStatus, CommandSaysWhatDiffers) {
-  ViewOptions options;
+  LabOptions options;
   options.scene.name = "my scene.json";
   ViewState state = two_light_state();
   EXPECT_EQ(compare_command(state, options, options.scene.words()),
@@ -34,7 +34,7 @@ TEST(ViewStatus, CommandSaysWhatDiffers) {
 
 // Camera and light as they are shown, in the picture's shape, and nothing of the map.
 TEST(ViewStatus, TheTunerIsAskedForThePictureShown) {
-  ViewOptions options;
+  LabOptions options;
   options.max_lights = 7;
   ViewState state = two_light_state();
   carry_out(state, OrbitTo{-30.0, 20.5});

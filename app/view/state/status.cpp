@@ -111,7 +111,7 @@ std::vector<std::string> pose_words(const ViewState& state) {
 namespace {
 
 /// What compare and tune take alike: of the view's settings all but the picture's size and the map.
-void add_truth(Words& words, const ViewState& state, const ViewOptions& options) {
+void add_truth(Words& words, const ViewState& state, const LabOptions& options) {
   const compare::CompareOptions plain;
   for (std::string& word : pose_words(state)) words.push_back(std::move(word));
   add_if(words, options.compare.accel != plain.accel, "--accel",
@@ -138,7 +138,7 @@ ImageSize with_at_most(const ImageSize& size, double most) {
 
 }  // namespace
 
-std::vector<std::string> setting_words(const ViewState& state, const ViewOptions& options) {
+std::vector<std::string> setting_words(const ViewState& state, const LabOptions& options) {
   Words words;
   add_if(words, !options.camera.empty(), "--camera", options.camera);
   add_if(words, options.tessellate > 0, "--tessellate", std::to_string(options.tessellate));
@@ -151,7 +151,7 @@ std::vector<std::string> setting_words(const ViewState& state, const ViewOptions
   return words;
 }
 
-std::vector<std::string> tuning_words(const ViewState& state, const ViewOptions& options) {
+std::vector<std::string> tuning_words(const ViewState& state, const LabOptions& options) {
   Words words;
   add_if(words, !options.camera.empty(), "--camera", options.camera);
   add_if(words, true, "--size", size_text(with_at_most(state.setup.size, tuned_pixels)));
@@ -159,7 +159,7 @@ std::vector<std::string> tuning_words(const ViewState& state, const ViewOptions&
   return words;
 }
 
-std::string compare_command(const ViewState& state, const ViewOptions& options, const std::string& scene) {
+std::string compare_command(const ViewState& state, const LabOptions& options, const std::string& scene) {
   std::string text = "gnomon compare " + scene;
   for (const std::string& word : setting_words(state, options))
     text += fmt::format(" {}", shell_quoted(word));

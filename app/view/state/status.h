@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/options/lab_options.h"
 #include "app/view/state/state.h"
-#include "app/view/view.h"
 #include "app/view/work/render_thread.h"
 
 namespace gnomon::app {
@@ -32,14 +32,14 @@ std::string status_line(const ViewState& state, const Readings& readings, const 
 
 /// "gnomon compare SCENE --size ... ": what differs from the defaults and, always, size, map size and bias.
 /// `scene`: SceneArgument::words().
-std::string compare_command(const ViewState& state, const ViewOptions& options, const std::string& scene);
+std::string compare_command(const ViewState& state, const LabOptions& options, const std::string& scene);
 /// Returns the words of the setting without "gnomon compare SCENE", each by itself and not quoted.
-std::vector<std::string> setting_words(const ViewState& state, const ViewOptions& options);
+std::vector<std::string> setting_words(const ViewState& state, const LabOptions& options);
 
 /// The tuner draws no more pixels than these: its answer hardly depends on them, its time does.
 inline constexpr double tuned_pixels = 480 * 270;
 /// What `gnomon tune` is told of the view: camera, light and truth as shown, the picture's shape, and no map.
-std::vector<std::string> tuning_words(const ViewState& state, const ViewOptions& options);
+std::vector<std::string> tuning_words(const ViewState& state, const LabOptions& options);
 
 /// "--backend", "egl-software"; nothing for auto.
 std::vector<std::string> backend_words(raster::Backend backend);

@@ -16,6 +16,27 @@ constexpr std::chrono::milliseconds file_interval{500};  // between looks at the
 
 }  // namespace
 
+const Rgb8Image* picture_of(const Snapshot& shown, Picture view) {
+  const ComparisonOutcome* outcome = shown.outcome.get();
+  if (outcome == nullptr || view == Picture::raster) return shown.live.picture.get();
+  switch (view) {
+    case Picture::raytrace:
+      return &outcome->raytrace;
+    case Picture::difference:
+      return &outcome->difference;
+    case Picture::labels:
+      return &outcome->labels;
+    case Picture::truth:
+      return &outcome->truth;
+    case Picture::gap:
+      return &outcome->gap;
+    case Picture::texels:
+      return &outcome->texels;
+    default:
+      return &outcome->depth;
+  }
+}
+
 RenderThread::RenderThread(MakeContext context, SceneSource first, StudioOptions options,
                            std::function<void()> wake)
     : context_(std::move(context)),
@@ -42,10 +63,10 @@ void RenderThread::post(std::uint64_t scene, DrawOrder order) {
   changed_.notify_one();
 }
 
-void RenderThread::open(SceneArgument scene) {
+void RenderThread::open(SceneArgument scene, std::string camera) {
   {
     const std::lock_guard lock(mutex_);
-    asked_scene_ = std::move(scene);
+    asked_scene_.emplace(std::move(scene), std::move(camera));
   }
   changed_.notify_one();
 }
@@ -110,7 +131,7 @@ void RenderThread::run() {
     for (;;) {
       Task task = next_task();
       if (task.quit) break;
-      if (task.open) read_scene(*task.open, {}, false);
+      if (task.open) read_scene(task.open->first, task.open->second, false);
       read_changed_files();
       if (task.order) {
         last_order_ = std::move(task.order);
@@ -127,6 +148,7 @@ void RenderThread::run() {
 
 void RenderThread::read_scene(const SceneArgument& argument, const std::string& camera, bool again) {
   now_.opening = true;
+  if (!again) now_.unreadable.reset();  // it was another scene
   publish();
   auto source = read_source(argument, camera, options_);
   now_.opening = false;

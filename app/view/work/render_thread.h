@@ -53,6 +53,9 @@ struct Snapshot {
   }
 };
 
+/// Returns the newest picture of that kind; before the first comparison that of the shadow map, or null before it.
+const Rgb8Image* picture_of(const Snapshot& shown, Picture view);
+
 class RenderThread {
  public:
   using MakeContext = std::function<Expected<std::unique_ptr<raster::Context>>()>;
@@ -62,15 +65,15 @@ class RenderThread {
 
   /// Draws and compares this next. Orders for another scene than `scene` (OpenedScene::number) are dropped.
   void post(std::uint64_t scene, DrawOrder order);
-  /// Reads another scene; until it is there the one before stays.
-  void open(SceneArgument scene);
+  /// Reads another scene, seen by one of its cameras (empty: the first); until it is there the one before stays.
+  void open(SceneArgument scene, std::string camera = {});
   std::shared_ptr<const Snapshot> snapshot() const;
   /// One that is not needed any longer, to be freed on this thread: giving memory back takes time.
   void give_back(std::shared_ptr<const Snapshot> snapshot);
 
  private:
   struct Task {
-    std::optional<SceneArgument> open;
+    std::optional<std::pair<SceneArgument, std::string>> open;  ///< with a camera
     std::optional<DrawOrder> order;
     bool quit = false;
   };
@@ -98,7 +101,7 @@ class RenderThread {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<SceneArgument> asked_scene_;
+  std::optional<std::pair<SceneArgument, std::string>> asked_scene_;
   std::optional<std::pair<std::uint64_t, DrawOrder>> asked_order_;
   bool finished_ = false;  ///< a comparison has finished
   bool quit_ = false;

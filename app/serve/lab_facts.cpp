@@ -1,0 +1,208 @@
+#include "app/serve/lab_facts.h"
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/view/state/look.h"
+#include "app/view/state/pixel_story.h"
+#include "app/view/state/status.h"
+#include "compare/ladder/labels.h"
+#include "compare/result/number_text.h"
+#include "compare/result/outputs.h"
+#include "raster/settings.h"
+#include "report/lessons.h"
+#include "report/page.h"
+#include "scene/load.h"
+
+namespace gnomon::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view group_title(raster::SettingGroup group) {
+  switch (group) {
+    case raster::SettingGroup::map:
+      return "Map";
+    case raster::SettingGroup::window:
+      return "Window";
+    case raster::SettingGroup::bias:
+      return "Bias";
+    case raster::SettingGroup::filter:
+      return "Filter";
+    case raster::SettingGroup::cascades:
+      return "Cascades";
+  }
+  return {};
+}
+
+/// Adds what a control of each kind of setting needs.
+struct ControlFacts {
+  Json& out;
+  std::string_view slider_unit;
+
+  void operator()(const raster::NumberSetting& s) const {
+    out["control"] = "number", out["unit"] = slider_unit.empty() ? s.unit : slider_unit;
+    out["from"] = s.slider.min, out["to"] = s.slider.max, out["logarithmic"] = s.logarithmic;
+  }
+  void operator()(const raster::IntegerSetting& s) const {
+    out["control"] = "integer", out["unit"] = slider_unit.empty() ? s.unit : slider_unit;
+    out["from"] = s.slider_from, out["to"] = s.slider_to, out["powers_of_two"] = s.powers_of_two;
+  }
+  void operator()(const raster::SwitchSetting& s) const {
+    out["control"] = "switch", out["flag"] = s.form != raster::SwitchForm::word;
+  }
+  void operator()(const raster::ChoiceSetting& s) const {
+    out["control"] = "choice", out["choices"] = s.names();
+  }
+  void operator()(const raster::ListSetting& s) const { out["control"] = "text", out["unit"] = s.unit; }
+  void operator()(const raster::ConstantBiasSetting& s) const {
+    out["control"] = "bias", out["unit"] = "texels", out["from"] = 0.0, out["to"] = 10.0;
+    out["automatic"] = s.may_be_automatic;
+  }
+};
+
+/// The techniques that read a setting, and of pcf's kernels those that do.
+Json readers_json(const raster::MapSetting& row) {
+  Json readers = Json::array(), kernels = Json::array();
+  for (const raster::TechniqueTraits& traits : raster::all_technique_traits())
+    if (raster::reads(traits, row)) readers.push_back(traits.name);
+  for (const raster::FilterKernelTraits& traits : raster::all_filter_kernel_traits())
+    if (row.read_by_kernel == nullptr || row.read_by_kernel(traits.kernel)) kernels.push_back(traits.name);
+  return {{"techniques", readers}, {"kernels", kernels}};
+}
+
+Json setting_facts(const raster::MapSetting& row) {
+  Json out = {{"name", row.name},
+              {"group", group_title(row.group)},
+              {"title", row.title},
+              {"what", row.what},
+              {"acne", row.acne},
+              {"peter_panning", row.peter_panning},
+              {"allowed", raster::allowed_text(row)},
+              {"readers", readers_json(row)}};
+  std::visit(ControlFacts{out, row.slider_unit}, row.kind);
+  return out;
+}
+
+Json pose_json(const CameraPose& pose) {
+  return {
+      {"azimuth", pose.azimuth_degrees}, {"elevation", pose.elevation_degrees}, {"distance", pose.distance}};
+}
+
+Json light_json(const ViewState& state) {
+  const LightPose pose = current_light(state);
+  const Light& given = state.given.lights[state.setup.light];
+  const bool sun = given.type == LightType::directional;
+  const double own = sun ? 0.0 : glm::length(given.position - state.given.centre);
+  return {{"name", state.light_name()},
+          {"sun", sun},
+          {"azimuth", pose.azimuth_degrees},
+          {"elevation", pose.elevation_degrees},
+          {"distance", sun ? Json() : Json(pose.distance.value_or(own))},
+          {"own_distance", own},
+          {"size", light_size(posed_light(state))}};
+}
+
+/// Settings that the technique reads, with their values as the command line takes them.
+Json values_json(const raster::MapOptions& map) {
+  Json values = Json::object();
+  for (const raster::MapSetting& row : raster::map_settings())
+    if (raster::reads(map, row)) values[std::string(row.name)] = raster::setting_text(row, map);
+  return values;
+}
+
+Json compared_json(const ComparisonOutcome& outcome) {
+  const compare::Verdict& verdict = outcome.verdict;
+  return {{"verdict", {{"headline", verdict.headline()}, {"detail", verdict.detail}}},
+          {"result", Json::parse(compare::result_json(outcome.comparison))}};
+}
+
+}  // namespace
+
+std::string lab_facts(const LabOptions& options) {
+  Json settings = Json::array(), techniques = Json::array(), pictures = Json::array(), shown = Json::array(),
+       scenes = Json::array(), lessons = Json::array();
+  for (const raster::MapSetting& row : raster::map_settings()) settings.push_back(setting_facts(row));
+  for (const raster::TechniqueTraits& traits : raster::all_technique_traits())
+    techniques.push_back({{"name", traits.name}, {"for_suns", traits.lights.has(LightType::directional)}});
+  for (std::size_t i = 0; i < picture_count; ++i) {
+    const auto picture = static_cast<Picture>(i);
+    pictures.push_back({{"name", picture_name(picture)},
+                        {"title", picture_title(picture)},
+                        {"legend", picture_legend(picture)}});
+  }
+  for (const Preset& preset : presets()) shown.push_back({{"title", preset.title}, {"what", preset.what}});
+  for (const BuiltinScene& scene : builtin_scenes())
+    if (!scene.large) scenes.push_back({{"name", scene.name}, {"what", scene.description}});
+  for (const compare::Lesson& lesson : compare::all_lessons())
+    lessons.push_back({{"name", lesson.name}, {"what", lesson.title}});
+  const Json facts = {{"kind", "lab"},
+                      {"scene", options.scene.name},
+                      {"settings", settings},
+                      {"techniques", techniques},
+                      {"labels", compare::label_facts()},
+                      {"rungs", compare::rung_facts()},
+                      {"pictures", pictures},
+                      {"presets", shown},
+                      {"scenes", scenes},
+                      {"lessons", lessons}};
+  return facts.dump();
+}
+
+std::string lab_reading(const LabMoment& moment, const std::vector<std::string>& compare_words) {
+  const ViewState& state = moment.state;
+  const Snapshot& shown = *moment.shown;
+  Json out = {{"number", moment.number},   {"client", moment.client}, {"revision", state.revision},
+              {"opening", moment.opening}, {"error", moment.error},   {"note", moment.note}};
+  if (!shown.scene) return out.dump();
+  Json lights = Json::array();
+  for (const Light& light : state.given.lights) lights.push_back(light.name);
+  std::string command = "gnomon";
+  for (const std::string& word : compare_words) command += " " + shell_quoted(word);
+  out.update({{"scene", {{"name", shown.scene->name}, {"lights", lights}}},
+              {"words", setting_words(state, moment.options)},
+              {"command", command},
+              {"size", {{"width", state.setup.size.width}, {"height", state.setup.size.height}}},
+              {"camera", pose_json(current_camera(state))},
+              {"light", light_json(state)},
+              {"values", values_json(state.setup.map)},
+              {"precision", raytrace::precision_name(state.setup.precision)},
+              {"max_map_size", shown.max_map_size},
+              {"renderer", shown.renderer},
+              {"bias_world", shown.live.bias_world},
+              {"texel_world", shown.live.texel_world},
+              {"drawn", shown.live.revision},
+              {"raster_ms", shown.live.raster_ms},
+              {"compared", shown.outcome ? shown.outcome->revision : 0},
+              {"preview", shown.outcome && shown.outcome->preview}});
+  if (shown.outcome) out.update(compared_json(*shown.outcome));
+  return out.dump();
+}
+
+std::string lab_pixel(const LabMoment& moment, PixelPlace place) {
+  const auto outcome = moment.shown->outcome;
+  if (!outcome) return "null";
+  const PixelStory story = tell_story(*outcome, place, moment.state.setup.size);
+  Json out = {{"pixel", {place.x, place.y}}, {"label", static_cast<int>(story.label)},
+              {"rungs", story.rungs},        {"deciding", story.deciding},
+              {"seen", story.seen},          {"words", story.words},
+              {"remarks", story.remarks},    {"cure", story.cure},
+              {"face", story.face}};
+  constexpr int texels = 8;
+  if (const auto cut = cut_through(*outcome, story, texels)) {
+    Json stored = Json::array(), receiver = Json::array();
+    for (const double depth : cut->stored) stored.push_back(std::isfinite(depth) ? Json(depth) : Json());
+    for (const Vec2& at : cut->receiver) receiver.push_back({at.x, at.y});
+    out["cut"] = {{"along", cut->along_v ? "v" : "u"},
+                  {"first", cut->first},
+                  {"stored", stored},
+                  {"receiver", receiver},
+                  {"at", cut->at},
+                  {"distance", cut->distance},
+                  {"bias", cut->bias}};
+  }
+  return out.dump();
+}
+
+}  // namespace gnomon::app
