@@ -383,6 +383,8 @@ void add_options(CLI::App& app, JudgeCommand& command) {
       "--identify", command.identify,
       "of a capture without its map: find the setting of Gnomon's own that comes nearest to the picture, "
       "and label by it [default off]");
+  add_engine(app, command.options.engine, "give advice in this engine's settings, too",
+             "the engine that the renderer's name begins with");
   add_run_options(app, command);
   add_capture_options(app, command.parts);
   add_samples(app, command.options.raytrace.shadow_samples);

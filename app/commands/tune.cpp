@@ -36,21 +36,6 @@ using Values = OptionValues;
 constexpr OptionRange time_range{0.0, 1e9, true};     // milliseconds
 constexpr OptionRange seconds_range{0.0, 1e9, true};  // of processor time
 
-void add_engine(CLI::App& app, const compare::TunedEngine*& engine) {
-  std::vector<std::string_view> keys;
-  for (const compare::TunedEngine& known : compare::tuned_engines()) keys.push_back(known.key);
-  const std::string names = fmt::format("{}", fmt::join(keys, " or "));
-  add_value(app, "--engine", "NAME",
-            describe("try only what this engine draws, and give the answer in its settings", names,
-                     "all techniques"),
-            [&engine, keys](const std::string& text) -> Expected<void> {
-              engine = compare::find_engine(text);
-              if (engine != nullptr) return {};
-              return fail(ErrorKind::usage, fmt::format("unknown engine (got {}, allowed {}){}", text,
-                                                        fmt::join(keys, ", "), did_you_mean(text, keys)));
-            });
-}
-
 /// Drawings in turn of those that come near the best.
 constexpr int tuned_runs = 5;
 
@@ -370,7 +355,8 @@ void add_tune(CLI::App& program, Invocation& invocation) {
   add_shader_dir(*app, command->shader_folder);
   add_threads(*app, command->threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_runs(*app, command->runs, std::to_string(tuned_runs).c_str());
-  add_engine(*app, command->engine);
+  add_engine(*app, command->engine, "try only what this engine draws, and give the answer in its settings",
+             "all techniques");
   add_number(*app, "--time-limit", command->most_seconds, seconds_range, "seconds of processor time",
              "begin no further family of settings after this, and say which are left");
   add_verbose(*app, command->verbose,

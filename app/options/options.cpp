@@ -1,5 +1,7 @@
 #include "app/options/options.h"
 
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 
@@ -164,6 +166,19 @@ void add_camera(CLI::App& command, std::string& camera) {
 
 void add_light(CLI::App& command, std::string& light, const char* what) {
   add_name(command, "--light", light, "NAME", fmt::format("{} [a light's name; default all]", what));
+}
+
+void add_engine(CLI::App& app, const compare::TunedEngine*& engine, const char* what, const char* fallback) {
+  std::vector<std::string_view> keys;
+  for (const compare::TunedEngine& known : compare::tuned_engines()) keys.push_back(known.key);
+  const std::string names = fmt::format("{}", fmt::join(keys, " or "));
+  add_value(app, "--engine", "NAME", describe(what, names, fallback),
+            [&engine, keys](const std::string& text) -> Expected<void> {
+              engine = compare::find_engine(text);
+              if (engine != nullptr) return {};
+              return fail(ErrorKind::usage, fmt::format("unknown engine (got {}, allowed {}){}", text,
+                                                        fmt::join(keys, ", "), did_you_mean(text, keys)));
+            });
 }
 
 void add_threads(CLI::App& command, int& threads, const char* of_what) {

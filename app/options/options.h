@@ -18,6 +18,7 @@
 #include "raytrace/frame.h"
 #include "scene/base/expected.h"
 #include "studies/sweep/engine.h"
+#include "studies/tune/engines.h"
 
 namespace CLI {
 class App;
@@ -46,6 +47,9 @@ void add_min_contribution(CLI::App& command, double& share);
 /// --camera: of the scene's own cameras.
 void add_camera(CLI::App& command, std::string& camera);
 void add_light(CLI::App& command, std::string& light, const char* what);
+/// --engine; `fallback`: what holds without it.
+void add_engine(CLI::App& command, const compare::TunedEngine*& engine, const char* what,
+                const char* fallback);
 void add_threads(CLI::App& command, int& threads, const char* of_what);
 void add_runs(CLI::App& command, std::optional<int>& runs, const char* fallback);
 void add_exposure(CLI::App& command, std::optional<std::optional<double>>& exposure);

@@ -48,12 +48,13 @@ std::string unit_lines(const compare::EngineUnit& unit) {
 // Where an engine has no number for this light, docs/engine-units.md and the JSON say why.
 std::string units_text(const compare::TuneResult& result) {
   std::string out;
-  for (const auto& [light, units] : result.engine_units) {
+  for (const auto& [light, units, derived] : result.engine_units) {
     out += "\nThe bias in the units of engines" +
            (result.engine_units.size() > 1 ? fmt::format(", light '{}'", one_line(light)) : std::string()) +
            ", for a map of this size, width and depth:\n";
     for (const compare::EngineUnit& unit : units)
       if (unit.value) out += unit_lines(unit);
+    for (const auto& [layer, text] : compare::layer_lines(derived)) out += paragraph(layer + ": " + text, 2);
   }
   return out.empty() ? out
                      : out + "docs/engine-units.md explains the symbols, and what engines have no number.\n";
@@ -61,8 +62,10 @@ std::string units_text(const compare::TuneResult& result) {
 
 Json units_json(const compare::TuneResult& result) {
   Json list = Json::array();
-  for (const auto& [light, units] : result.engine_units)
-    list.push_back({{"light", light}, {"units", compare::engine_units_json(units)}});
+  for (const auto& [light, units, derived] : result.engine_units)
+    list.push_back({{"light", light},
+                    {"units", compare::engine_units_json(units)},
+                    {"derived_bias", compare::derived_bias_json(derived)}});
   return list;
 }
 
@@ -197,13 +200,17 @@ std::string row_text(const compare::FamilyResult& family, const compare::TuneGoa
 // Those of the engine that was asked about, of the first light.
 std::string own_units(const TuneAnswer& answer) {
   if (answer.question.engine == nullptr || answer.result.engine_units.empty()) return {};
-  std::string text;
-  for (const compare::EngineUnit& unit : answer.result.engine_units.front().units)
-    if (unit.engine == answer.question.engine->name)
+  const auto& [light, units, derived] = answer.result.engine_units.front();
+  const std::string_view engine = answer.question.engine->name;
+  std::string text = fmt::format("In {}, for a map of this size, width and depth:\n", engine);
+  for (const compare::EngineUnit& unit : units)
+    if (unit.engine == engine)
       text += unit.value ? fmt::format("  {} {}\n", unit.setting, compare::plain_number(*unit.value))
                          : fmt::format("  {}: no number, {}\n", unit.setting, unit.formula);
-  return fmt::format("In {}, for a map of this size, width and depth:\n{}", answer.question.engine->name,
-                     text);
+  const std::string by_formula = compare::settings_text(derived.units, engine);
+  return by_formula.empty()
+             ? text
+             : text + paragraph(fmt::format("Worked out from the map alone: {}.", by_formula), 2);
 }
 
 std::string untried_text(const TuneAnswer& answer) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/bias/derived_bias.h"
 #include "compare/comparison.h"
 #include "raster/frame.h"
 #include "scene/scene.h"
@@ -26,6 +27,26 @@ std::vector<EngineUnit> engine_units(const raster::Bias& bias, double constant_w
 /// Gives the units of the bias that a light of a comparison was drawn with; none where its technique compares no depths, or
 /// a shader of the user's own reads no bias.
 std::vector<EngineUnit> engine_units(const Comparison& comparison, const LightComparison& light);
+
+/// Gives the derived bias in the units of engines: with its slope where an engine has one, else with its normal offset.
+std::vector<EngineUnit> derived_units(const DerivedBias& derived, LightType light,
+                                      const raster::LightRecord& record, const World& world);
+
+/// What an engine can set for one light of a comparison without measuring; `derived` is none where draws_bias() is false, too.
+struct DerivedForEngines {
+  std::optional<DerivedBias> derived{};
+  std::vector<EngineUnit> units{};
+};
+DerivedForEngines derived_for_engines(const Comparison& comparison, const LightComparison& light);
+/// {reach_texels, constant_texels, slope, normal_offset_texels, layers, engine_units}, or null: alike in result.json and in
+/// the tuner's answer.
+nlohmann::ordered_json derived_bias_json(const DerivedForEngines& bias);
+/// Names and values for a terminal: on each layer the constant drawn with and the derived one, each as length, in texels and
+/// as stored depth.
+std::vector<std::pair<std::string, std::string>> layer_lines(const DerivedForEngines& bias);
+
+/// "shadow_bias 0.02, shadow_normal_bias 0.71": those of an engine that have a number.
+std::string settings_text(const std::vector<EngineUnit>& units, std::string_view engine);
 
 /// [{engine, setting, value, formula}], alike in result.json and in the tuner's answer.
 nlohmann::ordered_json engine_units_json(const std::vector<EngineUnit>& units);

@@ -77,6 +77,13 @@ std::string advice_text(const Advice& a) {
                      100.0 * a.wrong_instead, 100.0 * a.wrong_now, mean);
 }
 
+std::string in_engine_text(const Judged& judged, const Advice& advice) {
+  std::string text;
+  for (const auto& [setting, value] : advice.in_engine)
+    text += fmt::format("{}{} {:.4g}", text.empty() ? judged.engine + ": " : ", ", setting, value);
+  return text;
+}
+
 std::string renderer_text(const Judged& j) {
   return j.renderer + (j.version.empty() ? "" : " " + j.version);
 }
@@ -91,7 +98,10 @@ std::vector<std::pair<std::string, std::string>> judged_lines(const Comparison& 
                                            m.evidence, percent(m.after)));
   out.emplace_back("ladder", ladder_text(c));
   if (j.identified) out.emplace_back("nearest", identified_text(*j.identified));
-  for (const Advice& advice : j.advice) out.emplace_back("advice", advice_text(advice));
+  for (const Advice& advice : j.advice) {
+    out.emplace_back("advice", advice_text(advice));
+    if (std::string text = in_engine_text(j, advice); !text.empty()) out.emplace_back("in engine", text);
+  }
   for (const std::string& note : j.notes) out.emplace_back("note", note);
   return out;
 }

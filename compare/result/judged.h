@@ -47,6 +47,8 @@ struct Advice : AdvisedSetting {
   std::optional<AdvisedSetting> with = {};  ///< what is to be set together with it
   std::vector<AdvisedSetting> layers =
       {};  ///< the same of the layers after the first, where each has its own
+  /// The whole advice as settings of the engine that drew, where it is known (engine_units.h).
+  std::vector<std::pair<std::string, double>> in_engine = {};
   /// Where the map is read by a filter that is known: what that makes of the mean error, now and instead, in [0, 1].
   std::optional<double> mean_now = {}, mean_instead = {};
 };
@@ -54,6 +56,7 @@ struct Advice : AdvisedSetting {
 struct Judged {
   std::string capture;  ///< its path; empty when options said it
   std::string renderer, version;
+  std::string engine;  ///< EngineUnit::engine whose settings the renderer has; empty: not known
   std::vector<std::pair<std::string, std::string>> settings;
   bool has_map = false, has_positions = false, of_ratio = false;
   std::vector<Agreement> agreement;  ///< after what was mended
@@ -68,6 +71,9 @@ struct Judged {
 };
 
 struct Comparison;
+
+/// "three.js: shadow.bias -0.0015, shadow.normalBias 0.02"; empty where the engine is not known.
+std::string in_engine_text(const Judged& judged, const Advice& advice);
 
 /// "bias 0.0021 instead of 0.0005 (stored depth): 0.31 % wrong instead of 4.2 %"
 std::string advice_text(const Advice& advice);

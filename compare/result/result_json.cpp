@@ -101,6 +101,9 @@ Json judged_json(const Judged& j) {
     one["with"] = a.with ? setting(*a.with) : Json(nullptr);
     one["layers"] = Json::array();
     for (const AdvisedSetting& layer : a.layers) one["layers"].push_back(setting(layer));
+    one["in_engine"] = Json::array();
+    for (const auto& [name, value] : a.in_engine)
+      one["in_engine"].push_back({{"engine", j.engine}, {"setting", name}, {"value", number(value)}});
     one["mean_now"] = share(a.mean_now), one["mean_instead"] = share(a.mean_instead);
     advice.push_back(std::move(one));
   }

@@ -370,6 +370,7 @@ Json light_block(const Comparison& c, const LightComparison& light) {
              {"bias_kinds", bias_kinds_json(light, c.raster.options.map)},
              {"other_map_sizes", other_sizes_json(light)},
              {"engine_units", engine_units_json(engine_units(c, light))},
+             {"derived_bias", derived_bias_json(derived_for_engines(c, light))},
              {"theory", theory_json(light.theory)},
              {"shadow_rays", truth.rays},
              {"lookups", block_json("lookups", light)},

@@ -7,6 +7,7 @@
 #include "compare/ladder/budget.h"
 #include "compare/ladder/filter_probe.h"
 #include "compare/ladder/labels.h"
+#include "compare/result/engine_units.h"
 #include "compare/result/figures.h"
 #include "compare/result/judged.h"
 #include "compare/result/layout.h"
@@ -211,6 +212,7 @@ void add_light(SummaryPage& page, const Comparison& c, const LightComparison& li
     if (!light.bias_curve_withheld.empty()) page.field("bias", light.bias_curve_withheld);
   }
   if (const std::string line = terminator_line(light.terminator); !line.empty()) page.field("facets", line);
+  for (const auto& [layer, text] : layer_lines(derived_for_engines(c, light))) page.field(layer, text);
   add_times(page, c, light);
 }
 

@@ -6,6 +6,7 @@
 
 #include "compare/ladder/biased_test.h"
 #include "compare/ladder/budget.h"
+#include "compare/result/engine_units.h"
 #include "compare/result/number_text.h"
 #include "studies/judge/advice_parts.h"
 
@@ -145,6 +146,44 @@ std::vector<Advice> give_advice(const FrameInput& in, const raster::RasterFrame&
     out.resize(1);
     out.push_back(std::move(*layers));
   }
+  return out;
+}
+
+namespace {
+
+/// What engines know of a captured test with other numbers: `value` of each setting that the advice names.
+std::vector<EngineUnit> units_with(const Advice& advice, double AdvisedSetting::*value, LightType light,
+                                   const raster::LightRecord& record, const World& world) {
+  raster::Bias bias;
+  const double texel = record.texel_world;
+  bias.normal_offset_texels = record.captured->test->normal_offset_world / texel;
+  double constant = record.bias_constant_world;
+  const auto take = [&](const AdvisedSetting& one) {
+    if (one.setting.find("normal_offset") != std::string::npos)
+      bias.normal_offset_texels = one.*value / texel;
+    else if (one.setting.find("slope") != std::string::npos)
+      bias.caster_slope = one.*value;
+    else
+      constant = one.*value * one.unit_world;
+  };
+  take(advice);
+  if (advice.with) take(*advice.with);
+  return engine_units(bias, constant, light, record, world);
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view engine, const Advice& advice,
+                                                               LightType light,
+                                                               const raster::LightRecord& record,
+                                                               const World& world) {
+  std::vector<std::pair<std::string, double>> out;
+  if (engine.empty() || !advice.layers.empty()) return out;
+  const auto now = units_with(advice, &AdvisedSetting::now, light, record, world);
+  const auto instead = units_with(advice, &AdvisedSetting::instead, light, record, world);
+  for (std::size_t i = 0; i < std::min(now.size(), instead.size()); ++i)
+    if (instead[i].engine == engine && instead[i].value && instead[i].value != now[i].value)
+      out.emplace_back(instead[i].setting, *instead[i].value);
   return out;
 }
 

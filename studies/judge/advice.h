@@ -15,6 +15,13 @@ namespace gnomon::compare {
 std::vector<Advice> give_advice(const FrameInput& input, const raster::RasterFrame& drawn,
                                 const LightComparison& light, const CasterBiases& casters);
 
+/// What an advice changes in an engine's settings (EngineUnit::engine); none where it sets the layers apart, or the engine
+/// has no number for it.
+std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view engine, const Advice& advice,
+                                                               LightType light,
+                                                               const raster::LightRecord& record,
+                                                               const World& world);
+
 /// Where most wrong pixels lie outside the map: what helps.
 std::vector<std::string> outside_map_notes(const FrameInput& input, const LightComparison& light,
                                            const raster::LightRecord& record);

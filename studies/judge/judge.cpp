@@ -15,6 +15,7 @@
 #include "studies/judge/described_test.h"
 #include "studies/judge/map_content.h"
 #include "studies/judge/own_test.h"
+#include "studies/tune/engines.h"
 
 namespace gnomon::compare {
 namespace {
@@ -171,8 +172,10 @@ void forget_texels(LightComparison& light) {
   light.theory = {};
 }
 
-Judged describe_capture(const Capture& capture) {
+Judged describe_capture(const Capture& capture, const TunedEngine* engine) {
   Judged judged;
+  if (engine == nullptr) engine = engine_of_renderer(capture.renderer);
+  if (engine != nullptr) judged.engine = engine->name;
   judged.capture = capture.path;
   judged.renderer = capture.renderer, judged.version = capture.version;
   judged.settings = capture.settings;
@@ -211,6 +214,9 @@ void finish(Judging& in, Comparison& out) {
     note(outside_map_notes(frame, light, record));
     if (advice_holds(test, other) && !content.is_main_cause(light))
       judged->advice = give_advice(frame, out.raster, light, in.casters);
+    for (Advice& advice : judged->advice)
+      advice.in_engine =
+          settings_in_engine(judged->engine, advice, in.scene.lights[in.light].type, record, in.world);
   }
   if (!judged->has_map) forget_texels(light);
   out.judged = std::move(judged);
@@ -263,7 +269,7 @@ Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const W
   TimedStage reading("read capture");
   auto pictures = read_pictures(capture, scene.camera.orthographic());
   if (!pictures) return fail(pictures.error());
-  Judged judged = describe_capture(capture);
+  Judged judged = describe_capture(capture, options.engine);
   if (const auto order = check_order(capture, scene.camera.orthographic(), options.fix, *pictures, judged);
       !order)
     return fail(order.error());

@@ -5,6 +5,7 @@
 #include "compare/compare.h"
 #include "compare/result/judged.h"
 #include "studies/judge/capture.h"
+#include "studies/tune/engines.h"
 
 namespace gnomon::compare {
 
@@ -14,6 +15,8 @@ struct JudgeOptions {
   raytrace::Precision precision = raytrace::Precision::robust;
   bool fix = false;  ///< apply what mends the capture's conventions; false: such a capture is an error
   int bias_curve_points = 129;
+  /// In whose settings advice is given, too; none: that which the renderer's name begins with.
+  const TunedEngine* engine = nullptr;
 };
 
 /// The light that the capture names, or the scene's only one. Error (bad input) where there is none, or none

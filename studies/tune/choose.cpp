@@ -34,7 +34,8 @@ Expected<void> Tuner::verify(TuneResult& result) {
   for (const LightComparison& light : (*compared)->lights) {
     lights.push_back(light);
     if (auto units = engine_units(**compared, light); !units.empty())
-      result.engine_units.push_back({light_of(**compared, light).name, std::move(units)});
+      result.engine_units.push_back(
+          {light_of(**compared, light).name, std::move(units), derived_for_engines(**compared, light)});
   }
   set_figures(lights, options_.goal.measure(), attempt);
   if (winner.answer && !good(*winner.answer)) {

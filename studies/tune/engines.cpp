@@ -11,6 +11,7 @@ using raster::Technique;
 constexpr Technique unity[] = {Technique::hard, Technique::pcf, Technique::csm};
 constexpr Technique unreal[] = {Technique::pcf, Technique::pcss, Technique::csm};
 constexpr Technique godot[] = {Technique::hard, Technique::pcf, Technique::pcss, Technique::csm};
+constexpr Technique godot3[] = {Technique::hard, Technique::pcf, Technique::csm};
 constexpr Technique bevy[] = {Technique::pcf, Technique::pcss, Technique::csm};
 constexpr Technique three[] = {Technique::hard, Technique::pcf, Technique::vsm, Technique::csm};
 constexpr Technique babylon[] = {Technique::hard, Technique::pcf, Technique::pcss, Technique::esm,
@@ -23,6 +24,7 @@ constexpr TunedEngine engines[] = {
     {"unity", "Unity (URP)", unity, false, true, false},
     {"unreal", "Unreal", unreal, true, false, false},
     {"godot", "Godot", godot, false, true, true},
+    {"godot3", "Godot 3", godot3, false, false, true},
     {"bevy", "Bevy", bevy, false, true, false},
     {"three", "three.js", three, false, true, true},
     {"babylon", "Babylon.js", babylon, false, true, true},
@@ -47,6 +49,14 @@ std::span<const TunedEngine> tuned_engines() {
 const TunedEngine* find_engine(std::string_view key) {
   const auto found = std::ranges::find(engines, key, &TunedEngine::key);
   return found == std::end(engines) ? nullptr : found;
+}
+
+const TunedEngine* engine_of_renderer(std::string_view name) {
+  const TunedEngine* found = nullptr;
+  for (const TunedEngine& engine : engines)
+    if (name.starts_with(engine.name) && (found == nullptr || engine.name.size() > found->name.size()))
+      found = &engine;
+  return found;
 }
 
 bool any_engine_draws(const raster::MapOptions& map) {

@@ -21,6 +21,8 @@ struct TunedEngine {
 std::span<const TunedEngine> tuned_engines();
 /// nullptr: none has this key.
 const TunedEngine* find_engine(std::string_view key);
+/// The one that a renderer's name begins with, such as "Godot 3 (RenderDoc)"; nullptr: none.
+const TunedEngine* engine_of_renderer(std::string_view name);
 /// Whether any of them draws it.
 bool any_engine_draws(const raster::MapOptions& map);
 

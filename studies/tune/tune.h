@@ -130,10 +130,12 @@ struct TuneResult {
   std::vector<FamilyResult> families;
   std::uint64_t renders = 0;
   std::vector<JustOver> just_over;  ///< where the goal is a time (ties.h)
-  /// The winner's bias as engines ask for it, of each light compared (engine_units.h).
+  /// The winner's bias as engines ask for it, of each light compared, and the one that follows from its map alone
+  /// (engine_units.h).
   struct LightUnits {
     std::string light;  ///< its name; may be empty
     std::vector<EngineUnit> units;
+    DerivedForEngines derived{};
   };
   std::vector<LightUnits> engine_units;
   ViewErrors views;  ///< of the winner, where it was judged from several

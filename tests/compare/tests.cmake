@@ -2,7 +2,7 @@ gnomon_test(compare_lists_test SOURCES compare_lists_test.cpp LIBS gnomon::compa
 gnomon_test(compare_connected_surfaces_test SOURCES compare_connected_surfaces_test.cpp LIBS small_scenes raytrace_support gnomon::compare)
 
 gnomon_test(compare_closed_form_gl_test TIMEOUT 900
-  SOURCES compare_closed_form_gl_test.cpp compare_filter_gl_test.cpp compare_other_sizes_gl_test.cpp compare_terminator_gl_test.cpp
+  SOURCES compare_closed_form_gl_test.cpp compare_derived_bias_gl_test.cpp compare_filter_gl_test.cpp compare_other_sizes_gl_test.cpp compare_terminator_gl_test.cpp
           compare_units_test.cpp
   LIBS compare_support nlohmann_json::nlohmann_json)
 gnomon_test(compare_confusion_gl_test TIMEOUT 900

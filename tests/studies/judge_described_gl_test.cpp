@@ -61,6 +61,32 @@ TEST(JudgeAdvice, LowersANormalOffsetThatIsTooLarge) {
   EXPECT_NEAR(again.result->lights[0].error.wrong_fraction, advice[1].wrong_instead, 2e-4);
 }
 
+// The same numbers by the names of the engine that drew, which its own name says, or --engine.
+TEST(JudgeAdvice, SpeaksInTheEnginesSettings) {
+  OtherPicture picture("engine", {.constant_depth = 0.0002, .normal_offset_world = 0.3});
+  const auto advised_of = [&](const char* renderer, const compare::TunedEngine* engine) {
+    compare::Capture capture = picture.capture;
+    capture.renderer = renderer;
+    compare::JudgeOptions options;
+    options.engine = engine;
+    const JudgeOutcome judged = judge(capture, *picture.drawn.scene, options);
+    EXPECT_TRUE(judged.result) << reason(judged);
+    return judged.result->judged->advice.back();
+  };
+  const compare::Advice three = advised_of("three.js", nullptr);
+  ASSERT_EQ(three.in_engine.size(), 2U);
+  EXPECT_EQ(three.in_engine[0].first, "shadow.bias");
+  EXPECT_NEAR(three.in_engine[0].second, -three.with->instead, 1e-12);
+  EXPECT_EQ(three.in_engine[1].first, "shadow.normalBias");
+  EXPECT_NEAR(three.in_engine[1].second, three.instead, 1e-12);
+  const compare::Advice bevy = advised_of("three.js", compare::find_engine("bevy"));
+  ASSERT_EQ(bevy.in_engine.size(), 2U);
+  EXPECT_EQ(bevy.in_engine[0].first, "shadow_depth_bias");
+  EXPECT_NEAR(bevy.in_engine[0].second, bevy.with->instead * bevy.with->unit_world, 1e-12);
+  EXPECT_NEAR(bevy.in_engine[1].second, bevy.instead / bevy.texel_world, 1e-9) << "texels";
+  EXPECT_TRUE(advised_of("mine", nullptr).in_engine.empty());
+}
+
 // ---- the test that was drawn ----
 
 std::string notes_of(const JudgeOutcome& judged) {

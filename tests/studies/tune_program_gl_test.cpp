@@ -109,6 +109,8 @@ TEST_F(TuneProgram, AsksForOneEngineAndWithinATime) {
         << family["command"];
   EXPECT_NE(said().find("shadow_normal_bias"), std::string::npos) << said();
   EXPECT_EQ(said().find("three.js"), std::string::npos) << said();
+  EXPECT_NE(said().find("Worked out from the map alone: shadow_bias"), std::string::npos) << said();
+  EXPECT_GT(answer["engine_units"][0]["derived_bias"]["constant_texels"], 1.0 / 16.0);
   EXPECT_EQ(answer["untried"].size(), 0u);
   const std::string text = said();
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 20);  // with the lines of progress

@@ -1,8 +1,8 @@
 // How one light's error depends on the bias: in words and as a chart, by the kind of bias, and in the units of engines.
 import { biasChart } from "./bias_chart";
 import { keyed } from "./document";
-import { percent, plainNumber, texelsText } from "./number_text";
-import { facts, lessonDetails, plain, type LightResult } from "./report_document";
+import { general, percent, plainNumber, texelsText } from "./number_text";
+import { facts, lessonDetails, plain, type DerivedBias, type LightResult } from "./report_document";
 import { markup, scrollRegion, type Markup } from "./template";
 
 function biasWords({ best_bias: best, map: { bias } }: LightResult, i: number): Markup {
@@ -30,13 +30,26 @@ class="n">wrong</th><th scope="col">hardly differs</th></tr></thead><tbody>${kin
     markup`<tr><th scope="row">${kind.kind}</th><td><code>${kind.options}</code></td><td class="n">${percent(kind.wrong_fraction)}</td><td>${range(kind)}</td></tr>\n`)}</tbody></table>`)}`;
 }
 
-function engineUnits({ engine_units: units }: LightResult, i: number): Markup | null {
+/** One constant is one number of texels on every layer, and another length and stored number on each. */
+function layersTable({ derived_bias: derived }: LightResult, i: number): Markup | null {
+  if (derived === null) return null;
+  const lengths = ({ world, texels, stored }: DerivedBias["layers"][number]["drawn"]): Markup =>
+    markup`${[world, texels, stored].map((value) => markup`<td class="n">${general(value, 3)}</td>`)}`;
+  return markup`<p>A constant bias on each layer of the map, as it was drawn and as it follows from the map alone: ${general(derived.constant_texels, 3)}
+texels, beside a slope bias of ${plainNumber(derived.slope)} or a normal offset of ${general(derived.normal_offset_texels, 3)} texels.</p>
+${scrollRegion(`The bias on each layer of light ${i + 1}`, markup`<table><thead><tr><th scope="col">layer</th><th scope="col" class="n">texel, world units</th>${["drawn", "from the map"].map((of) =>
+    markup`<th scope="col" class="n">${of}, world units</th><th scope="col" class="n">texels</th><th scope="col" class="n">stored depth</th>`)}</tr></thead><tbody>${derived.layers.map((layer, at) =>
+    markup`<tr><th scope="row">${at + 1}</th><td class="n">${general(layer.texel_world, 3)}</td>${lengths(layer.drawn)}${lengths(layer.derived)}</tr>\n`)}</tbody></table>`)}`;
+}
+
+function engineUnits(light: LightResult, i: number): Markup | null {
+  const { engine_units: units } = light;
   if (units.length === 0) return null;
   return markup`<details><summary>This bias in the units of engines</summary>
 <p>For a light whose map has this size, width and depths; docs/engine-units.md explains the symbols.</p>
 ${scrollRegion(`Engine units of light ${i + 1}`, markup`<table><thead><tr><th scope="col">engine</th><th scope="col">setting</th><th scope="col"
 class="n">value</th><th scope="col">formula</th></tr></thead><tbody>${units.map(({ engine, setting, value, formula }) =>
-    markup`<tr><th scope="row">${engine}</th><td>${setting}</td><td class="n">${value === null ? "–" : plainNumber(value)}</td><td>${formula}</td></tr>\n`)}</tbody></table>`)}</details>
+    markup`<tr><th scope="row">${engine}</th><td>${setting}</td><td class="n">${value === null ? "–" : plainNumber(value)}</td><td>${formula}</td></tr>\n`)}</tbody></table>`)}${layersTable(light, i)}</details>
 `;
 }
 

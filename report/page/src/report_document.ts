@@ -19,6 +19,20 @@ interface Unit {
   formula: string;
 }
 
+interface BiasLengths {
+  world: number;
+  texels: number;
+  stored: number;
+}
+
+export interface DerivedBias {
+  constant_texels: number;
+  slope: number;
+  normal_offset_texels: number;
+  layers: { texel_world: number; drawn: BiasLengths; derived: BiasLengths }[];
+  engine_units: Unit[];
+}
+
 interface BiasKind {
   kind: string;
   options: string;
@@ -73,6 +87,7 @@ export interface LightResult {
   best_bias: BestBias;
   bias_kinds: BiasKind[];
   engine_units: Unit[];
+  derived_bias: DerivedBias | null;
   lookups: { total: number | null };
   times_ms: Record<string, Times> & { shadow_lookups: Times & { low: number | null; high: number | null } };
   shadow_samples?: number;  // of a light with size
