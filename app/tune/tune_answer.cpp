@@ -54,7 +54,8 @@ std::string units_text(const compare::TuneResult& result) {
            ", for a map of this size, width and depth:\n";
     for (const compare::EngineUnit& unit : units)
       if (unit.value) out += unit_lines(unit);
-    for (const auto& [layer, text] : compare::layer_lines(derived)) out += paragraph(layer + ": " + text, 2);
+    for (const auto& [layer, text] : compare::layer_lines(derived))
+      out += paragraph(fmt::format("{}: {}", layer, text), 2);
   }
   return out.empty() ? out
                      : out + "docs/engine-units.md explains the symbols, and what engines have no number.\n";

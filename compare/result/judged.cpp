@@ -66,7 +66,9 @@ std::string advice_text(const Advice& a) {
                ? fmt::format("{} stays {:.4g} ({})", one.setting, one.now, unit)
                : fmt::format("{} {:.4g} instead of {:.4g} ({})", one.setting, one.instead, one.now, unit);
   };
-  std::string settings = text(a);
+  std::string settings =
+      (a.texels_of_each ? fmt::format("a bias of {:.4g} texels on each layer: ", *a.texels_of_each) : "") +
+      text(a);
   if (a.with) settings += " and " + text(*a.with);
   for (const AdvisedSetting& layer : a.layers) settings += " and " + text(layer);
   const std::string mean = mean_text(a);

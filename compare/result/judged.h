@@ -47,6 +47,8 @@ struct Advice : AdvisedSetting {
   std::optional<AdvisedSetting> with = {};  ///< what is to be set together with it
   std::vector<AdvisedSetting> layers =
       {};  ///< the same of the layers after the first, where each has its own
+  /// Of `layers`: all constants are this many texels, each of its own layer.
+  std::optional<double> texels_of_each = {};
   /// The whole advice as settings of the engine that drew, where it is known (engine_units.h).
   std::vector<std::pair<std::string, double>> in_engine = {};
   /// Where the map is read by a filter that is known: what that makes of the mean error, now and instead, in [0, 1].

@@ -101,6 +101,7 @@ Json judged_json(const Judged& j) {
     one["with"] = a.with ? setting(*a.with) : Json(nullptr);
     one["layers"] = Json::array();
     for (const AdvisedSetting& layer : a.layers) one["layers"].push_back(setting(layer));
+    one["texels_of_each_layer"] = share(a.texels_of_each);
     one["in_engine"] = Json::array();
     for (const auto& [name, value] : a.in_engine)
       one["in_engine"].push_back({{"engine", j.engine}, {"setting", name}, {"value", number(value)}});

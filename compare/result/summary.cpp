@@ -15,6 +15,7 @@
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
+#include "compare/result/shadow_cost.h"
 #include "compare/result/summary_page.h"
 #include "compare/result/verdict.h"
 #include "compare/result/views.h"

@@ -152,6 +152,8 @@ std::string judged_advice(const Judged& judged, const LightComparison& light, co
   for (const AdvisedSetting& layer : last.layers)
     if (layer.instead != layer.now) settings += (settings.empty() ? "" : " and ") + instead_text(layer);
   if (settings.empty()) return {};
+  if (last.texels_of_each)
+    settings = fmt::format("a bias of {:.3g} texels on each layer, {}", *last.texels_of_each, settings);
   if (const std::string own = in_engine_text(judged, last); !own.empty()) settings += " (" + own + ")";
   if (&measure == find_measure("mean") && last.mean_instead)
     return fmt::format("Try {}: {}.", settings, left_text(*last.mean_instead, light, measure));

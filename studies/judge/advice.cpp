@@ -9,6 +9,7 @@
 #include "compare/result/engine_units.h"
 #include "compare/result/number_text.h"
 #include "studies/judge/advice_parts.h"
+#include "studies/tune/engines.h"
 
 namespace gnomon::compare {
 namespace {
@@ -142,10 +143,12 @@ std::vector<Advice> give_advice(const FrameInput& in, const raster::RasterFrame&
                    there.wrong == 0.0,
                    constant(there.stored)});
   }
-  if (auto layers = advise_on_layers(light, record, wrong_now, least)) {
-    out.resize(1);
-    out.push_back(std::move(*layers));
-  }
+  for (const auto advise : {advise_in_texels, advise_on_layers})
+    if (auto layers = advise(light, record, wrong_now, least)) {
+      least = layers->wrong_instead;
+      out.resize(1);
+      out.push_back(std::move(*layers));
+    }
   return out;
 }
 
@@ -164,7 +167,7 @@ std::vector<EngineUnit> units_with(const Advice& advice, double AdvisedSetting::
     else if (one.setting.find("slope") != std::string::npos)
       bias.caster_slope = one.*value;
     else
-      constant = one.*value * one.unit_world;
+      constant = one.*value * one.unit_world * texel / one.texel_world;  // of layers the same in texels
   };
   take(advice);
   if (advice.with) take(*advice.with);
@@ -178,7 +181,10 @@ std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view 
                                                                const raster::LightRecord& record,
                                                                const World& world) {
   std::vector<std::pair<std::string, double>> out;
-  if (engine.empty() || !advice.layers.empty()) return out;
+  const TunedEngine* known = engine_of_renderer(engine);
+  if (known == nullptr) return out;
+  const bool in_texels = advice.texels_of_each && known->constant_in_texels;
+  if (!advice.layers.empty() && !in_texels) return out;
   const auto now = units_with(advice, &AdvisedSetting::now, light, record, world);
   const auto instead = units_with(advice, &AdvisedSetting::instead, light, record, world);
   for (std::size_t i = 0; i < std::min(now.size(), instead.size()); ++i)

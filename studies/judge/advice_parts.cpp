@@ -78,32 +78,96 @@ TriedConstants try_constants(const raster::LightRecord& record, const LightCompa
   return out;
 }
 
-std::optional<Advice> advise_on_layers(const LightComparison& light, const raster::LightRecord& record,
-                                       double wrong_now, double least) {
+namespace {
+
+/// Whether the layers of a record's map can each have a constant of their own that counts alike at every angle.
+bool has_layers(const raster::LightRecord& record) {
   const LightView& view = record.map.view;
-  const raster::CapturedTest& test = *record.captured->test;
-  if (view.face_count < 2 || view.projection != LightProjection::orthographic || test.has_angle())
-    return std::nullopt;
-  const double first = record.bias_constant_world / test.unit_world;
-  std::vector<AdvisedSetting> settings;
-  double wrong = 0.0, pixels = 0.0;
-  for (int face = 0; face < view.face_count; ++face) {
-    const TriedConstants tried = try_constants(record, light, face);
-    const double beside = test.layers.empty() ? 0.0 : test.layers[static_cast<std::size_t>(face)].constant;
-    const GoodConstant best = good_constant(tried, test.unit_world, first);
-    wrong += best.wrong * tried.pixels(), pixels += tried.pixels();
-    const LightFace& f = view.face(face);
-    settings.push_back({fmt::format("map[{}].bias.constant_depth", face), first + beside,
-                        best.stored + beside, "stored depth", f.far_depth - f.near_depth,
-                        texel_world_size(view, face, 1.0)});
+  return view.face_count >= 2 && view.projection == LightProjection::orthographic &&
+         !record.captured->test->has_angle();
+}
+
+/// A layer's constant in stored numbers, of all that its test has.
+struct LayerConstant {
+  int face;
+  double beside;  ///< stored numbers beside the first layer's constant
+  double range, texel_world;
+
+  LayerConstant(const raster::LightRecord& record, int of_face)
+      : face(of_face), texel_world(texel_world_size(record.map.view, of_face, 1.0)) {
+    const auto& layers = record.captured->test->layers;
+    beside = layers.empty() ? 0.0 : layers[static_cast<std::size_t>(face)].constant;
+    const LightFace& f = record.map.view.face(face);
+    range = f.far_depth - f.near_depth;
   }
-  const double instead = wrong / std::max(1.0, pixels);
-  if (!(instead < worth_changing * least)) return std::nullopt;
+  AdvisedSetting instead(double now, double stored) const {
+    return {fmt::format("map[{}].bias.constant_depth", face),
+            now + beside,
+            stored,
+            "stored depth",
+            range,
+            texel_world};
+  }
+};
+
+Advice of_layers(const std::vector<AdvisedSetting>& settings, double wrong_now, double instead) {
   Advice out;
   static_cast<AdvisedSetting&>(out) = settings.front();
   out.wrong_now = wrong_now, out.wrong_instead = instead, out.feasible = instead == 0.0;
   out.layers.assign(settings.begin() + 1, settings.end());
   return out;
+}
+
+}  // namespace
+
+std::optional<Advice> advise_in_texels(const LightComparison& light, const raster::LightRecord& record,
+                                       double wrong_now, double least) {
+  if (!has_layers(record)) return std::nullopt;
+  const double unit = record.captured->test->unit_world;
+  std::vector<LayerConstant> layers;
+  TriedConstants all;  // by texels of the layer
+  for (int face = 0; face < record.map.view.face_count; ++face) {
+    const LayerConstant& layer = layers.emplace_back(record, face);
+    TriedConstants tried = try_constants(record, light, face);
+    for (const auto& [from, to] :
+         {std::pair(&tried.gaps.lit, &all.gaps.lit), std::pair(&tried.gaps.shadowed, &all.gaps.shadowed)})
+      for (const float gap : *from)
+        to->push_back(
+            static_cast<float>((double{gap} / unit + layer.beside) * layer.range / layer.texel_world));
+    all.gaps.lit_left_out += tried.gaps.lit_left_out, all.gaps.ties += tried.gaps.ties;
+    all.outside += tried.outside, all.outside_wrong += tried.outside_wrong;
+    all.outside_ties += tried.outside_ties;
+  }
+  std::sort(all.gaps.lit.begin(), all.gaps.lit.end());
+  std::sort(all.gaps.shadowed.begin(), all.gaps.shadowed.end());
+  const BiasRange range = smallest_good_range(all.gaps);
+  const double texels = short_number_in(range.from, range.to), instead = all.wrong_at(texels);
+  if (!(instead < worth_changing * least)) return std::nullopt;
+  std::vector<AdvisedSetting> settings;
+  for (const LayerConstant& layer : layers)
+    settings.push_back(
+        layer.instead(record.bias_constant_world / unit, texels * layer.texel_world / layer.range));
+  Advice out = of_layers(settings, wrong_now, instead);
+  out.texels_of_each = texels;
+  return out;
+}
+
+std::optional<Advice> advise_on_layers(const LightComparison& light, const raster::LightRecord& record,
+                                       double wrong_now, double least) {
+  if (!has_layers(record)) return std::nullopt;
+  const double unit = record.captured->test->unit_world, first = record.bias_constant_world / unit;
+  std::vector<AdvisedSetting> settings;
+  double wrong = 0.0, pixels = 0.0;
+  for (int face = 0; face < record.map.view.face_count; ++face) {
+    const TriedConstants tried = try_constants(record, light, face);
+    const GoodConstant best = good_constant(tried, unit, first);
+    wrong += best.wrong * tried.pixels(), pixels += tried.pixels();
+    const LayerConstant layer(record, face);
+    settings.push_back(layer.instead(first, best.stored + layer.beside));
+  }
+  const double instead = wrong / std::max(1.0, pixels);
+  if (!(instead < worth_changing * least)) return std::nullopt;
+  return of_layers(settings, wrong_now, instead);
 }
 
 namespace {

@@ -31,8 +31,13 @@ GoodConstant good_constant(const TriedConstants& tried, double unit_world, doubl
 /// Another setting is worth changing for when it leaves less than this share of what the simpler one leaves.
 inline constexpr double worth_changing = 0.9;
 
+/// One constant in texels for all layers of a directional light's map, each of its own, where that is worth it; none else.
+/// `least`: the share of wrong pixels that one constant in stored depth leaves.
+std::optional<Advice> advise_in_texels(const LightComparison& light, const raster::LightRecord& record,
+                                       double wrong_now, double least);
+
 /// Each layer of a directional light's map with a constant of its own, where that is worth it; none else. `least`: the share
-/// of wrong pixels that one constant for all leaves.
+/// of wrong pixels that the best without leaves.
 std::optional<Advice> advise_on_layers(const LightComparison& light, const raster::LightRecord& record,
                                        double wrong_now, double least);
 

@@ -176,6 +176,9 @@ DescribedTest check_described_test(const FrameInput& in, const raster::RasterFra
     if (!has_cause(label) || keeps_label(label)) return false;
     return differs(i) && (!is_drawn || !checker.may_draw(i, light.rungs[6].data[i], false));
   });
+  if (is_drawn)
+    for (const std::uint32_t i : unexplained)
+      out.by_another_layer += checker.may_draw(i, light.rungs[6].data[i], true) ? 1 : 0;
   if (!unexplained.empty()) mark_unexplained(unexplained, light);
   return out;
 }
@@ -183,6 +186,11 @@ DescribedTest check_described_test(const FrameInput& in, const raster::RasterFra
 std::vector<std::string> described_test_notes(const DescribedTest& test,
                                               const std::optional<OtherTest>& other) {
   std::vector<std::string> out;
+  if (test.is_drawn() && test.by_another_layer >= few_pixels)
+    out.push_back(fmt::format(
+        "{} wrong pixels are drawn as another layer has them than the first that holds their place: "
+        "`map[].select` of gnomon/capture/2 says by which distances layers are chosen",
+        grouped(test.by_another_layer)));
   if (!test.is_drawn()) {
     std::string note = fmt::format(
         "the test as described (map, matrix, bias, filter) is not the one that was drawn in {} of {} "

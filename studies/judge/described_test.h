@@ -15,6 +15,8 @@ struct DescribedTest {
   std::size_t drawn_darker = 0;  ///< of these; the others are drawn lighter than the test has them
   /// Texels to each side whose average of comparisons comes near to what is drawn of them; 0: none does, or none is looked for.
   double filter_radius = 0.0;
+  /// Drawn as another layer than the first that holds the place has it; the capture does not say which is looked up.
+  std::size_t by_another_layer = 0;
 
   bool is_drawn() const;  ///< but for a few pixels
   /// In 19 of 20 pixels: something else darkens or lightens the rest, such as contact shadows or a fade with distance.

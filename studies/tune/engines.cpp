@@ -21,15 +21,15 @@ constexpr Technique filament[] = {Technique::pcf, Technique::pcss, Technique::vs
                                   Technique::lispsm};
 
 constexpr TunedEngine engines[] = {
-    {"unity", "Unity (URP)", unity, false, true, false},
-    {"unreal", "Unreal", unreal, true, false, false},
-    {"godot", "Godot", godot, false, true, true},
-    {"godot3", "Godot 3", godot3, false, false, true},
-    {"bevy", "Bevy", bevy, false, true, false},
-    {"three", "three.js", three, false, true, true},
-    {"babylon", "Babylon.js", babylon, false, true, true},
-    {"playcanvas", "PlayCanvas", playcanvas, true, false, false},
-    {"filament", "Filament", filament, false, true, false},
+    {"unity", "Unity (URP)", unity, false, true, false, true},
+    {"unreal", "Unreal", unreal, true, false, false, true},
+    {"godot", "Godot", godot, false, true, true, false},
+    {"godot3", "Godot 3", godot3, false, false, true, false},
+    {"bevy", "Bevy", bevy, false, true, false, false},
+    {"three", "three.js", three, false, true, true, false},
+    {"babylon", "Babylon.js", babylon, false, true, true, false},
+    {"playcanvas", "PlayCanvas", playcanvas, true, false, false, false},
+    {"filament", "Filament", filament, false, true, false, false},
 };
 
 }  // namespace

@@ -13,6 +13,7 @@ struct TunedEngine {
   std::string_view name;  ///< as EngineUnit::engine has it
   std::span<const raster::Technique> techniques;
   bool slope_bias, normal_offset, front_faces_culled;
+  bool constant_in_texels;  ///< of each cascade's own texel
 
   /// Whether the engine can be set to draw with these options: its techniques, and of their biases a constant and those above.
   bool draws(const raster::MapOptions& map) const;

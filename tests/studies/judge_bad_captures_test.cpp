@@ -1,4 +1,5 @@
 // Captures that cannot be judged: one line that names the field, an error of bad input, and no result.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -331,6 +332,21 @@ TEST(BadCaptures, WithUnknownKeysAreRefusedWithLineAndColumn) {
   EXPECT_NE(read.error().message().find(":2:38: visibilty: unknown key"), std::string::npos)
       << read.error().message();
   EXPECT_NE(read.error().message().find("did you mean"), std::string::npos);
+  // A word that others have for it: where this format says it.
+  const std::pair<const char*, const char*> said[] = {{"cascade_splits", "; `map[].select` says it"},
+                                                      {"normalBias", "; `bias.normal_offset_world` says it"},
+                                                      {"contact-shadows", "; `also` says it"},
+                                                      {"exposure", ", also)"}};
+  for (const auto& [key, words] : said) {
+    ASSERT_TRUE(
+        write_file(file, fmt::format("{{\"schema\": \"gnomon/capture/2\", \"renderer\": {{\"name\": \"x\"}}, "
+                                     "\"scene\": \"fence\", \"size\": [64, 36], \"visibility\": \"v.exr\", "
+                                     "\"{}\": 1}}",
+                                     key)));
+    const auto refused = compare::read_capture(file);
+    ASSERT_FALSE(refused) << key;
+    EXPECT_NE(refused.error().message().find(words), std::string::npos) << refused.error().message();
+  }
 }
 
 }  // namespace

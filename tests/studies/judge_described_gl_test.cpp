@@ -228,10 +228,10 @@ void crop_map(Capture& capture, int times) {
   spoil(layer.depth, [=](ChannelImage& image) {
     std::vector<float>& texels = image.channels[0].values;
     const std::vector<float> from = texels;
-    const int n = image.size.width, first = n / 2 - n / (2 * times);
-    for (int y = 0; y < n; ++y)
-      for (int x = 0; x < n; ++x)
-        texels[std::size_t(y * n + x)] = from[std::size_t((first + y / times) * n + first + x / times)];
+    const auto n = static_cast<std::size_t>(image.size.width), part = static_cast<std::size_t>(times);
+    const std::size_t first = n / 2 - n / (2 * part);
+    for (std::size_t y = 0; y < n; ++y)
+      for (std::size_t x = 0; x < n; ++x) texels[y * n + x] = from[(first + y / part) * n + first + x / part];
   });
 }
 

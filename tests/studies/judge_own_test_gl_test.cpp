@@ -120,6 +120,62 @@ TEST(JudgeAdvice, GivesEachLayerAConstantOfItsOwn) {
   EXPECT_NEAR(taken.result->lights[0].error.wrong_fraction, advice.wrong_instead, border_share);
 }
 
+// A few pixels look up the second layer, and the capture does not say so: `select` would.
+TEST(JudgeOwnTest, NamesSelectWhereAFewPixelsLookAnotherLayerUp) {
+  Engine engine("another-layer", 0.002);
+  Capture& capture = engine.capture;
+  capture.map.assign(2, compare::CapturedLayer(capture.map[0]));
+  capture.map[0].select = compare::CapturedSelect{0.0, 6.0};
+  capture.map[1].select = compare::CapturedSelect{6.0, 1e3};
+  capture.map[1].bias = compare::CapturedBias{.constant_depth = 0.06};
+  draw_again(capture, engine.drawn);
+  const char* words = "`map[].select` of gnomon/capture/2";
+  EXPECT_EQ(notes_in(engine.judged()).find(words), std::string::npos);
+  for (compare::CapturedLayer& layer : capture.map) layer.select.reset();
+  const JudgeOutcome judged = engine.judged();
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_NE(notes_in(judged).find(words), std::string::npos)
+      << notes_in(judged) << called(judged, Label::unexplained);
+}
+
+// Layers of different depths under one stored number, which is too much on one and too little on the other: a constant in
+// texels suits both.
+TEST(JudgeAdvice, GivesLayersOneConstantInTexels) {
+  Engine engine("texels", 0.0);
+  Capture& capture = engine.capture;
+  capture.map.assign(2, compare::CapturedLayer(capture.map[0]));
+  capture.map[0].select = compare::CapturedSelect{0.0, 5.6};
+  capture.map[1].select = compare::CapturedSelect{5.6, 1e3};
+  // The second keeps its texels, in a hundred times the depths.
+  constexpr float times = 100.0f;
+  capture.map[1].depth += ".deep.exr";
+  const auto shallow = read_channels(capture.map[0].depth);
+  ASSERT_TRUE(shallow);
+  Channel deep = shallow->channels[0];
+  for (float& v : deep.values) v /= times;
+  for (float& v : deep.values) v = v < 1.0f / times ? v : 1.0f;
+  ASSERT_TRUE(write_exr(capture.map[1].depth, shallow->size, std::array{deep}));
+  Mat4& matrix = *capture.map[1].clip_from_world;
+  for (int column = 0; column < 4; ++column) matrix[column][2] /= double{times};
+  capture.bias->constant_depth = 0.0002;
+  draw_again(capture, engine.drawn);
+  const JudgeOutcome judged = engine.judged();
+  ASSERT_TRUE(judged.result) << reason(judged);
+  ASSERT_FALSE(judged.result->judged->advice.empty());
+  const compare::Advice& advice = judged.result->judged->advice.back();
+  ASSERT_TRUE(advice.texels_of_each.has_value()) << advice_text(advice);
+  ASSERT_EQ(advice.layers.size(), 1U);
+  EXPECT_NEAR(advice.layers[0].instead * double{times}, advice.instead, 1e-3 * advice.instead);
+  EXPECT_NE(advice_text(advice).find(" texels on each layer"), std::string::npos) << advice_text(advice);
+  // Taken, it leaves what is promised.
+  capture.bias->constant_depth = advice.instead;
+  capture.map[1].bias = compare::CapturedBias{.constant_depth = advice.layers[0].instead};
+  draw_again(capture, engine.drawn);
+  const JudgeOutcome taken = engine.judged();
+  ASSERT_TRUE(taken.result) << reason(taken);
+  EXPECT_NEAR(taken.result->lights[0].error.wrong_fraction, advice.wrong_instead, border_share);
+}
+
 TEST(JudgeAdvice, OfAFilterDoesNotRaiseTheMeanError) {
   for (const double constant : {0.01, 0.05, 0.3}) {
     raster::MapOptions map = Engine::map_with({.slope = 0.0}, raster::Technique::pcf);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cctype>
 
 #include "scene/base/option_text.h"
 #include "scene/files/pictures/image_io.h"
@@ -164,15 +165,30 @@ std::vector<JsonNode> JsonNode::as_array(std::size_t size) const {
   return nodes;
 }
 
+namespace {
+
+/// "; `map[].select` says it", or "": what an unknown key means elsewhere in the format.
+std::string meaning_of(std::string_view key, std::span<const KeyMeaning> meanings) {
+  std::string word;
+  for (const char c : key)
+    if (c != '_' && c != '-') word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const KeyMeaning& meaning : meanings)
+    if (word == meaning.word) return fmt::format("; `{}` says it", meaning.said_by);
+  return {};
+}
+
+}  // namespace
+
 JsonObject::JsonObject(const JsonNode& node, std::vector<std::string_view> known_keys)
     : node_(node), keys_(std::move(known_keys)) {
   if (!node.is(JsonValue::Type::object)) node.wrong("wrong type", "an object");
   for (const JsonMember& member : node.value().members) {
     if (std::find(keys_.begin(), keys_.end(), member.key) != keys_.end()) continue;
     const std::string key = printable(member.key);
+    const std::string meaning = meaning_of(member.key, node.errors().meanings);
     node.errors().add(member.key_begin, join(node.path(), key),
                       fmt::format("unknown key (got \"{}\", allowed {}){}", key, fmt::join(keys_, ", "),
-                                  suggestion(member.key, keys_)));
+                                  meaning.empty() ? suggestion(member.key, keys_) : meaning));
   }
 }
 

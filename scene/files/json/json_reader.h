@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,9 +16,15 @@
 namespace gnomon {
 
 /// Collects the first error of a document.
+/// A word that people write for a key, in lower case without underscores, and what says it in this format.
+struct KeyMeaning {
+  std::string_view word, said_by;
+};
+
 struct JsonErrors {
   const JsonDocument& document;
   std::optional<Error> first{};
+  std::span<const KeyMeaning> meanings{};  ///< of unknown keys that resemble no known one
 
   void add(std::size_t offset, const std::string& field, std::string reason);
 };
