@@ -22,10 +22,14 @@ namespace gnomon::app {
 
 namespace {
 
+constexpr std::pair<std::string_view, grade::CsvForm> csv_forms[] = {{"points", grade::CsvForm::points},
+                                                                     {"moodle", grade::CsvForm::moodle}};
+
 struct GradeCommand {
   std::string rubric;
   std::vector<std::string> students;
   std::string folder, json, csv, kit_folder;
+  grade::CsvForm csv_form = grade::CsvForm::points;
   int jobs = 0;
   bool quiet = false;
   std::string command_line;
@@ -102,7 +106,7 @@ Expected<void> write_all(const GradeCommand& command, const grade::ClassResult& 
                          const std::vector<std::string>& inputs, Console& console) {
   const OutputGuard whole_outputs;
   const auto json = hand_out_json(command.json, grade::grade_json(result));
-  const auto csv = hand_out_json(command.csv, grade::grade_csv(result));
+  const auto csv = hand_out_json(command.csv, grade::grade_csv(result, command.csv_form));
   const auto folder = write_folder(command, result, inputs, console);
   return !json ? json : !csv ? csv : folder;
 }
@@ -150,7 +154,8 @@ Expected<ExitCode> run_grade(const GradeCommand& command) {
   if (const auto kept = keep_scenes(*rubric, *files); !kept) return fail(kept.error());
   const auto graded = grade_all(command, *rubric, *students, work.path(), console);
   if (!graded) return fail(graded.error());
-  const grade::ClassResult result{*rubric, *graded, command.command_line};
+  const grade::ClassResult result{*rubric, *graded, command.command_line,
+                                  grade::find_alike(*students, *rubric)};
   console.clear_progress();
   const bool prints_data = command.json == "-" || command.csv == "-";
   if (!command.quiet && !prints_data) print_data(grade::grade_table(result));
@@ -181,6 +186,8 @@ void add_grade(CLI::App& program, Invocation& invocation) {
   add_output(*app, "-o,--output", command->folder, "DIR",
              "folder for a page for each student, index.html, grades.json and grades.csv [default: none]");
   add_output(*app, "--csv", command->csv, "FILE|-", "also write the points as CSV [default: none]");
+  add_choice(*app, "--csv-form", command->csv_form, csv_forms, "NAME",
+             "columns of --csv: points of each check, or those that Moodle reads in");
   add_output(*app, "--new", command->kit_folder, "DIR",
              "instead write what a class needs to begin: the rubric, its scenes, and the shader with its "
              "steps to fill in");

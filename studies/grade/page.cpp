@@ -57,15 +57,23 @@ std::string excerpt_html(const std::string& excerpt) {
   return html + "</pre>\n";
 }
 
-std::string check_html(const Check& check, const CheckResult& result) {
+/// The rubric's own words, which may be of another language than the page's.
+std::string in_its_language(const Rubric& rubric, const std::string& html) {
+  if (rubric.language == "en") return html;
+  return fmt::format("<span lang=\"{}\">{}</span>", escaped(rubric.language), html);
+}
+
+std::string check_html(const Rubric& rubric, const Check& check, const CheckResult& result) {
   const bool full = result.points >= check.points;
-  std::string html = fmt::format(
-      "<article>\n<header><h2>{}</h2><span class=\"{}\">{}</span></header>\n<p>{}</p>\n", escaped(check.name),
-      full ? "full" : "lost", points_text(result.points, check.points), flowing(result.reason));
+  std::string html =
+      fmt::format("<article>\n<header><h2>{}</h2><span class=\"{}\">{}</span></header>\n<p>{}</p>\n",
+                  in_its_language(rubric, escaped(check.name)), full ? "full" : "lost",
+                  points_text(result.points, check.points), flowing(result.reason));
   if (full) return html + "</article>\n";
   html += excerpt_html(result.excerpt);
   html += figures_html(result);
-  if (!check.hint.empty() && !result.command.empty()) html += fmt::format("<p>{}</p>\n", flowing(check.hint));
+  if (!check.hint.empty() && !result.command.empty())
+    html += fmt::format("<p>{}</p>\n", in_its_language(rubric, flowing(check.hint)));
   if (!result.command.empty())
     html += fmt::format("<p class=\"quiet\">See it yourself: <code>{}</code></p>\n", escaped(result.command));
   return html + "</article>\n";
@@ -87,18 +95,30 @@ std::string class_row(const ClassResult& result, std::size_t index) {
   return row + "</tr>\n";
 }
 
+std::string alike_html(const ClassResult& result) {
+  if (result.alike.empty()) return {};
+  std::string html =
+      "<h2>Answers that are alike</h2>\n<p>Names, layout and comments do not count, nor what the exercise "
+      "gives. "
+      "Short right answers can be alike by themselves: look at both before you ask.</p>\n<ul>\n";
+  for (const AlikePair& pair : result.alike)
+    html += fmt::format("<li>{}</li>\n", flowing(alike_words(result, pair)));
+  return html + "</ul>\n";
+}
+
 }  // namespace
 
 std::string student_page(const Rubric& rubric, const StudentResult& student) {
-  std::string body = fmt::format(
-      "<main>\n<h1>{}: {}</h1>\n<p class=\"sum\">{}</p>\n", escaped(student.name), escaped(rubric.title),
-      student.error ? "not graded" : points_text(student.points(), rubric.points()) + " points");
+  std::string body =
+      fmt::format("<main>\n<h1>{}: {}</h1>\n<p class=\"sum\">{}</p>\n", escaped(student.name),
+                  in_its_language(rubric, escaped(rubric.title)),
+                  student.error ? "not graded" : points_text(student.points(), rubric.points()) + " points");
   if (student.error)
     return page(student.name + ": " + rubric.title,
                 body + fmt::format("<p>{}</p>\n</main>\n", flowing(student.error->message())));
-  if (!rubric.text.empty()) body += fmt::format("<p>{}</p>\n", flowing(rubric.text));
+  if (!rubric.text.empty()) body += fmt::format("<p>{}</p>\n", in_its_language(rubric, flowing(rubric.text)));
   for (std::size_t i = 0; i < student.checks.size(); ++i)
-    body += check_html(rubric.checks[i], student.checks[i]);
+    body += check_html(rubric, rubric.checks[i], student.checks[i]);
   return page(student.name + ": " + rubric.title, body + "</main>\n");
 }
 
@@ -108,13 +128,13 @@ std::string class_page(const ClassResult& result) {
       "out.</p>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
       "aria-label=\"Points\">\n<table>\n<thead><tr><th scope=\"col\">Student</th><th "
       "scope=\"col\">Points</th>",
-      escaped(result.rubric.title), result.rubric.points());
+      in_its_language(result.rubric, escaped(result.rubric.title)), result.rubric.points());
   for (const Check& check : result.rubric.checks)
-    body += fmt::format("<th scope=\"col\">{} <span class=\"quiet\">({:g})</span></th>", escaped(check.name),
-                        check.points);
+    body += fmt::format("<th scope=\"col\">{} <span class=\"quiet\">({:g})</span></th>",
+                        in_its_language(result.rubric, escaped(check.name)), check.points);
   body += "</tr></thead>\n<tbody>\n";
   for (std::size_t i = 0; i < result.students.size(); ++i) body += class_row(result, i);
-  body += "</tbody>\n</table>\n</div>\n";
+  body += "</tbody>\n</table>\n</div>\n" + alike_html(result);
   body +=
       fmt::format("<p class=\"quiet\">Made by <code>{}</code></p>\n</main>\n", escaped(result.command_line));
   return page(result.rubric.title, body);
@@ -122,7 +142,7 @@ std::string class_page(const ClassResult& result) {
 
 Expected<void> check_pages(const std::string& folder, const std::vector<std::string>& pages) {
   for (const std::string& page : pages) {
-    const std::string path = folder + "/" + page;
+    const std::string path = fmt::format("{}/{}", folder, page);
     const auto kind = file_kind(path, ErrorKind::cannot_write);
     if (!kind) return fail(kind.error());
     if (*kind == FileKind::folder) return fail(Error{ErrorKind::cannot_write, "is a folder", path});

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
 
+#include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
 #include "compare/result/text_layout.h"
 #include "scene/base/expected.h"
@@ -41,6 +43,49 @@ Json student_json(const ClassResult& result, std::size_t index) {
   return json;
 }
 
+Json alike_json(const ClassResult& result) {
+  Json pairs = Json::array();
+  for (const AlikePair& pair : result.alike)
+    pairs.push_back({{"students", {result.students[pair.first].name, result.students[pair.second].name}},
+                     {"share", pair.share},
+                     {"same_text", pair.same_text}});
+  return pairs;
+}
+
+/// Whose folder it is that Moodle gave this name: "Ada Lovelace_12345_assignsubmission_file". Of any other the name alone.
+std::pair<std::string, std::string> moodle_participant(const std::string& folder) {
+  static const std::regex form("(.*)_([0-9]+)_assignsubmission_[a-z]+_?");
+  std::smatch found;
+  if (!std::regex_match(folder, found, form)) return {"", folder};
+  return {"Participant " + found[2].str(), found[1].str()};
+}
+
+/// What lost points, and why, in one field.
+std::string feedback(const Rubric& rubric, const StudentResult& student) {
+  if (student.error) return {};
+  std::string text;
+  for (std::size_t i = 0; i < student.checks.size(); ++i) {
+    const double lost = rubric.checks[i].points - student.checks[i].points;
+    if (lost > 0.0)
+      text += fmt::format("{}-{:g} {}: {}", text.empty() ? "" : "; ", lost, rubric.checks[i].name,
+                          student.checks[i].reason);
+  }
+  return text;
+}
+
+/// The columns of an offline grading worksheet that Moodle reads back (Moodle 4, "Offline grading worksheet").
+std::string moodle_csv(const ClassResult& result) {
+  std::string text = "Identifier,Full name,Grade,Maximum Grade,Feedback comments\n";
+  const auto field = [](const std::string& plain) { return compare::csv_field(compare::csv_name(plain)); };
+  for (const StudentResult& student : result.students) {
+    const auto [identifier, name] = moodle_participant(student.name);
+    text += fmt::format("{},{},{},{:g},{}\n", field(identifier), field(name),
+                        points_field(student, student.points()), result.rubric.points(),
+                        field(feedback(result.rubric, student)));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<std::string> page_names_of(const std::vector<StudentResult>& students) {
@@ -61,7 +106,8 @@ std::string grade_json(const ClassResult& result) {
                      {"version", compare::program_version()},
                      {"rubric", result.rubric.title},
                      {"technique", result.rubric.technique},
-                     {"students", std::move(students)}};
+                     {"students", std::move(students)},
+                     {"alike", alike_json(result)}};
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -77,6 +123,17 @@ std::string grade_csv(const ClassResult& result) {
     text += "\n";
   }
   return text;
+}
+
+std::string grade_csv(const ClassResult& result, CsvForm form) {
+  return form == CsvForm::moodle ? moodle_csv(result) : grade_csv(result);
+}
+
+std::string alike_words(const ClassResult& result, const AlikePair& pair) {
+  return fmt::format("{} and {}: {}", one_line(result.students[pair.first].name),
+                     one_line(result.students[pair.second].name),
+                     pair.same_text ? "the very same text"
+                                    : compare::percent(pair.share) + " of what is their own, names aside");
 }
 
 namespace {
@@ -110,6 +167,8 @@ std::string grade_table(const ClassResult& result) {
     text += fmt::format("{:<{}}  {}\n", name, width, points_text(student.points(), result.rubric.points()));
     text += lost_points(result.rubric, student);
   }
+  if (!result.alike.empty()) text += "\nAnswers that are alike (look at them before you ask):\n";
+  for (const AlikePair& pair : result.alike) text += "  " + alike_words(result, pair) + "\n";
   return text;
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "scene/base/expected.h"
+#include "studies/grade/alike.h"
 #include "studies/grade/grade.h"
 
 namespace gnomon::grade {
@@ -17,6 +19,7 @@ struct ClassResult {
   const Rubric& rubric;
   const std::vector<StudentResult>& students;
   std::string command_line;
+  std::vector<AlikePair> alike{};  ///< places in `students`
   std::vector<std::string> pages =
       page_names_of(students);  ///< the files of the students' pages, in their order
 };
@@ -25,8 +28,16 @@ struct ClassResult {
 std::string grade_json(const ClassResult& result);
 /// One row for each student: name, points, of, and the points of each check; no points stand where nothing was graded.
 std::string grade_csv(const ClassResult& result);
+/// The same for a learning platform to read in.
+enum class CsvForm : std::uint8_t {
+  points,  ///< grade_csv()
+  moodle   ///< Moodle's offline grading worksheet: identifier, name, grade, the most there is, feedback
+};
+std::string grade_csv(const ClassResult& result, CsvForm form);
 /// One paragraph for each student: points, and every check that lost some, with the reason; or why there are none.
 std::string grade_table(const ClassResult& result);
+/// "anna and bert: 94 % of what is their own, names aside".
+std::string alike_words(const ClassResult& result, const AlikePair& pair);
 /// "17.5 of 20".
 std::string points_text(double points, double of);
 

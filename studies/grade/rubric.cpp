@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <regex>
 #include <set>
 
 #include "compare/comparison.h"
@@ -144,6 +145,11 @@ std::vector<std::string> read_hand_in(const JsonNode& node, bool beside_given) {
   return files;
 }
 
+/// The path of a file that students begin with, in the rubric's folder.
+std::string beside(const std::string& folder, const std::string& name) {
+  return fmt::format("{}{}student/{}", folder, folder.empty() ? "" : "/", name);
+}
+
 /// They lie in the folder student/ beside the rubric.
 std::vector<GivenFile> read_given(const JsonNode& node, const std::string& folder) {
   std::vector<std::string_view> names;
@@ -151,7 +157,7 @@ std::vector<GivenFile> read_given(const JsonNode& node, const std::string& folde
   std::vector<GivenFile> files;
   for (const JsonNode& file : node.as_array()) {
     const std::string name(names[file.as_choice(names)]);
-    const auto text = read_file(fmt::format("{}{}student/{}", folder, folder.empty() ? "" : "/", name));
+    const auto text = read_file(beside(folder, name));
     if (!text) file.error(text.error().reason);
     files.push_back({name, text ? *text : std::string()});
   }
@@ -168,13 +174,22 @@ void check_files_are_read(const JsonNode& hand_in, raster::Technique technique) 
                              fmt::join(raster::technique_files(technique), ", ")));
 }
 
+/// Letters in groups with '-' between them, which is what pages need to know of a tag (BCP 47, 2.1).
+std::string read_language(const JsonNode& node) {
+  static const std::regex tag("[A-Za-z]{2,8}(-[A-Za-z0-9]{1,8})*");
+  const std::string text = node.as_string();
+  if (!std::regex_match(text, tag)) node.wrong("is no language", "a tag such as en, de, pt-BR");
+  return text;
+}
+
 Rubric read_root(const JsonNode& node, const std::string& folder) {
-  const JsonObject object(node,
-                          {"schema", "title", "text", "technique", "hand_in", "given", "limits", "checks"});
+  const JsonObject object(
+      node, {"schema", "title", "text", "language", "technique", "hand_in", "given", "limits", "checks"});
   Rubric rubric;
   if (const auto schema = object.require("schema")) schema->as_choice({"gnomon/rubric/1"});
   if (const auto title = object.require("title")) rubric.title = title->as_string();
   rubric.text = object.string("text");
+  if (const auto language = object.find("language")) rubric.language = read_language(*language);
   std::vector<std::string_view> names;
   for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) names.push_back(traits.name);
   std::size_t index = 0;
@@ -186,6 +201,8 @@ Rubric read_root(const JsonNode& node, const std::string& folder) {
   if (const auto hand_in = object.require("hand_in")) {
     rubric.hand_in = read_hand_in(*hand_in, given.has_value());
     if (!given) check_files_are_read(*hand_in, technique);
+    for (const std::string& name : rubric.hand_in)
+      if (const auto text = read_file(beside(folder, name))) rubric.begun.push_back(*text);
   }
   if (const auto limits = object.find("limits")) {
     const JsonObject of(*limits, {"seconds", "memory_mb"});

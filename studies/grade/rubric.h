@@ -71,6 +71,9 @@ struct Rubric {
   std::vector<std::string>
       hand_in;  ///< the program's shaders that may be replaced, or files that a given one includes
   std::vector<GivenFile> given;  ///< none: what is handed in may use all that the program's own shaders have
+  std::vector<std::string>
+      begun;                    ///< what students begin with: texts of the files of hand_in beside the rubric
+  std::string language = "en";  ///< of the rubric's own words: a BCP 47 tag
   Limits limits;
   std::vector<Check> checks;  ///< at least one
   double points() const;      ///< of all checks
@@ -100,6 +103,9 @@ Expected<std::vector<Student>> find_students(const std::vector<std::string>& pat
 /// not to be handed in, or none that differs from the program's own.
 /// Error (bad input): what lies there cannot be read, so that nobody can tell what was handed in.
 Expected<std::string> refusal(const Student& student, const Rubric& rubric);
+
+/// Returns the shaders that count, one after the other, by name; nothing of who is refused. Error as of refusal().
+Expected<std::string> answer_of(const Student& student, const Rubric& rubric);
 
 /// Puts what was handed in beside what the rubric gives, into `folder`.
 Expected<void> write_with_given(const Student& student, const Rubric& rubric, const std::string& folder);

@@ -226,16 +226,17 @@ std::string refusal_beside_given(const std::string& name, const std::string& tex
   return {};
 }
 
-/// What was handed in beside given files, by name.
-Expected<std::vector<std::pair<std::string, std::string>>> handed_in_beside_given(const Student& student) {
+/// What was handed in, by name; `beside_given`: but for files of the program's names, in whose place given ones stand.
+Expected<std::vector<std::pair<std::string, std::string>>> handed_in(const Student& student,
+                                                                     bool beside_given) {
   const auto names = files_below(student.folder);
   if (!names) return fail(names.error());
   std::vector<std::pair<std::string, std::string>> files;
   const std::vector<raster::ShaderFile> own = raster::own_shaders();
   for (const std::string& name : *names) {
-    if (!raster::is_shader(name) ||
-        std::any_of(own.begin(), own.end(), [&](const auto& o) { return o.name == name; }))
-      continue;
+    const bool is_given =
+        beside_given && std::any_of(own.begin(), own.end(), [&](const auto& o) { return o.name == name; });
+    if (!raster::is_shader(name) || is_given) continue;
     auto text = read_file(fmt::format("{}/{}", student.folder, name));
     if (!text) return fail(text.error());
     files.emplace_back(name, std::move(*text));
@@ -244,7 +245,7 @@ Expected<std::vector<std::pair<std::string, std::string>>> handed_in_beside_give
 }
 
 Expected<std::string> refusal_beside_given(const Student& student, const Rubric& rubric) {
-  const auto files = handed_in_beside_given(student);
+  const auto files = handed_in(student, true);
   if (!files) return fail(files.error());
   bool any = false;
   for (const auto& [name, text] : *files) {
@@ -258,7 +259,7 @@ Expected<std::string> refusal_beside_given(const Student& student, const Rubric&
 }  // namespace
 
 Expected<void> write_with_given(const Student& student, const Rubric& rubric, const std::string& folder) {
-  auto files = handed_in_beside_given(student);
+  auto files = handed_in(student, true);
   if (!files) return fail(files.error());
   for (const GivenFile& given : rubric.given) files->emplace_back(given.name, given.text);
   for (const auto& [name, text] : *files) {
@@ -302,6 +303,17 @@ Expected<std::string> refusal(const Student& student, const Rubric& rubric) {
   const auto folder = raster::ShaderFolder::read(student.folder);
   if (!folder) return folder.error().message();
   return refusal_of(*folder, rubric, nothing);
+}
+
+Expected<std::string> answer_of(const Student& student, const Rubric& rubric) {
+  const auto why_not = refusal(student, rubric);
+  if (!why_not) return fail(why_not.error());
+  if (!why_not->empty()) return std::string();
+  const auto files = handed_in(student, !rubric.given.empty());
+  if (!files) return fail(files.error());
+  std::string text;
+  for (const auto& [name, shader] : *files) text += shader;
+  return text;
 }
 
 }  // namespace gnomon::grade

@@ -220,5 +220,30 @@ TEST_F(GradeClass, AKitAppearsWholeOrNotAtAll) {
   EXPECT_EQ(folder.entries(), Words{});
 }
 
+// Two hand in the same file, and one of them has the name that Moodle gives to folders.
+TEST_F(GradeClass, AlikeAnswersAndMoodlesColumns) {
+  const std::string lovelace = "Ada Lovelace_12345_assignsubmission_file";
+  hand_in(lovelace, like_own);
+  hand_in("bert", like_own);
+  hand_in("carl", "// another\n" + slow_function + like_own);
+  write_rubric(R"("language": "de", )" + one_check);
+  const ProcessResult graded = gnomon({"grade", "rubric.json", "class", "--csv", "grades.csv", "--csv-form",
+                                       "moodle", "--json", "grades.json", "-o", "pages"});
+  ASSERT_EQ(graded.exit_code, 0) << graded.err;
+  EXPECT_NE(graded.out.find(lovelace + " and bert: the very same text"), std::string::npos) << graded.out;
+  const json alike = json::parse(read_file(folder / "grades.json"))["alike"];
+  ASSERT_EQ(alike.size(), 1u) << alike.dump();
+  EXPECT_EQ(alike[0]["students"], json({lovelace, "bert"}));
+  EXPECT_EQ(alike[0]["same_text"], true);
+  EXPECT_EQ(read_file(folder / "grades.csv"),
+            "Identifier,Full name,Grade,Maximum Grade,Feedback comments\n"
+            "Participant 12345,Ada Lovelace,1,1,\n,bert,1,1,\n,carl,1,1,\n");
+  const std::string page = read_file(folder / "pages/index.html");
+  EXPECT_NE(page.find("Answers that are alike"), std::string::npos);
+  EXPECT_NE(page.find("<span lang=\"de\">One</span>"), std::string::npos);
+  write_rubric(R"("language": "de\" onclick", )" + one_check);
+  expect_one_line(gnomon({"grade", "rubric.json"}), 3, "language: is no language");
+}
+
 }  // namespace
 }  // namespace gnomon::app_test

@@ -33,7 +33,8 @@ add_test(NAME renderdoc_engine_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT
   $<TARGET_FILE:gnomon_program> "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/renderdoc_engine")
 set_tests_properties(renderdoc_engine_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1500)
 
-# gnomon grade, on shaders with known faults.
+# gnomon grade: answers that are alike; and the program on shaders with known faults.
+gnomon_test(grade_alike_test SOURCES grade_alike_test.cpp LIBS gnomon::studies)
 gnomon_test(grade_gl_test SOURCES grade_gl_test.cpp grade_class_gl_test.cpp LIBS app_process nlohmann_json::nlohmann_json)
 add_dependencies(grade_gl_test gnomon_program)
 
