@@ -308,8 +308,12 @@ Expected<std::unique_ptr<LabServer>> LabServer::open(const ServerPlace& place, L
   return out;
 }
 
+/// Of every address of the machine none is better known than its own name for itself.
 std::string LabServer::url() const {
-  return fmt::format("http://{}:{}/{}/", in_url(inside_->place.address), inside_->place.port, inside_->token);
+  const std::string& address = inside_->place.address;
+  const bool any = address == "0.0.0.0" || address == "::";
+  return fmt::format("http://{}:{}/{}/", any ? "localhost" : in_url(address), inside_->place.port,
+                     inside_->token);
 }
 
 Expected<void> LabServer::run() {

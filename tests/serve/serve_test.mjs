@@ -143,6 +143,21 @@ function saysWhyItCannotListen() {
   assert.equal(spawnSync(program, ["serve", "nowhere.json"]).status, 3);
 }
 
+// As in a container, whose page is looked at from outside, by whatever name leads there.
+async function listensWhereItIsTold() {
+  const open = await serve("acne-floor", "--size", "8x8", "--listen", "0.0.0.0");
+  const { hostname: name, port: at, pathname: path } = new URL(open.url);
+  assert.equal(name, "localhost");
+  assert.equal((await fetch(open.url)).status, 200);
+  const named = await new Promise((done) => {
+    const socket = connect(Number(at), "127.0.0.1", () => socket.write(`GET ${path} HTTP/1.1\r\nHost: lab.example:80\r\nConnection: close\r\n\r\n`));
+    socket.once("data", (part) => { done(status(String(part))); socket.destroy(); });
+  });
+  assert.equal(named, 200);
+  assert.equal((await fetch(`http://127.0.0.1:${at}/`)).status, 404, "the key is needed there, too");
+  assert.equal(await open.stop(), 130);
+}
+
 async function leavesNothingBehind() {
   writeFileSync(join(folder, "kept"), "");
   assert.equal(await lab.stop(), 130);
@@ -156,6 +171,7 @@ await answersNoOtherPage();
 await takesFilesForWhatTheyAre();
 await isNotHeldUp();
 saysWhyItCannotListen();
+await listensWhereItIsTold();
 await leavesNothingBehind();
 execFileSync(program, ["serve", "--help"]);
 console.log("served");
