@@ -19,6 +19,7 @@
 #include "scene/base/stages.h"
 #include "scene/base/threads.h"
 #include "scene/base/timing.h"
+#include "scene/files/validate.h"
 #include "scene/load.h"
 #include "scene/shapes/tessellate.h"
 
@@ -30,6 +31,40 @@ std::uint64_t primitives_of(const Scene& scene) {
   std::uint64_t count = scene.shapes.size();
   for (const MeshInstance& instance : scene.instances) count += scene.meshes[instance.mesh].triangles.size();
   return count;
+}
+
+Expected<const KeyedPath*> find_path(const std::vector<KeyedPath>& paths, const SceneTime& time) {
+  std::vector<std::string_view> names;
+  for (const KeyedPath& path : paths) names.push_back(path.name);
+  if (names.empty())
+    return fail(ErrorKind::usage,
+                fmt::format("--time: the scene moves nothing by itself (got {:g})", time.seconds));
+  for (const KeyedPath& path : paths)
+    if (time.path.empty() || path.name == time.path) return &path;
+  return fail(ErrorKind::usage,
+              fmt::format("--time: the scene has no such animation or path (got {}, allowed {}){}", time.path,
+                          fmt::join(names, ", "), did_you_mean(time.path, names)));
+}
+
+/// The scene as it stands then: objects are loaded there, camera and lights moved.
+Expected<Scene> scene_at(const SceneTime& time, Scene scene, const std::string& name, LoadOptions options) {
+  const auto path = find_path(*options.paths, time);
+  if (!path) return fail(path.error());
+  const KeyedPath keys = **path;
+  if (keys.objects_until) {
+    options.animation = keys.name, options.seconds = time.seconds;
+    options.files = nullptr, options.paths = nullptr, options.cameras = nullptr;
+    auto played = load_scene(name, options);
+    if (!played) return played;
+    scene = std::move(*played);
+  }
+  scene.camera = keys.camera_at(scene.camera, time.seconds);
+  for (Light& light : scene.lights) light = keys.light_at(light, time.seconds);
+  if (auto defect = find_setting_defect(scene)) {
+    defect->file = scene.path;
+    return fail(std::move(*defect));
+  }
+  return scene;
 }
 
 }  // namespace
@@ -45,11 +80,15 @@ Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Conso
   std::vector<std::string> read;
   LoadedScene loaded;
   LoadOptions options{.confine_paths = !argument.allow_outside, .camera = camera, .files = &read};
-  if (with_paths) options.paths = &loaded.paths;
+  if (with_paths || argument.time) options.paths = &loaded.paths;
   if (with_cameras) options.cameras = &loaded.cameras;
   Expected<Scene> scene = load_scene(scene_of_lesson(argument.name), options);
   if (!scene) return fail(scene.error());
   if (const auto apart = files.also_reads(read); !apart) return fail(apart.error());
+  if (argument.time) {
+    scene = scene_at(*argument.time, std::move(*scene), scene_of_lesson(argument.name), options);
+    if (!scene) return fail(scene.error());
+  }
   if (tessellate > 0) {
     const std::size_t exact = scene->shapes.size();
     scene = tessellate_shapes(std::move(*scene), tessellate);

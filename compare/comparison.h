@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "compare/result/threshold.h"
+#include "compare/view_errors.h"
 #include "raster/frame.h"
 #include "raytrace/frame.h"
 #include "raytrace/tracer.h"
@@ -345,33 +346,6 @@ inline std::array<float, rung_count> rungs_at(const std::array<Image<float>, run
   for (std::size_t k = 0; k < rung_count; ++k) v[k] = rungs[k].data[pixel];
   return v;
 }
-
-/// Where errors lie as seen from above, over pixels, lights and views (result/places.h): squares in rows, the first at the
-/// least x and z.
-struct ErrorPlaces {
-  struct Cell {
-    std::uint64_t pixels = 0;
-    double error = 0.0;  ///< sum of |V6 - V0|
-  };
-  Vec2 corner{0.0};   ///< least x and z, world units
-  double side = 0.0;  ///< of a square, world units
-  int columns = 0, rows = 0;
-  std::vector<Cell> cells{};  ///< empty: not counted
-  Cell beyond{};              ///< what lies outside all squares
-};
-
-/// What a setting errs by from each of several views; the comparison that holds this is that of the worst.
-struct ViewErrors {
-  struct OfView {
-    std::string name, light;  ///< the light that errs most there
-    double error = 0.0;       ///< of that light, in the measure's unit; NaN where nothing is compared
-    Vec3 eye{}, direction{};  ///< where the camera stands and looks, the direction of length 1
-  };
-  const Figure* measure = &wrong_and_mean();
-  std::vector<OfView> views{};  ///< none: a single picture was judged
-  std::size_t worst = 0;        ///< index of the view that errs most
-  ErrorPlaces places{};
-};
 
 struct MachineInfo {
   std::string cpu, os;

@@ -44,6 +44,21 @@ Value cubic_at(const Keys<Value>& keys, const Between& at) {
 }
 
 template <class Value>
+Value value_at(const Keys<Value>& keys, double seconds) {
+  const auto found = between(keys, seconds);
+  if (!found) return end_value(keys, seconds);
+  switch (keys.interpolation) {
+    case Interpolation::step:
+      return keys.values[found->key];
+    case Interpolation::linear:
+      return (1.0 - found->share) * keys.values[found->key] + found->share * keys.values[found->key + 1];
+    case Interpolation::cubic:
+      break;
+  }
+  return cubic_at(keys, *found);
+}
+
+template <class Value>
 double last_time(const std::optional<Value>& keys) {
   return keys ? keys->times.back() : 0.0;
 }
@@ -68,17 +83,11 @@ Mat3 turn_between(const Mat4& from, const Mat4& to) {
 }  // namespace
 
 Vec3 KeyedVector::at(double seconds) const {
-  const auto found = between(*this, seconds);
-  if (!found) return end_value(*this, seconds);
-  switch (interpolation) {
-    case Interpolation::step:
-      return values[found->key];
-    case Interpolation::linear:
-      return (1.0 - found->share) * values[found->key] + found->share * values[found->key + 1];
-    case Interpolation::cubic:
-      break;
-  }
-  return cubic_at(*this, *found);
+  return value_at(*this, seconds);
+}
+
+std::valarray<double> KeyedNumbers::at(double seconds) const {
+  return value_at(*this, seconds);
 }
 
 Quaternion KeyedRotation::at(double seconds) const {

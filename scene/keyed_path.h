@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <valarray>
 #include <vector>
 
 #include "scene/base/expected.h"
@@ -34,6 +35,11 @@ struct KeyedVector : Keys<Vec3> {
 /// Unit quaternions. linear: the shorter great arc; cubic: normalised afterwards. Needs slopes to be cubic.
 struct KeyedRotation : Keys<Quaternion> {
   Quaternion at(double seconds) const;
+};
+
+/// Lists of numbers, all of one length: weights of morph targets.
+struct KeyedNumbers : Keys<std::valarray<double>> {
+  std::valarray<double> at(double seconds) const;
 };
 
 /// A node of a tree: its parent's space from its own. What has no keys stays as it is stored.

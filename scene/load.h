@@ -23,7 +23,7 @@ struct LoadOptions {
   /// the project's own format, animations of a glTF file. Those of included files are not read.
   std::vector<KeyedPath>* paths = nullptr;
   /// Names a glTF file's animation, by its path's name, whose objects stand as they do at so many seconds (nodes with
-  /// meshes, and joints of skins); empty: all as it is stored.
+  /// meshes, joints of skins, weights of morph targets); empty: all as it is stored.
   std::string animation{};
   double seconds = 0.0;
   /// Where given, takes all of the file's cameras, in its order, and no note says which one is used.

@@ -271,6 +271,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
 
 void add_options(CLI::App& app, CompareCommand& command) {
   add_scene(app, command.scene);
+  add_scene_time(app, command.scene);
   add_tessellate(app, command.tessellate);
   add_camera(app, command.camera);
   add_view_options(app, command.views);

@@ -108,6 +108,7 @@ void add_export(CLI::App& program, Invocation& invocation) {
       "gnomon export --suite suite");
   const auto command = std::make_shared<ExportCommand>();
   add_scene(*app, command->scene);
+  add_scene_time(*app, command->scene);
   app->get_option("SCENE")->required(false);
   add_output(*app, "-o,--output", command->file, "FILE",
              ".glb, or .gltf with everything inside [default out/NAME.glb]");

@@ -64,36 +64,6 @@ struct Filmed {
   std::optional<compare::FilmRecorder> pictures;  ///< where a folder is asked for
 };
 
-/// The scene as its animation moves it, loaded again for each frame.
-class Stages {
- public:
-  Stages(const ShimmerCommand& command, std::string animation)
-      : command_(command), animation_(std::move(animation)) {}
-
-  Expected<compare::FilmStage> at(double seconds) {
-    renderer_.reset();
-    auto scene = load_scene(command_.scene.name, {.confine_paths = !command_.scene.allow_outside,
-                                                  .camera = command_.camera,
-                                                  .animation = animation_,
-                                                  .seconds = seconds});
-    if (!scene) return fail(scene.error());
-    stage_.world.reset();
-    stage_.scene = std::make_unique<Scene>(std::move(*scene));
-    stage_.world = std::make_unique<World>(make_world(*stage_.scene));
-    stage_.plan = plan_effects(*stage_.scene);
-    auto renderer = make_renderer(command_.backend, stage_, command_.shader_folder);
-    if (!renderer) return fail(renderer.error());
-    renderer_ = std::move(*renderer);
-    return compare::FilmStage{*stage_.world, *stage_.scene, *renderer_};
-  }
-
- private:
-  const ShimmerCommand& command_;
-  const std::string animation_;
-  LoadedScene stage_;
-  std::unique_ptr<raster::Renderer> renderer_;
-};
-
 Expected<Filmed> make_film(const ShimmerCommand& command, const LoadedScene& loaded, Console& console) {
   const auto lights = choose_lights(*loaded.scene, command.setting.light);
   if (!lights) return fail(lights.error());
@@ -101,14 +71,13 @@ Expected<Filmed> make_film(const ShimmerCommand& command, const LoadedScene& loa
   for (const std::string& note :
        options_without_effect(command.given, command.setting.options.raster.map, *loaded.scene, *lights))
     console.note(note);
-  auto plan = resolve_film(command.film, loaded.paths, *loaded.scene, console, true);
+  const StageSource source{command.scene, command.camera, command.backend, command.shader_folder};
+  auto plan = resolve_film(command.film, loaded.paths, *loaded.scene, console, &source);
   if (!plan) return fail(plan.error());
   auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   compare::ShimmerOptions options{std::move(*plan), command.setting.options};
   options.compare.raytrace.seed = command.seed;
-  Stages stages(command, options.path.keys.name);
-  if (options.path.objects) options.stage = [&](double seconds) { return stages.at(seconds); };
   Filmed out;
   compare::FrameSink sink;
   if (!command.folder.empty()) {
@@ -122,7 +91,6 @@ Expected<Filmed> make_film(const ShimmerCommand& command, const LoadedScene& loa
                             [&](std::string_view stage, double done) { console.progress(stage, done); });
   if (!shimmer) return fail(shimmer.error());
   out.shimmer = std::move(*shimmer);
-  out.shimmer.options.stage = nullptr;
   return out;
 }
 

@@ -95,7 +95,8 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
   if (const auto same = check_same_drawer(journal, (*renderer)->info()); !same) return same;
   compare::Engine engine(*loaded.scene, *loaded.world, **renderer, command.perceptual);
   if (command.asked.is_filmed()) {
-    const auto film = resolve_film(command.asked.film, loaded.paths, *loaded.scene, console);
+    const StageSource source = stage_source(command);
+    const auto film = resolve_film(command.asked.film, loaded.paths, *loaded.scene, console, &source);
     if (!film) return fail(film.error());
     engine.film_with(*film);
   }
@@ -247,6 +248,7 @@ Expected<compare::Shard> parse_shard(const std::string& text) {
 
 void add_options(CLI::App& app, SweepCommand& command) {
   add_scene(app, command.scene);
+  add_scene_time(app, command.scene);
   add_camera(app, command.camera);
   add_output(app, "-o,--output", command.folder, "DIR",
              "folder for report.html, sweep.jsonl, sweep.csv and the times; a sweep that was interrupted "

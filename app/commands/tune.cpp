@@ -168,7 +168,8 @@ Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
   if (!fitting) return fail(fitting.error());
   Bench bench{loaded, std::move(*renderer), *loaded.scene, std::move(*fitting), std::move(*setting), {}};
   if (command.asked.is_filmed()) {
-    auto film = resolve_film(command.asked.film, loaded.paths, *loaded.scene, console);
+    const StageSource source{command.scene, command.camera, command.backend, command.shader_folder};
+    auto film = resolve_film(command.asked.film, loaded.paths, *loaded.scene, console, &source);
     if (!film) return fail(film.error());
     bench.film = std::move(*film);
   }
@@ -327,6 +328,7 @@ void add_tune(CLI::App& program, Invocation& invocation) {
       "gnomon tune model.glb --max-error 1% --json - | jq -r .command");
   const auto command = std::make_shared<TuneCommand>();
   add_scene(*app, command->scene);
+  add_scene_time(*app, command->scene);
   add_camera(*app, command->camera);
   add_measured_limit(*app, "--max-error", {command->asked.measure, command->goal.max_error},
                      "the largest error that is good enough, of the worst light; this or --max-time", "none",

@@ -54,6 +54,7 @@ void add_view(CLI::App& program, Invocation& invocation) {
       "gnomon view floating-box --script tour.txt");
   const auto options = std::make_shared<ViewOptions>();
   add_scene(*app, options->scene);
+  add_scene_time(*app, options->scene);
   add_camera(*app, options->camera);
   add_window_size(*app, options->compare.raster.size);
   add_lab_setting(*app, *options);

@@ -62,6 +62,24 @@ void add_scene(CLI::App& command, SceneArgument& scene) {
   command.parse_complete_callback([&] { scene.settings = use_of_settings(command); });
 }
 
+void add_scene_time(CLI::App& command, SceneArgument& scene) {
+  constexpr OptionRange range{0.0, 1e6};
+  add_value(
+      command, "--time", "[NAME:]SECONDS",
+      describe("the moment of an animation of a glTF file, or of a scene's path, at which objects, camera "
+               "and lights stand",
+               fmt::format("the first or NAME's; seconds, {}", range_text(range)),
+               "off: all stands as it is stored"),
+      [&scene, range](const std::string& text) -> Expected<void> {
+        const std::size_t colon = text.rfind(':');
+        const bool named = colon != std::string::npos;
+        auto seconds = parse_number(named ? text.substr(colon + 1) : text, range);
+        if (!seconds) return fail(seconds.error());
+        scene.time = {named ? text.substr(0, colon) : std::string(), *seconds};
+        return {};
+      });
+}
+
 void add_tessellate(CLI::App& command, int& tessellate) {
   const std::string range = fmt::format("sectors, {} to {}", min_tessellation, max_tessellation);
   add_value(command, "--tessellate", "N",

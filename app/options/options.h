@@ -28,6 +28,8 @@ namespace gnomon::app {
 
 /// The scene, --allow-outside.
 void add_scene(CLI::App& command, SceneArgument& scene);
+/// Adds --time.
+void add_scene_time(CLI::App& command, SceneArgument& scene);
 void add_size(CLI::App& command, ImageSize& size);
 /// --tessellate; 0: off.
 void add_tessellate(CLI::App& command, int& tessellate);

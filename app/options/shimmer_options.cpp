@@ -237,7 +237,7 @@ std::string path_file(const FilmOptions& film) {
 }
 
 Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const std::vector<KeyedPath>& own_paths,
-                                         const Scene& scene, Console& console, bool plays_objects) {
+                                         const Scene& scene, Console& console, const StageSource* source) {
   compare::FilmPlan plan{{}, film.time, film.anchors};
   compare::ShimmerPath& path = plan.path;
   path.speed = film.speed;
@@ -246,11 +246,13 @@ Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const std::vec
   if (!keys) return fail(keys.error());
   if (*keys) {
     path.keys = std::move(**keys);
-    path.objects = plays_objects && path.keys.objects_until && !film.moves;
+    path.objects = source != nullptr && path.keys.objects_until && !film.moves;
+    if (path.objects && source->scene.time)
+      return fail(ErrorKind::usage, "--time: the film plays the animation, which says where objects are");
+    if (path.objects) plan.stage = stages_of(*source, path.keys.name);
     if (path.keys.objects_until && !path.objects)
-      console.note(
-          fmt::format("The animation {} moves objects, too, which stay in the pose that they are stored in.",
-                      path.keys.name));
+      console.note(fmt::format(
+          "The animation {} moves objects, too, which stand still here; --time says where.", path.keys.name));
     if (const auto played = play_keys(film, path); !played) return fail(played.error());
     return plan;
   }

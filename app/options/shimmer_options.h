@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "app/film_stages.h"
 #include "app/session.h"
 #include "compare/result/figures.h"
 #include "compare/result/threshold.h"
@@ -32,11 +33,13 @@ void add_film_options(CLI::App& app, FilmOptions& film);
 void add_path_options(CLI::App& app, FilmOptions& film);
 /// The file that --path names; empty: none.
 std::string path_file(const FilmOptions& film);
-/// `plays_objects`: what an animation moves besides camera and lights is moved, too; else a note says that it stays.
+/// `source`: what an animation moves besides camera and lights is moved, too, loaded by this; null: a note says that it
+/// stays.
 /// The scene's own path goes before a built-in one of the same name; where nothing is asked for, its first one is taken
 /// and a note says so. Errors: usage for a path that does not suit what moves; bad input of a file.
 Expected<compare::FilmPlan> resolve_film(const FilmOptions& film, const std::vector<KeyedPath>& own_paths,
-                                         const Scene& scene, Console& console, bool plays_objects = false);
+                                         const Scene& scene, Console& console,
+                                         const StageSource* source = nullptr);
 
 /// What errors of a sweep or of the tuner are counted in, and the film where they are flips.
 struct FilmedMeasure {

@@ -26,6 +26,7 @@ bool PictureCommand::wants_records() const {
 
 void add_picture_subject(CLI::App& app, PictureCommand& command, ImageSize& size, const std::string& output) {
   add_scene(app, command.scene);
+  add_scene_time(app, command.scene);
   add_output(app, "-o,--output", command.image, "IMAGE", output);
   add_size(app, size);
   add_tessellate(app, command.tessellate);

@@ -20,6 +20,10 @@ std::vector<std::string> SceneArgument::plain_words() const {
     words.emplace_back("--instances");
     words.emplace_back(instances == InstanceChoice::keep ? "keep" : "flatten");
   }
+  if (time) {
+    words.emplace_back("--time");
+    words.push_back((time->path.empty() ? "" : time->path + ":") + number_text(time->seconds));
+  }
   return words;
 }
 

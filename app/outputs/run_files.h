@@ -3,6 +3,7 @@
 // anything is read, those that only the scene file names before anything is written.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,11 +23,18 @@ enum class SettingsUse : std::uint8_t {
 };
 
 /// A scene as it is given on the command line.
+/// A moment of what a scene moves by itself: of an animation of a glTF file, or of a scene's path.
+struct SceneTime {
+  std::string path;      ///< its name; empty: the first
+  double seconds = 0.0;  ///< from its beginning, 0 or more
+};
+
 struct SceneArgument {
   std::string name;            ///< a file, a built-in scene or a lesson
   bool allow_outside = false;  ///< files that it names may lie outside its folder
   InstanceChoice instances = InstanceChoice::automatic;
   SettingsUse settings = SettingsUse::none;
+  std::optional<SceneTime> time{};  ///< none: all stands as it is stored
 
   /// For a command line that loads the same.
   std::string words() const;

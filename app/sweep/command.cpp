@@ -74,6 +74,8 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
   if (command.asked.measure != &compare::wrong_and_mean())
     json["measure"] = command.asked.measure->measure.name;
   if (command.max_lights != usual_max_lights) json["max_lights"] = command.max_lights;
+  if (command.scene.time)
+    json["time"] = {{"path", command.scene.time->path}, {"seconds", command.scene.time->seconds}};
   if (Json film = film_configuration(command.asked); !film.is_null()) json["film"] = std::move(film);
   if (const std::string views = view_arguments(command.views, command.asked.film, command.asked.is_filmed());
       !views.empty())

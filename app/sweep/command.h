@@ -64,6 +64,11 @@ const compare::Figure& view_measure(const SweepCommand& command);
 /// further time once those made took long enough.
 void set_runs(const SweepCommand& command, compare::CompareOptions& options);
 
+/// What a film's objects are loaded by.
+inline StageSource stage_source(const SweepCommand& command) {
+  return {command.scene, command.camera, command.backend, command.shader_folder};
+}
+
 /// A cell alone: gnomon compare SCENE …, or gnomon shimmer SCENE … where its errors are flips.
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell);
 

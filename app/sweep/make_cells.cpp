@@ -54,7 +54,8 @@ Expected<void> apply_lights(SweepRun& run, const SettingOptions& options) {
   if (const auto looked = look_from_views(run.command, run.loaded, run.given, run.engine, quiet); !looked)
     return looked;
   if (!run.command.asked.is_filmed()) return {};
-  const auto film = resolve_film(run.command.asked.film, run.loaded.paths, run.given, quiet);
+  const StageSource source = stage_source(run.command);
+  const auto film = resolve_film(run.command.asked.film, run.loaded.paths, run.given, quiet, &source);
   if (!film) return fail(film.error());
   run.engine.film_with(*film);
   return {};

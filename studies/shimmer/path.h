@@ -2,12 +2,17 @@
 // pose is a function of the frame alone, so that any frame may be made again.
 #pragma once
 
+#include <functional>
 #include <string_view>
 #include <vector>
 
 #include "scene/base/expected.h"
 #include "scene/keyed_path.h"
 #include "scene/world.h"
+
+namespace gnomon::raster {
+class Renderer;
+}
 
 namespace gnomon::compare {
 
@@ -35,7 +40,7 @@ struct ShimmerPath {
   double speed = 1.0;            ///< factor of the built-in paths' own; finite
   Vec2 drift_texels{0.1, 0.07};  ///< per frame, along the map's right and up
   KeyedPath keys;
-  bool objects = false;  ///< those that the keys' animation moves are moved, too (ShimmerOptions::stage)
+  bool objects = false;  ///< those that the keys' animation moves are moved, too (FilmPlan::stage)
 };
 
 struct FilmTime {
@@ -46,11 +51,20 @@ struct FilmTime {
   double seconds(int frame) const { return frame / fps; }
 };
 
+/// The scene at one moment of a film whose objects move: the same triangles in the same order, elsewhere.
+struct FilmStage {
+  const World& world;
+  Scene& scene;  ///< the world's own
+  raster::Renderer& renderer;
+};
+
 /// What a film is besides its scene and its setting.
 struct FilmPlan {
   ShimmerPath path;
   FilmTime time;
   int anchors = 1;  ///< receivers at every so many pixels along both axes, in [1, 64]
+  /// Where objects move: the scene as it stands at so many seconds, valid until the next call.
+  std::function<Expected<FilmStage>(double seconds)> stage{};
 };
 
 /// Error (usage): the path does not suit the scene's lights, or names one that is not there.

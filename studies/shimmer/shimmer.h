@@ -11,19 +11,10 @@
 
 namespace gnomon::compare {
 
-/// The scene at one moment of a film whose objects move: the same triangles in the same order, elsewhere.
-struct FilmStage {
-  const World& world;
-  Scene& scene;  ///< the world's own
-  raster::Renderer& renderer;
-};
-
 struct ShimmerOptions : FilmPlan {
   CompareOptions compare;  ///< times are not taken
   /// Climb the ladder. Without it flips are counted and nobody is charged with them: all rungs but V0 are V6.
   bool explain = true;
-  /// Where objects move: the scene as it stands at so many seconds, valid until the next call.
-  std::function<Expected<FilmStage>(double seconds)> stage{};
 };
 
 struct ShimmerLight {

@@ -40,8 +40,9 @@ TEST(ShimmerProgram, ThresholdDecidesTheExitCode) {
   EXPECT_EQ(run_gnomon(quick + json_only + Words{"--snap", "--fail-above", "0"}).exit_code, 0);
 }
 
-/// A box of half side 1 that drives 2 units a second along x for two seconds, over a ground and under a sun.
-std::string driving_box() {
+/// A box of half side 1 that drives 2 units a second along x from -2 on for two seconds, over a ground and under a sun.
+/// `stored`: the x that it is stored at; `by_weights`: a morph target drives it, not its node.
+std::string driving_box(double stored = -2.0, bool by_weights = false) {
   gltf_test::Builder b;
   const auto box = [&](float x, float y0, float y1, float z) {
     std::vector<float> corners;
@@ -66,7 +67,7 @@ std::string driving_box() {
   const double half = std::sqrt(0.5), light = std::sin(pi / 6.0), lit = std::cos(pi / 6.0);
   b.json["nodes"] = {
       {{"name", "ground"}, {"mesh", 0}},
-      {{"name", "box"}, {"mesh", 1}, {"translation", {-2, 0, 0}}},
+      {{"name", "box"}, {"mesh", 1}, {"translation", {stored, 0, 0}}},
       {{"name", "eye"}, {"camera", 0}, {"translation", {0, 14, 0}}, {"rotation", {-half, 0, 0, half}}},
       {{"name", "sun"},
        {"rotation", {-lit, 0, 0, light}},
@@ -74,10 +75,16 @@ std::string driving_box() {
   b.json["scenes"] = json::array({{{"nodes", {0, 1, 2, 3}}}});
   const int times = b.accessor(std::vector<float>{0, 2}, 5126, "SCALAR", 1);
   const int way = b.accessor(std::vector<float>{-2, 0, 0, 2, 0, 0}, 5126, "VEC3", 3);
-  b.json["animations"] =
-      json::array({{{"name", "drive"},
-                    {"samplers", {{{"input", times}, {"output", way}}}},
-                    {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}}});
+  const int weights = b.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1);
+  b.json["animations"] = json::array(
+      {{{"name", "drive"},
+        {"samplers", {{{"input", times}, {"output", by_weights ? weights : way}}}},
+        {"channels",
+         {{{"sampler", 0}, {"target", {{"node", 1}, {"path", by_weights ? "weights" : "translation"}}}}}}}});
+  if (by_weights)
+    b.json["meshes"][1]["primitives"][0]["targets"] =
+        json::array({{{"POSITION", b.positions(std::vector<float>{4, 0, 0, 4, 0, 0, 4, 0, 0, 4, 0, 0,
+                                                                  4, 0, 0, 4, 0, 0, 4, 0, 0, 4, 0, 0})}}});
   return b.text();
 }
 
@@ -106,6 +113,62 @@ TEST(ShimmerProgram, PlaysObjects) {
   ASSERT_EQ(exact.exit_code, 0) << exact.err;
   EXPECT_EQ(json::parse(exact.out)["lights"][0]["flips"], 0);
   EXPECT_EQ(run_gnomon(film + Words{"--path", "drive", "--move", "camera"}).exit_code, 2);
+}
+
+// At a moment of its animation the scene is the one in which all stands there, for every command.
+TEST(ShimmerProgram, ShowsAMoment) {
+  const TemporaryFolder folder;
+  const std::string driving = folder / "driving.gltf", standing = folder / "standing.gltf";
+  std::ofstream(driving) << driving_box();
+  std::ofstream(standing) << driving_box(0.5);
+  const Words options{"--size", "96x64", "--map-size", "64", "--json", "-"};
+  const auto figures = [&](const Words& scene) {
+    const ProcessResult run = run_gnomon(Words{"compare"} + scene + options);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const json light = json::parse(run.out)["lights"][0];
+    return json{light["pixels"], light["error"], light["classes"]};
+  };
+  const json moment = figures({driving, "--time", "1.25"});
+  EXPECT_EQ(moment, figures({standing}));
+  EXPECT_EQ(moment, figures({driving, "--time", "drive:1.25"}));
+  EXPECT_NE(moment, figures({driving}));
+  const std::string changing = folder / "changing.gltf";
+  std::ofstream(changing) << driving_box(-2.0, true);
+  EXPECT_EQ(moment, figures({changing, "--time", "1.25"})) << "by the weights of morph targets";
+  EXPECT_EQ(figures({driving}), figures({changing}));
+  const auto error = [&](const Words& words) {
+    const ProcessResult run = run_gnomon(Words{"compare"} + words + options);
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    return run.err;
+  };
+  EXPECT_NE(error({driving, "--time", "fly:1"}).find("no such animation or path (got fly, allowed drive)"),
+            std::string::npos);
+  EXPECT_NE(error({"fence", "--time", "1"}).find("moves nothing by itself"), std::string::npos);
+}
+
+// Sweeps and tune play objects as shimmer does.
+TEST(ShimmerProgram, SweepsPlayObjects) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "driving.gltf";
+  std::ofstream(scene) << driving_box();
+  const Words film{scene, "--size", "96x64", "--frames", "4", "--fps", "4"};
+  const ProcessResult alone = run_gnomon(Words{"shimmer"} + film + Words{"--map-size", "64", "--json", "-"});
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  const json light = json::parse(alone.out)["lights"][0];
+  ASSERT_GT(light["flips"], 10);
+  const ProcessResult swept = run_gnomon(
+      Words{"sweep"} + film + Words{"--map-size", "64,128", "--measure", "shimmer", "-o", folder / "sweep"});
+  ASSERT_EQ(swept.exit_code, 0) << swept.err;
+  std::ifstream lines(folder / "sweep" + "/sweep.jsonl");
+  std::string line;
+  ASSERT_TRUE(std::getline(lines, line));
+  const json cell = json::parse(line);
+  EXPECT_NE(cell["command"].get<std::string>().find("--map-size 64 "), std::string::npos) << cell["command"];
+  EXPECT_EQ(cell["lights"][0]["shimmer"]["flips"], light["flips"]);
+  const ProcessResult both =
+      run_gnomon(Words{"sweep"} + film +
+                 Words{"--map-size", "64", "--measure", "shimmer", "--time", "1", "-o", folder / "both"});
+  EXPECT_EQ(both.exit_code, 2) << both.err;
 }
 
 // What a scene moves by itself is played where nothing else is asked for, and by its name.

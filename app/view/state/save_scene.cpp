@@ -103,6 +103,9 @@ std::string folder_for_scene(const SceneArgument& opened) {
 
 Expected<void> write_scene(const std::string& path, const SceneArgument& opened, const ViewState& state) {
   const std::string name = scene_of_lesson(opened.name);
+  if (opened.time)
+    return fail(ErrorKind::usage,
+                "a scene file cannot hold a moment of an animation; gnomon export --time writes one as glTF");
   auto json = base_json(name, path);
   if (!json) return fail(json.error());
   Scene meant;

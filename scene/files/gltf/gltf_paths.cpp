@@ -18,8 +18,13 @@ Vec3 vector(const double* v) {
   return {v[0], v[1], v[2]};
 }
 
-// The channels of one animation, by the node that they move.
-using MovedNodes = std::map<std::size_t, MovedNode>;
+/// The channels of one animation of a node.
+struct Moved {
+  MovedNode node;
+  std::optional<KeyedNumbers> weights{};  ///< of its mesh's morph targets
+};
+// By the node that they move.
+using MovedNodes = std::map<std::size_t, Moved>;
 
 class AnimationReader {
  public:
@@ -57,14 +62,28 @@ class AnimationReader {
     const std::string what = path->as_string();
     const std::size_t node = index(*target, "node", model_.nodes.size());
     const std::size_t sampler = index(channel, "sampler", samplers_.size());
-    if (failed() || (what != "translation" && what != "rotation" && what != "scale")) return;
-    MovedNode& to = moved.try_emplace(node, stored(node)).first->second;
+    if (failed()) return;
+    if (what == "weights") return read_weights(node, samplers_[sampler], moved);
+    if (what != "translation" && what != "rotation" && what != "scale") return;
+    MovedNode& to = moved.try_emplace(node, Moved{stored(node)}).first->second.node;
     if (what == "translation")
-      to.translations.emplace(), read_keys(samplers_[sampler], 3, vector, *to.translations);
-    if (what == "scale") to.scales.emplace(), read_keys(samplers_[sampler], 3, vector, *to.scales);
+      to.translations.emplace(), read_keys(samplers_[sampler], {3, 3}, vector, *to.translations);
+    if (what == "scale") to.scales.emplace(), read_keys(samplers_[sampler], {3, 3}, vector, *to.scales);
     if (what == "rotation")
-      to.rotations.emplace(), read_keys(samplers_[sampler], 4, quaternion, *to.rotations);
+      to.rotations.emplace(), read_keys(samplers_[sampler], {4, 4}, quaternion, *to.rotations);
     if (what == "rotation" && !failed()) check_rotations(samplers_[sampler], *to.rotations);
+  }
+
+  /// One number for each of the mesh's targets; of a node without any they move nothing.
+  void read_weights(std::size_t node, const JsonNode& sampler, MovedNodes& moved) const {
+    const int mesh = model_.nodes[node].mesh;
+    if (mesh < 0 || model_.meshes[static_cast<std::size_t>(mesh)].primitives.empty()) return;
+    const std::size_t targets =
+        model_.meshes[static_cast<std::size_t>(mesh)].primitives.front().targets.size();
+    if (targets == 0) return;
+    Moved& to = moved.try_emplace(node, Moved{stored(node)}).first->second;
+    const auto numbers_of = [targets](const double* v) { return std::valarray<double>(v, targets); };
+    read_keys(sampler, {1, targets}, numbers_of, to.weights.emplace());
   }
 
   MovedNode stored(std::size_t index) const {
@@ -92,28 +111,35 @@ class AnimationReader {
     return out;
   }
 
+  struct KeyLayout {
+    std::size_t components = 0;  ///< of an element of the accessor
+    std::size_t numbers = 0;     ///< of a key's value
+  };
+
   template <class Make, class Value>
-  void read_keys(const JsonNode& sampler, std::size_t components, const Make& make, Keys<Value>& keys) const {
+  void read_keys(const JsonNode& sampler, const KeyLayout& layout, const Make& make,
+                 Keys<Value>& keys) const {
     if (const auto choice = sampler.child("interpolation"))
       keys.interpolation = static_cast<Interpolation>(choice->as_choice({"LINEAR", "CUBICSPLINE", "STEP"}));
     keys.times = numbers(sampler, "input", 1);
-    const std::vector<double> values = numbers(sampler, "output", components);
+    const std::vector<double> values = numbers(sampler, "output", layout.components);
     if (failed()) return;
     const bool cubic = keys.interpolation == Interpolation::cubic;
     const std::size_t each = cubic ? 3 : 1, count = keys.times.size();
     for (std::size_t i = 0; i < count; ++i)
       if (!(keys.times[i] >= 0.0) || (i > 0 && !(keys.times[i] > keys.times[i - 1])))
         return sampler.error("the times of input must not be negative, and must rise");
-    if (count == 0 || values.size() != each * count * components)
+    if (count == 0 || values.size() != each * count * layout.numbers)
       return sampler.error(fmt::format("output does not fit input (got {} elements, allowed {})",
-                                       values.size() / components, each * count));
+                                       values.size() / layout.components,
+                                       each * count * layout.numbers / layout.components));
     for (const double value : values)
       if (!(std::abs(value) <= max_coordinate)) return sampler.error("output has values that are not finite");
     for (std::size_t i = 0; i < count; ++i) {  // in-tangent, value, out-tangent
-      const double* at = &values[i * each * components];
+      const double* at = &values[i * each * layout.numbers];
       if (cubic) keys.slopes_in.push_back(make(at));
-      keys.values.push_back(make(at + (cubic ? components : 0)));
-      if (cubic) keys.slopes_out.push_back(make(at + 2 * components));
+      keys.values.push_back(make(at + (cubic ? layout.numbers : 0)));
+      if (cubic) keys.slopes_out.push_back(make(at + 2 * layout.numbers));
     }
   }
 
@@ -149,8 +175,9 @@ class PathBuilder {
   }
 
  private:
-  static double last_key(const MovedNode& node) {
-    double last = 0.0;
+  static double last_key(const Moved& moved) {
+    const MovedNode& node = moved.node;
+    double last = moved.weights ? moved.weights->times.back() : 0.0;
     if (node.translations) last = std::max(last, node.translations->times.back());
     if (node.scales) last = std::max(last, node.scales->times.back());
     if (node.rotations) last = std::max(last, node.rotations->times.back());
@@ -181,10 +208,10 @@ class PathBuilder {
     for (int at = static_cast<int>(node); at >= 0;) {
       const auto index = static_cast<std::size_t>(at);
       at = model_.nodes[index].parent;
-      const auto keyed = moved.find(index);
-      if (keyed != moved.end()) any = true, used.insert(index);
-      out.push_back(keyed != moved.end() ? keyed->second
-                                         : MovedNode{.matrix = local_matrix(model_.nodes[index])});
+      const auto found = moved.find(index);
+      const bool keyed = found != moved.end() && found->second.node.is_keyed();
+      if (keyed) any = true, used.insert(index);
+      out.push_back(keyed ? found->second.node : MovedNode{.matrix = local_matrix(model_.nodes[index])});
     }
     if (!any) return {};
     std::reverse(out.begin(), out.end());
@@ -247,7 +274,12 @@ Expected<void> play_gltf_animation(GltfDocument& document, const GltfData& data,
   }
   for (const auto& [index, keys] : played) {
     gltf::Node& node = document.model.nodes[index];
-    node.matrix = keys.at(options.seconds);
+    if (keys.weights) {
+      const std::valarray<double> weights = keys.weights->at(options.seconds);
+      node.weights.assign(std::begin(weights), std::end(weights));
+    }
+    if (!keys.node.is_keyed()) continue;
+    node.matrix = keys.node.at(options.seconds);
     node.translation.reset(), node.scale.reset(), node.rotation.reset();
   }
   return {};
