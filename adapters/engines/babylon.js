@@ -2,7 +2,7 @@
 // --normalBias, --full_float 0 | 1 (a map of 32-bit floats, which its shadow generators do not take by themselves). Defaults
 // are Babylon's; it has none for mapSize, and its guide's 1024 is taken. A sun is moved before the scene's box.
 // The visibility is the ratio of two pictures in a white matte material, with shadows and without.
-import { channel, loadScript, settled } from "./common.js";
+import { channel, loadScript, readGltf, settled, shadowFlags } from "./common.js";
 
 const types = { none: null, poisson: "usePoissonSampling", pcf: "usePercentageCloserFiltering", pcss: "useContactHardeningShadow", esm: "useBlurExponentialShadowMap" };
 
@@ -22,6 +22,18 @@ function placeSun(scene, light) {
   light.direction = direction;
   light.position = min.add(max).scale(0.5).subtract(direction.scale(0.51 * max.subtract(min).length()));
   light.autoCalcShadowZBounds = true;
+}
+
+/** The place of a mesh in the file, by the pointers that the loader leaves: a primitive, whose node is itself or its parent. */
+function placeInFile(mesh) {
+  const find = (object, pattern) => object?._internalMetadata?.gltf?.pointers?.map((pointer) => pattern.exec(pointer)?.[1]).find((found) => found !== undefined);
+  const isNode = /^\/nodes\/(\d+)$/;
+  return { node: find(mesh, isNode) ?? find(mesh.parent, isNode), primitive: find(mesh, /\/primitives\/(\d+)$/) ?? 0 };
+}
+
+/** The picture's height is the file's; its width follows from its size. */
+function setAspect(camera, aspect) {
+  if (camera.mode === BABYLON.Camera.ORTHOGRAPHIC_CAMERA) Object.assign(camera, { orthoLeft: -aspect * camera.orthoTop, orthoRight: aspect * camera.orthoTop });
 }
 
 function white(scene, original) {
@@ -87,14 +99,17 @@ export async function capture(canvas, task) {
   // As meshes of their own: our shader does not draw hardware instances.
   await BABYLON.AppendSceneAsync(task.scene, scene, { pluginOptions: { gltf: { createInstances: false } } });
   scene.activeCamera = scene.cameras[0];
+  setAspect(scene.activeCamera, width / height);
   const light = chooseLight(scene, task.light), sun = light instanceof BABYLON.DirectionalLight;
   if (sun) placeSun(scene, light);
   const generator = new BABYLON.ShadowGenerator(settings.mapSize, light, settings.full_float === 1);
   Object.assign(generator, { bias: settings.bias, normalBias: settings.normalBias });
   if (types[settings.type]) generator[types[settings.type]] = true;
-  for (const mesh of scene.meshes) {
-    generator.addShadowCaster(mesh, false);
-    mesh.receiveShadows = true;
+  const gltf = await readGltf(task.scene);
+  for (const mesh of scene.meshes.filter((mesh) => mesh.getTotalVertices() > 0)) {
+    const { node, primitive } = placeInFile(mesh), { casts, receives } = shadowFlags(gltf, node, primitive);
+    if (casts) generator.addShadowCaster(mesh, false);
+    mesh.receiveShadows = receives;
   }
 
   await scene.whenReadyAsync();

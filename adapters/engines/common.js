@@ -18,6 +18,22 @@ export function channel(pixels, width, height, c, { flip = true, stride = 4 } = 
   return out;
 }
 
+/** The JSON of a .gltf or .glb. */
+export async function readGltf(url) {
+  const bytes = await (await fetch(url)).arrayBuffer(), head = new DataView(bytes);
+  const isBinary = head.getUint32(0, true) === 0x46546c67;  // "glTF"
+  return JSON.parse(new TextDecoder().decode(isBinary ? new Uint8Array(bytes, 20, head.getUint32(12, true)) : bytes));
+}
+
+/** Whether a primitive of a node's mesh casts shadows and receives them: both, unless the extras of the node or of the material say
+    otherwise, as gnomon export writes them. */
+export function shadowFlags(gltf, node, primitive) {
+  const { mesh, extras } = gltf.nodes[node];
+  const material = gltf.materials?.[gltf.meshes[mesh].primitives[primitive].material];
+  const says = (flag) => [extras, material?.extras].every((from) => from?.[flag] === undefined || Boolean(from[flag]));
+  return { casts: says("casts_shadow"), receives: says("receives_shadow") };
+}
+
 /** A library that is a plain script. */
 export function loadScript(path) {
   return new Promise((done, failed) => {

@@ -3,7 +3,7 @@
 // A spot's or point's range, which glTF leaves infinite, ends behind the scene: its map's near plane is a thousandth of it.
 // The visibility is the ratio of two pictures in a white matte material, with shadows and without.
 import * as pc from "playcanvas";
-import { channel, settled } from "./common.js";
+import { channel, readGltf, settled, shadowFlags } from "./common.js";
 
 const types = ["PCF1_32F", "PCF3_32F", "PCF5_32F", "VSM_16F", "PCSS_32F"];
 
@@ -61,6 +61,19 @@ function places(original) {
   return material;
 }
 
+/** As the file's extras say for each primitive; entities have the names of the file's nodes. */
+function setFlags(root, gltf) {
+  for (const render of root.findComponents("render")) {
+    const nodes = gltf.nodes.flatMap(({ mesh, name }, i) => (mesh !== undefined && (name ?? `node_${i}`) === render.entity.name ? [i] : []));
+    render.meshInstances.forEach((instance, primitive) => {
+      const [flags, ...others] = nodes.map((node) => shadowFlags(gltf, node, primitive));
+      if (others.some(({ casts, receives }) => casts !== flags.casts || receives !== flags.receives))
+        throw new Error(`nodes of one name (${render.entity.name}) cast or receive shadows differently`);
+      Object.assign(instance, { castShadow: flags.casts, receiveShadow: flags.receives });
+    });
+  }
+}
+
 const instancesOf = (root) => root.findComponents("render").flatMap((render) => render.meshInstances);
 
 function dress(instances, originals, make) {
@@ -96,8 +109,9 @@ export async function capture(canvas, task) {
   app.scene.ambientLight = new pc.Color(0, 0, 0);
   const root = (await loadScene(app, task.scene)).resource.instantiateRenderEntity({ castShadows: true, receiveShadows: true });
   app.root.addChild(root);
+  setFlags(root, await readGltf(task.scene));
   const camera = root.findComponent("camera"), light = chooseLight(root, task.light);
-  Object.assign(camera, { enabled: true, clearColor: new pc.Color(0, 0, 0, 0), toneMapping: pc.TONEMAP_NONE, gammaCorrection: pc.GAMMA_NONE, frustumCulling: false });
+  Object.assign(camera, { enabled: true, clearColor: new pc.Color(0, 0, 0, 0), toneMapping: pc.TONEMAP_NONE, gammaCorrection: pc.GAMMA_NONE, frustumCulling: false, aspectRatioMode: pc.ASPECT_AUTO });
   const { shadowType, ...rest } = settings;
   Object.assign(light, { castShadows: true, shadowType: pc[`SHADOW_${shadowType}`], ...rest });
   if (light.type !== "directional") light.range = reach(root, light);

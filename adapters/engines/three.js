@@ -4,7 +4,7 @@
 // What is captured is three.js' own getShadowMask(), drawn through its own vertex code at every visible pixel.
 import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-import { channel, settled } from "./common.js";
+import { channel, settled, shadowFlags } from "./common.js";
 
 const types = { basic: THREE.BasicShadowMap, pcf: THREE.PCFShadowMap, vsm: THREE.VSMShadowMap };
 
@@ -38,6 +38,25 @@ function fitSun(scene, light) {
   for (let corner = 0; corner < 8; ++corner)
     seen.expandByPoint(new THREE.Vector3(...["x", "y", "z"].map((axis, i) => (corner >> i & 1 ? box.max : box.min)[axis])).applyMatrix4(camera.matrixWorldInverse));
   Object.assign(camera, { left: seen.min.x, right: seen.max.x, bottom: seen.min.y, top: seen.max.y, near: 0.99 * -seen.max.z, far: 1.01 * -seen.min.z });
+  camera.updateProjectionMatrix();
+}
+
+/** As the file's extras say for each mesh: a primitive, whose node is itself or a group around it. */
+function setFlags(gltf) {
+  const { associations, json } = gltf.parser;
+  gltf.scene.traverse((object) => {
+    if (!object.isMesh) return;
+    let holder = object;
+    while (associations.get(holder)?.nodes === undefined) holder = holder.parent;
+    const { casts, receives } = shadowFlags(json, associations.get(holder).nodes, associations.get(object).primitives ?? 0);
+    Object.assign(object, { castShadow: casts, receiveShadow: receives });
+  });
+}
+
+/** The picture's height is the file's; its width follows from its size. */
+function setAspect(camera, aspect) {
+  if (camera.isOrthographicCamera) Object.assign(camera, { left: -aspect * camera.top, right: aspect * camera.top });
+  else camera.aspect = aspect;
   camera.updateProjectionMatrix();
 }
 
@@ -117,10 +136,9 @@ export async function capture(canvas, task) {
   const gltf = await new GLTFLoader().loadAsync(task.scene);
   const scene = new THREE.Scene().add(gltf.scene);
   scene.updateMatrixWorld(true);
-  scene.traverse((object) => object.isMesh && Object.assign(object, { castShadow: true, receiveShadow: true }));
+  setFlags(gltf);
   const camera = gltf.cameras[0];
-  camera.aspect = width / height;
-  camera.updateProjectionMatrix();
+  setAspect(camera, width / height);
   const { light, name } = chooseLight(gltf, task.light);
   if (light.isPointLight && settings.type === "vsm") throw new Error("--type vsm: three.js has none for a point light");
   light.castShadow = true;
