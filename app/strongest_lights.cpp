@@ -105,9 +105,9 @@ std::vector<Light> LightSelection::kept(const std::vector<std::string>& named, c
 
 std::string LightSelection::note(const std::vector<std::string>& named) const {
   return fmt::format(
-      "the scene has {} lights: the {} that would light most of what the camera sees are kept{}; all "
-      "others are left out of everything (--light NAME takes another one in, --max-lights N more)",
-      lights_.size(), most_, named.empty() ? "" : ", and those named");
+      "the scene has {} lights: the {} that would light most of what the camera sees are used{}, no other "
+      "(--light NAME takes another one in, --max-lights N more)",
+      lights_.size(), most_, named.empty() ? "" : " and those named");
 }
 
 void keep_strongest_lights(LoadedScene& loaded, int max_lights, const std::vector<std::string>& named,

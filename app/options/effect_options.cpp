@@ -133,8 +133,9 @@ std::string swim_note(const World& world, const raster::MapOptions& map, ImageSi
   }
   if (names.empty()) return {};
   return fmt::format(
-      "The map of {} follows the camera by parts of a texel ({}): its shadow edges swim when the camera "
-      "moves; {}.",
+      "The map of {} follows the camera by parts of a texel ({}), so shadow edges swim when the camera "
+      "moves: "
+      "{}.",
       fmt::join(names, ", "), raster::technique_name(map.technique), way_out(map));
 }
 

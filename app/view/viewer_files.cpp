@@ -121,9 +121,12 @@ void Viewer::copy_command() {
 void Viewer::print_command() const {
   print_data(compare_command(state_, options_, shown_->scene->argument.words()) + "\n");
   std::fflush(stdout);
+  if (state_.setup.map_camera)
+    console_.note("the map's camera is frozen; the command line lays the map for the view's own");
   for (const std::string& light : other_turned_lights(state_))
-    console_.note(
-        fmt::format("light {} was turned as well; the command line turns only the chosen one", light));
+    console_.note(fmt::format(
+        "light {} was turned, too, which the command line leaves out: it turns the chosen light alone",
+        light));
 }
 
 /// "compare", the scene as it was opened, and the options.
@@ -156,7 +159,8 @@ void Viewer::write_report() {
 void Viewer::find_best() {
   if (job_) return note("something runs already; Esc stops it");
   for (const std::string& light : other_turned_lights(state_))
-    console_.note(fmt::format("light {} was turned as well; the search turns only the chosen one", light));
+    console_.note(fmt::format(
+        "light {} was turned, too, which the search leaves out: it turns the chosen light alone", light));
   auto job =
       Job::start("searching the cheapest setting with at most 1 % wrong",
                  job_words("tune", {"--max-error", tuned_error, "--runs", "1", "--json", "-", "--quiet"},

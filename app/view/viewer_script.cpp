@@ -133,7 +133,7 @@ Expected<bool> Viewer::pass_light(const std::string& wanted) {
 Expected<bool> Viewer::pass_drag(DragPointer drag) {
   if (drag.light) {
     const auto handle = frames_waited_ == 0 ? shown_handle() : dragged_from_;
-    if (!handle) return fail(ErrorKind::bad_input, "the light's handle is not to be seen");
+    if (!handle) return fail(ErrorKind::bad_input, "the light's handle is not in view");
     dragged_from_ = handle;
     drag.from = *handle;
   }

@@ -66,15 +66,24 @@ std::string receivers_words(const LightComparison& light) {
 
 }  // namespace
 
+std::array<Vec3, 8> camera_corners(const World& world, const Camera& camera, const ImageSize& size) {
+  const View view = make_view(camera, size);
+  const double far = depth_seen(world, camera);
+  std::array<Vec3, 8> corners;
+  std::size_t next = 0;
+  for (const double depth : {0.0, far})
+    for (const Vec2& at : corner_places)
+      corners[next++] = view.ray_origin(at) + depth * view.ray_direction(at);
+  return corners;
+}
+
 Json camera_json(const Comparison& c) {
   const World& world = *c.world;
   const Camera& camera = world.scene->camera;
   const View view = make_view(camera, c.raster.options.size);
-  const double far = depth_seen(world, camera);
   Json corners = Json::array();
-  for (const double depth : {0.0, far})
-    for (const Vec2& at : corner_places)
-      corners.push_back(vector3(view.ray_origin(at) + depth * view.ray_direction(at)));
+  for (const Vec3& corner : camera_corners(world, camera, c.raster.options.size))
+    corners.push_back(vector3(corner));
   const Aabb& bounds = world.finite_bounds;
   return {{"eye", vector3(camera.eye)},
           {"forward", vector3(view.forward)},

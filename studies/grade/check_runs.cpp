@@ -121,7 +121,7 @@ Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, Man
     return fail(ErrorKind::cannot_write, failure);  // a full disk is no shader's fault
   const bool disturbed = may_be_disturbed(*outcome);
   if (disturbed && manner.again && !is_shaders_fault(*outcome))
-    return fail(ErrorKind::graphics, fmt::format("no drawing could be made, twice: {}", failure));
+    return fail(ErrorKind::graphics, fmt::format("drawing failed twice: {}", failure));
   return Drawing{{}, failure, outcome->end == Outcome::End::out_of_time, disturbed && !manner.again};
 }
 

@@ -59,7 +59,7 @@ Judgement judge_figure(const Check& check, const RunResult& result) {
       is_label ? fmt::format("{} error", check.measure.name) : std::string(check.measure.words);
   const std::string more =
       unknown > 0.0
-          ? fmt::format(", and {} of the shader's own making (custom_shader), which may be that as well",
+          ? fmt::format(", and {} that the shader itself made (custom_shader) and that may be the same,",
                         compare::percent(unknown))
           : "";
   return {passed,
@@ -246,7 +246,7 @@ class Grader {
       const auto agreement = class_.mistakes.agreement(known, run, *values, **right);
       if (!agreement) return fail(agreement.error());
       if (agreement->is_like() && !result.mistake_named)
-        return Judgement{true, "right but for the mistake that is named above", 1.0};
+        return Judgement{true, "right but for the mistake named above", 1.0};
     }
     auto found = class_.mistakes.explaining(run, *values, **right);
     if (!found) return fail(found.error());

@@ -124,7 +124,7 @@ std::string student_page(const Rubric& rubric, const StudentResult& student) {
 
 std::string class_page(const ClassResult& result) {
   std::string body = fmt::format(
-      "<main>\n<h1>{}</h1>\n<p>{:g} points are to be had. A student's name opens the page to hand "
+      "<main>\n<h1>{}</h1>\n<p>{:g} points in all. A student's name opens the page to hand "
       "out.</p>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
       "aria-label=\"Points\">\n<table>\n<thead><tr><th scope=\"col\">Student</th><th "
       "scope=\"col\">Points</th>",

@@ -283,8 +283,9 @@ Expected<std::vector<Student>> find_students(const std::vector<std::string>& pat
   std::set<std::string> names;
   for (const Student& student : students)
     if (!names.insert(student.name).second)
-      return fail(ErrorKind::usage,
-                  fmt::format("two students have one name, that of their folders (got {})", student.name));
+      return fail(
+          ErrorKind::usage,
+          fmt::format("two folders have the same name, which is the student's (got {})", student.name));
   return students;
 }
 

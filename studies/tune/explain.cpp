@@ -33,9 +33,10 @@ std::string joined(const std::vector<std::string>& names) {
 
 std::string close_race(const FamilyResult& winner, const TuneGoal& goal) {
   if (winner.as_fast.empty()) return {};
-  return fmt::format("; {} {}took as long within the spread of the times{}", joined(winner.as_fast),
-                     goal.max_time_ms ? "did as well and " : "",
-                     winner.by_cost ? ", and this one costs less on any machine (texels, bytes, rays)" : "");
+  return fmt::format(
+      "; {} {} as fast, as far as the times tell{}", joined(winner.as_fast),
+      std::string(winner.as_fast.size() == 1 ? "is" : "are") + (goal.max_time_ms ? " as good and" : ""),
+      winner.by_cost ? ", and this one costs less on any machine (texels, bytes, rays)" : "");
 }
 
 std::string just_over_text(const TuneResult& result, const Figure& measure) {

@@ -42,3 +42,6 @@ set_tests_properties(docs_notebook_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 9
 
 # What a new metric, setting, technique, shape, format or lesson takes, by examples.
 add_test(NAME project_exercise_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_LIST_DIR}/project_exercise_test.py" "${PROJECT_SOURCE_DIR}")
+
+# The sentences of the lab and of the grader, read through in one file.
+add_test(NAME project_prose_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_LIST_DIR}/project_prose_test.py")

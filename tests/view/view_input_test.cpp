@@ -127,6 +127,7 @@ constexpr Deed deeds[] = {
     {"T", shows<Picture::texels>},
     {"tab", [](const auto& a, const auto& b) { return b.picture == a.previous && b.previous == a.picture; }},
     {"V", [](const auto& a, const auto& b) { return a.look.layout != b.look.layout; }},
+    {"F", [](const auto& a, const auto& b) { return b.setup.map_camera == posed_camera(a); }},
     {"Z", zoom_differs},
     {"shift+Z", zoom_differs},
     {"ctrl+,", line_moves},

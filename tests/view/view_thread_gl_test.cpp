@@ -11,6 +11,7 @@
 #include <set>
 
 #include "app/view/state/presets.h"
+#include "app/view/state/projection.h"
 #include "raster/programs/shader_folder.h"
 #include "tests/support/app_process.h"
 #include "tests/view/view_thread_fixture.h"
@@ -40,6 +41,30 @@ std::shared_ptr<const Snapshot> shown_by(Lab& lab, ViewState state, const Preset
       std::max(map.bias.constant, losing_bias_texels(c.raster.lights[0], c.lights[0], preset.lost_share));
   carry_out(state, SetMap{map});
   return done();
+}
+
+// Cascades follow the camera, but for one that is frozen: they stay to the last bit, and all that is compared is theirs.
+TEST(FrozenCamera, KeepsTheMapsWhereTheyAre) {
+  Lab lab("courtyard", {});
+  ViewState state = lab.state(*lab.until(is_open));
+  state.setup.map.technique = raster::Technique::csm;
+  const auto laid = [&] {
+    lab.thread().post(1, {state.revision, state.setup});
+    const auto shown = lab.until([&](const Snapshot& s) { return s.is_done(state); });
+    const LightView compared = shown->outcome->comparison.raster.lights[0].map.view;
+    EXPECT_EQ(frustum_edges(compared), frustum_edges(shown->live.map));
+    EXPECT_EQ(shown->live.map_camera.has_value(), state.setup.map_camera.has_value());
+    return frustum_edges(shown->live.map);
+  };
+  const auto own = laid();
+  carry_out(state, FreezeMaps{});
+  EXPECT_EQ(laid(), own);
+  carry_out(state, OrbitBy{30.0, 10.0});
+  EXPECT_EQ(laid(), own);
+  carry_out(state, FreezeMaps{true});
+  EXPECT_EQ(laid(), own) << "it is frozen already";
+  carry_out(state, FreezeMaps{false});
+  EXPECT_NE(laid(), own);
 }
 
 // By the labels of the pixels. Nothing can cast a shadow on the acne floor: it shows acne alone.

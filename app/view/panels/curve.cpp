@@ -97,7 +97,7 @@ void curve_panel(PanelContext& context) {
   const compare::LightComparison& light = context.outcome()->comparison.lights.front();
   if (light.bias_curve.empty()) {
     return faint(light.bias_curve_withheld.empty()
-                     ? "This technique's drawing does not say what another bias would draw."
+                     ? "What another bias would do is known only once this technique is drawn with it."
                      : std::string(light.bias_curve_withheld));
   }
   const float em = ImGui::GetFontSize();

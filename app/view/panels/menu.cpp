@@ -69,6 +69,9 @@ void view_menu(PanelContext& context) {
       context.ask(Change{SetLayout{layout}});
   }
   ImGui::Separator();
+  if (ImGui::MenuItem("Freeze the map's camera", "F", context.state.setup.map_camera.has_value()))
+    context.ask(Change{FreezeMaps{}});
+  ImGui::Separator();
   if (ImGui::MenuItem("Enlarge", "Z")) context.ask(Change{ZoomPicture{2.0, {0.5, 0.5}}});
   if (ImGui::MenuItem("Whole picture", nullptr, false, look.zoom > 1.0))
     context.ask(Change{ZoomPictureTo{1.0}});

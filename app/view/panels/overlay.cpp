@@ -54,9 +54,15 @@ struct Overlay {
         line(p + way * (side * 0.3 * double(reach)), p + way * (side * double(reach)), colour);
   }
 
-  void frustum(const ScreenCamera& camera) const {
-    for (const auto& [from, to] : frustum_edges(context.shown.live.map))
-      if (const auto seen = camera.project(from, to)) line(seen->first, seen->second, sun);
+  void edges(const ScreenCamera& camera, const std::vector<std::pair<Vec3, Vec3>>& all, ImU32 colour) const {
+    for (const auto& [from, to] : all)
+      if (const auto seen = camera.project(from, to)) line(seen->first, seen->second, colour);
+  }
+
+  /// What the maps cover, and what the camera sees for which they were laid, where it is frozen.
+  void layout_of_maps(const ScreenCamera& camera) const {
+    edges(camera, frustum_edges(context.shown.live.map), sun);
+    if (const auto& corners = context.shown.live.map_camera) edges(camera, box_edges(*corners), white);
   }
 
   void handle(const ScreenCamera& camera) const {
@@ -78,7 +84,7 @@ struct Overlay {
     draw.PushClipRect(at(part.x, part.y), at(part.x + part.width, part.y + part.height), true);
     if (shown.picture != Picture::depth) {
       const ScreenCamera camera{posed_camera(context.state), place};
-      if (shown.picture == Picture::texels) frustum(camera);
+      if (shown.picture == Picture::texels || context.shown.live.map_camera) layout_of_maps(camera);
       if (const auto& probe = context.state.look.probe)
         cross(place, {(probe->x + 0.5) / size.width, (probe->y + 0.5) / size.height}, white, 0.9f * em);
       if (shows_scene(shown.picture)) handle(camera);

@@ -149,9 +149,8 @@ void light_space_drawing(const PanelContext& context, const LightSpace& space, c
   draw.PopClipRect();
   ImGui::Dummy({side, side});
   faint(
-      "The same from the light: dark texels shadow the receiver's plane at their centre, grey ones would "
-      "without the "
-      "constant bias, bright ones do not; dots: pixels beside it.");
+      "The map around it, seen from the light: dark texels shadow this surface, grey ones only without the "
+      "constant bias, bright ones never. Dots: pixels beside it.");
 }
 
 }  // namespace

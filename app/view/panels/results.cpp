@@ -70,7 +70,7 @@ void budget(const PanelContext& context, const LightComparison& light) {
     right_aligned(
         fmt::format("{} ({})", compare::percent(step.absolute_mean), signed_percent(step.signed_mean)));
   }
-  faint("How much each step changes the light, on the mean (and which way: \u2212 darker).");
+  faint("What each step changes of the light, on average (\u2212: it makes it darker).");
 }
 
 void labels(const LightComparison& light) {
@@ -122,9 +122,9 @@ void results_panel(PanelContext& context) {
   wrapped(outcome->verdict.headline());
   if (!outcome->verdict.detail.empty()) faint(outcome->verdict.detail);
   if (!context.is_current()) {
-    faint("Of the setting before; the new one is being compared.");
+    faint("These are of the setting before; the new one is being compared.");
   } else if (outcome->preview) {
-    faint("At a quarter of the size; in full in a moment.");
+    faint("Of a picture a quarter as wide; the whole one follows.");
   } else {
     faint("Of the whole picture.");
   }

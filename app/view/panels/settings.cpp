@@ -261,9 +261,9 @@ void light_extent(PanelContext& context, const Light& given) {
   const double most = sun ? largest_sun : largest_lamp * (own > 0.0 ? own : 1.0);
   double size = light_size(posed_light(context.state));
   const Note note(
-      "A light with a size casts soft shadows; at 0 it is a point, and its shadows are sharp. Of the "
-      "techniques only pcss follows it: what the others miss is charged to the light's size.",
-      "None; pcss reads a wider part of the map, which needs more bias.", "None.", "--light-size");
+      "A large light casts soft shadows, one of size 0 sharp ones. Only pcss and hybrid draw them soft; what "
+      "other techniques miss counts as light size.",
+      "None; but pcss reads a wider part of the map, which needs more bias.", "None.", "--light-size");
   if (light_number("Size", note, size, 0.0, std::max(most, light_size(given)),
                    sun ? "%.2f degrees across" : "radius %.3g"))
     context.ask(Change{LightSizeTo{size}});
@@ -273,8 +273,7 @@ Note note_on_films() {
   return {
       "The camera or the lights move along a path; the space bar plays it and stops it. Every moment is a "
       "setting like any other, with its own labels.",
-      "Its pattern swims over surfaces while a light moves, and under a camera that moves where maps follow "
-      "it (csm, lispsm).",
+      "Acne swims over surfaces while the light moves; with csm and lispsm also while the camera moves.",
       "The gap at a contact grows and shrinks with the light's height.", "gnomon shimmer --path"};
 }
 
@@ -304,10 +303,10 @@ void film(PanelContext& context) {
 }
 
 Note note_on_place(const char* options) {
-  return {
-      "Where the light is.",
-      "The more the light grazes a surface, the more depth lies within a texel, and the more bias it needs.",
-      "Under grazing light the same bias moves a shadow farther along the surface.", options};
+  return {"Where the light is.",
+          "The flatter the light falls, the more depth a texel spans, and the more bias it takes.",
+          "The flatter the light falls, the farther the same bias moves a shadow along the surface.",
+          options};
 }
 
 /// A sun that was put elsewhere by hand stands there at no hour.
@@ -364,8 +363,7 @@ void precision(PanelContext& context) {
   const Note note(
       "What the truth is computed with: fast is float, robust has error bounds, exact has no rounding at "
       "all.",
-      "Not the map's. Rays that round start on the wrong side of their own surface, which is acne of the "
-      "truth.",
+      "None of the map. But rays that round can start inside their own surface: then the truth has acne.",
       "None.", "--precision");
   ImGui::TextUnformatted("Arithmetic of the rays");
   note.of_name();

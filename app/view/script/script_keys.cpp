@@ -45,6 +45,12 @@ Expected<Change> play(const Values& values) {
   return Change{PlayFilm{values[0] == "on"}};
 }
 
+Expected<Change> freeze(const Values& values) {
+  if (values[0] != "on" && values[0] != "off")
+    return fail(ErrorKind::usage, fmt::format("neither (got {}, allowed on, off)", values[0]));
+  return Change{FreezeMaps{values[0] == "on"}};
+}
+
 Expected<Change> orbit(const Values& values) {
   const Expected<double> azimuth = parse_number(values[0], azimuth_range);
   if (!azimuth) return fail(azimuth.error());
@@ -98,6 +104,7 @@ constexpr ScriptKey keys[] = {
     {"light-size", 1, "set light-size S", number<LightSizeTo, size_range>},
     {"film-time", 1, "set film-time SECONDS", number<FilmTo, film_range>},
     {"film-play", 1, "set film-play on|off", play},
+    {"freeze-maps", 1, "set freeze-maps on|off", freeze},
     {"time-of-day", 1, "set time-of-day HOURS", number<SunHour, hour_range>},
     {"camera-orbit", 2, "set camera-orbit AZIMUTH ELEVATION", orbit},
     {"camera-distance", 1, "set camera-distance D", number<DistanceTo, distance_range>},

@@ -98,6 +98,8 @@ std::optional<Change> map_change(int key, bool coarse) {
       return NextCull{};
     case GLFW_KEY_L:
       return NextLight{};
+    case GLFW_KEY_F:
+      return FreezeMaps{};
     case GLFW_KEY_R:
       return Reset{};
     default:
@@ -329,6 +331,7 @@ constexpr KeyHelp map_keys[] = {{"-  =", "bias"},
                                 {",  .", "map size"},
                                 {"D  K", "depth format, cull"},
                                 {"F6 to F9", "show acne, peter-panning, aliasing, a leak"},
+                                {"F", "freeze the map's camera, fly around it"},
                                 {"ctrl+B", "search the best setting for this scene"},
                                 {"R", "as at the start"}};
 constexpr KeyHelp file_keys[] = {{"P, F12", "screenshot"},

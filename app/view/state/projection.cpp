@@ -83,16 +83,22 @@ Change drag_handle(const ViewState& state, const LightHandle& handle, const Scre
                      to.elevation_degrees - from.elevation_degrees};
 }
 
+std::vector<std::pair<Vec3, Vec3>> box_edges(const std::array<Vec3, 8>& corners) {
+  std::vector<std::pair<Vec3, Vec3>> edges;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t next = (i + 1) % 4;
+    edges.emplace_back(corners[i], corners[i + 4]);
+    edges.emplace_back(corners[i], corners[next]);
+    edges.emplace_back(corners[i + 4], corners[next + 4]);
+  }
+  return edges;
+}
+
 std::vector<std::pair<Vec3, Vec3>> frustum_edges(const LightView& view) {
   std::vector<std::pair<Vec3, Vec3>> edges;
   for (int f = 0; f < view.face_count; ++f) {
-    const std::array<Vec3, 8> corners = face_corners(view, f);
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t next = (i + 1) % 4;
-      edges.emplace_back(corners[i], corners[i + 4]);
-      edges.emplace_back(corners[i], corners[next]);
-      edges.emplace_back(corners[i + 4], corners[next + 4]);
-    }
+    const auto of_face = box_edges(face_corners(view, f));
+    edges.insert(edges.end(), of_face.begin(), of_face.end());
   }
   return edges;
 }

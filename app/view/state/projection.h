@@ -2,6 +2,7 @@
 // window.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -36,6 +37,8 @@ LightHandle light_handle(const ViewState& state);
 /// dome, on the side that faces the eye.
 Change drag_handle(const ViewState& state, const LightHandle& handle, const ScreenCamera& camera, Vec2 pixel);
 
+/// The twelve edges of a box or a frustum, by its corners as face_corners has them.
+std::vector<std::pair<Vec3, Vec3>> box_edges(const std::array<Vec3, 8>& corners);
 /// The edges of what the map covers, face by face: lines in the world.
 std::vector<std::pair<Vec3, Vec3>> frustum_edges(const LightView& view);
 

@@ -156,6 +156,11 @@ struct SetupChange {
   }
   void operator()(const SetMap& c) const { s.setup.map = c.map; }
   void operator()(const SetPrecision& c) const { s.setup.precision = c.precision; }
+  void operator()(const FreezeMaps& c) const {
+    std::optional<Camera>& frozen = s.setup.map_camera;
+    const bool on = c.on.value_or(!frozen);
+    if (on != frozen.has_value()) frozen = on ? std::optional(posed_camera(s)) : std::nullopt;
+  }
   void operator()(const PanBy& c) const {
     const Camera camera = posed_camera(s);
     const Vec3 forward = glm::normalize(camera.target - camera.eye);

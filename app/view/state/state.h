@@ -35,6 +35,7 @@ struct Setup {
   std::optional<CameraPose> camera;              ///< none: as the file has it, to the last bit
   std::vector<std::optional<LightPose>> lights;  ///< as the scene's
   std::uint32_t light = 0;                       ///< the one that is compared and turned
+  std::optional<Camera> map_camera{};            ///< what maps are laid for; none: the view's own camera
   raster::MapOptions map;
   raytrace::Precision precision = raytrace::Precision::robust;  ///< of the rays
   ImageSize size{1280, 720};                                    ///< pixels of the picture
@@ -120,6 +121,10 @@ struct SetMap {
 };  ///< all of them; checked (raster::check_map_options)
 struct SetPrecision {
   raytrace::Precision precision;
+};
+/// Maps stay laid for the camera as it stands now, while it flies on; off: they follow it again.
+struct FreezeMaps {
+  std::optional<bool> on{};  ///< none: the other
 };
 struct Resize {
   ImageSize size;
@@ -225,10 +230,10 @@ using Change =
     std::variant<Show, ShowPrevious, OrbitBy, OrbitTo, ZoomBy, DistanceTo, HeightTo, TurnLightBy,
                  LightAzimuthTo, LightElevationTo, NextLight, PickLight, StepBias, StepSlopeBias,
                  StepNormalOffset, DoubleMap, HalveMap, NextDepthFormat, NextCull, SetMapOption, SetMap,
-                 SetPrecision, Resize, Reset, PanBy, TargetTo, LightDistanceTo, PlaceLamp, LightSizeTo,
-                 PickFilm, FilmTo, FilmGoesOn, SunHour, PlayFilm, TogglePlay, SetLayout, NextLayout, SetTheme,
-                 NextTheme, SetUiScale, ScaleUi, SetFlag, ToggleFlag, SwipeTo, SwipeBy, SetPane, ZoomPicture,
-                 ZoomPictureTo, MovePicture, StepPicture, ProbePixel, MoveProbe>;
+                 SetPrecision, FreezeMaps, Resize, Reset, PanBy, TargetTo, LightDistanceTo, PlaceLamp,
+                 LightSizeTo, PickFilm, FilmTo, FilmGoesOn, SunHour, PlayFilm, TogglePlay, SetLayout,
+                 NextLayout, SetTheme, NextTheme, SetUiScale, ScaleUi, SetFlag, ToggleFlag, SwipeTo, SwipeBy,
+                 SetPane, ZoomPicture, ZoomPictureTo, MovePicture, StepPicture, ProbePixel, MoveProbe>;
 
 void carry_out(ViewState& state, const Change& change);
 

@@ -90,6 +90,7 @@ std::string status_line(const ViewState& state, const Readings& readings, const 
   if (state.given.lights.size() > 1) text += fmt::format(" | {}", state.light_name());
   text += fmt::format(" | {} {}² | {}", raster::technique_name(state.setup.map.technique),
                       state.setup.map.size, bias_words(state.setup.map.bias, readings));
+  if (state.setup.map_camera) text += " | map's camera frozen";
   return text + fmt::format(" | live {} | {}", compare::milliseconds(readings.raster_ms),
                             compared_words(readings.compared));
 }

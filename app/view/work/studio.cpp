@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compare/result/layout.h"
 #include "compare/result/outputs.h"
 #include "scene/base/timing.h"
 #include "scene/exposure.h"
@@ -46,6 +47,9 @@ Expected<raster::RasterFrame> Studio::render(const Setup& setup, ImageSize size,
   options.runs = runs;
   options.analysis = analysis;
   const std::vector<std::uint32_t> lights{setup.light};
+  std::optional<raster::MapCamera> frozen;
+  if (setup.map_camera) frozen = raster::MapCamera{.camera = *setup.map_camera};
+  raster::set_map_camera(*renderer_, frozen);
   return renderer_->render(options, lights);
 }
 
@@ -61,6 +65,9 @@ Expected<void> Studio::draw(const DrawOrder& order) {
   live_.camera = loaded_->scene->camera;
   live_.light = loaded_->scene->lights[order.setup.light];
   live_.map = record.map.view;
+  live_.map_camera.reset();
+  if (const auto& frozen = order.setup.map_camera)
+    live_.map_camera = compare::camera_corners(*loaded_->world, *frozen, order.setup.size);
   live_.bias_world = record.bias_constant_world;
   live_.texel_world = raster::texel_world(record.map.view, *loaded_->world);
   live_color_ = std::move(frame->color);

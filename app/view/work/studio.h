@@ -3,6 +3,7 @@
 // window: any OpenGL context will do. All pictures but those of map_pictures.h are made by compare's own code.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -28,6 +29,8 @@ struct LivePicture {
   Camera camera;
   Light light;
   LightView map;  ///< of the light that is compared
+  /// Corners of what the frozen camera sees, in the order of face_corners; none: it is the view's own.
+  std::optional<std::array<Vec3, 8>> map_camera;
   double bias_world = 0.0, texel_world = 0.0;
   double raster_ms = 0.0;  ///< with reading it back
 };

@@ -350,9 +350,11 @@ Expected<LoadedFile> build(GltfDocument& document, GltfData& data, const LoadOpt
   GltfMeshReader meshes(document.model, data, *sets, default_material, file);
   SceneBuilder builder(loaded, document, data, extras, meshes);
   if (const auto built = builder.run(); !built) return fail(built.error());
-  if (options.paths == nullptr && !gltf_list(document.json.root, "animations").empty())
+  if (options.paths == nullptr && options.animation.empty() &&
+      !gltf_list(document.json.root, "animations").empty())
     loaded.scene.notes.push_back(
-        "Animations are not played: everything is shown in the pose that it is stored in. gnomon shimmer "
+        "Animations are not played: all stands as it is stored. --time SECONDS shows a moment, gnomon "
+        "shimmer "
         "plays them.");
   if (options.paths != nullptr) {
     auto paths = read_gltf_paths(document, data, builder.carried(), loaded.scene);
