@@ -8,6 +8,7 @@ extends Node
 var settings = {
 	"scene": "", "output": "", "size": "320x180", "light": "0", "stay": "0",
 	"mode": "orthogonal",  # orthogonal, pssm2, pssm4 of suns; cube, paraboloid of point lights
+	"blend": "0",  # 1: splits of a sun blend
 	"bias": "0.1", "normal_bias": "0", "contact": "0", "max_distance": "0", "ambient": "0",
 	"map_size": "2048", "filter": "0",  # 0: none, 1: PCF 5, 2: PCF 13
 }
@@ -172,6 +173,7 @@ func make_light(description):
 	if description["type"] == "directional":
 		light = DirectionalLight.new()
 		light.directional_shadow_mode = {"orthogonal": 0, "pssm2": 1, "pssm4": 2}[settings["mode"]]
+		light.directional_shadow_blend_splits = settings["blend"] != "0"
 		light.directional_shadow_max_distance = float(settings["max_distance"])
 		light.directional_shadow_normal_bias = float(settings["normal_bias"])
 	elif description["type"] == "spot":

@@ -136,6 +136,14 @@ class Godot(unittest.TestCase):
         self.assertGreater(len(capture["map"]), 1)
         self.assertEqual({layer["select"]["by"] for layer in capture["map"]}, {"view_z"})
 
+    def test_cascades_that_blend_are_found_with_the_width_of_the_blend(self):
+        capture, result = judged(frame("pssm4-blend", scene(), mode="pssm4", blend=1))
+        # The rest are soft edges of two layers at once, which the filter explains.
+        self.check(result, 0.998)
+        blends = [layer["select"]["blend"] for layer in capture["map"] if "blend" in layer["select"]]
+        self.assertEqual(len(blends), 1)  # of the other layers no shadow is seen where they blend
+        self.assertAlmostEqual(blends[0], 3.08, delta=0.05)
+
     def test_a_spot_is_judged_from_its_own_apex(self):
         capture, result = judged(frame("spot", scene("spot")))
         self.check(result)

@@ -17,7 +17,7 @@ except ImportError:
 
 ADAPTER = os.path.abspath(sys.argv.pop(1))
 sys.path.insert(0, ADAPTER)
-from gnomon_frame import conventions, extract, files, fit, formats, lookup, pairing, passes, reader, spirv, stand_ins  # noqa: E402
+from gnomon_frame import capture, conventions, extract, files, fit, formats, lookup, pairing, passes, reader, spirv, stand_ins  # noqa: E402
 
 ARITHMETIC = 2e-6  # positions are kept as 32-bit floats
 CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
@@ -250,6 +250,37 @@ class Lookup(unittest.TestCase):
         self.assertEqual(selection.share, 0)
         self.assertTrue(((chosen == layer) | (layer == 3)).all())
 
+    def blended(self, start, limit, noise=0.0):
+        """Two layers that say one thing and the other, the picture a mix of both from `start` to `limit`."""
+        depth = self.random.uniform(1, 40, 20000)
+        answers = [self.random.uniform(-1, 1, len(depth)) for _ in range(2)]
+        share = np.clip((depth - start) / (limit - start), 0, 1)
+        lit = [(a >= 0).astype(float) for a in answers]
+        picture = np.clip((1 - share) * lit[0] + share * lit[1] + self.random.uniform(-noise, noise, len(depth)), 0, 1)
+        margins = [lookup.Margins(a, np.ones(len(depth), bool), None, None) for a in answers]
+        sure = (picture < lookup.SURE) | (picture > 1 - lookup.SURE)
+        kept = [lookup.Margins(m.values[sure], m.inside[sure], None, None) for m in margins]
+        selection, _ = lookup.choose_layers(kept, picture[sure] > 0.5, {"view_z": depth[sure]})
+        answers = [lookup.Answer(one, m.inside) for one, m in zip(lit, margins)]
+        return (*lookup.find_blends(answers, picture, depth, selection), depth)
+
+    def test_cascades_that_blend_tell_where_and_over_how_much(self):
+        selection, mixed, depth = self.blended(15.0, 20.0, 0.01)
+        self.assertEqual(selection.by, "view_z")
+        self.assertAlmostEqual(selection.limits[0], 20.0, delta=0.1)
+        self.assertAlmostEqual(selection.blends[0], 5.0, delta=0.1)
+        self.assertTrue(((depth[mixed] > 14.9) & (depth[mixed] < 20.1)).all())
+        said = capture._select(selection, 0, 2)["select"]
+        self.assertEqual((said["near"], said["far"], said["blend"]), (0.0, selection.limits[0], selection.blends[0]))
+        self.assertNotIn("blend", capture._select(selection, 1, 2).get("select", {}))
+
+    def test_cascades_that_end_at_once_and_edges_of_a_filter_are_no_blend(self):
+        self.assertEqual(self.blended(19.9999, 20.0)[0].blends, ())
+        depth = self.random.uniform(1, 40, 20000)
+        answers = [lookup.Answer(self.random.integers(0, 2, len(depth)).astype(float), np.ones(len(depth), bool)) for _ in range(2)]
+        selection = lookup.Selection("view_z", (20.0, 40.0), 0.0)
+        self.assertEqual(lookup.find_blends(answers, self.random.uniform(size=len(depth)), depth, selection)[0].blends, ())
+
     def test_first_layer_that_holds_the_place_is_preferred(self):
         depth = self.random.uniform(1, 40, 5000)
         answers = [self.random.uniform(-1, 1, 5000) for _ in range(2)]
@@ -268,6 +299,17 @@ class Lookup(unittest.TestCase):
         self.assertEqual(lookup.margins(self.layer(texels), places).values.tolist(), [-0.5, texels[2, 3] - 0.5, 1.0])
         top_first = self.layer(texels, conventions=conventions.DIRECT3D, reversed=True)
         self.assertEqual(lookup.margins(top_first, places).values[:2].tolist(), [0.5 - texels[3, 0], 0.5 - texels[1, 3]])
+
+    def test_answer_of_a_layer_is_one_comparison_or_four_weighed(self):
+        texels = np.ones((4, 4))
+        texels[:, :2] = 0  # shadows its left half
+        layer = self.layer(texels)
+        layer.constant = 0.0
+        places = np.c_[[-0.3, 0.1, 0.4, 3.0], np.zeros(4), np.full(4, 0.5)]
+        self.assertEqual(lookup.answer(layer, places, False).light.tolist(), [0, 1, 1, 1])
+        np.testing.assert_allclose(lookup.answer(layer, places, True).light, [0, 0.7, 1, 1], atol=1e-12)
+        layer.constant = 0.6
+        self.assertEqual(lookup.answer(layer, places, False).light.tolist(), [1, 1, 1, 1])
 
     def test_radius_of_a_filter_is_found(self):
         texels = np.ones((64, 64))

@@ -49,8 +49,11 @@ def _shapes(view, layers):
 def _select(selection, k, count):
     if selection.by == "first":
         return {}
-    limits = (0.0, *selection.limits)
-    return {"select": {"near": limits[k], "far": limits[k + 1], "by": selection.by}} if limits[k + 1] > limits[k] else {}
+    limits, blends = (0.0, *selection.limits), selection.blends or (0.0,) * count
+    if not limits[k + 1] > limits[k]:
+        return {}
+    blend = {"blend": min(blends[k], limits[k + 1] - limits[k])} if blends[k] > 0 else {}
+    return {"select": {"near": limits[k], "far": limits[k + 1], "by": selection.by, **blend}}
 
 
 def _layer(folder, texture, k, layer, test, count):

@@ -307,6 +307,14 @@ class Test:
     exponent: lookup.Exponent | None  # of an exponential map
 
 
+def _is_looked_up_in(selection, k, distance):
+    """Whether a place of this distance from the camera is looked up in layer k alone; of layers without distances all are in the first."""
+    if selection.by == "first":
+        return k == 0
+    limits, blends = (0.0, *selection.limits), selection.blends or (0.0,) * len(selection.limits)
+    return (distance > limits[k]) & (distance < limits[k + 1] - blends[k])
+
+
 def find_test(found, layers, pixels, numbers, exponent):
     """The choice of cascades, the reader's own bias and the filter's reach, found from the picture."""
     if layers[0].matrix is None:
@@ -326,10 +334,19 @@ def find_test(found, layers, pixels, numbers, exponent):
         if exponent is None:  # whose soft shadows have no threshold
             layer.constant, _, _ = lookup.best_constant(margins[k].values[mine], lit[mine], numbers)
         right[mine] = (margins[k].values[mine] + layer.constant >= 0) == lit[mine]
-    partly = 1 - float(sure.mean()) if len(sure) else 0.0
-    radius = None
+    blended, distance = np.zeros(len(value), bool), None
+    bilinear = "compare" in found.sampler and "linear" in found.sampler
+    if selection.by != "first":
+        answers = [lookup.answer(layer, places, bilinear) for layer in layers]
+        distance = {"view_z": -places[:, 2], "distance": np.linalg.norm(places, axis=1)}[selection.by]
+        selection, blended = lookup.find_blends(answers, value, distance, selection)
+    unsure = ~sure & ~blended
+    partly = float(unsure.mean()) if len(sure) else 0.0
+    # Where layers blend their own soft edges are partly lit by that as well: the sampler says that it reads four texels.
+    radius = 1.0 if bilinear and blended.any() else None
     if partly > 2e-3:
-        reach = lookup.filter_radius(layers[0], places[~sure])
-        radius = None if reach is None else float(reach) if "compare" in found.sampler and "linear" in found.sampler else reach + 0.5
+        reaches = (lookup.filter_radius(layer, places[unsure & _is_looked_up_in(selection, k, distance)]) for k, layer in enumerate(layers))
+        reach = next((reach for reach in reaches if reach is not None), None)
+        radius = radius if reach is None else float(reach) if bilinear else reach + 0.5
     agreement = None if exponent else float(right.mean()) if len(right) else 1.0
     return Test(selection, agreement, 1 - before, partly, radius, exponent)

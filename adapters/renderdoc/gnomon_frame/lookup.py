@@ -3,11 +3,14 @@
 Margins are stored numbers, positive where the place is lit: what the texel holds minus the place's depth, or, where depths are
 reversed, the other way round. They are what the picture is held against to find how the frame was drawn.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 SURE = 0.02  # a pixel so near to lit or shadowed was decided by one comparison
+CLEARLY = 0.3  # layers that differ by more tell what a picture has of each
+BLENDED = 0.05  # shares of a blend from here to 1 less this are held against the distance
+FEW = 15  # places, too few to tell a law by
 NOISE = 1e-3  # of the pixels: on borders of texels, arithmetic decides
 
 
@@ -68,6 +71,7 @@ class Selection:
     by: str
     limits: tuple
     share: float  # pixels that it decides otherwise than the picture
+    blends: tuple = ()  # world units before each limit over which the next layer takes over; empty: 0 at all
 
 
 def _first(all_margins):
@@ -117,6 +121,52 @@ def choose_layers(all_margins, lit, keys, numbers=()):
         if share < best.share - 0.2 * NOISE:
             best, chosen = Selection(by, ends, share), index
     return best, chosen
+
+
+@dataclass
+class Answer:
+    """What one layer's test makes of each place."""
+
+    light: np.ndarray  # 0 shadowed, 1 lit
+    inside: np.ndarray
+
+
+def answer(layer, positions, bilinear):
+    """The layer's own test with its constant: one comparison, or the four nearest, weighed by how near they are."""
+    column, row, depth, inside = texel_places(layer, positions)
+    rows, columns = layer.texels.shape
+
+    def lit(i, j):
+        stored = layer.texels[np.clip(j, 0, rows - 1).astype(int), np.clip(i, 0, columns - 1).astype(int)]
+        return ((depth - stored if layer.state.reversed else stored - depth) + layer.constant >= 0).astype(float)
+
+    column, row = np.where(inside, column, 0), np.where(inside, row, 0)
+    if not bilinear:
+        return Answer(np.where(inside, lit(np.floor(column), np.floor(row)), 1.0), inside)
+    i, j = np.floor(column - 0.5), np.floor(row - 0.5)
+    x, y = column - 0.5 - i, row - 0.5 - j
+    light = (1 - y) * ((1 - x) * lit(i, j) + x * lit(i + 1, j)) + y * ((1 - x) * lit(i, j + 1) + x * lit(i + 1, j + 1))
+    return Answer(np.where(inside, light, 1.0), inside)
+
+
+def find_blends(answers, visibility, key, selection):
+    """(the selection with the width of each blend and where it ends, which places it leaves partly lit). Where two layers differ the
+    picture says how much of it is the next one's, which of a blend grows evenly along the key."""
+    limits, blends, mixed = list(selection.limits), [0.0] * len(selection.limits), np.zeros(len(visibility), bool)
+    for k in range(min(len(limits), len(answers) - 1)):
+        here, after = answers[k], answers[k + 1]
+        differ = here.inside & after.inside & (np.abs(after.light - here.light) > CLEARLY)
+        differ &= (key > (limits[k - 1] if k else 0)) & (key < (selection.limits[k + 1] if k + 1 < len(limits) else np.inf))
+        share = np.where(differ, (visibility - here.light) / np.where(differ, after.light - here.light, 1), 0)
+        partly = differ & (share > BLENDED) & (share < 1 - BLENDED)
+        if partly.sum() < FEW or np.ptp(key[partly]) == 0:
+            continue
+        rise, at_zero = np.polyfit(key[partly], share[partly], 1)
+        if rise <= 0 or np.corrcoef(key[partly], share[partly])[0, 1] ** 2 < 0.8:
+            continue  # the edges of a filter, whose shares follow no distance
+        limits[k], blends[k] = float((1 - at_zero) / rise), float(1 / rise)
+        mixed |= differ & (key > limits[k] - blends[k]) & (key < limits[k])
+    return (replace(selection, limits=tuple(limits), blends=tuple(blends)), mixed) if any(blends) else (selection, mixed)
 
 
 @dataclass(frozen=True)

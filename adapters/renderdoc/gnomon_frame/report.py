@@ -51,7 +51,8 @@ def findings(frame, found, layers, test):
     out.append(f"camera: {2 * np.degrees(np.arctan(1 / lens.fy)):.2f} degrees high, residual {lens.residual:.1e}")
     if test.selection.by != "first":
         limits = ", ".join(f"{limit:.4g}" for limit in test.selection.limits)
-        out.append(f"cascades end at {limits} world units ({test.selection.by})")
+        blends = ", ".join(f"{blend:.4g}" for blend in test.selection.blends)
+        out.append(f"cascades end at {limits} world units ({test.selection.by})" + (f" and blend over {blends} before" if blends else ""))
     if test.exponent:
         out.append(f"an exponential map of the factor {test.exponent.factor:.3g} (correlation {test.exponent.correlation:.4f}) of depths that are "
                    "blurred after the casters are drawn")
