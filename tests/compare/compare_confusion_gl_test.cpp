@@ -134,19 +134,33 @@ Case precision() {
 }
 
 // docs/design.md, section 3: the shadow starts bias * sin(theta) - width behind the wall.
-Case peter_panning() {
+Case thin_wall(const char* name, const char* words, Label cause, const raster::Bias& of_map) {
   constexpr double theta = 0.9, width = 0.05, bias = 0.3;
   Scene scene = sunlit_scene({floor_mesh(4, 4), box_mesh({-width, -0.5, -3}, {0, 1.5, 3})},
                              {std::sin(theta), -std::cos(theta), 0});
   scene.camera = {{2.5, 3.0, 1.0}, {0.4, 0, 0}, {0, 1, 0}, 0.6};
-  Compared run = run_comparison(std::move(scene), plain(1024, bias));
+  auto options = plain(1024, 0.0);
+  options.raster.map.bias = of_map;
+  Compared run = run_comparison(std::move(scene), options);
   const double texel = run.light().texel_world[1] / std::cos(theta);
   const double band = bias * std::sin(theta) - width;
-  return {"peter-panning", "a thin wall, a bias six times its width", Label::peter_panning, std::move(run),
-          [=](const raytrace::SurfacePoint& x) {
+  return {name, words, cause, std::move(run), [=](const raytrace::SurfacePoint& x) {
             return on_floor(x) && std::abs(x.position.z) < 2.5 && x.position.x > texel &&
                    x.position.x < band - texel;
           }};
+}
+
+Case peter_panning() {
+  return thin_wall("peter-panning", "a thin wall, a bias six times its width", Label::peter_panning,
+                   {.constant = 0.3, .unit = raster::BiasUnit::world});
+}
+
+Case caster_bias() {
+  return thin_wall("casters' bias", "the same with the casters' own constant", Label::caster_bias,
+                   {.constant = 0.0,
+                    .unit = raster::BiasUnit::world,
+                    .caster_constant = 0.3,
+                    .caster_unit = raster::BiasUnit::world});
 }
 
 // Two parallel sheets closer than a texel's depths: everything under the upper one is dark in truth, and
@@ -334,10 +348,10 @@ Case penumbra() {
   return small_errors(light_size(), "light size in penumbrae", "plates narrower than the sun's image");
 }
 
-constexpr std::array builders{acne,           filtered_acne, grey_acne,      precision,    peter_panning,
-                              slope_leak,     bleeding,      faint_bleeding, aliasing,     uncovered_aliasing,
-                              missed_feature, false_feature, blur,           soft_edges,   mipmap_blur,
-                              light_size,     penumbra,      outside_map,    custom_shader};
+constexpr std::array builders{
+    acne,       filtered_acne,  grey_acne,  precision,          peter_panning,  caster_bias,   slope_leak,
+    bleeding,   faint_bleeding, aliasing,   uncovered_aliasing, missed_feature, false_feature, blur,
+    soft_edges, mipmap_blur,    light_size, penumbra,           outside_map,    custom_shader};
 
 using Row = std::array<std::uint64_t, compare::class_count>;
 

@@ -28,5 +28,5 @@ gnomon_test(compare_bands_gl_test TIMEOUT 900
 
 # What a comparison is written as.
 gnomon_test(outputs_test
-  SOURCES outputs_text_test.cpp outputs_time_difference_test.cpp outputs_verdict_test.cpp outputs_json_test.cpp outputs_figures_test.cpp outputs_pictures_test.cpp outputs_flip_test.cpp
+  SOURCES outputs_text_test.cpp outputs_time_difference_test.cpp outputs_verdict_test.cpp outputs_tune_page_test.cpp outputs_json_test.cpp outputs_figures_test.cpp outputs_pictures_test.cpp outputs_flip_test.cpp
   LIBS gnomon::studies nlohmann_json::nlohmann_json OpenImageIO::OpenImageIO TBB::tbb)
