@@ -73,7 +73,7 @@ TEST(JudgeOwnTest, AContactShadowTakesNoAdviceAway) {
   spoil(engine.capture.visibility, [&](ChannelImage& image) {
     for (int y = 60; y < 80; ++y)
       for (int x = 20; x < 34; ++x) {
-        float& v = image.channels[0].values[std::size_t(y * small_picture.width + x)];
+        float& v = image.channels[0].values[small_picture.width * std::size_t(y) + std::size_t(x)];
         darkened += v > 0.5f ? 1 : 0, v = 0.0f;
       }
   });
