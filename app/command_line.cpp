@@ -175,26 +175,10 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   add_man_page(*program);
   add_manual(*program);
   program->require_subcommand(1);
-  add_compare(*program, invocation);
-  add_raster(*program, invocation);
-  add_raytrace(*program, invocation);
-  add_plan(*program, invocation);
-  add_scenes(*program, invocation);
-  add_shaders(*program, invocation);
-  add_sweep(*program, invocation);
-  add_export(*program, invocation);
-  add_merge(*program, invocation);
-  add_tune(*program, invocation);
-  add_verify(*program, invocation);
-  add_bench(*program, invocation);
-  add_shimmer(*program, invocation);
-  add_judge(*program, invocation);
-  add_grade(*program, invocation);
-  add_lessons(*program, invocation);
-  add_serve(*program, invocation);
-  add_view(*program, invocation);
-  for (const char* command : {"compare", "judge", "raster", "raytrace", "shimmer", "sweep", "tune"})
-    add_trace(*program->get_subcommand(command), invocation.trace);
+  add_commands(*program, invocation);
+  for (const std::string_view name : {"compare", "judge", "raster", "raytrace", "shimmer", "sweep", "tune"})
+    for (CLI::App* command : program->get_subcommands({}))
+      if (command->get_name() == name) add_trace(*command, invocation.trace);
   return program;
 }
 

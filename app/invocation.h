@@ -28,6 +28,9 @@ struct Invocation {
   std::map<std::string, Error> settings;
 };
 
+/// Adds the commands that there are on this platform (app/commands/all.cpp, or the platform's own list).
+void add_commands(CLI::App& program, Invocation& invocation);
+
 void add_compare(CLI::App& program, Invocation& invocation);
 void add_raster(CLI::App& program, Invocation& invocation);
 void add_raytrace(CLI::App& program, Invocation& invocation);

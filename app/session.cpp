@@ -1,7 +1,6 @@
 #include "app/session.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -16,6 +15,7 @@
 #include "raster/technique_traits.h"
 #include "raytrace/choose_tracer.h"
 #include "scene/base/option_text.h"
+#include "scene/base/parallel.h"
 #include "scene/base/stages.h"
 #include "scene/base/threads.h"
 #include "scene/base/timing.h"
@@ -189,10 +189,7 @@ void limit_threads(int threads, Console& console) {
                              startable, threads));
   }
   if (threads == 0) return;
-  // For good: when it is taken back, oneTBB starts the threads that were not allowed.
-  static const auto* kept = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                                    static_cast<std::size_t>(threads));
-  static_cast<void>(kept);
+  limit_loops(threads);
   // Mesa's llvmpipe: 0 draws on the calling thread, N > 0 on N others while the caller waits.
   setenv("LP_NUM_THREADS", threads == 1 ? "0" : std::to_string(threads).c_str(), 1);
 }

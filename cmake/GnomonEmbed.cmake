@@ -5,7 +5,7 @@
 function(gnomon_embed target space)
   set(dir "${CMAKE_CURRENT_BINARY_DIR}/embedded_${space}")
   file(MAKE_DIRECTORY "${dir}/embedded")
-  set(asm "    .section .rodata\n")
+  set(asm "    .section ${GNOMON_READ_ONLY_DATA}\n")
   set(externs "")
   set(entries "")
   set(index 0)
@@ -19,14 +19,15 @@ function(gnomon_embed target space)
       set(name "${file}")
     endif()
     set(symbol "gnomon_embedded_${space}_${index}")
-    string(APPEND asm "    .global ${symbol}\n    .balign 16\n${symbol}:\n    .incbin \"${path}\"\n"
-      "    .global ${symbol}_end\n${symbol}_end:\n    .byte 0\n")
+    string(APPEND asm "    .global ${symbol}\n    .balign 16\n    .type ${symbol}, @object\n${symbol}:\n    .incbin \"${path}\"\n"
+      "    .size ${symbol}, . - ${symbol}\n"
+      "    .global ${symbol}_end\n    .type ${symbol}_end, @object\n${symbol}_end:\n    .byte 0\n    .size ${symbol}_end, 1\n")
     string(APPEND externs "extern \"C\" const char ${symbol}[]; extern \"C\" const char ${symbol}_end[];\n")
     string(APPEND entries "    Entry{\"${name}\", std::string_view(${symbol}, static_cast<std::size_t>(${symbol}_end - ${symbol}))},\n")
     list(APPEND depends "${path}")
     math(EXPR index "${index} + 1")
   endforeach()
-  string(APPEND asm "    .section .note.GNU-stack,\"\",@progbits\n")
+  string(APPEND asm "${GNOMON_STACK_NOTE}")
   file(CONFIGURE OUTPUT "${dir}/${space}.S" CONTENT "${asm}" @ONLY)
   set_source_files_properties("${dir}/${space}.S" PROPERTIES OBJECT_DEPENDS "${depends}")
   file(CONFIGURE OUTPUT "${dir}/embedded/${space}.h" @ONLY CONTENT

@@ -9,4 +9,4 @@ target_sources(gnomon_app PRIVATE
   view/panels/probe.cpp view/panels/results.cpp view/panels/settings.cpp view/panels/status_bar.cpp)
 # The backends' headers name imgui.h alone.
 set_source_files_properties(view/window/interface.cpp PROPERTIES INCLUDE_DIRECTORIES "${IMGUI_INCLUDE_DIRS}")
-target_link_libraries(gnomon_app PRIVATE ${IMGUI_LINK_LIBRARIES})
+target_link_libraries(gnomon_app PRIVATE ${IMGUI_LINK_LIBRARIES} glfw TBB::tbb Threads::Threads)

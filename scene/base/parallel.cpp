@@ -61,4 +61,11 @@ int threads_in_use() {
   return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
+void limit_loops(int threads) {
+  // For good: when it is taken back, oneTBB starts the threads that were not allowed.
+  static const auto* kept = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                                    static_cast<std::size_t>(threads));
+  static_cast<void>(kept);
+}
+
 }  // namespace gnomon

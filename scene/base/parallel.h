@@ -1,5 +1,6 @@
 // Loops over all threads. oneTBB does the work, in parallel.cpp alone: its headers take seconds to compile in every file
-// that includes them, and a loop written with them as long again.
+// that includes them, and a loop written with them as long again. A page has one thread
+// (cmake/platform/web/one_thread.cpp).
 #pragma once
 
 #include <algorithm>
@@ -149,6 +150,19 @@ bool is_given_up();
 int threads_for_loops();
 /// Returns the threads of the whole program, as --threads limits them.
 int threads_in_use();
+/// Loops have at most so many threads from here on; the first call holds.
+void limit_loops(int threads);
+
+/// As std::sort(), in halves on all threads, whose sorted halves are merged.
+template <class Value, class Less>
+void parallel_sort(std::span<Value> values, const Less& less) {
+  constexpr std::size_t at_a_time = 16384;
+  if (values.size() <= at_a_time) return std::sort(values.begin(), values.end(), less);
+  const std::size_t half = values.size() / 2;
+  parallel_invoke([&] { parallel_sort(values.first(half), less); },
+                  [&] { parallel_sort(values.subspan(half), less); });
+  std::inplace_merge(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half), values.end(), less);
+}
 
 // Long lists of plain numbers in ascending order, by Highway's vectorised quicksort (Blacher, Giesen, Kühne 2022,
 // "Vectorized and performance-portable Quicksort"): one thread is there before two are with std::sort. Floats are sorted

@@ -1,7 +1,5 @@
 #include "scene/base/parallel.h"
 
-#include <hwy/contrib/sort/vqsort.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -30,11 +28,6 @@ void sort_numbers(std::span<float> values) {
   std::transform(values.begin(), end, keys.begin(), key_of);
   sort_numbers(std::span(keys));
   std::transform(keys.begin(), keys.end(), values.begin(), value_of);
-}
-
-void sort_numbers(std::span<std::uint64_t> values) {
-  const hwy::Sorter sort;
-  sort(values.data(), values.size(), hwy::SortAscending());
 }
 
 }  // namespace gnomon

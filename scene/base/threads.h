@@ -13,6 +13,8 @@ namespace gnomon {
 
 /// How many more threads the system lets this process start, up to `wanted`: they are started, and ended again.
 int startable_threads(int wanted);
+/// How in_background() runs its work: at once on a thread of its own where the platform has threads.
+std::launch background_launch();
 
 /// The words for an error: "`what` needs N more threads, and ...".
 inline constexpr const char* thread_limit_words = "a limit on processes, ulimit -u";
@@ -47,7 +49,7 @@ auto in_background(Work work) {
   // By a pointer: libstdc++'s async() has moved its function away when it finds that no thread can be started, and then
   // takes what is left for the function to call.
   const auto kept = std::make_shared<Work>(std::move(work));
-  return std::async(std::launch::async | std::launch::deferred, [kept] { return (*kept)(); });
+  return std::async(background_launch(), [kept] { return (*kept)(); });
 }
 
 }  // namespace gnomon

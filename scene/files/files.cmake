@@ -1,8 +1,8 @@
 # The loaders, and everything that reads or writes a file.
 target_sources(gnomon_scene PRIVATE
   texture_sample.cpp files/pictures/apng.cpp files/encodings.cpp files/foreign.cpp files/defaults.cpp files/gltf/gltf_accessor.cpp
-  files/gltf/gltf_container.cpp files/gltf/gltf_data.cpp files/gltf/gltf_draco.cpp files/gltf/gltf_meshes.cpp files/gltf/gltf_meshopt.cpp
-  files/gltf/gltf_transforms.cpp files/gltf/gltf_writer_meshes.cpp files/pictures/image_io.cpp files/pictures/image_library.cpp files/interior.cpp
+  files/gltf/gltf_container.cpp files/gltf/gltf_data.cpp files/gltf/gltf_meshes.cpp files/gltf/gltf_meshopt.cpp
+  files/gltf/gltf_transforms.cpp files/gltf/gltf_writer_meshes.cpp files/pictures/image_io.cpp files/interior.cpp
   files/pictures/png_encode.cpp files/mapped_file.cpp files/merge.cpp files/obj/obj.cpp files/obj/obj_text.cpp
   files/ply/ply.cpp files/ply/ply_regular.cpp files/pictures/jpeg_decode.cpp files/pictures/png_decode.cpp files/polygon.cpp files/read_file.cpp
   files/row_file.cpp files/validate.cpp)
@@ -14,9 +14,10 @@ gnomon_untimed(scene
   files/load.cpp files/material_notes.cpp files/obj/mtl.cpp files/obj/obj_materials.cpp files/obj/obj_textures.cpp files/path_keys.cpp files/path_status.cpp files/ply/ply_header.cpp
   files/publication.cpp files/shadow_variants.cpp files/staged_folder.cpp files/pictures/exr_file.cpp files/write_file.cpp
   LIBRARIES glm::glm tl::expected fmt::fmt nlohmann_json::nlohmann_json)
-target_link_libraries(gnomon_scene PRIVATE nlohmann_json::nlohmann_json PNG::PNG libdeflate ${TURBOJPEG_LIBRARY} ${NETTLE_LIBRARY} TBB::tbb ${CMAKE_DL_LIBS})
-# The headers of both lie where the compiler looks.
-target_link_libraries(gnomon_scene PRIVATE $<LINK_ONLY:draco::draco> $<LINK_ONLY:meshoptimizer::meshoptimizer>)
+target_link_libraries(gnomon_scene PRIVATE nlohmann_json::nlohmann_json PNG::PNG libdeflate ${TURBOJPEG_LIBRARY} ${NETTLE_LIBRARY} ${GNOMON_SCENE_LIBRARIES})
+if(NOT GNOMON_PLATFORM STREQUAL native)
+  return()
+endif()
 
 # OpenImageIO, loaded when an image file is read or an EXR written (scene/files/pictures/image_library.h).
 add_library(gnomon_images MODULE files/pictures/image_module.cpp)

@@ -1,7 +1,5 @@
 #include "studies/sweep/bias_axis.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -69,7 +67,7 @@ class BiasAxis {
       spans_.insert(spans_.end(), share.spans.begin(), share.spans.end());
     }
     for (std::size_t i = 1; i < totals_.size(); ++i) totals_[i].add(totals_[i - 1]);
-    tbb::parallel_sort(gaps_, [](const Gap& a, const Gap& b) {
+    parallel_sort(std::span(gaps_), [](const Gap& a, const Gap& b) {
       return a.pixel != b.pixel ? a.pixel < b.pixel : a.from < b.from;
     });
   }

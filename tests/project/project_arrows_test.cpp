@@ -58,8 +58,7 @@ bool may_use_opengl(std::string_view path) {
 /// Loops over all threads are those of scene/base/parallel.h: oneTBB's headers take seconds to compile. What else there is of it,
 /// a sort, a limit and an observer of threads, is used where it is needed.
 bool may_use_tbb(std::string_view path) {
-  constexpr std::string_view files[] = {"scene/base/parallel.cpp", "studies/sweep/bias_axis.cpp",
-                                        "app/session.cpp", "app/view/work/priority.cpp"};
+  constexpr std::string_view files[] = {"scene/base/parallel.cpp", "app/view/work/priority.cpp"};
   return path.starts_with("tests/") || std::find(std::begin(files), std::end(files), path) != std::end(files);
 }
 

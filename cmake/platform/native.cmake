@@ -1,4 +1,19 @@
-# Every library that the program is built from, all of them Debian packages (the list is in ./gnomon).
+# The program for Linux: every library that it is built from, all of them Debian packages (the list is in ./gnomon), and the
+# files of each room that another platform has others for (web.cmake).
+set(GNOMON_READ_ONLY_DATA ".rodata")  # the section of embedded files
+set(GNOMON_STACK_NOTE "    .section .note.GNU-stack,\"\",@progbits\n")  # of assembler files: no stack that can be executed
+set(GNOMON_SCENE_PLATFORM
+  base/parallel.cpp base/run_program.cpp base/sort_keys.cpp base/start_threads.cpp files/gltf/gltf_draco.cpp
+  files/pictures/image_library.cpp)
+set(GNOMON_RASTER_PLATFORM gl/context.cpp gl/context_egl.cpp gl/context_osmesa.cpp gl/dynamic_library.cpp)
+set(GNOMON_STUDIES_PLATFORM  # grade runs students' programs
+  grade/alike.cpp grade/check_runs.cpp grade/excerpt.cpp grade/figures.cpp grade/grade.cpp grade/kits.cpp grade/limited_process.cpp grade/mistakes.cpp
+  grade/page.cpp grade/page_name.cpp grade/results.cpp grade/rubric.cpp grade/student.cpp)
+set(GNOMON_APP_PLATFORM
+  commands/all.cpp commands/bench.cpp commands/grade.cpp commands/serve.cpp commands/verify.cpp commands/view.cpp options/lab_options.cpp)
+set(GNOMON_APP_ROOMS gnomon::benchmark gnomon::verify)  # beside those that every platform has
+set(GNOMON_PROGRAM_PLATFORM main.cpp process/thread_start.cpp process/out_of_memory.cpp)
+
 find_package(glm REQUIRED)
 find_package(tl-expected REQUIRED)
 find_package(fmt REQUIRED)
@@ -52,3 +67,9 @@ foreach(property INTERFACE_INCLUDE_DIRECTORIES INTERFACE_SYSTEM_INCLUDE_DIRECTOR
   endforeach()
   set_target_properties(OpenImageIO::OpenImageIO PROPERTIES ${property} "${present}")
 endforeach()
+
+# The headers of Draco and meshoptimizer lie where the compiler looks.
+set(GNOMON_SCENE_LIBRARIES TBB::tbb ${CMAKE_DL_LIBS} $<LINK_ONLY:draco::draco> $<LINK_ONLY:meshoptimizer::meshoptimizer>)
+set(GNOMON_RASTER_LIBRARIES ${CMAKE_DL_LIBS})
+set(GNOMON_EXACT_INTEGERS gmpxx gmp)
+set(GNOMON_SORTING hwy::hwy_contrib)

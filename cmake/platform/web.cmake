@@ -1,0 +1,41 @@
+# The program for pages and for Node (preset web), by emscripten: what Linux has and a page has not is left out or has a file of
+# its own in web/. docs/platforms.md says what the program can do there.
+set(GNOMON_READ_ONLY_DATA ".rodata,\"\",@")
+set(GNOMON_STACK_NOTE)
+set(platform "${PROJECT_SOURCE_DIR}/cmake/platform/web")
+set(GNOMON_SCENE_PLATFORM "${platform}/one_thread.cpp" "${platform}/outside.cpp")
+set(GNOMON_RASTER_PLATFORM "${platform}/context.cpp")
+set(GNOMON_STUDIES_PLATFORM)
+set(GNOMON_APP_PLATFORM "${platform}/commands.cpp")
+set(GNOMON_APP_ROOMS)
+set(GNOMON_PROGRAM_PLATFORM "${platform}/main.cpp")
+set(GNOMON_PROGRAM_PROPERTIES SUFFIX .mjs)
+set(GNOMON_RASTER_LIBRARIES)
+set(GNOMON_SORTING)
+
+# One thread, of vectors of 128 bits; errors are WebAssembly's own exceptions.
+set(flags -msimd128 -fwasm-exceptions)
+add_compile_options(${flags} "$<$<COMPILE_LANGUAGE:CXX>:-fexperimental-library>")
+# A module whose callMain(words) runs a command line over files in memory (FS), in a page, a worker or Node.
+add_link_options(${flags} -sMODULARIZE -sEXPORT_ES6 -sEXPORT_NAME=gnomon -sINVOKE_RUN=0 -sEXIT_RUNTIME=0
+  -sEXPORTED_RUNTIME_METHODS=callMain,FS -sFORCE_FILESYSTEM -sENVIRONMENT=web,worker,node
+  -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=4GB -sINITIAL_MEMORY=64MB -sSTACK_SIZE=8MB)
+add_compile_definitions(HWY_COMPILE_ONLY_STATIC FMT_HEADER_ONLY)
+include_directories(BEFORE SYSTEM "${platform}/include")
+
+# Libraries of headers alone: those of the toolchain's release.
+set(headers "${GNOMON_WEB_FOLDER}/root/usr/include")
+file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/web/headers")
+foreach(library CLI fast_float fmt glm hwy nlohmann tl)
+  file(CREATE_LINK "${headers}/${library}" "${PROJECT_BINARY_DIR}/web/headers/${library}" SYMBOLIC)
+endforeach()
+foreach(library CLI11::CLI11 fmt::fmt glm::glm hwy::hwy nlohmann_json::nlohmann_json tl::expected)
+  add_library(${library} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${library} SYSTEM INTERFACE "${PROJECT_BINARY_DIR}/web/headers")
+endforeach()
+
+include("${platform}/libraries.cmake")
+set(TURBOJPEG_LIBRARY web_jpeg)
+set(NETTLE_LIBRARY nettle)
+set(GNOMON_SCENE_LIBRARIES web_meshoptimizer)
+set(GNOMON_EXACT_INTEGERS mini_gmp)

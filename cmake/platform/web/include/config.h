@@ -1,0 +1,2 @@
+// Nettle, SHA-256 and base64 in plain C.
+#pragma once

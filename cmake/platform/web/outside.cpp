@@ -1,0 +1,58 @@
+// What lies outside a page: other programs, and the libraries that are opened or linked on Linux alone. Whoever asks is told
+// in words what is missing here.
+#include <sys/mman.h>
+
+#include <cerrno>
+#include <hwy/targets.h>
+
+#include "scene/base/run_program.h"
+#include "scene/files/gltf/gltf_data.h"
+#include "scene/files/gltf/gltf_value.h"
+#include "scene/files/pictures/image_library.h"
+
+/// The files in memory that other programs inherit: there are none.
+int memfd_create(const char*, unsigned) {
+  errno = ENOSYS;
+  return -1;
+}
+
+/// What Highway asks of its library: which instruction set runs, of which there is one here.
+hwy::ChosenTarget& hwy::GetChosenTarget() {
+  static ChosenTarget chosen;
+  return chosen;
+}
+
+namespace gnomon {
+namespace {
+
+tl::unexpected<Error> only_on_linux(const std::string& what) {
+  return fail(ErrorKind::bad_input, what + ", which Gnomon does on Linux alone");
+}
+
+tl::unexpected<Error> no_program(const std::vector<std::string>& words) {
+  return fail(ErrorKind::graphics, (words.empty() ? "" : words.front()) + ": a page cannot start other programs");
+}
+
+}  // namespace
+
+Expected<int> run_program(std::vector<std::string> words, std::optional<double>, int) {
+  return no_program(words);
+}
+Expected<ProgramEnd> run_and_listen(std::vector<std::string> words, std::optional<double>) {
+  return no_program(words);
+}
+void end_programs() {}
+
+Expected<const ImageLibrary*> image_library() {
+  return only_on_linux("an image that is neither PNG nor JPEG is read or written by OpenImageIO");
+}
+
+Expected<void> unpack_draco(GltfDocument& document, GltfData&) {
+  for (const JsonValue& mesh : gltf_list(document.json.root, "meshes"))
+    for (const JsonValue& primitive : gltf_list(mesh, "primitives"))
+      if (member(member(&primitive, "extensions"), "KHR_draco_mesh_compression") != nullptr)
+        return only_on_linux("the file's meshes are packed by Draco (KHR_draco_mesh_compression)");
+  return {};
+}
+
+}  // namespace gnomon

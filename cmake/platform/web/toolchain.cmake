@@ -1,0 +1,10 @@
+# Preset web: Debian's emscripten where ./gnomon web put it, and nothing of the system's own.
+set(folder "$ENV{GNOMON_WEB_TOOLCHAIN}")
+if(NOT folder)
+  set(folder "$ENV{HOME}/.cache/gnomon/web")
+endif()
+if(NOT EXISTS "${folder}/complete")
+  message(FATAL_ERROR "no toolchain for the web in ${folder}: ./gnomon web sets it up")
+endif()
+set(GNOMON_WEB_FOLDER "${folder}")
+include("${folder}/root/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake")
