@@ -3,7 +3,7 @@
 set(GNOMON_READ_ONLY_DATA ".rodata,\"\",@")
 set(GNOMON_STACK_NOTE)
 set(platform "${PROJECT_SOURCE_DIR}/cmake/platform/web")
-set(GNOMON_SCENE_PLATFORM "${platform}/one_thread.cpp" "${platform}/outside.cpp")
+set(GNOMON_SCENE_PLATFORM "${platform}/one_thread.cpp" "${platform}/outside.cpp" "${platform}/exr.cpp")
 set(GNOMON_RASTER_PLATFORM "${platform}/context.cpp")
 set(GNOMON_STUDIES_PLATFORM)
 set(GNOMON_APP_PLATFORM "${platform}/commands.cpp")
@@ -12,13 +12,15 @@ set(GNOMON_PROGRAM_PLATFORM "${platform}/main.cpp")
 set(GNOMON_PROGRAM_PROPERTIES SUFFIX .mjs)
 set(GNOMON_RASTER_LIBRARIES)
 set(GNOMON_SORTING)
+configure_file("${platform}/gnomon.js" "${PROJECT_BINARY_DIR}/app/gnomon.js" COPYONLY)
+file(WRITE "${PROJECT_BINARY_DIR}/app/package.json" "{ \"type\": \"module\" }\n")
 
 # One thread, of vectors of 128 bits; errors are WebAssembly's own exceptions.
 set(flags -msimd128 -fwasm-exceptions)
 add_compile_options(${flags} "$<$<COMPILE_LANGUAGE:CXX>:-fexperimental-library>")
 # A module whose callMain(words) runs a command line over files in memory (FS), in a page, a worker or Node.
 add_link_options(${flags} -sMODULARIZE -sEXPORT_ES6 -sEXPORT_NAME=gnomon -sINVOKE_RUN=0 -sEXIT_RUNTIME=0
-  -sEXPORTED_RUNTIME_METHODS=callMain,FS -sFORCE_FILESYSTEM -sENVIRONMENT=web,worker,node
+  -sEXPORTED_RUNTIME_METHODS=callMain,FS,NODEFS -lnodefs.js -sFORCE_FILESYSTEM -sENVIRONMENT=web,worker,node
   -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=4GB -sINITIAL_MEMORY=64MB -sSTACK_SIZE=8MB)
 add_compile_definitions(HWY_COMPILE_ONLY_STATIC FMT_HEADER_ONLY)
 include_directories(BEFORE SYSTEM "${platform}/include")

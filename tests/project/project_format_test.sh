@@ -10,7 +10,7 @@ if [[ $version != 14 ]]; then
   exit 77
 fi
 
-mapfile -t files < <(find app benchmark compare hybrid raster raytrace report scene shaders studies tests verify -name node_modules -prune -o \
+mapfile -t files < <(find app benchmark cmake compare hybrid raster raytrace report scene shaders studies tests verify -name node_modules -prune -o \
   -type f \( -name '*.h' -o -name '*.cpp' \) -print | sort)
 ((${#files[@]} >= 20)) || { echo "the sources were not found"; exit 1; }
 

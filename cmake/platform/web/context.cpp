@@ -1,4 +1,4 @@
-// The contexts of raster/gl/context.h.
+// The contexts of raster/gl/context.h: none, until shadow maps are drawn by WebGL 2.
 #include "raster/gl/context.h"
 
 namespace gnomon::raster {
@@ -8,7 +8,9 @@ bool draws_in_software(std::string_view renderer) {
 }
 
 Expected<std::unique_ptr<Context>> create_context(Backend) {
-  return fail(ErrorKind::graphics, "no WebGL 2 here to draw with: raytrace, plan, scenes and judge need none");
+  return fail(ErrorKind::graphics,
+              "this build draws no shadow maps: raytrace, plan, scenes, and judge of a capture with its map "
+              "need none");
 }
 
 }  // namespace gnomon::raster

@@ -2,13 +2,12 @@
 // in words what is missing here.
 #include <sys/mman.h>
 
-#include <cerrno>
 #include <hwy/targets.h>
+#include <cerrno>
 
 #include "scene/base/run_program.h"
 #include "scene/files/gltf/gltf_data.h"
 #include "scene/files/gltf/gltf_value.h"
-#include "scene/files/pictures/image_library.h"
 
 /// The files in memory that other programs inherit: there are none.
 int memfd_create(const char*, unsigned) {
@@ -30,7 +29,8 @@ tl::unexpected<Error> only_on_linux(const std::string& what) {
 }
 
 tl::unexpected<Error> no_program(const std::vector<std::string>& words) {
-  return fail(ErrorKind::graphics, (words.empty() ? "" : words.front()) + ": a page cannot start other programs");
+  return fail(ErrorKind::graphics,
+              (words.empty() ? "" : words.front()) + ": a page cannot start other programs");
 }
 
 }  // namespace
@@ -42,10 +42,6 @@ Expected<ProgramEnd> run_and_listen(std::vector<std::string> words, std::optiona
   return no_program(words);
 }
 void end_programs() {}
-
-Expected<const ImageLibrary*> image_library() {
-  return only_on_linux("an image that is neither PNG nor JPEG is read or written by OpenImageIO");
-}
 
 Expected<void> unpack_draco(GltfDocument& document, GltfData&) {
   for (const JsonValue& mesh : gltf_list(document.json.root, "meshes"))

@@ -64,4 +64,3 @@ for source in "${sources[@]}"; do
   tar -xf "$file" -C "$source" --strip-components=1
   rm -f -- "$file"
 done
-touch "$folder/complete"
