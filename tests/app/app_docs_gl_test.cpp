@@ -87,7 +87,7 @@ std::vector<Shown> shown_commands() {
       for (std::string line; std::getline(lines, line);) {
         Words words = shell_words(line);
         if (words.empty() || (words[0] != "gnomon" && words[0] != "./gnomon")) continue;
-        const Words script = {"build", "test", "format", "tidy"};  // the script's own
+        const Words script = {"build", "test", "install", "web", "format", "tidy"};  // the script's own
         if (words.size() > 1 && std::find(script.begin(), script.end(), words[1]) != script.end()) continue;
         // Three blanks or more part a command from what is said of it in the help's examples.
         const std::size_t gap = line.find("   ");

@@ -407,7 +407,8 @@ TEST_F(Grade, BadRubricsAndFolders) {
   fs::create_directories(folder / "a/anna");
   fs::create_directories(folder / "b/anna");
   write_rubric(one_check);
-  expect_one_line(gnomon({"grade", "rubric.json", "a", "b"}), 2, "two students have one name");
+  expect_one_line(gnomon({"grade", "rubric.json", "a", "b"}), 2,
+                  "two folders have the same name, which is the student's (got anna)");
 }
 
 }  // namespace
