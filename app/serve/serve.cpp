@@ -12,18 +12,12 @@ namespace gnomon::app {
 
 Expected<ExitCode> run_serve(const ServeOptions& options) {
   Console console(options.quiet);
-  RunFiles files;
-  files.reads(options.scene);
-  auto loaded = load(options.scene, files, console, options.tessellate, options.camera, true);
-  if (!loaded) return fail(loaded.error());
-  keep_strongest_lights(*loaded, options.max_lights, named_lights(options.light), options.poses, console);
-  if (options.exposure) loaded->scene->exposure = *options.exposure;
+  auto source = first_source(options, console);
+  if (!source) return fail(source.error());
   const TemporaryFolder folder("gnomon-serve");
   if (folder.path().empty())
     return fail(ErrorKind::cannot_write, "no folder can be made for what is dropped on the page");
-  SceneSource source{options.scene, options.camera, std::make_shared<const LoadedScene>(std::move(*loaded)),
-                     files.inputs()};
-  auto engine = LabEngine::start(options, std::move(source));
+  auto engine = LabEngine::start(options, std::move(*source));
   if (!engine) return fail(engine.error());
   const auto server = LabServer::open(options.place, **engine, options, folder.path());
   if (!server) return fail(server.error());

@@ -54,24 +54,20 @@ Expected<std::vector<ScriptStep>> read_script(const std::string& path, const Sce
 
 Expected<ExitCode> run_view(const ViewOptions& options) {
   Console console(options.quiet);
-  RunFiles files;
-  files.reads(options.scene);
-  auto loaded = load(options.scene, files, console, options.tessellate, options.camera, true);
-  if (!loaded) return fail(loaded.error());
-  keep_strongest_lights(*loaded, options.max_lights, named_lights(options.light), options.poses, console);
-  if (options.exposure) loaded->scene->exposure = *options.exposure;
-  const std::vector<std::string> scene_files = files.inputs();  // what the window watches: not the script's
-  auto state = first_state(options, given_scene(*loaded->scene, *loaded->world, loaded->paths));
+  auto source = first_source(options, console);
+  if (!source) return fail(source.error());
+  const LoadedScene& loaded = *source->loaded;
+  RunFiles files;  // with the script's, which the window does not watch
+  if (const auto reads = files.also_reads(source->files); !reads) return fail(reads.error());
+  auto state = first_state(options, given_scene(*loaded.scene, *loaded.world, loaded.paths));
   if (!state) return fail(state.error());
   state->look.theme = options.theme, state->look.ui_scale = options.ui_scale;
   state->look.large_type = options.large_type, state->look.panels = !options.no_panels;
-  auto script = read_script(options.script, *loaded->scene, files);
+  auto script = read_script(options.script, *loaded.scene, files);
   if (!script) return fail(script.error());
   if (const auto fine = files.check(); !fine) return fail(fine.error());
-  SceneSource source{options.scene, options.camera, std::make_shared<const LoadedScene>(std::move(*loaded)),
-                     scene_files};
   const auto viewer =
-      Viewer::open(options, std::move(source), std::move(*state), std::move(*script), console);
+      Viewer::open(options, std::move(*source), std::move(*state), std::move(*script), console);
   if (!viewer) return fail(viewer.error());
   if (const auto ran = (*viewer)->run(); !ran) return fail(ran.error());
   return ExitCode::done;

@@ -9,17 +9,24 @@
 
 namespace gnomon::app {
 
+Expected<SceneSource> first_source(const LabOptions& options, Console& console) {
+  RunFiles files;
+  files.reads(options.scene);
+  auto loaded = load(options.scene, files, console, options.tessellate, options.camera, true);
+  if (!loaded) return fail(loaded.error());
+  keep_strongest_lights(*loaded, options.max_lights, named_lights(options.light), options.poses, console);
+  if (options.exposure) loaded->scene->exposure = *options.exposure;
+  return SceneSource{options.scene, options.camera, std::make_shared<const LoadedScene>(std::move(*loaded)),
+                     files.inputs()};
+}
+
 Expected<SceneSource> read_source(const SceneArgument& argument, const std::string& camera,
                                   const StudioOptions& options) {
   Console quiet(true);
-  RunFiles files;
-  files.reads(argument);
-  auto loaded = load(argument, files, quiet, options.tessellate, camera, true);
-  if (!loaded) return fail(loaded.error());
-  keep_strongest_lights(*loaded, options.max_lights, {}, {}, quiet);
-  if (options.exposure) loaded->scene->exposure = *options.exposure;
-  return SceneSource{argument, camera, std::make_shared<const LoadedScene>(std::move(*loaded)),
-                     files.inputs()};
+  LabOptions lab;
+  lab.scene = argument, lab.camera = camera, lab.tessellate = options.tessellate;
+  lab.max_lights = options.max_lights, lab.exposure = options.exposure;
+  return first_source(lab, quiet);
 }
 
 Expected<raster::MapOptions> first_map_options(const SceneArgument& argument) {

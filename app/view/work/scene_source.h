@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/options/lab_options.h"
 #include "app/outputs/run_files.h"
 #include "app/session.h"
 #include "app/strongest_lights.h"
@@ -32,6 +33,10 @@ struct SceneSource {
   std::vector<std::string> files;  ///< all that the scene consists of; none of a built-in one
 };
 
+/// Reads the scene that a lab begins with, and says what is to be said of it.
+Expected<SceneSource> first_source(const LabOptions& options, Console& console);
+
+/// Reads another one.
 Expected<SceneSource> read_source(const SceneArgument& argument, const std::string& camera,
                                   const StudioOptions& options);
 
