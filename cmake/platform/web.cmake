@@ -3,7 +3,7 @@
 set(GNOMON_READ_ONLY_DATA ".rodata,\"\",@")
 set(GNOMON_STACK_NOTE)
 set(platform "${PROJECT_SOURCE_DIR}/cmake/platform/web")
-set(GNOMON_SCENE_PLATFORM "${platform}/one_thread.cpp" "${platform}/outside.cpp" "${platform}/exr.cpp")
+set(GNOMON_SCENE_PLATFORM "${platform}/one_thread.cpp" "${platform}/outside.cpp" "${platform}/images.cpp")
 set(GNOMON_RASTER_PLATFORM "${platform}/context.cpp")
 set(GNOMON_STUDIES_PLATFORM)
 set(GNOMON_APP_PLATFORM "${platform}/commands.cpp")

@@ -2,7 +2,7 @@
 target_sources(gnomon_scene PRIVATE
   texture_sample.cpp files/pictures/apng.cpp files/encodings.cpp files/foreign.cpp files/defaults.cpp files/gltf/gltf_accessor.cpp
   files/gltf/gltf_container.cpp files/gltf/gltf_data.cpp files/gltf/gltf_meshes.cpp files/gltf/gltf_meshopt.cpp
-  files/gltf/gltf_transforms.cpp files/gltf/gltf_writer_meshes.cpp files/pictures/image_io.cpp files/interior.cpp
+  files/gltf/gltf_transforms.cpp files/gltf/gltf_writer_meshes.cpp files/pictures/exr_encode.cpp files/pictures/image_io.cpp files/interior.cpp
   files/pictures/png_encode.cpp files/mapped_file.cpp files/merge.cpp files/obj/obj.cpp files/obj/obj_text.cpp
   files/ply/ply.cpp files/ply/ply_regular.cpp files/pictures/jpeg_decode.cpp files/pictures/png_decode.cpp files/polygon.cpp files/read_file.cpp
   files/row_file.cpp files/validate.cpp)
@@ -19,7 +19,7 @@ if(NOT GNOMON_PLATFORM STREQUAL native)
   return()
 endif()
 
-# OpenImageIO, loaded when an image file is read or an EXR written (scene/files/pictures/image_library.h).
+# OpenImageIO, loaded when an image file other than PNG and JPEG is read (scene/files/pictures/image_library.h).
 add_library(gnomon_images MODULE files/pictures/image_module.cpp)
 gnomon_compile_for_text(gnomon_images)
 target_link_libraries(gnomon_images PRIVATE gnomon_flags gnomon_warnings OpenImageIO::OpenImageIO fmt::fmt glm::glm tl::expected)

@@ -186,8 +186,21 @@ PartFile::~PartFile() {
   if (!part_.empty()) ::unlink(part_.c_str());
 }
 
-std::string PartFile::path() const {
-  return part_.empty() ? fmt::format("/proc/self/fd/{}", descriptor_) : part_;
+Expected<void> PartFile::append(std::string_view bytes) {
+  return write_from(SEEK_END, bytes);
+}
+
+Expected<void> PartFile::write_over_begin(std::string_view bytes) {
+  return write_from(SEEK_SET, bytes);
+}
+
+Expected<void> PartFile::write_from(int whence, std::string_view bytes) {
+  const FileSizeSignalBlock block;
+  if (::lseek(descriptor_, 0, whence) < 0)
+    return failed_call(ErrorKind::cannot_write, target_, "cannot write", errno);
+  if (const int error = write_all(descriptor_, bytes))
+    return failed_call(ErrorKind::cannot_write, target_, "cannot write", error);
+  return {};
 }
 
 Expected<void> PartFile::publish() {
@@ -198,7 +211,8 @@ Expected<void> PartFile::publish() {
     return failed_call(ErrorKind::cannot_write, target_, "cannot flush it to the disk", errno);
   if (part_.empty()) {  // gets a name first, for a file that is there already can only be renamed over
     const std::string part = temporary_name(target_);
-    if (::linkat(AT_FDCWD, path().c_str(), AT_FDCWD, part.c_str(), AT_SYMLINK_FOLLOW) != 0)
+    const std::string here = fmt::format("/proc/self/fd/{}", descriptor_);
+    if (::linkat(AT_FDCWD, here.c_str(), AT_FDCWD, part.c_str(), AT_SYMLINK_FOLLOW) != 0)
       return failed_call(ErrorKind::cannot_write, target_, "cannot name the finished file", errno);
     part_ = part;
   }

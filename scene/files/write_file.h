@@ -58,22 +58,26 @@ class Descriptor {
   int number_;
 };
 
-// Files that something else writes, row by row.
+// Files that are written part by part.
 
-/// A file that others write, and that appears under its final name when it is published. It has no name before,
-/// where the file system knows such files, so that nothing is left of it when the process ends.
+/// A file that appears under its final name when it is published. It has no name before, where the file system knows such
+/// files, so that nothing is left of it when the process ends. Errors are ErrorKind::cannot_write.
 class PartFile {
  public:
-  /// Empty, beside `path`. ErrorKind::cannot_write, also where that is there and no plain file.
+  /// Empty, beside `path`. An error also where that is there and no plain file.
   static Expected<PartFile> create(const std::string& path);
   PartFile(PartFile&& other) noexcept { *this = std::move(other); }
   PartFile& operator=(PartFile&& other) noexcept;
   ~PartFile();
-  std::string path() const;  ///< to be written to
+  /// Behind what is there.
+  Expected<void> append(std::string_view bytes);
+  /// Over what is there, from its first byte on.
+  Expected<void> write_over_begin(std::string_view bytes);
   Expected<void> publish();
 
  private:
   PartFile() = default;
+  Expected<void> write_from(int whence, std::string_view bytes);
   std::string target_, part_;
   int descriptor_ = -1;
 };

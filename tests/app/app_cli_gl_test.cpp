@@ -247,11 +247,16 @@ TEST(Outputs, AnInternalErrorIsExitCode6) {
   ASSERT_NE(at, std::string::npos);
   const std::string library = module.c_str() + at;  // ends with a zero byte in the module's table of strings
   write_text(folder / library, "");
+  write_text(folder / "v.tga", "");
+  write_text(
+      folder / "capture.json",
+      R"({"schema": "gnomon/capture/1", "renderer": {"name": "x"}, "scene": "thin-wall", "size": [64, 36],
+                 "visibility": "v.tga"})");
   const ProcessResult result =
-      run_gnomon({"raytrace", "acne-floor", "--size", "64x36", "-o", "a.exr"},
+      run_gnomon({"judge", "capture.json"},
                  {.folder = folder.path(), .environment = {"LD_LIBRARY_PATH=" + folder.path()}});
   expect_one_line(result, 6, "cannot load the module for image files: ");
-  EXPECT_EQ(folder.entries(), Words{library});
+  EXPECT_EQ(folder.entries(), (Words{"capture.json", library, "v.tga"}));
 }
 
 TEST(Outputs, BadInputLeavesNothing) {

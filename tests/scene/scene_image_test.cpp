@@ -1,6 +1,8 @@
 // Images in and out: round trips, hostile headers, values that are not numbers.
 #include <array>
+#include <bit>
 #include <cmath>
+#include <random>
 
 #include "scene/files/pictures/image_io.h"
 #include "tests/support/scene_files_support.h"
@@ -116,10 +118,11 @@ TEST(Image, NotAnImageIsAnError) {
 
 TEST(Image, ExrKeepsNamesValuesAndAttributes) {
   const TemporaryFolder folder;
-  const ImageSize size{5, 3};
+  const ImageSize size{5, 37};  // three of the file's blocks
   std::vector<Channel> channels;
-  for (const std::string name : {"position.X", "position.Y", "position.Z", "normal.X", "truth.V", "drawn.V",
-                                 "class.V", "texel_uv.U", "texel_uv.V", "gap.V", "R", "G", "B"}) {
+  for (const std::string name :
+       {"a.name.of.more.than.31.characters", "position.X", "position.Y", "position.Z", "normal.X", "truth.V",
+        "drawn.V", "class.V", "texel_uv.U", "texel_uv.V", "gap.V", "R", "G", "B"}) {
     Channel channel{name, std::vector<float>(size.pixels())};
     for (std::size_t i = 0; i < channel.values.size(); ++i)
       channel.values[i] = static_cast<float>(channels.size() * 100 + i) + 0.1f;  // not a half's value
@@ -142,6 +145,21 @@ TEST(Image, ExrKeepsNamesValuesAndAttributes) {
           << channel.name << " " << i;
   }
   EXPECT_NE(test::bytes_of(folder.file("a.exr")).find("fence"), std::string::npos);
+}
+
+// No compression makes less of noise: its blocks are stored as they are.
+TEST(Image, ExrKeepsNoise) {
+  const TemporaryFolder folder;
+  const ImageSize size{31, 40};
+  std::mt19937 bits(1);
+  Channel noise{"Y", std::vector<float>(size.pixels())};
+  for (float& value : noise.values)
+    value = std::bit_cast<float>(static_cast<std::uint32_t>(bits()) & 0xbf7fffffu);  // finite ones
+  ASSERT_TRUE(write_exr(folder.file("a.exr"), size, {&noise, 1}));
+  EXPECT_GT(test::bytes_of(folder.file("a.exr")).size(), 4 * size.pixels());
+  const auto read = read_channels(folder.file("a.exr"));
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->channels.at(0).values, noise.values);
 }
 
 TEST(Image, WritesToAFullDiskAreErrors) {

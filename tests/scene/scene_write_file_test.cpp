@@ -47,15 +47,18 @@ TEST(WriteFile, KeepsPermissionsAndLinks) {
   EXPECT_EQ(status.st_mode & 0777, 0640u);
 }
 
-TEST(PartFile, KeepsPermissions) {
+TEST(PartFile, AppearsWholeWithTheOldPermissions) {
   const TemporaryFolder folder;
   const std::string path = folder.put("real.exr", "old");
   ASSERT_EQ(::chmod(path.c_str(), 0600), 0);
   auto file = PartFile::create(path);
   ASSERT_TRUE(file);
-  std::ofstream(file->path()) << "new";
+  ASSERT_TRUE(file->append("to come, new"));
+  ASSERT_TRUE(file->write_over_begin("is here"));
+  ASSERT_TRUE(file->append("est"));
+  EXPECT_EQ(test::bytes_of(path), "old");
   ASSERT_TRUE(file->publish());
-  EXPECT_EQ(test::bytes_of(path), "new");
+  EXPECT_EQ(test::bytes_of(path), "is here, newest");
   struct stat status {};
   ASSERT_EQ(::stat(path.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600u);

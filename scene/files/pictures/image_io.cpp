@@ -6,6 +6,7 @@
 #include <array>
 
 #include "scene/base/parallel.h"
+#include "scene/files/pictures/exr_encode.h"
 #include "scene/files/pictures/image_library.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
@@ -184,21 +185,13 @@ Expected<void> write_png(const std::string& path, const Rgb8Image& image) {
 Expected<void> write_exr(const std::string& path, ImageSize size, std::span<const Channel> channels,
                          std::span<const std::pair<std::string, std::string>> attributes) {
   if (const auto sized = check_size(size); !sized) return fail(sized.error());
-  const std::size_t count = channels.size();
-  std::vector<std::string> names;
-  std::vector<float> pixels(size.pixels() * count);
-  for (std::size_t c = 0; c < count; ++c) {
-    if (channels[c].values.size() != size.pixels())
-      return fail(ErrorKind::internal, fmt::format("channel {} has {} values, not {}", channels[c].name,
-                                                   channels[c].values.size(), size.pixels()));
-    names.push_back(channels[c].name);
-    for (std::size_t i = 0; i < size.pixels(); ++i) pixels[i * count + c] = channels[c].values[i];
-  }
-  const auto library = image_library();
-  if (!library) return fail(library.error());
-  const auto bytes = (*library)->encode_exr(size, names, pixels, attributes);
-  if (!bytes) return fail(bytes.error());
-  return write_file(path, *bytes);
+  for (const Channel& channel : channels)
+    if (channel.values.size() != size.pixels())
+      return fail(ErrorKind::internal, fmt::format("channel {} has {} values, not {}", channel.name,
+                                                   channel.values.size(), size.pixels()));
+  ExrEncoder encoder(size, channels, attributes);
+  const std::string blocks = encoder.add(size.height, channels);
+  return write_file(path, encoder.begin() + blocks);
 }
 
 const Channel* ChannelImage::find(std::string_view name) const {

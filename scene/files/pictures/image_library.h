@@ -1,6 +1,6 @@
 // What of OpenImageIO the program uses, behind an interface: the library brings some two hundred others
 // along, whose loading takes longer than most pictures do. So it sits in a module of its own
-// (image_module.cpp) that is loaded when an image file is read or an EXR is written, and not before.
+// (image_module.cpp) that is loaded when an image file other than PNG and JPEG is read, and not before.
 #pragma once
 
 #include <cstdint>
@@ -34,16 +34,6 @@ inline std::uint64_t image_budget(std::uint64_t file_bytes) {
   return (std::uint64_t{64} << 20) + 1100 * file_bytes;
 }
 
-/// An EXR that is written some rows at a time, from the first on. Without close() it is not whole.
-class ExrRows {
- public:
-  virtual ~ExrRows() = default;
-  /// Interleaved channels of `rows`, which begin where the last ones ended, and hold a multiple of 64 rows or the
-  /// rest.
-  virtual Expected<void> write(const PictureRows& rows, std::span<const float> pixels) = 0;
-  virtual Expected<void> close() = 0;
-};
-
 class ImageLibrary {
  public:
   virtual ~ImageLibrary() = default;
@@ -53,14 +43,6 @@ class ImageLibrary {
   virtual Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as) const = 0;
   virtual Expected<DecodedImage> decode(const std::string& name, std::string_view bytes,
                                         std::string_view format, int max_side) const = 0;
-  /// An EXR of float channels, interleaved; attributes: string metadata.
-  virtual Expected<std::string> encode_exr(
-      ImageSize size, std::span<const std::string> channels, std::span<const float> pixels,
-      std::span<const std::pair<std::string, std::string>> attributes) const = 0;
-  /// Writes the same bytes into a file.
-  virtual Expected<std::unique_ptr<ExrRows>> open_exr(
-      const std::string& path, ImageSize size, std::span<const std::string> channels,
-      std::span<const std::pair<std::string, std::string>> attributes) const = 0;
 };
 
 /// Loads the module the first time. Errors: where it was looked for, and why it could not be loaded; too few threads can be

@@ -5,10 +5,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <memory>
 
 #include "scene/files/pictures/image_library.h"
@@ -17,7 +13,6 @@ namespace gnomon {
 namespace {
 
 constexpr int max_channels = 1024;
-constexpr std::size_t longest_begin = std::size_t{1} << 20;  // of an EXR's header and table, bytes
 
 tl::unexpected<Error> image_error(ErrorKind kind, const std::string& file, std::string reason) {
   std::replace(reason.begin(), reason.end(), '\n', ' ');
@@ -96,112 +91,6 @@ Expected<DecodedImage> pixels_of(const std::string& name, OIIO::ImageInput* inpu
                      fmt::format("cannot read the image: {}", library_error(input->geterror())));
 }
 
-OIIO::ImageSpec exr_spec(ImageSize size, std::span<const std::string> channels,
-                         std::span<const std::pair<std::string, std::string>> attributes) {
-  OIIO::ImageSpec spec(size.width, size.height, static_cast<int>(channels.size()), OIIO::TypeFloat);
-  spec.channelnames.assign(channels.begin(), channels.end());
-  spec.alpha_channel = -1;
-  spec.attribute("compression", "zip");
-  // No date of now: an attribute of another type is not written at all, of which OpenImageIO would tell.
-  spec.attribute("DateTime", 0);
-  OIIO::attribute("debug", 0);
-  for (const auto& [key, value] : attributes) spec.attribute(key, value);
-  return spec;
-}
-
-tl::unexpected<Error> rows_are_missing(const std::string& path) {
-  return image_error(ErrorKind::graphics, path, "out of memory: rows of the picture could not be compressed");
-}
-
-/// OpenImageIO has words alone for what the system refused.
-tl::unexpected<Error> not_written(const std::string& path, std::string_view step, const std::string& why) {
-  constexpr std::array resources{EMFILE, ENFILE, ENOMEM};
-  const bool resource = std::ranges::any_of(
-      resources, [&](int number) { return why.find(std::strerror(number)) != std::string::npos; });
-  return image_error(resource ? ErrorKind::graphics : ErrorKind::cannot_write, path,
-                     fmt::format("{}: {}", step, why));
-}
-
-/// Numbers as OpenEXR stores them, little-endian, with a place that goes on; past the end they are 0.
-class ExrBytes {
- public:
-  explicit ExrBytes(std::string_view bytes) : bytes_(bytes) {}
-
-  std::uint64_t number(std::size_t size) {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < size; ++i)
-      if (at_ + i < bytes_.size())
-        value |= std::uint64_t{static_cast<unsigned char>(bytes_[at_ + i])} << (8 * i);
-    at_ += size;
-    return value;
-  }
-  std::string_view word() {
-    const std::size_t begin = std::min(at_, bytes_.size()),
-                      end = std::min(bytes_.find('\0', begin), bytes_.size());
-    at_ = end + 1;
-    return bytes_.substr(begin, end - begin);
-  }
-  void skip(std::size_t size) { at_ += size; }
-  bool is_over() const { return at_ >= bytes_.size(); }
-  std::size_t place() const { return at_; }
-
- private:
-  std::string_view bytes_;
-  std::size_t at_ = 0;
-};
-
-/// Whether every block of rows of a scanline file was written (OpenEXR File Layout, "Offset Tables"). OpenEXR compresses blocks
-/// on threads of its own, leaves out those for which memory was missing, and says nothing of it. `begin` is the file from its
-/// start, as long as its header and table at least.
-bool has_all_blocks(std::string_view begin) {
-  constexpr std::size_t magic_and_version = 8;
-  ExrBytes bytes(begin);
-  bytes.skip(magic_and_version);
-  while (!bytes.is_over() && !bytes.word().empty()) {
-    bytes.word();  // the attribute's type
-    bytes.skip(bytes.number(4));
-  }
-  const std::size_t table = bytes.place();
-  std::uint64_t first = 0;
-  std::size_t blocks = 0;
-  do {  // the table ends where the first block begins
-    const std::uint64_t place = bytes.number(8);
-    if (place == 0) return false;
-    if (blocks == 0) first = place;
-    ++blocks;
-  } while (table + 8 * blocks < first);
-  return true;
-}
-
-class OpenExrRows final : public ExrRows {
- public:
-  OpenExrRows(std::string path, std::unique_ptr<OIIO::ImageOutput> output)
-      : path_(std::move(path)), output_(std::move(output)) {}
-
-  Expected<void> write(const PictureRows& rows, std::span<const float> pixels) override {
-    return checked(output_->write_scanlines(rows.first, rows.end(), 0, OIIO::TypeFloat, pixels.data()));
-  }
-  Expected<void> close() override {
-    if (const auto closed = checked(output_->close()); !closed) return closed;
-    std::ifstream file(path_, std::ios::binary);
-    std::string begin(longest_begin, '\0');
-    file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    if (file.bad() || file.gcount() <= 0)
-      return not_written(path_, "cannot write",
-                         fmt::format("what was written cannot be read back: {}", std::strerror(errno)));
-    begin.resize(static_cast<std::size_t>(file.gcount()));
-    return has_all_blocks(begin) ? Expected<void>() : rows_are_missing(path_);
-  }
-
- private:
-  Expected<void> checked(bool done) const {
-    if (done) return {};
-    return not_written(path_, "cannot write", library_error(output_->geterror()));
-  }
-  std::string path_;
-  std::unique_ptr<OIIO::ImageOutput> output_;
-};
-
 class OpenImageIo final : public ImageLibrary {
  public:
   Expected<ImageSize> size(const std::string& path, int max_side) const override {
@@ -227,35 +116,6 @@ class OpenImageIo final : public ImageLibrary {
       return image_error(ErrorKind::bad_input, name, fmt::format("cannot read the image: {}", reason));
     }
     return pixels_of(name, input.get(), max_side, DecodeAs::stored, bytes.size());
-  }
-
-  Expected<std::string> encode_exr(
-      ImageSize size, std::span<const std::string> channels, std::span<const float> pixels,
-      std::span<const std::pair<std::string, std::string>> attributes) const override {
-    const OIIO::ImageSpec spec = exr_spec(size, channels, attributes);
-    const auto output = OIIO::ImageOutput::create("openexr");
-    if (!output || !output->supports("ioproxy"))
-      return fail(ErrorKind::internal,
-                  fmt::format("OpenImageIO cannot encode openexr in memory: {}", library_error({})));
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    const bool done = output->set_ioproxy(&memory) && output->open("memory.openexr", spec) &&
-                      output->write_image(OIIO::TypeFloat, pixels.data()) && output->close();
-    if (!done)
-      return fail(ErrorKind::cannot_write,
-                  fmt::format("cannot encode the image: {}", library_error(output->geterror())));
-    std::string file(bytes.begin(), bytes.end());
-    if (!has_all_blocks(file)) return rows_are_missing({});
-    return file;
-  }
-
-  Expected<std::unique_ptr<ExrRows>> open_exr(
-      const std::string& path, ImageSize size, std::span<const std::string> channels,
-      std::span<const std::pair<std::string, std::string>> attributes) const override {
-    auto output = OIIO::ImageOutput::create("openexr");
-    if (output && output->open(path, exr_spec(size, channels, attributes)))
-      return std::make_unique<OpenExrRows>(path, std::move(output));
-    return not_written(path, "cannot write it", library_error(output ? output->geterror() : ""));
   }
 };
 
