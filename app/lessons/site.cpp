@@ -1,5 +1,6 @@
 #include "app/lessons/site.h"
 
+#include <embedded/lectures.h>
 #include <embedded/lessons.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,6 +9,7 @@
 
 #include "app/console.h"
 #include "app/lessons/figures.h"
+#include "app/lessons/lecture.h"
 #include "app/lessons/lesson_text.h"
 #include "report/html.h"
 #include "report/lessons.h"
@@ -67,20 +69,28 @@ std::string links_of(const Lessons& written, std::size_t at) {
   return links;
 }
 
-Expected<SitePage> lesson_page(const Lessons& written, std::size_t at, Console& console) {
-  const Lesson& lesson = *written[at];
-  const LessonText text = read_lesson(lesson.text);
-  std::string main = "<article class=\"lesson-text\">\n";
+/// A page of a text with live figures; `kind`: the class of its article.
+Expected<std::string> article_page(const std::string& title, const std::string& links, std::string_view kind,
+                                   std::string_view markdown, const Lessons& written, Console& console) {
+  const LessonText text = read_lesson(markdown);
+  std::string main = fmt::format("<article class=\"{}\">\n", kind);
   for (const std::string& part : text.parts) {
     const auto html = body_html(part, written);
-    if (!html) return fail(html.error());
+    if (!html) return html;
     main += "<section class=\"part\">\n" + *html + "</section>\n";
   }
   PageFigures figures(console);
   for (const LiveMark& mark : text.marks)
     if (const auto added = figures.add(mark); !added) return fail(added.error());
-  return SitePage{page_name(lesson), page_html(fmt::format("{} \u2013 Gnomon", lesson.title),
-                                               links_of(written, at), main + "</article>\n", figures)};
+  return page_html(fmt::format("{} \u2013 Gnomon", title), links, main + "</article>\n", figures);
+}
+
+Expected<SitePage> lesson_page(const Lessons& written, std::size_t at, Console& console) {
+  const Lesson& lesson = *written[at];
+  const auto html = article_page(std::string(lesson.title), links_of(written, at), "lesson-text", lesson.text,
+                                 written, console);
+  if (!html) return fail(html.error());
+  return SitePage{page_name(lesson), *html};
 }
 
 /// A card with the lesson's picture: "Acne", "the surface shadows itself".
@@ -149,6 +159,28 @@ Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, 
   if (!index) return fail(index.error());
   pages.push_back(std::move(*index));
   return pages;
+}
+
+std::vector<std::string_view> lecture_names() {
+  std::vector<std::string_view> names;
+  for (const embedded::Entry& deck : embedded::lectures_entries())
+    names.push_back(deck.name.substr(0, deck.name.rfind('.')));
+  return names;
+}
+
+Expected<SitePage> make_lecture(std::string_view name, Console& console) {
+  const std::vector<std::string_view> names = lecture_names();
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    return fail(ErrorKind::usage, fmt::format("--lecture: no such lecture (got {}, allowed {}){}", name,
+                                              fmt::join(names, ", "), did_you_mean(name, names)));
+  const std::string_view deck = embedded::lectures(fmt::format("{}.md", name));
+  const auto text = lecture_text(deck);
+  if (!text) return fail(text.error());
+  const std::string title(deck.substr(2, deck.find('\n') - 2));
+  const auto html =
+      article_page(title, "<li><a href=\"#slide-1\">First slide</a></li>", "lecture", *text, {}, console);
+  if (!html) return fail(html.error());
+  return SitePage{fmt::format("{}.html", name), *html};
 }
 
 }  // namespace gnomon::app::lessons

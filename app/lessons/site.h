@@ -46,4 +46,9 @@ struct SitePage {
 /// Errors: (usage) a name that no lesson has; those of a live figure's scene, of its settings, of the graphics.
 Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, Console& console);
 
+/// "shadows", "rays": the decks of docs/lectures/en.
+std::vector<std::string_view> lecture_names();
+/// The lecture of that name as one page, "shadows.html". Errors: (usage) no such lecture; as above.
+Expected<SitePage> make_lecture(std::string_view name, Console& console);
+
 }  // namespace gnomon::app::lessons

@@ -7,6 +7,7 @@
 
 #include "app/lessons/figures.h"
 #include "app/lessons/flatland.h"
+#include "app/lessons/lecture.h"
 #include "app/lessons/lesson_text.h"
 #include "app/lessons/site.h"
 #include "tests/support/app_process.h"
@@ -80,10 +81,52 @@ TEST(LessonFlatland, IsTheSceneCut) {
   EXPECT_FALSE(app::lessons::structure_cut("trie", "fence").has_value());
 }
 
+constexpr std::string_view lesson_of_parts =
+    "# T\n\nOne is here. **Two** is\nlong, 1.5 of it. [Three](x.md) ends?\n\n    a = b\n    c = d\n\n"
+    "<!-- live: bias scene=acne-floor map-size=64 bias=0 -->\n![p](../images/lesson-acne.png)\n\n| a | b "
+    "|\n|---|---|\n\n"
+    "<details><summary>Why?</summary>\n\nSo.\n\nAnd so.\n\n</details>\n";
+
+TEST(Lecture, FindsTheLessonsParts) {
+  const auto part = [](std::string_view kind, std::string_view words) {
+    return app::lessons::lesson_part(lesson_of_parts, kind, words).value_or("none");
+  };
+  EXPECT_EQ(part("sentence", "One is"), "One is here.\n");
+  EXPECT_EQ(part("sentence", "Two"), "**Two** is long, 1.5 of it.\n") << "with its mark, to its end";
+  EXPECT_EQ(part("sentence", "[Three]"), "Three ends?\n") << "a slide leads nowhere";
+  EXPECT_EQ(part("sentence", "is here"), "none") << "no sentence begins so";
+  EXPECT_EQ(part("formula", "a ="), "    a = b\n    c = d\n");
+  EXPECT_EQ(part("table", "| a"), "| a | b |\n|---|---|\n");
+  EXPECT_EQ(part("question", "Why"), "**Why?**\n\n===\n\n\nSo.\n\nAnd so.\n\n");
+  EXPECT_EQ(part("figure", "bias size with map-size=16"), "none");
+  EXPECT_EQ(
+      part("figure", "bias scene=acne-floor with map-size=16 texels=3"),
+      "<!-- live: bias scene=acne-floor map-size=16 bias=0 texels=3 -->\n![p](../images/lesson-acne.png)\n");
+}
+
+TEST(Lecture, IsALessonsTextOfSteps) {
+  const auto text = app::lessons::lecture_text(
+      "# T\n\n<!-- minutes: 1 -->\n\n> Own.\n\n## Q\n\n<!-- minutes: 2 -->\n<!-- show: acne question A finer "
+      "map -->\n\nSay it.\n");
+  ASSERT_TRUE(text.has_value());
+  const auto parts = read_lesson(*text).parts;
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_NE(parts[0].find("<div class=\"step sentence\">\n\nOwn.\n"), std::string::npos) << parts[0];
+  EXPECT_LT(parts[1].find("<div class=\"step question\">"), parts[1].find("<div class=\"step sentence\">"));
+  EXPECT_NE(parts[1].find("<aside class=\"notes\" data-minutes=\"2\">\n\n\nSay it."), std::string::npos)
+      << parts[1];
+  for (const char* wrong :
+       {"# T\n\n## No minutes\n", "# T\n\n<!-- minutes: 1 -->\n<!-- show: acne sentence No such -->\n",
+        "# T\n\n<!-- minutes: 1 -->\n<!-- show: acme figure bias -->\n"})
+    EXPECT_FALSE(app::lessons::lecture_text(wrong).has_value()) << wrong;
+}
+
 TEST(LessonsCommand, SaysWhatIsWrong) {
   const TemporaryFolder folder;
   expect_one_line(run_gnomon({"lessons", "-o", folder / "site", "--only", "acn"}), 2, "acne");
   EXPECT_FALSE(std::filesystem::exists(folder / "site"));
+  expect_one_line(run_gnomon({"lessons", "-o", folder / "site", "--lecture", "shadow"}), 2, "shadows");
+  expect_one_line(run_gnomon({"lessons", "--lecture", "shadows", "--only", "acne"}), 2, "--lecture");
   std::ofstream(folder / "file") << "x";
   expect_one_line(run_gnomon({"lessons", "-o", folder / "file", "--only", "precision"}), 4, "file");
 }

@@ -38,6 +38,7 @@ TEST(PagePolicy, EveryKindOfPageHasOne) {
       Words{"shimmer", "acne-floor", "--frames", "2"} + quick,
       Words{"tune", "acne-floor", "--size", "64x36", "--map-size", "64,128", "--max-error", "90%"},
       Words{"lessons", "--only", "precision"},
+      Words{"lessons", "--lecture", "shadows"},
       Words{"grade", "rubric.json"}};
   for (std::size_t i = 0; i < commands.size(); ++i) {
     const std::string out = "out" + std::to_string(i), name = commands[i][0];

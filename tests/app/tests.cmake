@@ -26,3 +26,4 @@ gnomon_test(export_suite_test SOURCES export_suite_test.cpp LIBS gnomon::app gno
 
 # The lessons of the site, with their live figures.
 gnomon_node_test(lessons_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/lessons_browser")
+gnomon_node_test(lectures_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/lectures_browser")

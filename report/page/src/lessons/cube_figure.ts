@@ -30,7 +30,7 @@ export function cubeFigure({ data }: FigureJson, id: string): HTMLElement {
     sliders.set("lampY", at[1]);
   }, () => ({ target, lamp }));
   const said = html("p", { class: "bias-counts", role: "status" });
-  const slider = (name: string, from: number, to: number, value: number) => ({ name, from, to, step: 0.005, value, text: (v: number) => number(v, 3) });
+  const slider = (name: string, from: number, to: number, value: number) => ({ name, from, to, step: 0.005, value, text: (v: number) => number(v, 3), drags: true });
   const sliders: Sliders<string> = new Sliders<string>({
     x: slider("Point of the floor", left, right, 1.6),
     texels: { name: "Texels along a face", from: 2, to: 32, step: 1, value: 8, text: String },

@@ -85,7 +85,7 @@ function shadowFigure(json: FlatlandJson, settings: Record<string, string>, id: 
   const said = html("p", { class: "bias-counts", role: "status" });
   const mapOf = () => new SunMap(world, sunAt(sliders.value("angle")), sliders.value("texels"), corners);
   const own: Record<"angle" | "texels" | "bias", Slider> = {
-    angle: { name: "Sun, degrees from the zenith", from: -80, to: 80, step: 0.5, value: start, text: (v) => `${number(v, 3)}°` },
+    angle: { name: "Sun, degrees from the zenith", from: -80, to: 80, step: 0.5, value: start, text: (v) => `${number(v, 3)}°`, drags: true },
     texels: { name: "Texels of the map", from: 4, to: 128, step: 1, value: first("texels", acne ? 14 : 40), text: (v) => String(v) },
     bias: { name: "Bias, world units", from: 0, to: Number((0.1 * width).toPrecision(2)), step: width / 4000, value: first("bias", name === "wall" ? 0.2 : 0), text: (v) => number(v, 3) },
   };

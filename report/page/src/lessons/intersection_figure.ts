@@ -138,7 +138,7 @@ function rayFigure(kind: string, id: string): HTMLElement {
     sliders.set(`${handle}y`, at[1]);
   }, () => ({ a: aim, o }));
   const said = html("p", { class: "bias-counts", role: "status" });
-  const slider = (name: string, k: 0 | 1, value: number) => ({ name, from: window[2 * k]!, to: window[2 * k + 1]!, step: 0.005, value, text: (v: number) => number(v, 3) });
+  const slider = (name: string, k: 0 | 1, value: number) => ({ name, from: window[2 * k]!, to: window[2 * k + 1]!, step: 0.005, value, text: (v: number) => number(v, 3), drags: true });
   const sliders: Sliders<string> = new Sliders<string>({
     ox: slider("Start, left and right", 0, -2.6), oy: slider("Start, up and down", 1, 0.9),
     ax: slider("Aim, left and right", 0, 1.6), ay: slider("Aim, up and down", 1, kind === "implicit" ? -0.35 : -0.5),
@@ -164,7 +164,7 @@ function triangleFigure(id: string): HTMLElement {
   }, () => Object.fromEntries(names.map((name, i) => [name, corners[i]!])));
   const said = html("p", { class: "bias-counts", role: "status" });
   const start: Vec2[] = [[-1.2, -0.7], [1.5, -0.4], [0.2, 1.1]];
-  const sliders: Sliders<string> = new Sliders<string>(Object.fromEntries(names.flatMap((name, i) => ([0, 1] as const).map((k) => [`${name}${"xy"[k]}`, { name: `Corner ${name}, ${k === 0 ? "left and right" : "up and down"}`, from: window[2 * k]!, to: window[2 * k + 1]!, step: 0.005, value: start[i]![k], text: (v: number) => number(v, 3) }]))), () => show());
+  const sliders: Sliders<string> = new Sliders<string>(Object.fromEntries(names.flatMap((name, i) => ([0, 1] as const).map((k) => [`${name}${"xy"[k]}`, { name: `Corner ${name}, ${k === 0 ? "left and right" : "up and down"}`, from: window[2 * k]!, to: window[2 * k + 1]!, step: 0.005, value: start[i]![k], text: (v: number) => number(v, 3), drags: true }]))), () => show());
   const show = () => {
     corners = names.map((name): Vec2 => [sliders.value(`${name}x`), sliders.value(`${name}y`)]);
     const [A, B, C] = corners as [Vec2, Vec2, Vec2], u = cross(C, B), v = cross(A, C), w = cross(B, A), sum = u + v + w;

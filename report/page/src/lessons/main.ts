@@ -1,14 +1,18 @@
 // What a lesson's page gains when scripts may run: live figures in the place of pictures, commands to copy, and a slide view
-// for a projector. Without it the page is text and pictures.
+// for a projector; and a lecture's: slides and notes. Without it the page is text and pictures.
 import "../report.css";
 import "./lessons.css";
+import "./lecture.css";
 import { copyButton } from "../clipboard";
 import { startFigures } from "./figures";
+import { Lecture } from "./lecture";
 import { SlideView } from "./slides";
 
 async function start(): Promise<void> {
   for (const code of document.querySelectorAll<HTMLElement>("code.language-sh")) code.parentElement!.after(copyButton(code, "Copy"));
   await startFigures();
+  const lecture = document.querySelector<HTMLElement>(".lecture");
+  if (lecture) new Lecture(lecture);
   const lesson = document.querySelector<HTMLElement>(".lesson-text");
   if (lesson?.querySelector("h2")) new SlideView(lesson);
   document.documentElement.dataset.ready = "true";

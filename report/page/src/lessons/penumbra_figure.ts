@@ -18,8 +18,8 @@ export function penumbraFigure(json: FlatlandJson, id: string): HTMLElement {
   const said = html("p", { class: "bias-counts", role: "status" });
   const sliders: Sliders<"radius" | "x" | "height"> = new Sliders({
     radius: { name: "Radius of the lamp", from: 0, to: 1, step: 0.02, value: json.light.radius, text: (v) => number(v, 2) },
-    x: { name: "Lamp, left and right", from: -1.5, to: 1.5, step: 0.01, value: x0, text: (v) => number(v, 2) },
-    height: { name: "Height of the lamp", from: 2, to: 4.4, step: 0.01, value: y0, text: (v) => number(v, 3) },
+    x: { name: "Lamp, left and right", from: -1.5, to: 1.5, step: 0.01, value: x0, text: (v) => number(v, 2), drags: true },
+    height: { name: "Height of the lamp", from: 2, to: 4.4, step: 0.01, value: y0, text: (v) => number(v, 3), drags: true },
   }, () => show());
   const place = (x: number): Place => ({ surface: floor, at: [x, 0], normal: [0, 1] });
   const show = () => {

@@ -97,6 +97,7 @@ export interface Slider {
   step: number;
   value: number;
   text: (value: number) => string;  // beside it, and to be heard
+  drags?: boolean;  // the drawing is dragged for it as well: a lecture's slide leaves the slider out
 }
 
 /** Sliders by their keys, which show their values; `changed` is told once a frame. */
@@ -107,13 +108,13 @@ export class Sliders<Key extends string> {
   private frame = 0;
 
   constructor(sliders: Record<Key, Slider>, private readonly changed: () => void) {
-    for (const [key, { name, from, to, step, value, text }] of Object.entries<Slider>(sliders)) {
+    for (const [key, { name, from, to, step, value, text, drags }] of Object.entries<Slider>(sliders)) {
       const range = html("input", { type: "range", min: String(from), max: String(to), step: String(step), value: String(value), "data-slider": key });
       const shown = html("output", {});
       this.ranges[key as Key] = range;
       this.texts.push(() => { shown.textContent = text(Number(range.value)); range.setAttribute("aria-valuetext", shown.textContent); });
       range.addEventListener("input", () => this.later());
-      this.bar.append(html("label", {}, html("span", {}, name), range, shown));
+      this.bar.append(html("label", drags ? { class: "drags" } : {}, html("span", {}, name), range, shown));
     }
     this.write();
   }

@@ -33,7 +33,7 @@ export function structureFigure({ data }: FigureJson, id: string): HTMLElement {
     return [x - w / 2, x + w / 2, y - h / 2, y + h / 2];
   };
   const said = html("p", { class: "bias-counts", role: "status" }), first = view(1);
-  const end = (key: string, name: string, value: number): Record<string, never> => ({ [key]: { name, from: 0, to: 1, step: 0.001, value, text: (v: number) => number(v, 3) } }) as Record<string, never>;
+  const end = (key: string, name: string, value: number): Record<string, never> => ({ [key]: { name, from: 0, to: 1, step: 0.001, value, text: (v: number) => number(v, 3), drags: true } }) as Record<string, never>;
   const sliders: Sliders<string> = new Sliders<string>({
     step: { name: "Cells visited", from: 0, to: 1, step: 0.001, value: 1, text: (v) => `${Math.round(100 * v)} %` },
     zoom: { name: "Enlarged", from: 0, to: Math.log2(zoomMost(lines, width)), step: 0.05, value: 0, text: (v) => `${number(2 ** v, 2)}×` },

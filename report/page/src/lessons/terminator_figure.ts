@@ -24,7 +24,7 @@ export function terminatorFigure(json: FlatlandJson, id: string): HTMLElement {
   const said = html("p", { class: "bias-counts", role: "status" });
   const start = json.light.position ? angleOf(unit(sub(ball.center, json.light.position))) : 35;
   const sliders: Sliders<"angle" | "sides"> = new Sliders({
-    angle: { name: "Sun, degrees from the zenith", from: -180, to: 180, step: 0.5, value: Math.round(2 * start) / 2, text: (v) => `${number(v, 4)}°` },
+    angle: { name: "Sun, degrees from the zenith", from: -180, to: 180, step: 0.5, value: Math.round(2 * start) / 2, text: (v) => `${number(v, 4)}°`, drags: true },
     sides: { name: "Faces round the ball", from: 5, to: 60, step: 1, value: 14, text: String },
   }, () => show());
   const show = () => {

@@ -125,7 +125,7 @@ export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
     sliders.set(`${handle}Y`, shareY(at[1]));
   }, () => handles);
   const said = html("p", { class: "bias-counts", role: "status" });
-  const slider = (name: string, value: number) => ({ name, from: 0, to: 1, step: 0.001, value, text: (v: number) => number(v, 3) });
+  const slider = (name: string, value: number) => ({ name, from: 0, to: 1, step: 0.001, value, text: (v: number) => number(v, 3), drags: true });
   const sliders: Sliders<string> = new Sliders<string>({
     step: { name: "Rays", from: 0, to: 1, step: 0.001, value: 1, text: (v) => percent(v) },
     eyeX: slider("Eye, left and right", 0.05), eyeY: slider("Eye, up and down", 0.45),
