@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "benchmark/row.h"
 #include "scene/base/expected.h"
 #include "scene/base/stages.h"
 #include "scene/base/timing.h"
@@ -41,6 +42,15 @@ std::pair<double, double> in_turn(int runs, int threads, const Ours& ours, const
   ours(), theirs();
   for (int i = 0; i < runs; ++i) time_pass(a, threads, ours), time_pass(b, threads, theirs);
   return {a.median(), b.median()};
+}
+
+/// Prints a row that has a peer, for people.
+inline void show(std::FILE* table, const BenchRow& row) {
+  const double ratio = row.ratio().value();
+  fmt::print(table, "  {:<32} {} thr {:>9.2f} {:<8} {:<26} {:>9.2f}  x{:.2f}{}\n", row.name, row.threads,
+             row.value, row.unit, row.peer->name, row.peer->value, ratio,
+             row.goal ? fmt::format("  goal {:.2f} {}", *row.goal, *row.met() ? "met" : "NOT MET") : "");
+  std::fflush(table);
 }
 
 /// The value, or the error as the program's last word.
