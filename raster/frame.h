@@ -17,11 +17,16 @@
 namespace gnomon::raster {
 
 struct ContextInfo {
-  std::string backend;   ///< "osmesa", "egl-software", "egl-hardware"; "window" in the viewer
+  std::string backend;   ///< "osmesa", "egl-software", "egl-hardware", "webgl2"; "window" in the viewer
   std::string version;   ///< GL_VERSION
   std::string renderer;  ///< GL_RENDERER
   int max_map_size = 0;  ///< texels
 };
+
+/// Whether a context of that backend has what only OpenGL 4.5 does: storage buffers, and doubles in shaders.
+constexpr bool is_whole(std::string_view backend) {
+  return backend != "webgl2";
+}
 
 /// The depth map as stored.
 struct ShadowMap {

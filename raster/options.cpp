@@ -86,6 +86,9 @@ Expected<void> check_options(const RasterOptions& options, const ContextInfo& co
   if (auto ok = check_size("image height", "pixels", options.size.height, limit, limits); !ok) return ok;
   if (options.runs < 0)
     return fail(usage("runs", fmt::format("must not be negative (got {})", options.runs)));
+  if (options.map.technique == Technique::izb && !is_whole(context.backend))
+    return fail(ErrorKind::graphics,
+                "technique izb writes storage buffers, which WebGL 2 lacks (the native program draws it)");
   return check_map_options(options.map);
 }
 

@@ -221,6 +221,10 @@ Expected<std::unique_ptr<Renderer>> Renderer::create(std::unique_ptr<Context> co
                                                      const EffectPlan& plan,
                                                      const std::string& shader_folder) {
   if (!context->make_current()) return fail(ErrorKind::graphics, "the OpenGL context cannot be made current");
+  if (world.keeps_instances() && !is_whole(context->backend()))
+    return fail(
+        ErrorKind::graphics,
+        "kept instances are moved in double precision, which WebGL 2 lacks (allowed: --instances flatten)");
   auto gl = Gl::load(*context);
   if (!gl) return fail(gl.error());
   auto folder = ShaderFolder::read(shader_folder);

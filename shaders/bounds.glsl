@@ -161,7 +161,8 @@ Slope s_sqrt(Slope a) {
 }
 Slope s_abs(Slope a) {
   if (a.v.x >= 0.0) return a;
-  return a.v.y <= 0.0 ? s_neg(a) : Slope(i_abs(a.v), i_mul(vec2(-1.0, 1.0), a.d));
+  if (a.v.y <= 0.0) return s_neg(a);
+  return Slope(i_abs(a.v), i_mul(vec2(-1.0, 1.0), a.d));
 }
 Slope s_sin(Slope a) { return Slope(i_sin(a.v), i_mul(i_cos(a.v), a.d)); }
 Slope s_cos(Slope a) { return Slope(i_cos(a.v), i_mul(-i_sin(a.v).yx, a.d)); }

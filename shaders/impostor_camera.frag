@@ -23,7 +23,7 @@ layout(location = solid_distance_output) out float solid_distance;
 bool usable(vec3 direction, float t) {
   if (!(t > 0.0) || isinf(t)) return false;
 #ifdef ALPHA_MASK
-  ShapeData shape = shape_at(shape_index);
+  ShapeData shape = shape_at(uint(shape_index));
   if (is_hole(material_at(shape.material), shape_uv(shape, pixel_origin(gl_FragCoord.xy) + t * direction))) return false;
 #endif
   return true;
@@ -32,7 +32,7 @@ bool usable(vec3 direction, float t) {
 void main() {
   vec3 from_eye = pixel_offset(gl_FragCoord.xy), direction = pixel_direction(gl_FragCoord.xy);
 #ifdef SOLID
-  ShapeData shape = shape_at(shape_index);
+  ShapeData shape = shape_at(uint(shape_index));
   vec3 local_origin = mat3(solid_from_frame) * from_eye + solid_from_frame[3].xyz;
   vec3 local_direction = mat3(solid_from_frame) * direction;
   float t, from = 0.0;
@@ -50,7 +50,7 @@ void main() {
   float t = (shape_in_frame.w - dot(shape_in_frame.xyz, from_eye)) / dot(shape_in_frame.xyz, direction);
 #endif
   if (!usable(direction, t)) discard;
-  primitive_id = shape_at(shape_index).primitive;
+  primitive_id = shape_at(uint(shape_index)).primitive;
 #ifdef SOLID
   solid_distance = t;
 #endif

@@ -46,7 +46,7 @@ TexelRay texel_ray(vec2 at) {
 #ifdef CASTER_BIAS
 vec3 normal_at(vec3 p) {
 #ifdef SOLID
-  return transpose(mat3(solid_from_frame)) * solid_surface(shape_at(shape_index), (solid_from_frame * vec4(p, 1.0)).xyz);
+  return transpose(mat3(solid_from_frame)) * solid_surface(shape_at(uint(shape_index)), (solid_from_frame * vec4(p, 1.0)).xyz);
 #elif defined(SPHERE)
   return p - shape_in_frame.xyz;
 #else
@@ -77,7 +77,7 @@ bool usable(TexelRay ray, float t) {
   if (!lies_behind(clamp(stored_from_depth(ivec3(gl_FragCoord.xy, face), t), 0.0, 1.0))) return false;
 #endif
 #ifdef ALPHA_MASK
-  ShapeData shape = shape_at(shape_index);
+  ShapeData shape = shape_at(uint(shape_index));
   vec3 p = ray.origin + t * ray.direction;
   vec3 position = light.origin_and_warp[face].xyz + p.x * light.right[face].xyz + p.y * light.up[face].xyz +
                   p.z * light.forward[face].xyz;
@@ -89,7 +89,7 @@ bool usable(TexelRay ray, float t) {
 void main() {
   TexelRay ray = texel_ray(gl_FragCoord.xy);
 #ifdef SOLID
-  ShapeData shape = shape_at(shape_index);
+  ShapeData shape = shape_at(uint(shape_index));
   vec3 local_origin = (solid_from_frame * vec4(ray.origin, 1.0)).xyz, local_direction = mat3(solid_from_frame) * ray.direction;
 #ifdef PERSPECTIVE
   float from = 0.0;

@@ -128,8 +128,11 @@ Receiver shape_receiver(ShapeData shape, vec3 origin, vec3 direction) {
 Receiver receiver_at(uint primitive, vec2 window) {
   vec3 origin = pixel_origin(window), direction = pixel_direction(window);
   uint triangle_count = camera.counts.x;
-  Receiver r = primitive < triangle_count ? triangle_receiver(primitive, origin, direction)
-                                          : shape_receiver(shape_at(primitive - triangle_count), origin, direction);
+  Receiver r;
+  if (primitive < triangle_count)
+    r = triangle_receiver(primitive, origin, direction);
+  else
+    r = shape_receiver(shape_at(primitive - triangle_count), origin, direction);
   r.to_eye = normalize(-direction);
   return r;
 }

@@ -4,13 +4,13 @@ set(GNOMON_READ_ONLY_DATA ".rodata,\"\",@")
 set(GNOMON_STACK_NOTE)
 set(platform "${PROJECT_SOURCE_DIR}/cmake/platform/web")
 set(GNOMON_SCENE_PLATFORM "${platform}/one_thread.cpp" "${platform}/outside.cpp" "${platform}/images.cpp")
-set(GNOMON_RASTER_PLATFORM "${platform}/context.cpp")
+set(GNOMON_RASTER_PLATFORM)
 set(GNOMON_STUDIES_PLATFORM)
 set(GNOMON_APP_PLATFORM "${platform}/commands.cpp")
 set(GNOMON_APP_ROOMS)
 set(GNOMON_PROGRAM_PLATFORM "${platform}/main.cpp")
 set(GNOMON_PROGRAM_PROPERTIES SUFFIX .mjs)
-set(GNOMON_RASTER_LIBRARIES)
+set(GNOMON_RASTER_LIBRARIES web_gl)
 set(GNOMON_SORTING)
 configure_file("${platform}/gnomon.js" "${PROJECT_BINARY_DIR}/app/gnomon.js" COPYONLY)
 file(WRITE "${PROJECT_BINARY_DIR}/app/package.json" "{ \"type\": \"module\" }\n")
@@ -21,6 +21,7 @@ add_compile_options(${flags} "$<$<COMPILE_LANGUAGE:CXX>:-fexperimental-library>"
 # A module whose callMain(words) runs a command line over files in memory (FS), in a page, a worker or Node.
 add_link_options(${flags} -sMODULARIZE -sEXPORT_ES6 -sEXPORT_NAME=gnomon -sINVOKE_RUN=0 -sEXIT_RUNTIME=0
   -sEXPORTED_RUNTIME_METHODS=callMain,FS,NODEFS -lnodefs.js -sFORCE_FILESYSTEM -sENVIRONMENT=web,worker,node
+  -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2
   -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=4GB -sINITIAL_MEMORY=64MB -sSTACK_SIZE=8MB)
 add_compile_definitions(HWY_COMPILE_ONLY_STATIC FMT_HEADER_ONLY)
 include_directories(BEFORE SYSTEM "${platform}/include")
@@ -41,3 +42,8 @@ set(TURBOJPEG_LIBRARY web_jpeg)
 set(NETTLE_LIBRARY nettle)
 set(GNOMON_SCENE_LIBRARIES web_meshoptimizer)
 set(GNOMON_EXACT_INTEGERS mini_gmp)
+
+# OpenGL over WebGL 2. Not compiled with raster/, whose OpenGL headers declare the same names otherwise.
+add_library(web_gl STATIC "${platform}/webgl/calls.cpp" "${platform}/webgl/context.cpp" "${platform}/webgl/glsl.cpp" "${platform}/webgl/objects.cpp" "${platform}/webgl/programs.cpp"
+  "${platform}/webgl/read_back.cpp")
+target_link_libraries(web_gl PRIVATE gnomon_flags gnomon_warnings fmt::fmt glm::glm tl::expected)

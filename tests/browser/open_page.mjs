@@ -19,7 +19,9 @@ const browserPath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].fi
   || skip("no chromium-headless-shell or chromium in /usr/bin");
 const { chromium } = load("playwright-core");
 const axeSource = load("axe-core").source;
-export const browser = await chromium.launch({ executablePath: browserPath });
+/** WebGL without a GPU is the browser's own software's. */
+const webgl = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+export const browser = await chromium.launch({ executablePath: browserPath, args: webgl });
 
 /** In the page: an array of a type as text. Its numbers one by one take ten times as long to come out of the browser. */
 function addBytesAsText() {

@@ -1,0 +1,149 @@
+#include "cmake/platform/web/webgl/calls.h"
+
+#include <GLES3/gl3.h>
+#include <emscripten/em_js.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "cmake/platform/web/webgl/glsl.h"
+#include "cmake/platform/web/webgl/read_back.h"
+#include "cmake/platform/web/webgl/state.h"
+
+EM_JS(void, gnomon_clip_control, (int origin, int depth),
+      { GLctx.getExtension("EXT_clip_control").clipControlEXT(origin, depth); });
+EM_JS(void, gnomon_enablei, (int what, int index),
+      { GLctx.getExtension("OES_draw_buffers_indexed").enableiOES(what, index); });
+EM_JS(char*, gnomon_renderer, (), {
+  const info = GLctx.getExtension("WEBGL_debug_renderer_info");
+  return stringToNewUTF8(GLctx.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : GLctx.RENDERER));
+});
+
+namespace gnomon::web {
+namespace {
+
+// OpenGL's, which WebGL's header has not.
+constexpr GLenum most_buffer_texels = 0x8C2B, framebuffer_srgb = 0x8DB9, debug_output = 0x92E0,
+                 debug_at_once = 0x8242;
+
+void clip_control(GLenum origin, GLenum depth) {
+  gnomon_clip_control(static_cast<int>(origin), static_cast<int>(depth));
+}
+bool exists(GLenum what) {
+  return what != debug_output && what != debug_at_once && what != framebuffer_srgb;
+}
+void enable(GLenum what) {
+  if (exists(what)) glEnable(what);
+}
+void disable(GLenum what) {
+  if (exists(what)) glDisable(what);
+}
+void enable_indexed(GLenum what, GLuint at) {
+  gnomon_enablei(static_cast<int>(what), static_cast<int>(at));
+}
+void get_integer(GLenum name, GLint* value) {
+  if (name == GL_NUM_EXTENSIONS) return void(*value = 1);  // the loader wants one (get_string_at())
+  if (name != most_buffer_texels) return glGetIntegerv(name, value);
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, value);
+  *value *= fetch_width;
+}
+void get_integer_64(GLenum, GLint64* value) {
+  *value = 0;
+}
+const GLubyte* get_string(GLenum name) {
+  static std::map<GLenum, std::string> texts;
+  std::string& text = texts[name];
+  if (name == GL_RENDERER) {
+    char* const renderer = gnomon_renderer();
+    text = renderer;
+    std::free(renderer);
+  } else {
+    text = reinterpret_cast<const char*>(glGetString(name));
+    if (name == GL_VERSION) text = "4.5 over WebGL 2: " + text;  // that whose functions are called
+  }
+  return reinterpret_cast<const GLubyte*>(text.c_str());
+}
+const GLubyte* get_string_at(GLenum, GLuint) {
+  return reinterpret_cast<const GLubyte*>("");
+}
+void ignore_vertex_array(GLuint) {}  // the shaders fetch
+void vertex_array_two(GLuint, GLuint) {}
+void vertex_array_three(GLuint, GLuint, GLuint) {}
+void vertex_array_buffer(GLuint, GLuint, GLuint, GLintptr, GLsizei) {}
+void vertex_array_format(GLuint, GLuint, GLint, GLenum, GLboolean, GLuint) {}
+void debug_callback(const void*, const void*) {}
+
+}  // namespace
+
+namespace {
+std::shared_ptr<State> current_state;
+}  // namespace
+
+State& state() {
+  return *current_state;
+}
+
+std::shared_ptr<State> new_objects() {
+  return std::make_shared<State>();
+}
+
+void use_objects(std::shared_ptr<State> of_context) {
+  current_state = std::move(of_context);
+}
+
+Procedure found(std::span<const Named> all, const char* name) {
+  for (const Named& known : all)
+    if (std::strcmp(known.name, name) == 0) return known.function;
+  return nullptr;
+}
+
+Procedure gl_procedure(const char* name) {
+  static const Named all[] = {
+      named("glGetTextureSubImage", read_texture),
+      named("glCreateFramebuffers", glGenFramebuffers),
+      named("glDeleteFramebuffers", glDeleteFramebuffers),
+      named("glCreateVertexArrays", glGenVertexArrays),
+      named("glDeleteVertexArrays", glDeleteVertexArrays),
+      named("glBindVertexArray", ignore_vertex_array),
+      named("glVertexArrayElementBuffer", vertex_array_two),
+      named("glEnableVertexArrayAttrib", vertex_array_two),
+      named("glVertexArrayAttribBinding", vertex_array_three),
+      named("glVertexArrayVertexBuffer", vertex_array_buffer),
+      named("glVertexArrayAttribFormat", vertex_array_format),
+      named("glGetShaderiv", glGetShaderiv),
+      named("glGetShaderInfoLog", glGetShaderInfoLog),
+      named("glGetProgramiv", glGetProgramiv),
+      named("glGetProgramInfoLog", glGetProgramInfoLog),
+      named("glClipControl", clip_control),
+      named("glEnable", enable),
+      named("glDisable", disable),
+      named("glEnablei", enable_indexed),
+      named("glViewport", glViewport),
+      named("glScissor", glScissor),
+      named("glDepthMask", glDepthMask),
+      named("glDepthFunc", glDepthFunc),
+      named("glCullFace", glCullFace),
+      named("glFrontFace", glFrontFace),
+      named("glBlendEquation", glBlendEquation),
+      named("glBlendFunc", glBlendFunc),
+      named("glClearColor", glClearColor),
+      named("glClear", glClear),
+      named("glFinish", finish),
+      named("glReadBuffer", glReadBuffer),
+      named("glReadPixels", glReadPixels),
+      named("glGetIntegerv", get_integer),
+      named("glGetInteger64v", get_integer_64),
+      named("glGetString", get_string),
+      named("glGetStringi", get_string_at),
+      named("glGetError", glGetError),
+      named("glDebugMessageCallback", debug_callback),
+  };
+  for (const Procedure known : {object_procedure(name), program_procedure(name), found(all, name)})
+    if (known != nullptr) return known;
+  return nullptr;
+}
+
+}  // namespace gnomon::web

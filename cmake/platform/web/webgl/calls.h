@@ -1,0 +1,18 @@
+// OpenGL 4.5 as raster/ calls it, over WebGL 2: objects named directly instead of bound, buffer textures (2D textures
+// fetch_width wide), vertices fetched by the shaders, depth and integers read back.
+#pragma once
+
+#include <memory>
+
+namespace gnomon::web {
+
+/// The function of this name; nullptr where raster/ calls none of it.
+void (*gl_procedure(const char* name))();
+
+/// The objects of one context, which has to be current where they are used.
+struct State;
+std::shared_ptr<State> new_objects();
+/// Those of the context that is current from now on.
+void use_objects(std::shared_ptr<State> of_context);
+
+}  // namespace gnomon::web

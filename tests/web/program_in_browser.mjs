@@ -1,0 +1,62 @@
+// The program for the web in a worker of a browser page, as a page's engine has it: command lines over files in memory.
+import { createServer } from "node:http";
+import { createReadStream, existsSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import path from "node:path";
+import { browser } from "../browser/open_page.mjs";
+
+export { skip } from "../browser/open_page.mjs";
+
+export const app = fileURLToPath(new URL("../../build/web/app/", import.meta.url));
+export const isBuilt = existsSync(path.join(app, "gnomon.wasm"));
+
+const worker = `
+import gnomon from "./gnomon.mjs";
+let said = "";
+const module = await gnomon({ thisProgram: "gnomon", print: (line) => { said += line + "\\n"; }, printErr: (line) => { said += line + "\\n"; } });
+onmessage = ({ data: { words, files } }) => {
+  said = "";
+  const begin = performance.now(), code = module.callMain(words), ms = performance.now() - begin;
+  const read = (file) => { try { return module.FS.readFile(file); } catch { return null; } };
+  postMessage({ code, said, ms, files: files.map(read) });
+};
+postMessage("ready");`;
+const types = { ".mjs": "text/javascript", ".js": "text/javascript", ".wasm": "application/wasm", ".html": "text/html" };
+const own = { "/": ["text/html", "<!doctype html><title>Program</title>"], "/worker.mjs": ["text/javascript", worker] };
+
+/** Serves the built program and a page that has it in a worker. */
+export async function openProgram() {
+  const server = createServer((request, response) => {
+    const { pathname } = new URL(request.url, "http://localhost");
+    const [type, text] = own[pathname] ?? [types[path.extname(pathname)]];
+    if (!type) return response.writeHead(404).end();
+    response.writeHead(200, { "Content-Type": type });
+    return text ? response.end(text) : createReadStream(path.join(app, path.basename(pathname))).pipe(response);
+  });
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  const page = await browser.newPage();
+  page.on("console", (message) => console.log(`browser: ${message.text()}`));
+  await page.goto(`http://127.0.0.1:${server.address().port}/`);
+  await page.evaluate(() => new Promise((done, fail) => {
+    globalThis.program = new Worker("worker.mjs", { type: "module" });
+    globalThis.program.onerror = (event) => fail(new Error(event.message));
+    globalThis.program.onmessage = () => done();
+  }));
+  /** Runs a command line, and hands out the files that it wrote. */
+  const run = async (words, ...files) => {
+    const done = await page.evaluate(([asked, wanted]) => new Promise((tell, fail) => {
+      globalThis.program.onerror = (event) => fail(new Error(event.message));
+      globalThis.program.onmessage = ({ data }) => {
+        const text = (bytes) => {
+          const parts = [];
+          for (let at = 0; at < bytes.length; at += 4096) parts.push(String.fromCharCode(...bytes.subarray(at, at + 4096)));
+          return btoa(parts.join(""));
+        };
+        tell({ ...data, files: data.files.map((bytes) => (bytes ? text(bytes) : null)) });
+      };
+      globalThis.program.postMessage({ words: asked, files: wanted });
+    }), [words, files]);
+    return { ...done, files: done.files.map((text) => (text === null ? null : Buffer.from(text, "base64"))) };
+  };
+  return { run, close: () => browser.close().then(() => server.close()) };
+}
