@@ -81,6 +81,20 @@ enum class AngleForm : std::uint8_t { none, sine, tangent, one_minus_cosine };
 inline constexpr std::array<std::string_view, 4> angle_form_names{"none", "sine", "tangent",
                                                                   "one_minus_cosine"};
 
+/// A map whose texels hold averages of functions of the stored number x, and how another renderer makes light of them: by the
+/// technique's own formula (compare/ladder/moments.h).
+struct CapturedMoments {
+  using Texel = std::array<float, 4>;
+  Technique technique = Technique::vsm;  ///< vsm, esm, evsm or msm
+  FilterOptions
+      filter;  ///< its exponents (evsm: a negative one of 0, where none is stored), bleeding and bias
+  double minimum_variance = 0.0;  ///< of x, of evsm of 2 x - 1
+  double own_share = 1.0;         ///< the least share that a texel's own depth has of its average
+  Vec2 range{0.0,
+             1.0};  ///< where CapturedTest::stores is not depths: world units that are stored as 0 and as 1
+  std::vector<Texel> texels{};  ///< as ShadowMap::depth, whose numbers are these texels' means
+};
+
 /// How another renderer tests a map that it drew: by stored numbers, and in its own units.
 struct CapturedTest {
   /// World units that 1 of a stored number counts for; gaps and constant bias are differences of stored
@@ -98,8 +112,10 @@ struct CapturedTest {
   /// What the renderer stores: the depths of its matrix, distances from the light, or depths along the light's axis that
   /// are linear in world units.
   enum class Stores : std::uint8_t { depths, distances, linear_z } stores = Stores::depths;
-  /// Stored numbers are read between the four nearest texels, each weighed by how near it is, and then compared once.
-  bool linear_depths = false;
+  /// What is compared once: the texel's stored number; what is read between the four nearest texels, each weighed by how near it
+  /// is; or the number up to which moments that are so read leave half of the light.
+  enum class Read : std::uint8_t { nearest, linear_depths, moments } read = Read::nearest;
+  CapturedMoments moments{};
   /// By face, where a picture of the renderer's fills a part of the face alone: columns and rows from the lowest u and v.
   struct Part {
     int column = 0, row = 0, width = 0, height = 0;

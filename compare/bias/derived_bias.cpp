@@ -12,7 +12,9 @@ using raster::Technique;
 std::optional<double> reach_of(const raster::MapOptions& map, const raster::LightRecord& record) {
   constexpr double own_texel = 0.5, two_by_two = 1.0;
   const double radius = map.filter.radius_texels;
-  if (record.captured && record.captured->test && record.captured->test->linear_depths) return two_by_two;
+  if (record.captured && record.captured->test &&
+      record.captured->test->read == raster::CapturedTest::Read::linear_depths)
+    return two_by_two;
   switch (map.technique) {
     case Technique::hard:
     case Technique::csm:

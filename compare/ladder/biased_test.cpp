@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compare/ladder/moments.h"
 #include "compare/truth/texel_groups.h"
 
 namespace gnomon::compare {
@@ -187,21 +188,33 @@ std::optional<double> stored_caster(const raster::LightRecord& record, raytrace:
   return caster_in(record.map.depth, record.map, key);
 }
 
-std::optional<double> compared_caster(const raster::LightRecord& record, const BiasedLookup& lookup) {
-  if (!record.captured || !record.captured->test->linear_depths) return stored_caster(record, lookup.key);
+std::array<WeighedTexel, 4> texels_between(const raster::LightRecord& record, const TexelCoordinate& at) {
   const raster::ShadowMap& map = record.map;
-  const double u = lookup.at.u - 0.5, v = lookup.at.v - 0.5;
-  const double across = u - std::floor(u), up = v - std::floor(v);
-  const auto stored = [&](int du, int dv) {
-    const auto within = [&](double place) {
-      return std::clamp(static_cast<int>(place), 0, map.view.size - 1);
-    };
-    return double{
-        map.depth[map.texel_index(lookup.at.face, within(std::floor(u) + du), within(std::floor(v) + dv))]};
+  const auto& parts = record.captured->test->parts;
+  const raster::CapturedTest::Part part = parts.empty()
+                                              ? raster::CapturedTest::Part{0, 0, map.view.size, map.view.size}
+                                              : parts[static_cast<std::size_t>(at.face)];
+  const double u = at.u - 0.5, v = at.v - 0.5;
+  const int column = static_cast<int>(std::floor(u)), row = static_cast<int>(std::floor(v));
+  const auto texel = [&](int du, int dv) {
+    const double across = du == 0 ? column + 1 - u : u - column, up = dv == 0 ? row + 1 - v : v - row;
+    return WeighedTexel{
+        map.texel_index(at.face, std::clamp(column + du, part.column, part.column + part.width - 1),
+                        std::clamp(row + dv, part.row, part.row + part.height - 1)),
+        across * up};
   };
-  const double low = (1.0 - across) * stored(0, 0) + across * stored(1, 0);
-  const double high = (1.0 - across) * stored(0, 1) + across * stored(1, 1);
-  const double read = (1.0 - up) * low + up * high;
+  return {texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1)};
+}
+
+std::optional<double> compared_caster(const raster::LightRecord& record, const BiasedLookup& lookup) {
+  using Read = raster::CapturedTest::Read;
+  const Read how = record.captured ? record.captured->test->read : Read::nearest;
+  if (how == Read::nearest) return stored_caster(record, lookup.key);
+  if (how == Read::moments) return caster_of_moments(record, lookup);
+  const raster::ShadowMap& map = record.map;
+  double read = 0.0;
+  for (const WeighedTexel& near : texels_between(record, lookup.at))
+    read += near.weight * double{map.depth[near.index]};
   if (!holds_caster(map.view, read)) return std::nullopt;
   return depth_from_stored(map.view, lookup.at.face, lookup.key.row() + 0.5, read);
 }

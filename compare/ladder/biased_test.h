@@ -2,6 +2,7 @@
 // shaders/gap.glsl; a test holds the two together. Gaps are world units along the receiver's own light ray.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "raster/frame.h"
@@ -37,7 +38,14 @@ std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, con
                                           std::size_t pixel);
 /// The depth along forward that is stored in a texel, if a caster is.
 std::optional<double> stored_caster(const raster::LightRecord& record, raytrace::TexelKey key);
-/// The depth along forward that the test compares with: the stored one, or what is read between texels (linear_depths).
+/// One of the four texels around a place, and how much of it is read there: weights add up to 1.
+struct WeighedTexel {
+  std::size_t index = 0;  ///< ShadowMap::texel_index
+  double weight = 0.0;
+};
+/// A sampler's linear filter: of the texels that the face, or the part of it that is a picture, has not, the nearest ones.
+std::array<WeighedTexel, 4> texels_between(const raster::LightRecord& record, const TexelCoordinate& at);
+/// The depth along forward that the test compares with: the stored one, or what is read between texels (CapturedTest::read).
 std::optional<double> compared_caster(const raster::LightRecord& record, const BiasedLookup& lookup);
 /// The stored depth before the casters' own bias.
 std::optional<double> unbiased_caster(const raster::LightRecord& record, raytrace::TexelKey key);

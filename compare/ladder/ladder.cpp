@@ -152,7 +152,7 @@ float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::Te
   const double row = key.row();
   if (!holds_caster(map.view, stored)) return beyond_map(map.view, centre) ? flat : 1.0f;
   const double before = depth_from_stored(map.view, centre.face, row + 0.5, stored);
-  return is_exact(in, before, centre.depth) ? flat : lit(!(own > before));
+  return is_exact(in, key, before, centre.depth) ? flat : lit(!(own > before));
 }
 
 // V1: the light shrunk to its centre.

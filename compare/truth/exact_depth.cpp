@@ -44,9 +44,17 @@ double gap_with_bias(const LowerClimb& lower, const LadderInput& in, std::size_t
   const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
   const double exact = lower.centres[group];
   const double moved = caster_offset(in.record(), texel);
-  if (texel == lower.groups.keys[group] && is_exact(in, *depth - moved, exact))
+  const bool of_texel = texel == lower.groups.keys[group] && !reads_moments(in.record());
+  if (of_texel && is_exact(in, texel, *depth - moved, exact))
     return gap_before_exact(in, *lookup, receiver, exact + moved);
   return gap_before(in.record(), in.drawn.options.map.bias, receiver.normal, *lookup, *depth);
+}
+
+/// The depth at which the ray through the looked-up texel's centre meets what the texel stores.
+std::optional<double> exact_depth(const LowerClimb& lower, const LadderInput& in, std::size_t group,
+                                  raytrace::TexelKey key) {
+  const double first = key == lower.groups.keys[group] ? lower.centres[group] : trace_centre(in, key).depth;
+  return depth_of_stored(in, key, first);
 }
 
 std::optional<double> gap_to_exact(const LowerClimb& lower, const LadderInput& in, std::size_t group,
@@ -54,15 +62,21 @@ std::optional<double> gap_to_exact(const LowerClimb& lower, const LadderInput& i
   const auto lookup = lookup_of(in, pixel);
   if (!lookup) return std::nullopt;
   const auto& captured = in.record().captured;
-  if (captured && captured->test && captured->test->linear_depths)
+  if (captured && captured->test && captured->test->read == raster::CapturedTest::Read::linear_depths)
     return std::nullopt;  // it reads no one texel
-  double first_depth = lower.centres[group];
-  if (lookup->key != lower.groups.keys[group]) first_depth = trace_centre(in, lookup->key).depth;
-  const auto depth = depth_of_stored(in, lookup->key, first_depth);
+  const auto depth = exact_depth(lower, in, group, lookup->key);
   if (!depth) return std::nullopt;
   if (std::isinf(*depth)) return -infinity;
   return gap_before_exact(in, *lookup, in.traced.receiver.data[pixel],
                           *depth + caster_offset(in.record(), lookup->key));
+}
+
+/// Whether the test reads averages among which that depth may be.
+bool averages_exact(const LowerClimb& lower, const LadderInput& in, std::size_t group,
+                    raytrace::TexelKey key) {
+  if (!reads_moments(in.record())) return false;
+  const auto depth = exact_depth(lower, in, group, key);
+  return depth && is_exact(in, key, *depth, *depth);
 }
 
 /// A shader of the user's own that names neither bias nor gap draws without a bias.
@@ -125,6 +139,8 @@ UpperPixel::Verdict UpperPixel::verdict_at(double bias_world, float drawn, bool 
   if (!labelled || !has_error(drawn, truth)) return out;
   Levels v = rungs_at(rungs_, pixel_);
   v[5] = out.biased, v[6] = drawn;
+  // Moments are bias and filter in one: what the bias alone would not make is the filter's.
+  if (averages_exact(lower_, in_, group_, lookup_) && exact_gap()) v[5] = lit_with(*exact_gap(), bias_world);
   const bool exact = right_with_exact_depth(v, bias_world);
   out.label = label_of_error(lower_, in_, column_,
                              {pixel_, lookup_, deciding_step(v), drawn < truth, exact, truth,

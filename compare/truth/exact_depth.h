@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "compare/ladder/moments.h"
 #include "compare/truth/columns.h"
 
 namespace gnomon::compare {
@@ -11,8 +12,14 @@ namespace gnomon::compare {
 /// Whether a stored depth is the exact one up to the rounding of the shaders' floats. Such a depth counts as
 /// exact: a floor that faces the light squarely has one depth all over, and the map's float of it may fall to
 /// either side, which no rasterizer that rounds both sides alike would see.
-inline bool is_exact(const LadderInput& input, double stored_depth, double exact_depth) {
-  return std::abs(stored_depth - exact_depth) <= input.record().rounding.float_world;
+/// Of averaged moments: whether the exact one is among those that may have been averaged.
+inline bool is_exact(const LadderInput& input, raytrace::TexelKey key, double stored_depth,
+                     double exact_depth) {
+  const double rounding = input.record().rounding.float_world;
+  if (!reads_moments(input.record())) return std::abs(stored_depth - exact_depth) <= rounding;
+  const Interval averaged = averaged_depths(input.record(), key);
+  const double far = input.record().map.view.face(key.face()).far_depth;
+  return exact_depth >= averaged.min - rounding && std::min(exact_depth, far) <= averaged.max + rounding;
 }
 
 /// A climbed pixel above its lower rungs: V5, V6 and the label that it has at any constant bias.

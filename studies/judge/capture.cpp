@@ -50,6 +50,10 @@ Expected<void> check_map(const Capture& capture) {
   const std::size_t layers = capture.map.size();
   if (layers > most_layers)
     return capture_error(capture, "map", fmt::format("needs one layer to {}", most_layers));
+  const bool moments = reads_moments(capture);
+  if (moments && (capture.filter->kind == FilterName::esm || capture.filter->kind == FilterName::evsm) &&
+      capture.filter->exponents.empty())
+    return capture_error(capture, "filter.exponents", "is missing");
   for (std::size_t i = 0; i < layers; ++i) {
     const CapturedLayer& layer = capture.map[i];
     const auto wrong = [&](const char* field, std::string reason) {
@@ -70,6 +74,12 @@ Expected<void> check_map(const Capture& capture) {
                       stored_depth_names[static_cast<std::size_t>(*capture.map.front().convention)]));
     if (layer.range && !is_linear(*layer.convention))
       return wrong("range", "is of distance and linear_z; the matrix says it of the others");
+    if (moments &&
+        (layer.convention == StoredDepth::reversed || (layer.range && layer.range->x > layer.range->y)))
+      return wrong(
+          "convention",
+          "is not read of moments whose numbers fall with the distance; zero_to_one, minus_one_to_one, "
+          "distance and linear_z are, the last two with a `range` that rises");
     if (layer.range != capture.map.front().range) return wrong("range", "differs from that of map[0]");
     if (layer.select && layer.select->blend > 0.0 && i + 1 == layers)
       return wrong("select.blend",

@@ -32,7 +32,15 @@ constexpr bool is_linear(StoredDepth stored) {
   return stored == StoredDepth::distance || stored == StoredDepth::linear_z;
 }
 inline constexpr std::array<std::string_view, 2> row_order_names{"top_down", "bottom_up"};
-inline constexpr std::array<std::string_view, 2> filter_read_names{"nearest", "linear_depths"};
+constexpr raster::Technique technique_of(FilterName filter) {
+  using enum raster::Technique;
+  constexpr std::array techniques{hard, pcf, pcss, vsm, esm, evsm, msm};
+  return techniques[static_cast<std::size_t>(filter)];
+}
+constexpr bool has_moments(FilterName kind) {
+  return kind >= FilterName::vsm;
+}
+inline constexpr std::array<std::string_view, 3> filter_read_names{"nearest", "linear_depths", "moments"};
 inline constexpr std::array<std::string_view, 2> select_names{"view_z", "distance"};
 inline constexpr std::array<std::string_view, 7> filter_names{"none", "pcf",  "pcss", "vsm",
                                                               "esm",  "evsm", "msm"};
@@ -99,7 +107,12 @@ struct CapturedLayer {
 struct CapturedFilter {
   FilterName kind = FilterName::none;
   double radius_texels = 1.5;  ///< in (0, 64]
-  bool linear_depths = false;  ///< depths are read between the four nearest texels, and then compared
+  raster::CapturedTest::Read read = raster::CapturedTest::Read::nearest;
+  // Of moments alone.
+  std::vector<double> exponents{};  ///< esm: one; evsm: that of the positive warp, and of the negative one
+  double light_bleeding_reduction = 0.0;                     ///< in [0, 1)
+  double minimum_variance = 0.0;                             ///< >= 0
+  double moment_bias = raster::FilterOptions{}.moment_bias;  ///< msm, in (0, 1]
 };
 
 /// Files are as they can be opened: joined with the capture's folder.
@@ -120,6 +133,11 @@ struct Capture {
   std::string also;    ///< file: what else darkens the picture, to be divided out
   std::string within;  ///< "lights[1]." before the fields of one light of several; else empty
 };
+
+/// Whether the test reads moments, of which a layer's picture then has a channel each.
+inline bool reads_moments(const Capture& capture) {
+  return capture.filter && capture.filter->read == raster::CapturedTest::Read::moments;
+}
 
 /// Reads a capture's lights: one Capture for each of `lights`, each with what they share; of a capture without `lights` one.
 /// Errors (bad input) name file, line, column and field. Whether the parts go together is check_capture's.

@@ -83,9 +83,11 @@ Expected<Channel> single_channel(ChannelImage& picture, const std::string& file,
   if (values.size() != 1) {
     std::string got;
     for (const Channel* channel : values) got += (got.empty() ? "" : ", ") + channel->name;
-    return picture_error(file, field,
-                         fmt::format("has {} channels where one is wanted (got {}, allowed {})",
-                                     values.size(), got, fmt::join(names, " or ")));
+    return picture_error(
+        file, field,
+        fmt::format("has {} channels where one is wanted (got {}, allowed {}){}", values.size(), got,
+                    fmt::join(names, " or "),
+                    field.starts_with("map[") ? "; of moments `filter.read` is \"moments\"" : ""));
   }
   const std::string& name = values.front()->name;
   const bool known = std::any_of(names.begin(), names.end(), [&](std::string_view n) { return n == name; });
@@ -282,6 +284,10 @@ Expected<Channel> read_single_channel(const Capture& capture, const std::string&
   if (!picture) return fail(picture.error());
   size = picture->size;
   return single_channel(*picture, file, field, names);
+}
+
+Expected<ChannelImage> read_layer(const Capture& capture, std::size_t layer) {
+  return read_picture(capture, capture.map[layer].depth, fmt::format("map[{}].depth", layer), false);
 }
 
 Expected<void> check_picture_sizes(const Capture& capture) {

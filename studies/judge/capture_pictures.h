@@ -40,6 +40,9 @@ Expected<ImageSize> layer_size(const Capture& capture, std::size_t layer);
 /// evenly from near to far.
 Expected<CapturedPictures> read_pictures(const Capture& capture, bool orthographic);
 
+/// All channels of a layer's picture.
+Expected<ChannelImage> read_layer(const Capture& capture, std::size_t layer);
+
 /// One channel of a picture by the first of these names, or its only one. `field`: for messages.
 Expected<Channel> read_single_channel(const Capture& capture, const std::string& file,
                                       const std::string& field, std::span<const std::string_view> names,

@@ -90,6 +90,7 @@ class CaptureReader {
   raster::AngleForm angle_of(const JsonObject& object, const char* key,
                              const std::vector<std::string_view>& forms);
   void read_filter(const JsonNode& node);
+  void read_moments(const JsonObject& object, CapturedFilter& filter);
   std::string text(const JsonNode& node);
   std::string file(const JsonNode& node);
   std::string name_or_place(const JsonNode& node);
@@ -262,17 +263,39 @@ void CaptureReader::read_fade(const JsonNode& node) {
 }
 
 void CaptureReader::read_filter(const JsonNode& node) {
-  const JsonObject object(node, {"kind", "radius_texels", "read"});
+  const JsonObject object(node, {"kind", "radius_texels", "read", "exponents", "light_bleeding_reduction",
+                                 "minimum_variance", "moment_bias"});
   CapturedFilter& filter = out_.filter.emplace();
   if (const auto kind = object.require("kind"))
     filter.kind = static_cast<FilterName>(kind->as_choice(choices(filter_names)));
   filter.radius_texels = object.number("radius_texels", filter.radius_texels, radius_range);
-  const auto read = object.find("read");
-  if (!read) return;
-  since_2(*read, "read");
-  filter.linear_depths = read->as_choice(choices(filter_read_names)) == 1;
-  if (filter.linear_depths && filter.kind != FilterName::none)
-    read->error("linear_depths is one comparison, with kind none; pcf averages comparisons of single texels");
+  using Read = raster::CapturedTest::Read;
+  if (const auto read = object.find("read")) {
+    since_2(*read, "read");
+    filter.read = static_cast<Read>(read->as_choice(choices(filter_read_names)));
+    if (filter.read == Read::linear_depths && filter.kind != FilterName::none)
+      read->error(
+          "linear_depths is one comparison, with kind none; pcf averages comparisons of single texels");
+    if (filter.read == Read::moments && !has_moments(filter.kind))
+      read->error("moments are of the kinds vsm, esm, evsm and msm");
+  }
+  for (const char* key : {"exponents", "light_bleeding_reduction", "minimum_variance", "moment_bias"})
+    if (filter.read != Read::moments) object.forbid(key, "is of moments (`read`)");
+  if (filter.read == Read::moments) read_moments(object, filter);
+}
+
+void CaptureReader::read_moments(const JsonObject& object, CapturedFilter& filter) {
+  filter.light_bleeding_reduction = object.number("light_bleeding_reduction", 0.0, {0.0, 0.999});
+  filter.minimum_variance = object.number("minimum_variance", 0.0, non_negative_number);
+  filter.moment_bias = object.number("moment_bias", filter.moment_bias, strength_range);
+  const bool exponential = filter.kind == FilterName::esm || filter.kind == FilterName::evsm;
+  const auto node = exponential ? object.require("exponents") : object.find("exponents");
+  if (!node) return;
+  for (const JsonNode& number : node->as_array())
+    filter.exponents.push_back(number.as_number(positive_number));
+  const std::size_t most = filter.kind == FilterName::evsm ? 2 : exponential ? 1 : 0;
+  if (filter.exponents.empty() || filter.exponents.size() > most)
+    node->error("has esm one of, evsm one for each of its warps, the other kinds none");
 }
 
 /// What is of one light: its pictures, its map and how that is tested.

@@ -13,13 +13,6 @@ namespace {
 
 using raytrace::SurfacePoint;
 
-raster::Technique technique_of(FilterName filter) {
-  constexpr std::array techniques{raster::Technique::hard, raster::Technique::pcf, raster::Technique::pcss,
-                                  raster::Technique::vsm,  raster::Technique::esm, raster::Technique::evsm,
-                                  raster::Technique::msm};
-  return techniques[static_cast<std::size_t>(filter)];
-}
-
 raster::MapOptions map_options(const Capture& capture, int size) {
   raster::MapOptions map;
   const CapturedFilter filter = capture.filter.value_or(CapturedFilter{});
@@ -157,7 +150,8 @@ void fill_test(const FrameInput& in, const CapturedMap& map, raster::CapturedTes
                                                       : Stores::depths;
   test.unit_world = test.stores == Stores::depths ? unit_world(record.map, in.traced) : map.unit_world;
   test.parts = map.parts;
-  test.linear_depths = in.capture.filter && in.capture.filter->linear_depths;
+  if (in.capture.filter) test.read = in.capture.filter->read;
+  test.moments = map.moments;
   const CapturedBias& first = map.bias.front();
   test.normal_offset_world = first.normal_offset_world;
   test.normal_offset_angle = first.normal_offset_angle, test.constant_angle = first.angle;

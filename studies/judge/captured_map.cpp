@@ -6,6 +6,7 @@
 
 #include "scene/light.h"
 #include "studies/judge/capture_pictures.h"
+#include "studies/judge/captured_moments.h"
 
 namespace gnomon::compare {
 namespace {
@@ -163,12 +164,22 @@ float stored_of_linear(const LightView& view, StoredDepth stored, int face, int 
   return static_cast<float>(stored_from_depth(view, face, v + 0.5, value * to_depth));
 }
 
+Expected<LayerNumbers> read_numbers(const Capture& capture, std::size_t i, const CapturedMap& map) {
+  if (reads_moments(capture)) return read_moments(capture, i, map.moments);
+  LayerNumbers out;
+  auto channel = read_single_channel(capture, capture.map[i].depth, fmt::format("map[{}].depth", i),
+                                     texel_names, out.size);
+  if (!channel) return fail(channel.error());
+  out.values = std::move(channel->values);
+  return out;
+}
+
 Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored, int face, CapturedMap& out) {
   const CapturedLayer& layer = capture.map[i];
   const std::string field = fmt::format("map[{}].depth", i);
-  ImageSize size;
-  const auto channel = read_single_channel(capture, layer.depth, field, texel_names, size);
-  if (!channel) return fail(channel.error());
+  const auto numbers = read_numbers(capture, i, out);
+  if (!numbers) return fail(numbers.error());
+  const ImageSize size = numbers->size;
   const auto wrong = [&](std::string reason) { return capture_error(capture, field, std::move(reason)); };
   raster::ShadowMap& map = out.map;
   const raster::CapturedTest::Part& part = out.parts[static_cast<std::size_t>(face)];
@@ -178,14 +189,16 @@ Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored,
   std::size_t bad = 0, beyond = 0;
   for (int v = 0; v < part.height; ++v)
     for (int u = 0; u < part.width; ++u) {
-      const float value = channel->values[texels.at(u, v)];
+      const std::size_t at = texels.at(u, v);
+      const float value = numbers->values[at];
       bad += std::isnan(value) || (!linear && !std::isfinite(value)) ? 1 : 0;
       beyond += !linear && (value < 0.0f || value > 1.0f) ? 1 : 0;
       const int column = part.column + u, row = part.row + v;
-      map.depth[map.texel_index(face, column, row)] =
-          linear ? stored_of_linear(map.view, out.stored, face, column, row,
-                                    linear_world(layer.range, double{value}))
-                 : value;
+      const std::size_t index = map.texel_index(face, column, row);
+      if (!numbers->moments.empty()) out.moments.texels[index] = numbers->moments[at];
+      map.depth[index] = linear ? stored_of_linear(map.view, out.stored, face, column, row,
+                                                   linear_world(layer.range, double{value}))
+                                : value;
     }
   if (bad > 0) return wrong(fmt::format("{} texels are not finite numbers", bad));
   if (beyond > 0)
@@ -223,6 +236,7 @@ Expected<void> lay_out(const Capture& capture, const std::vector<int>& order, Ca
   out.map.depth.assign(static_cast<std::size_t>(view.face_count) * static_cast<std::size_t>(view.size) *
                            static_cast<std::size_t>(view.size),
                        nothing);
+  if (reads_moments(capture)) out.moments.texels.resize(out.map.depth.size());
   return {};
 }
 
@@ -358,6 +372,7 @@ Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const
         capture.map[i].caster_bias.value_or(CapturedCasterBias{});
     if (linear) bias.constant_world += bias.constant * out.unit_world, bias.constant = 0.0;
   }
+  if (reads_moments(capture)) out.moments = moments_of(capture);
   if (const auto laid = lay_out(capture, *order, out); !laid) return fail(laid.error());
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (const auto read = read_texels(capture, i, faces[i].mirrored, (*order)[i], out); !read)

@@ -15,6 +15,7 @@ struct CapturedMap {
   std::vector<raster::CapturedTest::Part> parts;  ///< by face: where its layer lies; empty: all over it
   std::vector<CapturedBias> bias;                 ///< by face
   std::vector<CapturedSelect> select;             ///< by face; empty: the first that holds a place
+  raster::CapturedMoments moments;                ///< of a filter that reads them; else without texels
 };
 
 /// Errors (bad input): a matrix that is singular, shears, or is not the light's (its rays run elsewhere).

@@ -28,9 +28,11 @@ class Checker {
         map_(drawn.options.map),
         record_(drawn.lights.front()),
         light_(in.world.scene->lights[record_.light]),
-        slack_(record_.rounding_world + rounding_stored * record_.captured->test->unit_world) {
+        slack_(record_.rounding_world + rounding_stored * record_.captured->test->unit_world),
+        reads_between_(record_.captured->test->read != raster::CapturedTest::Read::nearest) {
     using raster::Technique;
-    const bool compares = map_.technique == Technique::pcf || map_.technique == Technique::pcss || is_hard();
+    const bool compares =
+        map_.technique == Technique::pcf || map_.technique == Technique::pcss || is_hard() || reads_between_;
     reach_ = compares ? rounding_texels + (is_hard() ? 0.0 : map_.filter.radius_texels) : infinity;
   }
 
@@ -45,6 +47,7 @@ class Checker {
     const SurfacePoint& receiver = in_.traced.receiver.data[pixel];
     return biased_lookup(record_, map_.bias, light_at(light_, receiver.position).to_light, receiver, pixel);
   }
+  bool read_between_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const;
   bool some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const;
 
   const FrameInput& in_;
@@ -52,17 +55,26 @@ class Checker {
   const raster::LightRecord& record_;
   const Light& light_;
   double slack_;  // world units
+  bool reads_between_;
   double reach_ = 0.0;
 };
 
-/// What lies beyond the map's border is the renderer's own choice.
-bool Checker::some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const {
-  if (record_.captured->test->linear_depths) {
-    const auto depth = compared_caster(record_, lookup);
+/// Whether what is read between texels draws it, at the place or as far from it as rounding goes.
+bool Checker::read_between_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const {
+  for (const Vec2& off : {Vec2(0, 0), Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)}) {
+    BiasedLookup there = lookup;
+    there.at.u += rounding_texels * off.x, there.at.v += rounding_texels * off.y;
+    const auto depth = compared_caster(record_, there);
     const double gap = depth ? gap_before(record_, map_.bias, normal, lookup, *depth) : -infinity;
     const double over = gap - record_.bias_constant_world;
-    return lit ? over <= slack_ : over > -slack_;
+    if (lit ? over <= slack_ : over > -slack_) return true;
   }
+  return false;
+}
+
+/// What lies beyond the map's border is the renderer's own choice.
+bool Checker::some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const {
+  if (reads_between_) return read_between_draws(lookup, normal, lit);
   const auto texel = [](double place) { return static_cast<int>(std::floor(place)); };
   const int left = texel(lookup.at.u - reach_), right = texel(lookup.at.u + reach_);
   const int low = texel(lookup.at.v - reach_), high = texel(lookup.at.v + reach_);

@@ -29,8 +29,9 @@ class OwnTester {
  public:
   OwnTester(const FrameInput& in, const raster::RasterFrame& drawn)
       : in_(in), drawn_(drawn), record_(drawn.lights.front()), light_(in.world.scene->lights[record_.light]) {
-    const bool hard = drawn.options.map.technique == raster::Technique::hard;
-    reach_ = hard ? 0.0 : std::max(1.0, drawn.options.map.filter.radius_texels);
+    const bool once = drawn.options.map.technique == raster::Technique::hard ||
+                      record_.captured->test->read != raster::CapturedTest::Read::nearest;
+    reach_ = once ? 0.0 : std::max(1.0, drawn.options.map.filter.radius_texels);
   }
 
   Said at(std::size_t pixel) const {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
 #include "compare/ladder/biased_test.h"
+#include "compare/ladder/moments.h"
 
 namespace gnomon::compare {
 namespace {
@@ -53,6 +55,11 @@ double StoredDepths::stored(raytrace::TexelKey key) const {
 
 double StoredDepths::depth(raytrace::TexelKey key) const {
   return depth_from_stored(view_, key.face(), key.row() + 0.5, stored(key));
+}
+
+bool StoredDepths::may_be_empty(raytrace::TexelKey key) const {
+  if (!reads_moments(record_)) return is_empty(key);
+  return averaged_depths(record_, key).max >= view_.face(key.face()).far_depth;
 }
 
 SurfaceOnRay StoredDepths::surface(const Ray& ray, const raytrace::Hit& hit, int face,
@@ -105,8 +112,13 @@ bool StoredDepths::is_stored(raytrace::TexelKey key, double depth, double slack)
                              std::clamp(d, face.near_depth, face.far_depth));
   };
   const auto [low, high] = std::minmax({number(depth - slack), number(depth + slack)});
-  const double allowed = steps_allowed * format_step_ + arithmetic, own = stored(key);
-  return own >= low - allowed && own <= high + allowed;
+  const double allowed = steps_allowed * format_step_ + arithmetic;
+  double least = stored(key), most = least;
+  if (reads_moments(record_)) {
+    const Interval own = averaged_depths(record_, key);
+    std::tie(least, most) = std::minmax({number(own.min), number(own.max)});
+  }
+  return most >= low - allowed && least <= high + allowed;
 }
 
 bool StoredDepths::holds_within(raytrace::TexelKey key, double reach, int steps, double slope_texels) const {
@@ -115,7 +127,7 @@ bool StoredDepths::holds_within(raytrace::TexelKey key, double reach, int steps,
     for (int i = -steps; i <= steps; ++i) {
       const auto met = first(key.face(), centre + reach / steps * Vec2(i, j));
       // Nothing is stored where nothing lies within the map's depths.
-      if (is_empty(key) && (!met || met->depth >= view_.face(key.face()).far_depth)) return true;
+      if (may_be_empty(key) && (!met || met->depth >= view_.face(key.face()).far_depth)) return true;
       if (met && is_stored(key, met->depth, 2.0 * slope_texels * met->across)) return true;
     }
   return false;

@@ -27,6 +27,8 @@ class StoredDepths {
   /// Without the casters' bias, once that was taken out.
   double stored(raytrace::TexelKey key) const;
   bool is_empty(raytrace::TexelKey key) const { return !holds_caster(view_, stored(key)); }
+  /// Of averages: whether nothing may be drawn in the texel itself.
+  bool may_be_empty(raytrace::TexelKey key) const;
   /// The stored number as a depth along the map's forward axis.
   double depth(raytrace::TexelKey key) const;
 

@@ -7,6 +7,7 @@
 
 #include "compare/bias/bias_curve.h"
 #include "scene/base/parallel.h"
+#include "studies/judge/captured_moments.h"
 
 namespace gnomon::compare {
 namespace {
@@ -18,16 +19,24 @@ raster::CapturedTest& test_of(LightRecord& record) {
   return *record.captured->test;
 }
 
+/// Exchanges the numbers of so many texels from two on, and their moments.
+void exchange_texels(LightRecord& record, std::size_t a, std::size_t b, std::size_t count) {
+  const auto exchange = [&](auto& texels) {
+    const auto first = texels.begin() + static_cast<std::ptrdiff_t>(a);
+    std::swap_ranges(first, first + static_cast<std::ptrdiff_t>(count),
+                     texels.begin() + static_cast<std::ptrdiff_t>(b));
+  };
+  exchange(record.map.depth);
+  if (!test_of(record).moments.texels.empty()) exchange(test_of(record).moments.texels);
+}
+
 bool turn_rows(LightRecord& record) {
-  raster::ShadowMap& map = record.map;
+  const raster::ShadowMap& map = record.map;
   const int n = map.view.size;
   for (int face = 0; face < map.view.face_count; ++face)
-    for (int row = 0; row < n / 2; ++row) {
-      const auto low = map.depth.begin() + static_cast<std::ptrdiff_t>(map.texel_index(face, 0, row));
-      const auto high =
-          map.depth.begin() + static_cast<std::ptrdiff_t>(map.texel_index(face, 0, n - 1 - row));
-      std::swap_ranges(low, low + n, high);
-    }
+    for (int row = 0; row < n / 2; ++row)
+      exchange_texels(record, map.texel_index(face, 0, row), map.texel_index(face, 0, n - 1 - row),
+                      static_cast<std::size_t>(n));
   return true;
 }
 
@@ -133,11 +142,11 @@ void add_conventions(const LightRecord& described, std::vector<TestSuspect>& out
 /// How stored numbers are read and biased.
 void add_keys_of_test(const LightRecord& described, std::vector<TestSuspect>& out) {
   const raster::CapturedTest& test = *described.captured->test;
-  out.push_back({fmt::format("`filter.read` is {}", test.linear_depths ? "nearest" : "linear_depths"), "",
-                 [](LightRecord& record) {
-                   bool& linear = test_of(record).linear_depths;
-                   return linear = !linear, true;
-                 }});
+  using Read = raster::CapturedTest::Read;
+  for (const Read read : {Read::nearest, Read::linear_depths})
+    if (read != test.read)
+      out.push_back({fmt::format("`filter.read` is {}", filter_read_names[static_cast<std::size_t>(read)]),
+                     "", [read](LightRecord& record) { return test_of(record).read = read, true; }});
   for (std::size_t i = 0; i < raster::angle_form_names.size(); ++i) {
     const auto form = static_cast<raster::AngleForm>(i);
     if (form != test.constant_angle)
@@ -217,11 +226,9 @@ void add_exchanged_layers(const LightRecord& described, std::vector<TestSuspect>
   for (int i = 0; i + 1 < described.map.view.face_count; ++i)
     out.push_back({fmt::format("the pictures of map[{}] and map[{}] are exchanged", i, i + 1), "",
                    [i](LightRecord& record) {
-                     raster::ShadowMap& map = record.map;
-                     const auto at = [&](int face) {
-                       return map.depth.begin() + static_cast<std::ptrdiff_t>(map.texel_index(face, 0, 0));
-                     };
-                     std::swap_ranges(at(i), at(i + 1), at(i + 1));
+                     const raster::ShadowMap& map = record.map;
+                     const std::size_t first = map.texel_index(i, 0, 0), next = map.texel_index(i + 1, 0, 0);
+                     exchange_texels(record, first, next, next - first);
                      return map.unbiased.empty();
                    }});
 }
@@ -332,6 +339,7 @@ std::vector<TestSuspect> test_suspects(const FrameInput& in, const LightRecord& 
   std::vector<TestSuspect> out;
   add_conventions(described, out);
   add_keys_of_test(described, out);
+  add_moment_suspects(described.captured->test->moments, out);
   add_shifts(described, out);
   add_own_matrices(in.capture, described, out);
   add_exchanged_layers(described, out);

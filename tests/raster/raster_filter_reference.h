@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "compare/ladder/moments.h"
 #include "raster/passes/light_block.h"
 #include "scene/light.h"
 #include "tests/support/raster_fixture.h"
@@ -148,29 +149,7 @@ class BlurredFace {
   std::vector<Value> values_;
 };
 
-inline double chebyshev(double mean, double square, double x) {
-  if (x <= mean) return 1.0;
-  const double variance = std::max(square - mean * mean, square * std::ldexp(4.0, -24));
-  return variance / (variance + (x - mean) * (x - mean));
-}
-
-/// The least share of a distribution with these four moments that lies before x: the three points of support
-/// solved for directly (Peters and Klein 2015, section 3.2), weights by Cramer's rule.
-inline double least_share_before(const std::array<double, 4>& b, double x) {
-  // Points z are roots of a quadratic orthogonal to what (z - x) times 1 and z integrate to.
-  const double m0 = b[0] - x, m1 = b[1] - x * b[0], m2 = b[2] - x * b[1], m3 = b[3] - x * b[2];
-  // p + q z + z^2 with moments against (z - x): [m0 m1; m1 m2] (p, q) = -(m2, m3)
-  const double det = m0 * m2 - m1 * m1;
-  const double p = (-m2 * m2 + m1 * m3) / det, q = (-m0 * m3 + m1 * m2) / det;
-  const double root = std::sqrt(std::max(0.25 * q * q - p, 0.0));
-  const double low = -0.5 * q - root, high = -0.5 * q + root;
-  const auto weight = [&](double at, double other1, double other2) {
-    return (b[1] - b[0] * (other1 + other2) + other1 * other2) / ((at - other1) * (at - other2));
-  };
-  double share = 0.0;
-  if (low < x) share += weight(low, x, high);
-  if (high < x) share += weight(high, x, low);
-  return share;
-}
+using compare::chebyshev;
+using compare::least_share_before;
 
 }  // namespace gnomon::test

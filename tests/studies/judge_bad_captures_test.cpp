@@ -200,6 +200,25 @@ TEST(CaptureSchema, TakesWhatTheReaderTakes) {
   linear["map"][0].erase("caster_bias");
   linear["map"][0]["convention"] = "linear_z", linear["map"][0]["range"] = {20, 0.1};
   EXPECT_EQ(taken(linear), std::pair(true, true));
+  Json moments = whole;
+  moments["map"][0]["convention"] = "zero_to_one";
+  moments["filter"] = {{"kind", "evsm"},
+                       {"read", "moments"},
+                       {"exponents", {40, 5}},
+                       {"light_bleeding_reduction", 0.2},
+                       {"minimum_variance", 0}};
+  EXPECT_EQ(taken(moments), std::pair(true, true));
+  for (const auto& [path, value] : {std::pair<std::string, Json>{"/filter/kind", "pcf"},
+                                    {"/filter/read", "nearest"},
+                                    {"/filter/exponents", {1, 2, 3}},
+                                    {"/filter/exponents/0", 0},
+                                    {"/filter/light_bleeding_reduction", 1},
+                                    {"/filter/minimum_variance", -1},
+                                    {"/filter/moment_bias", 0}}) {
+    Json capture = moments;
+    capture[Json::json_pointer(path)] = value;
+    EXPECT_EQ(taken(capture), std::pair(false, false)) << path << " " << value;
+  }
   const std::vector<std::pair<std::string, Json>> wrong{{"/schema", "gnomon/capture/3"},
                                                         {"/renderer/name", ""},
                                                         {"/renderer/settings/soft", Json::array()},

@@ -102,11 +102,38 @@ TEST(JudgeContent, OfTheSceneIsDoubtedNowhere) {
     EXPECT_EQ(pixels_called(judged, static_cast<Label>(k)), 0U) << label_name(static_cast<Label>(k));
 }
 
+/// All but the box that floats.
+bool is_not_high(const World& world, const Ray&, const raytrace::Hit& hit) {
+  return world.part_of(hit.primitive).mesh->name != "high";
+}
+
+// Averages of depths are no surface's own, and yet nothing is missing: what they make is the filter's.
+TEST(JudgeContent, OfMomentsLacksWhatIsMissingAndNothingElse) {
+  for (const compare::FilterName kind : {compare::FilterName::vsm, compare::FilterName::msm})
+    for (const bool missing : {false, true}) {
+      Captured captured("moments");
+      missing ? captured.hold(boxes(), is_not_high) : captured.hold(boxes());
+      captured.capture.filter = compare::CapturedFilter{.kind = kind, .moment_bias = 3e-5};
+      store_moments(captured.capture);
+      draw_again(captured.capture, captured.drawn);
+      const JudgeOutcome judged = captured.judged();
+      ASSERT_TRUE(judged.result) << reason(judged);
+      if (missing) {
+        expect_label(judged, Label::missing_caster, "a caster that is missing from the map");
+        continue;
+      }
+      const auto& budget = judged.result->lights[0].budget;
+      EXPECT_EQ(budget[static_cast<std::size_t>(compare::Cause::bias)].false_shadow, 0U);
+      EXPECT_EQ(budget[static_cast<std::size_t>(compare::Cause::precision)].absolute_mean, 0.0);
+      EXPECT_GT(budget[static_cast<std::size_t>(compare::Cause::filter)].absolute_mean, 0.0);
+      for (std::size_t k = static_cast<std::size_t>(Label::caster_bias); k <= compare::class_count; ++k)
+        EXPECT_EQ(pixels_called(judged, static_cast<Label>(k)), 0U) << label_name(static_cast<Label>(k));
+    }
+}
+
 TEST(JudgeContent, WithoutACasterLacksIt) {
   Captured captured("missing");
-  captured.hold(boxes(), [](const World& world, const Ray&, const raytrace::Hit& hit) {
-    return world.part_of(hit.primitive).mesh->name != "high";
-  });
+  captured.hold(boxes(), is_not_high);
   const JudgeOutcome judged = captured.judged();
   expect_label(judged, Label::missing_caster, "mostly of 'high' the map does not hold");
   EXPECT_TRUE(judged.result->judged->advice.empty()) << "no bias brings a caster back";

@@ -11,8 +11,10 @@ using compare::Capture;
 using compare::CapturedBias;
 using compare::CapturedFade;
 using compare::CapturedSelect;
+using compare::FilterName;
 using compare::StoredDepth;
 using raster::AngleForm;
+using Read = raster::CapturedTest::Read;
 using raster::Technique;
 
 /// What an Engine is made with.
@@ -53,6 +55,13 @@ std::function<void(Engine&)> in_range(double near, double far) {
 
 std::function<void(Engine&)> with_bias(const CapturedBias& bias) {
   return [=](Engine& engine) { engine.capture.bias = bias; };
+}
+
+std::function<void(Engine&)> filtered(const compare::CapturedFilter& filter) {
+  return [=](Engine& engine) {
+    engine.capture.filter = filter;
+    store_moments(engine.capture);
+  };
 }
 
 /// Three layers by these distances, the second with a bias that leaves no shadow; all hold the same.
@@ -187,6 +196,13 @@ void no_layer_bias(Capture& c) {
   for (compare::CapturedLayer& layer : c.map) layer.bias.reset();
 }
 
+void no_reduction(Capture& c) {
+  c.filter->light_bleeding_reduction = 0.0;
+}
+void other_exponent(Capture& c) {
+  c.filter->exponents[0] *= 1.5;
+}
+
 const char* const rows_words = "`rows` of the map is the other one";
 const char* const sign_words = "`constant_depth` has the other sign";
 const Drawing lamp{.light = "lamp", .constant = 0.0004};
@@ -315,14 +331,53 @@ const KeyCase key_cases[] = {
     // how it is read and drawn
     {"linear_depths",
      {},
-     [](Engine& e) { e.capture.filter = compare::CapturedFilter{.linear_depths = true}; },
-     [](Capture& c) { c.filter->linear_depths = false; },
+     [](Engine& e) { e.capture.filter = compare::CapturedFilter{.read = Read::linear_depths}; },
+     [](Capture& c) { c.filter->read = Read::nearest; },
      "`filter.read` is linear_depths"},
     {"nearest",
      {},
      nothing,
-     [](Capture& c) { c.filter = compare::CapturedFilter{.linear_depths = true}; },
+     [](Capture& c) { c.filter = compare::CapturedFilter{.read = Read::linear_depths}; },
      "`filter.read` is nearest"},
+    // moments
+    {"vsm",
+     {},
+     filtered({.kind = FilterName::vsm, .light_bleeding_reduction = 0.3}),
+     no_reduction,
+     "`filter.light_bleeding_reduction` is about 0.3"},
+    {"vsm_variance",
+     {},
+     filtered({.kind = FilterName::vsm, .minimum_variance = 1e-3}),
+     [](Capture& c) { c.filter->minimum_variance = 0.0; },
+     "`filter.minimum_variance` is about 0.001"},
+    {"esm",
+     {},
+     filtered({.kind = FilterName::esm, .exponents = {80.0}}),
+     other_exponent,
+     "`filter.exponents` are about [80]"},
+    {"evsm_two",
+     {},
+     filtered({.kind = FilterName::evsm, .exponents = {20.0}}),
+     other_exponent,
+     "`filter.exponents` are about [20]"},
+    {"evsm_four",
+     {.stored = StoredDepth::minus_one_to_one},
+     filtered({.kind = FilterName::evsm, .exponents = {40.0, 5.0}, .light_bleeding_reduction = 0.1}),
+     other_exponent,
+     "`filter.exponents` are about [40, 5]"},
+    {"msm", {}, filtered({.kind = FilterName::msm, .moment_bias = 3e-5}), turn_rows, rows_words},
+    {"vsm_lamp", lamp_linear,
+     [](Engine& e) {
+       in_range(0.5, 20.0)(e);
+       filtered({.kind = FilterName::vsm})(e);
+     },
+     turn_sign, sign_words},
+    {"msm_distance", lamp_far,
+     [](Engine& e) {
+       in_range(0.5, 20.0)(e);
+       filtered({.kind = FilterName::msm})(e);
+     },
+     turn_sign, sign_words},
     {"fade",
      {},
      faded({4.8, 5.2, false}),

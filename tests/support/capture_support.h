@@ -67,4 +67,7 @@ Scene scene_under(const std::string& light);
 void draw_again(const compare::Capture& capture, const Compared& drawn, float outside = 1.0f,
                 bool by_fronts = false);
 
+/// Turns the layers' stored numbers into the moments of the capture's filter, averaged over 5 x 5 texels.
+void store_moments(compare::Capture& capture);
+
 }  // namespace gnomon::test

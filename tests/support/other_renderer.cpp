@@ -58,7 +58,11 @@ class OtherRenderer {
     const Vec2 range = capture_.map[*layer].range.value_or(Vec2(0.0, 1.0));
     const auto stored = [&](double world) { return (world - range.x) / (range.y - range.x); };
     const double sign = range.y > range.x ? 1.0 : -1.0;
-    const double texel = sign * read(*layer, ndc);
+    if (reads_moments(capture_))
+      return float(light_of(
+          *layer, ndc,
+          number_of(ndc.z, stored(clip.w), stored(glm::length(place - light_.position))) - constant));
+    const double texel = sign * read(*layer, ndc, 0);
     return is_dark(ndc.z, sign * stored(clip.w), sign * stored(glm::length(place - light_.position)), texel,
                    constant)
                ? 0.0f
@@ -97,22 +101,83 @@ class OtherRenderer {
            at.y < low + rect.height - margin;
   }
 
-  double texel(std::size_t layer, int x, int row) const {
+  /// The receiver's own number, as it is stored.
+  double number_of(double z, double along, double distance) const {
+    switch (*capture_.map.front().convention) {
+      case StoredDepth::minus_one_to_one:
+        return 0.5 * z + 0.5;
+      case StoredDepth::linear_z:
+        return along;
+      case StoredDepth::distance:
+        return distance;
+      default:
+        return z;
+    }
+  }
+
+  /// A technique of moments as its shaders are written.
+  double light_of(std::size_t layer, const Vec3& ndc, double x) const {
+    const compare::CapturedFilter& filter = *capture_.filter;
+    const auto m = [&](std::size_t channel) { return read(layer, ndc, channel); };
+    const auto bound = [](double first, double second, double at, double least) {
+      const double variance = std::max(second - first * first, std::max(least, 2.4e-7 * second));
+      return at <= first ? 1.0 : variance / (variance + (at - first) * (at - first));
+    };
+    const auto warped = [&](std::size_t which, std::size_t channel) {
+      const double sign = which == 0 ? 1.0 : -1.0, exponent = filter.exponents[which];
+      const double at = sign * std::exp(sign * exponent * (2.0 * x - 1.0)), slope = exponent * at;
+      return bound(m(channel), m(channel + 1), at, filter.minimum_variance * slope * slope);
+    };
+    double light = 1.0;
+    switch (filter.kind) {
+      case compare::FilterName::esm:
+        return std::min(1.0, m(0) * std::exp(-filter.exponents[0] * x));
+      case compare::FilterName::evsm:
+        light = warped(0, 0);
+        if (filter.exponents.size() > 1) light = std::min(light, warped(1, 2));
+        break;
+      case compare::FilterName::msm:
+        light = hamburger({m(0), m(1), m(2), m(3)}, x, filter.moment_bias);
+        break;
+      default:
+        light = bound(m(0), m(1), x, filter.minimum_variance);
+    }
+    const double cut = filter.light_bleeding_reduction;
+    return std::clamp((light - cut) / (1.0 - cut), 0.0, 1.0);
+  }
+
+  /// Peters and Klein 2015, algorithm 3, by Cholesky's decomposition.
+  static double hamburger(std::array<double, 4> b, double x, double bias) {
+    for (double& one : b) one = (1.0 - bias) * one + bias * 0.5;
+    const double d2 = b[1] - b[0] * b[0], l32 = (b[2] - b[0] * b[1]) / d2;
+    const double d3 = b[3] - b[1] * b[1] - l32 * l32 * d2;
+    const double c2 = (x * x - b[1] - l32 * (x - b[0])) / d3, c1 = (x - b[0]) / d2 - l32 * c2;
+    const double c0 = 1.0 - b[0] * c1 - b[1] * c2;
+    const double root = std::sqrt(std::max(0.25 * c1 * c1 / (c2 * c2) - c0 / c2, 0.0));
+    const double low = -0.5 * c1 / c2 - root, high = -0.5 * c1 / c2 + root;
+    if (x <= low) return 1.0;
+    if (x <= high) return 1.0 - (x * high - b[0] * (x + high) + b[1]) / ((high - low) * (x - low));
+    return (low * high - b[0] * (low + high) + b[1]) / ((x - low) * (x - high));
+  }
+
+  double texel(std::size_t layer, int x, int row, std::size_t channel) const {
     const ImageSize size = texels_[layer].size;
     x = std::clamp(x, 0, size.width - 1), row = std::clamp(row, 0, size.height - 1);
     const int y = capture_.map[layer].rows == RowOrder::top_down ? size.height - 1 - row : row;
-    return texels_[layer].channels[0].values[static_cast<std::size_t>(y * size.width + x)];
+    return texels_[layer].channels[channel].values[static_cast<std::size_t>(y * size.width + x)];
   }
 
-  double read(std::size_t layer, const Vec3& ndc) const {
+  double read(std::size_t layer, const Vec3& ndc, std::size_t channel) const {
     const ImageSize size = texels_[layer].size;
     const Vec2 at = (0.5 * Vec2(ndc) + 0.5) * Vec2(size.width, size.height);
-    if (!capture_.filter || !capture_.filter->linear_depths)
-      return texel(layer, static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)));
+    if (!capture_.filter || capture_.filter->read == raster::CapturedTest::Read::nearest)
+      return texel(layer, static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), channel);
     const Vec2 corner = glm::floor(at - 0.5), share = at - 0.5 - corner;
     const int x = static_cast<int>(corner.x), y = static_cast<int>(corner.y);
-    return (1.0 - share.y) * ((1.0 - share.x) * texel(layer, x, y) + share.x * texel(layer, x + 1, y)) +
-           share.y * ((1.0 - share.x) * texel(layer, x, y + 1) + share.x * texel(layer, x + 1, y + 1));
+    return (1.0 - share.y) *
+               ((1.0 - share.x) * texel(layer, x, y, channel) + share.x * texel(layer, x + 1, y, channel)) +
+           share.y * ((1.0 - share.x) * texel(layer, x, y + 1, channel) +
+                      share.x * texel(layer, x + 1, y + 1, channel));
   }
 
   /// `along`: the depth along the light's axis, and `distance` that from the light, as they are stored.
@@ -160,7 +225,51 @@ class OtherRenderer {
   std::vector<ChannelImage> texels_;
 };
 
+/// What the texels of a technique hold of a stored number, as its papers say.
+std::array<double, 4> moments_of(const compare::CapturedFilter& filter, double x) {
+  const auto warped = [&](std::size_t which, double sign) {
+    return sign * std::exp(sign * filter.exponents[which] * (2.0 * x - 1.0));
+  };
+  if (filter.kind == compare::FilterName::esm) return {std::exp(filter.exponents[0] * x), 0.0, 0.0, 0.0};
+  if (filter.kind != compare::FilterName::evsm) return {x, x * x, x * x * x, x * x * x * x};
+  const double positive = warped(0, 1.0), negative = filter.exponents.size() > 1 ? warped(1, -1.0) : 0.0;
+  return {positive, positive * positive, negative, negative * negative};
+}
+
 }  // namespace
+
+void store_moments(Capture& capture) {
+  capture.filter->read = raster::CapturedTest::Read::moments, capture.filter->radius_texels = 2.5;
+  constexpr const char* names[] = {"R", "G", "B", "A"};
+  const compare::CapturedFilter& filter = *capture.filter;
+  const int reach = static_cast<int>(filter.radius_texels);
+  for (const compare::CapturedLayer& layer : capture.map)
+    spoil(layer.depth, [&](ChannelImage& image) {
+      const int n = image.size.width, rows = image.size.height;
+      std::vector<std::array<double, 4>> one(image.size.pixels()), across = one;
+      for (std::size_t i = 0; i < one.size(); ++i)
+        one[i] = moments_of(filter, double{image.channels[0].values[i]});
+      const auto blur = [&](auto& from, auto& to, int dx, int dy) {
+        for (int y = 0; y < rows; ++y)
+          for (int x = 0; x < n; ++x) {
+            std::array<double, 4> sum{};
+            for (int i = -reach; i <= reach; ++i)
+              for (std::size_t k = 0; k < 4; ++k)
+                sum[k] += from[std::size_t(std::clamp(y + i * dy, 0, rows - 1) * n +
+                                           std::clamp(x + i * dx, 0, n - 1))][k];
+            for (std::size_t k = 0; k < 4; ++k) to[std::size_t(y * n + x)][k] = sum[k] / (2 * reach + 1);
+          }
+      };
+      blur(one, across, 1, 0), blur(across, one, 0, 1);
+      const bool esm = filter.kind == compare::FilterName::esm;
+      const bool four = filter.kind == compare::FilterName::msm || filter.exponents.size() > 1;
+      image.channels.clear();
+      for (std::size_t k = 0; k < (esm ? 1U : four ? 4U : 2U); ++k) {
+        Channel& channel = image.channels.emplace_back(Channel{names[k], {}});
+        for (const auto& texel : one) channel.values.push_back(static_cast<float>(texel[k]));
+      }
+    });
+}
 
 Scene scene_under(const std::string& light) {
   Scene scene = boxes_under_three_lights();
