@@ -6,7 +6,8 @@
 extends Node
 
 var settings = {
-	"scene": "", "output": "", "size": "320x180", "light": "0", "stay": "0",
+	"scene": "", "output": "", "size": "320x180", "stay": "0",
+	"light": "0",  # its place in the file, or all
 	"mode": "orthogonal",  # orthogonal, pssm2, pssm4 of suns; cube, paraboloid of point lights
 	"blend": "0",  # 1: splits of a sun blend
 	"bias": "0.1", "normal_bias": "0", "contact": "0", "max_distance": "0", "ambient": "0",
@@ -14,7 +15,7 @@ var settings = {
 }
 var glb  # the JSON part of the scene file
 var blob  # its binary part
-var shadow_light
+var shadow_lights = []
 
 func _ready():
 	for word in OS.get_cmdline_args():
@@ -28,18 +29,18 @@ func _ready():
 	add_child(view)
 	for node in glb["nodes"]:
 		add_node(view, node)
-	shadow_light = add_light(view)
+	add_lights(view)
 	var shown = TextureRect.new()
 	shown.texture = view.get_texture()
 	add_child(shown)
 	if settings["stay"] == "0":
-		yield(write_capture(view, shadow_light), "completed")
+		yield(write_capture(view, shadow_lights[0]), "completed")
 		get_tree().quit()
 
 # Maps of spots and points are drawn anew when the light moves: it turns about its own axis, so each frame has them.
 func _process(_delta):
-	if shadow_light != null and settings["stay"] != "0":
-		shadow_light.rotate_object_local(Vector3(0, 0, 1), 0.001)
+	for light in shadow_lights if settings["stay"] != "0" else []:
+		light.rotate_object_local(Vector3(0, 0, 1), 0.001)
 
 func stop(text):
 	printerr("draw.gd: ", text)
@@ -153,11 +154,12 @@ func add_camera(view, lens, place):
 	view.add_child(camera)
 	camera.current = true
 
-func add_light(view):
+# The light of that number or, for RenderDoc, all.
+func add_lights(view):
 	var lights = glb["extensions"]["KHR_lights_punctual"]["lights"]
 	for node in glb["nodes"]:
 		var extension = node.get("extensions", {}).get("KHR_lights_punctual")
-		if extension == null or int(extension["light"]) != int(settings["light"]):
+		if extension == null or not settings["light"] in ["all", str(int(extension["light"]))]:
 			continue
 		var light = make_light(lights[int(extension["light"])])
 		light.transform = transform_of(node)
@@ -166,7 +168,7 @@ func add_light(view):
 		light.shadow_contact = float(settings["contact"])
 		light.light_specular = 0
 		view.add_child(light)
-		return light
+		shadow_lights.append(light)
 
 func make_light(description):
 	var light

@@ -8,7 +8,7 @@ from .gnomon_frame import cli
 from .gnomon_frame.errors import FrameError
 
 
-def _make_capture(context, folder, light):
+def _make_capture(context, folder):
     """What there is to say once the capture is written; runs in the replay's own thread."""
     said = []
 
@@ -16,7 +16,7 @@ def _make_capture(context, folder, light):
         try:
             from .gnomon_frame.replay import Frame
 
-            words = [context.GetCaptureFilename(), "--output", folder, "--light", str(light)]
+            words = [context.GetCaptureFilename(), "--output", folder]
             said.append("gnomon judge " + cli.run(Frame(controller), cli.arguments(words), said.append))
         except FrameError as error:
             said.append(str(error))
@@ -34,7 +34,7 @@ def _judge(context, _data):
         return
     folder = extensions.OpenDirectoryName("A folder for the capture", "", "")
     if folder:
-        extensions.MessageDialog(_make_capture(context, folder, 1), "Judge this frame")
+        extensions.MessageDialog(_make_capture(context, folder), "Judge this frame")
         context.SetEventID([], context.CurSelectedEvent(), context.CurEvent(), True)  # the replay went elsewhere
 
 

@@ -365,10 +365,9 @@ void add_options(CLI::App& app, JudgeCommand& command) {
                  "captures are "
                  "made in a folder beside the verdict's [may be left out where the options say it all]")
       ->type_name("CAPTURE.json|FRAME.rdc");
-  app.add_flag(
-      "--list", command.list,
-      "print the lights of a recorded frame that have a shadow map; --light N takes another than the first "
-      "[default off]");
+  app.add_flag("--list", command.list,
+               "print the lights of a recorded frame that have a shadow map; --light N judges that one alone "
+               "[default off]");
   add_result_output(app, command.output, "out/NAME of the capture, out/judge of several");
   app.add_option(
          "--suite", command.suite,

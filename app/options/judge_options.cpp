@@ -214,8 +214,8 @@ void add_capture_options(CLI::App& app, CaptureOptions& o) {
   add_text(app, "--camera", "NAME", "name or number, from 0 [default the capture's]", o, c.camera);
   add_text(
       app, "--light", "NAME",
-      "name or number, from 0; of several the one to judge; of a recorded frame a number from 1 [default the "
-      "capture's]",
+      "name or number, from 0; of several the one to judge; of a recorded frame a number from 1 [default all "
+      "of them]",
       o, c.light);
   add_text(app, "--visibility", "FILE", "picture of the visibility [EXR or PNG; default the capture's]", o,
            c.visibility);

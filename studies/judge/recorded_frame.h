@@ -12,8 +12,8 @@ namespace gnomon::compare {
 /// Whether a path names a recorded frame, by its end.
 bool is_recorded_frame(std::string_view path);
 
-/// Makes a capture of one light of the frame, capture.json and what it names, in a folder that is there. `light` counts from 1 as
-/// recorded_lights() does; empty is the first. Returns what was found of the frame, one sentence each: bias, matrix, light and
+/// Makes a capture of the frame's lights, capture.json and what it names, in a folder that is there. `light` counts from 1 as
+/// recorded_lights() does; empty takes all. Returns what was found of the frame, one sentence each: bias, matrix, light and
 /// camera with their residuals. Errors: ErrorKind::bad_input where no capture can be made of the frame, usage where `light` is no
 /// number, graphics where Python's module for RenderDoc is missing or the replay takes more than ten minutes or 16 GB.
 Expected<std::vector<std::string>> capture_recorded_frame(const std::string& frame, const std::string& folder,

@@ -32,8 +32,10 @@ os.makedirs(FOLDER, exist_ok=True)
 # Mesa's software: the same pictures on every machine.
 SOFTWARE = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1", "VK_ICD_FILENAMES": LAVAPIPE, "QSG_RHI_BACKEND": "vulkan", "QSG_RENDER_LOOP": "basic"}
 SOFTWARE.pop("DISPLAY", None)
+SUN_BESIDE = ("sun-and-spot",)  # scenes that keep floating-box's sun beside their lamp
 LAMPS = {
     "spot": {"type": "spot", "position": [2.5, 5, 4], "direction": [-2.2, -5, -3.8], "inner_angle_degrees": 28, "outer_angle_degrees": 32},
+    "sun-and-spot": {"type": "spot", "position": [2.5, 5, 4], "direction": [-2.2, -5, -3.8], "inner_angle_degrees": 28, "outer_angle_degrees": 32},
     "point": {"type": "point", "position": [1.5, 3, 2]},
 }
 
@@ -54,7 +56,8 @@ def scene(name="floating-box"):
     if name in LAMPS:
         with open(os.path.join(SOURCE, "scene/builtin/floating-box.json"), encoding="utf-8") as file:
             document = json.loads("".join(line for line in file if not line.startswith("//")))
-        document["lights"] = [{"name": "lamp", "intensity": [60, 60, 60], **LAMPS[name]}]
+        beside = document["lights"] if name in SUN_BESIDE else []
+        document["lights"] = beside + [{"name": "lamp", "intensity": [60, 60, 60], **LAMPS[name]}]
         source = os.path.join(FOLDER, f"{name}.json")
         with open(source, "w", encoding="utf-8") as file:
             json.dump(document, file)
@@ -157,6 +160,22 @@ class Godot(unittest.TestCase):
         said = subprocess.run([PYTHON, "-B", os.path.join(SOURCE, "adapters/renderdoc"), "paraboloid.rdc", "-o", "paraboloid-again"], cwd=FOLDER,
                               env=SOFTWARE, capture_output=True, text=True).stdout
         self.assertIn("found: casters are drawn 0.1000 world units away from the light", said)
+
+    def test_all_lights_of_a_frame_are_judged_from_one_capture(self):
+        path = frame("two-lights", scene("sun-and-spot"), light="all")
+        run(GNOMON, "judge", path, "-o", "two-lights")
+        with open(os.path.join(FOLDER, "two-lights-capture/capture.json"), encoding="utf-8") as file:
+            capture = json.load(file)
+        self.assertEqual([light["light"] for light in capture["lights"]], ["light 1", "light 2"])
+        with open(os.path.join(FOLDER, "two-lights/judge.jsonl"), encoding="utf-8") as file:
+            results = [json.loads(line) for line in file]
+        self.assertEqual(len(results), 2)
+        for result, light in zip(results, capture["lights"]):
+            self.check(result)  # each cancels the other, though one shader draws both maps
+            self.assertAlmostEqual(self.bias(light), 0.1, delta=0.001)
+        run(GNOMON, "judge", path, "--light", "2", "-o", "second-light")
+        with open(os.path.join(FOLDER, "second-light/result.json"), encoding="utf-8") as file:
+            self.check(json.load(file))
 
     def test_lights_are_listed(self):
         listed = run(GNOMON, "judge", frame("listed", scene()), "--list")

@@ -17,7 +17,8 @@ except ImportError:
 
 ADAPTER = os.path.abspath(sys.argv.pop(1))
 sys.path.insert(0, ADAPTER)
-from gnomon_frame import capture, conventions, extract, files, fit, formats, lookup, pairing, passes, reader, spirv, stand_ins  # noqa: E402
+from gnomon_frame import capture, conventions, extract, files, fit, formats, lookup, pairing, passes, reader, spirv, stand_ins, visibility  # noqa: E402
+from gnomon_frame.errors import FrameError  # noqa: E402
 
 ARITHMETIC = 2e-6  # positions are kept as 32-bit floats
 CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
@@ -403,8 +404,31 @@ class Passes(unittest.TestCase):
         self.assertIn("earlier frame", str(passes.why_none(frame)))
 
 
+class OtherLights(unittest.TestCase):
+    """Of lights whose casters one shader draws."""
+
+    def layer(self, matrix, viewport=(0, 0, 64, 64)):
+        return SimpleNamespace(light=SimpleNamespace(matrix=matrix), distance=None, events=[7], state=SimpleNamespace(viewport=viewport))
+
+    def test_are_told_by_their_projections_where_their_parts_overlap(self):
+        sun = self.layer(parallel(3, 1, 9) @ TO_SUN)
+        lamp = self.layer(perspective(1, 1, 0.5, 20, True) @ TO_SUN)
+        line = visibility._lines_of_others([sun], [lamp], {7})
+        za, zb = line[0]
+        clip = drawn(lamp.light.matrix, VIEWS)
+        np.testing.assert_allclose(clip[:, 2] / clip[:, 3], za + zb / clip[:, 3], atol=1e-5)
+        self.assertEqual(visibility._lines_of_others([lamp], [sun], {7}), [(None, None)])
+        self.assertEqual(visibility._lines_of_others([sun], [lamp], {8}), [])
+        self.assertEqual(visibility._lines_of_others([lamp], [self.layer(lamp.light.matrix, (64, 0, 64, 64))], {7}), [])
+
+    def test_of_the_same_projection_are_refused(self):
+        lamps = [self.layer(perspective(1, 1, 0.5, 20, True) @ TO_SUN @ shifted(k, 0, 0)) for k in range(2)]
+        with self.assertRaisesRegex(FrameError, "the same projection"):
+            visibility._lines_of_others(lamps[:1], lamps[1:], {7})
+
+
 class StandIns(unittest.TestCase):
-    SHARED = dict(line=(-1.01, -0.2, False), rects=((0, 0, 64, 64), (64, 0, 128, 64)))
+    SHARED = dict(lines=((-1.01, -0.2), (None, None)), rects=((0, 0, 64, 64), (64, 0, 128, 64)))
 
     def test_spirv_is_a_whole_module(self):
         for fragment in (True, False):
@@ -426,6 +450,7 @@ class StandIns(unittest.TestCase):
         self.assertIn("discard", stand_ins.glsl(source))
         self.assertIn("gl_FragCoord.x < 64.0", stand_ins.glsl(source))
         self.assertIn("1.0 / p.w", stand_ins.hlsl(source))
+        self.assertIn("abs(gl_FragCoord.w - 1.0)", stand_ins.glsl(source))
         self.assertNotIn("gl_FragCoord.w", stand_ins.glsl(stand_ins.Source(True, True)))
 
 
@@ -454,12 +479,15 @@ class Files(unittest.TestCase):
     def test_glb_and_capture_are_read_back(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "scene.glb")
-            files.write_glb(path, [(CUBE, np.arange(6))], {"yfov": 0.6, "aspect": 1.5, "near": 0.1, "far": 20}, {"type": "directional", "matrix": np.eye(4)})
+            files.write_glb(path, [(CUBE, np.arange(6))], {"yfov": 0.6, "aspect": 1.5, "near": 0.1, "far": 20},
+                            [{"name": name, "type": kind, "matrix": np.eye(4), "inner": 0.1, "outer": 0.2} for name, kind in (("a", "directional"), ("b", "spot"))])
             with open(path, "rb") as file:
                 data = file.read()
             self.assertEqual(struct.unpack_from("<I", data, 8)[0], len(data))
             document = json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
             self.assertEqual(document["accessors"][0]["max"], [1, 1, 1])
+            lights = document["extensions"]["KHR_lights_punctual"]["lights"]
+            self.assertEqual([(light["name"], "spot" in light) for light in lights], [("a", False), ("b", True)])
             files.write_exr(os.path.join(folder, "a.exr"), {"Z": np.arange(6.0).reshape(2, 3)})
             with open(os.path.join(folder, "a.exr"), "rb") as file:
                 data = file.read()

@@ -1,5 +1,6 @@
-"""Writes what was found of one light as a capture for `gnomon judge`."""
+"""Writes what was found of a frame's lights as a capture for `gnomon judge`."""
 import os
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -7,6 +8,21 @@ from . import extract, files
 from .errors import FrameError
 
 MOST_LAYERS = 32  # of a capture's map
+
+
+@dataclass
+class Measured:
+    """A light of the frame by its number, from 1, and what is known of it."""
+
+    number: int
+    found: extract.Found
+    layers: list
+    pixels: extract.Pixels
+    test: extract.Test
+
+    @property
+    def parts(self):
+        return self.found, self.layers, self.test
 
 
 def light_node(layers):
@@ -56,8 +72,7 @@ def _select(selection, k, count):
     return {"select": {"near": limits[k], "far": limits[k + 1], "by": selection.by, **blend}}
 
 
-def _layer(folder, texture, k, layer, test, count):
-    name = f"map{k}.exr"
+def _layer(folder, texture, name, k, layer, test, count):
     files.write_exr(os.path.join(folder, name), {"Z": layer.texels})
     out = {"depth": name, "convention": "reversed" if layer.state.reversed else "zero_to_one",
            "rows": "bottom_up" if layer.state.conventions.bottom_row_first else "top_down",
@@ -79,26 +94,30 @@ def _filter(layers, test):
     return {"kind": "esm" if test.exponent else "vsm" if blurred else "pcf", "radius_texels": min(test.radius or 1.5, 64)}
 
 
-def write(folder, frame, found, layers, pixels, test, name):
-    """The capture's folder; returns the path of capture.json."""
+def _light(folder, frame, light, prefix):
+    """What the capture says of one light, whose files' names begin with the prefix."""
+    layers, pixels = light.layers, light.pixels
     if len(layers) > MOST_LAYERS:
         raise FrameError(f"the light has {len(layers)} maps, and a capture holds {MOST_LAYERS}")
-    os.makedirs(folder, exist_ok=True)
-    lens, view = found.view.lens, found.view
-    near, far, _ = lens.planes(view.state.conventions.minus_one)
-    height, width = pixels.drawn.shape
-    drawn = pixels.drawn.astype(float)
     # As a ratio: a pixel that the light does not reach without shadows either is not compared.
     asked = pixels.asked.astype(float)
-    files.write_exr(os.path.join(folder, "shadowed.exr"), {"Y": np.clip(pixels.visibility, 0, 1) * asked})
-    files.write_exr(os.path.join(folder, "unshadowed.exr"), {"Y": asked})
-    files.write_exr(os.path.join(folder, "position.exr"), {c: pixels.positions[..., i] * drawn for i, c in enumerate("XYZ")} | {"A": drawn})
-    camera = {"yfov": 2 * np.arctan(1 / lens.fy), "aspect": width / height, "near": max(near, 1e-4), "far": far}
-    files.write_glb(os.path.join(folder, "scene.glb"), _shapes(view, layers), camera, light_node(layers))
-    texture = frame.textures[found.passes.texture]
+    said = {"shadowed": prefix + "shadowed.exr", "unshadowed": prefix + "unshadowed.exr"}
+    files.write_exr(os.path.join(folder, said["shadowed"]), {"Y": np.clip(pixels.visibility, 0, 1) * asked})
+    files.write_exr(os.path.join(folder, said["unshadowed"]), {"Y": asked})
+    if layers[0].matrix is None:
+        return said
+    texture = frame.textures[light.found.passes.texture]
+    maps = [_layer(folder, texture, f"{prefix}map{k}.exr", k, layer, light.test, len(layers)) for k, layer in enumerate(layers)]
+    return {**said, "map": maps, "filter": _filter(layers, light.test)}
+
+
+def _settings(frame, light, prefix):
+    """What a report shows of the light's map, in words."""
+    layers, test, sampler = light.layers, light.test, light.found.sampler
+    texture = frame.textures[light.found.passes.texture]
     settings = {"map": f"{texture.width} x {texture.height}", "format": texture.format}
-    if found.sampler:
-        settings["sampler"] = found.sampler
+    if sampler:
+        settings["sampler"] = sampler
     if layers[0].reader:
         settings["matrix"] = f"{layers[0].reader.name} (residual {layers[0].reader.residual:.1e})"
     if layers[0].has_caster_bias:
@@ -107,10 +126,27 @@ def write(folder, frame, found, layers, pixels, test, name):
         settings["test found"] = f"decides {100 * test.agreement:.2f} % of the pixels as drawn"
     if test.exponent:
         settings["exponent"] = round(test.exponent.factor, 2)
-    known_map = {} if layers[0].matrix is None else {
-        "map": [_layer(folder, texture, k, layer, test, len(layers)) for k, layer in enumerate(layers)], "filter": _filter(layers, test)}
+    return {prefix + key: value for key, value in settings.items()}
+
+
+def write(folder, frame, lights, name):
+    """The capture's folder, of what was Measured; returns the path of capture.json."""
+    os.makedirs(folder, exist_ok=True)
+    view, pixels = lights[0].found.view, lights[0].pixels
+    near, far, _ = view.lens.planes(view.state.conventions.minus_one)
+    height, width = pixels.drawn.shape
+    drawn = pixels.drawn.astype(float)
+    files.write_exr(os.path.join(folder, "position.exr"), {c: pixels.positions[..., i] * drawn for i, c in enumerate("XYZ")} | {"A": drawn})
+    camera = {"yfov": 2 * np.arctan(1 / view.lens.fy), "aspect": width / height, "near": max(near, 1e-4), "far": far}
+    names = {light.number: f"light {light.number}" if len(lights) > 1 else "light" for light in lights}
+    files.write_glb(os.path.join(folder, "scene.glb"), _shapes(view, [layer for light in lights for layer in light.layers]), camera,
+                    [{"name": names[light.number], **light_node(light.layers)} for light in lights])
+    if len(lights) == 1:
+        of_lights, settings = _light(folder, frame, lights[0], ""), _settings(frame, lights[0], "")
+    else:
+        of_lights = {"lights": [{"light": names[one.number], **_light(folder, frame, one, f"light{one.number}-")} for one in lights]}
+        settings = {key: value for one in lights for key, value in _settings(frame, one, names[one.number] + ", ").items()}
     files.write_capture(folder, {
         "renderer": {"name": name, "version": "(RenderDoc)", "settings": settings}, "scene": "scene.glb", "size": [width, height],
-        "shadowed": "shadowed.exr", "unshadowed": "unshadowed.exr", "position": "position.exr",
-        **known_map})
+        "position": "position.exr", **of_lights})
     return os.path.join(folder, "capture.json")

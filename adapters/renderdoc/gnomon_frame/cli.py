@@ -18,7 +18,7 @@ def arguments(words):
     parser = _Parser(prog="python3 adapters/renderdoc", description="Make a capture for gnomon judge of a frame that RenderDoc recorded.")
     parser.add_argument("frame", metavar="FRAME.rdc")
     parser.add_argument("-o", "--output", metavar="DIR", help="the capture's folder")
-    parser.add_argument("--light", type=int, metavar="N", help="which light, as --list numbers them [default 1]")
+    parser.add_argument("--light", type=int, metavar="N", help="that light alone, as --list numbers them [default all]")
     parser.add_argument("--list", action="store_true", help="list the lights with a shadow map, and stop")
     parser.add_argument("--name", default="", help="the renderer's name, for the report [default: the frame's name]")
     parser.add_argument("--encoding", choices=("auto", "srgb", "linear"), default="auto",
@@ -33,7 +33,7 @@ def arguments(words):
 
 
 def run(frame, given, say):
-    """Lists lights, or writes the capture of one: the path of capture.json then, else None."""
+    """Lists lights, or writes the capture of one or of all: the path of capture.json then, else None."""
     from . import capture, extract, passes, report
 
     maps = passes.find_maps(frame)
@@ -52,16 +52,38 @@ def run(frame, given, say):
         for number, (found, layers) in enumerate(lights, 1):
             say(report.light_line(number, frame, found, layers))
         return None
-    number = given.light or 1
-    if number > len(lights):
-        raise FrameError(f"--light {number}: the frame has {len(lights)} (--list)")
-    found, layers = lights[number - 1]
+    if given.light and given.light > len(lights):
+        raise FrameError(f"--light {given.light}: the frame has {len(lights)} (--list)")
+    numbered = [(number, *light) for number, light in enumerate(lights, 1) if given.light in (None, number)]
+    measured = []
+    for number, found, layers in numbered:
+        which = f"light {number}: " if len(numbered) > 1 else ""
+        try:
+            measured.append(capture.Measured(number, *_measure(frame, found, layers, lights, given.encoding, measured)))
+        except FrameError as error:
+            if not which:
+                raise
+            failed.append(error)
+            say(f"found: {which}left out: {error}")
+            continue
+        for line in report.findings(frame, *measured[-1].parts):
+            say("found: " + which + line)
+    if not measured:
+        raise failed[-1]
+    return capture.write(given.output, frame, measured, given.name or os.path.splitext(os.path.basename(given.frame))[0])
+
+
+def _measure(frame, found, layers, lights, encoding, before):
+    """(found, layers, pixels, test) of a light. Those of one capture share the camera and its picture."""
+    from . import extract
+
+    found.notes.clear()  # a map's, which may be several lights'
     numbers = extract.read_layers(frame, found, layers)
-    pixels, exponent = extract.measure(frame, found, layers, given.encoding)
-    test = extract.find_test(found, layers, pixels, numbers, exponent)
-    for line in report.findings(frame, found, layers, test):
-        say("found: " + line)
-    return capture.write(given.output, frame, found, layers, pixels, test, given.name or os.path.splitext(os.path.basename(given.frame))[0])
+    others = [layer for _, those in lights if those is not layers for layer in those]
+    pixels, exponent = extract.measure(frame, found, layers, encoding, others)
+    if before and not extract.is_same_picture(before[0].found, before[0].pixels, found, pixels):
+        raise FrameError("another camera draws it than the first light: --light judges it by itself")
+    return found, layers, pixels, extract.find_test(found, layers, pixels, numbers, exponent)
 
 
 def _on_a_display(words):

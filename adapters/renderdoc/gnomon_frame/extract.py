@@ -245,15 +245,15 @@ def _flip(picture, view):
     return picture[::-1] if clip.bottom_row_first == clip.y_up else picture
 
 
-def measure(frame, found, layers, encoding):
-    """(pixels of one light, the exponential map's factor or None): three replays. `encoding`: "srgb", "linear", or "auto", which takes
+def measure(frame, found, layers, encoding, others):
+    """(pixels of one light, the exponential map's factor or None): three replays. `others`: layers of other lights. `encoding`: "srgb", "linear", or "auto", which takes
     8-bit pictures for sRGB unless an exponential map fits better without."""
     if frame.textures[found.passes.picture].samples > 1:
         raise FrameError("the picture has several samples a pixel: record a frame without MSAA")
     drawn = visibility.take_pictures(frame, found.passes, sorted({layer.state.slice for layer in layers}))
     for layer in layers:
         layer.texels, layer.read = (_cut(layer, maps[layer.state.slice]) for maps in (drawn.maps, drawn.read))
-    empty, full = visibility.replay(frame, found.passes, layers, found.view.lens, drawn)
+    empty, full = visibility.replay(frame, found.passes, layers, found.view.lens, drawn, others)
     positions, is_drawn = positions_of(drawn.depth, found.view)
     unsaid = visibility.does_not_say(frame, found.passes)
     tried = []
@@ -270,6 +270,13 @@ def measure(frame, found, layers, encoding):
         found.notes.append(f"full shadow leaves {100 * seen.darkest:.0f} % of the lit picture: ambient light, other lights, a fade with the "
                            f"distance, or a strength of {1 - seen.darkest:.2f}; it is taken out")
     return pixels, exponent
+
+
+def is_same_picture(found, pixels, other, others):
+    """Whether two lights are seen by one camera in one picture."""
+    return (pixels.drawn.shape == others.drawn.shape and np.array_equal(pixels.drawn, others.drawn)
+            and np.allclose(pixels.positions, others.positions, rtol=1e-4, atol=1e-6)
+            and np.isclose(found.view.lens.fx, other.view.lens.fx) and np.isclose(found.view.lens.fy, other.view.lens.fy))
 
 
 def _exponent(layers, pixels):

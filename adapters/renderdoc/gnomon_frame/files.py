@@ -47,9 +47,9 @@ class _Blob:
         return len(self.accessors) - 1
 
 
-def write_glb(path, shapes, camera, light):
+def write_glb(path, shapes, camera, lights):
     """A scene of white `shapes` [(positions, three indices for each triangle)]; camera {yfov, aspect, near, far} at the origin, looking along -z;
-    light {type, matrix} and of spots {inner, outer}."""
+    lights [{name, type, matrix} and of spots {inner, outer}]."""
     blob = _Blob()
     meshes, nodes = [], []
     for positions, corners in shapes:
@@ -60,15 +60,17 @@ def write_glb(path, shapes, camera, light):
         nodes.append({"mesh": len(meshes) - 1, "name": f"mesh{len(meshes)}"})
     lens = {"yfov": camera["yfov"], "aspectRatio": camera["aspect"], "znear": camera["near"], "zfar": camera["far"]}
     nodes.append({"camera": 0, "name": "camera"})
-    nodes.append({"name": "light", "matrix": column_major(light["matrix"]), "extensions": {"KHR_lights_punctual": {"light": 0}}})
-    punctual = {"type": light["type"], "name": "light", "intensity": 3.0 if light["type"] == "directional" else 1e4, "color": [1, 1, 1]}
-    if light["type"] == "spot":
-        punctual["spot"] = {"innerConeAngle": light["inner"], "outerConeAngle": light["outer"]}
+    punctual = []
+    for light in lights:
+        nodes.append({"name": light["name"], "matrix": column_major(light["matrix"]), "extensions": {"KHR_lights_punctual": {"light": len(punctual)}}})
+        cone = {"spot": {"innerConeAngle": light["inner"], "outerConeAngle": light["outer"]}} if light["type"] == "spot" else {}
+        punctual.append({"type": light["type"], "name": light["name"], "intensity": 3.0 if light["type"] == "directional" else 1e4,
+                         "color": [1, 1, 1], **cone})
     white = {"name": "white", "doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 1}}
     document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}], "nodes": nodes, "meshes": meshes,
                 "cameras": [{"type": "perspective", "perspective": lens}], "materials": [white], "accessors": blob.accessors,
                 "bufferViews": blob.views, "buffers": [{"byteLength": len(blob.data)}], "extensionsUsed": ["KHR_lights_punctual"],
-                "extensions": {"KHR_lights_punctual": {"lights": [punctual]}}}
+                "extensions": {"KHR_lights_punctual": {"lights": punctual}}}
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     data = bytes(blob.data) + b"\0" * (-len(blob.data) % 4)

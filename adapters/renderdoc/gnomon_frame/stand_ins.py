@@ -2,7 +2,7 @@
 
 The fragment shader is exchanged where the casters have one, else the vertex shader. A fragment shader may be shared with draws
 that belong to no map of this light, such as a depth prepass or another light's: the stand-in then acts only where a fragment
-lies in the light's part of the map, and not on the camera's line z/w = za + zb / w, which no other projection has.
+lies in the light's part of the map, and not on the line z/w = za + zb / w of another projection, nor at w = 1 of a parallel one.
 """
 from dataclasses import dataclass
 
@@ -17,7 +17,8 @@ class Source:
     fragment: bool  # which of both shaders it stands in for
     full: bool  # whether the map becomes full, or empty
     nearest: float = 0.0  # what a texel stores of the nearest thing: 0, or 1 where depths are reversed
-    line: tuple | None = None  # (za, zb, whether z/w runs from -1) of the camera, left alone
+    lines: tuple = ()  # (za, zb) of projections that are left alone; (None, None) of parallel ones
+    minus_one: bool = False  # whether z/w runs from -1
     rects: tuple = ()  # (x0, y0, x1, y1), texels: what lies outside of all is left alone
     colour: bool = False  # whether the map is a colour texture
 
@@ -42,10 +43,10 @@ def _condition(source, coord, inverse_w):
         inside = " || ".join(f"({coord}.x >= {x0:.1f} && {coord}.x < {x1:.1f} && {coord}.y >= {y0:.1f} && {coord}.y < {y1:.1f})"
                              for x0, y0, x1, y1 in source.rects)
         words.append(f"({inside})")
-    if source.line:
-        za, zb, minus_one = source.line
-        z = f"({coord}.z * 2.0 - 1.0)" if minus_one else f"{coord}.z"
-        words.append(f"(abs({z} - ({za:.9g}f + {zb:.9g}f * {inverse_w})) > {ON_LINE})".replace("e-06", "e-6"))
+    z = f"({coord}.z * 2.0 - 1.0)" if source.minus_one else f"{coord}.z"
+    for za, zb in source.lines:
+        off = f"{inverse_w} - 1.0" if za is None else f"{z} - ({za:.9g}f + {zb:.9g}f * {inverse_w})"
+        words.append(f"(abs({off}) > {ON_LINE})".replace("e-06", "e-6"))
     return " && ".join(words) or "true"
 
 
@@ -110,15 +111,20 @@ def _spirv_condition(m, source, coord):
         inside = one if inside is None else m.op(166, m.bool, inside, one)
     if inside is not None:
         conditions.append(inside)
-    if source.line:
-        za, zb, _ = source.line
-        line = m.op(129, m.float, m.number(za), m.op(133, m.float, m.number(zb), m.part(coord, 3)))
-        off = m.absolute(m.op(131, m.float, m.part(coord, 2), line))
-        conditions.append(m.op(186, m.bool, off, m.number(ON_LINE)))
+    for za, zb in source.lines:
+        if za is None:
+            off = m.op(131, m.float, m.part(coord, 3), m.number(1.0))
+        else:
+            line = m.op(129, m.float, m.number(za), m.op(133, m.float, m.number(zb), m.part(coord, 3)))
+            off = m.op(131, m.float, m.part(coord, 2), line)
+        conditions.append(m.op(186, m.bool, m.absolute(off), m.number(ON_LINE)))
     if not conditions:
         zero = m.number(0.0)
         return m.op(180, m.bool, zero, zero)
-    return conditions[0] if len(conditions) == 1 else m.op(167, m.bool, *conditions)
+    all_of = conditions[0]
+    for one in conditions[1:]:
+        all_of = m.op(167, m.bool, all_of, one)
+    return all_of
 
 
 def _spirv_fragment(source):

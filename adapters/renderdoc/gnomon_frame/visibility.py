@@ -23,8 +23,37 @@ class Visibility:
     untouched: bool  # whether the camera's depth stayed as it was in both replays
 
 
-def _plan(frame, passes, layers, lens):
+def _line(layer):
+    """(za, zb) of a map's projection: z/w = za + zb / w; (None, None) where w is 1."""
+    z, w = layer.light.matrix[2], layer.light.matrix[3]
+    size = np.linalg.norm(w[:3])
+    if layer.distance or size < 1e-6 * abs(w[3]):
+        return None, None
+    za = float(z[:3] @ w[:3] / size**2)
+    return za, float(z[3] - za * w[3])
+
+
+def _overlap(one, other):
+    (x, y, width, height), (u, v, wide, high) = one.state.viewport, other.state.viewport
+    return x < u + wide and u < x + width and y < v + high and v < y + height
+
+
+def _lines_of_others(layers, others, shared):
+    """The lines of other lights' layers which those draws of shared shaders fill where the light's own lie, too."""
+    lines = []
+    for other in others:
+        overlapped = [layer for layer in layers if set(other.events) & shared and _overlap(layer, other)]
+        for own in map(_line, overlapped):
+            line = _line(other)
+            if (own[0] is None) == (line[0] is None) and (own[0] is None or np.allclose(own, line, rtol=1e-5)):
+                raise FrameError("its casters are drawn by the same shader and with the same projection as another light's: they cannot be told apart")
+            lines.append(line)
+    return lines
+
+
+def _plan(frame, passes, layers, lens, others):
     """{(shader, stage): (Source without `full`)} of every shader that draws a caster."""
+    of_others = {event for layer in others for event in layer.events}
     own = {d.event for d in passes.writers}
     rects = tuple((x, y, x + w, y + h) for x, y, w, h in sorted({tuple(layer.state.viewport) for layer in layers}))
     used, plan = {}, {}
@@ -42,9 +71,9 @@ def _plan(frame, passes, layers, lens):
         if shared and stage == vertex:
             raise FrameError("the casters have no fragment shader and share their vertex shader with other draws: the light cannot be "
                              "told apart in this frame")
-        plan[shaders[stage], stage] = Source(stage == fragment, False, 1.0 if layers[0].state.reversed else 0.0,
-                                             (lens.za, lens.zb, minus_one) if shared else None, rects if shared else (),
-                                             not frame.textures[passes.texture].is_depth)
+        lines = ([(lens.za, lens.zb)] if shared - of_others else []) + _lines_of_others(layers, others, shared)
+        plan[shaders[stage], stage] = Source(stage == fragment, False, 1.0 if layers[0].state.reversed else 0.0, tuple(dict.fromkeys(lines)), minus_one,
+                                             rects if shared else (), not frame.textures[passes.texture].is_depth)
     return plan
 
 
@@ -81,9 +110,10 @@ def does_not_say(frame, passes):
     return frame.textures[passes.picture].format.endswith("8_UNORM")
 
 
-def replay(frame, passes, layers, lens, drawn):
-    """(the pictures with the map empty, with the map full) of the light whose layers are given."""
-    plan = _plan(frame, passes, layers, lens)
+def replay(frame, passes, layers, lens, drawn, others):
+    """(the pictures with the map empty, with the map full) of the light whose layers are given. `others`: layers of other lights, which
+    stay as they are."""
+    plan = _plan(frame, passes, layers, lens, others)
     pictures = []
     for full in (False, True):
         with frame.replaced({key: Source(**{**vars(source), "full": full}) for key, source in plan.items()}):
