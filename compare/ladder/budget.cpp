@@ -71,11 +71,11 @@ void PixelTerms::add(const std::array<float, rung_count>& v, Label label, double
   absolute_ += times * std::abs(difference), squared_ += times * (difference * difference);
   for (std::size_t k = 0; k < rung_count; ++k) rungs_[k] += times * double{v[k]};
   if (is_accident(v)) accidents_[v[2] > v[0] ? 0 : 1] += times;
-  // What a map holds of its casters may show as any step's doing, and what a filter of moments does as the bias'.
-  const auto step = has_cause(label) ? label_text(label).step : std::nullopt;
-  const bool elsewhere = label == Label::caster_bias || step == Cause::caster || step == Cause::filter;
-  const auto moved = elsewhere ? static_cast<std::size_t>(deciding_step(v)) : cause_count;
-  const auto charged = elsewhere ? static_cast<std::size_t>(step_of_label(label, v)) : cause_count;
+  // What a map holds of its casters may show as any step's doing.
+  const bool of_casters =
+      label == Label::caster_bias || (has_cause(label) && label_text(label).step == Cause::caster);
+  const auto moved = of_casters ? static_cast<std::size_t>(deciding_step(v)) : cause_count;
+  const auto charged = of_casters ? static_cast<std::size_t>(step_of_label(label, v)) : cause_count;
   for (std::size_t k = 0; k < cause_count; ++k) {
     const double change = double{v[k + 1]} - double{v[k]};
     Step& step = steps_[k == moved ? charged : k];
