@@ -39,6 +39,7 @@ void add_scenes(CLI::App& program, Invocation& invocation);
 void add_export(CLI::App& program, Invocation& invocation);
 void add_grade(CLI::App& program, Invocation& invocation);
 void add_lessons(CLI::App& program, Invocation& invocation);
+void add_site(CLI::App& program, Invocation& invocation);
 void add_merge(CLI::App& program, Invocation& invocation);
 void add_shaders(CLI::App& program, Invocation& invocation);
 void add_sweep(CLI::App& program, Invocation& invocation);

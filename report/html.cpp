@@ -125,12 +125,15 @@ std::string hash_source(std::string_view block) {
 
 std::string security_policy(const PageHead& head) {
   const std::string_view beside = head.beside ? " 'self'" : "";
-  const std::string_view live = head.live ? "; connect-src 'self'; frame-src 'self'" : "";
+  const std::string_view own = head.live == LivePage::worker ? " 'self' 'wasm-unsafe-eval'" : "";
+  const std::string_view live = head.live == LivePage::no       ? ""
+                                : head.live == LivePage::served ? "; connect-src 'self'; frame-src 'self'"
+                                                                : "; connect-src 'self'; worker-src 'self'";
   return fmt::format(
-      "default-src 'none'; img-src data:{0}; style-src {1}; script-src {2}{0}{3}; base-uri 'none'; "
+      "default-src 'none'; img-src data:{0}; style-src {1}; script-src {2}{0}{4}{3}; base-uri 'none'; "
       "form-action "
       "'none'",
-      beside, hash_source(head.style), head.script.empty() ? "'none'" : hash_source(head.script), live);
+      beside, hash_source(head.style), head.script.empty() ? "'none'" : hash_source(head.script), live, own);
 }
 
 }  // namespace

@@ -30,12 +30,19 @@ std::string hex_colour(std::uint8_t r, std::uint8_t g, std::uint8_t b);
 // What stands at the head of every page that the program writes, whatever it is about: a content-security policy, by which
 // nothing may be loaded, sent or run but the page's own style and script and its pictures.
 
+/// Whom a page asks that is no document.
+enum class LivePage : std::uint8_t {
+  no,
+  served,  ///< the server that it came from, whose pictures and pages it shows
+  worker   ///< a program in a worker of its own, by files beside it
+};
+
 struct PageHead {
   std::string_view title;     ///< not escaped
   std::string_view style;     ///< all that stands between <style> and </style>
   std::string_view script{};  ///< all that stands between <script> and </script>; empty: no script may run
   bool beside = false;        ///< the page has files of pictures and data beside it
-  bool live = false;  ///< the page asks the server that it came from, and shows pictures and pages of it
+  LivePage live = LivePage::no;
 };
 
 /// Elements of <head>, to follow the one that names the encoding; the style and the script themselves are not among them.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "report/html.h"
 #include "report/plain_page.h"
 
 namespace gnomon::compare {
@@ -41,7 +42,7 @@ struct PageShell {
   bool beside = false;          ///< the parts go into files
   std::string folder = "report-data";    ///< of these files
   std::string_view built = "page.html";  ///< which of the built pages
-  bool live = false;                     ///< PageHead's
+  LivePage live = LivePage::no;
   std::string_view skip = "Skip to the report";
 };
 

@@ -21,6 +21,7 @@ void add_commands(CLI::App& program, Invocation& invocation) {
   add_judge(program, invocation);
   add_grade(program, invocation);
   add_lessons(program, invocation);
+  add_site(program, invocation);
   add_serve(program, invocation);
   add_view(program, invocation);
 }

@@ -1,9 +1,14 @@
 # gnomon lessons: the lessons as a site, and lectures made of their parts. Their text is embedded with the report, their
 # pictures and the decks here.
 target_sources(gnomon_app PRIVATE
-  commands/lessons.cpp lessons/comparison.cpp lessons/figures.cpp lessons/flatland.cpp lessons/intersection.cpp lessons/lecture.cpp lessons/lesson_text.cpp lessons/markdown.cpp lessons/site.cpp lessons/structure.cpp)
+  commands/lessons.cpp commands/site.cpp lessons/comparison.cpp lessons/figures.cpp lessons/flatland.cpp lessons/intersection.cpp lessons/lecture.cpp lessons/lesson_text.cpp lessons/manual_pages.cpp lessons/markdown.cpp lessons/site.cpp lessons/structure.cpp)
 file(GLOB lesson_images CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/images/*.png" "${PROJECT_SOURCE_DIR}/docs/images/*.svg")
 gnomon_embed(gnomon_app lesson_images ${lesson_images})
 file(GLOB lectures CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/lectures/en/*.md")
 gnomon_embed(gnomon_app lectures ${lectures})
 target_link_libraries(gnomon_app PRIVATE md4c_html)
+# gnomon site has the manual and the lab besides, with the program for the web where ./gnomon web builds it.
+file(GLOB manual_pages CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/manual/*.md")
+gnomon_embed(gnomon_app manual_pages ${manual_pages} "${PROJECT_SOURCE_DIR}/docs/labels.md" "${PROJECT_SOURCE_DIR}/docs/glossary.md")
+set_source_files_properties(commands/site.cpp PROPERTIES COMPILE_DEFINITIONS "GNOMON_WEB_PROGRAM=\"${PROJECT_SOURCE_DIR}/build/web/app\""
+  SKIP_UNITY_BUILD_INCLUSION ON)

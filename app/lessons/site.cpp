@@ -110,7 +110,7 @@ Expected<std::string> card(const Lesson& lesson, std::size_t number) {
 }
 
 /// What stands in docs/lessons/README.md before its list, and a card for each lesson.
-Expected<SitePage> index_page(const Lessons& written, Console& console) {
+Expected<SitePage> index_page(const Lessons& written) {
   const std::string_view readme = embedded::lessons("README.md");
   const auto before = body_html(readme.substr(0, readme.find("\n1. ")), written);
   if (!before) return fail(before.error());
@@ -120,10 +120,9 @@ Expected<SitePage> index_page(const Lessons& written, Console& console) {
     if (!html) return fail(html.error());
     main += *html;
   }
-  const PageFigures none(console);
   return SitePage{"index.html",
-                  page_html("Lessons \u2013 Gnomon", "<li><a href=\"index.html\">All lessons</a></li>",
-                            main + "</ol>\n", none)};
+                  page_of_text("Lessons \u2013 Gnomon", "<li><a href=\"index.html\">All lessons</a></li>",
+                               main + "</ol>\n")};
 }
 
 Expected<Lessons> chosen(const std::vector<std::string>& only) {
@@ -145,6 +144,11 @@ Expected<Lessons> chosen(const std::vector<std::string>& only) {
 
 }  // namespace
 
+std::string page_of_text(const std::string& title, const std::string& links, const std::string& main) {
+  Console quiet(true);
+  return page_html(title, links, main, PageFigures(quiet));
+}
+
 Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, Console& console) {
   const auto written = chosen(only);
   if (!written) return fail(written.error());
@@ -155,7 +159,7 @@ Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, 
     pages.push_back(std::move(*page));
     console.progress("lessons", static_cast<double>(i + 1) / static_cast<double>(written->size()));
   }
-  auto index = index_page(*written, console);
+  auto index = index_page(*written);
   if (!index) return fail(index.error());
   pages.push_back(std::move(*index));
   return pages;

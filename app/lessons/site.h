@@ -51,4 +51,10 @@ std::vector<std::string_view> lecture_names();
 /// The lecture of that name as one page, "shadows.html". Errors: (usage) no such lecture; as above.
 Expected<SitePage> make_lecture(std::string_view name, Console& console);
 
+/// The manual: a page for each file of docs/manual, and what they lead to. Error (internal): md4c fails.
+Expected<std::vector<SitePage>> manual_pages();
+
+/// A page in the lessons' style. `links`: <li> items of the bar on top; `main`: what <main> holds.
+std::string page_of_text(const std::string& title, const std::string& links, const std::string& main);
+
 }  // namespace gnomon::app::lessons

@@ -120,7 +120,7 @@ Json compared_json(const ComparisonOutcome& outcome) {
 
 }  // namespace
 
-std::string lab_facts(const LabOptions& options) {
+std::string lab_facts(const LabOptions& options, bool worker) {
   Json settings = Json::array(), techniques = Json::array(), pictures = Json::array(), shown = Json::array(),
        scenes = Json::array(), lessons = Json::array();
   for (const raster::MapSetting& row : raster::map_settings()) settings.push_back(setting_facts(row));
@@ -137,7 +137,10 @@ std::string lab_facts(const LabOptions& options) {
     if (!scene.large) scenes.push_back({{"name", scene.name}, {"what", scene.description}});
   for (const compare::Lesson& lesson : compare::all_lessons())
     lessons.push_back({{"name", lesson.name}, {"what", lesson.title}});
+  const ImageSize size = options.compare.raster.size;
   const Json facts = {{"kind", "lab"},
+                      {"worker", worker},
+                      {"size", {{"width", size.width}, {"height", size.height}}},
                       {"scene", options.scene.name},
                       {"settings", settings},
                       {"techniques", techniques},

@@ -9,7 +9,8 @@
 namespace gnomon::app {
 
 /// Settings by group with their ranges and notes, techniques and what they read, labels, pictures, presets, scenes.
-std::string lab_facts(const LabOptions& options);
+/// `worker`: the page has its engine itself.
+std::string lab_facts(const LabOptions& options, bool worker);
 
 /// What there is at that moment: the words of its state, what is drawn and compared of it, numbers, verdict, and what went
 /// wrong. `compare_words`: LabEngine::compare_words().

@@ -6,36 +6,25 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "app/process/interrupt.h"
-#include "app/serve/lab_facts.h"
+#include "app/serve/lab_answers.h"
 #include "app/view/work/job.h"
-#include "report/shell.h"
-#include "scene/base/option_text.h"
 #include "scene/base/threads.h"
-#include "scene/files/pictures/image_io.h"
 #include "scene/files/read_file.h"
-#include "scene/files/write_file.h"
 
 namespace gnomon::app {
 namespace {
 
 using httplib::Request;
 using httplib::Response;
-using nlohmann::json;
 
 constexpr int answering_threads = 32;
-constexpr int waiting_pages = 8;  ///< that may wait for news at one time; others are told to come again
 constexpr std::chrono::seconds longest_wait{10};
 constexpr time_t patience_seconds = 2;                        ///< with a client that says nothing more
 constexpr std::size_t largest_drop = std::size_t{256} << 20;  // bytes
-constexpr std::size_t most_drops = 64;                        // files
-constexpr std::size_t longest_name = 100;
-constexpr std::size_t longest_wish = 65536;  // bytes
 
 /// 128 bits from the system, in hexadecimal digits.
 Expected<std::string> new_token() {
@@ -69,69 +58,32 @@ std::string in_url(const std::string& address) {
   return address.find(':') != std::string::npos ? "[" + address + "]" : address;
 }
 
-/// Letters, digits, and of signs only those that mean nothing to a path: "house.gltf", "house_0.bin".
-bool is_plain_name(const std::string& name) {
-  const bool letters = std::ranges::all_of(name, [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '.' || c == '-' || c == '_' || c == ' ' || c >= 0x80;
-  });
-  return letters && !name.empty() && name.size() <= longest_name && name.front() != '.';
+void send(Response& response, const LabAnswer& answer) {
+  response.status = answer.status;
+  response.set_content(answer.body, answer.type);
 }
 
 void say(Response& response, int status, const std::string& text) {
-  response.status = status;
-  response.set_content(text + "\n", "text/plain; charset=utf-8");
-}
-
-void refuse(Response& response, const Error& error) {
-  const int status = error.kind == ErrorKind::usage || error.kind == ErrorKind::bad_input ? 400 : 500;
-  response.status = status;
-  response.set_content(json{{"error", error.message()}}.dump(), "application/json");
-}
-
-std::uint64_t number_of(const Request& request, const char* name) {
-  const std::string text = request.get_param_value(name);
-  std::uint64_t value = 0;
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
-}
-
-/// The lab's page: build_page()'s, with what the page knows beforehand.
-std::string lab_page(const LabOptions& options) {
-  compare::PageShell shell;
-  shell.title = "Lab – Gnomon";
-  shell.main =
-      "<noscript><p>The lab is drawn by scripts, which this browser does not run. "
-      "<code>gnomon compare</code> writes a page that needs none.</p></noscript>";
-  shell.data = lab_facts(options);
-  shell.built = "lab.html";
-  shell.live = true;
-  shell.skip = "Skip to the pictures";
-  return compare::build_page(shell).html;
+  send(response, lab_refusal(status, text));
 }
 
 }  // namespace
 
 struct LabServer::Inside {
   Inside(LabEngine& of, const LabOptions& options, std::string in)
-      : engine(of), page(lab_page(options)), folder(std::move(in)) {}
+      : engine(of), page(lab_page(options, false)), answers(of, std::move(in), longest_wait) {}
 
   // Whether the request may be answered at all: who asks, by which name, from where.
   bool admits(const Request& request, Response& response) const;
   void route();
 
-  void take_wish(const Request& request, Response& response);
-  void tell_news(const Request& request, Response& response);
-  void send_picture(const Request& request, Response& response);
-  void tell_pixel(const Request& request, Response& response);
-  void take_file(const Request& request, Response& response);
   void send_report(const Request& request, Response& response);
 
   LabEngine& engine;
   const std::string page;
-  std::string folder;
+  LabAnswers answers;
   ServerPlace place;
   std::string token;
-  std::atomic<int> waiting = 0, dropped = 0;
   std::atomic<std::uint64_t> report = 0;  ///< the one that was asked for last
   httplib::Server server;                 ///< last: its threads use the rest
 };
@@ -158,85 +110,22 @@ bool LabServer::Inside::admits(const Request& request, Response& response) const
 
 void LabServer::Inside::route() {
   const std::string base = "/" + token + "/";
-  const auto answer = [this](void (Inside::*how)(const Request&, Response&)) {
-    return [this, how](const Request& request, Response& response) { (this->*how)(request, response); };
+  const auto answer = [this](const char* name) {
+    return [this, name](const Request& request, Response& response) {
+      const auto parameter = [&](const char* key) { return request.get_param_value(key); };
+      send(response, answers.answer({name, parameter, request.body}));
+    };
   };
   server.Get(base, [this](const Request&, Response& response) {
     response.set_content(page, "text/html; charset=utf-8");
   });
-  server.Post(base + "wish", answer(&Inside::take_wish));
-  server.Get(base + "news", answer(&Inside::tell_news));
-  server.Get(base + "picture", answer(&Inside::send_picture));
-  server.Get(base + "pixel", answer(&Inside::tell_pixel));
-  server.Post(base + "file", answer(&Inside::take_file));
-  server.Get(base + "report", answer(&Inside::send_report));
-}
-
-void LabServer::Inside::take_wish(const Request& request, Response& response) {
-  if (request.body.size() > longest_wish) return say(response, 413, "A wish is shorter.");
-  const json asked = json::parse(request.body, nullptr, false);
-  const auto text = [&](const char* key) {
-    return asked.is_object() && asked.contains(key) && asked[key].is_string();
-  };
-  if (!text("client") || !text("scene") || !asked.contains("words") || !asked["words"].is_array())
-    return say(response, 400, "A wish has a client, a scene and words.");
-  LabWish wish{asked["client"], asked["scene"], {}, {}};
-  for (const json& word : asked["words"]) {
-    if (!word.is_string()) return say(response, 400, "Words are texts.");
-    wish.words.push_back(word);
-  }
-  if (asked.contains("preset") && asked["preset"].is_number_unsigned())
-    wish.preset = asked["preset"].get<std::size_t>();
-  const auto taken = engine.ask(wish);
-  if (!taken) return refuse(response, taken.error());
-  response.set_content(json{{"number", *taken}}.dump(), "application/json");
-}
-
-void LabServer::Inside::tell_news(const Request& request, Response& response) {
-  struct Place {
-    explicit Place(std::atomic<int>& of) : count(of), number(++of) {}
-    ~Place() { --count; }
-    std::atomic<int>& count;
-    int number;
-  };
-  const Place own(waiting);
-  if (own.number > waiting_pages) return say(response, 503, "Too many pages wait for this lab.");
-  const LabMoment moment = engine.wait(number_of(request, "after"), longest_wait);
-  response.set_content(lab_reading(moment, engine.compare_words(moment)), "application/json");
-}
-
-void LabServer::Inside::send_picture(const Request& request, Response& response) {
-  const auto picture = parse_picture(request.get_param_value("name"));
-  if (!picture) return refuse(response, picture.error());
-  const LabMoment moment = engine.wait(0, std::chrono::milliseconds(0));
-  const Rgb8Image* image = picture_of(*moment.shown, *picture);
-  if (image == nullptr) return say(response, 404, "Nothing is drawn yet.");
-  const auto png = encode_png(*image);
-  if (!png) return refuse(response, png.error());
-  response.set_content(*png, "image/png");
-}
-
-void LabServer::Inside::tell_pixel(const Request& request, Response& response) {
-  const LabMoment moment = engine.wait(0, std::chrono::milliseconds(0));
-  const ImageSize size = moment.state.setup.size;
-  const std::uint64_t x = number_of(request, "x"), y = number_of(request, "y");
-  if (x >= static_cast<std::uint64_t>(size.width) || y >= static_cast<std::uint64_t>(size.height))
-    return say(response, 400, "The pixel lies outside the picture.");
-  response.set_content(lab_pixel(moment, {static_cast<int>(x), static_cast<int>(y)}), "application/json");
-}
-
-/// A file that was dropped on the page; further ones with it lie beside it.
-void LabServer::Inside::take_file(const Request& request, Response& response) {
-  const std::string name = request.get_param_value("name");
-  if (!is_plain_name(name))
-    return say(response, 400,
-               "A file's name is of letters, digits, blanks and . - _, and at most 100 of them.");
-  if (++dropped > static_cast<int>(most_drops))
-    return say(response, 507, "Too many files were dropped; start the lab again.");
-  const std::string path = folder + "/" + name;
-  if (const auto written = write_file(path, request.body); !written) return refuse(response, written.error());
-  engine.admit(name, path);
-  response.set_content(json{{"scene", name}}.dump(), "application/json");
+  server.Post(base + "wish", answer("wish"));
+  server.Get(base + "news", answer("news"));
+  server.Get(base + "picture", answer("picture"));
+  server.Get(base + "pixel", answer("pixel"));
+  server.Post(base + "file", answer("file"));
+  server.Get(base + "report",
+             [this](const Request& request, Response& response) { send_report(request, response); });
 }
 
 /// The report page of what is shown, by a process of its own; a later request takes its place.
@@ -249,14 +138,14 @@ void LabServer::Inside::send_report(const Request&, Response& response) {
   const std::string out = written.path() + "/out";
   words.insert(words.end(), {"-o", out, "--quiet", "--report-max-mb", "1000"});
   auto job = Job::start("report", words);
-  if (!job) return refuse(response, job.error());
+  if (!job) return send(response, lab_refusal(job.error()));
   while (!(*job)->ended()) {
     if (report != own) return say(response, 409, "Another report was asked for.");
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   if ((*job)->exit_code() != 0) return say(response, 500, (*job)->err());
   const auto page_text = read_file(out + "/report.html");
-  if (!page_text) return refuse(response, page_text.error());
+  if (!page_text) return send(response, lab_refusal(page_text.error()));
   response.set_content(*page_text, "text/html; charset=utf-8");
 }
 

@@ -1,10 +1,8 @@
-# The shadow lab: gnomon view.
+# The shadow lab's window: gnomon view.
 target_sources(gnomon_app PRIVATE
-  view/work/file_watch.cpp view/state/film.cpp view/state/first_state.cpp view/window/frame_watch.cpp view/state/input.cpp view/window/interface.cpp view/work/job.cpp view/window/layout.cpp view/state/look.cpp
-  view/work/map_pictures.cpp view/work/meter.cpp view/state/pixel_story.cpp view/state/presets.cpp view/work/priority.cpp view/state/projection.cpp
-  view/work/render_thread.cpp view/state/save_scene.cpp view/work/scene_source.cpp view/script/script.cpp view/script/script_keys.cpp view/state/state.cpp
-  view/state/status.cpp view/work/studio.cpp view/window/style.cpp view/view.cpp view/viewer.cpp view/viewer_files.cpp
-  view/viewer_input.cpp view/viewer_script.cpp view/window/window.cpp view/work/worker.cpp
+  view/window/frame_watch.cpp view/state/input.cpp view/window/interface.cpp view/window/layout.cpp view/work/meter.cpp
+  view/script/script.cpp view/script/script_keys.cpp view/window/style.cpp view/view.cpp view/viewer.cpp view/viewer_files.cpp
+  view/viewer_input.cpp view/viewer_script.cpp view/window/window.cpp
   view/panels/columns.cpp view/panels/curve.cpp view/panels/help.cpp view/panels/menu.cpp view/panels/overlay.cpp
   view/panels/probe.cpp view/panels/results.cpp view/panels/settings.cpp view/panels/status_bar.cpp)
 # The backends' headers name imgui.h alone.

@@ -10,7 +10,7 @@ set(GNOMON_STUDIES_PLATFORM  # grade runs students' programs
   grade/alike.cpp grade/check_runs.cpp grade/excerpt.cpp grade/figures.cpp grade/grade.cpp grade/kits.cpp grade/limited_process.cpp grade/mistakes.cpp
   grade/page.cpp grade/page_name.cpp grade/results.cpp grade/rubric.cpp grade/student.cpp)
 set(GNOMON_APP_PLATFORM
-  commands/all.cpp commands/bench.cpp commands/grade.cpp commands/serve.cpp commands/verify.cpp commands/view.cpp options/lab_options.cpp)
+  commands/all.cpp commands/bench.cpp commands/grade.cpp commands/serve.cpp commands/verify.cpp commands/view.cpp view/work/job.cpp view/work/priority.cpp view/work/turns.cpp)
 set(GNOMON_APP_ROOMS gnomon::benchmark gnomon::verify)  # beside those that every platform has
 set(GNOMON_PROGRAM_PLATFORM main.cpp process/thread_start.cpp process/out_of_memory.cpp)
 

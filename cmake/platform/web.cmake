@@ -6,13 +6,15 @@ set(platform "${PROJECT_SOURCE_DIR}/cmake/platform/web")
 set(GNOMON_SCENE_PLATFORM "${platform}/one_thread.cpp" "${platform}/outside.cpp" "${platform}/images.cpp")
 set(GNOMON_RASTER_PLATFORM)
 set(GNOMON_STUDIES_PLATFORM)
-set(GNOMON_APP_PLATFORM "${platform}/commands.cpp")
+set(GNOMON_APP_PLATFORM "${platform}/commands.cpp" "${platform}/turns.cpp")
 set(GNOMON_APP_ROOMS)
-set(GNOMON_PROGRAM_PLATFORM "${platform}/main.cpp")
+set(GNOMON_PROGRAM_PLATFORM "${platform}/main.cpp" "${platform}/lab.cpp")
 set(GNOMON_PROGRAM_PROPERTIES SUFFIX .mjs)
 set(GNOMON_RASTER_LIBRARIES web_gl)
 set(GNOMON_SORTING)
-configure_file("${platform}/gnomon.js" "${PROJECT_BINARY_DIR}/app/gnomon.js" COPYONLY)
+foreach(script gnomon.js lab_worker.mjs)
+  configure_file("${platform}/${script}" "${PROJECT_BINARY_DIR}/app/${script}" COPYONLY)
+endforeach()
 file(WRITE "${PROJECT_BINARY_DIR}/app/package.json" "{ \"type\": \"module\" }\n")
 
 # One thread, of vectors of 128 bits; errors are WebAssembly's own exceptions.
@@ -20,7 +22,7 @@ set(flags -msimd128 -fwasm-exceptions)
 add_compile_options(${flags} "$<$<COMPILE_LANGUAGE:CXX>:-fexperimental-library>")
 # A module whose callMain(words) runs a command line over files in memory (FS), in a page, a worker or Node.
 add_link_options(${flags} -sMODULARIZE -sEXPORT_ES6 -sEXPORT_NAME=gnomon -sINVOKE_RUN=0 -sEXIT_RUNTIME=0
-  -sEXPORTED_RUNTIME_METHODS=callMain,FS,NODEFS -lnodefs.js -sFORCE_FILESYSTEM -sENVIRONMENT=web,worker,node
+  -sEXPORTED_RUNTIME_METHODS=callMain,ccall,FS,HEAPU8,NODEFS -sEXPORTED_FUNCTIONS=_main,_malloc,_free -lnodefs.js -sFORCE_FILESYSTEM -sENVIRONMENT=web,worker,node
   -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2
   -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=4GB -sINITIAL_MEMORY=64MB -sSTACK_SIZE=8MB)
 add_compile_definitions(HWY_COMPILE_ONLY_STATIC FMT_HEADER_ONLY)

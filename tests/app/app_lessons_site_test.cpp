@@ -124,6 +124,7 @@ TEST(Lecture, IsALessonsTextOfSteps) {
 TEST(LessonsCommand, SaysWhatIsWrong) {
   const TemporaryFolder folder;
   expect_one_line(run_gnomon({"lessons", "-o", folder / "site", "--only", "acn"}), 2, "acne");
+  expect_one_line(run_gnomon({"site", "-o", folder / "site", "--web", folder / "none"}), 3, "./gnomon web");
   EXPECT_FALSE(std::filesystem::exists(folder / "site"));
   expect_one_line(run_gnomon({"lessons", "-o", folder / "site", "--lecture", "shadow"}), 2, "shadows");
   expect_one_line(run_gnomon({"lessons", "--lecture", "shadows", "--only", "acne"}), 2, "--lecture");

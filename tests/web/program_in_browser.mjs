@@ -24,19 +24,26 @@ postMessage("ready");`;
 const types = { ".mjs": "text/javascript", ".js": "text/javascript", ".wasm": "application/wasm", ".html": "text/html" };
 const own = { "/": ["text/html", "<!doctype html><title>Program</title>"], "/worker.mjs": ["text/javascript", worker] };
 
-/** Serves the built program and a page that has it in a worker. */
-export async function openProgram() {
+/** A host of plain files; `made`: {PATH: [TYPE, TEXT]} besides. Returns its address and what ends it. */
+export async function serveFolder(folder, made = {}) {
   const server = createServer((request, response) => {
     const { pathname } = new URL(request.url, "http://localhost");
-    const [type, text] = own[pathname] ?? [types[path.extname(pathname)]];
-    if (!type) return response.writeHead(404).end();
+    const file = path.join(folder, path.normalize(pathname.endsWith("/") ? `${pathname}index.html` : pathname));
+    const [type, text] = made[pathname] ?? [types[path.extname(file)]];
+    if (!type || (text === undefined && !existsSync(file))) return response.writeHead(404).end();
     response.writeHead(200, { "Content-Type": type });
-    return text ? response.end(text) : createReadStream(path.join(app, path.basename(pathname))).pipe(response);
+    return text === undefined ? createReadStream(file).pipe(response) : response.end(text);
   });
   await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  return { url: `http://127.0.0.1:${server.address().port}/`, stop: () => server.close() };
+}
+
+/** Opens a page that has the built program in a worker. */
+export async function openProgram() {
+  const host = await serveFolder(app, own);
   const page = await browser.newPage();
   page.on("console", (message) => console.log(`browser: ${message.text()}`));
-  await page.goto(`http://127.0.0.1:${server.address().port}/`);
+  await page.goto(host.url);
   await page.evaluate(() => new Promise((done, fail) => {
     globalThis.program = new Worker("worker.mjs", { type: "module" });
     globalThis.program.onerror = (event) => fail(new Error(event.message));
@@ -58,5 +65,5 @@ export async function openProgram() {
     }), [words, files]);
     return { ...done, files: done.files.map((text) => (text === null ? null : Buffer.from(text, "base64"))) };
   };
-  return { run, close: () => browser.close().then(() => server.close()) };
+  return { run, close: () => browser.close().then(() => host.stop()) };
 }

@@ -44,7 +44,8 @@ RenderThread::RenderThread(MakeContext context, SceneSource first, StudioOptions
       wake_(std::move(wake)),
       first_(std::move(first)),
       published_(std::make_shared<const Snapshot>()),
-      thread_([this] { run(); }) {}
+      turns_({[this] { first_turn(); }, [this](bool wait) { return turn(wait); },
+              [this] { studio_.reset(); }}) {}  // while its context is current there
 
 RenderThread::~RenderThread() {
   {
@@ -52,7 +53,6 @@ RenderThread::~RenderThread() {
     quit_ = true;
   }
   changed_.notify_one();
-  thread_.join();
 }
 
 void RenderThread::post(std::uint64_t scene, DrawOrder order) {
@@ -106,12 +106,13 @@ void RenderThread::publish() {
   wake_();
 }
 
-RenderThread::Task RenderThread::next_task() {
+RenderThread::Task RenderThread::next_task(bool wait) {
   std::vector<std::shared_ptr<const Snapshot>> given_back;  // freed last, without the lock
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, file_interval, [this] {
-    return quit_ || asked_scene_ || asked_order_ || finished_ || !given_back_.empty();
-  });
+  if (wait)
+    changed_.wait_for(lock, file_interval, [this] {
+      return quit_ || asked_scene_ || asked_order_ || finished_ || !given_back_.empty();
+    });
   given_back.swap(given_back_);
   Task task;
   task.quit = quit_;
@@ -123,27 +124,42 @@ RenderThread::Task RenderThread::next_task() {
   return task;
 }
 
-void RenderThread::run() {
+void RenderThread::first_turn() {
   give_way(drawing_gives_way);  // and so do the threads of its OpenGL in software
   try {
     install(*first_, false);
     first_.reset();
-    for (;;) {
-      Task task = next_task();
-      if (task.quit) break;
-      if (task.open) read_scene(task.open->first, task.open->second, false);
-      read_changed_files();
-      if (task.order) {
-        last_order_ = std::move(task.order);
-        if (std::exchange(only_said_, false)) now_.unreadable.reset();
-      }
-      if (last_order_ && studio_) carry_out(*last_order_);
-    }
   } catch (const std::exception& error) {
-    now_.unreadable = unforeseen(error);
-    publish();
+    give_up(error);
   }
-  studio_.reset();  // while its context is current here
+}
+
+bool RenderThread::turn(bool wait) {
+  if (gave_up_) return false;
+  const Task task = next_task(wait);
+  if (task.quit) return false;
+  try {
+    work_on(task);
+  } catch (const std::exception& error) {
+    give_up(error);
+  }
+  return !gave_up_;
+}
+
+void RenderThread::give_up(const std::exception& error) {
+  gave_up_ = true;
+  now_.unreadable = unforeseen(error);
+  publish();
+}
+
+void RenderThread::work_on(const Task& task) {
+  if (task.open) read_scene(task.open->first, task.open->second, false);
+  read_changed_files();
+  if (task.order) {
+    last_order_ = task.order;
+    if (std::exchange(only_said_, false)) now_.unreadable.reset();
+  }
+  if (last_order_ && studio_) carry_out(*last_order_);
 }
 
 void RenderThread::read_scene(const SceneArgument& argument, const std::string& camera, bool again) {

@@ -10,11 +10,11 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "app/view/work/file_watch.h"
 #include "app/view/work/scene_source.h"
 #include "app/view/work/studio.h"
+#include "app/view/work/turns.h"
 
 namespace gnomon::app {
 
@@ -77,8 +77,11 @@ class RenderThread {
     std::optional<DrawOrder> order;
     bool quit = false;
   };
-  void run();
-  Task next_task();
+  bool turn(bool wait);
+  void first_turn();
+  void work_on(const Task& task);
+  void give_up(const std::exception& error);
+  Task next_task(bool wait);
   void read_scene(const SceneArgument& argument, const std::string& camera, bool again);
   void install(const SceneSource& source, bool again);
   Expected<std::unique_ptr<Studio>> make_studio(const SceneSource& source, bool& again);
@@ -97,6 +100,7 @@ class RenderThread {
   FileWatch scene_files_, shader_files_;
   Snapshot now_;
   std::optional<DrawOrder> last_order_;
+  bool gave_up_ = false;
   bool only_said_ = false;  ///< what is unreadable is another scene than the one that is shown
 
   mutable std::mutex mutex_;
@@ -107,7 +111,7 @@ class RenderThread {
   bool quit_ = false;
   std::shared_ptr<const Snapshot> published_;
   std::vector<std::shared_ptr<const Snapshot>> given_back_;
-  std::thread thread_;  ///< last
+  Turns turns_;  ///< last
 };
 
 }  // namespace gnomon::app

@@ -5,7 +5,6 @@
 #include <exception>
 #include <stop_token>
 
-#include "app/view/work/priority.h"
 #include "compare/result/outputs.h"
 #include "scene/base/threads.h"
 
@@ -60,7 +59,11 @@ CompareWorker::CompareWorker(const Scene& scene, const World& world, const compa
       world_(std::make_unique<World>(world_like(world, *scene_))),
       options_(options),
       on_finished_(std::move(on_finished)),
-      thread_([this] { run(); }) {}
+      turns_({[this] {
+                give_way(comparing_gives_way);
+                helpers_.emplace(comparing_gives_way);
+              },
+              [this](bool wait) { return turn(wait); }, [this] { helpers_.reset(); }}) {}
 
 CompareWorker::~CompareWorker() {
   {
@@ -69,7 +72,6 @@ CompareWorker::~CompareWorker() {
     if (job_) job_->given_up.request_stop();
   }
   wake_.notify_one();
-  thread_.join();
 }
 
 bool CompareWorker::busy() const {
@@ -96,35 +98,32 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::take() {
   return std::exchange(outcome_, std::nullopt);
 }
 
-void CompareWorker::run() {
-  give_way(comparing_gives_way);
-  const HelpersGiveWay helpers(comparing_gives_way);
-  for (;;) {
-    std::shared_ptr<Job> job;
-    ComparisonRequest request;
-    {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [this] { return stop_ || request_; });
-      if (stop_) return;
-      request = std::move(*request_);
-      request_.reset();
-      job = job_ = std::make_shared<Job>();
-      job->preview = request.preview;
-    }
-    std::optional<Expected<ComparisonOutcome>> outcome;
-    try {
-      prepare_tracer(request.precision);
-      outcome = compare(std::move(request), *job);
-    } catch (const std::exception& error) {
-      outcome = fail(unforeseen(error));
-    }
-    {
-      const std::lock_guard lock(mutex_);
-      job_.reset();
-      if (outcome) outcome_ = std::move(outcome);
-    }
-    on_finished_();
+bool CompareWorker::turn(bool wait) {
+  std::shared_ptr<Job> job;
+  ComparisonRequest request;
+  {
+    std::unique_lock lock(mutex_);
+    if (wait) wake_.wait(lock, [this] { return stop_ || request_; });
+    if (stop_ || !request_) return !stop_;
+    request = std::move(*request_);
+    request_.reset();
+    job = job_ = std::make_shared<Job>();
+    job->preview = request.preview;
   }
+  std::optional<Expected<ComparisonOutcome>> outcome;
+  try {
+    prepare_tracer(request.precision);
+    outcome = compare(std::move(request), *job);
+  } catch (const std::exception& error) {
+    outcome = fail(unforeseen(error));
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    job_.reset();
+    if (outcome) outcome_ = std::move(outcome);
+  }
+  on_finished_();
+  return true;
 }
 
 void CompareWorker::prepare_tracer(raytrace::Precision precision) {

@@ -9,8 +9,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <thread>
 
+#include "app/view/work/priority.h"
+#include "app/view/work/turns.h"
 #include "compare/compare.h"
 #include "compare/comparison.h"
 #include "compare/result/verdict.h"
@@ -71,7 +72,7 @@ class CompareWorker {
 
  private:
   struct Job;
-  void run();
+  bool turn(bool wait);
   /// Nothing when the job was given up.
   std::optional<Expected<ComparisonOutcome>> compare(ComparisonRequest request, Job& job) const;
   void prepare_tracer(raytrace::Precision precision);
@@ -89,7 +90,8 @@ class CompareWorker {
   std::shared_ptr<Job> job_;                  ///< under way
   std::optional<Expected<ComparisonOutcome>> outcome_;
   bool stop_ = false;
-  std::thread thread_;  ///< last: starts when all else is there
+  std::optional<HelpersGiveWay> helpers_;  ///< the thread's own
+  Turns turns_;                            ///< last: they start when all else is there
 };
 
 // Pictures of what the map says, in the report page's colours: the true shadow, the gap, and the map's texels

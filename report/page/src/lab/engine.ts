@@ -1,5 +1,5 @@
-// The engine behind the lab's page: what it is asked, and what it answers (docs/lab.md, "The page and its engine"). This one
-// is the program that serves the page.
+// The engine behind the lab's page: what it is asked, and what it answers (docs/lab.md, "The page and its engine"). It is the
+// program that serves the page, or the same in a worker of the page.
 import type { BiasPoint, LabelFacts, LightResult } from "../report_document";
 
 export interface SettingFacts {
@@ -30,6 +30,8 @@ export interface Named {
 /** What the page knows beforehand. */
 export interface LabFacts {
   scene: string;
+  worker: boolean;  // the page has its engine itself
+  size: { width: number; height: number };  // of its first picture
   settings: SettingFacts[];
   techniques: { name: string; for_suns: boolean }[];
   labels: LabelFacts[];
@@ -118,18 +120,8 @@ export interface Wish {
   preset?: number;
 }
 
-export interface Engine {
-  /** Asks for a state; its number is of the moment from which readings are of it. Rejects with the words that say why not. */
-  ask(wish: Wish): Promise<number>;
-  /** The next thing that happens after that moment, or after a while the same again. */
-  news(after: number): Promise<Reading>;
-  picture(name: string): Promise<HTMLCanvasElement>;
-  pixel(x: number, y: number): Promise<PixelStory | null>;
-  /** Takes a file, and says by which name it may be opened. */
-  take(file: File): Promise<string>;
-  /** Where the report of what is drawn is. */
-  reportAddress(revision: number): string;
-}
+/** How an engine is asked: a request as docs/lab.md has it, and its answer, like one over HTTP. */
+type Transport = (name: string, parameters: Record<string, string>, body?: Blob | string) => Promise<Response>;
 
 async function answered(response: Response): Promise<Response> {
   if (response.ok) return response;
@@ -141,20 +133,24 @@ async function answered(response: Response): Promise<Response> {
   throw new Error(said || `the engine answers with ${response.status}`);
 }
 
-/** The program that the page came from. */
-export class ServedEngine implements Engine {
+export class Engine {
   /** This page's name for itself among all that look at the same lab. */
   readonly client = crypto.randomUUID();
+  private readonly send: Transport;
 
+  /** `lost`: what is said where it answers no more. `makesReports`: the report is a page of its own making, not an address. */
+  constructor(transport: Transport, readonly lost: string, readonly makesReports: boolean) {
+    this.send = async (...asked) => answered(await transport(...asked));
+  }
+
+  /** Asks for a state; its number is of the moment from which readings are of it. Rejects with the words that say why not. */
   async ask(wish: Wish): Promise<number> {
-    const response = await answered(await fetch("wish", { method: "POST", body: JSON.stringify({ client: this.client, ...wish }) }));
-    return ((await response.json()) as { number: number }).number;
+    return ((await (await this.send("wish", {}, JSON.stringify({ client: this.client, ...wish }))).json()) as { number: number }).number;
   }
-  async news(after: number): Promise<Reading> {
-    return (await (await answered(await fetch(`news?after=${after}`))).json()) as Reading;
-  }
+  /** The next thing that happens after that moment, or after a while the same again. */
+  async news(after: number): Promise<Reading> { return (await (await this.send("news", { after: String(after) })).json()) as Reading; }
   async picture(name: string): Promise<HTMLCanvasElement> {
-    const bitmap = await createImageBitmap(await (await answered(await fetch(`picture?name=${name}`))).blob());
+    const bitmap = await createImageBitmap(await (await this.send("picture", { name })).blob());
     const canvas = document.createElement("canvas");
     canvas.width = bitmap.width;
     canvas.height = bitmap.height;
@@ -162,11 +158,43 @@ export class ServedEngine implements Engine {
     return canvas;
   }
   async pixel(x: number, y: number): Promise<PixelStory | null> {
-    return (await (await answered(await fetch(`pixel?x=${x}&y=${y}`))).json()) as PixelStory | null;
+    return (await (await this.send("pixel", { x: String(x), y: String(y) })).json()) as PixelStory | null;
   }
-  async take(file: File): Promise<string> {
-    const response = await answered(await fetch(`file?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file }));
-    return ((await response.json()) as { scene: string }).scene;
-  }
-  reportAddress(revision: number): string { return `report?revision=${revision}`; }
+  /** Takes a file, and says by which name it may be opened. */
+  async take(file: File): Promise<string> { return ((await (await this.send("file", { name: file.name }, file)).json()) as { scene: string }).scene; }
+  /** The report of a state by its command's words. */
+  async report(words: string[]): Promise<Blob> { return (await this.send("report", { words: words.join("\n") })).blob(); }
+}
+
+/** The program that the page came from. */
+export const servedEngine = (): Engine => new Engine(
+  (name, parameters, body) => fetch(`${name}?${new URLSearchParams(parameters).toString()}`, { method: body === undefined ? "GET" : "POST", ...(body !== undefined && { body }) }),
+  "The program behind this page does not answer. Start gnomon serve again, and open the address that it prints.", false);
+
+/** The program in a worker of this page, by the files beside it. It begins with a scene. */
+export function workerEngine(scene: string, size: { width: number; height: number }): Engine {
+  const worker = new Worker("lab_worker.mjs", { type: "module" }), open = new Map<number, (answer: Response) => void>();
+  let last = 0, gone: string | null = null;
+  const fail = (words: string): void => {
+    gone = words;
+    for (const answer of open.values()) answer(new Response(words, { status: 500 }));
+    open.clear();
+  };
+  worker.onerror = (event) => fail(event.message || "The program for the web cannot be loaded: its files are not beside this page.");
+  worker.onmessage = ({ data }: MessageEvent<{ id?: number; gone?: string; status: number; type: string; body: Uint8Array<ArrayBuffer> }>) => {
+    if (data.gone !== undefined || data.id === undefined) return fail(data.gone ?? "");
+    open.get(data.id)?.(new Response(data.body, { status: data.status, headers: { "Content-Type": data.type } }));
+    open.delete(data.id);
+  };
+  const post = async (name: string, parameters: object, body?: Blob | string): Promise<Response> => {
+    const bytes = body === undefined ? undefined : await new Response(body).arrayBuffer();
+    return new Promise((answer) => {
+      if (gone !== null) return answer(new Response(gone, { status: 500 }));
+      open.set(++last, answer);
+      worker.postMessage({ id: last, name, parameters, body: bytes }, bytes ? [bytes] : []);
+    });
+  };
+  const begun = post("begin", { scene, size });
+  return new Engine(async (...asked) => { const start = await begun; return start.ok ? post(...asked) : start.clone(); },
+    "The program in this page has stopped: reload the page. Its address brings the state back.", true);
 }

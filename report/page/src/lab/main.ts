@@ -7,7 +7,7 @@ import { pageData } from "../parts";
 import { html } from "../svg";
 import { markup, flowing } from "../template";
 import { choiceRow, tidy } from "./controls";
-import { isDrawn, ServedEngine, type CameraPose, type Drawn, type LabFacts, type Named, type Reading } from "./engine";
+import { isDrawn, servedEngine, workerEngine, type CameraPose, type Drawn, type LabFacts, type Named, type Reading } from "./engine";
 import { addressOf, optionsOf, stateAt, wordsOf, type LabState, type Options } from "./lab_state";
 import { LightControls, type PoseChange } from "./light_controls";
 import { biasAt, pixelMarkup, resultsMarkup } from "./results";
@@ -18,8 +18,8 @@ const facts = pageData<LabFacts>();
 const poseOptions = ["camera", "camera-orbit", "camera-distance", "camera-target", "camera-up", "camera-height", "light", "light-azimuth", "light-elevation", "light-distance", "light-size", "size", "precision"];
 
 class Lab {
-  private readonly engine = new ServedEngine();
   private state: LabState = stateAt(location.hash) ?? { scene: facts.scene, options: new Map() };
+  private readonly engine = facts.worker ? workerEngine(facts.scenes.some(({ name }) => name === this.state.scene) ? this.state.scene : facts.scene, facts.size) : servedEngine();
   private asked = 0;      // the moment from which readings are of this page's wish
   private asking = false;
   private again = false;  // something was changed meanwhile
@@ -83,6 +83,10 @@ class Lab {
     });
     this.part("lab-reset").addEventListener("click", () => this.go({ scene: this.state.scene, options: new Map() }));
     this.part("lab-report").addEventListener("click", () => this.showReport());
+    if (this.engine.makesReports) {
+      this.part("lab-report").hidden = true;
+      this.part("lab-save").addEventListener("click", (event) => { event.preventDefault(); void this.saveReport(); });
+    }
     this.part("lab-results").addEventListener("click", (event) => {
       const chart = (event.target as Element).closest<SVGElement>(".chart"), light = this.reading?.result?.lights[0];
       const texels = chart && light ? biasAt(chart, event.clientX, light) : null;
@@ -178,7 +182,8 @@ class Lab {
         this.part("lab-gone").hidden = true;
         if (reading.number !== this.seen) this.take(reading);
         this.seen = reading.number;
-      } catch {
+      } catch (error) {
+        this.part("lab-gone").textContent = `${this.engine.makesReports ? `${(error as Error).message} ` : ""}${this.engine.lost}`;
         this.part("lab-gone").hidden = false;
         await new Promise((done) => setTimeout(done, 1000));
       }
@@ -227,9 +232,22 @@ class Lab {
     if (story) this.part("lab-pixel").innerHTML = pixelMarkup(story, facts).text;
   }
 
+  // What the page makes itself is a file to be saved: a page in it would have this page's policy, not its own.
+  private async saveReport(): Promise<void> {
+    if (!this.reading) return;
+    this.say("Writing the report…");
+    try {
+      const link = html("a", { href: URL.createObjectURL(await this.engine.report(this.reading.command.split(" ").slice(1))), download: "report.html" });
+      link.click();
+      this.say("The report is saved as report.html.");
+    } catch (error) {
+      this.fail((error as Error).message);
+    }
+  }
+
   private showReport(): void {
     if (!this.reading) return;
-    const frame = html("iframe", { title: "The report of this state", src: this.engine.reportAddress(this.reading.revision), "data-revision": String(this.reading.revision) });
+    const frame = html("iframe", { title: "The report of this state", src: `report?revision=${this.reading.revision}`, "data-revision": String(this.reading.revision) });
     this.part("lab-frame").replaceChildren(html("p", { role: "status" }, "Writing the report…"), frame);
     frame.addEventListener("load", () => { this.part("lab-frame").firstElementChild!.textContent = ""; this.markReport(this.reading!.revision); });
   }
@@ -256,7 +274,7 @@ const layout = markup`<div class="lab">
 <p id="lab-error" role="alert" hidden></p><p id="lab-note" class="hint" role="status"></p>
 <p id="lab-opening" class="hint" hidden>Opening the scene…</p>
 <p id="lab-other" class="hint" hidden>Another page has set this lab to something else; any change here takes it back.</p>
-<p id="lab-gone" role="alert" hidden>The program behind this page does not answer. Start gnomon serve again, and open the address that it prints.</p></section>
+<p id="lab-gone" role="alert" hidden></p></section>
 <div id="lab-settings" class="lab-settings" role="form" aria-label="Settings"></div>
 <div id="lab-stage" class="lab-stage"></div>
 <div class="lab-side"><div id="lab-pixel" class="lab-pixel" aria-live="polite"></div><div id="lab-results" class="lab-results"></div></div>

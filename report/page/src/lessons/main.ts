@@ -14,7 +14,7 @@ async function start(): Promise<void> {
   const lecture = document.querySelector<HTMLElement>(".lecture");
   if (lecture) new Lecture(lecture);
   const lesson = document.querySelector<HTMLElement>(".lesson-text");
-  if (lesson?.querySelector("h2")) new SlideView(lesson);
+  if (lesson?.querySelector(".part h2")) new SlideView(lesson);
   document.documentElement.dataset.ready = "true";
 }
 void start();

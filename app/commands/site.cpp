@@ -1,0 +1,131 @@
+// gnomon site: all that can be read and tried in a browser, as one folder for a host of plain files.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <memory>
+
+#include "app/console.h"
+#include "app/invocation.h"
+#include "app/lessons/site.h"
+#include "app/options/lab_options.h"
+#include "app/options/options.h"
+#include "app/outputs/run_files.h"
+#include "app/process/interrupt.h"
+#include "app/serve/lab_answers.h"
+#include "report/html.h"
+#include "scene/base/timing.h"
+#include "scene/files/read_file.h"
+#include "scene/files/staged_folder.h"
+#include "scene/files/write_file.h"
+#include "scene/load.h"
+
+namespace gnomon::app {
+
+namespace {
+
+using lessons::SitePage;
+
+struct SiteCommand {
+  std::string folder = "out/site", web = GNOMON_WEB_PROGRAM;
+  bool quiet = false;
+};
+
+/// The lab's engine, as ./gnomon web builds it.
+Expected<std::vector<SitePage>> engine_files(const std::string& folder) {
+  std::vector<SitePage> files;
+  for (const char* name : {"gnomon.mjs", "gnomon.wasm", "lab_worker.mjs"}) {
+    auto bytes = read_file(folder + "/" + name);
+    if (!bytes)
+      return fail(ErrorKind::bad_input,
+                  fmt::format("--web: the program for the web is not there (got {}; ./gnomon web "
+                              "builds it)",
+                              folder));
+    files.push_back({name, std::move(*bytes)});
+  }
+  return files;
+}
+
+/// Where it all begins: the lab, the lessons, the manual, and every scene to be opened in the lab.
+SitePage start_page() {
+  std::string main =
+      "<article class=\"lesson-text\">\n<h1>Gnomon</h1>\n<p>Gnomon renders a scene twice, once as a "
+      "rasterizer with "
+      "shadow maps and once as a ray tracer, compares the shadows pixel by pixel, and says for every pixel "
+      "that "
+      "differs why.</p>\n<ul>\n"
+      "<li><a href=\"lab.html\">The lab</a>: change every setting of a shadow map, turn the light, and watch "
+      "what "
+      "becomes of the shadows. It is drawn and compared in this page, on your own machine.</li>\n"
+      "<li><a href=\"lessons/index.html\">The lessons</a>: shadow maps and ray tracing, with figures to "
+      "try.</li>\n"
+      "<li><a href=\"manual/index.html\">The manual</a>: every option, key, label and channel.</li>\n</ul>\n"
+      "<h2>Scenes to open in the lab</h2>\n<dl>\n";
+  for (const BuiltinScene& scene : builtin_scenes())
+    if (!scene.large)
+      main += fmt::format("<dt><a href=\"lab.html#scene={0}\">{0}</a></dt><dd>{1}</dd>\n", scene.name,
+                          compare::escaped(scene.description));
+  return {"index.html", lessons::page_of_text("Gnomon", "", main + "</dl>\n</article>\n")};
+}
+
+Expected<void> write_files(const std::string& folder, const std::vector<SitePage>& files) {
+  const OutputGuard whole_outputs;
+  auto staged = StagedFolder::open(folder);
+  if (!staged) return fail(staged.error());
+  for (const SitePage& file : files)
+    if (const auto written = write_file(staged->path() + "/" + file.file, file.html); !written)
+      return written;
+  if (const auto sealed = staged->seal({}); !sealed) return sealed;
+  return staged->publish("index.html");
+}
+
+Expected<ExitCode> run_site(const SiteCommand& command) {
+  const Stopwatch total;
+  Console console(command.quiet);
+  RunFiles paths;
+  constexpr std::array<std::string_view, 1> names{"index.html"};
+  paths.writes_folder("-o", command.folder, names);
+  if (const auto fine = paths.check(); !fine) return fail(fine.error());
+  auto top = engine_files(command.web);
+  if (!top) return fail(top.error());
+  const auto lesson_pages = lessons::make_site({}, console);
+  if (!lesson_pages) return fail(lesson_pages.error());
+  const auto manual = lessons::manual_pages();
+  if (!manual) return fail(manual.error());
+  LabOptions lab;
+  lab.scene = lab.scene.named("acne-floor");
+  lab.compare.raster.size = {640, 360};
+  top->push_back({"lab.html", lab_page(lab, true)});
+  top->push_back(start_page());
+  for (const auto& [folder, files] :
+       {std::pair{command.folder + "/lessons", *lesson_pages}, std::pair{command.folder + "/manual", *manual},
+        std::pair{command.folder, *top}})
+    if (const auto written = write_files(folder, files); !written) return fail(written.error());
+  console.clear_progress();
+  console.message(fmt::format("site: {}/index.html ({:.1f} s)", command.folder, total.elapsed_ms() / 1000.0));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_site(CLI::App& program, Invocation& invocation) {
+  CLI::App* app =
+      program.add_subcommand("site",
+                             "Write a site for any host of plain files: a start page, the lab with an "
+                             "engine of its own, the lessons and the manual.");
+  app->footer(
+      "./gnomon web && ./gnomon site -o public   the folder public, to put on a host\n"
+      "python3 -m http.server -d public          and to look at it here");
+  const auto command = std::make_shared<SiteCommand>();
+  add_output(*app, "-o,--output", command->folder, "DIR",
+             "folder for index.html and all else [default out/site]");
+  app->add_option(
+         "--web", command->web,
+         "where ./gnomon web has built the program for the web [a folder; default build/web/app where the "
+         "program was built]")
+      ->type_name("DIR");
+  add_quiet(*app, command->quiet);
+  app->callback([command, &invocation] { invocation.action = [command] { return run_site(*command); }; });
+}
+
+}  // namespace gnomon::app

@@ -1,0 +1,134 @@
+// The site that `gnomon site` writes, on a host of plain files: the lab's page with an engine of its own, whose labels are the native
+// command's, whose files come by drop, whose report is saved, and which says what it cannot do; start page, manual and lessons beside
+// it. Usage: web_lab_browser_test.mjs GNOMON FOLDER. Exit code 77 where the program for the web has not been built.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import { browser, close, colours, openAt, violations } from "../browser/open_page.mjs";
+import { app, isBuilt, serveFolder, skip } from "./program_in_browser.mjs";
+
+const [native, folder] = process.argv.slice(2);
+if (!isBuilt) skip("the program for the web is not here (./gnomon web builds it)");
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
+execFileSync(native, ["site", "-o", path.join(folder, "site"), "--web", app, "--quiet"], { stdio: "inherit" });
+const host = await serveFolder(path.join(folder, "site"));
+const openLab = (hash, options = {}) => openAt(`${host.url}lab.html`, host.url, options, hash);
+/** What was asked for last is compared in full. */
+const done = (page) => page.waitForFunction(() => document.body.dataset.busy === "false" || !document.getElementById("lab-gone").hidden, null, { timeout: 300000 });
+const change = async (page, act) => {
+  const before = page.url();
+  await act();
+  await page.waitForFunction((url) => location.href !== url, before);
+  await done(page);
+};
+const small = "#scene=sphere-plane&size=192x108&map-size=128";
+const set = (page, name, value) => change(page, () => page.locator(`[data-setting=${name}] input[type=text]`).fill(value).then(() => page.keyboard.press("Enter")));
+
+async function countsWhatTheCommandCounts() {
+  const page = await openLab(small);
+  await done(page);
+  for (const texels of ["3", "0"]) await set(page, "bias", texels);
+  const command = await page.locator("#lab-command").textContent();
+  const { classes } = JSON.parse(execFileSync("sh", ["-c", `${command.replace(/^gnomon/, `'${native}'`)} --json - --quiet --runs 1`], { maxBuffer: 1 << 28 })).lights[0];
+  const counts = await page.locator("#lab-results .labels tbody tr").evaluateAll((rows) => Object.fromEntries(rows.map((row) => [row.querySelector("summary").textContent.replaceAll("-", "_"),
+    Number(row.querySelector(".n").textContent.replaceAll(",", ""))])));
+  const wrong = Object.entries(classes).filter(([, count]) => count > 0);
+  assert.ok(wrong.length > 0 && wrong.reduce((sum, [, count]) => sum + count, 0) > 100, "a bias of 0 leaves something wrong");
+  for (const [label, count] of wrong) assert.equal(counts[label.replace("_", " ")] ?? counts[label] ?? counts[label.replaceAll("_", "-")], count, `${label} of ${JSON.stringify(counts)}`);
+  const box = await page.locator(".stage").boundingBox();
+  await page.locator(".stage").click({ position: { x: 0.3 * box.width, y: 0.8 * box.height } });
+  await page.locator("#lab-pixel h2").waitFor();
+  assert.equal(await page.locator("#lab-pixel tbody tr").count(), 7);
+
+  // What WebGL 2 lacks is said, and nothing is lost.
+  await page.locator("[data-setting=technique] select").selectOption("izb");
+  await page.waitForFunction(() => !document.getElementById("lab-error").hidden, null, { timeout: 60000 });
+  assert.match(await page.locator("#lab-error").textContent(), /izb writes storage buffers, which WebGL 2 lacks/);
+  await change(page, () => page.locator("[data-setting=technique] select").selectOption("pcf"));
+  assert.ok(await page.locator("#lab-error").isHidden());
+  await close(page);
+}
+
+async function opensFilesAndSavesTheReport() {
+  const page = await openLab(small);
+  await done(page);
+  const file = path.join(folder, "pyramid.obj");
+  writeFileSync(file, "v -1 0 -1\nv 1 0 -1\nv 0 0 1\nv 0 1 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
+  await change(page, () => page.locator("#lab-file").setInputFiles(file));
+  await page.waitForFunction(() => document.title.startsWith("pyramid"), null, { timeout: 300000 });
+  await done(page);
+  const saved = page.waitForEvent("download", { timeout: 300000 });
+  await page.locator("#lab-save").click();
+  const report = path.join(folder, "report.html");
+  await (await saved).saveAs(report);
+  assert.match(readFileSync(report, "utf8"), /pyramid/);
+  await close(page);
+}
+
+async function canBeReadByAll() {
+  for (const [name, hash] of [["", ""], ["lab.html", small], ["manual/", ""], ["lessons/", ""]])
+    for (const width of [1440, 390]) {
+      const page = await openAt(`${host.url}${name}`, host.url, { viewport: { width, height: 844 } }, hash);
+      if (name === "lab.html") await done(page);
+      assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth) <= width, `${name} is wider than ${width} pixels`);
+      assert.deepEqual(await violations(page), [], `axe, ${name}, ${width}`);
+      await close(page);
+    }
+  const dark = await openLab(small, { colorScheme: "dark" });
+  await done(dark);
+  assert.deepEqual(await violations(dark, colours), [], "axe, dark");
+  await close(dark);
+}
+
+/** Of all pages but the lessons', which are the same as those of `gnomon lessons`. */
+async function leadsSomewhere() {
+  for (const name of ["", "manual/", "manual/options.html"]) {
+    const page = await openAt(`${host.url}${name}`, host.url);
+    for (const link of await page.locator("a[href]").evaluateAll((all) => all.map(({ href }) => href)))
+      if (link.startsWith(host.url)) assert.ok((await fetch(link)).ok, `${name}: ${link}`);
+    await close(page);
+  }
+}
+
+/** A page whose worker begins with other lines. */
+async function openWith(lines) {
+  const page = await browser.newPage();
+  const body = `${lines}\n${readFileSync(path.join(app, "lab_worker.mjs"), "utf8")}`;
+  await page.route("**/lab_worker.mjs", (route) => route.fulfill({ contentType: "text/javascript", body }));
+  await page.goto(`${host.url}lab.html${small}`);
+  return page;
+}
+
+async function saysThatTheContextIsLost() {
+  const page = await openWith(`const get = OffscreenCanvas.prototype.getContext;
+    OffscreenCanvas.prototype.getContext = function (...words) { return (self.drawing = get.apply(this, words)); };
+    addEventListener("message", ({ data }) => { if (data.name === "pixel") self.drawing.getExtension("WEBGL_lose_context").loseContext(); });`);
+  await done(page);
+  await page.locator(".stage").click({ position: { x: 100, y: 100 } });
+  await page.locator("#lab-pixel h2").waitFor();
+  await page.locator("[data-setting=map-size] input[type=text]").fill("64");
+  await page.keyboard.press("Enter");
+  await page.locator("#lab-gone").waitFor({ timeout: 60000 });
+  assert.match(await page.locator("#lab-gone").textContent(), /context lost.*reload the page/);
+  assert.match(await page.evaluate(() => location.hash), /map-size=64/, "the state is kept");
+  await page.close();
+}
+
+async function saysThatThereIsNoWebGl() {
+  const page = await openWith("OffscreenCanvas.prototype.getContext = () => null;");
+  await page.waitForFunction(() => !document.getElementById("lab-error").hidden || !document.getElementById("lab-gone").hidden, null, { timeout: 60000 });
+  assert.match(await page.locator("#lab-error, #lab-gone").allTextContents().then((all) => all.join(" ")), /no WebGL 2 here to draw with/);
+  await page.close();
+}
+
+await countsWhatTheCommandCounts();
+await opensFilesAndSavesTheReport();
+await canBeReadByAll();
+await leadsSomewhere();
+await saysThatTheContextIsLost();
+await saysThatThereIsNoWebGl();
+await browser.close();
+host.stop();
+console.log("the site in a browser");
