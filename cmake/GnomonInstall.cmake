@@ -9,7 +9,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/manual" "${PROJECT_SOURCE_DIR}/doc
 file(GLOB documents CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/*.md")
 install(FILES ${documents} DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 install(FILES "${PROJECT_SOURCE_DIR}/compare/result/result.schema.json" "${PROJECT_SOURCE_DIR}/scene/files/scene.schema.json" "${PROJECT_SOURCE_DIR}/app/outputs/render.schema.json"
-  "${PROJECT_SOURCE_DIR}/studies/grade/rubric.schema.json" "${PROJECT_SOURCE_DIR}/studies/grade/grade.schema.json"
+  "${PROJECT_SOURCE_DIR}/studies/functions/answers.schema.json" "${PROJECT_SOURCE_DIR}/studies/grade/rubric.schema.json" "${PROJECT_SOURCE_DIR}/studies/grade/grade.schema.json"
   "${PROJECT_SOURCE_DIR}/studies/judge/capture.schema.json" "${PROJECT_SOURCE_DIR}/studies/shimmer/shimmer.schema.json"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/gnomon/schema")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" FILES_MATCHING PATTERN "*.glsl" PATTERN "*.frag" PATTERN "*.vert" PATTERN "*.h")

@@ -1,4 +1,4 @@
-// gnomon grade: a class's shadow shaders against a rubric.
+// gnomon grade: a class's shaders against a rubric.
 #include "studies/grade/grade.h"
 
 #include <fmt/format.h>
@@ -168,7 +168,7 @@ Expected<ExitCode> run_grade(const GradeCommand& command) {
 
 void add_grade(CLI::App& program, Invocation& invocation) {
   CLI::App* app = program.add_subcommand("grade",
-                                         "Grade students' shadow shaders against a rubric: points, the "
+                                         "Grade students' shaders against a rubric: points, the "
                                          "reason for each one lost, and the picture that shows it.");
   app->footer(
       "gnomon grade --new homework                       a rubric, scenes and a shader to fill in\n"

@@ -74,11 +74,13 @@ CheckRuns::CheckRuns(const Rubric& rubric, std::string shaders, std::string fold
     : rubric_(&rubric), shaders_(std::move(shaders)), folder_(std::move(folder)) {}
 
 std::string CheckRuns::command(const Run& run) const {
+  if (!run.function.empty()) return fmt::format("gnomon shaders {} --shader-dir student", run_text(run));
   return fmt::format("gnomon compare {} --technique {}{}", run_text(run), rubric_->technique,
                      shaders_.empty() ? "" : " --shader-dir student");
 }
 
 bool CheckRuns::needs_values(const Run& run) const {
+  if (!run.function.empty()) return false;
   if (has_known_mistakes(*rubric_)) return true;
   return std::any_of(rubric_->checks.begin(), rubric_->checks.end(), [&](const Check& check) {
     const bool asks = check.kind == CheckKind::equals || check.kind == CheckKind::time ||
@@ -94,7 +96,9 @@ bool CheckRuns::needs_sides(const Run& run) const {
   });
 }
 
-Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, Manner manner) const {
+std::vector<std::string> CheckRuns::words_of(const Run& run, const std::string& folder) const {
+  if (!run.function.empty())
+    return {"shaders", "--call", run.function, "--json", answers_file(folder), "--quiet"};
   std::vector<std::string> words = {"compare", run.scene};
   for (const auto& [name, value] : run.options) {
     words.push_back("--" + name);
@@ -103,9 +107,14 @@ Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, Man
   // No page: a student's own takes figures and pictures.
   words.insert(words.end(),
                {"--technique", rubric_->technique, "--threads", "1", "-o", folder, "--no-report", "--quiet"});
+  return words;
+}
+
+Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, Manner manner) const {
+  std::vector<std::string> words = words_of(run, folder);
   if (!shaders_.empty()) words.insert(words.end(), {"--shader-dir", shaders_});
   if (manner.timed) words.emplace_back("--timed-as-judged");
-  if (!manner.timed) words.insert(words.end(), {"--runs", "1"});
+  if (!manner.timed && run.function.empty()) words.insert(words.end(), {"--runs", "1"});
   if (manner.values) words.insert(words.end(), {"--aov", values_folder(folder) + "/values.exr"});
   const auto outcome = run_limited(words, rubric_->limits);
   if (!outcome) return fail(outcome.error());
@@ -113,7 +122,7 @@ Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, Man
   if (!shown_shaders_.empty() && failure.starts_with(shaders_))
     failure.replace(0, shaders_.size(), shown_shaders_);
   if (outcome->end == Outcome::End::exited && outcome->code == 0) {
-    auto result = read_run_result(folder);
+    auto result = run.function.empty() ? read_run_result(folder) : read_called(run, folder);
     if (!result) return fail(result.error());
     return Drawing{std::move(*result), {}};
   }
@@ -140,7 +149,9 @@ Expected<Drawing> CheckRuns::make_with_ties(const Run& run, const std::string& f
   return drawing;
 }
 
-Expected<const Drawing*> CheckRuns::draw(const Run& run) {
+Expected<const Drawing*> CheckRuns::draw(const Run& asked) {
+  Run run = asked;
+  run.cases.clear();  // one call of a function answers all of them
   auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& made) { return made.run == run; });
   const bool again = known != made_.end();
   if (again && !known->drawing.disturbed) return &known->drawing;

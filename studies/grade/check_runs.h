@@ -34,10 +34,12 @@ class CheckRuns {
   Expected<Drawing> draw_timed(const Run& run);
   /// The program's own shader with this bias in place of the run's, world units.
   Expected<Drawing> draw_own_with_bias(const Run& run, double bias) const;
-  /// "gnomon compare …", which draws it again in the exercise's folder, where student/ holds what was handed in.
+  /// "gnomon compare …" or "gnomon shaders --call …", which draws it again in the exercise's folder, where student/ holds what was handed in.
   std::string command(const Run& run) const;
 
  private:
+  /// The command line without what says where things lie.
+  std::vector<std::string> words_of(const Run& run, const std::string& folder) const;
   bool needs_values(const Run& run) const;
   /// Whether a check asks on which side of the truth the drawing errs.
   bool needs_sides(const Run& run) const;

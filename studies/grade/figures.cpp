@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "compare/bias/bias_curve.h"
@@ -12,6 +13,7 @@
 #include "scene/files/path_status.h"
 #include "scene/files/pictures/image_io.h"
 #include "scene/files/read_file.h"
+#include "studies/functions/functions.h"
 
 namespace gnomon::grade {
 
@@ -119,6 +121,31 @@ Expected<void> add_values(const std::string& values, DrawnValues& sum) {
   return {};
 }
 
+bool are_all_alike(const std::vector<float>& values) {
+  return std::ranges::all_of(values, [&](float v) { return is_alike(v, values.front()); });
+}
+
+/// An answer's number in units of its tolerance, which becomes half an 8-bit step; what is no number is alike to itself.
+float in_steps(float number, double tolerance) {
+  constexpr float endless = 1e20f, no_number = 2e20f;
+  if (std::isnan(number)) return no_number;
+  return std::clamp(static_cast<float>(double(number) / tolerance * 0.5 / 255.0), -endless, endless);
+}
+
+DrawnValues values_of_answers(const Run& run, const std::vector<raster::Answer>& answers) {
+  const functions::Function& function = *functions::find_function(run.function);
+  const std::vector<functions::Question>& questions = functions::questions_of(function);
+  DrawnValues values;
+  for (std::size_t i = 0; i < questions.size(); ++i)
+    if (questions[i].group == run.cases)
+      for (std::size_t k = 0; k < functions::size_of(function.kind); ++k)
+        values.visibility.push_back(in_steps(answers[i][k], questions[i].right.tolerance));
+  values.is_uniform = std::ranges::all_of(answers, [&](const raster::Answer& answer) {
+    return std::memcmp(&answer, &answers.front(), sizeof(float) * functions::size_of(function.kind)) == 0;
+  });
+  return values;
+}
+
 /// Counts the pixels of one light.
 Expected<std::uint64_t> count_different(const std::string& a, const std::string& b) {
   const auto first = read_channels(a);
@@ -199,17 +226,28 @@ Expected<std::uint64_t> count_different(const RunResult& a, const RunResult& b) 
   return count;
 }
 
-bool DrawnValues::is_uniform() const {
-  return std::ranges::all_of(visibility, [this](float v) { return is_alike(v, visibility.front()); });
+std::string answers_file(const std::string& folder) {
+  return folder + "/answers.json";
 }
 
-Expected<DrawnValues> read_values(const RunResult& result) {
+Expected<RunResult> read_called(const Run& run, const std::string& folder) {
+  RunResult result;
+  result.folder = folder;
+  auto answers = functions::read_answers(*functions::find_function(run.function), answers_file(folder));
+  if (!answers) return fail(answers.error());
+  result.answers = std::move(*answers);
+  return result;
+}
+
+Expected<DrawnValues> read_values(const Run& run, const RunResult& result) {
+  if (!run.function.empty()) return values_of_answers(run, result.answers);
   DrawnValues sum;
   const std::string folder = values_folder(result.folder);
   const auto names = value_files(folder);
   if (!names) return fail(names.error());
   for (const std::string& name : *names)
     if (const auto added = add_values(file_in(folder, name), sum); !added) return fail(added.error());
+  sum.is_uniform = are_all_alike(sum.visibility);
   return sum;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/comparison.h"
+#include "raster/function_call.h"
 #include "scene/base/expected.h"
 #include "studies/grade/rubric.h"
 
@@ -22,7 +23,13 @@ struct RunResult {
   /// Compared pixels drawn halfway between right and wrong, over all lights; figures count them in wrong and
   /// mean_error alone before add_ties().
   std::uint64_t ties = 0;
+  std::vector<raster::Answer> answers{};  ///< of a function, to all its questions; else empty
 };
+
+/// Where the answers of a function are written.
+std::string answers_file(const std::string& folder);
+/// The same of the calls of a function.
+Expected<RunResult> read_called(const Run& run, const std::string& folder);
 
 /// Errors: the folder holds no result of this version.
 Expected<RunResult> read_run_result(const std::string& folder);
@@ -53,13 +60,14 @@ struct Agreement {
   double alike() const { return 1.0 - static_cast<double>(unlike) / static_cast<double>(compared); }
 };
 
-/// The visibility of every compared pixel of a run, over all lights.
+/// The visibility of every compared pixel of a run, over all lights; of a function the answers to the run's cases, in such
+/// units that what is right stays within half an 8-bit step.
 struct DrawnValues {
   std::vector<float> visibility;
-  bool is_uniform() const;  ///< all alike, to half an 8-bit step
+  bool is_uniform = false;  ///< all alike, to half an 8-bit step; of a function all answers to whatever cases
 };
 /// Errors as count_different().
-Expected<DrawnValues> read_values(const RunResult& result);
+Expected<DrawnValues> read_values(const Run& run, const RunResult& result);
 
 /// Of the same run, all three.
 Agreement compare_drawings(const DrawnValues& drawn, const DrawnValues& other, const DrawnValues& right);

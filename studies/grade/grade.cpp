@@ -17,6 +17,8 @@
 #include "scene/base/threads.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
+#include "studies/functions/functions.h"
+#include "studies/grade/answers.h"
 #include "studies/grade/check_runs.h"
 #include "studies/grade/mistakes.h"
 
@@ -136,6 +138,16 @@ Expected<Judgement> judge_time(const Check& check, const RunResult& result, cons
                    share_beyond(ratio, check.limit)};
 }
 
+/// No points are left where half of the answers are wrong.
+Judgement judge_answers(const Run& run, const RunResult& result) {
+  const AnswerCount count = count_answers(run, result);
+  if (count.wrong == 0) return {true, fmt::format("all {} answers are right", count.cases)};
+  return {false,
+          fmt::format("{}; {} of {} answers {} wrong", count.first_wrong, count.wrong, count.cases,
+                      count.wrong == 1 ? "is" : "are"),
+          std::max(0.0, 1.0 - 2.0 * static_cast<double>(count.wrong) / static_cast<double>(count.cases))};
+}
+
 Expected<Judgement> judge(const Check& check, const Run& run, const RunResult& result, CheckRuns& runs,
                           Class& of) {
   switch (check.kind) {
@@ -148,6 +160,8 @@ Expected<Judgement> judge(const Check& check, const Run& run, const RunResult& r
       return judge_equality(check, result, run, of);
     case CheckKind::time:
       return judge_time(check, result, run, runs, of);
+    case CheckKind::answers:
+      return judge_answers(run, result);
   }
   return fail(ErrorKind::internal, "unknown kind of check");
 }
@@ -158,7 +172,8 @@ std::string caption_of(const std::string& file) {
   return "where it is wrong, and why";
 }
 
-Expected<std::vector<Picture>> load_pictures(const RunResult& result) {
+Expected<std::vector<Picture>> load_pictures(const Run& run, const RunResult& result) {
+  if (!run.function.empty()) return answer_pictures(run, result);
   std::vector<Picture> pictures;
   const auto names = pictures_of(result);
   if (!names) return fail(names.error());
@@ -180,9 +195,29 @@ std::vector<Run> all_runs(const Rubric& rubric) {
   return runs;
 }
 
+/// What else tells mistakes apart that explain this run: the rubric's other comparisons, or all of the function's cases.
+std::vector<Run> beside(const Rubric& rubric, const Run& known) {
+  if (known.function.empty()) return all_runs(rubric);
+  std::vector<Run> runs;
+  for (const std::string_view group : functions::groups_of(*functions::find_function(known.function))) {
+    runs.push_back(known);
+    runs.back().cases = group;
+  }
+  return runs;
+}
+
 /// Tenths of points, fewer than all of them.
 double part_of(double points, double share) {
   return std::min(std::floor(10.0 * points * share) / 10.0, points - 0.1);
+}
+
+/// A drawing's mistake stands before what was measured; of a function the wrong answer comes first.
+std::string explained(const Run& run, const std::string& mistake, const Agreement& agreement,
+                      const std::string& reason) {
+  const std::string alike = compare::percent(agreement.alike());
+  if (run.function.empty())
+    return fmt::format("drawn as if {}, on {} of the pixels; {}", mistake, alike, reason);
+  return fmt::format("{}; answered as if {}, on {} of the cases", reason, mistake, alike);
 }
 
 /// One student, or the program's own shader.
@@ -212,11 +247,13 @@ class Grader {
 
  private:
   Expected<Judgement> try_run(const Check& check, const Run& run, CheckResult& result) {
-    if (hangs_) return Judgement{false, "not tried: a drawing before it did not end in time"};
+    if (std::find(hanging_.begin(), hanging_.end(), run.function) != hanging_.end())
+      return Judgement{false, run.function.empty() ? "not tried: a drawing before it did not end in time"
+                                                   : "not tried: the function did not end in time"};
     const auto drawing = draw_undisturbed(runs_, run, class_.quiet);
     if (!drawing) return fail(drawing.error());
     if (!(*drawing)->result) {
-      hangs_ = (*drawing)->out_of_time;
+      if ((*drawing)->out_of_time) hanging_.push_back(run.function);
       result.excerpt = excerpt_at((*drawing)->failure, shaders_);
       return Judgement{false, (*drawing)->failure};
     }
@@ -228,7 +265,7 @@ class Grader {
       if (!explained || explained->passed) return explained;
       judgement = std::move(explained);
     }
-    auto pictures = load_pictures(drawn);
+    auto pictures = load_pictures(run, drawn);
     if (!pictures) return fail(pictures.error());
     result.pictures = std::move(*pictures);
     return judgement;
@@ -240,7 +277,7 @@ class Grader {
     if (rest_is_hidden_) return judgement;
     const auto right = own_values(run);
     if (!right) return fail(right.error());
-    const auto values = read_values(drawn);
+    const auto values = read_values(run, drawn);
     if (!values) return fail(values.error());
     for (const std::size_t known : named_) {
       const auto agreement = class_.mistakes.agreement(known, run, *values, **right);
@@ -257,14 +294,13 @@ class Grader {
     if (!agreement) return fail(agreement.error());
     rest_is_hidden_ = class_.mistakes.hides_rest(*one);
     if (!rest_is_hidden_) named_.push_back(*one), result.mistake_named = true;
-    judgement.reason = fmt::format("drawn as if {}, on {} of the pixels; {}", class_.mistakes.words(*one),
-                                   compare::percent(agreement->alike()), judgement.reason);
+    judgement.reason = explained(run, class_.mistakes.words(*one), *agreement, judgement.reason);
     return judgement;
   }
 
   /// Of several mistakes that draw a run alike the one that draws the others' runs alike, too.
   Expected<std::size_t> most_likely(const Run& known, std::vector<std::size_t> mistakes) {
-    for (const Run& run : all_runs(class_.rubric)) {
+    for (const Run& run : beside(class_.rubric, known)) {
       if (mistakes.size() == 1) break;
       if (run == known) continue;
       const auto drawing = draw_undisturbed(runs_, run, class_.quiet);
@@ -272,7 +308,7 @@ class Grader {
       if (!(*drawing)->result) continue;
       const auto right = own_values(run);
       if (!right) return fail(right.error());
-      const auto values = read_values(*(*drawing)->result);
+      const auto values = read_values(run, *(*drawing)->result);
       if (!values) return fail(values.error());
       std::vector<std::size_t> left;
       for (const std::size_t mistake : mistakes) {
@@ -292,7 +328,7 @@ class Grader {
       if (known == run) return &values;
     const auto own = class_.own.draw(run);
     if (!own) return fail(own.error());
-    auto values = read_values(*(*own)->result);
+    auto values = read_values(run, *(*own)->result);
     if (!values) return fail(values.error());
     return &class_.own_values.emplace_back(run, std::move(*values)).second;
   }
@@ -300,9 +336,9 @@ class Grader {
   Class& class_;
   std::string shaders_;
   CheckRuns& runs_;
-  std::vector<std::size_t> named_;  ///< mistakes
-  bool hangs_ = false;
-  bool rest_is_hidden_ = false;  ///< by a mistake that was named, so that nothing further can be
+  std::vector<std::size_t> named_;    ///< mistakes
+  std::vector<std::string> hanging_;  ///< the functions that did not end in time; "": drawings
+  bool rest_is_hidden_ = false;       ///< by a mistake that was named, so that nothing further can be
 };
 
 CheckResult no_points(std::string reason) {
@@ -387,7 +423,11 @@ double StudentResult::points() const {
 
 Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& students,
                              const std::string& work_folder, const GradeOptions& options) {
-  Class of{rubric, work_folder, CheckRuns(rubric, "", work_folder + "/own"),
+  const std::string own_shaders = rubric.technique.empty() ? work_folder + "/own/shaders" : "";
+  if (!own_shaders.empty())
+    if (const auto written = write_right_functions(rubric, own_shaders); !written)
+      return fail(written.error());
+  Class of{rubric, work_folder, CheckRuns(rubric, own_shaders, work_folder + "/own"),
            Mistakes(rubric, work_folder + "/mistakes")};
   if (const auto drawn = check_drawings(of); !drawn) return fail(drawn.error());
   auto own = grade_checks(of, std::string(own_shader_name), "", of.own);

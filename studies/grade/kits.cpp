@@ -1,11 +1,13 @@
 #include "studies/grade/grade.h"
 
 #include <embedded/grade_kits.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <string_view>
 #include <utility>
 
+#include "raster/programs/shader_folder.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/staged_folder.h"
@@ -20,6 +22,19 @@ constexpr std::string_view root = "grade/kits/";
 /// "grade/kits/first-shadow-map/technique/hard.glsl" is student/technique/hard.glsl of a kit.
 std::string place_in_kit(std::string_view name) {
   return (name.ends_with(".glsl") ? "student/" : "") + std::string(name);
+}
+
+using KitFiles = std::vector<std::pair<std::string, std::string_view>>;  // places and bytes
+
+/// The functions that the kit's rubric names, as the program has them to be filled in.
+KitFiles functions_begun(const KitFiles& kit) {
+  KitFiles files;
+  for (const raster::ShaderFile& shader : raster::own_shaders())
+    for (const auto& [place, bytes] : kit)
+      if (place == "rubric.json" && shader.name.starts_with("function/") &&
+          bytes.find(fmt::format("\"{}\"", shader.name)) != std::string_view::npos)
+        files.emplace_back(fmt::format("student/{}", shader.name), shader.text);
+  return files;
 }
 
 /// What is there may be somebody's work.
@@ -51,11 +66,16 @@ bool is_kit(const std::string& name) {
 
 Expected<void> write_kit(const std::string& name, const std::string& folder) {
   const std::string prefix = std::string(root) + name + "/";
-  std::vector<std::pair<std::string, std::string_view>> files;
+  KitFiles files;
   for (const embedded::Entry& entry : embedded::grade_kits_entries()) {
     if (!entry.name.starts_with(prefix)) continue;
     files.emplace_back(place_in_kit(entry.name.substr(prefix.size())), entry.bytes);
     if (auto safe = check_nothing_differs(folder + "/" + files.back().first, entry.bytes); !safe) return safe;
+  }
+  for (const auto& [place, bytes] : functions_begun(files)) {
+    const std::string path = fmt::format("{}/{}", folder, place);
+    if (auto safe = check_nothing_differs(path, bytes); !safe) return safe;
+    files.emplace_back(place, bytes);
   }
   auto staged = StagedFolder::open(folder);
   if (!staged) return fail(staged.error());

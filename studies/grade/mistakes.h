@@ -10,15 +10,22 @@
 #include "scene/base/expected.h"
 #include "studies/grade/check_runs.h"
 
+namespace gnomon::embedded {
+struct Entry;
+}
+
 namespace gnomon::grade {
 
 /// Whether a list of mistakes is known for the shader that the rubric asks for.
 bool has_known_mistakes(const Rubric& rubric);
 
+/// Writes the program's own answers for the functions that are handed in: each list of mistakes holds one, without any.
+Expected<void> write_right_functions(const Rubric& rubric, const std::string& folder);
+
 class Mistakes {
  public:
   /// The shaders and drawings of the mistakes lie below `folder`.
-  Mistakes(const Rubric& rubric, std::string folder);
+  Mistakes(const Rubric& rubric, const std::string& folder);
 
   /// What a mistake is called: "right and up were exchanged".
   const std::string& words(std::size_t mistake) const { return all_[mistake].words; }
@@ -35,6 +42,7 @@ class Mistakes {
 
  private:
   struct Mistake {
+    std::string function;  ///< which it is a mistake of; empty: a technique's
     std::string words;
     bool hides_rest;
     std::string path, text;  ///< its shader's file and what that holds
@@ -42,9 +50,15 @@ class Mistakes {
     std::deque<std::pair<Run, DrawnValues>>
         drawn{};  ///< what was drawn so far; empty values: nothing that counts
     std::mutex drawing{};
-    Mistake(std::string w, bool h, std::string p, std::string t, CheckRuns r)
-        : words(std::move(w)), hides_rest(h), path(std::move(p)), text(std::move(t)), runs(std::move(r)) {}
+    Mistake(std::string f, std::string w, bool h, std::string p, std::string t, CheckRuns r)
+        : function(std::move(f)),
+          words(std::move(w)),
+          hides_rest(h),
+          path(std::move(p)),
+          text(std::move(t)),
+          runs(std::move(r)) {}
   };
+  void add_list(const Rubric& rubric, const embedded::Entry& list, const std::string& folder);
   static Expected<void> write_shader(const Mistake& mistake);
   static Expected<const DrawnValues*> draw(Mistake& mistake, const Run& run);
   std::deque<Mistake> all_;  ///< may be drawn by several threads

@@ -101,13 +101,13 @@ std::string points_text(double points, double of) {
 std::string grade_json(const ClassResult& result) {
   Json students = Json::array();
   for (std::size_t i = 0; i < result.students.size(); ++i) students.push_back(student_json(result, i));
-  const Json root = {{"schema", "gnomon/grade/1"},
-                     {"command", result.command_line},
-                     {"version", compare::program_version()},
-                     {"rubric", result.rubric.title},
-                     {"technique", result.rubric.technique},
-                     {"students", std::move(students)},
-                     {"alike", alike_json(result)}};
+  Json root = {{"schema", "gnomon/grade/1"},
+               {"command", result.command_line},
+               {"version", compare::program_version()},
+               {"rubric", result.rubric.title}};
+  if (!result.rubric.technique.empty()) root["technique"] = result.rubric.technique;
+  root["students"] = std::move(students);
+  root["alike"] = alike_json(result);
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

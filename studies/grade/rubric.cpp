@@ -16,6 +16,7 @@
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/load.h"
+#include "studies/functions/functions.h"
 
 namespace gnomon::grade {
 
@@ -25,7 +26,7 @@ constexpr NumberRange seconds_range{0.0, 3600.0, true};
 constexpr NumberRange memory_range{1024.0, 1e6};
 constexpr NumberRange pixels_range{0.0, 1e9, false, false, true};
 
-const std::vector<std::string_view> kinds = {"draws", "at_most", "equals", "time"};
+const std::vector<std::string_view> kinds = {"draws", "at_most", "equals", "time", "answers"};
 
 /// Options that a rubric may not set: the grader decides what is written, and with which shaders.
 const std::vector<std::string_view> kept_options = {"output",    "json",    "shader-dir",     "aov",
@@ -101,9 +102,24 @@ std::vector<std::size_t> read_needs(const JsonNode& node, const std::vector<Chec
   return needs;
 }
 
+/// One run: a group of a function's cases.
+std::vector<Run> read_calls(const JsonObject& object) {
+  Run run;
+  const auto function = object.require("function");
+  if (!function) return {};
+  const std::size_t index = function->as_choice(functions::function_names());
+  const functions::Function& called = functions::all_functions()[index];
+  run.function = called.name;
+  const auto cases = object.require("cases");
+  if (!cases) return {};
+  const std::vector<std::string_view> groups = functions::groups_of(called);
+  run.cases = groups[cases->as_choice(groups)];
+  return {std::move(run)};
+}
+
 Check read_check(const JsonNode& node, const std::string& folder, const std::vector<Check>& earlier) {
-  const JsonObject object(
-      node, {"name", "points", "kind", "measure", "at_most", "pixels", "times", "needs", "hint", "runs"});
+  const JsonObject object(node, {"name", "points", "kind", "measure", "at_most", "pixels", "times",
+                                 "function", "cases", "needs", "hint", "runs"});
   Check check;
   if (const auto name = object.require("name")) check.name = name->as_string();
   if (const auto points = object.require("points")) check.points = points->as_number(positive_number);
@@ -124,6 +140,12 @@ Check read_check(const JsonNode& node, const std::string& folder, const std::vec
     if (const auto pixels = object.require("pixels")) check.limit = pixels->as_number(pixels_range);
   if (check.kind == CheckKind::time)
     if (const auto times = object.require("times")) check.limit = times->as_number(positive_number);
+  if (check.kind == CheckKind::answers) {
+    object.forbid("runs", "does not apply to checks of the kind answers");
+    check.runs = read_calls(object);
+    return check;
+  }
+  for (const char* key : {"function", "cases"}) object.forbid(key, "applies to checks of the kind answers");
   if (const auto runs = object.require("runs")) {
     for (const JsonNode& run : runs->as_array()) check.runs.push_back(read_run(run, folder));
     if (check.runs.empty()) runs->error("is empty");
@@ -174,6 +196,30 @@ void check_files_are_read(const JsonNode& hand_in, raster::Technique technique) 
                              fmt::join(raster::technique_files(technique), ", ")));
 }
 
+/// Functions have no technique: what is handed in is theirs, and so are all checks.
+void check_functions(const JsonNode& hand_in, const std::vector<Check>& checks, const JsonNode& node) {
+  std::vector<std::string> files;
+  for (const functions::Function& function : functions::all_functions())
+    files.push_back(functions::file_of(function));
+  for (const JsonNode& file : hand_in.as_array())
+    if (std::find(files.begin(), files.end(), file.as_string()) == files.end())
+      file.wrong("is no function, which a rubric without a technique asks for",
+                 fmt::format("{}", fmt::join(files, ", ")));
+  const auto is_asked = [&](const Check& check) {
+    return std::ranges::all_of(check.runs, [&](const Run& run) {
+      return std::ranges::any_of(hand_in.as_array(), [&](const JsonNode& file) {
+        return file.as_string() == fmt::format("function/{}.glsl", run.function);
+      });
+    });
+  };
+  for (const Check& check : checks)
+    if (!is_asked(check))
+      node.error(
+          fmt::format("check \"{}\" is about nothing that is handed in (a rubric without a technique has "
+                      "checks of the kind answers alone)",
+                      check.name));
+}
+
 /// Letters in groups with '-' between them, which is what pages need to know of a tag (BCP 47, 2.1).
 std::string read_language(const JsonNode& node) {
   static const std::regex tag("[A-Za-z]{2,8}(-[A-Za-z0-9]{1,8})*");
@@ -192,15 +238,17 @@ Rubric read_root(const JsonNode& node, const std::string& folder) {
   if (const auto language = object.find("language")) rubric.language = read_language(*language);
   std::vector<std::string_view> names;
   for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) names.push_back(traits.name);
-  std::size_t index = 0;
-  if (const auto technique = object.require("technique")) index = technique->as_choice(names);
-  rubric.technique = names[index];
-  const raster::Technique technique = raster::all_technique_traits()[index].technique;
+  const auto technique = object.find("technique");
+  const std::size_t index = technique ? technique->as_choice(names) : 0;
+  if (technique) rubric.technique = names[index];
+  const raster::Technique shadows = raster::all_technique_traits()[index].technique;
+  if (!technique) object.forbid("given", "goes with a technique");
   const auto given = object.find("given");
-  if (given) rubric.given = read_given(*given, folder), check_files_are_read(*given, technique);
-  if (const auto hand_in = object.require("hand_in")) {
+  if (given) rubric.given = read_given(*given, folder), check_files_are_read(*given, shadows);
+  const auto hand_in = object.require("hand_in");
+  if (hand_in) {
     rubric.hand_in = read_hand_in(*hand_in, given.has_value());
-    if (!given) check_files_are_read(*hand_in, technique);
+    if (!given && technique) check_files_are_read(*hand_in, shadows);
     for (const std::string& name : rubric.hand_in)
       if (const auto text = read_file(beside(folder, name))) rubric.begun.push_back(*text);
   }
@@ -213,6 +261,12 @@ Rubric read_root(const JsonNode& node, const std::string& folder) {
     for (const JsonNode& check : checks->as_array())
       rubric.checks.push_back(read_check(check, folder, rubric.checks));
     if (rubric.checks.empty()) checks->error("is empty");
+    if (hand_in && !technique) check_functions(*hand_in, rubric.checks, *checks);
+    if (technique)
+      for (const Check& check : rubric.checks)
+        if (check.kind == CheckKind::answers)
+          checks->error(
+              fmt::format("check \"{}\" is about a function, and the rubric about a technique", check.name));
   }
   return rubric;
 }
@@ -259,6 +313,7 @@ Expected<Rubric> read_rubric(const std::string& path) {
 }
 
 std::string run_text(const Run& run) {
+  if (!run.function.empty()) return fmt::format("--call {} --cases {}", run.function, run.cases);
   std::string text = shell_quoted(run.named);
   for (const auto& [name, value] : run.options) {
     text += fmt::format(" --{}", name);

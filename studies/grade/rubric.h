@@ -16,11 +16,13 @@ struct Figure;
 
 namespace gnomon::grade {
 
-/// One comparison that a check looks at: a scene and options of `gnomon compare`.
+/// What a check looks at: one comparison, that is a scene and options of `gnomon compare`, or the calls of a function.
 struct Run {
   std::string scene;  ///< a built-in scene's name, or a path that the caller can open
   std::string named;  ///< the scene as the rubric names it, from its own folder
   std::vector<std::pair<std::string, std::string>> options;  ///< {"map-size", "512"}, in the rubric's order
+  std::string function;  ///< "ray_box" (studies/functions/functions.h); empty: a comparison
+  std::string cases;     ///< of the function: a group's name
   bool operator==(const Run&) const = default;
 };
 
@@ -28,7 +30,8 @@ enum class CheckKind : std::uint8_t {
   draws,    ///< compiles, ends in time, and gives a number in [0, 1] at every pixel
   at_most,  ///< a figure of the result stays within a limit
   equals,   ///< draws what the program's own shader draws, but for some pixels
-  time      ///< takes at most so many times as long as the program's own shader
+  time,     ///< takes at most so many times as long as the program's own shader
+  answers   ///< a function gives the right answers to a group of cases
 };
 
 /// A figure of result.json, by the name that a rubric gives it.
@@ -67,7 +70,7 @@ struct GivenFile {
 
 struct Rubric {
   std::string title, text;
-  std::string technique;  ///< whose shader is handed in: "hard"
+  std::string technique;  ///< whose shader is handed in: "hard"; empty: functions are (of function/)
   std::vector<std::string>
       hand_in;  ///< the program's shaders that may be replaced, or files that a given one includes
   std::vector<GivenFile> given;  ///< none: what is handed in may use all that the program's own shaders have

@@ -256,6 +256,15 @@ Expected<std::string> refusal_beside_given(const Student& student, const Rubric&
              : fmt::format("nothing was handed in: there is no {}", fmt::join(rubric.hand_in, " or "));
 }
 
+/// Of functions, which are written without the program's own.
+Expected<std::string> refusal_of_includes(const Student& student) {
+  const auto files = handed_in(student, false);
+  if (!files) return fail(files.error());
+  for (const auto& [name, text] : *files)
+    if (std::string why_not = refusal_beside_given(name, text); !why_not.empty()) return why_not;
+  return std::string();
+}
+
 }  // namespace
 
 Expected<void> write_with_given(const Student& student, const Rubric& rubric, const std::string& folder) {
@@ -303,7 +312,9 @@ Expected<std::string> refusal(const Student& student, const Rubric& rubric) {
   if (!rubric.given.empty()) return refusal_beside_given(student, rubric);
   const auto folder = raster::ShaderFolder::read(student.folder);
   if (!folder) return folder.error().message();
-  return refusal_of(*folder, rubric, nothing);
+  std::string why_not = refusal_of(*folder, rubric, nothing);
+  return why_not.empty() && rubric.technique.empty() ? refusal_of_includes(student)
+                                                     : Expected<std::string>(why_not);
 }
 
 Expected<std::string> answer_of(const Student& student, const Rubric& rubric) {

@@ -1,0 +1,57 @@
+// A ray against a triangle as a student writes it (Möller and Trumbore 1997), with the usual mistakes: MISTAKE is the number of
+// one, 0 of none. The grader reads this list (mistakes.cpp); each sentence goes on from "as if".
+// mistake 1: u could be less than 0
+// mistake 2: v could be less than 0
+// mistake 3: u + v could be more than 1 (a parallelogram, u and v up to 1 each)
+// mistake 4: the triangle had no third edge (neither u + v nor u nor v has an end)
+// mistake 5: the whole plane was the triangle
+// mistake 6: a triangle behind the ray was met
+// mistake 7: a triangle behind the ray was met, at a positive t
+// mistake 8: a triangle that is seen from the back was not there
+// mistake 9: a triangle that is seen from the front was not there
+// mistake 10: the ray were parallel to a small triangle (what counts as 0 is too large)
+// mistake 11: a ray that is nearly parallel met nothing (what counts as 0 is too large)
+// mistake 12: a parallel ray met the triangle (no test for 0)
+// mistake 13: t was a length (the direction is normalized first)
+// mistake 14: t was not divided by the determinant
+// mistake 15: u and v were not divided by the determinant
+// mistake 16: u and v were exchanged against their edges
+// mistake 17: the triangle's corner a was at the origin of the world
+// mistake 18: a was left out of the edges (b and c are taken for b - a and c - a)
+// mistake 19: the determinant had the wrong sign
+// mistake 20: the cross product was the wrong way round
+// mistake 21: the answer was u
+// mistake 22: a ray that meets nothing was answered with 0
+// mistake 23: only u and v up to 1 were tested, and not below 0
+// mistake 24: u + v had to be less than a half
+float ray_triangle(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c) {
+  vec3 d = MISTAKE == 13 ? normalize(direction) : direction;
+  vec3 to_b = MISTAKE == 18 ? b : b - a, to_c = MISTAKE == 18 ? c : c - a, from_a = MISTAKE == 17 ? origin : origin - a;
+  float none = MISTAKE == 22 ? 0.0 : -1.0;
+  vec3 p = MISTAKE == 20 ? cross(to_c, d) : cross(d, to_c);
+  float determinant = MISTAKE == 19 ? -dot(to_b, p) : dot(to_b, p);
+  float zero = MISTAKE == 10 ? 1e-3 : 1e-9;
+  if (MISTAKE == 11) zero = 0.1 * length(cross(to_b, to_c)) * length(d);
+  if (MISTAKE != 12 && abs(determinant) < zero) return none;
+  if (MISTAKE == 8 && determinant < 0.0 || MISTAKE == 9 && determinant > 0.0) return none;
+  vec3 q = cross(from_a, to_b);
+  float u = dot(from_a, p), v = dot(d, q), t = dot(to_c, q);
+  if (MISTAKE != 15) u /= determinant, v /= determinant;
+  if (MISTAKE != 14) t /= determinant;
+#if MISTAKE == 16
+  p = cross(d, to_b), q = cross(from_a, to_c);
+  u = dot(from_a, p) / determinant, v = dot(d, q) / determinant;
+#endif
+  bool inside = (u >= 0.0 || MISTAKE == 1) && (v >= 0.0 || MISTAKE == 2) && u + v <= 1.0;
+  if (MISTAKE == 3) inside = u >= 0.0 && v >= 0.0 && u <= 1.0 && v <= 1.0;
+  if (MISTAKE == 4) inside = u >= 0.0 && v >= 0.0;
+  if (MISTAKE == 5) inside = true;
+  if (MISTAKE == 12) inside = !(u < 0.0 || v < 0.0 || u + v > 1.0);
+  if (MISTAKE == 23) inside = u <= 1.0 && v <= 1.0;
+  if (MISTAKE == 24) inside = inside && u + v <= 0.5;
+  if (!inside) return none;
+  if (MISTAKE == 21) return u;
+  if (MISTAKE == 7) return abs(t);
+  if (MISTAKE == 12) return t < 0.0 ? none : t;
+  return t >= 0.0 || MISTAKE == 6 ? t : none;
+}
