@@ -99,6 +99,14 @@ pair precision raster difference acne-floor --depth-format d16 --slope-bias 1 --
 picture hybrid decisions courtyard --technique hybrid
 pair error-budget raytrace labels courtyard --map-size 512
 
+# What no map can draw.
+"$program" raster studio --size 480x270 --quiet -o "$work/studio-map.png"
+rendered studio-rays studio --size 480x270 --aa 4 --samples 16 --indirect-samples 8
+beside glossy 2x1 "$work/studio-map.png" "$work/studio-rays.png"
+rendered direct courtyard --size 480x270
+rendered gathered courtyard --size 480x270 --indirect-samples 64
+beside indirect 2x1 "$work/direct.png" "$work/gathered.png"
+
 # A film: an animated PNG.
 "$program" shimmer fence --path walk --frames 16 --fps 10 --map-size 256 --size 320x180 --quiet -o "$work/shimmer"
 cp "$work/shimmer/film-0-drawn.png" "$images/lesson-shimmer.png"

@@ -15,10 +15,11 @@ namespace gnomon::compare {
 namespace {
 
 // In the order in which to read them; docs/lessons/README.md has the same.
-constexpr std::array<std::string_view, 20> names{
-    "shadow-map",  "acne",          "peter-panning", "light-leaks", "aliasing", "bias",       "precision",
-    "filtering",   "soft-shadows",  "cascades",      "cube-maps",   "shimmer",  "terminator", "error-budget",
-    "ray-tracing", "intersections", "structures",    "robustness",  "hybrid",   "cost"};
+constexpr std::array<std::string_view, 25> names{
+    "shadow-map", "acne",         "peter-panning", "light-leaks",   "aliasing",  "bias",       "precision",
+    "filtering",  "soft-shadows", "cascades",      "cube-maps",     "shimmer",   "terminator", "error-budget",
+    "not-enough", "ray-casting",  "ray-tracing",   "intersections", "triangles", "boxes",      "grids",
+    "structures", "robustness",   "hybrid",        "cost"};
 
 // What stands between two texts; nothing when they are not there.
 std::string_view between(std::string_view text, std::string_view from, std::string_view to) {

@@ -91,6 +91,8 @@ Expected<void> PageFigures::add(const LiveMark& mark) {
   if (mark.name == "structure") made = structure_cut(mark.setting("kind"), mark.setting("scene"));
   if (mark.name == "whitted") made = whitted_cut();
   if (mark.name == "intersection") made = intersection_checks(mark.setting("kind"));
+  if (mark.name == "build") made = intersection_checks("discs");
+  if (mark.name == "eye-ray") made = eye_ray_checks();
   if (mark.name == "cube-faces") made = lessons::flatland("ball");
   if (mark.name == "two-passes") made = two_passes(mark);
   if (!made) return fail(made.error());

@@ -42,10 +42,14 @@ class PageFigures {
 // What the ray tracer finds for rays at the surfaces of the intersection figures (report/page/src/lessons), whose
 // numbers the page works out by itself.
 
-/// `kind`: box, triangle, sphere, implicit. {"checks": [{from, to, t}]}: rays in the plane z = 0 from one point towards another, and the
-/// distance of the first hit or null; of a triangle "checks" [{corners [[x, y], …], t}]: seen along a ray down the z axis,
+/// `kind`: box, triangle, sphere, plane, implicit, parity; discs, with "discs" [[x, y, radius], …], of the figures that build. {"checks": [{from, to, t}]}: rays in the plane z = 0 from one point towards another, and the
+/// distance of the first hit or null, "crossings": how many surfaces lie along it; of a triangle "checks" [{corners [[x, y], …], t}]: seen along a ray down the z axis,
 /// corners at depths 2, 3 and 5. Error (internal): no such kind.
 Expected<nlohmann::ordered_json> intersection_checks(const std::string& kind);
+
+/// What the program's camera looks through: {"checks": [{columns, rows, fov, x, y, direction}]}, `fov` the vertical angle in degrees, x and y a
+/// pixel from the top left, `direction` the unit direction through its centre of an eye that looks down -z.
+nlohmann::ordered_json eye_ray_checks();
 
 // An acceleration structure of a built-in scene, cut by an upright plane: of the structure what a ray in that plane can
 // come to, so that the page traverses the very cells that the ray tracer traverses (raytrace/accel), and of the scene

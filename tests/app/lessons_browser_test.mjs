@@ -223,6 +223,12 @@ const flatlands = {
     assert.ok(most.falseShare < 0.02 && most.missedShare > without.missedShare, `${most.falseShare} false, ${most.missedShare} missed`);
   },
 };
+/** The first figure of the course: half of the floor is dark, by no word that comes later. */
+flatlands.stripes = async (page, id) => {
+  await slide(page, id, { angle: 48, texels: 10 });
+  near((await said(page, id)).falseShare, 0.5, 0.02, "half of each texel");
+  assert.doesNotMatch(await page.locator(id).innerText(), /bias|missed|false shadow|offset/i);
+};
 operate.flatland = async (page, { settings: { show, scene } }, id) => {
   if (show !== "shadow") return flatlands[show](page, id);
   if (scene === "wall") await flatlands.wall(page, id);
@@ -247,7 +253,7 @@ operate.structure = async (page, figure, id) => {
   assert.notDeepEqual(await said(page, id), whole);
 };
 // Against what the ray tracer finds for the same rays.
-operate.intersection = async (page, { settings: { kind }, data: { checks } }, id) => {
+operate.intersection = async (page, { settings: { kind, show }, data: { checks } }, id) => {
   assert.ok(checks.some(({ t }) => t === null) && checks.some(({ t }) => t !== null));
   if (kind === "triangle") {
     for (const { corners, t } of checks) {
@@ -255,6 +261,7 @@ operate.intersection = async (page, { settings: { kind }, data: { checks } }, id
       const { hit, z } = (await page.locator(`${id} [role=status]`).evaluate(({ dataset }) => ({ ...dataset })));
       assert.equal(hit === "true", t !== null, JSON.stringify(corners));
       if (t !== null) near(Number(z), t, 1e-9, "z");
+      if (show === "both") await checkBothWays(page, id);
     }
     await slide(page, id, { Ax: 1, Ay: 1, Bx: 1, By: 1, Cx: 1, Cy: 1 });
     assert.match(await words(page, id), /the triangle has no area/);
@@ -263,14 +270,68 @@ operate.intersection = async (page, { settings: { kind }, data: { checks } }, id
   for (const { from, to, t } of checks) {
     await slide(page, id, { ox: from[0], oy: from[1], ax: to[0], ay: to[1] });
     const found = await page.locator(`${id} [role=status]`).evaluate(({ dataset }) => ({ ...dataset }));
+    if (kind === "parity") {
+      const { crossings } = checks.find((check) => check.from === from);
+      assert.deepEqual([found.roots.split(" ").filter((r) => r !== "").length, found.inside], [crossings, String(crossings % 2 === 1)], `${kind} from ${from} to ${to}`);
+    }
     const roots = kind === "box" ? (found.hit === "true" ? [Number(found.entry)] : []) : found.roots.split(" ").filter((r) => r !== "").map(Number).filter((r) => r > 0);
     if (t === null) assert.deepEqual(roots, [], `${kind} from ${from} to ${to}`);
     else near(roots[0], t, 1e-6, `${kind} from ${from} to ${to}`);
+  }
+  // The rays that a test must bear.
+  const cases = { box: [["starts inside", /the last entry 0 is not after/], ["points away", /misses/], ["runs in a face", /hits/], ["is parallel, outside", /misses/]], plane: [["points away", /behind the start/], ["is parallel", /never comes/]], parity: [["starts inside", /inside/], ["starts in a notch", /outside/], ["passes a corner", /outside/]] };
+  for (const [name, answer] of cases[kind] ?? []) {
+    await page.locator(`${id} .steps button`, { hasText: name }).click();
+    await slide(page, id, {});
+    assert.match(await words(page, id), answer, `${kind}: a ray that ${name}`);
   }
   // A ray that begins where it touches the ball, and one of a single stretch.
   await slide(page, id, kind === "sphere" ? { ox: 0.2, oy: 0.9, ax: 2, ay: 0.9 } : { ox: 2.5, oy: 1, ax: 3, ay: 1.5 });
   if (kind === "sphere") assert.match(await words(page, id), /t = 0, 0\.$/);
   if (kind === "implicit") assert.match(await words(page, id), /^1 stretch after 0 halvings: /);
+};
+/** The two-step way and Möller's and Trumbore's give the same numbers. */
+async function checkBothWays(page, id) {
+  const { twoSteps, z, sides, u, v } = await page.locator(`${id} [role=status]`).evaluate(({ dataset }) => ({ ...dataset }));
+  const [ofC, ofA, ofB] = sides.split(" ").map(Number);
+  near(Number(twoSteps), Number(z), 1e-9 * Math.abs(Number(z)), "t in two steps");
+  near(ofA + ofB + ofC, 1, 1e-9, "barycentric coordinates");
+  near(ofB, Number(u), 1e-9 * (1 + Math.abs(ofB)), "u");
+  near(ofC, Number(v), 1e-9 * (1 + Math.abs(ofC)), "v");
+}
+// The camera of the program, for pictures of several shapes and angles.
+operate["eye-ray"] = async (page, { data: { checks } }, id) => {
+  assert.equal(checks.length, 27);
+  const directions = await page.evaluate((all) => all.map(({ columns, rows, fov, x, y }) => globalThis.gnomonEyeRay(columns, rows, fov, x, y).direction), checks);
+  checks.forEach(({ direction }, i) => direction.forEach((c, k) => near(directions[i][k], c, 1e-12, `direction ${i}`)));
+  await slide(page, id, { columns: 1, rows: 1, fov: 90, x: 0, y: 0 });
+  assert.deepEqual(await said(page, id).then(({ u, v, dx, dy, dz }) => [u, v, dx, dy, dz].map((c) => c + 0)), [0, 0, 0, 0, -1], "one pixel looks straight on");
+};
+// Small structures hit what the program's tracer hits; boxes are met as often as their perimeters foretell; steps, splits and stack.
+operate.build = async (page, { settings: { kind }, data }, id) => {
+  assert.ok(data.checks.filter(({ t }) => t !== null).length >= 5);
+  for (const rule of kind === "kd" || kind === "bvh" ? ["middle", "area"] : ["middle"]) {
+    const hits = await page.evaluate(([json, k, r]) => globalThis.gnomonSmallHits(json, k, r).map((t) => (isFinite(t) ? t : null)), [data, kind, rule]);
+    data.checks.forEach(({ t }, i) => (t === null ? assert.equal(hits[i], null) : near(hits[i] ?? NaN, t, 1e-9, `${kind}, ${rule}, ray ${i}`)));
+  }
+  await slide(page, id, { walk: 1, ...(kind === "grid" ? { cells: 4 } : { built: 1 }) });
+  const whole = await said(page, id);
+  assert.ok(whole.boxes >= 3 && whole.discs >= 1 && whole.discs < data.discs.length, JSON.stringify(whole));
+  if (kind === "grid") {
+    await slide(page, id, { cells: 16 });
+    assert.ok((await said(page, id)).boxes > 1.5 * whole.boxes, "twice the cells along each axis are about twice the steps");
+    return;
+  }
+  near(whole.counted, whole.expected, 0.02 * whole.expected, "boxes that a line meets");
+  await slide(page, id, { walk: 0, built: 0 });
+  assert.equal((await said(page, id)).splits, 0);
+  await page.locator(`${id} .steps button`, { hasText: "Next split" }).click();
+  for (let i = 0; i < 2; ++i) await page.locator(`${id} .steps button`, { hasText: "Next step" }).click().then(() => slide(page, id, {}));
+  assert.match(await words(page, id), /^1 split of \d+\. .*On the stack: 1/);
+  if (kind !== "bvh") return;
+  const middle = whole.expected;
+  await slide(page, id, { rule: 1, built: 1 });
+  assert.ok((await said(page, id)).expected < middle, "a split by area costs less than one in the middle");
 };
 // The lookup of a cube map, worked out here; and what the texel in the middle below the lamp stores.
 operate["cube-faces"] = async (page, figure, id) => {
@@ -336,7 +397,7 @@ async function checkProjector() {
 
 const operated = new Set();
 /** What the lessons have: a figure that no lesson asks for would be looked at by nobody. */
-const wanted = ["bias", "cube-faces", "flatland", "intersection", "map-size", "structure", "two-passes", "whitted"];
+const wanted = ["bias", "build", "cube-faces", "eye-ray", "flatland", "intersection", "map-size", "structure", "two-passes", "whitted"];
 async function checkFigures(page) {
   const figures = await page.evaluate(() => JSON.parse(document.getElementById("page-data").textContent).figures);
   for (const [i, figure] of figures.entries()) {

@@ -2,7 +2,9 @@
 // program says of them (app/lessons/figures.h) is in the page's data.
 import { pageData } from "../parts";
 import { biasFigure } from "./bias_figure";
+import { buildFigure } from "./build_figure";
 import { cubeFigure } from "./cube_figure";
+import { eyeRayFigure } from "./eye_ray_figure";
 import { flatlandFigure } from "./flatland_figure";
 import { intersectionFigure } from "./intersection_figure";
 import { mapSizeFigure } from "./map_size_figure";
@@ -17,7 +19,7 @@ export interface FigureJson<Data = never> {
 }
 
 type Maker = (figure: FigureJson, id: string) => HTMLElement | Promise<HTMLElement>;
-const makers: Record<string, Maker> = { bias: biasFigure, "cube-faces": cubeFigure, flatland: flatlandFigure, intersection: intersectionFigure, "map-size": mapSizeFigure, structure: structureFigure, "two-passes": twoPassesFigure, whitted: whittedFigure };
+const makers: Record<string, Maker> = { bias: biasFigure, build: buildFigure, "cube-faces": cubeFigure, "eye-ray": eyeRayFigure, flatland: flatlandFigure, intersection: intersectionFigure, "map-size": mapSizeFigure, structure: structureFigure, "two-passes": twoPassesFigure, whitted: whittedFigure };
 
 /** Null where that fails: the other figures and the slides do not wait for it. */
 async function makeFigure(figure: FigureJson, id: string): Promise<HTMLElement | null> {

@@ -73,7 +73,7 @@ export function flatlandFigure({ settings, data }: FigureJson, id: string): HTML
 
 /** `settings` may say with which texels, bias and offset to begin. */
 function shadowFigure(json: FlatlandJson, settings: Record<string, string>, id: string): HTMLElement {
-  const world = world2(json), { window } = json, width = window[1] - window[0], name = settings.scene, leaks = name === "leak", acne = settings.show === "acne";
+  const world = world2(json), { window } = json, width = window[1] - window[0], name = settings.scene, leaks = name === "leak", stripes = settings.show === "stripes", acne = stripes || settings.show === "acne";
   const first = (key: string, otherwise: number) => Number(settings[key] ?? otherwise);
   const surfaces: (Segment | Circle)[] = [...world.segments, ...world.circles];
   const corners = surfaces.flatMap((s): Vec2[] => ("radius" in s ? [[1, 0], [-1, 0], [0, 1], [0, -1]].map((d) => add(s.center, d as unknown as Vec2, s.radius)) : [s.from, s.to]));
@@ -90,9 +90,9 @@ function shadowFigure(json: FlatlandJson, settings: Record<string, string>, id: 
     bias: { name: "Bias, world units", from: 0, to: Number((0.1 * width).toPrecision(2)), step: width / 4000, value: first("bias", name === "wall" ? 0.2 : 0), text: (v) => number(v, 3) },
   };
   const offsets: Slider = { name: "Normal offset, texels", from: 0, to: 8, step: 0.25, value: first("offset", 4), text: String };
-  const sliders: Sliders<string> = new Sliders<string>(leaks ? { ...own, offset: offsets } : own, () => show());
+  const sliders: Sliders<string> = new Sliders<string>(leaks ? { ...own, offset: offsets } : stripes ? { angle: own.angle, texels: own.texels } : own, () => show());
   const show = () => {
-    const map = mapOf(), bias = sliders.value("bias"), offset = leaks ? sliders.value("offset") : 0;
+    const map = mapOf(), bias = stripes ? 0 : sliders.value("bias"), offset = leaks ? sliders.value("offset") : 0;
     const pieces = surfaces.flatMap((surface) => {
       const count = Math.max(1, Math.round(stage.units(lengthOf(surface)) / pieceUnits));
       return [...piecesOf(surface, count)].map((place) => ({ ...place, length: lengthOf(surface) / count, outcome: outcomeAt(world, place, map, bias, offset) }));
@@ -109,12 +109,13 @@ function shadowFigure(json: FlatlandJson, settings: Record<string, string>, id: 
     const sum = (outcome: Outcome) => pieces.reduce((total, piece) => total + (piece.outcome === outcome ? piece.length : 0), 0);
     const whole = sum("lit") + sum("dark") + sum("false") + sum("missed"), shares = { false: sum("false") / whole, missed: sum("missed") / whole };
     Object.assign(said.dataset, { angle: String(sliders.value("angle")), bias: String(bias), texels: String(map.count), texel: String(map.texel), falseShare: String(shares.false), missedShare: String(shares.missed) });
-    said.textContent = `Of what faces the sun ${percent(shares.false)} is in false shadow (orange), ${percent(shares.missed)} in missed shadow (blue). A texel is ${number(map.texel, 2)} wide, the bias ${texelsText(bias / map.texel)}. ` +
+    // The first figure of a course: no word in it that a later lesson explains.
+    said.textContent = stripes ? `Nothing stands before the floor, and ${percent(shares.false)} of it is drawn dark (orange). A texel is ${number(map.texel, 2)} wide: one depth for all of it.` : `Of what faces the sun ${percent(shares.false)} is in false shadow (orange), ${percent(shares.missed)} in missed shadow (blue). A texel is ${number(map.texel, 2)} wide, the bias ${texelsText(bias / map.texel)}. ` +
       (acne ? acneForm(map, bias, shares.false, said) : name === "wall" ? wallForm(world, map, pieces, bias, said) : "");
   };
   show();
   return frame(id, stage, sliders.bar, said,
-    "Drag the sun. Thick steps: the depths that the map stores; dashed: with the bias. Gold: lit, rightly; dark: in shadow, rightly; dotted: turned away from the sun.");
+    stripes ? "Drag the sun. Thick steps: the depths that the map stores. Gold: drawn lit." : "Drag the sun. Thick steps: the depths that the map stores; dashed: with the bias. Gold: lit, rightly; dark: in shadow, rightly; dotted: turned away from the sun.");
 }
 
 /** On a plane the share in acne is (1 - bias / a) / 2, where the plane falls by a over half a texel. */

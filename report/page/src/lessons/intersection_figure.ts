@@ -124,8 +124,46 @@ function drawImplicit(stage: Stage, o: Vec2, d: Vec2): Drawn {
   };
 }
 
-const kinds: Record<string, (stage: Stage, o: Vec2, d: Vec2) => Drawn> = { box: drawBox, sphere: drawSphere, implicit: drawImplicit };
+const plane = { point: [0.3, -0.2] as Vec2, normal: [-0.6, 0.8] as Vec2 };
+
+function drawPlane(stage: Stage, o: Vec2, d: Vec2): Drawn {
+  const { point: p, normal: n } = plane, across: Vec2 = [-n[1], n[0]], height = dot(n, sub(p, o)), slope = dot(n, d), t = height / slope, hit = slope !== 0 && t > 0;
+  return {
+    elements: [stage.path("profile", [[add(p, across, -9), add(p, across, 9)]]), stage.path("normals", [[p, add(p, n, 0.5)]]), stage.label("middle", add(p, n, 0.62), "n"), stage.path("ghost", [[o, add(o, n, height)]]), stage.circle("moved", p, 7), stage.label("middle", p, "p", 30), ...(hit ? [stage.circle("hit", add(o, d, t), 8)] : [])],
+    words: `n·(p − o) = ${number(height, 4)}, how far the start is from the plane, and n·d = ${number(slope, 4)}, how fast the ray comes to it: ${slope === 0 ? "the ray is parallel and never comes." : `t = ${number(t, 4)}${hit ? "." : " lies behind the start, the ray misses."}`}`,
+    numbers: { roots: hit ? String(t) : "" },
+  };
+}
+
+// A body that is not convex; app/lessons/intersection.cpp has the same corners.
+const zigzag: Vec2[] = [[-1.6, -0.9], [1.6, -0.9], [1.6, 0.9], [0.9, 0.9], [0.9, -0.3], [0.3, -0.3], [0.3, 0.9], [-0.4, 0.9], [-0.4, -0.3], [-1, -0.3], [-1, 0.9], [-1.6, 0.9]];
+
+function drawParity(stage: Stage, o: Vec2, d: Vec2): Drawn {
+  const walls = zigzag.map((from, i) => ({ from, to: zigzag[(i + 1) % zigzag.length]! }));
+  // Half-open walls: a ray through a corner crosses one of the two that meet there, or both, or none, and is in or out as it should be.
+  const crossings = walls.flatMap(({ from, to }) => {
+    const a = cross(d, sub(from, o)), b = cross(d, sub(to, o));
+    return a > 0 === b > 0 ? [] : [dot(d, add(from, sub(to, from), a / (a - b))) - dot(d, o)];
+  }).filter((t) => t > 0).sort((a, b) => a - b);
+  const inside = crossings.length % 2 === 1;
+  return {
+    elements: [stage.path("profile thin", [[...zigzag, zigzag[0]!]]), ...crossings.map((t, i) => stage.label("middle", add(o, d, t - 0.13), String(i + 1), -14)), ...crossings.map((t) => stage.circle("hit", add(o, d, t), 8))],
+    words: `${counted(crossings.length, "crossing")}: ${inside ? "an odd number, the start lies inside." : "an even number, the start lies outside."}`,
+    numbers: { roots: crossings.join(" "), inside: String(inside) },
+  };
+}
+
+const kinds: Record<string, (stage: Stage, o: Vec2, d: Vec2) => Drawn> = { box: drawBox, sphere: drawSphere, implicit: drawImplicit, plane: drawPlane, parity: drawParity };
+const articles: Record<string, string> = { implicit: "a surface given by a function", parity: "a body that is not convex" };
+/** Rays that a test must bear, by the figure: start and aim. */
+const cases: Record<string, [string, Vec2, Vec2][]> = {
+  box: [["starts inside", [0.2, 0.1], [2, 0.6]], ["points away", [1.6, 0.3], [2.6, 0.6]], ["runs in a face", [-2, 0.6], [2, 0.6]], ["is parallel, outside", [-2, 1], [2, 1]]],
+  plane: [["points away", [-1, 0.9], [-2, 1.2]], ["is parallel", [-2, 0.25], [-1.2, 0.85]]],
+  parity: [["starts inside", [-1.3, 0.4], [2.4, 0.5]], ["starts in a notch", [0.6, 0.3], [2.4, 0.5]], ["passes a corner", [-2.4, 0.9], [2.4, 0.9]]],
+};
 const hints: Record<string, string> = {
+  plane: "Drag either end of the ray. Dotted: the way straight to the plane; violet: the plane's normal.",
+  parity: "Drag either end of the ray. Each crossing leads in or out.",
   box: "Drag either end of the ray. Dotted: the planes of the two slabs.",
   sphere: "Drag either end of the ray. Open circle: the point of the ray nearest to the centre.",
   implicit: "Drag either end of the ray. The surface is (x² + y²)² − 2(x² − y²) = a⁴ − 1 with a = 0.985, of which only the function and its derivative are computed, on intervals.",
@@ -133,7 +171,7 @@ const hints: Record<string, string> = {
 
 function rayFigure(kind: string, id: string): HTMLElement {
   let o: Vec2 = [0, 0], aim: Vec2 = [0, 0];
-  const stage = new Stage(window, `A ray and ${kind === "implicit" ? "a surface given by a function" : `a ${kind}`}`, (at, handle) => {
+  const stage = new Stage(window, `A ray and ${articles[kind] ?? `a ${kind}`}`, (at, handle) => {
     sliders.set(`${handle}x`, at[0]);
     sliders.set(`${handle}y`, at[1]);
   }, () => ({ a: aim, o }));
@@ -151,11 +189,43 @@ function rayFigure(kind: string, id: string): HTMLElement {
     said.textContent = words;
   };
   show();
+  const presets = (cases[kind] ?? []).map(([name, from, to]) => {
+    const button = html("button", { type: "button" }, name);
+    button.addEventListener("click", () => { for (const [key, value] of [["ox", from[0]], ["oy", from[1]], ["ax", to[0]], ["ay", to[1]]] as const) sliders.set(key, value); });
+    return button;
+  });
+  if (presets.length > 0) sliders.bar.prepend(html("div", { class: "steps" }, "A ray that", ...presets));
   return frame(id, stage, sliders.bar, said, hints[kind]!);
 }
 
-/** Seen along the ray: the corners move, the ray is the origin. */
-function triangleFigure(id: string): HTMLElement {
+type Vec3 = readonly [number, number, number];
+const sub3 = (a: Vec3, b: Vec3): Vec3 => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const dot3 = (a: Vec3, b: Vec3): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross3 = (a: Vec3, b: Vec3): Vec3 => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+
+/** The plane first, then on which side of each edge the point lies: t, and the three sides. */
+function twoSteps(o: Vec3, d: Vec3, corners: readonly [Vec3, Vec3, Vec3]): { t: number; sides: number[] } {
+  const [a, b, c] = corners, n = cross3(sub3(b, a), sub3(c, a)), t = dot3(n, sub3(a, o)) / dot3(n, d), p: Vec3 = [o[0] + t * d[0], o[1] + t * d[1], o[2] + t * d[2]];
+  return { t, sides: corners.map((from, i) => dot3(n, cross3(sub3(corners[(i + 1) % 3]!, from), sub3(p, from))) / dot3(n, n)) };
+}
+/** Möller and Trumbore (1997): Cramer's rule for o + t d = a + u (b − a) + v (c − a). */
+function mollerTrumbore(o: Vec3, d: Vec3, [a, b, c]: readonly [Vec3, Vec3, Vec3]): { det: number; t: number; u: number; v: number } {
+  const e1 = sub3(b, a), e2 = sub3(c, a), p = cross3(d, e2), det = dot3(e1, p), s = sub3(o, a), q = cross3(s, e1);
+  return { det, t: dot3(e2, q) / det, u: dot3(s, p) / det, v: dot3(d, q) / det };
+}
+
+/** Both ways, in words and numbers. */
+function bothWays(corners: readonly [Vec3, Vec3, Vec3]): { words: string; numbers: Record<string, string> } {
+  const o: Vec3 = [0, 0, 0], d: Vec3 = [0, 0, 1], two = twoSteps(o, d, corners), { det, t, u, v } = mollerTrumbore(o, d, corners), n3 = (x: number) => number(x, 3);
+  const hit = det !== 0 && u >= 0 && v >= 0 && u + v <= 1;
+  return {
+    words: det === 0 ? "det = 0: the triangle has no area, or the ray runs in its plane; the ray misses." : `In two steps: the plane at t = ${n3(two.t)}, and the point's share of each side ${two.sides.map(n3).join(", ")}: ${two.sides.every((side) => side >= 0) ? "none is negative" : "one is negative"}. Möller and Trumbore: det = ${n3(det)}, u = ${n3(u)}, v = ${n3(v)}, t = ${n3(t)}: ${hit ? "the ray hits." : "the ray misses."}`,
+    numbers: { hit: String(hit), z: String(t), u: String(u), v: String(v), det: String(det), twoSteps: String(two.t), sides: two.sides.join(" ") },
+  };
+}
+
+/** Seen along the ray: the corners move, the ray is the origin. `both`: the two-step way and Möller's and Trumbore's, in place of the areas. */
+function triangleFigure(id: string, both: boolean): HTMLElement {
   let corners: Vec2[] = [];
   const names = ["A", "B", "C"], depths = [2, 3, 5];
   const stage = new Stage(window, "A triangle seen along the ray, which is the middle point", (at, handle) => {
@@ -171,11 +241,17 @@ function triangleFigure(id: string): HTMLElement {
     const inside = ((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)) && sum !== 0, z = (u * depths[0]! + v * depths[1]! + w * depths[2]!) / sum;
     const area = (kind: string, p: Vec2, q: Vec2) => stage.path(`area ${kind}`, [[[0, 0], p, q, [0, 0]]]);
     stage.put(area("u", B, C), area("v", C, A), area("w", A, B), stage.path("profile thin", [[A, B, C, A]]), ...corners.map((p, i) => stage.label("middle", add(p, unit(Math.hypot(...p) > 0 ? p : [1, 0]), 0.16), names[i]!, 6)), ...corners.map((p) => stage.circle("point", p, 9)), stage.circle(inside ? "hit" : "moved", [0, 0], 9));
+    if (both) {
+      const ways = bothWays([[...A, depths[0]!], [...B, depths[1]!], [...C, depths[2]!]]);
+      Object.assign(said.dataset, ways.numbers);
+      said.textContent = ways.words;
+      return;
+    }
     Object.assign(said.dataset, { u: String(u), v: String(v), w: String(w), z: String(z), hit: String(inside) });
     said.textContent = `u = ${number(u, 3)} (violet), v = ${number(v, 3)} (blue), w = ${number(w, 3)} (gold): ${inside ? `none has another sign than the others, the ray hits, at z = (u·Az + v·Bz + w·Cz)/(u + v + w) = ${number(z, 4)} for corners at depths 2, 3 and 5.` : sum === 0 ? "their sum is 0, the triangle has no area, the ray misses." : "their signs differ, the ray misses."}`;
   };
   show();
-  return frame(id, stage, sliders.bar, said, "Drag a corner: seen along the ray the ray is the point in the middle. Each coloured triangle is half of one of the three numbers.");
+  return frame(id, stage, sliders.bar, said, `Drag a corner: seen along the ray the ray is the point in the middle. ${both ? "The corners lie at depths 2, 3 and 5." : "Each coloured triangle is half of one of the three numbers."}`);
 }
 
-export const intersectionFigure = ({ settings }: FigureJson, id: string): HTMLElement => (settings.kind === "triangle" ? triangleFigure(id) : rayFigure(settings.kind!, id));
+export const intersectionFigure = ({ settings }: FigureJson, id: string): HTMLElement => (settings.kind === "triangle" ? triangleFigure(id, settings.show === "both") : rayFigure(settings.kind!, id));

@@ -22,7 +22,7 @@ globalThis.gnomonWalks = (at) => {
   return json.checks.map((wanted) => ({ wanted, walk: walkRay(json, segments, wanted.from, wanted.to) }));
 };
 
-export function structureFigure({ data }: FigureJson, id: string): HTMLElement {
+export function structureFigure({ settings, data }: FigureJson, id: string): HTMLElement {
   const json = data as StructureJson, segments = segmentsOf(json), cells = cellsOf(json), lines = [...segments.values()];
   const [left, right, bottom, top] = json.bounds, width = right - left, ratio = Math.min(Math.max(0.45, (1.1 * (top - bottom)) / (1.04 * width)), 0.9), middle: Vec2 = [(left + right) / 2, bottom + 0.4 * (top - bottom)];
   // What is densest is looked at when the drawing is enlarged.
@@ -32,11 +32,11 @@ export function structureFigure({ data }: FigureJson, id: string): HTMLElement {
     const x = middle[0] + share * (dense[0] - middle[0]), y = (top + bottom) / 2 + share * (dense[1] - (top + bottom) / 2);
     return [x - w / 2, x + w / 2, y - h / 2, y + h / 2];
   };
-  const said = html("p", { class: "bias-counts", role: "status" }), first = view(1);
+  const said = html("p", { class: "bias-counts", role: "status" }), first = view(Math.min(Number(settings.zoom ?? 1), zoomMost(lines, width)));
   const end = (key: string, name: string, value: number): Record<string, never> => ({ [key]: { name, from: 0, to: 1, step: 0.001, value, text: (v: number) => number(v, 3), drags: true } }) as Record<string, never>;
   const sliders: Sliders<string> = new Sliders<string>({
     step: { name: "Cells visited", from: 0, to: 1, step: 0.001, value: 1, text: (v) => `${Math.round(100 * v)} %` },
-    zoom: { name: "Enlarged", from: 0, to: Math.log2(zoomMost(lines, width)), step: 0.05, value: 0, text: (v) => `${number(2 ** v, 2)}×` },
+    zoom: { name: "Enlarged", from: 0, to: Math.log2(zoomMost(lines, width)), step: 0.05, value: Math.log2(Math.min(Number(settings.zoom ?? 1), zoomMost(lines, width))), text: (v) => `${number(2 ** v, 2)}×` },
     ...end("fromX", "Ray's start, left and right", 0.06), ...end("fromY", "Ray's start, up and down", 0.86),
     ...end("toX", "Ray's aim, left and right", (dense[0] - first[0]) / (first[1] - first[0])), ...end("toY", "Ray's aim, up and down", (dense[1] - first[2]) / (first[3] - first[2])),
   }, () => show());

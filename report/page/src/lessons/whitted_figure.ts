@@ -1,7 +1,7 @@
 // Whitted's tree of rays, one ray after the other, in the upright plane through the centres of both balls of the scene: there
 // every ray that begins in the plane stays in it.
 import { counted, percent } from "../number_text";
-import { html, number } from "../svg";
+import { html, number, svg } from "../svg";
 import { add, dot, length, meetCircle, meetSegment, sub, unit, type Circle, type Segment, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
 import { frame, world2, type FlatlandJson } from "./flatland_figure";
@@ -35,6 +35,7 @@ interface Ray {
   to: Vec2;
   share: number;  // of the pixel
   depth: number;
+  parent: number;  // among the rays; -1 of the eye's
   blocked: boolean;  // a shadow ray that does not reach the lamp
   story: string;
 }
@@ -77,18 +78,18 @@ class Tracer2 {
 
   /** Breadth first: every ray before those that it calls for. */
   trace(eye: Vec2, aim: Vec2): void {
-    const waiting: { kind: Kind; from: Vec2; direction: Vec2; share: number; depth: number; why: string }[] = [{ kind: "eye", from: eye, direction: unit(sub(aim, eye)), share: 1, depth: 0, why: "From the eye through a pixel" }];
+    const waiting: { kind: Kind; from: Vec2; direction: Vec2; share: number; depth: number; parent: number; why: string }[] = [{ kind: "eye", from: eye, direction: unit(sub(aim, eye)), share: 1, depth: 0, parent: -1, why: "From the eye through a pixel" }];
     for (let next = waiting.shift(); next && this.rays.length < 120; next = waiting.shift()) {
-      const { kind, from, direction, share, depth, why } = next, hit = this.meet(from, direction, depth > 0);
-      this.rays.push({ kind, from, to: hit?.at ?? add(from, direction, this.far), share, depth, blocked: false,
+      const { kind, from, direction, share, depth, parent, why } = next, hit = this.meet(from, direction, depth > 0), own = this.rays.length;
+      this.rays.push({ kind, from, to: hit?.at ?? add(from, direction, this.far), share, depth, parent, blocked: false,
         story: `${why}: ${hit ? `it meets the ${hit.material?.name ?? "floor"} after ${number(hit.t, 3)}` : "it meets nothing and takes the background"}.` });
       if (!hit) continue;
       const inside = dot(direction, hit.normal) > 0, n: Vec2 = inside ? [-hit.normal[0], -hit.normal[1]] : hit.normal;
-      if (!inside) this.shadow(hit.at, n, share, depth);
+      if (!inside) this.shadow(hit.at, n, share, depth, own);
       const { mirror, transmission, ior } = hit.material ?? { mirror: 0, transmission: 0, ior: 1 }, c = -dot(direction, n), ratio = inside ? ior : 1 / ior;
       const degrees = (cosine: number) => `${number((Math.acos(Math.min(1, cosine)) * 180) / Math.PI, 3)}°`;
       const follow = (to: Kind, way: Vec2, part: number, words: string) => {
-        if (part * share >= this.json.least_share) waiting.push({ kind: to, from: hit.at, direction: way, share: part * share, depth: depth + 1, why: words });
+        if (part * share >= this.json.least_share) waiting.push({ kind: to, from: hit.at, direction: way, share: part * share, depth: depth + 1, parent: own, why: words });
       };
       const reflected = add(direction, n, 2 * c), mirrored = `Reflected at ${degrees(c)}`;
       if (transmission > 0) {
@@ -100,7 +101,7 @@ class Tracer2 {
   }
 
   /** Straight to the lamp: glass lets light through, less at each of its surfaces, and one ray more goes on behind it. */
-  private shadow(at: Vec2, normal: Vec2, share: number, depth: number): void {
+  private shadow(at: Vec2, normal: Vec2, share: number, depth: number, parent: number): void {
     const direction = unit(sub(this.lamp, at));
     if (dot(direction, normal) <= 0) return;  // turned away: dark without asking
     for (let from = at, light = 1; ;) {
@@ -109,11 +110,32 @@ class Tracer2 {
       light *= blocker ? passes : 1;
       const what = !blocker ? (light < 1 ? `nothing more is in its way, the surfaces of the glass let ${percent(light)} of the light through` : "nothing is in its way, the point is lit")
         : glass ? `the ${blocker.material!.name} is in its way and lets ${percent(passes)} through` : `the ${blocker.material?.name ?? "floor"} is in its way, the point is in shadow`;
-      this.rays.push({ kind: "shadow", from, to: blocker?.at ?? this.lamp, share, depth, blocked: blocker !== null && !glass, story: `Shadow ray to the lamp: ${what}.` });
+      this.rays.push({ kind: "shadow", from, to: blocker?.at ?? this.lamp, share, depth: depth + 1, parent, blocked: blocker !== null && !glass, story: `Shadow ray to the lamp: ${what}.` });
       if (!blocker || !glass) return;
       from = blocker.at;
     }
   }
+}
+
+/** The tree beside the scene: each ray below the one that called for it, and the share of the pixel with which it goes on. */
+function treeOf(rays: readonly Ray[], last: Ray | undefined): SVGElement {
+  const rows = Math.max(...rays.map((ray) => ray.depth), 0) + 1, width = 960, height = 60 * rows + 10, levels = Array.from({ length: rows }, (_, depth) => rays.filter((ray) => ray.depth === depth));
+  const places = new Map<Ray, Vec2>(), place = (ray: Ray): Vec2 => places.get(ray)!;
+  for (const row of levels) {
+    row.sort((a, b) => (a.parent < 0 ? 0 : place(rays[a.parent]!)[0] - place(rays[b.parent]!)[0]));  // below their parents
+    row.forEach((ray, i) => places.set(ray, [((i + 0.5) / row.length) * width, 60 * ray.depth + 30]));
+  }
+  const drawing = svg("svg", { class: "flatland ray-tree", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "The tree of rays: each below the one that called for it" });
+  for (const ray of rays.filter(({ parent }) => parent >= 0)) {
+    const [x1, y1] = place(rays[ray.parent]!), [x2, y2] = place(ray);
+    drawing.append(svg("path", { class: `tree ${ray.kind}${ray.blocked ? " blocked" : ""}`, d: `M${x1.toFixed(1)},${y1}L${x2.toFixed(1)},${y2}`, "stroke-width": 2 }));
+  }
+  for (const ray of rays) {
+    const [x, y] = place(ray), crowded = levels[ray.depth]!.length > 9;
+    drawing.append(svg("circle", { class: `node ${ray.kind}`, cx: x, cy: y, r: ray === last ? 13 : 9 }));
+    if (ray.kind !== "shadow" && !crowded) drawing.append(svg("text", { x: x + 16, y: y + 6 }, percent(ray.share)));
+  }
+  return drawing;
 }
 
 export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
@@ -138,6 +160,7 @@ export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
     return button;
   };
   let total = 1;
+  const tree = html("div", { class: "live-tree" });
   const show = () => {
     const point = (key: string): Vec2 => [left + sliders.value(`${key}X`) * (right - left), bottom + sliders.value(`${key}Y`) * (top - bottom)];
     handles = { eye: point("eye"), aim: point("aim"), lamp: point("lamp") };
@@ -154,10 +177,13 @@ export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
       }),
       ...balls.map(({ center }, i) => stage.label("middle", center, json.materials[i]!.transmission > 0 ? "glass" : "mirror", 6)),
       stage.circle("sun", handles.lamp, 13), stage.circle("point", handles.eye, 11), stage.circle("moved", handles.aim, 9), stage.label("middle", handles.eye, "eye", -18), stage.label("middle", handles.lamp, "lamp", -20));
+    tree.replaceChildren(treeOf(rays, last));
     Object.assign(said.dataset, { rays: String(rays.length), total: String(total), share: String(last?.share ?? 0) });
     said.textContent = `${rays.length} of ${counted(total, "ray")}. ${last ? `${last.story} It counts for ${percent(last.share)} of the pixel.` : ""}`;
   };
   show();
   sliders.bar.prepend(html("div", { class: "steps" }, step(-1), step(1)));
-  return frame(id, stage, sliders.bar, said, `Drag the eye, what it looks at, and the lamp. Orange: the eye's ray; violet: reflected; blue: refracted; gold: a shadow ray that reaches the lamp; dotted: one that does not. The wider, the more it counts; below ${percent(json.least_share)} of the pixel a ray is not followed.`);
+  const figure = frame(id, stage, sliders.bar, said, `Drag the eye, what it looks at, and the lamp. Orange: the eye's ray; violet: reflected; blue: refracted; gold: a shadow ray that reaches the lamp; dotted: one that does not. The wider, the more it counts; below ${percent(json.least_share)} of the pixel a ray is not followed.`);
+  said.after(tree);
+  return figure;
 }

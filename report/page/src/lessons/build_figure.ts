@@ -1,0 +1,83 @@
+// Build a structure over a few discs split by split, and walk a ray through it step by step, with what is on the stack. The discs can
+// be dragged: what becomes of the structure is seen at once.
+import { counted } from "../number_text";
+import { html, number } from "../svg";
+import { add, length, sub, unit, type Circle, type Vec2 } from "./flatland";
+import type { FigureJson } from "./figures";
+import { frame } from "./flatland_figure";
+import { countedNodes, expectedNodes, overlap, SmallTree, walkTree, type Kind, type Rule, type SmallNode } from "./small_tree";
+import { walkCells } from "./small_grid";
+import { Sliders, Stage } from "./stage";
+import { outlineOf } from "./structure_walk";
+
+interface BuildJson {
+  discs: [number, number, number][];
+  checks: { from: Vec2; to: Vec2; t: number | null }[];
+}
+const names: Record<Kind, string> = { grid: "uniform grid", octree: "octree", kd: "kd-tree", bvh: "hierarchy of boxes" };
+const window: [number, number, number, number] = [-3, 3, -1.5, 1.5];
+
+const circleOf = ([x, y, radius]: [number, number, number]): Circle => ({ center: [x, y], radius });
+const firstHit = (kind: Kind, rule: Rule, discs: Circle[], from: Vec2, to: Vec2): number => {
+  const way = unit(sub(to, from));
+  return (kind === "grid" ? walkCells(discs, 2, from, way) : walkTree(new SmallTree(kind, rule, discs), from, way)).at(-1)?.t ?? Infinity;
+};
+
+declare global {
+  var gnomonSmallHits: ((json: BuildJson, kind: Kind, rule: Rule) => number[]) | undefined;  // eslint-disable-line no-var
+}
+/** For the rays that the program traced through the same discs: where they hit here. */
+globalThis.gnomonSmallHits = (json, kind, rule) => json.checks.map(({ from, to }) => firstHit(kind, rule, json.discs.map(circleOf), from, to));
+
+export function buildFigure({ settings, data }: FigureJson, id: string): HTMLElement {
+  const json = data as BuildJson, kind = settings.kind as Kind, discs = json.discs.map(circleOf), ruled = kind === "kd" || kind === "bvh";
+  let from: Vec2 = [-2.7, 0.3], to: Vec2 = [1.45, 0.6];
+  const handles = (): Record<string, Vec2> => ({ from, to, ...Object.fromEntries(discs.map(({ center }, i) => [`disc${i}`, center])) });
+  const stage = new Stage(window, `A ${names[kind]} over discs, and a ray on its way through it`, (at, handle) => {
+    if (handle === "from") from = at;
+    else if (handle === "to") to = at;
+    else discs[Number(handle.slice(4))] = { ...discs[Number(handle.slice(4))]!, center: at };
+    show();
+  }, handles);
+  const said = html("p", { class: "bias-counts", role: "status" });
+  const share = (name: string, value: number) => ({ name, from: 0, to: 1, step: 0.001, value, text: (v: number) => `${Math.round(100 * v)} %` });
+  const sliders: Sliders<string> = new Sliders<string>({
+    ...(kind === "grid" ? { cells: { name: "Cells for each disc", from: 1, to: 16, step: 1, value: 4, text: String } } : { built: share("Built", 1) }),
+    walk: share("Ray's way", 1),
+    ...(ruled ? { rule: { name: "Split", from: 0, to: 1, step: 1, value: 0, text: (v: number) => (v === 0 ? "in the middle" : "by area") } } : {}),
+    seventh: { name: "A disc, left and right", from: -2.9, to: 2.9, step: 0.01, value: discs[6]!.center[0], text: (v: number) => number(v, 3), drags: true },
+  }, () => { discs[6] = { ...discs[6]!, center: [sliders.value("seventh"), discs[6]!.center[1]] }; show(); });
+  const step = (key: string, by: number) => {
+    const button = html("button", { type: "button" }, by > 0 ? (key === "built" ? "Next split" : "Next step") : key === "built" ? "Split before" : "Step before");
+    button.addEventListener("click", () => { const n = Math.max(1, key === "built" ? splits : steps); sliders.set(key, Math.min(Math.max((Math.round(sliders.value(key) * n) + by) / n, 0), 1)); });
+    return button;
+  };
+  let [splits, steps] = [1, 1];
+  const show = () => {
+    const way = length(sub(to, from)) > 0 ? unit(sub(to, from)) : ([1, 0] as Vec2), tree = new SmallTree(kind, ruled && sliders.value("rule") === 1 ? "area" : "middle", discs);
+    const grid = kind === "grid" ? walkCells(discs, Math.sqrt(sliders.value("cells")), from, way) : null, walk = grid ?? walkTree(tree, from, way);
+    splits = tree.splits.length;
+    steps = walk.length;
+    const made = kind === "grid" ? [] : tree.splits.slice(0, Math.round(sliders.value("built") * splits)), seen = walk.slice(0, Math.round(sliders.value("walk") * steps)), last = seen.at(-1), all = seen.length === steps;
+    const closed = (node: { box: SmallNode["box"] }): Vec2[] => [...outlineOf(node.box), outlineOf(node.box)[0]!];
+    const shownNodes = kind === "bvh" ? made.flatMap((node) => node.children) : [], tests = new Set(seen.flatMap((s) => s.tested));
+    const hit = last && all && isFinite(last.t) ? add(from, way, last.t) : null;
+    stage.put(stage.path("cells bold", [...(grid ? grid.lines : [closed(tree.root)]), ...made.flatMap((node) => node.cut), ...shownNodes.map(closed)]), ...seen.map((s) => stage.path(`visited${s.tested.length > 0 ? " tests" : ""}${s === last ? " last" : ""}`, [closed(s.node)])),
+      ...discs.map((disc, i) => stage.circle(`disc${tests.has(i) ? " tested" : ""}`, disc.center, stage.units(disc.radius))), stage.path("ray", [[from, hit ?? add(from, way, 9)]]), stage.circle("point", from, 11), stage.circle("moved", to, 9), ...(hit ? [stage.circle("hit", hit, 8)] : []),
+      ...(grid || !last ? [] : tree.nodes().filter(({ name }) => last.stack.includes(name)).map(({ name, box }) => stage.label("middle", [(box[0] + box[1]) / 2, (box[2] + box[3]) / 2], name, 6))));
+    const met = last?.boxes ?? 0, tested = last?.discs ?? 0;
+    Object.assign(said.dataset, { splits: String(made.length), boxes: String(met), discs: String(tested), t: String(last?.t ?? Infinity), stack: (last?.stack ?? []).join(" ") });
+    said.textContent = `${kind === "grid" ? "" : `${counted(made.length, "split")} of ${splits}. `}The ray has met ${counted(met, kind === "grid" ? "cell" : "box", kind === "grid" ? "cells" : "boxes")} and tested ${counted(tested, "disc")} of ${discs.length}. ${grid || !last ? "" : last.stack.length > 0 ? `On the stack: ${last.stack.join(", ")}. ` : "The stack is empty. "}${kind === "grid" ? "" : costs(tree, said)}`;
+  };
+  const bar = sliders.bar;
+  show();
+  bar.prepend(html("div", { class: "steps" }, ...(kind === "grid" ? [] : [step("built", -1), step("built", 1)]), step("walk", -1), step("walk", 1)));
+  return frame(id, stage, bar, said, "Drag a disc or either end of the ray. Filled: what the ray came to, darker where discs were tested; their outlines are bold.");
+}
+
+/** What the whole tree costs a line: foretold by perimeters, and counted. */
+function costs(tree: SmallTree, said: HTMLElement): string {
+  const expected = expectedNodes(tree), met = countedNodes(tree, 60), over = tree.kind === "bvh" ? tree.splits.reduce((sum, { children: [a, b] }) => sum + overlap(a!.box, b!.box), 0) : 0;
+  Object.assign(said.dataset, { expected: String(expected), counted: String(met), overlap: String(over) });
+  return `A line meets Σ perimeters/perimeter = ${number(expected, 3)} of its ${tree.nodes().length} boxes; counted: ${number(met, 3)}.${tree.kind === "bvh" ? ` Boxes overlap by ${number(over, 2)} in all.` : ""}`;
+}
