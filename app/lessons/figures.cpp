@@ -92,6 +92,7 @@ Expected<void> PageFigures::add(const LiveMark& mark) {
   if (mark.name == "whitted") made = whitted_cut();
   if (mark.name == "intersection") made = intersection_checks(mark.setting("kind"));
   if (mark.name == "build") made = intersection_checks("discs");
+  if (mark.name == "grid-curve") made = grid_curve(mark.setting("scene"));
   if (mark.name == "eye-ray") made = eye_ray_checks();
   if (mark.name == "cube-faces") made = lessons::flatland("ball");
   if (mark.name == "two-passes") made = two_passes(mark);

@@ -66,4 +66,9 @@ nlohmann::ordered_json eye_ray_checks();
 /// Error: of the scene; (internal) no such kind.
 Expected<nlohmann::ordered_json> structure_cut(const std::string& kind, const std::string& scene);
 
+/// What grids with 1 to 125 cells for each primitive cost the eye's rays of a built-in scene: "points" [{density, cells, triangles}], both
+/// means of a ray, and "program": the same as the ray tracer counts them for its own two grids, the endless planes among the triangles.
+/// Errors: of the scene.
+Expected<nlohmann::ordered_json> grid_curve(const std::string& scene);
+
 }  // namespace gnomon::app::lessons

@@ -307,6 +307,18 @@ operate["eye-ray"] = async (page, { data: { checks } }, id) => {
   await slide(page, id, { columns: 1, rows: 1, fov: 90, x: 0, y: 0 });
   assert.deepEqual(await said(page, id).then(({ u, v, dx, dy, dz }) => [u, v, dx, dy, dz].map((c) => c + 0)), [0, 0, 0, 0, -1], "one pixel looks straight on");
 };
+// The curve of grids goes through what the program counts for its two, but for the endless floor; and cells follow the cube root.
+operate["grid-curve"] = async (page, { data: { points, program } }, id) => {
+  for (const { density, cells, triangles } of program) {
+    const own = points.find((p) => p.density === density);
+    near(own.cells, cells, 1e-9, `cells of ${density} a primitive`);
+    near(own.triangles + 1, triangles, 1e-9, `triangles of ${density} a primitive, with the floor`);
+  }
+  await page.locator(`${id} input[type=range]`).fill("5");
+  await until(page, id, "density", "27");
+  const { formula, cells } = await said(page, id);
+  near(cells, formula, 0.1 * formula, "cells by the cube root");
+};
 // Small structures hit what the program's tracer hits; boxes are met as often as their perimeters foretell; steps, splits and stack.
 operate.build = async (page, { settings: { kind }, data }, id) => {
   assert.ok(data.checks.filter(({ t }) => t !== null).length >= 5);
@@ -397,7 +409,7 @@ async function checkProjector() {
 
 const operated = new Set();
 /** What the lessons have: a figure that no lesson asks for would be looked at by nobody. */
-const wanted = ["bias", "build", "cube-faces", "eye-ray", "flatland", "intersection", "map-size", "structure", "two-passes", "whitted"];
+const wanted = ["bias", "build", "cube-faces", "eye-ray", "flatland", "grid-curve", "intersection", "map-size", "structure", "two-passes", "whitted"];
 async function checkFigures(page) {
   const figures = await page.evaluate(() => JSON.parse(document.getElementById("page-data").textContent).figures);
   for (const [i, figure] of figures.entries()) {

@@ -6,6 +6,7 @@ import { buildFigure } from "./build_figure";
 import { cubeFigure } from "./cube_figure";
 import { eyeRayFigure } from "./eye_ray_figure";
 import { flatlandFigure } from "./flatland_figure";
+import { gridCurveFigure } from "./grid_curve_figure";
 import { intersectionFigure } from "./intersection_figure";
 import { mapSizeFigure } from "./map_size_figure";
 import { structureFigure } from "./structure_figure";
@@ -19,7 +20,7 @@ export interface FigureJson<Data = never> {
 }
 
 type Maker = (figure: FigureJson, id: string) => HTMLElement | Promise<HTMLElement>;
-const makers: Record<string, Maker> = { bias: biasFigure, build: buildFigure, "cube-faces": cubeFigure, "eye-ray": eyeRayFigure, flatland: flatlandFigure, intersection: intersectionFigure, "map-size": mapSizeFigure, structure: structureFigure, "two-passes": twoPassesFigure, whitted: whittedFigure };
+const makers: Record<string, Maker> = { bias: biasFigure, build: buildFigure, "cube-faces": cubeFigure, "eye-ray": eyeRayFigure, flatland: flatlandFigure, "grid-curve": gridCurveFigure, intersection: intersectionFigure, "map-size": mapSizeFigure, structure: structureFigure, "two-passes": twoPassesFigure, whitted: whittedFigure };
 
 /** Null where that fails: the other figures and the slides do not wait for it. */
 async function makeFigure(figure: FigureJson, id: string): Promise<HTMLElement | null> {
