@@ -100,11 +100,11 @@ picture hybrid decisions courtyard --technique hybrid
 pair error-budget raytrace labels courtyard --map-size 512
 
 # What no map can draw.
-"$program" raster studio --size 480x270 --quiet -o "$work/studio-map.png"
-rendered studio-rays studio --size 480x270 --aa 4 --samples 16 --indirect-samples 8
+"$program" raster studio --size 320x180 --quiet -o "$work/studio-map.png"
+rendered studio-rays studio --size 320x180 --aa 4 --samples 16 --indirect-samples 8
 beside glossy 2x1 "$work/studio-map.png" "$work/studio-rays.png"
-rendered direct courtyard --size 480x270
-rendered gathered courtyard --size 480x270 --indirect-samples 64
+rendered direct courtyard --size 320x180
+rendered gathered courtyard --size 320x180 --indirect-samples 64
 beside indirect 2x1 "$work/direct.png" "$work/gathered.png"
 
 # A film: an animated PNG.

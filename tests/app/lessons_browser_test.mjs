@@ -14,7 +14,7 @@ execFileSync(program, ["lessons", "-o", site, "--quiet"], { stdio: "inherit" });
 const pages = readdirSync(site), lessons = JSON.parse(execFileSync(program, ["scenes", "--json", "-"])).lessons.map(({ name }) => name);
 assert.deepEqual([...pages].sort(), ["index.html", ...lessons.map((name) => `${name}.html`)].sort());
 const bytes = pages.reduce((sum, page) => sum + statSync(join(site, page)).size, 0);
-assert.ok(bytes < 30e6, `the site weighs ${bytes} bytes`);
+assert.ok(bytes < 20e6, `the site weighs ${bytes} bytes`);
 
 const at = (page, options = {}, hash = "") => open(site, { file: page, ...options }, hash);
 
