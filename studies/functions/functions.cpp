@@ -7,7 +7,7 @@
 #include <mutex>
 
 #include "studies/functions/make_questions.h"
-#include "studies/functions/surfaces.h"
+#include "studies/functions/parts.h"
 
 namespace gnomon::functions {
 namespace {
@@ -34,7 +34,12 @@ std::vector<Question> make_questions(const Function& function) {
 }  // namespace
 
 std::span<const Function> all_functions() {
-  return surface_functions();
+  static const std::vector<Function> all = [] {
+    std::vector<Function> rows = surface_functions();
+    rows.insert(rows.end(), light_functions().begin(), light_functions().end());
+    return rows;
+  }();
+  return all;
 }
 
 const Function* find_function(std::string_view name) {

@@ -35,6 +35,8 @@ class Dice {
   std::uint64_t state_;
 };
 
+inline constexpr int of_each = 6;  ///< cases of a kind in a group
+
 /// Puts questions together: a group's name, then its cases.
 class Questions {
  public:

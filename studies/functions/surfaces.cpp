@@ -1,6 +1,6 @@
 // Rays against surfaces. A place on a ray may be off by a thousandth of the way (or of 1): single precision leaves it within a
 // tenth of that in every case here by any of the usual formulas, and the usual mistakes are farther off.
-#include "studies/functions/surfaces.h"
+#include "studies/functions/parts.h"
 
 #include <cmath>
 
@@ -9,8 +9,6 @@
 namespace gnomon::functions {
 namespace {
 
-constexpr int of_each = 6;  // cases of a kind in a group
-
 Right hit_at(double t, std::string because = {}) {
   return {{t}, 1e-3 * std::max(1.0, std::abs(t)), std::move(because)};
 }
@@ -18,6 +16,47 @@ Right hit_at(double t, std::string because = {}) {
 /// From outside towards a point, from `distance` away.
 Ray ray_to(const Vec3& point, const Vec3& from_where, double distance) {
   return {point + distance * from_where, -from_where};
+}
+
+// ---- the eye's ray ----
+
+std::vector<Question> eye_questions() {
+  Questions q;
+  Dice dice(5);
+  const auto add = [&](double x, double y, double width, double height, double degrees) {
+    const Vec3 forward = dice.direction(), right = glm::normalize(glm::cross(forward, Vec3(0.0, 1.0, 0.0)));
+    q.add(x, y, width, height, degrees, right, glm::cross(right, forward), forward);
+  };
+  q.group("square");
+  for (int i = 0; i < 2 * of_each; ++i) add(i, 2 * i, 24.0, 24.0, 60.0);
+  q.group("wide");
+  for (int i = 0; i < 2 * of_each; ++i) add(i * 5, i, 64.0, 12.0, 40.0);
+  q.group("tall");
+  for (int i = 0; i < 2 * of_each; ++i) add(i, i * 4, 12.0, 48.0, 75.0);
+  q.group("corners");
+  for (const double angle : {30.0, 90.0, 120.0})
+    for (int corner = 0; corner < 4; ++corner) add(corner % 2 * 7.0, corner / 2 * 3.0, 8.0, 4.0, angle);
+  q.group("one");
+  for (int i = 0; i < of_each; ++i) add(0.0, 0.0, 1.0, 1.0, 20.0 + 15.0 * i);
+  q.group(picture_group);
+  for (int y = 0; y < picture_height; ++y)
+    for (int x = 0; x < picture_width; ++x)
+      q.add(x, y, picture_width, picture_height, 60.0, Vec3(1.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0),
+            Vec3(0.0, 0.0, -1.0));
+  return q.take();
+}
+
+Right eye_right(Numbers n) {
+  const double width = n[2], height = n[3], half = std::tan(0.5 * n[4] * pi / 180.0);
+  const double x = (2.0 * (n[0] + 0.5) / width - 1.0) * half * width / height;
+  const double y = (1.0 - 2.0 * (n[1] + 0.5) / height) * half;
+  const Vec3 to = glm::normalize(vector_at(n, 11) + x * vector_at(n, 5) + y * vector_at(n, 8));
+  return {{to.x, to.y, to.z}, 1e-3, {}};
+}
+
+std::string eye_words(Numbers n) {
+  return fmt::format("pixel ({:g}, {:g}) of {:g} x {:g}, {:g} degrees high, looking along {}", n[0], n[1],
+                     n[2], n[3], n[4], words_of(vector_at(n, 11)));
 }
 
 // ---- a sphere ----
@@ -80,6 +119,54 @@ Right sphere_right(Numbers n) {
 std::string sphere_words(Numbers n) {
   return fmt::format("{} and the sphere of radius {:.4g} around {}", ray_words(n), n[9],
                      words_of(vector_at(n, 6)));
+}
+
+// ---- a plane ----
+
+std::vector<Question> plane_questions() {
+  Questions q;
+  Dice dice(4);
+  const auto add = [&](const Ray& ray, const Vec3& point, const Vec3& normal) {
+    q.add(ray.origin, ray.direction, point, normal);
+  };
+  const auto group = [&](std::string_view name, double side, double stretch, double normal_length) {
+    q.group(name);
+    for (int i = 0; i < of_each; ++i) {
+      const Vec3 normal = dice.direction(), point = dice.in_cube(2.0);
+      const Vec3 from = glm::normalize(side * normal + 0.5 * dice.direction());
+      Ray ray = ray_to(point, from, dice.between(1.0, 4.0));
+      ray.direction *= stretch;
+      add(ray, point, normal_length * normal);
+      ray.direction *= -1.0;
+      add(ray, point, normal_length * normal);
+    }
+  };
+  group("front", 1.0, 1.0, 1.0);
+  group("back", -1.0, 1.0, 1.0);
+  group("length", 1.0, 2.5, 1.0);
+  group("normal", 1.0, 1.0, 3.0);
+  q.group("parallel");
+  for (int i = 0; i < of_each; ++i) {
+    const double y = std::round(dice.between(-3.0, 3.0));
+    add({{-1.0, y + 1.0, 2.0}, {0.6, 0.0, -0.8}}, {1.0, y, 0.0}, {0.0, 1.0, 0.0});
+    // As flat as a third of a degree: a hit, and no parallel ray.
+    add({{-1.0, y + 1.0, 2.0}, glm::normalize(Vec3(0.6, -0.006, -0.8))}, {1.0, y, 0.0}, {0.0, 1.0, 0.0});
+  }
+  add_picture(q, [&](const Vec3& eye, const Vec3& to) { add({eye, to}, {0.0, -0.8, 0.0}, {0.1, 1.0, 0.2}); });
+  return q.take();
+}
+
+Right plane_right(Numbers n) {
+  const Vec3 direction = vector_at(n, 3), normal = vector_at(n, 9);
+  const double slant = glm::dot(direction, normal),
+               apart = glm::dot(vector_at(n, 6) - vector_at(n, 0), normal);
+  if (slant == 0.0) return no_hit("the ray is parallel to the plane");
+  return apart / slant < 0.0 ? no_hit("the plane is behind the ray") : hit_at(apart / slant);
+}
+
+std::string plane_words(Numbers n) {
+  return fmt::format("{} and the plane through {} of normal {}", ray_words(n), words_of(vector_at(n, 6)),
+                     words_of(vector_at(n, 9)));
 }
 
 // ---- a triangle ----
@@ -298,9 +385,16 @@ std::string box_words(Numbers n) {
 
 const std::vector<Function>& surface_functions() {
   static const std::vector<Function> rows = {
+      {"eye_ray",
+       "answer = vec4(eye_ray(vec2(case_number(0), case_number(1)), vec2(case_number(2), case_number(3)), "
+       "case_number(4), case_vector(5), case_vector(8), case_vector(11)), 0.0)",
+       14, AnswerKind::direction, eye_questions, eye_right, eye_words},
       {"ray_sphere",
        "answer = vec4(ray_sphere(case_vector(0), case_vector(3), case_vector(6), case_number(9)))", 10,
        AnswerKind::place_on_ray, sphere_questions, sphere_right, sphere_words},
+      {"ray_plane",
+       "answer = vec4(ray_plane(case_vector(0), case_vector(3), case_vector(6), case_vector(9)))", 12,
+       AnswerKind::place_on_ray, plane_questions, plane_right, plane_words},
       {"ray_triangle",
        "answer = vec4(ray_triangle(case_vector(0), case_vector(3), case_vector(6), case_vector(9), "
        "case_vector(12)))",

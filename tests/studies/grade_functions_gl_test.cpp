@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string answers_folder() {
-  return gnomon::test::source_dir() + "/tests/data/grade/functions";
+std::string answers_folder(const std::string& homework = "surfaces") {
+  return gnomon::test::source_dir() + "/tests/data/grade/functions/" + homework;
 }
 
 /// An answer of style a or b with one thing changed: which mistake is named (part of its words).
@@ -28,6 +28,15 @@ struct Wrong {
 
 const std::vector<Wrong>& wrong_surfaces() {
   static const std::vector<Wrong> all = {
+      {"corner", "a", "eye_ray", "(pixel.x + 0.5) / size.x - 1.0;\n  float v = 1.0 - 2.0 * (pixel.y + 0.5)",
+       "pixel.x / size.x - 1.0;\n  float v = 1.0 - 2.0 * pixel.y", "through the pixel's corner"},
+      {"no-aspect", "a", "eye_ray", "t * aspect *", "t *", "the picture was square"},
+      {"whole-angle", "a", "eye_ray", "(radians(degrees) / 2.0)", "(radians(degrees))",
+       "the whole angle was the half"},
+      {"radians", "b", "eye_ray", "radians(degrees)", "degrees", "the angle was in radians"},
+      {"upside-down", "b", "eye_ray", "- from_middle.y", "+ from_middle.y",
+       "rows were counted from the bottom"},
+      {"not-normal", "a", "eye_ray", "normalize(forward", "(forward", "was not normalized"},
       {"unit", "a", "ray_sphere", "dot(direction, direction)", "1.0", "the direction had length 1"},
       {"metres", "b", "ray_sphere", "t / size", "t", "t was a length"},
       {"far-root", "a", "ray_sphere", "if (t0 >= 0.0) return t0;\n", "", "the farther of the two places"},
@@ -42,6 +51,11 @@ const std::vector<Wrong>& wrong_surfaces() {
       {"no-center", "b", "ray_sphere", "center - origin;", "-origin;", "around the origin of the world"},
       {"nan-sphere", "a", "ray_sphere", "if (disc < 0.0) return -1.0;\n",
        "if (isnan(sqrt(disc))) return sqrt(disc);\n", "no number"},
+      {"plane-sign", "a", "ray_plane", "point - origin", "origin - point", "t had the wrong sign"},
+      {"plane-behind", "a", "ray_plane", "t < 0.0 ? -1.0 : t", "t", "a plane behind the ray was met"},
+      {"plane-flat", "a", "ray_plane", "slant == 0.0", "abs(slant) < 0.01", "nearly parallel met nothing"},
+      {"plane-culled", "a", "ray_plane", "slant == 0.0", "slant >= 0.0", "seen from the back was not there"},
+      {"plane-center", "b", "ray_plane", " + d, speed", ", speed", "went through the origin of the world"},
       {"no-third", "a", "ray_triangle", "if (dot(n, cross(c - b, p - b)) < 0.0) return -1.0;\n", "",
        "no third edge"},
       {"square", "b", "ray_triangle", "u + v > 1.0", "v > 1.0", "a parallelogram"},
@@ -81,16 +95,58 @@ const std::vector<Wrong>& wrong_surfaces() {
   return all;
 }
 
+const std::vector<Wrong>& wrong_light() {
+  static const std::vector<Wrong> all = {
+      {"backwards", "a", "reflection", "return direction - 2.0", "return -direction + 2.0",
+       "pointed back to where"},
+      {"no-two", "a", "reflection", "2.0 * dot", "dot", "the 2 was left out"},
+      {"plus", "a", "reflection", "direction - 2.0", "direction + 2.0", "was added, not taken away"},
+      {"shortened", "b", "reflection", "along - through", "normalize(along - through)",
+       "the result had length 1"},
+      {"front-only", "a", "reflection", "2.0 * dot(normal, direction)", "2.0 * -abs(dot(normal, direction))",
+       "had to point against the ray"},
+      {"exchanged", "a", "refraction", "n1 / n2", "n2 / n1", "the two indices were exchanged"},
+      {"no-test", "a", "refraction", "if (k < 0.0) return vec3(0.0);\n", "",
+       "total reflection was not tested"},
+      {"mirror", "a", "refraction", "return vec3(0.0)", "return direction + 2.0 * c * normal",
+       "the mirrored direction"},
+      {"through", "b", "refraction", "return vec3(0.0)", "return direction", "went straight on"},
+      {"cosine-sign", "a", "refraction", "= -dot(normal", "= dot(normal", "the cosine had the wrong sign"},
+      {"ratio", "a", "refraction", "r * r * (1.0", "r * (1.0", "was not squared"},
+      {"no-root", "a", "refraction", "sqrt(k)", "k", "the root was left out"},
+      {"no-cosine", "a", "refraction", "r * c - sqrt(k)", "-sqrt(k)",
+       "left out of the part along the normal"},
+      {"clamped", "a", "refraction", "if (k < 0.0) return vec3(0.0)", "k = max(k, 0.0)",
+       "under the root was 0"},
+      {"amplitudes", "a", "fresnel", "(s * s + p * p) / 2.0", "(abs(s) + abs(p)) / 2.0",
+       "they are not squared"},
+      {"one", "a", "fresnel", "(s * s + p * p) / 2.0", "s * s", "the first polarisation"},
+      {"sum", "a", "fresnel", "(s * s + p * p) / 2.0", "s * s + p * p", "were added"},
+      {"transmitted", "b", "fresnel", "return 0.5 *", "return 1.0 - 0.5 *", "the answer was what passes"},
+      {"none-in-total", "a", "fresnel", "return 1.0;", "return 0.0;", "total reflection reflected nothing"},
+      {"nan-in-total", "a", "fresnel", "if (sine2 > 1.0) return 1.0;\n", "",
+       "total reflection was not tested"},
+      {"schlick", "a", "fresnel", "if (sine2 > 1.0) return 1.0;",
+       "return mix(pow((n1 - n2) / (n1 + n2), 2.0), 1.0, pow(1.0 - cosine, 5.0));",
+       "Schlick's approximation"}};
+  return all;
+}
+
 class GradeFunctions : public Grade {
  protected:
+  /// The folder of the homework that asks for the function.
+  std::string folder_of(const std::string& function) const {
+    const std::string light = answers_folder("light");
+    return fs::exists(light + "/a/function/" + function + ".glsl") ? light : answers_folder();
+  }
   std::string style(const std::string& which, const std::string& function) const {
-    return read_file(answers_folder() + "/" + which + "/function/" + function + ".glsl");
+    return read_file(folder_of(function) + "/" + which + "/function/" + function + ".glsl");
   }
   /// All of a style, with this function in place of its own.
   void hand_in_with(const std::string& student, const std::string& which, const std::string& function,
                     const std::string& text) const {
     fs::create_directories(folder / "class");
-    fs::copy(answers_folder() + "/" + which, folder / ("class/" + student), fs::copy_options::recursive);
+    fs::copy(folder_of(function) + "/" + which, folder / ("class/" + student), fs::copy_options::recursive);
     write_text(folder / ("class/" + student + "/function/" + function + ".glsl"), text);
   }
   void hand_in_wrong(const Wrong& wrong) const {
@@ -119,13 +175,12 @@ Words named_in(const json& student) {
   return reasons;
 }
 
-TEST_F(GradeFunctions, EveryMistakeIsNamedAndCostsItsPointsOnce) {
-  for (const Wrong& wrong : wrong_surfaces()) hand_in_wrong(wrong);
-  const auto students = grade({"rays-and-surfaces", "class", answers_folder()});
+/// Returns how many of the wrong answers have the right mistake, and it alone, named.
+std::size_t named_of(const std::vector<Wrong>& all, const std::map<std::string, json>& students) {
   for (const std::string right : {"a", "b"})
     EXPECT_EQ(students.at(right)["points"], students.at(right)["of"]) << students.at(right).dump(2);
   std::size_t named = 0;
-  for (const Wrong& wrong : wrong_surfaces()) {
+  for (const Wrong& wrong : all) {
     const json& student = students.at(wrong.name);
     EXPECT_LT(student["points"], student["of"]) << wrong.name;
     const Words reasons = named_in(student);
@@ -136,7 +191,19 @@ TEST_F(GradeFunctions, EveryMistakeIsNamedAndCostsItsPointsOnce) {
     EXPECT_GE(student["points"].get<double>() + 2.0, student["of"].get<double>())
         << wrong.name << " lost more than once";
   }
-  EXPECT_GE(100 * named, 95 * wrong_surfaces().size());
+  return named;
+}
+
+TEST_F(GradeFunctions, EveryMistakeIsNamedAndCostsItsPointsOnce) {
+  for (const Wrong& wrong : wrong_surfaces()) hand_in_wrong(wrong);
+  EXPECT_GE(100 * named_of(wrong_surfaces(), grade({"rays-and-surfaces", "class", answers_folder()})),
+            95 * wrong_surfaces().size());
+}
+
+TEST_F(GradeFunctions, TheSameOfLight) {
+  for (const Wrong& wrong : wrong_light()) hand_in_wrong(wrong);
+  EXPECT_GE(100 * named_of(wrong_light(), grade({"rays-and-light", "class", answers_folder("light")})),
+            95 * wrong_light().size());
 }
 
 // A mistake in one function excuses nothing in another.
@@ -147,7 +214,7 @@ TEST_F(GradeFunctions, EachFunctionHasMistakesOfItsOwn) {
   std::string box = style("a", "ray_box");
   write_text(folder / "class/both/function/ray_box.glsl", box.replace(box.find(order), order.size(), ""));
   const json student = grade({"rays-and-surfaces", "class"}).at("both");
-  EXPECT_EQ(student["checks"][14]["points"], 0) << student["checks"][14].dump(2);
+  EXPECT_EQ(student["checks"][22]["points"], 0) << student["checks"][22].dump(2);
   EXPECT_EQ(named_in(student).size(), 2u) << student.dump(2);
 }
 
@@ -184,7 +251,7 @@ TEST_F(GradeFunctions, NothingThatAFunctionDoesReachesTheGrader) {
     for (const json& check : student["checks"]) reasons += check["reason"].get<std::string>() + "\n";
     EXPECT_NE(reasons.find(fault.second), std::string::npos) << name << ": " << reasons;
     const bool refused = name == "borrows" || name == "undefines";
-    EXPECT_EQ(student["checks"][0]["points"], refused ? 0 : 1) << name << " handed in a right sphere";
+    EXPECT_EQ(student["checks"][0]["points"], refused ? 0 : 1) << name << " handed in a right eye ray";
     EXPECT_EQ(student["points"], refused ? 0 : student["of"].get<int>() - 6) << name << ": " << reasons;
   }
 }
@@ -198,6 +265,9 @@ TEST_F(GradeFunctions, OneAnswerToAllQuestionsHasFewPoints) {
     write_text(folder / ("class/" + student + "/function/ray_box.glsl"), box_begin + body);
     write_text(folder / ("class/" + student + "/function/ray_triangle.glsl"),
                "float ray_triangle(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c) {\n" + body);
+    fs::remove(folder / ("class/" + student + "/function/eye_ray.glsl"));
+    write_text(folder / ("class/" + student + "/function/ray_plane.glsl"),
+               "float ray_plane(vec3 origin, vec3 direction, vec3 point, vec3 normal) {\n" + body);
   }
   for (const auto& [name, student] : grade({"rays-and-surfaces", "class"}))
     EXPECT_EQ(student["points"], 0) << student.dump(2);
@@ -207,7 +277,7 @@ TEST_F(GradeFunctions, AKitIsWholeAndItsPageShowsWhatIsWrong) {
   ASSERT_EQ(gnomon({"grade", "--new", "kit", "rays-and-surfaces"}).exit_code, 0);
   const auto begun = grade({"kit/rubric.json", "kit/student"});
   EXPECT_EQ(begun.at("student")["points"], 0);
-  hand_in_wrong(wrong_surfaces().front());
+  hand_in_wrong(wrong_surfaces()[6]);
   const ProcessResult graded = gnomon({"grade", "kit/rubric.json", "class", "-o", "pages", "-q"});
   ASSERT_EQ(graded.exit_code, 0) << graded.err;
   const std::string page = read_file(folder / "pages/unit.html");
@@ -229,7 +299,7 @@ TEST_F(GradeFunctions, AFunctionIsTriedByHand) {
   EXPECT_EQ(schema.violations(answers), Words{});
   EXPECT_EQ(answers["groups"][0]["wrong"], 0);
   expect_one_line(gnomon({"shaders", "--call", "ray_bxo"}), 2,
-                  "no such function (got ray_bxo, allowed ray_sphere");
+                  "no such function (got ray_bxo, allowed eye_ray, ray_sphere");
   expect_one_line(gnomon(call + Words{"--cases", "edges"}), 2,
                   "is not tried on these (got edges, allowed front, ");
   expect_one_line(gnomon(call + Words{"-o", "mine"}), 2, "--call: goes without -o");

@@ -1,0 +1,38 @@
+// Fresnel's equations as a student writes them, with the usual mistakes: MISTAKE is the number of one, 0 of none. The grader reads
+// this list (mistakes.cpp); each sentence goes on from "as if".
+// mistake 1: Schlick's approximation were the answer
+// mistake 2: the two indices were exchanged
+// mistake 3: the amplitudes were the shares (they are not squared)
+// mistake 4: the first polarisation (across) was all of the light
+// mistake 5: the second polarisation (along) was all of the light
+// mistake 6: the shares of both polarisations were added (the half is left out)
+// mistake 7: the answer was what passes
+// mistake 8: total reflection reflected nothing
+// mistake 9: total reflection was not tested (the root of a negative number is no number)
+// mistake 10: the cosine on the other side was that on this side
+// mistake 11: the product of both polarisations was their mean
+// mistake 12: the angle had no influence (the share of a ray that arrives straight)
+// mistake 13: a negative number under the root was 0
+// mistake 14: the mean was taken before squaring
+float fresnel(float cosine, float n1, float n2) {
+  if (MISTAKE == 2) { float n = n1; n1 = n2; n2 = n; }
+  float c1 = MISTAKE == 12 ? 1.0 : cosine, eta = n1 / n2;
+#if MISTAKE == 1
+  float r0 = (n1 - n2) / (n1 + n2);
+  r0 *= r0;
+  return r0 + (1.0 - r0) * pow(1.0 - c1, 5.0);
+#endif
+  float rest = 1.0 - eta * eta * (1.0 - c1 * c1);
+  if (MISTAKE == 13) rest = max(rest, 0.0);
+  if (rest < 0.0 && MISTAKE != 9) return MISTAKE == 8 ? 0.0 : 1.0;
+  float c2 = MISTAKE == 10 ? c1 : sqrt(rest);
+  float a = (n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2), b = (n2 * c1 - n1 * c2) / (n2 * c1 + n1 * c2);
+  if (MISTAKE == 3) return 0.5 * (abs(a) + abs(b));
+  if (MISTAKE == 4) return a * a;
+  if (MISTAKE == 5) return b * b;
+  if (MISTAKE == 6) return a * a + b * b;
+  if (MISTAKE == 7) return 1.0 - 0.5 * (a * a + b * b);
+  if (MISTAKE == 11) return abs(a * b);
+  if (MISTAKE == 14) return 0.25 * (a + b) * (a + b);
+  return 0.5 * (a * a + b * b);
+}

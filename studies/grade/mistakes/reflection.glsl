@@ -1,0 +1,38 @@
+// A reflection as a student writes it, with the usual mistakes: MISTAKE is the number of one, 0 of none. The grader reads this
+// list (mistakes.cpp); each sentence goes on from "as if".
+// mistake 1: the result pointed back to where the ray comes from (the sign is wrong)
+// mistake 2: the 2 was left out
+// mistake 3: the part along the normal was added, not taken away
+// mistake 4: the normal had to point against the ray (the dot product's absolute value, or none from the back)
+// mistake 5: the result had length 1 (it is normalized)
+// mistake 6: the ray went on as it came
+// mistake 7: the ray went back the way it came
+// mistake 8: the ray left along the normal
+// mistake 9: a ray from the back was not mirrored
+// mistake 10: 2 (d.n) d was taken away in place of 2 (d.n) n
+vec3 reflection(vec3 direction, vec3 normal) {
+  float d = dot(direction, normal);
+  vec3 right = direction - 2.0 * d * normal;
+#if MISTAKE == 1
+  return -right;
+#elif MISTAKE == 2
+  return direction - d * normal;
+#elif MISTAKE == 3
+  return direction + 2.0 * d * normal;
+#elif MISTAKE == 4
+  return direction + 2.0 * abs(d) * normal;
+#elif MISTAKE == 5
+  return normalize(right);
+#elif MISTAKE == 6
+  return direction;
+#elif MISTAKE == 7
+  return -direction;
+#elif MISTAKE == 8
+  return normal;
+#elif MISTAKE == 9
+  return d > 0.0 ? direction : right;
+#elif MISTAKE == 10
+  return direction - 2.0 * d * direction;
+#endif
+  return right;
+}

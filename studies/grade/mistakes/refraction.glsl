@@ -1,0 +1,32 @@
+// Snell's law as a student writes it, with the usual mistakes: MISTAKE is the number of one, 0 of none. The grader reads this
+// list (mistakes.cpp); each sentence goes on from "as if".
+// mistake 1: the two indices were exchanged
+// mistake 2: total reflection was not tested (the root of a negative number is no number)
+// mistake 3: a ray that is totally reflected went on along the mirrored direction
+// mistake 4: a ray that is totally reflected went straight on
+// mistake 5: the normal pointed the other way
+// mistake 6: the cosine had the wrong sign
+// mistake 7: the ratio of the indices was not squared
+// mistake 8: the cosine was left out of the part along the normal
+// mistake 9: the root was left out
+// mistake 10: the ray went straight on
+// mistake 11: the ray was mirrored
+// mistake 12: the direction was not shortened by the ratio of the indices
+// mistake 13: the ratio of the indices was left out everywhere but under the root
+// mistake 14: the total reflection's test let nothing pass that leaves the denser medium
+// mistake 15: a negative number under the root was 0
+vec3 refraction(vec3 direction, vec3 normal, float n1, float n2) {
+  float eta = MISTAKE == 1 ? n2 / n1 : n1 / n2;
+  vec3 n = MISTAKE == 5 ? -normal : normal;
+  float c = MISTAKE == 6 ? dot(direction, n) : -dot(direction, n);
+  float rest = 1.0 - (MISTAKE == 7 ? eta : eta * eta) * (1.0 - c * c);
+  vec3 mirrored = direction - 2.0 * dot(direction, n) * n;
+  if (MISTAKE == 10) return direction;
+  if (MISTAKE == 11) return mirrored;
+  if (MISTAKE == 14 && n1 > n2) return vec3(0.0);
+  if (rest < 0.0 && MISTAKE != 2 && MISTAKE != 15)
+    return MISTAKE == 3 ? mirrored : MISTAKE == 4 ? direction : vec3(0.0);
+  float root = MISTAKE == 9 ? rest : sqrt(MISTAKE == 15 ? max(rest, 0.0) : rest);
+  float along = MISTAKE == 8 ? -root : (MISTAKE == 13 ? c : eta * c) - root;
+  return (MISTAKE == 12 || MISTAKE == 13 ? 1.0 : eta) * direction + along * n;
+}
