@@ -16,6 +16,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 MODELS = [
     "common_organic/suzanne.obj",
@@ -65,7 +66,7 @@ def differing_keys(base, new, path=""):
 
 
 def exr_parts(data):
-    """The header's attributes by name, and all chunks' bytes."""
+    """The header's attributes by name, and the chunks as they were before they were compressed."""
     at, attributes = 8, {}
     while data[at] != 0:
         name = data[at : data.index(b"\0", at)]
@@ -74,8 +75,17 @@ def exr_parts(data):
         (size,) = struct.unpack_from("<i", data, at)
         attributes[name] = data[at + 4 : at + 4 + size]
         at += 4 + size
-    (first_chunk,) = struct.unpack_from("<Q", data, at + 1)
-    return {k: v for k, v in attributes.items() if k not in NOT_CHANNELS}, data[first_chunk:]
+    (at,) = struct.unpack_from("<Q", data, at + 1)
+    chunks = []
+    while at < len(data):
+        row, size = struct.unpack_from("<ii", data, at)
+        chunk = data[at + 8 : at + 8 + size]
+        at += 8 + size
+        try:
+            chunks.append((row, zlib.decompress(chunk)))
+        except zlib.error:  # what does not shrink is stored as it is
+            chunks.append((row, chunk))
+    return {k: v for k, v in attributes.items() if k not in NOT_CHANNELS}, chunks
 
 
 def png_parts(data):
