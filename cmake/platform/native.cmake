@@ -7,7 +7,7 @@ set(GNOMON_SCENE_PLATFORM
   files/pictures/image_library.cpp)
 set(GNOMON_RASTER_PLATFORM gl/context.cpp gl/context_egl.cpp gl/context_osmesa.cpp gl/dynamic_library.cpp)
 set(GNOMON_STUDIES_PLATFORM  # grade runs students' programs
-  grade/alike.cpp grade/answers.cpp grade/check_runs.cpp grade/excerpt.cpp grade/figures.cpp grade/grade.cpp grade/kits.cpp grade/limited_process.cpp grade/mistakes.cpp
+  grade/alike.cpp grade/answers.cpp grade/check_runs.cpp grade/excerpt.cpp grade/figures.cpp grade/grade.cpp grade/judgement.cpp grade/kits.cpp grade/limited_process.cpp grade/mistakes.cpp
   grade/page.cpp grade/page_name.cpp grade/results.cpp grade/rubric.cpp grade/student.cpp)
 set(GNOMON_APP_PLATFORM
   commands/all.cpp commands/bench.cpp commands/grade.cpp commands/serve.cpp commands/verify.cpp commands/view.cpp view/work/job.cpp view/work/priority.cpp view/work/turns.cpp)

@@ -269,7 +269,7 @@ TEST(CellSummary, WeighsEdgesByTheirNumber) {
 }
 
 TEST(Lessons, EachIsTitledAndBeginsWithWordsAndACommand) {
-  ASSERT_EQ(all_lessons().size(), 20u);
+  ASSERT_EQ(all_lessons().size(), 25u);
   for (const Lesson& one : all_lessons()) {
     EXPECT_FALSE(one.title.empty()) << one.name;
     EXPECT_TRUE(one.command.starts_with("gnomon ")) << one.name << ": " << one.command;
