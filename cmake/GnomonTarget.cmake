@@ -50,10 +50,11 @@ function(gnomon_library name)
 endfunction()
 
 # gnomon_compile_for_text(TARGET): for sources that read and write text: options, JSON, tables, pages. With -Og GCC takes half
-# of the time that -O3 takes and three quarters of that of -O1, and what a user waits for is elsewhere. What goes over
+# of the time that -O3 takes and three quarters of that of -O1, and what a user waits for is elsewhere; a page is downloaded, so
+# there -Oz makes them small (GNOMON_TEXT_OPTIMIZATION). What goes over
 # pixels, triangles or a model's data is no text.
 function(gnomon_compile_for_text target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${GNOMON_TEXT_OPTIMIZATION}>)
 endfunction()
 
 # gnomon_untimed(ROOM SOURCES... [LIBRARIES targets...]): the sources of a room that are text.

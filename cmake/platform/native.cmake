@@ -1,6 +1,7 @@
 # The program for Linux: every library that it is built from, all of them Debian packages (the list is in ./gnomon), and the
 # files of each room that another platform has others for (web.cmake).
 set(GNOMON_READ_ONLY_DATA ".rodata")  # the section of embedded files
+set(GNOMON_TEXT_OPTIMIZATION -Og)  # of sources that read and write text (GnomonTarget.cmake)
 set(GNOMON_STACK_NOTE "    .section .note.GNU-stack,\"\",@progbits\n")  # of assembler files: no stack that can be executed
 set(GNOMON_SCENE_PLATFORM
   base/parallel.cpp base/run_program.cpp base/sort_keys.cpp base/start_threads.cpp files/gltf/gltf_draco.cpp

@@ -1,6 +1,7 @@
 # The program for pages and for Node (preset web), by emscripten: what Linux has and a page has not is left out or has a file of
 # its own in web/. docs/platforms.md says what the program can do there.
 set(GNOMON_READ_ONLY_DATA ".rodata,\"\",@")
+set(GNOMON_TEXT_OPTIMIZATION -Oz)
 set(GNOMON_STACK_NOTE)
 set(platform "${PROJECT_SOURCE_DIR}/cmake/platform/web")
 set(GNOMON_SCENE_PLATFORM "${platform}/one_thread.cpp" "${platform}/outside.cpp" "${platform}/images.cpp")
