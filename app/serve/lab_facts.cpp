@@ -9,7 +9,6 @@
 #include "app/view/state/status.h"
 #include "compare/ladder/labels.h"
 #include "compare/result/number_text.h"
-#include "compare/result/outputs.h"
 #include "raster/settings.h"
 #include "report/lessons.h"
 #include "report/page.h"
@@ -115,7 +114,7 @@ Json values_json(const raster::MapOptions& map) {
 Json compared_json(const ComparisonOutcome& outcome) {
   const compare::Verdict& verdict = outcome.verdict;
   return {{"verdict", {{"headline", verdict.headline()}, {"detail", verdict.detail}}},
-          {"result", Json::parse(compare::result_json(outcome.comparison))}};
+          {"result", Json::parse(outcome.result)}};
 }
 
 }  // namespace

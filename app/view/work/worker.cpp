@@ -165,7 +165,9 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   for (std::size_t i = 0; i < outcome.normals.data.size(); ++i)
     outcome.normals.data[i] = Vec3f(comparison.raytraced.receiver.data[i].normal);
   outcome.shown = shown_surfaces(*tracer_, comparison);
+  outcome.result = compare::result_json(comparison);
   comparison.raytraced.receiver = {};
+  comparison.world = nullptr;
   return Expected<ComparisonOutcome>(std::move(outcome));
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "app/view/work/priority.h"
 #include "app/view/work/turns.h"
@@ -46,11 +47,13 @@ struct ComparisonOutcome {
   bool preview = false;
   raytrace::Precision precision = raytrace::Precision::robust;
   Camera camera;
-  Light light;                     ///< the one compared
-  compare::Comparison comparison;  ///< without the receivers, by far its largest part
-  Image<Vec3f> normals;            ///< of the receivers: geometric, on the viewer's side
+  Light light;  ///< the one compared
+  /// Without the receivers, by far its largest part, and without the world, which is the worker's own and may end before.
+  compare::Comparison comparison;
+  Image<Vec3f> normals;  ///< of the receivers: geometric, on the viewer's side
   ShownSurfaces shown;
   compare::Verdict verdict;
+  std::string result;  ///< result.json
   Rgb8Image raytrace, difference, labels, truth, gap, texels, depth;
 };
 
