@@ -5,6 +5,7 @@
 
 #include "raster/gl/context.h"
 #include "raster/gl_renderer.h"
+#include "raster/passes/izb_pass.h"
 #include "raster/programs/programs.h"
 #include "raster/programs/shader_folder.h"
 #include "raster/technique_traits.h"

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
+#include <utility>
 
 #include "app/console.h"
 #include "app/invocation.h"
@@ -38,9 +39,8 @@ Expected<std::vector<SitePage>> engine_files(const std::string& folder) {
     auto bytes = read_file(folder + "/" + name);
     if (!bytes)
       return fail(ErrorKind::bad_input,
-                  fmt::format("--web: the program for the web is not there (got {}; ./gnomon web "
-                              "builds it)",
-                              folder));
+                  fmt::format("--web: {} is not there, which ./gnomon web builds in build/web/app (got {})",
+                              name, folder));
     files.push_back({name, std::move(*bytes)});
   }
   return files;
@@ -48,19 +48,19 @@ Expected<std::vector<SitePage>> engine_files(const std::string& folder) {
 
 /// Where it all begins: the lab, the lessons, the manual, and every scene to be opened in the lab.
 SitePage start_page() {
-  std::string main =
-      "<article class=\"lesson-text\">\n<h1>Gnomon</h1>\n<p>Gnomon renders a scene twice, once as a "
-      "rasterizer with "
-      "shadow maps and once as a ray tracer, compares the shadows pixel by pixel, and says for every pixel "
-      "that "
-      "differs why.</p>\n<ul>\n"
-      "<li><a href=\"lab.html\">The lab</a>: change every setting of a shadow map, turn the light, and watch "
-      "what "
-      "becomes of the shadows. It is drawn and compared in this page, on your own machine.</li>\n"
-      "<li><a href=\"lessons/index.html\">The lessons</a>: shadow maps and ray tracing, with figures to "
-      "try.</li>\n"
-      "<li><a href=\"manual/index.html\">The manual</a>: every option, key, label and channel.</li>\n</ul>\n"
-      "<h2>Scenes to open in the lab</h2>\n<dl>\n";
+  std::string main = R"(<article class="lesson-text">
+<h1>Gnomon</h1>
+<p>Gnomon renders a scene twice, once as a rasterizer with shadow maps and once as a ray tracer, compares the shadows pixel by
+pixel, and says for every pixel that differs why.</p>
+<ul>
+<li><a href="lab.html">The lab</a>: change every setting of a shadow map, turn the light, and watch what becomes of the shadows. It
+is drawn and compared in this page, on your own machine.</li>
+<li><a href="lessons/index.html">The lessons</a>: shadow maps and ray tracing, with figures to try.</li>
+<li><a href="manual/index.html">The manual</a>: every option, key, label and channel.</li>
+</ul>
+<h2>Scenes to open in the lab</h2>
+<dl>
+)";
   for (const BuiltinScene& scene : builtin_scenes())
     if (!scene.large)
       main += fmt::format("<dt><a href=\"lab.html#scene={0}\">{0}</a></dt><dd>{1}</dd>\n", scene.name,
@@ -68,15 +68,22 @@ SitePage start_page() {
   return {"index.html", lessons::page_of_text("Gnomon", "", main + "</dl>\n</article>\n")};
 }
 
+/// All of them, or none.
 Expected<void> write_files(const std::string& folder, const std::vector<SitePage>& files) {
   const OutputGuard whole_outputs;
   auto staged = StagedFolder::open(folder);
   if (!staged) return fail(staged.error());
-  for (const SitePage& file : files)
-    if (const auto written = write_file(staged->path() + "/" + file.file, file.html); !written)
-      return written;
+  for (const SitePage& file : files) {
+    const std::string path = staged->path() + "/" + file.file;
+    if (const auto made = make_folder_for(path); !made) return made;
+    if (const auto written = write_file(path, file.html); !written) return written;
+  }
   if (const auto sealed = staged->seal({}); !sealed) return sealed;
   return staged->publish("index.html");
+}
+
+void add_below(const std::string& folder, std::vector<SitePage> pages, std::vector<SitePage>& files) {
+  for (SitePage& page : pages) files.push_back({folder + "/" + page.file, std::move(page.html)});
 }
 
 Expected<ExitCode> run_site(const SiteCommand& command) {
@@ -86,21 +93,20 @@ Expected<ExitCode> run_site(const SiteCommand& command) {
   constexpr std::array<std::string_view, 1> names{"index.html"};
   paths.writes_folder("-o", command.folder, names);
   if (const auto fine = paths.check(); !fine) return fail(fine.error());
-  auto top = engine_files(command.web);
-  if (!top) return fail(top.error());
-  const auto lesson_pages = lessons::make_site({}, console);
+  auto files = engine_files(command.web);
+  if (!files) return fail(files.error());
+  auto lesson_pages = lessons::make_site({}, console);
   if (!lesson_pages) return fail(lesson_pages.error());
-  const auto manual = lessons::manual_pages();
+  auto manual = lessons::manual_pages();
   if (!manual) return fail(manual.error());
   LabOptions lab;
   lab.scene = lab.scene.named("acne-floor");
   lab.compare.raster.size = {640, 360};
-  top->push_back({"lab.html", lab_page(lab, true)});
-  top->push_back(start_page());
-  for (const auto& [folder, files] :
-       {std::pair{command.folder + "/lessons", *lesson_pages}, std::pair{command.folder + "/manual", *manual},
-        std::pair{command.folder, *top}})
-    if (const auto written = write_files(folder, files); !written) return fail(written.error());
+  files->push_back({"lab.html", lab_page(lab, true)});
+  files->push_back(start_page());
+  add_below("lessons", std::move(*lesson_pages), *files);
+  add_below("manual", std::move(*manual), *files);
+  if (const auto written = write_files(command.folder, *files); !written) return fail(written.error());
   console.clear_progress();
   console.message(fmt::format("site: {}/index.html ({:.1f} s)", command.folder, total.elapsed_ms() / 1000.0));
   return ExitCode::done;

@@ -35,8 +35,9 @@ std::vector<Question> make_questions(const Function& function) {
 
 std::span<const Function> all_functions() {
   static const std::vector<Function> all = [] {
-    std::vector<Function> rows = surface_functions();
-    rows.insert(rows.end(), light_functions().begin(), light_functions().end());
+    std::vector<Function> rows;
+    for (const auto* part : {&eye_functions(), &surface_functions(), &light_functions()})
+      rows.insert(rows.end(), part->begin(), part->end());
     return rows;
   }();
   return all;

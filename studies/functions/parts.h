@@ -7,7 +7,9 @@
 
 namespace gnomon::functions {
 
-/// The ray through a pixel; rays against spheres, planes, triangles and boxes.
+/// The ray through a pixel.
+const std::vector<Function>& eye_functions();
+/// Rays against spheres, planes, triangles and boxes.
 const std::vector<Function>& surface_functions();
 /// Reflection, refraction, Fresnel.
 const std::vector<Function>& light_functions();
