@@ -22,7 +22,8 @@ std::vector<Question> eye_questions() {
   for (int i = 0; i < 2 * of_each; ++i) add(i, i * 4, 12.0, 48.0, 75.0);
   q.group("corners");
   for (const double angle : {30.0, 90.0, 120.0})
-    for (int corner = 0; corner < 4; ++corner) add(corner % 2 * 7.0, corner / 2 * 3.0, 8.0, 4.0, angle);
+    for (const double y : {0.0, 3.0})
+      for (const double x : {0.0, 7.0}) add(x, y, 8.0, 4.0, angle);
   q.group("one");
   for (int i = 0; i < of_each; ++i) add(0.0, 0.0, 1.0, 1.0, 20.0 + 15.0 * i);
   q.group(picture_group);
