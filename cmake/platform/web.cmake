@@ -47,6 +47,6 @@ set(GNOMON_SCENE_LIBRARIES web_meshoptimizer)
 set(GNOMON_EXACT_INTEGERS mini_gmp)
 
 # OpenGL over WebGL 2. Not compiled with raster/, whose OpenGL headers declare the same names otherwise.
-add_library(web_gl STATIC "${platform}/webgl/calls.cpp" "${platform}/webgl/context.cpp" "${platform}/webgl/glsl.cpp" "${platform}/webgl/objects.cpp" "${platform}/webgl/programs.cpp"
+add_library(web_gl STATIC "${platform}/webgl/calls.cpp" "${platform}/webgl/context.cpp" "${platform}/webgl/fallbacks.cpp" "${platform}/webgl/glsl.cpp" "${platform}/webgl/objects.cpp" "${platform}/webgl/programs.cpp"
   "${platform}/webgl/read_back.cpp")
 target_link_libraries(web_gl PRIVATE gnomon_flags gnomon_warnings fmt::fmt glm::glm tl::expected)

@@ -10,10 +10,16 @@ export { skip } from "../browser/open_page.mjs";
 export const app = fileURLToPath(new URL("../../build/web/app/", import.meta.url));
 export const isBuilt = existsSync(path.join(app, "gnomon.wasm"));
 
-const worker = `
+const worker = (lacking, files) => `
+const extension = WebGL2RenderingContext.prototype.getExtension;
+WebGL2RenderingContext.prototype.getExtension = function (name) { return ${JSON.stringify(lacking)}.includes(name) ? null : extension.call(this, name); };
 import gnomon from "./gnomon.mjs";
 let said = "";
 const module = await gnomon({ thisProgram: "gnomon", print: (line) => { said += line + "\\n"; }, printErr: (line) => { said += line + "\\n"; } });
+for (const [file, text] of Object.entries(${JSON.stringify(files)})) {
+  module.FS.mkdirTree(file.slice(0, file.lastIndexOf("/")));
+  module.FS.writeFile(file, text);
+}
 onmessage = ({ data: { words, files } }) => {
   said = "";
   const begin = performance.now(), code = module.callMain(words), ms = performance.now() - begin;
@@ -22,7 +28,6 @@ onmessage = ({ data: { words, files } }) => {
 };
 postMessage("ready");`;
 const types = { ".mjs": "text/javascript", ".js": "text/javascript", ".wasm": "application/wasm", ".html": "text/html" };
-const own = { "/": ["text/html", "<!doctype html><title>Program</title>"], "/worker.mjs": ["text/javascript", worker] };
 
 /** A host of plain files; `made`: {PATH: [TYPE, TEXT]} besides. Returns its address and what ends it. */
 export async function serveFolder(folder, made = {}) {
@@ -38,9 +43,9 @@ export async function serveFolder(folder, made = {}) {
   return { url: `http://127.0.0.1:${server.address().port}/`, stop: () => server.close() };
 }
 
-/** Opens a page that has the built program in a worker. */
-export async function openProgram() {
-  const host = await serveFolder(app, own);
+/** Opens a page that has the built program in a worker. `lacking`: extensions of WebGL that are not there; `files`: {PATH: TEXT}. */
+export async function openProgram(lacking = [], files = {}) {
+  const host = await serveFolder(app, { "/": ["text/html", "<!doctype html><title>Program</title>"], "/worker.mjs": ["text/javascript", worker(lacking, files)] });
   const page = await browser.newPage();
   page.on("console", (message) => console.log(`browser: ${message.text()}`));
   await page.goto(host.url);
@@ -65,5 +70,5 @@ export async function openProgram() {
     }), [words, files]);
     return { ...done, files: done.files.map((text) => (text === null ? null : Buffer.from(text, "base64"))) };
   };
-  return { run, close: () => browser.close().then(() => host.stop()) };
+  return { run, close: () => page.close().then(() => host.stop()) };
 }

@@ -13,10 +13,6 @@
 #include "cmake/platform/web/webgl/read_back.h"
 #include "cmake/platform/web/webgl/state.h"
 
-EM_JS(void, gnomon_clip_control, (int origin, int depth),
-      { GLctx.getExtension("EXT_clip_control").clipControlEXT(origin, depth); });
-EM_JS(void, gnomon_enablei, (int what, int index),
-      { GLctx.getExtension("OES_draw_buffers_indexed").enableiOES(what, index); });
 EM_JS(char*, gnomon_renderer, (), {
   const info = GLctx.getExtension("WEBGL_debug_renderer_info");
   return stringToNewUTF8(GLctx.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : GLctx.RENDERER));
@@ -26,24 +22,8 @@ namespace gnomon::web {
 namespace {
 
 // OpenGL's, which WebGL's header has not.
-constexpr GLenum most_buffer_texels = 0x8C2B, framebuffer_srgb = 0x8DB9, debug_output = 0x92E0,
-                 debug_at_once = 0x8242;
+constexpr GLenum most_buffer_texels = 0x8C2B;
 
-void clip_control(GLenum origin, GLenum depth) {
-  gnomon_clip_control(static_cast<int>(origin), static_cast<int>(depth));
-}
-bool exists(GLenum what) {
-  return what != debug_output && what != debug_at_once && what != framebuffer_srgb;
-}
-void enable(GLenum what) {
-  if (exists(what)) glEnable(what);
-}
-void disable(GLenum what) {
-  if (exists(what)) glDisable(what);
-}
-void enable_indexed(GLenum what, GLuint at) {
-  gnomon_enablei(static_cast<int>(what), static_cast<int>(at));
-}
 void get_integer(GLenum name, GLint* value) {
   if (name == GL_NUM_EXTENSIONS) return void(*value = 1);  // the loader wants one (get_string_at())
   if (name != most_buffer_texels) return glGetIntegerv(name, value);
@@ -117,16 +97,11 @@ Procedure gl_procedure(const char* name) {
       named("glGetShaderInfoLog", glGetShaderInfoLog),
       named("glGetProgramiv", glGetProgramiv),
       named("glGetProgramInfoLog", glGetProgramInfoLog),
-      named("glClipControl", clip_control),
-      named("glEnable", enable),
-      named("glDisable", disable),
-      named("glEnablei", enable_indexed),
       named("glViewport", glViewport),
       named("glScissor", glScissor),
       named("glDepthMask", glDepthMask),
       named("glDepthFunc", glDepthFunc),
       named("glCullFace", glCullFace),
-      named("glFrontFace", glFrontFace),
       named("glBlendEquation", glBlendEquation),
       named("glBlendFunc", glBlendFunc),
       named("glClearColor", glClearColor),
@@ -141,7 +116,8 @@ Procedure gl_procedure(const char* name) {
       named("glGetError", glGetError),
       named("glDebugMessageCallback", debug_callback),
   };
-  for (const Procedure known : {object_procedure(name), program_procedure(name), found(all, name)})
+  for (const Procedure known :
+       {fallback_procedure(name), object_procedure(name), program_procedure(name), found(all, name)})
     if (known != nullptr) return known;
   return nullptr;
 }

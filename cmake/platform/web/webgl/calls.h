@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 namespace gnomon::web {
 
@@ -12,6 +13,8 @@ void (*gl_procedure(const char* name))();
 /// The objects of one context, which has to be current where they are used.
 struct State;
 std::shared_ptr<State> new_objects();
+/// The current context's extensions, enabled; the name of the first without which nothing can be drawn, or nothing.
+std::string use_extensions();
 /// Those of the context that is current from now on.
 void use_objects(std::shared_ptr<State> of_context);
 

@@ -4,13 +4,12 @@
 
 #include <emscripten/em_js.h>
 
-#include <cstdlib>
 #include <string>
 
 #include "cmake/platform/web/webgl/calls.h"
 
 // Without a page's element, so that a worker draws as well as a page. 0: there is none; else a handle.
-EM_JS_DEPS(gnomon_context, "$GL,$stringToNewUTF8");
+EM_JS_DEPS(gnomon_context, "$GL");
 EM_JS(int, gnomon_make_context, (), {
   const canvas = typeof OffscreenCanvas != "undefined" ? new OffscreenCanvas(1, 1)
                  : typeof document != "undefined"      ? document.createElement("canvas")
@@ -30,13 +29,6 @@ EM_JS(int, gnomon_make_context, (), {
 });
 EM_JS(void, gnomon_end_context, (int handle), { GL.deleteContext(handle); });
 EM_JS(int, gnomon_choose_context, (int handle), { return GL.makeContextCurrent(handle) ? 1 : 0; });
-// The first extension that raster/ cannot do without and this WebGL lacks, or nothing.
-EM_JS(char*, gnomon_missing_extension, (), {
-  for (const name of["EXT_color_buffer_float", "EXT_float_blend", "EXT_clip_control", "EXT_depth_clamp",
-                     "OES_draw_buffers_indexed", "OES_texture_float_linear"])
-    if (!GLctx.getExtension(name)) return stringToNewUTF8(name);
-  return stringToNewUTF8("");
-});
 
 namespace gnomon::raster {
 namespace {
@@ -72,10 +64,10 @@ Expected<std::unique_ptr<Context>> create_context(Backend) {
                 "need none");
   auto context = std::make_unique<WebContext>(handle);
   context->make_current();
-  char* const missing = gnomon_missing_extension();
-  const std::string name = missing;
-  std::free(missing);
-  if (!name.empty()) return fail(ErrorKind::graphics, "this browser's WebGL 2 lacks " + name);
+  if (const std::string name = web::use_extensions(); !name.empty())
+    return fail(ErrorKind::graphics,
+                "this browser's WebGL 2 lacks " + name +
+                    ", without which no shadow map can be drawn (raytrace and plan need none)");
   return context;
 }
 

@@ -38,6 +38,25 @@ vec4 textureGather(sampler2DArray s, vec3 p) {
 }
 )";
 
+/// In the place of the language's own function, where floats are not filtered.
+constexpr std::string_view trilinear = R"(vec4 gnomon_trilinear(sampler2DArray s, vec3 p, float level) {
+  vec4 below = gnomon_bilinear(s, p, int(level));
+  return fract(level) > 0.0 ? mix(below, gnomon_bilinear(s, p, int(level) + 1), fract(level)) : below;
+}
+#define textureLod gnomon_trilinear
+)";
+
+/// What a fragment's depth is where WebGL clips and stores as OpenGL does by default: as by GL_ZERO_TO_ONE. z / w of the clip
+/// space is linear on the screen, as depths are, and neither shifted nor scaled on the way.
+constexpr std::string_view depth_in = "in vec2 gnomon_zw;\n#define gnomon_z (gnomon_zw.x / gnomon_zw.y)\n",
+                           depth_begin = "gl_FragDepth = clamp(gnomon_z, 0.0, 1.0);";
+/// Vertices for that: y to the side of `gnomon_clip.x`; between the planes of near and far, or, where those clamp
+/// (`gnomon_clip.y`), cut by neither.
+constexpr std::string_view depth_out = "uniform vec2 gnomon_clip;\nout vec2 gnomon_zw;\n", depth_end = R"(
+  gnomon_zw = gl_Position.zw;
+  gl_Position.y *= gnomon_clip.x;
+  gl_Position.z = gnomon_clip.y > 0.0 ? 0.0 : 2.0 * gl_Position.z - gl_Position.w;)";
+
 std::string trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t");
   if (begin == std::string_view::npos) return {};
@@ -57,7 +76,7 @@ struct Layout {
 
 class Translator {
  public:
-  Translator(std::string_view text, Stage stage) : stage_(stage) {
+  Translator(std::string_view text, Stage stage, const Lacks& lacks) : stage_(stage), lacks_(lacks) {
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t end = std::min(text.find('\n', at), text.size());
       lines_.emplace_back(text.substr(at, end - at));
@@ -79,8 +98,13 @@ class Translator {
                   fmt::format("(textureSize({0}, 0).x * textureSize({0}, 0).y)", name));
     }
     out_.text = head;
+    if (lacks_.float_linear && body_.find("textureLod(") != body_.npos)
+      out_.text += bilinear, out_.text += trilinear;
+    if (adds_) out_.text += "uniform sampler2D gnomon_before;\nuniform int gnomon_adds;\n";
     name_primitives();
     if (pulls_) pull_vertices();
+    if (lacks_.clip_control && stage_ == Stage::vertex) out_.text += depth_out, end_ += depth_end;
+    surround_main();
     out_.text += body_;
     return std::move(out_);
   }
@@ -137,8 +161,7 @@ class Translator {
       replace_all(rest, "samplerBuffer ", "sampler2D ");
       return rest;
     }
-    if (rest.starts_with("out ") && stage_ == Stage::fragment)
-      return fmt::format("layout(location = {}) {}", layout.location, rest);
+    if (rest.starts_with("out ") && stage_ == Stage::fragment) return color_output(layout.location, rest);
     if (rest.starts_with("in ") && stage_ == Stage::vertex) {  // an attribute
       pulls_ = true;
       return {};
@@ -146,11 +169,23 @@ class Translator {
     return rest;
   }
 
+  std::string color_output(int location, const std::string& rest) {
+    if (lacks_.float_blend && name_in(rest) == "radiance") {
+      adds_ = true;
+      out_.bindings.samplers[before_unit] = "gnomon_before";
+      end_ += "if (gnomon_adds != 0) radiance += texelFetch(gnomon_before, ivec2(gl_FragCoord.xy), 0);";
+    }
+    return fmt::format("layout(location = {}) {}", location, rest);
+  }
+
   /// gl_PrimitiveID comes from the vertices, which know it as their own number.
   void name_primitives() {
     if (stage_ != Stage::fragment || body_.find("gl_PrimitiveID") == body_.npos) return;
     replace_all(body_, "gl_PrimitiveID", "int(gnomon_primitive)");
     out_.text += "flat in uint gnomon_primitive;\n";
+    if (!lacks_.clip_control) return;
+    out_.text += depth_in, begin_ += depth_begin;
+    replace_all(body_, "gl_FragCoord.z", "gnomon_z");
   }
 
   /// Vertices are fetched by their number, three of them a triangle that no other has: so each knows its triangle. What is
@@ -188,23 +223,36 @@ void gnomon_pull() {
     out_.bindings.samplers[shaders::colors_unit] = "gnomon_colors";
     if (const std::size_t first_line = body_.find("#line "); first_line != body_.npos)
       body_.insert(first_line, fetch);
-    const std::string main = "void main() {";
-    if (const std::size_t at = body_.find(main); at != body_.npos)
-      body_.insert(at + main.size(), " gnomon_pull();");
+    begin_ += "gnomon_pull();";
+  }
+
+  /// What comes before the shader's own main() and after it, whichever way that returns.
+  void surround_main() {
+    if (begin_.empty() && end_.empty()) return;
+    replace_all(body_, "void main() {", "void gnomon_main() {");
+    body_ += fmt::format("void main() {{ {} gnomon_main(); {} }}\n", begin_, end_);
   }
 
   Stage stage_;
+  Lacks lacks_;
   std::vector<std::string> lines_, fetched_;
   std::map<std::string, int> constants_;
-  bool pulls_ = false;
-  std::string body_;
+  bool pulls_ = false, adds_ = false;
+  std::string body_, begin_, end_;
   Translation out_;
 };
 
 }  // namespace
 
-Translation to_es(std::string_view text, Stage stage) {
-  return Translator(text, stage).run();
+Translation to_es(std::string_view text, Stage stage, const Lacks& lacks) {
+  return Translator(text, stage, lacks).run();
+}
+
+std::string_view depth_only(const Lacks& lacks) {
+  static const std::string none = "#version 300 es\nprecision highp float;\nvoid main() {}\n";
+  static const std::string written =
+      fmt::format("#version 300 es\nprecision highp float;\n{}void main() {{ {} }}\n", depth_in, depth_begin);
+  return lacks.clip_control ? written : none;
 }
 
 }  // namespace gnomon::web

@@ -121,12 +121,22 @@ void texture_storage_2d(GLuint id, GLsizei levels, GLenum format, GLsizei width,
 void texture_storage_3d(GLuint id, GLsizei levels, GLenum format, GLsizei width, GLsizei height,
                         GLsizei layers) {
   texture_of(id).format = format;
-  texture_of(id).layers = layers;
+  texture_of(id).layers = layers, texture_of(id).side = width, texture_of(id).levels = levels;
   bind_spare(texture_of(id));
   glTexStorage3D(GL_TEXTURE_2D_ARRAY, levels, format, width, height, layers);
 }
+bool is_float(GLenum format) {
+  return format == GL_R32F || format == GL_RG32F || format == GL_RGBA32F;
+}
+/// Of what shaders filter by themselves: WebGL reads nothing of a texture that it should filter and cannot.
+GLint unfiltered(GLint value) {
+  return value == GL_LINEAR                 ? GL_NEAREST
+         : value == GL_LINEAR_MIPMAP_LINEAR ? GL_NEAREST_MIPMAP_NEAREST
+                                            : value;
+}
 void texture_parameter(GLuint id, GLenum name, GLint value) {
   bind_spare(texture_of(id));
+  if (state().lacks.float_linear && is_float(texture_of(id).format)) value = unfiltered(value);
   glTexParameteri(texture_of(id).target, name, value);
 }
 void texture_buffer(GLuint id, GLenum format, GLuint buffer) {
@@ -148,10 +158,6 @@ void texture_sub_image_3d(GLuint id, GLint level, GLint x, GLint y, GLint z, GLs
                           GLsizei depth, GLenum components, GLenum type, const void* texels) {
   bind_spare(texture_of(id));
   glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, x, y, z, width, height, depth, components, type, texels);
-}
-void generate_mipmap(GLuint id) {
-  bind_spare(texture_of(id));
-  glGenerateMipmap(texture_of(id).target);
 }
 
 // --- Framebuffers ---
@@ -205,7 +211,6 @@ Procedure object_procedure(const char* name) {
       named("glBindTextureUnit", bind_texture_unit),
       named("glTextureSubImage2D", texture_sub_image_2d),
       named("glTextureSubImage3D", texture_sub_image_3d),
-      named("glGenerateTextureMipmap", generate_mipmap),
       named("glNamedFramebufferTexture", framebuffer_texture),
       named("glNamedFramebufferTextureLayer", framebuffer_layer),
       named("glNamedFramebufferDrawBuffers", framebuffer_draw_buffers),

@@ -29,7 +29,8 @@ void delete_shader(GLuint id) {
 }
 void shader_source(GLuint id, GLsizei, const GLchar* const* text, const GLint*) {
   ShaderState& shader = state().shaders[id];
-  Translation es = to_es(text[0], shader.type == GL_VERTEX_SHADER ? Stage::vertex : Stage::fragment);
+  Translation es =
+      to_es(text[0], shader.type == GL_VERTEX_SHADER ? Stage::vertex : Stage::fragment, state().lacks);
   const char* chars = es.text.c_str();
   glShaderSource(id, 1, &chars, nullptr);
   shader.bindings = std::move(es.bindings);
@@ -38,12 +39,15 @@ void attach_shader(GLuint program, GLuint shader) {
   glAttachShader(program, shader);
   state().programs[program].shaders.push_back(state().shaders[shader]);
 }
-/// A program of a vertex shader alone writes depths; here it needs a second one.
-void attach_empty_fragment(GLuint program) {
-  const GLuint shader = glCreateShader(GL_FRAGMENT_SHADER);
-  const char* text = "#version 300 es\nprecision highp float;\nvoid main() {}\n";
+GLuint compiled(GLenum type, const char* text) {
+  const GLuint shader = glCreateShader(type);
   glShaderSource(shader, 1, &text, nullptr);
   glCompileShader(shader);
+  return shader;
+}
+/// A program of a vertex shader alone writes depths; here it needs a second one.
+void attach_empty_fragment(GLuint program) {
+  const GLuint shader = compiled(GL_FRAGMENT_SHADER, depth_only(state().lacks).data());
   glAttachShader(program, shader);
   glDeleteShader(shader);
 }
@@ -67,6 +71,8 @@ void link_program(GLuint id) {
         glUniformBlockBinding(id, at, static_cast<GLuint>(binding));
   }
   program.first = glGetUniformLocation(id, "gnomon_first");
+  program.clip = glGetUniformLocation(id, "gnomon_clip");
+  program.adds = glGetUniformLocation(id, "gnomon_adds");
 }
 void use_program(GLuint id) {
   glUseProgram(id), state().current = id;
@@ -102,7 +108,9 @@ void uniform_matrix(GLuint p, GLint l, GLsizei n, GLboolean transpose, const GLf
 // --- Drawing ---
 
 void before_draw() {
-  for (const GLuint unit : state().programs[state().current].units) {
+  const ProgramState& program = state().programs[state().current];
+  before_fallback_draw(program);
+  for (const GLuint unit : program.units) {
     const auto found = state().textures.find(state().unit_texture[unit]);
     if (found == state().textures.end()) continue;
     TextureState& texture = found->second;
@@ -137,6 +145,18 @@ void draw_elements(GLenum mode, GLsizei count, GLenum, const void* offset) {
 }
 
 }  // namespace
+
+GLuint fullscreen_program(const char* fragment) {
+  const GLuint program = glCreateProgram();
+  glAttachShader(program, compiled(GL_VERTEX_SHADER, R"(#version 300 es
+void main() {
+  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.5, 1.0);
+}
+)"));
+  glAttachShader(program, compiled(GL_FRAGMENT_SHADER, fragment));
+  glLinkProgram(program);
+  return program;
+}
 
 Procedure program_procedure(const char* name) {
   static const Named all[] = {

@@ -8,32 +8,16 @@
 
 #include "cmake/platform/web/webgl/state.h"
 
-extern "C" void gnomon_clip_control(int origin, int depth);
-
 namespace gnomon::web {
 namespace {
 
-constexpr int lower_left = 0x8CA1, minus_one_to_one = 0x935E;
 constexpr GLenum green = 0x1904;
-
-GLuint compiled(GLenum type, const char* text) {
-  const GLuint shader = glCreateShader(type);
-  glShaderSource(shader, 1, &text, nullptr);
-  glCompileShader(shader);
-  return shader;
-}
 
 /// Copies depths into a texture of floats.
 GLuint depth_program() {
   GLuint& made = state().depth_program;
-  if (made != 0) return made;
-  made = glCreateProgram();
-  glAttachShader(made, compiled(GL_VERTEX_SHADER, R"(#version 300 es
-void main() {
-  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.5, 1.0);
-}
-)"));
-  glAttachShader(made, compiled(GL_FRAGMENT_SHADER, R"(#version 300 es
+  if (made == 0)
+    made = fullscreen_program(R"(#version 300 es
 precision highp float;
 precision highp sampler2D;
 precision highp sampler2DArray;
@@ -45,8 +29,7 @@ void main() {
   ivec2 p = ivec2(gl_FragCoord.xy) + at.xy;
   depth = at.w == 1 ? texelFetch(layers, ivec3(p, at.z), 0).r : texelFetch(flat_map, p, 0).r;
 }
-)"));
-  glLinkProgram(made);
+)");
   return made;
 }
 
@@ -59,10 +42,8 @@ void draw_depths(const TextureState& texture, const std::array<GLint, 4>& at, GL
   glUniform4iv(glGetUniformLocation(program, "at"), 1, at.data());
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(texture.layers > 0 ? layers_unit : flat_unit));
   glBindTexture(texture.target, texture.gl);
-  gnomon_clip_control(lower_left, minus_one_to_one);
-  for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_SCISSOR_TEST}) glDisable(off);
   glViewport(0, 0, width, height);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  draw_upright();
 }
 
 void read_depths(const TextureState& texture, const std::array<GLint, 4>& at, GLsizei width, GLsizei height,
