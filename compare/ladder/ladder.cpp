@@ -270,6 +270,7 @@ LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
   const std::vector<TexelCentre> rays = trace_centres(in, groups.keys);
   centres.reserve(rays.size());
   for (const TexelCentre& ray : rays) centres.push_back(ray.depth);
+  if (!rays.empty()) surfaces.prepare();
   parallel_for(groups.keys.size(), [&](std::size_t g) {
     Column column(in, groups.keys[g], surfaces);
     const bool stores_first = stores_first_surface(in, rays[g], groups.keys[g]);

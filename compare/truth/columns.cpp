@@ -76,6 +76,7 @@ bool Column::same_sheet(std::uint32_t a, std::uint32_t b) {
   if (a == b) return true;
   const World& world = input_.world();
   if (!world.is_triangle(a) || !world.is_triangle(b)) return false;
+  if (!surfaces_.same(a, b)) return false;  // sooner than to look for b on all of a's sheet
   if (!sheets_) sheets_.emplace(world, input_.topology, input_.record().map.view, key_);
   return sheets_->same(a, b);
 }
