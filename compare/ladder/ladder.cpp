@@ -138,6 +138,10 @@ bool beyond_map(const LightView& view, const TexelCentre& centre) {
   return centre.hit && !(centre.depth >= range.min && centre.depth < range.max);
 }
 
+bool stores_midpoints(const raster::MapOptions& map) {
+  return raster::traits_of(map.technique).contents == raster::MapContents::midpoint_depth;
+}
+
 // V4: the depth really stored, but for the casters' own bias, which is the bias step's. Where culling kept the first surface out of the map, that is the technique's
 // doing, not a matter of precision: the rung then stays at V3 and the bias step takes the difference. So it
 // does where the map stores the midpoint between two surfaces, where its depths end before the first surface,
@@ -145,8 +149,7 @@ bool beyond_map(const LightView& view, const TexelCentre& centre) {
 float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::TexelKey key, bool stores_first,
                   double own, float flat) {
   const raster::ShadowMap& map = in.record().map;
-  if (raster::traits_of(in.drawn.options.map.technique).contents == raster::MapContents::midpoint_depth)
-    return flat;
+  if (stores_midpoints(in.drawn.options.map)) return flat;
   if (!stores_first) return flat;
   const double stored = map.true_depth()[map.texel_index(key.face(), key.column(), key.row())];
   const double row = key.row();
@@ -184,9 +187,8 @@ bool stores_first_surface(const LadderInput& in, const TexelCentre& centre, rayt
   return centre.hit && stored.primitive == centre.hit->primitive && stored.t == centre.hit->t;
 }
 
-void climb_lower(Column& column, const TexelCentre& centre, raytrace::TexelKey key, bool stores_first,
-                 std::size_t pixel, LowerClimb& out) {
-  const LadderInput& in = out.input;
+void climb_lower(const LadderInput& in, Column& column, const TexelCentre& centre, raytrace::TexelKey key,
+                 bool stores_first, std::size_t pixel, LowerClimb& out) {
   const SurfacePoint& receiver = in.traced.receiver.data[pixel];
   const LightView& view = in.record().map.view;
   // The depth that project_to_face gives.
@@ -259,7 +261,7 @@ std::vector<std::uint32_t> compared_pixels(const Image<Label>& labels) {
 }  // namespace
 
 LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
-    : input(in), sorted(std::move(to_compare)), surfaces(in.world(), in.topology) {
+    : sorted(std::move(to_compare)), surfaces(in.world(), in.topology) {
   const TimedStage stage("columns and sheets");
   parallel_for(rungs.size(), [&](std::size_t k) { rungs[k] = Image<float>(sorted.size, 1.0f); });
   groups = group_by_texel(in.record(), compared_pixels(labels_climbed(in, sorted)), outside);
@@ -275,8 +277,17 @@ LowerClimb::LowerClimb(const LadderInput& in, Image<Label> to_compare)
     Column column(in, groups.keys[g], surfaces);
     const bool stores_first = stores_first_surface(in, rays[g], groups.keys[g]);
     for (const std::uint32_t pixel : groups[g])
-      climb_lower(column, rays[g], groups.keys[g], stores_first, pixel, *this);
+      climb_lower(in, column, rays[g], groups.keys[g], stores_first, pixel, *this);
   });
+}
+
+bool have_same_lower_climb(const raster::RasterFrame& a, const raster::RasterFrame& b, std::size_t light) {
+  const raster::LightRecord &x = a.lights[light], &y = b.lights[light];
+  return a.options.map.cull == b.options.map.cull &&
+         stores_midpoints(a.options.map) == stores_midpoints(b.options.map) && x.light == y.light &&
+         x.map.format == y.map.format && x.map.view.size == y.map.view.size && x.map.depth == y.map.depth &&
+         x.texel_uv.data == y.texel_uv.data && x.face.data == y.face.data &&
+         a.primitive.data == b.primitive.data;
 }
 
 namespace {

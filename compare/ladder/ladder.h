@@ -52,12 +52,11 @@ struct Climb {
 
 /// What the map as stored makes of the compared pixels, before the technique's bias and filter: V0 … V4. Frames of one light that were drawn with the same map share it.
 struct LowerClimb {
-  /// `sorted`: label `right` on what is to be compared. The parts of `input` must outlive this.
+  /// `sorted`: label `right` on what is to be compared. World and topology must outlive this.
   LowerClimb(const LadderInput& input, Image<Label> sorted);
   LowerClimb(const LowerClimb&) = delete;
   LowerClimb& operator=(const LowerClimb&) = delete;
 
-  LadderInput input;
   Image<Label> sorted;
   std::array<Image<float>, rung_count> rungs;  ///< V5 and V6 are 1, and V2 … V4 of pixels outside the map
   std::vector<std::uint32_t> outside;          ///< compared pixels whose own texel lies outside the map
@@ -67,6 +66,10 @@ struct LowerClimb {
   std::vector<double> centres;
   Surfaces surfaces;
 };
+
+/// Whether two drawings stored the same map of a light and show the same primitives at the same places: their lower climbs
+/// are the same, where the truth is.
+bool have_same_lower_climb(const raster::RasterFrame& a, const raster::RasterFrame& b, std::size_t light);
 
 /// V5 and V6 of `input`, and the labels of its wrong pixels. `input` may hold another frame than `lower` was
 /// made from, as long as light, truth and map are the same.

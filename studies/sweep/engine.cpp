@@ -9,7 +9,6 @@
 #include "compare/result/figures.h"
 #include "compare/result/places.h"
 #include "compare/result/views.h"
-#include "raster/technique_traits.h"
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
 #include "studies/shimmer/shimmer.h"
@@ -30,20 +29,6 @@ bool same_but_bias(const raster::RasterOptions& a, const raster::RasterOptions& 
   rebiased.map.bias.constant = b.map.bias.constant;
   rebiased.map.bias.unit = b.map.bias.unit;
   return rebiased == b && raster::scales_bias(a.map) == raster::scales_bias(b.map);
-}
-
-bool stores_midpoints(const raster::MapOptions& map) {
-  return raster::traits_of(map.technique).contents == raster::MapContents::midpoint_depth;
-}
-
-// Two drawings stored the same map and show the same primitives at the same places: the lower rungs agree.
-bool same_map(const raster::RasterFrame& a, const raster::RasterFrame& b, std::size_t light) {
-  const raster::LightRecord &x = a.lights[light], &y = b.lights[light];
-  return a.options.map.cull == b.options.map.cull &&
-         stores_midpoints(a.options.map) == stores_midpoints(b.options.map) && x.light == y.light &&
-         x.map.format == y.map.format && x.map.view.size == y.map.view.size && x.map.depth == y.map.depth &&
-         x.texel_uv.data == y.texel_uv.data && x.face.data == y.face.data &&
-         a.primitive.data == b.primitive.data;
 }
 
 // Of one light's compared pixels, times `scale`.
@@ -118,7 +103,7 @@ void Engine::Impl::climb_lower() {
   const TimedStage stage("labels");
   const raster::RasterFrame& frame = comparison.raster;
   bool same = lower.size() == frame.lights.size();
-  for (std::size_t i = 0; same && i < lower.size(); ++i) same = same_map(*lower_frame, frame, i);
+  for (std::size_t i = 0; same && i < lower.size(); ++i) same = have_same_lower_climb(*lower_frame, frame, i);
   if (same) return;
   lower.clear();
   map_measures.clear();

@@ -21,7 +21,7 @@ inline constexpr ImageSize lab_size{64, 48};
 class Lab {
  public:
   /// `may_begin`: before that the thread makes no context; and from then on it is noted what is drawn.
-  Lab(const std::string& scene, const std::string& shaders, std::shared_future<void> may_begin = {}) {
+  Lab(const std::string& scene, const std::string& shaders, const std::shared_future<void>& may_begin = {}) {
     options_.compare.perceptual = false;
     options_.shader_folder = shaders;
     auto source = read_source({scene, false}, {}, options_);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <random>
 #include <set>
@@ -145,22 +146,64 @@ Image<compare::Label> compared_labels(const ViewState& state, const LoadedScene&
   return {};
 }
 
-TEST(RenderThread, LabelsAreThoseOfCompareInTwentyRandomStates) {
+/// One thing, so that the worker may keep what does not depend on it.
+void change_one_thing(ViewState& state, int which) {
+  raster::MapOptions map = state.setup.map;
+  switch (which) {
+    case 0:
+      set_bias_texels(map.bias, map.bias.constant + 0.5, 1.0);
+      break;
+    case 1:
+      map.technique =
+          map.technique == raster::Technique::hard ? raster::Technique::pcf : raster::Technique::hard;
+      break;
+    case 2:
+      map.cull = map.cull == raster::Cull::none ? raster::Cull::front : raster::Cull::none;
+      break;
+    case 3:
+      map.size = map.size == 64 ? 100 : 64;
+      break;
+    case 4:
+      return carry_out(state, TurnLightBy{15.0, 0.0});
+    case 5:
+      map.technique =
+          map.technique == raster::Technique::csm ? raster::Technique::hard : raster::Technique::csm;
+      break;
+    case 6:
+      return carry_out(state, OrbitTo{double(state.revision % 90), 30.0});
+    default:
+      return carry_out(state, LightSizeTo{state.revision % 2 == 0 ? 4.0 : 0.0});
+  }
+  carry_out(state, SetMap{map});
+}
+
+/// Changes a state twenty times, and expects each time of the lab what `gnomon compare` makes of it.
+void expect_labels_of_compare(const std::function<void(ViewState&, int)>& change) {
   Lab lab("floating-box", {});
   ViewState state = lab.state(*lab.until(is_open));
   const auto source = read_source({"floating-box", false}, {}, {});
   ASSERT_TRUE(source);
   auto renderer = make_renderer(raster::Backend::automatic, *source->loaded);
   ASSERT_TRUE(renderer);
-  std::mt19937 random(11);
   for (int i = 0; i < 20; ++i) {
-    change_at_random(state, random);
+    change(state, i);
     lab.thread().post(1, {state.revision, state.setup});
     const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
     EXPECT_EQ(done->outcome->comparison.lights.front().labels.data,
               compared_labels(state, *source->loaded, **renderer).data)
         << i;
   }
+}
+
+TEST(RenderThread, LabelsAreThoseOfCompareInTwentyRandomStates) {
+  std::mt19937 random(11);
+  expect_labels_of_compare([&](ViewState& state, int) { change_at_random(state, random); });
+}
+
+TEST(RenderThread, LabelsAreThoseOfCompareWhereOneThingChanges) {
+  std::mt19937 random(12);
+  expect_labels_of_compare(
+      [&](ViewState& state, int i) { change_one_thing(state, i < 8 ? i : static_cast<int>(random() % 8)); });
 }
 
 // A light that gets a size calls for soft shadows, which the scene itself has none of.

@@ -129,11 +129,13 @@ bool CompareWorker::turn(bool wait) {
 void CompareWorker::prepare_tracer(raytrace::Precision precision) {
   if (tracer_ && tracer_precision_ == precision) return;
   tracer_.reset();
+  kept_preview_.forget(), kept_.forget();
+  if (!topology_) topology_.emplace(*world_);
   tracer_ = std::make_unique<raytrace::Tracer>(*world_, options_.accel, precision);
   tracer_precision_ = precision;
 }
 
-std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequest request, Job& job) const {
+std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequest request, Job& job) {
   scene_->camera = request.camera;
   scene_->lights = std::move(request.lights);
   ComparisonOutcome outcome;
@@ -146,16 +148,26 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   compare::CompareOptions options = options_;
   options.raster = request.drawn.options;
   options.raytrace.size = options.raster.size;
+  KeptTruth& kept = request.preview ? kept_preview_ : kept_;
+  kept.keep_for({scene_->camera, scene_->lights, lights.front(), options.raytrace}, request.drawn);
   options.raytrace.stop = job.given_up.get_token();
   const compare::FrameSource frames{
       [&](const PictureRows&) { return Expected<raster::RasterFrame>(std::move(request.drawn)); },
       [&](const PictureRows&) -> Expected<raytrace::RayTracedFrame> {
+        const auto given_up = [&] { return fail(ErrorKind::internal, "given up"); };
+        if (job.given_up.stop_requested()) return given_up();
+        if (kept.has_frame()) return kept.take_frame();
         auto traced = raytrace::trace_frame(*tracer_, request.plan, scene_->camera, lights, options.raytrace);
-        if (job.given_up.stop_requested()) return fail(ErrorKind::internal, "given up");
+        if (job.given_up.stop_requested()) return given_up();
+        traced.options.stop = {};
         return traced;
-      }};
+      },
+      [&](const compare::LadderInput& input) { return kept.climb(input); }};
   compare::Comparison& comparison = outcome.comparison;
-  const auto measured = compare::measure(comparison, compare::plan_of(*tracer_, lights, options), frames);
+  compare::Plan plan = compare::plan_of(*tracer_, lights, options);
+  plan.topology = &*topology_, plan.maps = kept.measures();
+  const auto measured = compare::measure(comparison, plan, frames);
+  if (!measured && !kept.has_frame()) kept.forget();
   if (!measured && job.given_up.stop_requested()) return std::nullopt;
   if (!measured) return Expected<ComparisonOutcome>(fail(measured.error()));
   comparison.plan = request.plan;
@@ -166,7 +178,7 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
     outcome.normals.data[i] = Vec3f(comparison.raytraced.receiver.data[i].normal);
   outcome.shown = shown_surfaces(*tracer_, comparison);
   outcome.result = compare::result_json(comparison);
-  comparison.raytraced.receiver = {};
+  kept.keep(comparison);
   comparison.world = nullptr;
   return Expected<ComparisonOutcome>(std::move(outcome));
 }

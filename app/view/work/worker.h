@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "app/view/work/kept_truth.h"
 #include "app/view/work/priority.h"
 #include "app/view/work/turns.h"
 #include "compare/compare.h"
@@ -77,14 +78,17 @@ class CompareWorker {
   struct Job;
   bool turn(bool wait);
   /// Nothing when the job was given up.
-  std::optional<Expected<ComparisonOutcome>> compare(ComparisonRequest request, Job& job) const;
+  std::optional<Expected<ComparisonOutcome>> compare(ComparisonRequest request, Job& job);
   void prepare_tracer(raytrace::Precision precision);
 
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<World> world_;
   compare::CompareOptions options_;
   std::function<void()> on_finished_;
-  std::unique_ptr<raytrace::Tracer> tracer_;  ///< the thread's own
+  // The thread's own.
+  std::unique_ptr<raytrace::Tracer> tracer_;
+  std::optional<raytrace::Topology> topology_;
+  KeptTruth kept_preview_, kept_;
   raytrace::Precision tracer_precision_ = raytrace::Precision::robust;
 
   mutable std::mutex mutex_;
