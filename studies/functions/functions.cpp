@@ -17,7 +17,10 @@ std::string number_words(double number) {
 }
 
 /// Single precision is all that an answer has.
-std::string value_words(AnswerKind kind, const std::array<double, 4>& value) {
+std::string value_words(const Function& function, Numbers numbers, const Value& value) {
+  const AnswerKind kind = function.kind;
+  if (kind == AnswerKind::several)
+    return value[0] == raster::unwritten_answer ? "nothing" : function.value_words(numbers, value);
   if (kind == AnswerKind::direction && value[0] != raster::unwritten_answer)
     return fmt::format("({:.4g}, {:.4g}, {:.4g})", value[0], value[1], value[2]);
   if (kind == AnswerKind::place_on_ray && value[0] == -1.0) return "no hit";
@@ -76,6 +79,7 @@ std::vector<std::string_view> groups_of(const Function& function) {
 }
 
 std::size_t size_of(AnswerKind kind) {
+  if (kind == AnswerKind::several) return 4;
   return kind == AnswerKind::direction ? 3 : 1;
 }
 
@@ -86,14 +90,14 @@ bool is_right(const Function& function, const Question& question, const raster::
 }
 
 std::string answer_words(const Function& function, const Question& question, const raster::Answer& answer) {
-  const auto right = value_words(function.kind, question.right.value);
+  const auto right = value_words(function, question.numbers, question.right.value);
   const std::string because =
       question.right.because.empty() ? "" : fmt::format(" ({})", question.right.because);
   if (is_right(function, question, answer))
     return fmt::format("{}: {}{}", function.words(question.numbers), right, because);
   return fmt::format("{}: answered {}, right: {}{}", function.words(question.numbers),
-                     value_words(function.kind, {answer[0], answer[1], answer[2], answer[3]}), right,
-                     because);
+                     value_words(function, question.numbers, {answer[0], answer[1], answer[2], answer[3]}),
+                     right, because);
 }
 
 Expected<std::vector<raster::Answer>> ask(const Function& function, raster::Backend backend,

@@ -16,9 +16,10 @@
 namespace gnomon::functions {
 
 using Numbers = std::span<const float>;
+using Value = std::array<double, 4>;
 
 struct Right {
-  std::array<double, 4> value{};
+  Value value{};
   double tolerance = 0.0;  ///< of each number of an answer, in its own unit
   std::string because{};   ///< "the triangle is behind the ray"; may be empty
 };
@@ -35,6 +36,7 @@ enum class AnswerKind : std::uint8_t {
   place_on_ray,  ///< one number, t; -1: none
   direction,     ///< three
   number,        ///< one
+  several,       ///< four, in words of the function's own
 };
 
 struct Function {
@@ -45,6 +47,8 @@ struct Function {
   std::vector<Question> (*questions)();  ///< without what is right
   Right (*right)(Numbers);
   std::string (*words)(Numbers);  ///< "the ray from (0, 0, 0) towards (0, 0, -1) and ..."
+  /// An answer of `several` in words: "cell (2, 0, 1) at t = 1.5". Null for other kinds.
+  std::string (*value_words)(Numbers, const Value&) = nullptr;
 };
 
 /// All of them, in the order of the lectures.

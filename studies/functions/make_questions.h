@@ -41,6 +41,12 @@ inline constexpr int of_each = 6;  ///< cases of a kind in a group
 class Questions {
  public:
   void group(std::string_view name) { group_ = name; }
+  /// A group whose cases make(0), make(1), ... add.
+  template <class Make>
+  void group(std::string_view name, int times, const Make& make) {
+    group(name);
+    for (int i = 0; i < times; ++i) make(i);
+  }
   template <class... Parts>
   void add(const Parts&... parts) {
     Question question{group_, {}};

@@ -20,29 +20,35 @@ std::uint8_t byte_of(double share) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
 }
 
-/// What places on rays are shown between, the nearer the lighter.
+/// What the numbers of an answer are shown between: those of the right ones, without "no hit".
 struct Range {
-  double low = infinity, high = -infinity;
+  functions::Value low, high;
+  double share(const functions::Value& value, std::size_t i) const {
+    return high[i] > low[i] ? (value[i] - low[i]) / (high[i] - low[i]) : 0.0;
+  }
 };
 
 Range range_of(const Function& function, const std::vector<Question>& questions) {
-  Range range{0.0, 1.0};
-  if (function.kind != AnswerKind::place_on_ray) return range;
-  range = {};
-  for (const Question& question : questions)
-    if (question.group == functions::picture_group && question.right.value[0] >= 0.0)
-      range.low = std::min(range.low, question.right.value[0]),
-      range.high = std::max(range.high, question.right.value[0]);
+  if (function.kind == AnswerKind::direction) return {{-1.0, -1.0, -1.0, -1.0}, {1.0, 1.0, 1.0, 1.0}};
+  if (function.kind == AnswerKind::number) return {{0.0}, {1.0}};
+  Range range{{infinity, infinity, infinity, infinity}, {-infinity, -infinity, -infinity, -infinity}};
+  for (const Question& question : questions) {
+    const functions::Value& value = question.right.value;
+    if (question.group != functions::picture_group || value[0] == -1.0) continue;
+    for (std::size_t i = 0; i < value.size(); ++i)
+      range.low[i] = std::min(range.low[i], value[i]), range.high[i] = std::max(range.high[i], value[i]);
+  }
   return range;
 }
 
-Colour colour_of(AnswerKind kind, const std::array<double, 4>& value, const Range& range) {
+/// Places on rays: the nearer the lighter. The first three of several numbers: red, green and blue.
+Colour colour_of(AnswerKind kind, const functions::Value& value, const Range& range) {
   for (std::size_t i = 0; i < functions::size_of(kind); ++i)
     if (!std::isfinite(value[i]) || value[i] == raster::unwritten_answer) return no_number;
-  if (kind == AnswerKind::direction)
-    return {byte_of(0.5 + 0.5 * value[0]), byte_of(0.5 + 0.5 * value[1]), byte_of(0.5 + 0.5 * value[2])};
+  if (kind == AnswerKind::direction || kind == AnswerKind::several)
+    return {byte_of(range.share(value, 0)), byte_of(range.share(value, 1)), byte_of(range.share(value, 2))};
   if (kind == AnswerKind::place_on_ray && value[0] == -1.0) return no_hit;
-  const double share = (value[0] - range.low) / (range.high - range.low);
+  const double share = range.share(value, 0);
   const std::uint8_t grey = byte_of(kind == AnswerKind::place_on_ray ? 0.95 - 0.65 * share : share);
   return {grey, grey, grey};
 }

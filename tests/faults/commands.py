@@ -65,7 +65,10 @@ COMMANDS = [
     command("merge", "merge", "in/shard1", "in/shard2", "-o", "out", other=["merge", "in/shard1", "in/shard2", "-o", "out"]),
     command("grade", "grade", "in/rubric.json", "in/class", "--jobs", "1", "-o", "out",
             other=["grade", "in/rubric.json", "in/class/ada", "-o", "out"], grades=True),
+    command("grade functions", "grade", "in/functions.json", "in/functions", "--jobs", "1", "-o", "out",
+            other=["grade", "in/functions.json", "in/functions/ada", "-o", "out"], grades=True),
     command("grade --new", "grade", "--new", "out"),
+    command("grade --new functions", "grade", "--new", "out", "rays-and-light", share=0.3),
     command("shimmer", *SHIMMER, "-o", "out"),
     command("shimmer --film", *SHIMMER, "--film", "apng", "-o", "out"),
     command("lessons", "lessons", "--only", "acne,peter-panning", "-o", "out", other=["lessons", "--only", "acne", "-o", "out"]),
@@ -77,6 +80,8 @@ COMMANDS = [
     command("raytrace", "raytrace", "in/scene.json", *PICTURE, "-o", "out/picture.exr", "--trace", "out/trace.json"),
     command("tune", *TUNE, "-o", "out", "--json", "out/also.json"),
     command("shaders", "shaders", "-o", "out"),
+    command("shaders --call", "shaders", "--call", "fresnel", "--shader-dir", "in/functions/ada", "--json", "out/answers.json",
+            other=["shaders", "--call", "reflection", "--json", "out/answers.json"]),
     command("bench", *BENCH, "--json", "out/bench.json"),
     command("bench --techniques", *TECHNIQUES, "-o", "out/table.md", share=0.1),
     command("verify", "verify", "--rays", "1000", "--case", "1", "--json", "out/cases.json", share=0.2),
@@ -108,6 +113,15 @@ RUBRIC = {
     "checks": [{"name": "It draws", "points": 1, "kind": "draws", "runs": [RUN]},
                {"name": "As the program does", "points": 1, "kind": "equals", "pixels": 5, "runs": [RUN]}],
 }
+FUNCTIONS = {
+    "schema": "gnomon/rubric/1", "title": "One function", "hand_in": ["function/fresnel.glsl"], "limits": {"seconds": 60},
+    "checks": [{"name": "Into glass", "points": 1, "kind": "answers", "function": "fresnel", "cases": "in"},
+               {"name": "Out of glass", "points": 1, "kind": "answers", "function": "fresnel", "cases": "out"}],
+}
+FRESNEL = """float fresnel(float cosine, float n1, float n2) {
+  return %s;
+}
+"""
 SHADER = """float technique_visibility(ShadowTest test, vec3 position, vec3 normal, vec3 to_light) {
   return test.gap > light.bias.x + %s ? 0.0 : 1.0;
 }
@@ -147,6 +161,8 @@ def make_inputs(program, folder, environment):
     into = folder / "in"
     put(into, {"scene.json": json.dumps(SCENE), "part.json": json.dumps(PART), "tiles.png": png(8, 8, lambda x, y: 40 * (x + y) % 256),
                "model.obj": MODEL, "model.mtl": "newmtl tiles\nmap_Kd tiles.png\n", "rubric.json": json.dumps(RUBRIC), "script.txt": SCRIPT,
+               "functions.json": json.dumps(FUNCTIONS), "functions/ada/function/fresnel.glsl": FRESNEL % "0.04",
+               "functions/ben/function/fresnel.glsl": FRESNEL % "1.0 - cosine",
                "class/ada/technique/hard.glsl": SHADER % "0.0", "class/ben/technique/hard.glsl": SHADER % "1000.0"})
     put(into / "capture", capture(lambda x, y: 255 if x > 9 else 0, (48, 27)))
     put(into / "other", capture(lambda x, y: 255, (40, 24)))

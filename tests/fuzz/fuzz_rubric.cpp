@@ -17,7 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 }
 
 std::vector<std::string> gnomon::fuzz::seeds() {
-  return {R"({
+  return {
+      R"({
   // comments are allowed
   "schema": "gnomon/rubric/1", "title": "One of each", "text": "Write it.", "technique": "hard",
   "hand_in": ["technique/hard.glsl"], "limits": { "seconds": 20, "memory_mb": 2048 },
@@ -29,5 +30,11 @@ std::vector<std::string> gnomon::fuzz::seeds() {
     { "name": "same", "points": 3, "kind": "equals", "pixels": 40, "needs": ["draws", "few"],
       "runs": [{ "scene": "fence", "options": { "bias": "1texel" } }] },
     { "name": "quick", "points": 1, "kind": "time", "times": 2, "runs": [{ "scene": "fence", "options": {} }] }]
+})",
+      R"({ "schema": "gnomon/rubric/1", "title": "Functions", "language": "de", "limits": { "seconds": 5 },
+  "hand_in": ["function/ray_box.glsl", "function/shadow_ray.glsl"],
+  "checks": [
+    { "name": "a", "points": 1, "kind": "answers", "function": "ray_box", "cases": "inside", "hint": "0" },
+    { "name": "b", "points": 0.5, "kind": "answers", "function": "shadow_ray", "cases": "sun", "needs": ["a"] }]
 })"};
 }

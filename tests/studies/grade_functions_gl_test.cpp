@@ -128,7 +128,26 @@ const std::vector<Wrong>& wrong_light() {
        "total reflection was not tested"},
       {"schlick", "a", "fresnel", "if (sine2 > 1.0) return 1.0;",
        "return mix(pow((n1 - n2) / (n1 + n2), 2.0), 1.0, pow(1.0 - cosine, 5.0));",
-       "Schlick's approximation"}};
+       "Schlick's approximation"},
+      {"no-offset", "a", "shadow_ray", "point + offset * n", "point", "there is no offset"},
+      {"along-ray", "b", "shadow_ray", "faceforward(normal, light.w * point - light.xyz, normal)",
+       "normalize(light.xyz - light.w * point)", "the offset ran along the ray"},
+      {"front-offset", "a", "shadow_ray", "if (dot(n, toLight) < 0.0) n = -n;\n", "",
+       "always pointed to the light's side"},
+      {"into", "a", "shadow_ray", "toLight) < 0.0", "toLight) > 0.0", "the side away from the light"},
+      {"unnormalized", "b", "shadow_ray", "direction /= size;\n", "", "was not normalized"},
+      {"to-point", "a", "shadow_ray", "normalize(light.xyz - begin)", "normalize(begin - light.xyz)",
+       "ran from the light to the point"},
+      {"endless-lamp", "a", "shadow_ray", "distance(light.xyz, begin)", "1e30", "a lamp's ray had no end"},
+      {"end-from-point", "a", "shadow_ray", "distance(light.xyz, begin)", "distance(light.xyz, point)",
+       "the end was measured from the point"},
+      {"end-one", "a", "shadow_ray", "distance(light.xyz, begin)", "1.0", "the end was 1"},
+      {"sun-is-lamp", "b", "shadow_ray", "light.xyz - light.w * begin", "light.xyz - begin",
+       "a sun was a lamp"},
+      {"sun-near", "a", "shadow_ray", "end = 1e30", "end = length(light.xyz)", "as its direction is long"},
+      {"own-epsilon", "a", "shadow_ray", "offset * n", "0.001 * n", "a small number of its own"},
+      {"squared-end", "a", "shadow_ray", "distance(light.xyz, begin)",
+       "dot(light.xyz - begin, light.xyz - begin)", "the distance squared"}};
   return all;
 }
 
