@@ -53,8 +53,9 @@ Expected<std::vector<Answer>> call_function(Backend backend, const std::string& 
   if (!gl) return fail(gl.error());
   (*gl)->shader_folder() = std::move(*folder);
   const std::string name = "FUNCTION " + call.name, text = "CALL_FUNCTION " + call.text,
-                    numbers = fmt::format("NUMBERS {}", call.numbers);
-  const std::string_view defines[] = {name, text, numbers};
+                    numbers = fmt::format("NUMBERS {}", call.numbers),
+                    own = fmt::format("CALLS_{} 1", call.name);
+  const std::string_view defines[] = {name, text, numbers, own};
   const auto program = Program::link(**gl, "fullscreen.vert", "function/call.frag", defines);
   if (!program) return fail(program.error());
   auto answers = draw_cases(**gl, *program, call);

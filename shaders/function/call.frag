@@ -13,6 +13,27 @@ vec3 case_vector(int i) {
   return vec3(case_number(i), case_number(i + 1), case_number(i + 2));
 }
 
+#ifdef CALLS_bvh_walk
+int boxes_asked = 0, leaves_asked = 0;
+float of_node(int node, int i) {
+  return node >= 0 && node < int(case_number(0)) ? case_number(3 + 4 * node + i) : -1.0;
+}
+float box_entry(int node) {
+  ++boxes_asked;
+  return of_node(node, 0);
+}
+int left_child(int node) { return int(of_node(node, 1)); }
+int right_child(int node) { return int(of_node(node, 2)); }
+float hit_in_leaf(int node) {
+  ++leaves_asked;
+  return of_node(node, 3);
+}
+#endif
+
+#ifdef CALLS_bvh_split
+vec3 triangle_corner(int triangle, int corner) { return case_vector(1 + 9 * triangle + 3 * corner); }
+#endif
+
 void main() {
   CALL_FUNCTION;
 }

@@ -14,18 +14,14 @@ std::vector<Question> eye_questions() {
     const Vec3 forward = dice.direction(), right = glm::normalize(glm::cross(forward, Vec3(0.0, 1.0, 0.0)));
     q.add(x, y, width, height, degrees, right, glm::cross(right, forward), forward);
   };
-  q.group("square");
-  for (int i = 0; i < 2 * of_each; ++i) add(i, 2 * i, 24.0, 24.0, 60.0);
-  q.group("wide");
-  for (int i = 0; i < 2 * of_each; ++i) add(i * 5, i, 64.0, 12.0, 40.0);
-  q.group("tall");
-  for (int i = 0; i < 2 * of_each; ++i) add(i, i * 4, 12.0, 48.0, 75.0);
+  q.group("square", 2 * of_each, [&](int i) { add(i, 2 * i, 24.0, 24.0, 60.0); });
+  q.group("wide", 2 * of_each, [&](int i) { add(i * 5, i, 64.0, 12.0, 40.0); });
+  q.group("tall", 2 * of_each, [&](int i) { add(i, i * 4, 12.0, 48.0, 75.0); });
   q.group("corners");
   for (const double angle : {30.0, 90.0, 120.0})
     for (const double y : {0.0, 3.0})
       for (const double x : {0.0, 7.0}) add(x, y, 8.0, 4.0, angle);
-  q.group("one");
-  for (int i = 0; i < of_each; ++i) add(0.0, 0.0, 1.0, 1.0, 20.0 + 15.0 * i);
+  q.group("one", of_each, [&](int i) { add(0.0, 0.0, 1.0, 1.0, 20.0 + 15.0 * i); });
   q.group(picture_group);
   for (int y = 0; y < picture_height; ++y)
     for (int x = 0; x < picture_width; ++x)

@@ -41,6 +41,7 @@ std::span<const Function> all_functions() {
     std::vector<Function> rows;
     for (const auto* part : {&eye_functions(), &surface_functions(), &light_functions()})
       rows.insert(rows.end(), part->begin(), part->end());
+    rows.insert(rows.end(), {grid_step_function(), bvh_walk_function(), bvh_split_function()});
     return rows;
   }();
   return all;

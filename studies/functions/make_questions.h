@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -49,20 +50,37 @@ class Questions {
   }
   template <class... Parts>
   void add(const Parts&... parts) {
-    Question question{group_, {}};
-    (append(question.numbers, parts), ...);
-    all_.push_back(std::move(question));
+    put(made(parts...));
   }
+  /// A case of the group, to be completed and put().
+  template <class... Parts>
+  Question made(const Parts&... parts) const {
+    Question question{group_, {}};
+    append(question, parts...);
+    return question;
+  }
+  template <class... Parts>
+  static void append(Question& question, const Parts&... parts) {
+    (append_one(question.numbers, parts), ...);
+  }
+  void put(Question question) { all_.push_back(std::move(question)); }
   std::vector<Question> take() { return std::move(all_); }
 
  private:
-  static void append(std::vector<float>& out, double number) { out.push_back(static_cast<float>(number)); }
-  static void append(std::vector<float>& out, const Vec3& v) {
-    for (int i = 0; i < 3; ++i) append(out, v[i]);
+  static void append_one(std::vector<float>& out, double number) {
+    out.push_back(static_cast<float>(number));
+  }
+  static void append_one(std::vector<float>& out, const Vec3& v) {
+    for (int i = 0; i < 3; ++i) append_one(out, v[i]);
   }
   std::string_view group_;
   std::vector<Question> all_;
 };
+
+inline int longest_axis(const Vec3& v) {
+  const int of_two = v.y > v.x ? 1 : 0;
+  return v.z > v[of_two] ? 2 : of_two;
+}
 
 inline Vec3 vector_at(Numbers numbers, std::size_t i) {
   return {numbers[i], numbers[i + 1], numbers[i + 2]};

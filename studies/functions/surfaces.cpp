@@ -43,8 +43,7 @@ std::vector<Question> sphere_questions() {
     add_sphere(q, ray, center, r);
   };
   const auto pairs = [&](std::string_view name, const auto& one, const auto& other) {
-    q.group(name);
-    for (int i = 0; i < of_each; ++i) one(), other();
+    q.group(name, of_each, [&](int) { one(), other(); });
   };
   pairs(
       "front", [&] { past(dice.between(0.0, 0.8), 4.0); }, [&] { past(dice.between(1.3, 3.0), 4.0); });
@@ -64,17 +63,6 @@ std::vector<Question> sphere_questions() {
   return q.take();
 }
 
-Right sphere_right(Numbers n) {
-  const Vec3 origin = vector_at(n, 0) - vector_at(n, 6), direction = vector_at(n, 3);
-  const double radius = n[9], a = glm::dot(direction, direction), b = glm::dot(origin, direction);
-  const double c = glm::dot(origin, origin) - radius * radius, discriminant = b * b - a * c;
-  if (discriminant < 0.0) return no_hit("the ray passes the sphere");
-  const double root = std::sqrt(discriminant);
-  if (-b + root < 0.0) return no_hit("the sphere is behind the ray");
-  if (-b - root < 0.0) return hit_at((-b + root) / a, "the ray begins inside");
-  return hit_at((-b - root) / a);
-}
-
 std::string sphere_words(Numbers n) {
   return fmt::format("{} and the sphere of radius {:.4g} around {}", ray_words(n), n[9],
                      words_of(vector_at(n, 6)));
@@ -89,8 +77,7 @@ std::vector<Question> plane_questions() {
     q.add(ray.origin, ray.direction, point, normal);
   };
   const auto group = [&](std::string_view name, double side, double stretch, double normal_length) {
-    q.group(name);
-    for (int i = 0; i < of_each; ++i) {
+    q.group(name, of_each, [&](int) {
       const Vec3 normal = dice.direction(), point = dice.in_cube(2.0);
       const Vec3 from = glm::normalize(side * normal + 0.5 * dice.direction());
       Ray ray = ray_to(point, from, dice.between(1.0, 4.0));
@@ -98,19 +85,18 @@ std::vector<Question> plane_questions() {
       add(ray, point, normal_length * normal);
       ray.direction *= -1.0;
       add(ray, point, normal_length * normal);
-    }
+    });
   };
   group("front", 1.0, 1.0, 1.0);
   group("back", -1.0, 1.0, 1.0);
   group("length", 1.0, 2.5, 1.0);
   group("normal", 1.0, 1.0, 3.0);
-  q.group("parallel");
-  for (int i = 0; i < of_each; ++i) {
+  q.group("parallel", of_each, [&](int) {
     const double y = std::round(dice.between(-3.0, 3.0));
     add({{-1.0, y + 1.0, 2.0}, {0.6, 0.0, -0.8}}, {1.0, y, 0.0}, {0.0, 1.0, 0.0});
     // As flat as a third of a degree: a hit, and no parallel ray.
     add({{-1.0, y + 1.0, 2.0}, glm::normalize(Vec3(0.6, -0.006, -0.8))}, {1.0, y, 0.0}, {0.0, 1.0, 0.0});
-  }
+  });
   add_picture(q, [&](const Vec3& eye, const Vec3& to) { add({eye, to}, {0.0, -0.8, 0.0}, {0.1, 1.0, 0.2}); });
   return q.take();
 }
@@ -285,28 +271,25 @@ std::vector<Question> box_questions() {
   Questions q;
   Dice dice(3);
   const auto pairs = [&](std::string_view name, double size, double distance, double stretch = 1.0) {
-    q.group(name);
-    for (int i = 0; i < 2 * of_each; ++i) {
+    q.group(name, 2 * of_each, [&](int i) {
       const Aabb box = some_box(dice, size);
       Ray ray = ray_to_box(dice, box, i % 2 == 0, distance);
       ray.direction *= stretch;
       add_box(q, ray, box);
-    }
+    });
   };
   pairs("front", 1.0, 3.0);
   pairs("length", 1.0, 3.0, 2.5);
-  q.group("inside");
-  for (int i = 0; i < of_each; ++i) {
+  q.group("inside", of_each, [&](int) {
     const Aabb box = some_box(dice, 1.0);
     add_box(q, ray_to(box.center() + dice.in_cube(0.1), dice.direction(), 0.1), box);
     add_box(q, ray_to_box(dice, box, true, 3.0), box);
-  }
-  q.group("behind");
-  for (int i = 0; i < of_each; ++i) {
+  });
+  q.group("behind", of_each, [&](int) {
     const Aabb box = some_box(dice, 1.0);
     add_box(q, ray_to_box(dice, box, true, -3.0), box);
     add_box(q, ray_to_box(dice, box, true, 3.0), box);
-  }
+  });
   add_axes(q, dice, "axes", 0.5);
   add_axes(q, dice, "faces", 1.0);
   pairs("tiny", 0.01, 50.0);
@@ -315,6 +298,24 @@ std::vector<Question> box_questions() {
     add_box(q, {eye, to}, {{-1.0, -0.6, -0.9}, {0.9, 0.7, 0.6}});
   });
   return q.take();
+}
+
+std::string box_words(Numbers n) {
+  return fmt::format("{} and the box from {} to {}", ray_words(n), words_of(vector_at(n, 6)),
+                     words_of(vector_at(n, 9)));
+}
+
+}  // namespace
+
+Right sphere_right(Numbers n) {
+  const Vec3 origin = vector_at(n, 0) - vector_at(n, 6), direction = vector_at(n, 3);
+  const double radius = n[9], a = glm::dot(direction, direction), b = glm::dot(origin, direction);
+  const double c = glm::dot(origin, origin) - radius * radius, discriminant = b * b - a * c;
+  if (discriminant < 0.0) return no_hit("the ray passes the sphere");
+  const double root = std::sqrt(discriminant);
+  if (-b + root < 0.0) return no_hit("the sphere is behind the ray");
+  if (-b - root < 0.0) return hit_at((-b + root) / a, "the ray begins inside");
+  return hit_at((-b - root) / a);
 }
 
 Right box_right(Numbers n) {
@@ -334,13 +335,6 @@ Right box_right(Numbers n) {
   if (inside.max < 0.0) return no_hit("the box is behind the ray");
   return inside.min < 0.0 ? hit_at(0.0, "the ray begins inside") : hit_at(inside.min);
 }
-
-std::string box_words(Numbers n) {
-  return fmt::format("{} and the box from {} to {}", ray_words(n), words_of(vector_at(n, 6)),
-                     words_of(vector_at(n, 9)));
-}
-
-}  // namespace
 
 const std::vector<Function>& surface_functions() {
   static const std::vector<Function> rows = {

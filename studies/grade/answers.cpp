@@ -23,8 +23,10 @@ std::uint8_t byte_of(double share) {
 /// What the numbers of an answer are shown between: those of the right ones, without "no hit".
 struct Range {
   functions::Value low, high;
+  /// From 0 to 1; one that is always the same is shown as the first number is.
   double share(const functions::Value& value, std::size_t i) const {
-    return high[i] > low[i] ? (value[i] - low[i]) / (high[i] - low[i]) : 0.0;
+    const std::size_t k = high[i] > low[i] ? i : 0;
+    return (value[k] - low[k]) / std::max(high[k] - low[k], 1e-30);
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include "studies/functions/functions.h"
 #include "tests/studies/grade_support.h"
+#include "tests/studies/wrong_functions.h"
 #include "tests/support/json_schema_check.h"
 #include "tests/support/places.h"
 
@@ -21,142 +22,15 @@ std::string answers_folder(const std::string& homework = "surfaces") {
   return gnomon::test::source_dir() + "/tests/data/grade/functions/" + homework;
 }
 
-/// An answer of style a or b with one thing changed: which mistake is named (part of its words).
-struct Wrong {
-  std::string name, style, function, from, to, mistake;
-};
-
-const std::vector<Wrong>& wrong_surfaces() {
-  static const std::vector<Wrong> all = {
-      {"corner", "a", "eye_ray", "(pixel.x + 0.5) / size.x - 1.0;\n  float v = 1.0 - 2.0 * (pixel.y + 0.5)",
-       "pixel.x / size.x - 1.0;\n  float v = 1.0 - 2.0 * pixel.y", "through the pixel's corner"},
-      {"no-aspect", "a", "eye_ray", "t * aspect *", "t *", "the picture was square"},
-      {"whole-angle", "a", "eye_ray", "(radians(degrees) / 2.0)", "(radians(degrees))",
-       "the whole angle was the half"},
-      {"radians", "b", "eye_ray", "radians(degrees)", "degrees", "the angle was in radians"},
-      {"upside-down", "b", "eye_ray", "- from_middle.y", "+ from_middle.y",
-       "rows were counted from the bottom"},
-      {"not-normal", "a", "eye_ray", "normalize(forward", "(forward", "was not normalized"},
-      {"unit", "a", "ray_sphere", "dot(direction, direction)", "1.0", "the direction had length 1"},
-      {"metres", "b", "ray_sphere", "t / size", "t", "t was a length"},
-      {"far-root", "a", "ray_sphere", "if (t0 >= 0.0) return t0;\n", "", "the farther of the two places"},
-      {"outside-only", "a", "ray_sphere", "if (t1 >= 0.0) return t1;\n", "", "begins inside met nothing"},
-      {"first-root", "a", "ray_sphere",
-       "if (t0 >= 0.0) return t0;\n  if (t1 >= 0.0) return t1;\n  return -1.0", "return t0",
-       "the nearer place was the answer even behind"},
-      {"no-square", "a", "ray_sphere", "radius * radius", "radius", "the radius was not squared"},
-      {"sign", "a", "ray_sphere", "2.0 * dot(oc", "-2.0 * dot(oc", "b had the wrong sign"},
-      {"no-disc", "a", "ray_sphere", "if (disc < 0.0) return -1.0;", "disc = abs(disc);",
-       "its absolute value"},
-      {"no-center", "b", "ray_sphere", "center - origin;", "-origin;", "around the origin of the world"},
-      {"nan-sphere", "a", "ray_sphere", "if (disc < 0.0) return -1.0;\n",
-       "if (isnan(sqrt(disc))) return sqrt(disc);\n", "no number"},
-      {"plane-sign", "a", "ray_plane", "point - origin", "origin - point", "t had the wrong sign"},
-      {"plane-behind", "a", "ray_plane", "t < 0.0 ? -1.0 : t", "t", "a plane behind the ray was met"},
-      {"plane-flat", "a", "ray_plane", "slant == 0.0", "abs(slant) < 0.01", "nearly parallel met nothing"},
-      {"plane-culled", "a", "ray_plane", "slant == 0.0", "slant >= 0.0", "seen from the back was not there"},
-      {"plane-center", "b", "ray_plane", " + d, speed", ", speed", "went through the origin of the world"},
-      {"no-third", "a", "ray_triangle", "if (dot(n, cross(c - b, p - b)) < 0.0) return -1.0;\n", "",
-       "no third edge"},
-      {"square", "b", "ray_triangle", "u + v > 1.0", "v > 1.0", "a parallelogram"},
-      {"no-first", "a", "ray_triangle", "if (dot(n, cross(b - a, p - a)) < 0.0) return -1.0;\n", "",
-       "v could be less than 0"},
-      {"no-second", "a", "ray_triangle", "if (dot(n, cross(a - c, p - c)) < 0.0) return -1.0;\n", "",
-       "u could be less than 0"},
-      {"plane", "b", "ray_triangle", "if (u < 0.0 || u > 1.0) return -1.0;",
-       "return dot(e2, cross(tvec, e1)) * inv_det < 0.0 ? -1.0 : dot(e2, cross(tvec, e1)) * inv_det;",
-       "the whole plane was the triangle"},
-      {"behind", "a", "ray_triangle", "if (t < 0.0) return -1.0;\n", "", "behind the ray was met"},
-      {"culled", "b", "ray_triangle", "abs(det) < 1e-8", "det < 1e-8", "seen from the back was not there"},
-      {"coarse", "b", "ray_triangle", "1e-8", "1e-3", "parallel to a small triangle"},
-      {"length", "a", "ray_triangle",
-       "vec3 n =", "direction = normalize(direction);\n  vec3 n =", "t was a length"},
-      {"no-divide", "b", "ray_triangle", "dot(e2, qvec) * inv_det", "dot(e2, qvec)",
-       "t was not divided by the determinant"},
-      {"at-origin", "b", "ray_triangle", "origin - a", "origin", "at the origin of the world"},
-      {"unordered", "a", "ray_box", "if (t0 > t1) { float s = t0; t0 = t1; t1 = s; }\n", "",
-       "every direction were positive"},
-      {"flat", "a", "ray_box", "axis < 3", "axis < 2", "no slab of z"},
-      {"from-behind", "b", "ray_box", " || leave < 0.0", "", "a box behind the ray was met, at 0"},
-      {"negative", "b", "ray_box", "return max(enter, 0.0)", "return enter", "behind its begin"},
-      {"exit", "b", "ray_box", "return max(enter, 0.0)", "return enter < 0.0 ? leave : enter",
-       "where it leaves it"},
-      {"no-inside", "b", "ray_box", "|| leave < 0.0", "|| enter < 0.0", "begins inside met nothing"},
-      {"last", "a", "ray_box", "return tmin;", "return tmax;", "where the ray leaves the box"},
-      {"any-slab", "b", "ray_box", "leave < enter || ", "", "the order of the slabs' ends did not matter"},
-      {"never-along", "a", "ray_box",
-       "if (origin[axis] < low[axis] || origin[axis] > high[axis]) return -1.0;", "return -1.0;",
-       "runs along was never met"},
-      {"always-along", "a", "ray_box",
-       "if (origin[axis] < low[axis] || origin[axis] > high[axis]) return -1.0;", "continue;",
-       "runs along was not there"},
-      {"open-face", "b", "ray_box", "step(low, origin) * step(origin, high)",
-       "vec3(greaterThan(origin, low)) * vec3(lessThan(origin, high))", "runs in a face met nothing"}};
-  return all;
-}
-
-const std::vector<Wrong>& wrong_light() {
-  static const std::vector<Wrong> all = {
-      {"backwards", "a", "reflection", "return direction - 2.0", "return -direction + 2.0",
-       "pointed back to where"},
-      {"no-two", "a", "reflection", "2.0 * dot", "dot", "the 2 was left out"},
-      {"plus", "a", "reflection", "direction - 2.0", "direction + 2.0", "was added, not taken away"},
-      {"shortened", "b", "reflection", "along - through", "normalize(along - through)",
-       "the result had length 1"},
-      {"front-only", "a", "reflection", "2.0 * dot(normal, direction)", "2.0 * -abs(dot(normal, direction))",
-       "had to point against the ray"},
-      {"exchanged", "a", "refraction", "n1 / n2", "n2 / n1", "the two indices were exchanged"},
-      {"no-test", "a", "refraction", "if (k < 0.0) return vec3(0.0);\n", "",
-       "total reflection was not tested"},
-      {"mirror", "a", "refraction", "return vec3(0.0)", "return direction + 2.0 * c * normal",
-       "the mirrored direction"},
-      {"through", "b", "refraction", "return vec3(0.0)", "return direction", "went straight on"},
-      {"cosine-sign", "a", "refraction", "= -dot(normal", "= dot(normal", "the cosine had the wrong sign"},
-      {"ratio", "a", "refraction", "r * r * (1.0", "r * (1.0", "was not squared"},
-      {"no-root", "a", "refraction", "sqrt(k)", "k", "the root was left out"},
-      {"no-cosine", "a", "refraction", "r * c - sqrt(k)", "-sqrt(k)",
-       "left out of the part along the normal"},
-      {"clamped", "a", "refraction", "if (k < 0.0) return vec3(0.0)", "k = max(k, 0.0)",
-       "under the root was 0"},
-      {"amplitudes", "a", "fresnel", "(s * s + p * p) / 2.0", "(abs(s) + abs(p)) / 2.0",
-       "they are not squared"},
-      {"one", "a", "fresnel", "(s * s + p * p) / 2.0", "s * s", "the first polarisation"},
-      {"sum", "a", "fresnel", "(s * s + p * p) / 2.0", "s * s + p * p", "were added"},
-      {"transmitted", "b", "fresnel", "return 0.5 *", "return 1.0 - 0.5 *", "the answer was what passes"},
-      {"none-in-total", "a", "fresnel", "return 1.0;", "return 0.0;", "total reflection reflected nothing"},
-      {"nan-in-total", "a", "fresnel", "if (sine2 > 1.0) return 1.0;\n", "",
-       "total reflection was not tested"},
-      {"schlick", "a", "fresnel", "if (sine2 > 1.0) return 1.0;",
-       "return mix(pow((n1 - n2) / (n1 + n2), 2.0), 1.0, pow(1.0 - cosine, 5.0));",
-       "Schlick's approximation"},
-      {"no-offset", "a", "shadow_ray", "point + offset * n", "point", "there is no offset"},
-      {"along-ray", "b", "shadow_ray", "faceforward(normal, light.w * point - light.xyz, normal)",
-       "normalize(light.xyz - light.w * point)", "the offset ran along the ray"},
-      {"front-offset", "a", "shadow_ray", "if (dot(n, toLight) < 0.0) n = -n;\n", "",
-       "always pointed to the light's side"},
-      {"into", "a", "shadow_ray", "toLight) < 0.0", "toLight) > 0.0", "the side away from the light"},
-      {"unnormalized", "b", "shadow_ray", "direction /= size;\n", "", "was not normalized"},
-      {"to-point", "a", "shadow_ray", "normalize(light.xyz - begin)", "normalize(begin - light.xyz)",
-       "ran from the light to the point"},
-      {"endless-lamp", "a", "shadow_ray", "distance(light.xyz, begin)", "1e30", "a lamp's ray had no end"},
-      {"end-from-point", "a", "shadow_ray", "distance(light.xyz, begin)", "distance(light.xyz, point)",
-       "the end was measured from the point"},
-      {"end-one", "a", "shadow_ray", "distance(light.xyz, begin)", "1.0", "the end was 1"},
-      {"sun-is-lamp", "b", "shadow_ray", "light.xyz - light.w * begin", "light.xyz - begin",
-       "a sun was a lamp"},
-      {"sun-near", "a", "shadow_ray", "end = 1e30", "end = length(light.xyz)", "as its direction is long"},
-      {"own-epsilon", "a", "shadow_ray", "offset * n", "0.001 * n", "a small number of its own"},
-      {"squared-end", "a", "shadow_ray", "distance(light.xyz, begin)",
-       "dot(light.xyz - begin, light.xyz - begin)", "the distance squared"}};
-  return all;
-}
-
 class GradeFunctions : public Grade {
  protected:
   /// The folder of the homework that asks for the function.
   std::string folder_of(const std::string& function) const {
-    const std::string light = answers_folder("light");
-    return fs::exists(light + "/a/function/" + function + ".glsl") ? light : answers_folder();
+    for (const std::string homework : {"light", "structures"})
+      if (const std::string own = answers_folder(homework);
+          fs::exists(own + "/a/function/" + function + ".glsl"))
+        return own;
+    return answers_folder();
   }
   std::string style(const std::string& which, const std::string& function) const {
     return read_file(folder_of(function) + "/" + which + "/function/" + function + ".glsl");
@@ -224,6 +98,13 @@ TEST_F(GradeFunctions, TheSameOfLight) {
   for (const Wrong& wrong : wrong_light()) hand_in_wrong(wrong);
   EXPECT_GE(100 * named_of(wrong_light(), grade({"rays-and-light", "class", answers_folder("light")})),
             95 * wrong_light().size());
+}
+
+TEST_F(GradeFunctions, TheSameOfStructures) {
+  for (const Wrong& wrong : wrong_structures()) hand_in_wrong(wrong);
+  EXPECT_GE(100 * named_of(wrong_structures(),
+                           grade({"rays-and-structures", "class", answers_folder("structures")})),
+            95 * wrong_structures().size());
 }
 
 // A mistake in one function excuses nothing in another.

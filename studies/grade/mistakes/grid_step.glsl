@@ -1,0 +1,59 @@
+// The step to a grid's next cell as a student writes it, with the usual mistakes: MISTAKE is the number of one, 0 of none. The grader
+// reads this list (mistakes.cpp); each sentence goes on from "as if".
+// mistake 1: every step went up
+// mistake 2: the ray left each cell by its lower wall
+// mistake 3: the ray left each cell by its upper wall
+// mistake 4: a wall that the ray runs along was met (the direction's 0 is divided by)
+// mistake 5: the last of the three walls came first
+// mistake 6: the grid began at the origin of the world (low is left out)
+// mistake 7: cells were 1 wide
+// mistake 8: cells were cubes (size.x serves all axes)
+// mistake 9: t was a length (the direction is normalized first)
+// mistake 10: the step was taken along all three axes at once
+// mistake 11: the nearest wall was the first (the distance is not divided by the direction)
+// mistake 12: the axis was always the one along which the direction is largest
+// mistake 13: the axis was always x
+// mistake 14: the ray began at the origin of the world
+// mistake 15: the distance to the wall was multiplied by the direction, not divided
+// mistake 16: every step went back
+// mistake 17: there was no z
+// mistake 18: t was where the ray leaves the next cell's opposite wall
+// mistake 19: the grid's low corner was added twice
+// mistake 20: t was counted from the cell's own wall, not from the ray's begin
+// mistake 21: a wall that the ray runs along was met (the direction's 0 is divided by; the last of two such walls counts)
+// mistake 22: a wall that the ray runs along was met (the direction's 0 is divided by, and the ray stays in its cell)
+ivec3 grid_step(ivec3 cell, vec3 origin, vec3 direction, vec3 low, vec3 size, out float t) {
+  bool divides = MISTAKE == 4 || MISTAKE == 21 || MISTAKE == 22;
+  vec3 d = MISTAKE == 9 ? normalize(direction) : direction, o = MISTAKE == 14 ? vec3(0.0) : origin;
+  vec3 begin = MISTAKE == 6 ? vec3(0.0) : MISTAKE == 19 ? 2.0 * low : low;
+  vec3 wide = MISTAKE == 7 ? vec3(1.0) : MISTAKE == 8 ? vec3(size.x) : size;
+  vec3 next = vec3(1e30);
+  for (int i = 0; i < 3; ++i) {
+    if (d[i] == 0.0 && !divides) continue;
+    float upper = MISTAKE == 2 ? 0.0 : MISTAKE == 3 ? 1.0 : d[i] > 0.0 ? 1.0 : 0.0;
+    if (MISTAKE == 18) upper += d[i] > 0.0 ? 1.0 : -1.0;
+    float wall = begin[i] + (float(cell[i]) + upper) * wide[i];
+    float way = MISTAKE == 20 ? sign(d[i]) * wide[i] : wall - o[i];
+    next[i] = MISTAKE == 11 ? abs(way) : MISTAKE == 15 ? way * d[i] : way / d[i];
+    if (divides && d[i] == 0.0) next[i] = way > 0.0 ? 1e30 : -1e30;
+  }
+  bool last = MISTAKE == 21;
+  int axis = next.y < next.x || last && next.y == next.x ? 1 : 0;
+  if ((next.z < next[axis] || last && next.z == next[axis]) && MISTAKE != 17) axis = 2;
+  if (MISTAKE == 5) {
+    axis = d.x != 0.0 ? 0 : d.y != 0.0 ? 1 : 2;
+    for (int i = 0; i < 3; ++i)
+      if (d[i] != 0.0 && next[i] > next[axis]) axis = i;
+  }
+  vec3 size_of = abs(d);
+  if (MISTAKE == 12) axis = size_of.z > max(size_of.x, size_of.y) ? 2 : size_of.y > size_of.x ? 1 : 0;
+  if (MISTAKE == 13) axis = 0;
+  t = MISTAKE == 11 ? (begin[axis] + (float(cell[axis]) + (d[axis] > 0.0 ? 1.0 : 0.0)) * wide[axis] - o[axis]) / d[axis] : next[axis];
+  ivec3 moved = cell;
+  int by = int(sign(d[axis]));
+  if (MISTAKE == 1) by = abs(by);
+  if ((MISTAKE == 4 || MISTAKE == 21) && by == 0) by = -1;
+  moved[axis] += MISTAKE == 16 ? -by : by;
+  if (MISTAKE == 10) moved = cell + ivec3(sign(d));
+  return moved;
+}
