@@ -95,6 +95,14 @@ struct CapturedMoments {
   std::vector<Texel> texels{};  ///< as ShadowMap::depth, whose numbers are these texels' means
 };
 
+/// One half of a dual paraboloid map (Brabec, Annen and Seidel 2002, section 3): what lies from the light in the unit direction
+/// d, in the half's own axes, is looked up at d.xy / (1 + d.z), which runs from -1 to 1 where d.z >= 0.
+struct CapturedParaboloid {
+  Mat3 half_from_world{1.0};       ///< of directions: a turn, or one that mirrors
+  int width = 0, height = 0;       ///< texels
+  std::vector<float> distances{};  ///< from the light, world units, rows from y = -1 on; 0: nothing is stored
+};
+
 /// How another renderer tests a map that it drew: by stored numbers, and in its own units.
 struct CapturedTest {
   /// World units that 1 of a stored number counts for; gaps and constant bias are differences of stored
@@ -113,9 +121,11 @@ struct CapturedTest {
   /// are linear in world units.
   enum class Stores : std::uint8_t { depths, distances, linear_z } stores = Stores::depths;
   /// What is compared once: the texel's stored number; what is read between the four nearest texels, each weighed by how near it
-  /// is; or the number up to which moments that are so read leave half of the light.
-  enum class Read : std::uint8_t { nearest, linear_depths, moments } read = Read::nearest;
+  /// is; the number up to which moments that are so read leave half of the light; or the number of a paraboloid's texel, beside
+  /// which the record's own map, a cube, has the same at its texels' centres.
+  enum class Read : std::uint8_t { nearest, linear_depths, moments, paraboloids } read = Read::nearest;
   CapturedMoments moments{};
+  std::vector<CapturedParaboloid> paraboloids{};  ///< empty, or two that look opposite ways
   /// By face, where a picture of the renderer's fills a part of the face alone: columns and rows from the lowest u and v.
   struct Part {
     int column = 0, row = 0, width = 0, height = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compare/ladder/moments.h"
+#include "compare/ladder/paraboloids.h"
 #include "compare/truth/texel_groups.h"
 
 namespace gnomon::compare {
@@ -211,6 +212,7 @@ std::optional<double> compared_caster(const raster::LightRecord& record, const B
   const Read how = record.captured ? record.captured->test->read : Read::nearest;
   if (how == Read::nearest) return stored_caster(record, lookup.key);
   if (how == Read::moments) return caster_of_moments(record, lookup);
+  if (how == Read::paraboloids) return caster_of_paraboloids(record, lookup);
   const raster::ShadowMap& map = record.map;
   double read = 0.0;
   for (const WeighedTexel& near : texels_between(record, lookup.at))

@@ -2,6 +2,7 @@
 
 #include "compare/ladder/biased_test.h"
 #include "compare/ladder/labelling.h"
+#include "compare/ladder/paraboloids.h"
 #include "compare/truth/stored_surface.h"
 #include "raster/technique_traits.h"
 
@@ -44,10 +45,22 @@ double gap_with_bias(const LowerClimb& lower, const LadderInput& in, std::size_t
   const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
   const double exact = lower.centres[group];
   const double moved = caster_offset(in.record(), texel);
-  const bool of_texel = texel == lower.groups.keys[group] && !reads_moments(in.record());
+  const bool of_texel =
+      texel == lower.groups.keys[group] && !reads_moments(in.record()) && !reads_paraboloids(in.record());
   if (of_texel && is_exact(in, texel, *depth - moved, exact))
     return gap_before_exact(in, *lookup, receiver, exact + moved);
   return gap_before(in.record(), in.drawn.options.map.bias, receiver.normal, *lookup, *depth);
+}
+
+/// The depth of what the ray through the middle of the paraboloid's texel meets first.
+double exact_depth_of_paraboloid(const LadderInput& in, const BiasedLookup& lookup) {
+  const raster::LightRecord& record = in.record();
+  const auto& halves = record.captured->test->paraboloids;
+  const Vec3& origin = record.map.view.origin;
+  const ParaboloidPlace place = paraboloid_place(halves, glm::normalize(lookup.position - origin));
+  const Ray ray{origin, paraboloid_direction(halves, texel_centre(halves, place)), {0.0, infinity}};
+  const auto hit = in.tracer.closest_hit(ray, raytrace::Sides::casting);
+  return hit ? depth_of_distance(record, lookup, hit->t) : infinity;
 }
 
 /// The depth at which the ray through the looked-up texel's centre meets what the texel stores.
@@ -64,7 +77,8 @@ std::optional<double> gap_to_exact(const LowerClimb& lower, const LadderInput& i
   const auto& captured = in.record().captured;
   if (captured && captured->test && captured->test->read == raster::CapturedTest::Read::linear_depths)
     return std::nullopt;  // it reads no one texel
-  const auto depth = exact_depth(lower, in, group, lookup->key);
+  const auto depth = reads_paraboloids(in.record()) ? exact_depth_of_paraboloid(in, *lookup)
+                                                    : exact_depth(lower, in, group, lookup->key);
   if (!depth) return std::nullopt;
   if (std::isinf(*depth)) return -infinity;
   return gap_before_exact(in, *lookup, in.traced.receiver.data[pixel],

@@ -20,16 +20,6 @@ using light_fit::face_along;
 using light_fit::Rect;
 using light_fit::to_light_space;
 
-std::array<LightFace, 6> cube_faces() {
-  const auto face = [](Vec3 forward, Vec3 up) {
-    LightFace out;
-    out.right = glm::cross(forward, up), out.up = up, out.forward = forward;
-    return out;
-  };
-  return {face({1, 0, 0}, {0, 1, 0}),  face({-1, 0, 0}, {0, 1, 0}), face({0, 1, 0}, {0, 0, 1}),
-          face({0, -1, 0}, {0, 0, 1}), face({0, 0, 1}, {0, 1, 0}),  face({0, 0, -1}, {0, 1, 0})};
-}
-
 // The camera frustum down to `reach`, projected along the light and cut with the rectangle; the whole rectangle where the
 // camera sees none of it.
 Rect visible_part(const Rect& rect, const LightFace& face, const Vec3& reference, const View& view,

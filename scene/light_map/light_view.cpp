@@ -79,6 +79,16 @@ int cube_face(const Vec3& d) {
   return d.z >= 0.0 ? 4 : 5;
 }
 
+std::array<LightFace, 6> cube_faces() {
+  const auto face = [](Vec3 forward, Vec3 up) {
+    LightFace out;
+    out.right = glm::cross(forward, up), out.up = up, out.forward = forward;
+    return out;
+  };
+  return {face({1, 0, 0}, {0, 1, 0}),  face({-1, 0, 0}, {0, 1, 0}), face({0, 1, 0}, {0, 0, 1}),
+          face({0, -1, 0}, {0, 0, 1}), face({0, 0, 1}, {0, 1, 0}),  face({0, 0, -1}, {0, 1, 0})};
+}
+
 TexelCoordinate project_to_texel(const LightView& view, const Vec3& world) {
   if (is_perspective(view) && view.face_count == 6) {
     TexelCoordinate t = project_to_face(view, cube_face(world - view.origin), world);

@@ -94,6 +94,8 @@ std::array<Vec3, 8> face_corners(const LightView& view, int face);
 
 /// Point lights choose the face of the largest |component|; ties go to x, then y, then z.
 int cube_face(const Vec3& from_light);
+/// The frames of a cube's faces in cube_face()'s order, 90 degrees wide, with depths from 0 to 1.
+std::array<LightFace, 6> cube_faces();
 
 /// A point in several cascades belongs to the first that holds it and the four texels around it; one in none,
 /// to the last.

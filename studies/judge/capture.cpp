@@ -46,6 +46,25 @@ Expected<void> check_layer_biases(const Capture& capture) {
   return {};
 }
 
+/// What a capture of paraboloids cannot say.
+Expected<void> check_halves(const Capture& capture) {
+  const auto wrong = [&](const std::string& field, const char* reason) {
+    return capture_error(capture, field, reason);
+  };
+  if (capture.map.size() != 2) return wrong("map", "of paraboloids has two layers, one for each half");
+  if (capture.filter && capture.filter->read != raster::CapturedTest::Read::nearest)
+    return wrong("filter.read", "is nearest of paraboloids, whose comparisons may be averaged (kind pcf)");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const CapturedLayer& layer = capture.map[i];
+    const std::string field = fmt::format("map[{}].", i);
+    if (layer.select) return wrong(field + "select", "is not of paraboloids: the way to the light chooses");
+    if (layer.bias) return wrong(field + "bias", "is not of paraboloids: `bias` is that of both halves");
+    if (layer.caster_bias != capture.map.front().caster_bias)
+      return wrong(field + "caster_bias", "differs from that of the other half");
+  }
+  return {};
+}
+
 Expected<void> check_map(const Capture& capture) {
   const std::size_t layers = capture.map.size();
   if (layers > most_layers)
@@ -91,6 +110,8 @@ Expected<void> check_map(const Capture& capture) {
     return capture_error(capture, "map",
                          "has a select in some layers; it needs one in all of them or in none");
   if (const auto alike = check_layer_biases(capture); !alike) return alike;
+  if (has_paraboloids(capture))
+    if (const auto sound = check_halves(capture); !sound) return sound;
   if (layers == 0 && capture.bias) return capture_error(capture, "bias", "says nothing without map");
   if (layers == 0 && capture.filter) return capture_error(capture, "filter", "says nothing without map");
   if (layers == 0 && capture.fade) return capture_error(capture, "fade", "says nothing without map");

@@ -19,17 +19,25 @@ namespace gnomon::compare {
 /// What a depth buffer of the camera holds.
 enum class PixelDepth : std::uint8_t { view_z, distance, zero_to_one, reversed };
 /// What the light's matrix makes of depth, and what a texel of its map holds.
-enum class StoredDepth : std::uint8_t { zero_to_one, minus_one_to_one, reversed, distance, linear_z };
+enum class StoredDepth : std::uint8_t {
+  zero_to_one,
+  minus_one_to_one,
+  reversed,
+  distance,
+  linear_z,
+  paraboloid,
+};
 enum class RowOrder : std::uint8_t { top_down, bottom_up };
 enum class FilterName : std::uint8_t { none, pcf, pcss, vsm, esm, evsm, msm };
 
 inline constexpr std::array<std::string_view, 4> pixel_depth_names{"view_z", "distance", "zero_to_one",
                                                                    "reversed"};
-inline constexpr std::array<std::string_view, 5> stored_depth_names{"zero_to_one", "minus_one_to_one",
-                                                                    "reversed", "distance", "linear_z"};
+inline constexpr std::array<std::string_view, 6> stored_depth_names{
+    "zero_to_one", "minus_one_to_one", "reversed", "distance", "linear_z", "paraboloid"};
 /// Whether stored numbers are world units, or evenly spaced in them (CapturedLayer::range), whatever the matrix makes of depth.
 constexpr bool is_linear(StoredDepth stored) {
-  return stored == StoredDepth::distance || stored == StoredDepth::linear_z;
+  return stored == StoredDepth::distance || stored == StoredDepth::linear_z ||
+         stored == StoredDepth::paraboloid;
 }
 inline constexpr std::array<std::string_view, 2> row_order_names{"top_down", "bottom_up"};
 constexpr raster::Technique technique_of(FilterName filter) {
@@ -137,6 +145,11 @@ struct Capture {
 /// Whether the test reads moments, of which a layer's picture then has a channel each.
 inline bool reads_moments(const Capture& capture) {
   return capture.filter && capture.filter->read == raster::CapturedTest::Read::moments;
+}
+
+/// Whether the map is one of both halves of a dual paraboloid, whose texels hold distances from the light.
+inline bool has_paraboloids(const Capture& capture) {
+  return !capture.map.empty() && capture.map.front().convention == StoredDepth::paraboloid;
 }
 
 /// Reads a capture's lights: one Capture for each of `lights`, each with what they share; of a capture without `lights` one.

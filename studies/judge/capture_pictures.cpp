@@ -329,4 +329,10 @@ Expected<CapturedPictures> read_pictures(const Capture& capture, bool orthograph
   return out;
 }
 
+Expected<Channel> read_layer_numbers(const Capture& capture, std::size_t layer, ImageSize& size) {
+  static constexpr std::array<std::string_view, 4> names{"Z", "Y", "R", "V"};
+  return read_single_channel(capture, capture.map[layer].depth, fmt::format("map[{}].depth", layer), names,
+                             size);
+}
+
 }  // namespace gnomon::compare

@@ -43,6 +43,9 @@ Expected<CapturedPictures> read_pictures(const Capture& capture, bool orthograph
 /// All channels of a layer's picture.
 Expected<ChannelImage> read_layer(const Capture& capture, std::size_t layer);
 
+/// The one channel of a layer's picture, Z, Y, R or V; `size` becomes the picture's.
+Expected<Channel> read_layer_numbers(const Capture& capture, std::size_t layer, ImageSize& size);
+
 /// One channel of a picture by the first of these names, or its only one. `field`: for messages.
 Expected<Channel> read_single_channel(const Capture& capture, const std::string& file,
                                       const std::string& field, std::span<const std::string_view> names,

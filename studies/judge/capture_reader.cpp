@@ -9,6 +9,7 @@
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "studies/judge/capture.h"
+#include "studies/judge/capture_words.h"
 
 namespace gnomon::compare {
 namespace {
@@ -23,44 +24,6 @@ constexpr std::size_t most_lights = 64;
 /// What `lights[]` has for each light, and a capture of one light itself.
 constexpr std::array<std::string_view, 10> light_keys{
     "light", "visibility", "shadowed", "unshadowed", "map", "bias", "filter", "strength", "fade", "also"};
-
-/// Words of engines and of earlier captures for what the format says elsewhere.
-constexpr KeyMeaning meanings[] = {
-    {"cascades", "map[].select"},
-    {"splits", "map[].select"},
-    {"cascadesplits", "map[].select"},
-    {"splitdistances", "map[].select"},
-    {"atlas", "map[].rect"},
-    {"viewport", "map[].rect"},
-    {"matrix", "map[].clip_from_world"},
-    {"lightmatrix", "map[].clip_from_world"},
-    {"viewprojection", "map[].clip_from_world"},
-    {"shadowmatrix", "map[].clip_from_world"},
-    {"near", "map[].range"},
-    {"far", "map[].range"},
-    {"constant", "bias.constant_depth"},
-    {"constantbias", "bias.constant_depth"},
-    {"depthbias", "bias.constant_depth"},
-    {"shadowbias", "bias.constant_depth"},
-    {"slopebias", "bias.slope"},
-    {"slopescale", "map[].caster_bias.slope"},
-    {"polygonoffset", "map[].caster_bias"},
-    {"normalbias", "bias.normal_offset_world"},
-    {"normaloffset", "bias.normal_offset_world"},
-    {"radius", "filter.radius_texels"},
-    {"kernel", "filter.kind"},
-    {"opacity", "strength"},
-    {"intensity", "strength"},
-    {"darkness", "strength"},
-    {"maxdistance", "fade"},
-    {"shadowdistance", "fade"},
-    {"contactshadows", "also"},
-    {"cookie", "also"},
-    {"mask", "also"},
-    {"shadow", "visibility"},
-    {"shadows", "visibility"},
-    {"positions", "position"},
-};
 
 template <std::size_t N>
 std::vector<std::string_view> choices(const std::array<std::string_view, N>& names) {
@@ -173,7 +136,8 @@ void CaptureReader::read_layer(const JsonNode& node) {
   if (const auto named = object.require("depth")) layer.depth = file(*named);
   if (const auto convention = object.require("convention")) {
     layer.convention = static_cast<StoredDepth>(convention->as_choice(choices(stored_depth_names)));
-    if (layer.convention == StoredDepth::linear_z) since_2(*convention, "linear_z");
+    if (*layer.convention >= StoredDepth::linear_z)
+      since_2(*convention, stored_depth_names[static_cast<std::size_t>(*layer.convention)].data());
   }
   if (const auto rows = object.require("rows"))
     layer.rows = static_cast<RowOrder>(rows->as_choice(choices(row_order_names)));
@@ -371,7 +335,7 @@ Expected<std::vector<Capture>> read_captures(const std::string& path) {
   if (!bytes) return fail(bytes.error());
   const auto document = parse_json(*bytes, path);
   if (!document) return fail(document.error());
-  JsonErrors errors{.document = *document, .meanings = meanings};
+  JsonErrors errors{.document = *document, .meanings = capture_words};
   std::vector<Capture> captures = CaptureReader(errors, folder_of(path)).read(document->root);
   if (errors.first) return fail(*errors.first);
   for (Capture& capture : captures) capture.path = path;

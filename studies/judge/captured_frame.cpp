@@ -145,13 +145,15 @@ std::uint8_t selected_face(const View& view, const std::vector<CapturedSelect>& 
 void fill_test(const FrameInput& in, const CapturedMap& map, raster::CapturedTest& test,
                const raster::LightRecord& record) {
   using Stores = raster::CapturedTest::Stores;
-  test.stores = map.stored == StoredDepth::distance   ? Stores::distances
-                : map.stored == StoredDepth::linear_z ? Stores::linear_z
-                                                      : Stores::depths;
+  test.stores = map.stored == StoredDepth::linear_z ? Stores::linear_z
+                : is_linear(map.stored)             ? Stores::distances
+                                                    : Stores::depths;
   test.unit_world = test.stores == Stores::depths ? unit_world(record.map, in.traced) : map.unit_world;
   test.parts = map.parts;
   if (in.capture.filter) test.read = in.capture.filter->read;
   test.moments = map.moments;
+  test.paraboloids = map.paraboloids;
+  if (!test.paraboloids.empty()) test.read = raster::CapturedTest::Read::paraboloids;
   const CapturedBias& first = map.bias.front();
   test.normal_offset_world = first.normal_offset_world;
   test.normal_offset_angle = first.normal_offset_angle, test.constant_angle = first.angle;

@@ -7,11 +7,11 @@
 #include "scene/light.h"
 #include "studies/judge/capture_pictures.h"
 #include "studies/judge/captured_moments.h"
+#include "studies/judge/captured_paraboloids.h"
 
 namespace gnomon::compare {
 namespace {
 
-constexpr std::array<std::string_view, 4> texel_names{"Z", "Y", "R", "V"};
 /// Engines keep matrices as floats: 2^-24 of each entry, some of them sums of a few.
 constexpr double matrix_slack = 1e-4;
 /// The light's direction, which engines keep in floats and work out again from a target: radians.
@@ -90,7 +90,8 @@ std::string direction_text(const Vec3& v) {
   return fmt::format("({:.3f}, {:.3f}, {:.3f})", v.x, v.y, v.z);
 }
 
-/// The reason why the map cannot be this light's.
+}  // namespace
+
 std::optional<std::string> not_of_light(const MatrixFace& face, std::size_t faces, const Light& light,
                                         const World& world) {
   const bool orthographic = face.projection == LightProjection::orthographic;
@@ -115,6 +116,8 @@ std::optional<std::string> not_of_light(const MatrixFace& face, std::size_t face
                        light.name, direction_text(light.direction));
   return std::nullopt;
 }
+
+namespace {
 
 /// A layer's texels in its picture: rows from the bottom, and mirrored where the matrix was.
 struct LayerTexels {
@@ -144,13 +147,6 @@ Mat4 clip_of_rect(const CapturedLayer& layer, ImageSize picture) {
   return rect_from_picture * *layer.clip_from_world;
 }
 
-/// Returns the world units that a stored number stands for; 0 of the far end of a range, where nothing was drawn.
-double linear_world(const std::optional<Vec2>& range, double stored) {
-  if (!range) return stored;
-  const bool empty = range->y > range->x ? stored >= 1.0 : stored <= 0.0;
-  return empty ? 0.0 : range->x + stored * (range->y - range->x);
-}
-
 /// A distance or a depth along the axis, world units, as the view's stored depth; what lies beyond its far plane, and 0, is
 /// nothing.
 float stored_of_linear(const LightView& view, StoredDepth stored, int face, int u, int v, double value) {
@@ -167,8 +163,7 @@ float stored_of_linear(const LightView& view, StoredDepth stored, int face, int 
 Expected<LayerNumbers> read_numbers(const Capture& capture, std::size_t i, const CapturedMap& map) {
   if (reads_moments(capture)) return read_moments(capture, i, map.moments);
   LayerNumbers out;
-  auto channel = read_single_channel(capture, capture.map[i].depth, fmt::format("map[{}].depth", i),
-                                     texel_names, out.size);
+  auto channel = read_layer_numbers(capture, i, out.size);
   if (!channel) return fail(channel.error());
   out.values = std::move(channel->values);
   return out;
@@ -263,6 +258,12 @@ Expected<std::vector<int>> order_faces(const Capture& capture, const std::vector
 
 }  // namespace
 
+double linear_world(const std::optional<Vec2>& range, double stored) {
+  if (!range) return stored;
+  const bool empty = range->y > range->x ? stored >= 1.0 : stored <= 0.0;
+  return empty ? 0.0 : range->x + stored * (range->y - range->x);
+}
+
 tl::expected<MatrixFace, std::string> take_apart(const Mat4& m, StoredDepth convention) {
   for (int i = 0; i < 16; ++i)
     if (!std::isfinite(m[i / 4][i % 4]))
@@ -329,12 +330,14 @@ Capture in_world_of_scene(Capture capture, const Mat3& scene_from_captured) {
 }
 
 Expected<void> check_map_matrices(const Capture& capture, const Light& light, const World& world) {
+  if (has_paraboloids(capture)) return check_paraboloids(capture, light, world);
   const auto faces = read_faces(capture, light, world);
   if (!faces) return fail(faces.error());
   return {};
 }
 
 Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world) {
+  if (has_paraboloids(capture)) return read_paraboloids(capture, light, world);
   CapturedMap out;
   const StoredDepth convention = *capture.map.front().convention;
   out.stored = convention;

@@ -11,11 +11,12 @@ struct CapturedMap {
   raster::ShadowMap map;  ///< `primitive` holds no_id all over
   StoredDepth stored = StoredDepth::zero_to_one;
   double unit_world = 1.0;  ///< where is_linear(stored): world units in one of the stored numbers
-  std::vector<CapturedCasterBias> caster_bias;    ///< by face
-  std::vector<raster::CapturedTest::Part> parts;  ///< by face: where its layer lies; empty: all over it
-  std::vector<CapturedBias> bias;                 ///< by face
-  std::vector<CapturedSelect> select;             ///< by face; empty: the first that holds a place
-  raster::CapturedMoments moments;                ///< of a filter that reads them; else without texels
+  std::vector<CapturedCasterBias> caster_bias;          ///< by face
+  std::vector<raster::CapturedTest::Part> parts;        ///< by face: where its layer lies; empty: all over it
+  std::vector<CapturedBias> bias;                       ///< by face
+  std::vector<CapturedSelect> select;                   ///< by face; empty: the first that holds a place
+  raster::CapturedMoments moments;                      ///< of a filter that reads them; else without texels
+  std::vector<raster::CapturedParaboloid> paraboloids;  ///< two, beside which `map` is a cube; else none
 };
 
 /// Errors (bad input): a matrix that is singular, shears, or is not the light's (its rays run elsewhere).
@@ -28,6 +29,9 @@ Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const
 /// The capture with matrices and lengths of the scene's world in the place of its own; places are not touched.
 Capture in_world_of_scene(Capture capture, const Mat3& scene_from_captured);
 
+/// Returns the world units that a stored number stands for where is_linear(); 0 of the far end of a range, where nothing was drawn.
+double linear_world(const std::optional<Vec2>& range, double stored);
+
 /// The face of one matrix (right x up = -forward; `mirrored`: the matrix's x runs the other way), and for a
 /// perspective matrix the place it looks from. The reason where it is no orthographic or symmetric
 /// perspective projection.
@@ -37,6 +41,10 @@ struct MatrixFace {
   Vec3 origin{0.0};
   bool mirrored = false;
 };
+/// The reason why the map of so many faces cannot be this light's: it looks from or along elsewhere.
+std::optional<std::string> not_of_light(const MatrixFace& face, std::size_t faces, const Light& light,
+                                        const World& world);
+
 tl::expected<MatrixFace, std::string> take_apart(const Mat4& clip_from_world, StoredDepth convention);
 
 }  // namespace gnomon::compare

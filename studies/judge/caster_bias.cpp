@@ -223,7 +223,7 @@ class TexelMender {
   /// None where the map holds no surface of the scene so moved.
   std::optional<Unmoved> unmoved(TexelKey key) const {
     const double stored = depths_.stored(key);
-    if (const auto first = depths_.first(key.face(), {key.column() + 0.5, key.row() + 0.5}))
+    if (const auto first = depths_.first(key))
       if (const auto held = reader_.held(*first, key); held && is_held(*held, key, stored))
         return Unmoved{stored - offset(*held, key), held->slope};
     return among_all(key, stored);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "compare/ladder/biased_test.h"
+#include "compare/ladder/paraboloids.h"
 #include "compare/metrics/pixel_list.h"
 #include "compare/result/number_text.h"
 #include "scene/base/stages.h"
@@ -47,6 +48,13 @@ class Checker {
     const SurfacePoint& receiver = in_.traced.receiver.data[pixel];
     return biased_lookup(record_, map_.bias, light_at(light_, receiver.position).to_light, receiver, pixel);
   }
+  /// Whether the test draws it where the lookup reads this depth.
+  bool draws(const BiasedLookup& lookup, const Vec3& normal, const std::optional<double>& depth,
+             bool lit) const {
+    const double gap = depth ? gap_before(record_, map_.bias, normal, lookup, *depth) : -infinity;
+    const double over = gap - record_.bias_constant_world;
+    return lit ? over <= slack_ : over > -slack_;
+  }
   bool read_between_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const;
   bool some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const;
 
@@ -64,16 +72,18 @@ bool Checker::read_between_draws(const BiasedLookup& lookup, const Vec3& normal,
   for (const Vec2& off : {Vec2(0, 0), Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)}) {
     BiasedLookup there = lookup;
     there.at.u += rounding_texels * off.x, there.at.v += rounding_texels * off.y;
-    const auto depth = compared_caster(record_, there);
-    const double gap = depth ? gap_before(record_, map_.bias, normal, lookup, *depth) : -infinity;
-    const double over = gap - record_.bias_constant_world;
-    if (lit ? over <= slack_ : over > -slack_) return true;
+    if (draws(lookup, normal, compared_caster(record_, there), lit)) return true;
   }
   return false;
 }
 
 /// What lies beyond the map's border is the renderer's own choice.
 bool Checker::some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const {
+  if (reads_paraboloids(record_)) {
+    const auto depths = casters_around(record_, lookup, reach_);
+    return std::any_of(depths.begin(), depths.end(),
+                       [&](const auto& depth) { return draws(lookup, normal, depth, lit); });
+  }
   if (reads_between_) return read_between_draws(lookup, normal, lit);
   const auto texel = [](double place) { return static_cast<int>(std::floor(place)); };
   const int left = texel(lookup.at.u - reach_), right = texel(lookup.at.u + reach_);
@@ -84,10 +94,7 @@ bool Checker::some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, b
     for (int column = left; column <= right; ++column) {
       BiasedLookup there = lookup;
       there.key = raytrace::TexelKey::pack(lookup.at.face, column, row);
-      const auto depth = stored_caster(record_, there.key);
-      const double gap = depth ? gap_before(record_, map_.bias, normal, there, *depth) : -infinity;
-      const double over = gap - record_.bias_constant_world;
-      if (lit ? over <= slack_ : over > -slack_) return true;
+      if (draws(there, normal, stored_caster(record_, there.key), lit)) return true;
     }
   return false;
 }
@@ -112,7 +119,7 @@ bool Checker::may_draw(std::size_t pixel, float visibility, bool any_cascade) co
 
 std::optional<double> Checker::mean_light(std::size_t pixel, double radius) const {
   const auto lookup = lookup_of(pixel);
-  if (!lookup) return std::nullopt;
+  if (!lookup || reads_paraboloids(record_)) return std::nullopt;
   const double u = lookup->at.u, v = lookup->at.v, size = record_.map.view.size;
   if (u < radius || v < radius || u + radius >= size || v + radius >= size) return std::nullopt;
   const auto part = [radius](double middle, int texel) {

@@ -235,8 +235,7 @@ bool Content::is_culled(const Texel& t) const {
 /// The map holds a triangle where its alpha mask has a hole.
 bool Content::is_masked_out(const Texel& t) const {
   if (t.empty) return false;
-  const Ray ray =
-      caster_ray(in_.world, record_.map.view, t.key.face(), t.key.column() + 0.5, t.key.row() + 0.5);
+  const Ray ray = stored_.ray(t.key);
   const LightView& view = record_.map.view;
   const Vec3& forward = view.face(t.key.face()).forward;
   for (const WorldPart& part : in_.world.parts) {

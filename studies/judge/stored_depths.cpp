@@ -6,6 +6,7 @@
 
 #include "compare/ladder/biased_test.h"
 #include "compare/ladder/moments.h"
+#include "compare/ladder/paraboloids.h"
 
 namespace gnomon::compare {
 namespace {
@@ -83,21 +84,32 @@ SurfaceOnRay StoredDepths::surface(const Ray& ray, const raytrace::Hit& hit, int
           0.5 * (u.depth + v.depth), std::max(u.stored, v.stored), front};
 }
 
-std::optional<SurfaceOnRay> StoredDepths::first(int face, const Vec2& place) const {
-  const Ray ray = caster_ray(in_.world, view_, face, place.x, place.y);
-  const auto hit = in_.tracer.closest_hit(ray, raytrace::Sides::casting);
+Ray StoredDepths::ray(raytrace::TexelKey key, const Vec2& off) const {
+  const Vec2 middle(key.column() + 0.5, key.row() + 0.5);
+  if (!reads_paraboloids(record_))
+    return caster_ray(in_.world, view_, key.face(), middle.x + off.x, middle.y + off.y);
+  const auto& halves = record_.captured->test->paraboloids;
+  ParaboloidPlace place = texel_centre(
+      halves, paraboloid_place(halves, texel_ray(view_, key.face(), middle.x, middle.y).direction));
+  place.u += off.x, place.v += off.y;
+  return {view_.origin, paraboloid_direction(halves, place), {0.0, infinity}};
+}
+
+std::optional<SurfaceOnRay> StoredDepths::first(raytrace::TexelKey key, const Vec2& off) const {
+  const Ray from = ray(key, off);
+  const auto hit = in_.tracer.closest_hit(from, raytrace::Sides::casting);
   if (!hit) return std::nullopt;
-  return surface(ray, *hit, face, place);
+  return surface(from, *hit, key.face(), Vec2(key.column() + 0.5, key.row() + 0.5) + off);
 }
 
 std::vector<SurfaceOnRay> StoredDepths::all(raytrace::TexelKey key, std::size_t most) const {
   std::vector<SurfaceOnRay> out;
   const Vec2 place(key.column() + 0.5, key.row() + 0.5);
-  const Ray ray = caster_ray(in_.world, view_, key.face(), place.x, place.y);
+  const Ray from = ray(key);
   visit_hits(
-      ray, [&](const Ray& from) { return in_.tracer.closest_hit(from, raytrace::Sides::casting); },
+      from, [&](const Ray& rest) { return in_.tracer.closest_hit(rest, raytrace::Sides::casting); },
       [&](const raytrace::Hit& hit) {
-        out.push_back(surface(ray, hit, key.face(), place));
+        out.push_back(surface(from, hit, key.face(), place));
         return out.size() < most;
       });
   return out;
@@ -122,10 +134,9 @@ bool StoredDepths::is_stored(raytrace::TexelKey key, double depth, double slack)
 }
 
 bool StoredDepths::holds_within(raytrace::TexelKey key, double reach, int steps, double slope_texels) const {
-  const Vec2 centre(key.column() + 0.5, key.row() + 0.5);
   for (int j = -steps; j <= steps; ++j)
     for (int i = -steps; i <= steps; ++i) {
-      const auto met = first(key.face(), centre + reach / steps * Vec2(i, j));
+      const auto met = first(key, reach / steps * Vec2(i, j));
       // Nothing is stored where nothing lies within the map's depths.
       if (may_be_empty(key) && (!met || met->depth >= view_.face(key.face()).far_depth)) return true;
       if (met && is_stored(key, met->depth, 2.0 * slope_texels * met->across)) return true;
@@ -134,7 +145,7 @@ bool StoredDepths::holds_within(raytrace::TexelKey key, double reach, int steps,
 }
 
 bool StoredDepths::holds_scene(raytrace::TexelKey key) const {
-  const auto centre = first(key.face(), {key.column() + 0.5, key.row() + 0.5});
+  const auto centre = first(key);
   if (!is_empty(key) && centre && is_stored(key, centre->depth, 2.0 * scene_reach * centre->across))
     return true;
   return holds_within(key, scene_reach, 1, scene_reach);

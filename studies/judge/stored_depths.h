@@ -32,8 +32,10 @@ class StoredDepths {
   /// The stored number as a depth along the map's forward axis.
   double depth(raytrace::TexelKey key) const;
 
-  /// What the light meets first on the ray through a place, texels from the face's corner.
-  std::optional<SurfaceOnRay> first(int face, const Vec2& place) const;
+  /// The ray of what a texel holds, or so many texels beside its middle. Of paraboloids: of the one that has its middle.
+  Ray ray(raytrace::TexelKey key, const Vec2& off = Vec2(0.0)) const;
+  /// What the light meets first on that ray.
+  std::optional<SurfaceOnRay> first(raytrace::TexelKey key, const Vec2& off = Vec2(0.0)) const;
   /// All that it meets there, nearest first, at most so many.
   std::vector<SurfaceOnRay> all(raytrace::TexelKey key, std::size_t most) const;
 

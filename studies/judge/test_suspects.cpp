@@ -8,6 +8,7 @@
 #include "compare/bias/bias_curve.h"
 #include "scene/base/parallel.h"
 #include "studies/judge/captured_moments.h"
+#include "studies/judge/captured_paraboloids.h"
 
 namespace gnomon::compare {
 namespace {
@@ -31,6 +32,7 @@ void exchange_texels(LightRecord& record, std::size_t a, std::size_t b, std::siz
 }
 
 bool turn_rows(LightRecord& record) {
+  if (!test_of(record).paraboloids.empty()) return false;  // add_paraboloid_suspects()
   const raster::ShadowMap& map = record.map;
   const int n = map.view.size;
   for (int face = 0; face < map.view.face_count; ++face)
@@ -90,7 +92,7 @@ bool has_offset(LightRecord& record) {
 bool take_for_other_linear(LightRecord& record) {
   raster::ShadowMap& map = record.map;
   Stores& stores = test_of(record).stores;
-  if (stores == Stores::depths || !map.unbiased.empty()) return false;
+  if (stores == Stores::depths || !map.unbiased.empty() || !test_of(record).paraboloids.empty()) return false;
   const LightView& view = map.view;
   const bool distances = stores == Stores::distances;
   parallel_for(view.face_count * view.size, [&](int line) {
@@ -144,7 +146,7 @@ void add_keys_of_test(const LightRecord& described, std::vector<TestSuspect>& ou
   const raster::CapturedTest& test = *described.captured->test;
   using Read = raster::CapturedTest::Read;
   for (const Read read : {Read::nearest, Read::linear_depths})
-    if (read != test.read)
+    if (read != test.read && test.paraboloids.empty())
       out.push_back({fmt::format("`filter.read` is {}", filter_read_names[static_cast<std::size_t>(read)]),
                      "", [read](LightRecord& record) { return test_of(record).read = read, true; }});
   for (std::size_t i = 0; i < raster::angle_form_names.size(); ++i) {
@@ -340,6 +342,7 @@ std::vector<TestSuspect> test_suspects(const FrameInput& in, const LightRecord& 
   add_conventions(described, out);
   add_keys_of_test(described, out);
   add_moment_suspects(described.captured->test->moments, out);
+  add_paraboloid_suspects(*described.captured->test, out);
   add_shifts(described, out);
   add_own_matrices(in.capture, described, out);
   add_exchanged_layers(described, out);

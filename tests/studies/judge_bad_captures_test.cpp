@@ -106,6 +106,33 @@ TEST(BadCaptures, OfPicturesNameThePicture) {
   expect_named(capture, "visibility: values beyond their range");
 }
 
+TEST(BadCaptures, OfParaboloidsNameTheField) {
+  Capture capture = good();
+  const auto half = [](double z) {
+    Mat4 view(1.0);
+    view[2][2] = z;
+    compare::CapturedLayer out = layer(view);
+    out.convention = compare::StoredDepth::paraboloid;
+    return out;
+  };
+  capture.map = {half(1.0)};
+  expect_named(capture, "map: of paraboloids has two layers");
+  capture.map = {half(1.0), half(-1.0)};
+  capture.map[1].bias = compare::CapturedBias{.constant_depth = 0.1};
+  expect_named(capture, "map[1].bias: is not of paraboloids");
+  capture.map[1].bias.reset(), capture.map[1].caster_bias = compare::CapturedCasterBias{.constant = 0.1};
+  expect_named(capture, "map[1].caster_bias: differs from that of the other half");
+  capture.map = {half(1.0), half(1.0)};
+  capture.filter = compare::CapturedFilter{.read = raster::CapturedTest::Read::linear_depths};
+  expect_named(capture, "filter.read: is nearest of paraboloids");
+  capture.filter.reset(), capture.map[1].select = compare::CapturedSelect{};
+  expect_named(capture, "map: has a select in some layers");
+  capture.map[1].select.reset(), (*capture.map[0].clip_from_world)[2][3] = 1.0;
+  expect_named(capture, "map[0].clip_from_world: is no turn and shift");
+  capture.map = {half(1.0), half(1.0)};
+  expect_named(capture, "map[0].clip_from_world: is a perspective where light");
+}
+
 TEST(BadCaptures, OfMapsNameTheField) {
   Capture capture = good();
   capture.map = {layer(Mat4(0.0))};

@@ -1,16 +1,11 @@
 // Every key of a capture, right and with one fault: where all is said as it was drawn, the test that the capture describes
 // draws its picture; with the fault the verdict names the key. The picture is another renderer's (other_renderer.cpp), written
 // with nothing but the capture.
-#include "scene/files/pictures/image_io.h"
-#include "tests/support/judged_engine.h"
+#include "tests/support/said_keys.h"
 
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
-using compare::CapturedBias;
-using compare::CapturedFade;
-using compare::CapturedSelect;
 using compare::FilterName;
 using compare::StoredDepth;
 using raster::AngleForm;
@@ -32,131 +27,6 @@ struct KeyCase {
   std::function<void(Capture&)> fault;  ///< what is said otherwise
   const char* named;                    ///< words of the verdict on that
 };
-
-// ---- what is said ----
-
-void put_texels(Capture& capture, const std::function<float(float)>& change) {
-  for (const compare::CapturedLayer& layer : capture.map)
-    spoil(layer.depth, [&](ChannelImage& image) {
-      for (float& v : image.channels[0].values) v = change(v);
-    });
-}
-
-/// Stored numbers that run over [0, 1] from one end of the range to the other; nothing drawn: the far end's.
-std::function<void(Engine&)> in_range(double near, double far) {
-  return [=](Engine& engine) {
-    for (compare::CapturedLayer& layer : engine.capture.map) layer.range = Vec2(near, far);
-    put_texels(engine.capture, [=](float v) {
-      return v > 0.0f ? static_cast<float>((double{v} - near) / (far - near)) : near < far ? 1.0f : 0.0f;
-    });
-    engine.capture.bias->constant_depth /= std::abs(far - near);
-  };
-}
-
-std::function<void(Engine&)> with_bias(const CapturedBias& bias) {
-  return [=](Engine& engine) { engine.capture.bias = bias; };
-}
-
-std::function<void(Engine&)> filtered(const compare::CapturedFilter& filter) {
-  return [=](Engine& engine) {
-    engine.capture.filter = filter;
-    store_moments(engine.capture);
-  };
-}
-
-/// Three layers by these distances, the second with a bias that leaves no shadow; all hold the same.
-void select_three(Capture& capture, bool by_distance, double blend = 0.0) {
-  capture.map.resize(1);
-  capture.map.assign(3, capture.map[0]);
-  const double ends[] = {0.0, 5.5, 6.2, 1e3};
-  for (std::size_t i = 0; i < 3; ++i)
-    capture.map[i].select = CapturedSelect{ends[i], ends[i + 1], by_distance, i < 2 ? blend : 0.0};
-  capture.map[1].bias = CapturedBias{.constant_depth = 0.05, .normal_offset_world = 0.01};
-}
-
-std::function<void(Engine&)> selected(bool by_distance, double blend = 0.0) {
-  return [=](Engine& engine) { select_three(engine.capture, by_distance, blend); };
-}
-
-std::function<void(Engine&)> faded(const CapturedFade& fade) {
-  return [=](Engine& engine) { engine.capture.fade = fade; };
-}
-
-/// The one layer cut into n x n that overlap, each a picture of its own.
-void cut_into(Capture& capture, int n, int overlap) {
-  const compare::CapturedLayer whole = capture.map[0];
-  const auto picture = read_channels(whole.depth);
-  const int size = picture->size.width, side = size / n + overlap;
-  capture.map.clear();
-  for (int k = 0; k < n * n; ++k) {
-    const int x = std::min(k % n * (size / n), size - side), y = std::min(k / n * (size / n), size - side);
-    compare::CapturedLayer& layer = capture.map.emplace_back(whole);
-    layer.depth = whole.depth + std::to_string(k) + ".exr";
-    Channel part{"Z", {}};
-    for (int row = 0; row < side; ++row)
-      for (int column = 0; column < side; ++column)
-        part.values.push_back(picture->channels[0].values[std::size_t((y + row) * size + x + column)]);
-    EXPECT_TRUE(write_exr(layer.depth, {side, side}, std::array{part}));
-    Mat4 part_from_whole(1.0);
-    part_from_whole[0][0] = part_from_whole[1][1] = double(size) / side;
-    part_from_whole[3][0] = -(2.0 * x + side - size) / side;
-    part_from_whole[3][1] = -(2.0 * y + side - size) / side;
-    layer.clip_from_world = part_from_whole * *whole.clip_from_world;
-  }
-}
-
-/// The layer in a part of a larger picture, its matrix into the whole of that.
-void put_into_atlas(Engine& engine, const compare::CapturedRect& rect, ImageSize atlas) {
-  Capture& capture = engine.capture;
-  spoil(capture.map[0].depth, [&](ChannelImage& image) {
-    std::vector<float> whole(atlas.pixels(), 0.37f);
-    for (int y = 0; y < rect.height; ++y)
-      for (int x = 0; x < rect.width; ++x)
-        whole[std::size_t((rect.y + y) * atlas.width + rect.x + x)] =
-            image.channels[0].values[std::size_t(y * image.size.width + x)];
-    image.size = atlas, image.channels[0].values = std::move(whole);
-  });
-  const double below =
-      capture.map[0].rows == compare::RowOrder::top_down ? atlas.height - rect.y - rect.height : rect.y;
-  Mat4 atlas_from_rect(1.0);
-  atlas_from_rect[0][0] = double(rect.width) / atlas.width,
-  atlas_from_rect[1][1] = double(rect.height) / atlas.height;
-  atlas_from_rect[3][0] = 2.0 * (rect.x + 0.5 * rect.width) / atlas.width - 1.0;
-  atlas_from_rect[3][1] = 2.0 * (below + 0.5 * rect.height) / atlas.height - 1.0;
-  *capture.map[0].clip_from_world = atlas_from_rect * *capture.map[0].clip_from_world;
-  capture.map[0].rect = rect;
-}
-
-/// A strip of the map, whose texels are those of the whole: what lies beside it is outside the map.
-void cut_to_strip(Engine& engine) {
-  constexpr int low = 160, height = 192;
-  spoil(engine.capture.map[0].depth, [&](ChannelImage& image) {
-    std::vector<float>& v = image.channels[0].values;
-    v = std::vector<float>(v.begin() + low * 512, v.begin() + (low + height) * 512);
-    image.size.height = height;
-  });
-  Mat4 part_from_whole(1.0);
-  part_from_whole[1][1] = 512.0 / height;
-  *engine.capture.map[0].clip_from_world = part_from_whole * *engine.capture.map[0].clip_from_world;
-}
-
-/// A strip of the picture at a fifth of its light.
-void darken_by_another(Engine& engine) {
-  engine.capture.also = folder_for("keys-also") + ".exr";
-  Channel also{"V", std::vector<float>(small_picture.pixels(), 1.0f)};
-  for (std::size_t i = 0; i < also.values.size(); ++i)
-    if (i % small_picture.width < 8 && i > also.values.size() / 2) also.values[i] = 0.2f;
-  EXPECT_TRUE(write_exr(engine.capture.also, small_picture, std::array{also}));
-}
-
-void draw_with_also(Engine& engine) {
-  if (engine.capture.also.empty()) return;
-  const auto also = read_channels(engine.capture.also);
-  spoil(engine.capture.visibility, [&](ChannelImage& image) {
-    for (std::size_t i = 0; i < image.size.pixels(); ++i)
-      image.channels[0].values[i] *= also->channels[0].values[i];
-  });
-}
 
 void shift_matrix(Capture& capture, double texels) {
   Mat4 shifted(1.0);
@@ -209,6 +79,7 @@ const Drawing lamp{.light = "lamp", .constant = 0.0004};
 const Drawing lamp_distance{.light = "lamp", .stored = StoredDepth::distance, .constant = 0.02};
 const Drawing lamp_far{.light = "lamp", .stored = StoredDepth::distance, .constant = 0.15};
 const Drawing lamp_linear{.light = "lamp", .stored = StoredDepth::linear_z, .constant = 0.02};
+const Drawing bulb{.light = "bulb", .stored = StoredDepth::distance, .constant = 0.02};
 const Drawing wide{.constant = 0.03};
 const CapturedBias sine{.constant_depth = 0.3, .angle = AngleForm::sine};
 const CapturedBias tangent{.constant_depth = 0.6, .angle = AngleForm::tangent, .min = 0.01, .max = 2.0};
@@ -242,16 +113,19 @@ const KeyCase key_cases[] = {
     {"distance_range", lamp_far, in_range(1.0, 20.0), stored_as(StoredDepth::linear_z),
      "`convention` of the map is distance"},
     {"linear_range", lamp_linear, in_range(20.0, 1.0), turn_sign, sign_words},
-    {"cube",
-     {.light = "bulb", .stored = StoredDepth::distance, .constant = 0.02},
-     nothing,
-     turn_sign,
-     sign_words},
-    {"cube_range",
-     {.light = "bulb", .stored = StoredDepth::distance, .constant = 0.02},
-     in_range(0.5, 40.0),
-     turn_sign,
-     sign_words},
+    {"cube", bulb, nothing, turn_sign, sign_words},
+    {"cube_range", bulb, in_range(0.5, 40.0), turn_sign, sign_words},
+    {"paraboloids", bulb, as_paraboloids({512, 512}, false), turn_sign, sign_words},
+    {"paraboloids_rows", bulb, as_paraboloids({512, 512}, false), turn_rows, rows_words},
+    {"paraboloids_exchanged", bulb, as_paraboloids({600, 300}, false),
+     [](Capture& c) { std::swap(c.map[0].depth, c.map[1].depth); },
+     "the pictures of map[0] and map[1] are exchanged"},
+    {"paraboloids_range", bulb,
+     [](Engine& e) {
+       as_paraboloids({512, 256}, true)(e);
+       in_range(0.0, 40.0)(e);
+     },
+     said_bias({}), "`constant_depth` is about"},
     {"texture_matrix",
      {},
      nothing,

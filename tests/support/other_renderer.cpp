@@ -20,6 +20,7 @@ class OtherRenderer {
   }
 
   float visibility(const Vec3& surface, const Vec3& normal) const {
+    if (has_paraboloids(capture_)) return paraboloid_visibility(surface, normal);
     const auto seen = layer_of(surface);
     float light = layer_visibility(surface, normal, seen);
     if (selects() && seen && capture_.map[*seen].select->blend > 0.0) {
@@ -67,6 +68,27 @@ class OtherRenderer {
                    constant)
                ? 0.0f
                : 1.0f;
+  }
+
+  /// As Brabec and others write it: the half that the place lies before, and the distance.
+  float paraboloid_visibility(const Vec3& surface, const Vec3& normal) const {
+    const compare::CapturedBias& bias = *capture_.bias;
+    const Vec3 place = surface + bias.normal_offset_world * normal;
+    const auto in_half = [&](std::size_t half) {
+      return Vec3(*capture_.map[half].clip_from_world * Vec4(place, 1.0));
+    };
+    const std::size_t half = in_half(0).z >= 0.0 ? 0 : 1;
+    const Vec3 d = in_half(half);
+    const double distance = glm::length(d);
+    Vec2 at = 0.5 * Vec2(d) / (distance + d.z) + 0.5;
+    if (const auto& rect = capture_.map[half].rect) {
+      const Vec2 picture(texels_[half].size.width, texels_[half].size.height);
+      at = (Vec2(rect->x, rect->y) + at * Vec2(rect->width, rect->height)) / picture;
+    }
+    const Vec2 range = capture_.map[half].range.value_or(Vec2(0.0, 1.0));
+    const double texel = read(half, Vec3(2.0 * at - 1.0, 0.0), 0);
+    const double own = (distance - range.x) / (range.y - range.x);
+    return texel != 0.0 && own - texel > bias.constant_depth ? 0.0f : 1.0f;
   }
 
   /// As shaders write it, of the dot product of normal and light.
@@ -192,6 +214,7 @@ class OtherRenderer {
       case StoredDepth::linear_z:
         return stored != 0.0 && along - stored > bias;
       case StoredDepth::distance:
+      case StoredDepth::paraboloid:
         break;
     }
     return stored != 0.0 && distance - stored > bias;
