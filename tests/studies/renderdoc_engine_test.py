@@ -37,6 +37,7 @@ LAMPS = {
     "spot": {"type": "spot", "position": [2.5, 5, 4], "direction": [-2.2, -5, -3.8], "inner_angle_degrees": 28, "outer_angle_degrees": 32},
     "sun-and-spot": {"type": "spot", "position": [2.5, 5, 4], "direction": [-2.2, -5, -3.8], "inner_angle_degrees": 28, "outer_angle_degrees": 32},
     "point": {"type": "point", "position": [1.5, 3, 2]},
+    "point-between": {"type": "point", "position": [1.3, 0.6, 1.0]},  # below what floats highest
 }
 
 
@@ -152,14 +153,17 @@ class Godot(unittest.TestCase):
         self.check(result)
         self.assertAlmostEqual(self.bias(capture), 0.1, delta=0.001)
 
-    def test_a_points_map_is_no_projection_but_its_bias_is_told(self):
-        for mode in ("paraboloid", "cube"):
-            capture, result = judged(frame(mode, scene("point"), mode=mode))
-            self.assertNotIn("map", capture)
-            self.assertLess(result["lights"][0]["error"]["wrong_fraction"], 0.005)
-        said = subprocess.run([PYTHON, "-B", os.path.join(SOURCE, "adapters/renderdoc"), "paraboloid.rdc", "-o", "paraboloid-again"], cwd=FOLDER,
-                              env=SOFTWARE, capture_output=True, text=True).stdout
-        self.assertIn("found: casters are drawn 0.1000 world units away from the light", said)
+    def test_paraboloids_of_a_point_are_judged_by_their_own_texels(self):
+        for name in ("point", "point-between"):  # casters in one half, and in both
+            capture, result = judged(frame(name, scene(name), mode="paraboloid"))
+            self.check(result)
+            self.assertEqual([layer["convention"] for layer in capture["map"]], ["paraboloid"] * 2)
+            self.assertAlmostEqual(self.bias(capture), 0.1, delta=0.001)
+
+    def test_a_cube_that_is_copied_is_judged_without_a_map(self):
+        capture, result = judged(frame("cube", scene("point"), mode="cube"))
+        self.assertNotIn("map", capture)
+        self.assertLess(result["lights"][0]["error"]["wrong_fraction"], 0.005)
 
     def test_all_lights_of_a_frame_are_judged_from_one_capture(self):
         path = frame("two-lights", scene("sun-and-spot"), light="all")

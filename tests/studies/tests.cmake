@@ -25,9 +25,10 @@ gnomon_test(judge_identify_gl_test
 gnomon_node_test(adapters_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_browser")
 gnomon_node_test(adapters_blender_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_blender")
 # The adapter for frames that RenderDoc recorded: its numbers, for which Debian's Python and NumPy are enough.
-add_test(NAME renderdoc_fit_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/renderdoc_fit_test.py"
-  "${PROJECT_SOURCE_DIR}/adapters/renderdoc")
-set_tests_properties(renderdoc_fit_test PROPERTIES SKIP_RETURN_CODE 77)
+foreach(test renderdoc_fit_test renderdoc_frame_test)
+  add_test(NAME ${test} COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/${test}.py" "${PROJECT_SOURCE_DIR}/adapters/renderdoc")
+  set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77)
+endforeach()
 # The same on frames of real engines, as far as these and RenderDoc are installed.
 add_test(NAME renderdoc_engine_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/renderdoc_engine_test.py"
   $<TARGET_FILE:gnomon_program> "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/renderdoc_engine")

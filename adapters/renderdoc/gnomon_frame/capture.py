@@ -74,7 +74,8 @@ def _select(selection, k, count):
 
 def _layer(folder, texture, name, k, layer, test, count):
     files.write_exr(os.path.join(folder, name), {"Z": layer.texels})
-    out = {"depth": name, "convention": "reversed" if layer.state.reversed else "zero_to_one",
+    convention = "paraboloid" if layer.half else "reversed" if layer.state.reversed else "zero_to_one"
+    out = {"depth": name, "convention": convention,
            "rows": "bottom_up" if layer.state.conventions.bottom_row_first else "top_down",
            "clip_from_world": files.column_major(layer.matrix), **_select(test.selection, k, count)}
     moved = extract.polygon_offset(layer, texture)
@@ -82,9 +83,18 @@ def _layer(folder, texture, name, k, layer, test, count):
         moved["constant_world"] = layer.shift.world
     if moved:
         out["caster_bias"] = moved
-    if layer.constant:
+    if layer.half:
+        out["range"] = [0.0, layer.distance.range]
+        moved.pop("slope", None)  # of distances no capture says it
+    elif layer.constant:
         out["bias"] = {"constant_depth": layer.constant}
     return out
+
+
+def _other_half(folder, name, first, layer):
+    """The half of a dual paraboloid in which nothing was drawn, and nothing is looked up."""
+    files.write_exr(os.path.join(folder, name), {"Z": np.ones(layer.texels.shape)})
+    return {**first, "depth": name, "clip_from_world": files.column_major(np.diag([1, 1, -1, 1]) @ layer.matrix)}
 
 
 def _filter(layers, test):
@@ -108,7 +118,10 @@ def _light(folder, frame, light, prefix):
         return said
     texture = frame.textures[light.found.passes.texture]
     maps = [_layer(folder, texture, f"{prefix}map{k}.exr", k, layer, light.test, len(layers)) for k, layer in enumerate(layers)]
-    return {**said, "map": maps, "filter": _filter(layers, light.test)}
+    if layers[0].half and len(maps) == 1:
+        maps.append(_other_half(folder, f"{prefix}map1.exr", maps[0], layers[0]))
+    both = {"bias": {"constant_depth": layers[0].constant}} if layers[0].half and layers[0].constant else {}
+    return {**said, "map": maps, **both, "filter": _filter(layers, light.test)}
 
 
 def _settings(frame, light, prefix):

@@ -21,13 +21,14 @@ class Layer:
     meshes: list
     light: fit.LightFit | None = None
     distance: fit.DistanceFit | None = None  # in place of a projection
+    half: fit.HalfFit | None = None  # of a dual paraboloid, whose texels hold those distances
     place: fit.LightPlace | None = None
     pairs: list = field(default_factory=list)  # (place among the camera's meshes, caster); None of casters that it does not draw
     reader: ReaderMatrix | None = None
     shift: CasterShift | None = None
     texels: np.ndarray | None = None  # of its own rectangle, as the casters left them
     read: np.ndarray | None = None  # the same as the readers found them: blurred, by some
-    matrix: np.ndarray | None = None  # clip_from_view whose z/w is what a texel stores
+    matrix: np.ndarray | None = None  # clip_from_view whose z/w is what a texel stores; of a half the light's view alone
     constant: float = 0.0  # the reader's own bias, stored numbers
 
     @property
@@ -133,6 +134,7 @@ def _fit_layer(layer, view, cameras):
     layer.light = fit.fit_light(views, clips)
     if layer.light.rank == 4 and layer.light.residuals.max() > PROJECTED:
         layer.distance = fit.fit_distance(views, layer.state.conventions.window_row(clips[:, 2], clips[:, 3]) / clips[:, 3])
+        layer.half = fit.fit_half(views, layer.distance.apex, clips) if layer.distance else None
     return True
 
 
@@ -166,9 +168,16 @@ def read_layers(frame, found, layers):
     matrices, numbers = frame.constants(found.passes.readers[-1].event)
     ways = _ways_through_meshes(frame, found)
     texture = frame.textures[found.passes.texture]
+    if all(layer.half for layer in layers):  # one light's, told best by the half with most casters
+        best = min((layer.distance for layer in layers), key=lambda one: one.residual)
+        for layer in layers:
+            layer.distance = best
     for layer in layers:
         if layer.distance:
             layer.shift = CasterShift(layer.distance.moved, layer.distance.moved / layer.distance.range, layer.distance.residual)
+            if not _cannot_be_said(found, layers):
+                layer.matrix = np.eye(4)
+                layer.matrix[:3, :3], layer.matrix[:3, 3] = layer.half.turn, -layer.half.turn @ layer.distance.apex
             continue
         if _cannot_be_said(found, layers):
             continue
@@ -185,8 +194,13 @@ def read_layers(frame, found, layers):
 
 
 def _cannot_be_said(found, layers):
-    """Whether no capture can say how the map is looked up: a copy of another layout, or a cube of which faces were not drawn."""
-    return found.passes.is_copied or layers[0].place.apex is not None and len(layers) not in (1, 6)
+    """Whether no capture can say how the map is looked up: a copy of another layout, distances that are no paraboloid's, or a cube of
+    which faces were not drawn."""
+    if found.passes.is_copied:
+        return True
+    if any(layer.distance for layer in layers):
+        return len(layers) > 2 or not all(layer.half for layer in layers)
+    return layers[0].place.apex is not None and len(layers) not in (1, 6)
 
 
 def _ways_through_meshes(frame, found):
@@ -262,8 +276,11 @@ def measure(frame, found, layers, encoding, others):
         pixels = Pixels(positions, is_drawn, _flip(seen.values, found.view).copy(), _flip(seen.asked, found.view) & is_drawn)
         tried.append((seen, pixels, _exponent(layers, pixels)))
     seen, pixels, exponent = max(tried, key=lambda one: one[2].correlation if one[2] else 0)
+    covered = [_cut(layer, seen.full_map[layer.state.slice]) == (1.0 if layer.state.reversed else 0.0) for layer in layers]
+    if _is_bilinear(found):
+        _light_between_casters(pixels, layers, covered)
     if layers[0].place.apex is None:
-        _light_beside_casters(pixels, layers, seen.full_map)
+        _light_beside_casters(pixels, layers, covered)
     if not seen.untouched:
         found.notes.append("the stand-ins for the casters changed the camera's depth, too: they share a shader, and some pixels may be wrong")
     if seen.darkest > 0.01:
@@ -286,18 +303,35 @@ def _exponent(layers, pixels):
     return lookup.exponent(lookup.margins(blurred, pixels.positions[pixels.asked]).values, pixels.visibility[pixels.asked])
 
 
-def _light_beside_casters(pixels, layers, full_maps):
+def _is_bilinear(found):
+    """Whether the map's sampler weighs four comparisons."""
+    return "compare" in found.sampler and "linear" in found.sampler
+
+
+def _light_between_casters(pixels, layers, covered):
+    """Puts back the light of texels that no caster covers: full maps leave them lit, so that the replays tell of the covered ones of the
+    four that a sampler weighs alone."""
+    asked, places = pixels.asked, pixels.positions[pixels.asked]
+    share, unknown = np.ones(len(places)), np.ones(len(places), bool)
+    for layer, full in zip(layers, covered):
+        if layer.matrix is None:
+            return
+        at, inside = lookup.bilinear(layer, places, full.astype(float))
+        share[unknown & inside] = at[unknown & inside]
+        unknown &= ~inside
+    pixels.visibility[asked] = 1 - share * (1 - pixels.visibility[asked])
+
+
+def _light_beside_casters(pixels, layers, covered):
     """A sun's pixels whose texel no caster covers, or that lie outside of all layers: the stand-ins do not reach them; they are lit."""
     unknown = pixels.drawn & ~pixels.asked
     places = pixels.positions[unknown]
-    covered = np.zeros(len(places), bool)
-    for layer in layers:
+    dark = np.zeros(len(places), bool)
+    for layer, full in zip(layers, covered):
         column, row, _, inside = lookup.texel_places(layer, places)
-        full = _cut(layer, full_maps[layer.state.slice])
-        at = full[np.clip(row, 0, full.shape[0] - 1).astype(int), np.clip(column, 0, full.shape[1] - 1).astype(int)]
-        covered |= inside & (at == (1.0 if layer.state.reversed else 0.0))
+        dark |= inside & full[np.clip(row, 0, full.shape[0] - 1).astype(int), np.clip(column, 0, full.shape[1] - 1).astype(int)]
     lit = unknown.copy()
-    lit[unknown] = ~covered
+    lit[unknown] = ~dark
     pixels.visibility[lit] = 1
     pixels.asked |= lit
 
@@ -336,13 +370,18 @@ def find_test(found, layers, pixels, numbers, exponent):
     selection, chosen = lookup.choose_layers(margins, lit, keys, numbers)
     before = selection.share
     right = np.array(chosen < 0) & lit
+    if layers[0].half:  # one test for both halves
+        all_values = np.choose(np.maximum(chosen, 0), [m.values for m in margins])
+        constant, _, _ = lookup.best_constant(all_values[chosen >= 0], lit[chosen >= 0], numbers)
     for k, layer in enumerate(layers):
         mine = chosen == k
-        if exponent is None:  # whose soft shadows have no threshold
+        if layers[0].half:
+            layer.constant = constant
+        elif exponent is None:  # whose soft shadows have no threshold
             layer.constant, _, _ = lookup.best_constant(margins[k].values[mine], lit[mine], numbers)
         right[mine] = (margins[k].values[mine] + layer.constant >= 0) == lit[mine]
     blended, distance = np.zeros(len(value), bool), None
-    bilinear = "compare" in found.sampler and "linear" in found.sampler
+    bilinear = _is_bilinear(found)
     if selection.by != "first":
         answers = [lookup.answer(layer, places, bilinear) for layer in layers]
         distance = {"view_z": -places[:, 2], "distance": np.linalg.norm(places, axis=1)}[selection.by]

@@ -163,6 +163,34 @@ def fit_distance(views, stored):
 
 
 @dataclass(frozen=True)
+class HalfFit:
+    """One half of a dual paraboloid: what lies from the light in the unit direction d of the half's own axes is drawn at
+    d.xy / (1 + d.z)."""
+
+    turn: np.ndarray  # 3 x 3, from view space to the half's axes; it may mirror
+    residual: float  # of x and y, of which 2 is the half's width
+
+
+def fit_half(views, apex, clips):
+    """The half whose vertices were drawn there, or None. It is linear: d.x - x d.z = x, of those that lie well before the half."""
+    off = views - apex
+    d = off / np.maximum(np.linalg.norm(off, axis=1), 1e-30)[:, None]
+    x, y = (clips[:, :2] / clips[:, 3:]).T
+    near = np.maximum(np.abs(x), np.abs(y)) < 1.5
+    d, x, y = d[near], x[near], y[near]
+    none = np.zeros_like(d)
+    terms = np.r_[np.c_[d, none, -x[:, None] * d], np.c_[none, d, -y[:, None] * d]]
+    if len(d) < 5 or np.linalg.matrix_rank(terms, 1e-6 * np.linalg.norm(terms)) < 9:
+        return None
+    u, _, v = np.linalg.svd(np.linalg.lstsq(terms, np.r_[x, y], rcond=None)[0].reshape(3, 3))
+    turn = u @ v
+    q = d @ turn.T
+    fits = q[:, :2] / (1 + q[:, 2:]) - np.c_[x, y]
+    worst = float(np.abs(fits).max())
+    return HalfFit(turn, worst) if worst < 1e-4 else None
+
+
+@dataclass(frozen=True)
 class LightPlace:
     """A sun (no apex) or a light at a point, and which way it looks: `direction` is that of the light, in view space."""
 

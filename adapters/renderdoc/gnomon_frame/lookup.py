@@ -27,10 +27,14 @@ class Margins:
 def texel_places(layer, positions):
     """(column, row, depth, inside) of view-space positions in a layer: texels as real numbers, depths as stored."""
     clip = positions @ layer.matrix[:, :3].T + layer.matrix[:, 3]
-    w = clip[:, 3]
-    front = w > 0
-    w = np.where(front, w, 1)
-    x, y, z = clip[:, 0] / w, clip[:, 1] / w, clip[:, 2] / w
+    if layer.half:
+        distance = np.linalg.norm(clip[:, :3], axis=1)
+        front, w, z = clip[:, 2] >= 0, distance + np.abs(clip[:, 2]), distance / layer.distance.range
+    else:
+        front = clip[:, 3] > 0
+        w = np.where(front, clip[:, 3], 1)
+        z = clip[:, 2] / w
+    x, y = clip[:, 0] / w, clip[:, 1] / w
     rows, columns = layer.texels.shape
     up = y if layer.state.conventions.bottom_row_first else -y
     return (x * 0.5 + 0.5) * columns, (up * 0.5 + 0.5) * rows, z, front & (np.abs(x) < 1) & (np.abs(y) < 1)
@@ -141,12 +145,23 @@ def answer(layer, positions, bilinear):
         return ((depth - stored if layer.state.reversed else stored - depth) + layer.constant >= 0).astype(float)
 
     column, row = np.where(inside, column, 0), np.where(inside, row, 0)
-    if not bilinear:
-        return Answer(np.where(inside, lit(np.floor(column), np.floor(row)), 1.0), inside)
+    light = _weighed(column, row, lit) if bilinear else lit(np.floor(column), np.floor(row))
+    return Answer(np.where(inside, light, 1.0), inside)
+
+
+def _weighed(column, row, at):
+    """What a sampler makes of the four texels `at(i, j)` around places, each weighed by how near it is."""
     i, j = np.floor(column - 0.5), np.floor(row - 0.5)
     x, y = column - 0.5 - i, row - 0.5 - j
-    light = (1 - y) * ((1 - x) * lit(i, j) + x * lit(i + 1, j)) + y * ((1 - x) * lit(i, j + 1) + x * lit(i + 1, j + 1))
-    return Answer(np.where(inside, light, 1.0), inside)
+    return (1 - y) * ((1 - x) * at(i, j) + x * at(i + 1, j)) + y * ((1 - x) * at(i, j + 1) + x * at(i + 1, j + 1))
+
+
+def bilinear(layer, positions, texels):
+    """(values between the four texels around each position, whether the layer holds it)."""
+    column, row, _, inside = texel_places(layer, positions)
+    rows, columns = texels.shape
+    at = lambda i, j: texels[np.clip(j, 0, rows - 1).astype(int), np.clip(i, 0, columns - 1).astype(int)]
+    return _weighed(np.where(inside, column, 0), np.where(inside, row, 0), at), inside
 
 
 def find_blends(answers, visibility, key, selection):

@@ -39,9 +39,12 @@ def findings(frame, found, layers, test):
             out.append(f"{which}the rasterizer's depth bias moves casters by {offset['constant']:.3g} of stored depth and {offset['slope']:g} slopes")
     one = layers[0]
     if one.matrix is None:
-        kind = (f"distances from a point, up to {one.distance.range:.4g} world units, as of a paraboloid" if one.distance else
+        kind = (f"distances from a point, up to {one.distance.range:.4g} world units, which are no paraboloid's" if one.distance else
                 "a cube that is read by way of a copy, or of which faces were not drawn")
         out.append(f"map: {kind}; no capture can say how such a map is looked up, so that the verdict says where the shadow is wrong and not why")
+    elif one.half:
+        out.append(f"map: {'both halves' if len(layers) > 1 else 'one half'} of a dual paraboloid, distances up to {one.distance.range:.4g} world units "
+                   f"(residual {max(layer.half.residual for layer in layers):.1e} of x and y)")
     elif one.reader:
         out.append(f"map: read with the constant {one.reader.name} after {one.reader.before} (its rows and the casters' differ by {one.reader.residual:.1e})")
     else:

@@ -1,0 +1,304 @@
+"""How adapters/renderdoc looks maps up, and its frames, shaders and files. /usr/bin/python3 renderdoc_frame_test.py FOLDER_OF_THE_ADAPTER"""
+import unittest
+
+from renderdoc_scenes import *  # noqa: F403
+
+
+class Lookup(unittest.TestCase):
+    def setUp(self):
+        self.random = np.random.default_rng(7)
+
+    def test_constant_bias_is_found_and_named_by_the_readers_number(self):
+        values = self.random.uniform(-0.02, 0.02, 20000)
+        constant, share, before = lookup.best_constant(values, values + 0.005 >= 0, (0.3, -0.005, 0.7))
+        self.assertEqual(constant, 0.005)
+        self.assertEqual(share, 0)
+        self.assertGreater(before, 0.1)
+
+    def test_constant_is_none_where_none_is_needed(self):
+        values = self.random.uniform(-0.02, 0.02, 20000)
+        self.assertEqual(lookup.best_constant(values, values >= 0, (0.005,))[0], 0)
+
+    def test_cascades_are_told_apart_by_distance(self):
+        depth = np.sort(self.random.uniform(1, 40, 30000))
+        answers = [self.random.uniform(-1, 1, len(depth)) for _ in range(3)]
+        layer = np.searchsorted([6.5, 15.25, 30.0], depth, side="right")
+        lit = np.select([layer == k for k in range(3)], [a >= 0 for a in answers], True)
+        margins = [lookup.Margins(a, np.ones(len(depth), bool), None, None) for a in answers]
+        keys = {"view_z": depth, "distance": self.random.permutation(depth)}
+        selection, chosen = lookup.choose_layers(margins, lit, keys, (6.5, 15.25, 22.0, 30.0))
+        self.assertEqual((selection.by, selection.limits), ("view_z", (6.5, 15.25, 30.0)))
+        self.assertEqual(selection.share, 0)
+        self.assertTrue(((chosen == layer) | (layer == 3)).all())
+
+    def blended(self, start, limit, noise=0.0):
+        """Two layers that say one thing and the other, the picture a mix of both from `start` to `limit`."""
+        depth = self.random.uniform(1, 40, 20000)
+        answers = [self.random.uniform(-1, 1, len(depth)) for _ in range(2)]
+        share = np.clip((depth - start) / (limit - start), 0, 1)
+        lit = [(a >= 0).astype(float) for a in answers]
+        picture = np.clip((1 - share) * lit[0] + share * lit[1] + self.random.uniform(-noise, noise, len(depth)), 0, 1)
+        margins = [lookup.Margins(a, np.ones(len(depth), bool), None, None) for a in answers]
+        sure = (picture < lookup.SURE) | (picture > 1 - lookup.SURE)
+        kept = [lookup.Margins(m.values[sure], m.inside[sure], None, None) for m in margins]
+        selection, _ = lookup.choose_layers(kept, picture[sure] > 0.5, {"view_z": depth[sure]})
+        answers = [lookup.Answer(one, m.inside) for one, m in zip(lit, margins)]
+        return (*lookup.find_blends(answers, picture, depth, selection), depth)
+
+    def test_cascades_that_blend_tell_where_and_over_how_much(self):
+        selection, mixed, depth = self.blended(15.0, 20.0, 0.01)
+        self.assertEqual(selection.by, "view_z")
+        self.assertAlmostEqual(selection.limits[0], 20.0, delta=0.1)
+        self.assertAlmostEqual(selection.blends[0], 5.0, delta=0.1)
+        self.assertTrue(((depth[mixed] > 14.9) & (depth[mixed] < 20.1)).all())
+        said = capture._select(selection, 0, 2)["select"]
+        self.assertEqual((said["near"], said["far"], said["blend"]), (0.0, selection.limits[0], selection.blends[0]))
+        self.assertNotIn("blend", capture._select(selection, 1, 2).get("select", {}))
+
+    def test_cascades_that_end_at_once_and_edges_of_a_filter_are_no_blend(self):
+        self.assertEqual(self.blended(19.9999, 20.0)[0].blends, ())
+        depth = self.random.uniform(1, 40, 20000)
+        answers = [lookup.Answer(self.random.integers(0, 2, len(depth)).astype(float), np.ones(len(depth), bool)) for _ in range(2)]
+        selection = lookup.Selection("view_z", (20.0, 40.0), 0.0)
+        self.assertEqual(lookup.find_blends(answers, self.random.uniform(size=len(depth)), depth, selection)[0].blends, ())
+
+    def test_first_layer_that_holds_the_place_is_preferred(self):
+        depth = self.random.uniform(1, 40, 5000)
+        answers = [self.random.uniform(-1, 1, 5000) for _ in range(2)]
+        inside = self.random.uniform(size=5000) < 0.5
+        lit = np.where(inside, answers[0] >= 0, answers[1] >= 0)
+        margins = [lookup.Margins(answers[0], inside, None, None), lookup.Margins(answers[1], np.ones(5000, bool), None, None)]
+        self.assertEqual(lookup.choose_layers(margins, lit, {"view_z": depth})[0].by, "first")
+
+    def layer(self, texels, **state):
+        kept = {"conventions": conventions.opengl(), "reversed": False, **state}
+        return SimpleNamespace(texels=texels, half=None, matrix=np.eye(4), state=SimpleNamespace(**kept))
+
+    def test_texel_and_margin_follow_the_rows(self):
+        texels = np.arange(16).reshape(4, 4) / 16
+        places = np.array([[-0.9, -0.9, 0.5], [0.9, 0.4, 0.5], [3, 0, 0.5]])
+        self.assertEqual(lookup.margins(self.layer(texels), places).values.tolist(), [-0.5, texels[2, 3] - 0.5, 1.0])
+        top_first = self.layer(texels, conventions=conventions.DIRECT3D, reversed=True)
+        self.assertEqual(lookup.margins(top_first, places).values[:2].tolist(), [0.5 - texels[3, 0], 0.5 - texels[1, 3]])
+
+    def test_answer_of_a_layer_is_one_comparison_or_four_weighed(self):
+        texels = np.ones((4, 4))
+        texels[:, :2] = 0  # shadows its left half
+        layer = self.layer(texels)
+        layer.constant = 0.0
+        places = np.c_[[-0.3, 0.1, 0.4, 3.0], np.zeros(4), np.full(4, 0.5)]
+        self.assertEqual(lookup.answer(layer, places, False).light.tolist(), [0, 1, 1, 1])
+        np.testing.assert_allclose(lookup.answer(layer, places, True).light, [0, 0.7, 1, 1], atol=1e-12)
+        layer.constant = 0.6
+        self.assertEqual(lookup.answer(layer, places, False).light.tolist(), [1, 1, 1, 1])
+
+    def test_radius_of_a_filter_is_found(self):
+        texels = np.ones((64, 64))
+        texels[:, :32] = 0
+        column = np.repeat(np.arange(64), 64)
+        places = np.c_[(column + 0.5) / 32 - 1, (np.tile(np.arange(64), 64) + 0.5) / 32 - 1, np.full(4096, 0.5)]
+        for radius in (1, 3):
+            partly = (column >= 32 - radius) & (column < 32 + radius)
+            self.assertEqual(lookup.filter_radius(self.layer(texels), places[partly]), radius)
+
+    def test_texels_of_paraboloids_hold_distances(self):
+        halves = []
+        for side in (1, -1):
+            turn = np.diag([1.0, 1, side])
+            halves.append(SimpleNamespace(half=fit.HalfFit(turn, 0), distance=SimpleNamespace(range=10.0), matrix=np.block([[turn, np.zeros((3, 1))], [0, 0, 0, 1]]),
+                                          texels=np.ones((20, 20)), state=SimpleNamespace(conventions=conventions.opengl(), reversed=False)))
+        places = np.array([[0, 0, 5.0], [0, 0, -5.0], [3, 0, 0.1], [0, -4, -3.0]])
+        for k, half in enumerate(halves):
+            column, row, depth, inside = lookup.texel_places(half, places)
+            self.assertEqual(inside.tolist(), [k == 0, k == 1, k == 0, k == 1])
+            np.testing.assert_allclose(depth, np.linalg.norm(places, axis=1) / 10)
+            mine = 3 if k else 0
+            self.assertAlmostEqual(row[mine], (-4 / 8 * 0.5 + 0.5) * 20 if k else 10)
+            self.assertAlmostEqual(column[mine], 10)
+
+    def test_light_between_casters_is_put_back(self):
+        layer = self.layer(np.ones((8, 8)))
+        covered = np.zeros((8, 8), bool)
+        covered[:, :4] = True
+        # Before the middle of texel 3 all of it is told; halfway to texel 4 half is; the rest is lit.
+        places = np.array([[-0.5, 0, -1.0], [0.0, 0, -1.0], [0.05, 0, -1.0]])
+        pixels = extract.Pixels(places, np.ones(3, bool), np.zeros(3), np.ones(3, bool))
+        extract._light_between_casters(pixels, [layer], [covered])
+        np.testing.assert_allclose(pixels.visibility, [0, 0.5, 0.7], atol=1e-6)
+
+
+class PolygonOffset(unittest.TestCase):
+    def test_is_stored_numbers_away_from_the_light(self):
+        layer = SimpleNamespace(state=SimpleNamespace(reversed=False, depth_bias={"constant": 4, "slope": 1.5, "clamp": 0}))
+        depth = SimpleNamespace(is_depth=True, format="D16_UNORM")
+        self.assertEqual(extract.polygon_offset(layer, depth), {"constant": 4 / 65536, "slope": 1.5, "clamp": 0})
+        layer.state.reversed, layer.state.depth_bias = True, {"constant": -4, "slope": -1.5, "clamp": 0}
+        self.assertEqual(extract.polygon_offset(layer, depth), {"constant": 4 / 65536, "slope": 1.5, "clamp": 0})
+        self.assertEqual(extract.polygon_offset(layer, SimpleNamespace(is_depth=False, format="R16_FLOAT")), {})
+
+
+class Formats(unittest.TestCase):
+    def test_depths(self):
+        self.assertEqual(formats.decode(struct.pack("<2I", 0xFFFFFF00, 0x800000FF), "D24", 2, 1, True).ravel().tolist(), [1.0, 0x800000 / 0xFFFFFF])
+        self.assertEqual(formats.decode(struct.pack("<2I", 0x7FFFFFFF, 0xFF000000), "D24S8", 2, 1).ravel().tolist(), [1.0, 0.0])
+        self.assertEqual(formats.decode(struct.pack("<fIfI", 0.25, 7, 0.5, 9), "D32S8", 2, 1).ravel().tolist(), [0.25, 0.5])
+        self.assertEqual(formats.decode(struct.pack("<2H", 65535, 0), "D16", 1, 2).ravel().tolist(), [1.0, 0.0])
+
+    def test_colours(self):
+        self.assertAlmostEqual(formats.decode(bytes([188, 0, 255, 9]), "R8G8B8A8_SRGB", 1, 1)[0, 0, 0], 0.5029, delta=1e-4)
+        self.assertEqual(formats.decode(bytes([1, 2, 255, 4]), "B8G8R8A8_UNORM", 1, 1)[0, 0, 0], 1.0)
+        packed = 0x3C0 | 0x380 << 11 | 0x200 << 22  # 1, 0.5 and 2
+        self.assertEqual(formats.decode(struct.pack("<I", packed), "R11G11B10_FLOAT", 1, 1)[0, 0].tolist(), [1.0, 0.5, 2.0])
+        with self.assertRaises(formats.FrameError):
+            formats.decode(b"", "BC7_UNORM", 1, 1)
+
+    def test_strips_and_fans_are_triangles(self):
+        restart = np.zeros(4, bool)
+        self.assertEqual(formats.corners("strip", restart).tolist(), [0, 1, 2, 1, 3, 2])
+        self.assertEqual(formats.corners("fan", restart).tolist(), [0, 1, 2, 0, 2, 3])
+        self.assertEqual(formats.corners("list", np.zeros(7, bool)).tolist(), list(range(6)))
+        restart = np.array([0, 0, 0, 1, 0, 0, 0], bool)
+        self.assertEqual(formats.corners("strip", restart).tolist(), [0, 1, 2, 4, 5, 6])
+        self.assertIsNone(formats.corners("", restart))
+
+    def test_vertices_are_numbered_in_their_order(self):
+        kept, places = formats.numbered(np.array([9, 4, 9, 7]))
+        self.assertEqual((kept.tolist(), places.tolist()), ([4, 7, 9], [2, 0, 2, 1]))
+
+
+class FakeFrame:
+    """What passes.py asks of a frame."""
+
+    def __init__(self, textures, draws, reads):
+        self.textures = {t.id: t for t in textures}
+        self.draws, self._reads = draws, reads
+
+    def readers_of(self, texture):
+        return self._reads.get(texture, [])
+
+
+def texture(number, width, height, is_depth=True):
+    return SimpleNamespace(id=number, width=width, height=height, is_depth=is_depth)
+
+
+def draw(event, depth, colours=(), vertices=36):
+    return SimpleNamespace(event=event, depth=depth, colours=tuple(colours), vertices=vertices)
+
+
+class Passes(unittest.TestCase):
+    def test_map_and_camera_of_a_forward_frame(self):
+        frame = FakeFrame([texture(1, 512, 512), texture(2, 64, 36), texture(3, 64, 36, False)],
+                          [draw(10, 1), draw(11, 1), draw(20, 2), draw(30, 2, [3]), draw(31, 2, [3])], {1: [30, 31]})
+        found = passes.find_maps(frame)
+        self.assertEqual([(m.texture, m.picture, m.camera_depth, len(m.writers), len(m.camera)) for m in found], [(1, 3, 2, 2, 3)])
+
+    def test_deferred_lighting_reads_the_cameras_depth_as_well(self):
+        frame = FakeFrame([texture(1, 512, 512), texture(2, 64, 36), texture(3, 64, 36, False), texture(4, 64, 36, False)],
+                          [draw(10, 1), draw(20, 2, [4]), draw(30, 0, [3], 3)], {1: [30], 2: [30]})
+        found = passes.find_maps(frame)
+        self.assertEqual([(m.texture, m.picture, m.camera_depth) for m in found], [(1, 3, 2)])
+
+    def test_map_that_is_copied_leads_to_where_its_casters_are_drawn(self):
+        frame = FakeFrame([texture(1, 512, 512), texture(5, 256, 256), texture(2, 64, 36), texture(3, 64, 36, False)],
+                          [draw(10, 5), draw(12, 1, vertices=4), draw(30, 2, [3])], {1: [30], 5: [12]})
+        self.assertEqual([(m.texture, [w.event for w in m.writers]) for m in passes.find_maps(frame)], [(5, [10])])
+
+    def test_map_of_an_earlier_frame_is_said(self):
+        frame = FakeFrame([texture(1, 512, 512), texture(2, 64, 36), texture(3, 64, 36, False)], [draw(30, 2, [3])], {1: [30]})
+        self.assertEqual(passes.find_maps(frame), [])
+        self.assertIn("earlier frame", str(passes.why_none(frame)))
+
+
+class OtherLights(unittest.TestCase):
+    """Of lights whose casters one shader draws."""
+
+    def layer(self, matrix, viewport=(0, 0, 64, 64)):
+        return SimpleNamespace(light=SimpleNamespace(matrix=matrix), distance=None, events=[7], state=SimpleNamespace(viewport=viewport))
+
+    def test_are_told_by_their_projections_where_their_parts_overlap(self):
+        sun = self.layer(parallel(3, 1, 9) @ TO_SUN)
+        lamp = self.layer(perspective(1, 1, 0.5, 20, True) @ TO_SUN)
+        line = visibility._lines_of_others([sun], [lamp], {7})
+        za, zb = line[0]
+        clip = drawn(lamp.light.matrix, VIEWS)
+        np.testing.assert_allclose(clip[:, 2] / clip[:, 3], za + zb / clip[:, 3], atol=1e-5)
+        self.assertEqual(visibility._lines_of_others([lamp], [sun], {7}), [(None, None)])
+        self.assertEqual(visibility._lines_of_others([sun], [lamp], {8}), [])
+        self.assertEqual(visibility._lines_of_others([lamp], [self.layer(lamp.light.matrix, (64, 0, 64, 64))], {7}), [])
+
+    def test_of_the_same_projection_are_refused(self):
+        lamps = [self.layer(perspective(1, 1, 0.5, 20, True) @ TO_SUN @ shifted(k, 0, 0)) for k in range(2)]
+        with self.assertRaisesRegex(FrameError, "the same projection"):
+            visibility._lines_of_others(lamps[:1], lamps[1:], {7})
+
+
+class StandIns(unittest.TestCase):
+    SHARED = dict(lines=((-1.01, -0.2), (None, None)), rects=((0, 0, 64, 64), (64, 0, 128, 64)))
+
+    def test_spirv_is_a_whole_module(self):
+        for fragment in (True, False):
+            for full in (True, False):
+                code = stand_ins.spir_v(stand_ins.Source(fragment, full, colour=full and fragment, **(self.SHARED if fragment else {})))
+                words = struct.unpack(f"<{len(code) // 4}I", code)
+                self.assertEqual(words[0], 0x07230203)
+                at, ops, made = 5, [], set()
+                while at < len(words):
+                    self.assertGreater(words[at] >> 16, 0)
+                    ops.append(words[at] & 0xFFFF)
+                    at += words[at] >> 16
+                self.assertEqual(at, len(words))
+                self.assertEqual((ops[0], ops[-1]), (17, 56))
+                self.assertEqual(252 in ops, fragment and not full)
+
+    def test_text_guards_what_is_shared(self):
+        source = stand_ins.Source(True, False, **self.SHARED)
+        self.assertIn("discard", stand_ins.glsl(source))
+        self.assertIn("gl_FragCoord.x < 64.0", stand_ins.glsl(source))
+        self.assertIn("1.0 / p.w", stand_ins.hlsl(source))
+        self.assertIn("abs(gl_FragCoord.w - 1.0)", stand_ins.glsl(source))
+        self.assertNotIn("gl_FragCoord.w", stand_ins.glsl(stand_ins.Source(True, True)))
+
+
+class Extension(unittest.TestCase):
+    """qrenderdoc is stood in for: that its menu calls the package is all that is looked at here."""
+
+    def test_menu_asks_for_a_frame_and_a_folder(self):
+        said, menus = [], {}
+        extensions = SimpleNamespace(RegisterWindowMenu=lambda base, path, callback: menus.update({tuple(path): callback}),
+                                     ErrorDialog=lambda text, title: said.append(text), OpenDirectoryName=lambda *words: "")
+        context = SimpleNamespace(Extensions=lambda: extensions, IsCaptureLoaded=lambda: False)
+        sys.modules["qrenderdoc"] = SimpleNamespace(WindowMenu=SimpleNamespace(Tools=1))
+        spec = importlib.util.spec_from_file_location("gnomon", os.path.join(ADAPTER, "__init__.py"), submodule_search_locations=[ADAPTER])
+        module = sys.modules["gnomon"] = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        module.register("1.24", context)
+        menus["Judge this frame",](context, None)
+        self.assertEqual(said, ["Open a frame first."])
+        context.IsCaptureLoaded = lambda: True
+        menus["Judge this frame",](context, None)
+        with open(os.path.join(ADAPTER, "extension.json"), encoding="utf-8") as file:
+            self.assertEqual(json.load(file)["extension_api"], 1)
+
+
+class Files(unittest.TestCase):
+    def test_glb_and_capture_are_read_back(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scene.glb")
+            files.write_glb(path, [(CUBE, np.arange(6))], {"yfov": 0.6, "aspect": 1.5, "near": 0.1, "far": 20},
+                            [{"name": name, "type": kind, "matrix": np.eye(4), "inner": 0.1, "outer": 0.2} for name, kind in (("a", "directional"), ("b", "spot"))])
+            with open(path, "rb") as file:
+                data = file.read()
+            self.assertEqual(struct.unpack_from("<I", data, 8)[0], len(data))
+            document = json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
+            self.assertEqual(document["accessors"][0]["max"], [1, 1, 1])
+            lights = document["extensions"]["KHR_lights_punctual"]["lights"]
+            self.assertEqual([(light["name"], "spot" in light) for light in lights], [("a", False), ("b", True)])
+            files.write_exr(os.path.join(folder, "a.exr"), {"Z": np.arange(6.0).reshape(2, 3)})
+            with open(os.path.join(folder, "a.exr"), "rb") as file:
+                data = file.read()
+            self.assertEqual(struct.unpack("<3f", data[-12:]), (3, 4, 5))
+            self.assertEqual(files.column_major(np.arange(16).reshape(4, 4))[:5], [0, 4, 8, 12, 1])
+
+
+if __name__ == "__main__":
+    unittest.main()
