@@ -182,7 +182,7 @@ def texture(number, width, height, is_depth=True):
 
 
 def draw(event, depth, colours=(), vertices=36):
-    return SimpleNamespace(event=event, depth=depth, colours=tuple(colours), vertices=vertices)
+    return SimpleNamespace(event=event, depth=depth, colours=tuple(colours), vertices=vertices, range=(vertices, 1, 0, 0, 0, 0))
 
 
 class Passes(unittest.TestCase):
@@ -202,6 +202,16 @@ class Passes(unittest.TestCase):
         frame = FakeFrame([texture(1, 512, 512), texture(5, 256, 256), texture(2, 64, 36), texture(3, 64, 36, False)],
                           [draw(10, 5), draw(12, 1, vertices=4), draw(30, 2, [3])], {1: [30], 5: [12]})
         self.assertEqual([(m.texture, [w.event for w in m.writers]) for m in passes.find_maps(frame)], [(5, [10])])
+
+    def test_a_depth_prepass_is_told_by_what_the_readers_draw_again(self):
+        textures = [texture(1, 512, 512), texture(2, 64, 36), texture(3, 64, 36, False)]
+        before = [draw(20 + k, 2, [3], 36 + k) for k in range(9)]
+        readers = [draw(40 + k, 2, [3], 36 + (k + 4) % 9) for k in range(9)]  # in another order
+        events = {1: [d.event for d in readers]}
+        self.assertEqual(passes.find_maps(FakeFrame(textures, [draw(10, 1), *before, *readers], events))[0].prepass, before)
+        unlit = draw(30, 2, [3], 36)
+        self.assertEqual(passes.find_maps(FakeFrame(textures, [draw(10, 1), *before, unlit, *readers], events))[0].prepass, [])
+        self.assertEqual(passes.find_maps(FakeFrame(textures, [draw(10, 1), before[0], readers[5]], {1: [45]}))[0].prepass, [])
 
     def test_map_of_an_earlier_frame_is_said(self):
         frame = FakeFrame([texture(1, 512, 512), texture(2, 64, 36), texture(3, 64, 36, False)], [draw(30, 2, [3])], {1: [30]})

@@ -80,7 +80,8 @@ def _is_mesh(mesh):
 
 
 def _view(frame, found):
-    drawn = [mesh for draw in found.camera for mesh in _visited(frame, draw) if _is_mesh(mesh)]
+    seen = {draw.event for draw in found.prepass}  # going to a draw costs a replay of the frame up to it
+    drawn = [mesh for draw in found.camera if draw.event not in seen for mesh in _visited(frame, draw) if _is_mesh(mesh)]
     if not drawn:
         raise FrameError("the camera draws no triangles in this frame")
     state = frame.state(drawn[0].event)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from .errors import FrameError
 
 FULL_SCREEN = 6  # a draw of so few vertices covers the picture and shows no mesh
+FEW = 8  # draws, which may be alike by chance
 
 
 @dataclass
@@ -16,6 +17,7 @@ class MapPasses:
     picture: int  # the colour texture that the readers draw into
     camera_depth: int
     camera: list  # draws into the camera's depth, before the last reader has drawn
+    prepass: list  # those among them before which nothing else is drawn there and whose vertices the readers draw again
     is_copied: bool  # whether the readers read a copy of the map, of another layout
 
 
@@ -54,6 +56,15 @@ def _copied_from(frame, texture, written):
     return next((t for t in written if t != texture and copies & set(frame.readers_of(t))), texture)
 
 
+def _prepass(camera, readers):
+    """The camera's draws before the first reader, if these draw the same vertices and nothing else, one by one."""
+    of_readers = {d.event for d in readers}
+    before = [d for d in camera if d.event < readers[0].event]
+    again = [d for d in camera if d.event in of_readers]
+    alike = sorted(d.range for d in before) == sorted(d.range for d in again)
+    return before if alike and len(before) >= FEW else []
+
+
 def _as_map(frame, texture, written, by_event):
     """The texture's passes if it is a shadow map of some picture, else None."""
     writers = written[texture]
@@ -72,7 +83,7 @@ def _as_map(frame, texture, written, by_event):
     camera = [d for d in written[camera_depth] if d.event <= last.event]
     origin = _copied_from(frame, texture, written)
     casters = [w for w in written[origin] if w.event < last.event]
-    return MapPasses(origin, casters, readers, picture, camera_depth, camera, origin != texture)
+    return MapPasses(origin, casters, readers, picture, camera_depth, camera, _prepass(camera, readers), origin != texture)
 
 
 def find_maps(frame, colour_maps=False):

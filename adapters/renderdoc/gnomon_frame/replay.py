@@ -40,6 +40,7 @@ class Draw:
     instances: int
     colours: tuple  # textures drawn into
     depth: int  # the depth texture drawn into, or 0
+    range: tuple = ()  # which part of its buffers it draws
 
 
 @dataclass
@@ -85,7 +86,8 @@ class Frame:
         names = controller.GetStructuredFile()
         self._actions = {a.eventId: a for a in _actions(controller.GetRootActions())}
         self.draws = [Draw(a.eventId, a.GetName(names), a.numIndices, max(1, a.numInstances),
-                           tuple(int(o) for o in a.outputs if int(o)), int(a.depthOut)) for a in self._actions.values()]
+                           tuple(int(o) for o in a.outputs if int(o)), int(a.depthOut),
+                           (a.numIndices, a.numInstances, a.indexOffset, a.vertexOffset, a.baseVertex, a.instanceOffset)) for a in self._actions.values()]
         self._event = None
         self._states = {}
         self.draws = [self._with_targets(draw) for draw in self.draws]

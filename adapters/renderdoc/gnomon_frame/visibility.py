@@ -57,8 +57,9 @@ def _plan(frame, passes, layers, lens, others):
     own = {d.event for d in passes.writers}
     rects = tuple((x, y, x + w, y + h) for x, y, w, h in sorted({tuple(layer.state.viewport) for layer in layers}))
     used, plan = {}, {}
+    unseen = {d.event for d in passes.prepass}  # taken for draws that share the casters' fragment shader
     for draw in frame.draws:
-        if draw.event in own or draw.depth:
+        if draw.event in own or draw.depth and draw.event not in unseen:
             for stage, shader in frame.state(draw.event).shaders.items():
                 used.setdefault((shader, stage), set()).add(draw.event)
     minus_one = layers[0].state.conventions.minus_one
@@ -67,7 +68,8 @@ def _plan(frame, passes, layers, lens, others):
         shaders = frame.state(event).shaders
         fragment, vertex = _stages()
         stage = fragment if fragment in shaders else vertex
-        shared = used[shaders[stage], stage] - writers
+        repeated = {e for e in unseen if frame.state(e).shaders.get(vertex) == shaders[vertex]} if stage == vertex else unseen
+        shared = used[shaders[stage], stage] - writers | repeated
         if shared and stage == vertex:
             raise FrameError("the casters have no fragment shader and share their vertex shader with other draws: the light cannot be "
                              "told apart in this frame")
