@@ -42,11 +42,30 @@ class GradeFunctions : public Grade {
     fs::copy(folder_of(function) + "/" + which, folder / ("class/" + student), fs::copy_options::recursive);
     write_text(folder / ("class/" + student + "/function/" + function + ".glsl"), text);
   }
-  void hand_in_wrong(const Wrong& wrong) const {
+  std::string text_of(const Wrong& wrong) const {
     std::string text = style(wrong.style, wrong.function);
     const std::size_t at = text.find(wrong.from);
-    ASSERT_NE(at, std::string::npos) << wrong.name;
-    hand_in_with(wrong.name, wrong.style, wrong.function, text.replace(at, wrong.from.size(), wrong.to));
+    EXPECT_NE(at, std::string::npos) << wrong.name;
+    return at == std::string::npos ? text : text.replace(at, wrong.from.size(), wrong.to);
+  }
+  void hand_in_wrong(const Wrong& wrong) const {
+    hand_in_with(wrong.name, wrong.style, wrong.function, text_of(wrong));
+  }
+  /// Several wrong answers to each student, of different functions, for which of them has points says nothing of the others.
+  /// Returns whose each one is.
+  Words hand_in_together(const std::vector<Wrong>& all) const {
+    Words students;
+    std::map<std::string, int> of_function;
+    for (const Wrong& wrong : all) {
+      students.push_back("student" + std::to_string(++of_function[wrong.function]));
+      const std::string own = "class/" + students.back();
+      if (!fs::exists(folder / own)) {
+        fs::create_directories(folder / "class");
+        fs::copy(folder_of(wrong.function) + "/a", folder / own, fs::copy_options::recursive);
+      }
+      write_text(folder / (own + "/function/" + wrong.function + ".glsl"), text_of(wrong));
+    }
+    return students;
   }
   std::map<std::string, json> grade(const Words& words) const {
     const ProcessResult graded = gnomon(Words{"grade"} + words + Words{"--json", "-", "-q"});
@@ -58,53 +77,57 @@ class GradeFunctions : public Grade {
   }
 };
 
-/// The reasons that name a mistake.
-Words named_in(const json& student) {
-  Words reasons;
+/// What became of one function, or of all of them.
+struct Outcome {
+  double lost = 0.0;  ///< points
+  Words named;        ///< reasons that name a mistake
+};
+
+Outcome outcome_of(const json& student, const std::string& function = "") {
+  Outcome out;
   for (const json& check : student["checks"]) {
-    const std::string reason = check["reason"];
-    if (reason.find("answered as if") != std::string::npos) reasons.push_back(reason);
+    const std::string command = check["command"], reason = check["reason"];
+    if (command.find("--call " + function) == std::string::npos) continue;
+    out.lost += check["of"].get<double>() - check["points"].get<double>();
+    if (reason.find("answered as if") != std::string::npos) out.named.push_back(reason);
   }
-  return reasons;
+  return out;
 }
 
-/// Returns how many of the wrong answers have the right mistake, and it alone, named.
-std::size_t named_of(const std::vector<Wrong>& all, const std::map<std::string, json>& students) {
-  for (const std::string right : {"a", "b"})
-    EXPECT_EQ(students.at(right)["points"], students.at(right)["of"]) << students.at(right).dump(2);
-  std::size_t named = 0;
-  for (const Wrong& wrong : all) {
-    const json& student = students.at(wrong.name);
-    EXPECT_LE(student["points"].get<double>() + 1.0, student["of"].get<double>())
-        << wrong.name << " lost less than a check's points";
-    const Words reasons = named_in(student);
-    const bool is =
-        reasons.size() == 1 && reasons[0].find(wrong.mistake) != std::string::npos && !wrong.mistake.empty();
-    named += is ? 1 : 0;
-    if (!is) std::printf("%s: %s\n", wrong.name.c_str(), json(reasons).dump(1).c_str());
-    EXPECT_GE(student["points"].get<double>() + 2.0, student["of"].get<double>())
-        << wrong.name << " lost more than once";
+/// Whether it cost the points of one check, or of two where the first has parts left; and the right mistake, it alone, is named.
+bool is_named(const Wrong& wrong, const json& student) {
+  const Outcome outcome = outcome_of(student, wrong.function + " ");
+  EXPECT_GE(outcome.lost, 1.0) << wrong.name << " lost less than a check's points";
+  EXPECT_LE(outcome.lost, 2.0) << wrong.name << " lost more than once";
+  const bool is = outcome.named.size() == 1 && outcome.named[0].find(wrong.mistake) != std::string::npos;
+  if (!is) std::printf("%s: %s\n", wrong.name.c_str(), json(outcome.named).dump(1).c_str());
+  return is;
+}
+
+class WrongAnswers : public GradeFunctions {
+ protected:
+  void check(const std::vector<Wrong>& all, const std::string& homework) const {
+    const Words students = hand_in_together(all);
+    const auto graded = grade({"rays-and-" + homework, "class", answers_folder(homework)});
+    for (const std::string right : {"a", "b"})
+      EXPECT_EQ(graded.at(right)["points"], graded.at(right)["of"]) << graded.at(right).dump(2);
+    std::size_t named = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) named += is_named(all[i], graded.at(students[i])) ? 1 : 0;
+    EXPECT_GE(100 * named, 95 * all.size());
+    std::printf("%zu of %zu mistakes are named\n", named, all.size());
   }
-  return named;
+};
+
+TEST_F(WrongAnswers, OfSurfaces) {
+  check(wrong_surfaces(), "surfaces");
 }
 
-TEST_F(GradeFunctions, EveryMistakeIsNamedAndCostsItsPointsOnce) {
-  for (const Wrong& wrong : wrong_surfaces()) hand_in_wrong(wrong);
-  EXPECT_GE(100 * named_of(wrong_surfaces(), grade({"rays-and-surfaces", "class", answers_folder()})),
-            95 * wrong_surfaces().size());
+TEST_F(WrongAnswers, OfLight) {
+  check(wrong_light(), "light");
 }
 
-TEST_F(GradeFunctions, TheSameOfLight) {
-  for (const Wrong& wrong : wrong_light()) hand_in_wrong(wrong);
-  EXPECT_GE(100 * named_of(wrong_light(), grade({"rays-and-light", "class", answers_folder("light")})),
-            95 * wrong_light().size());
-}
-
-TEST_F(GradeFunctions, TheSameOfStructures) {
-  for (const Wrong& wrong : wrong_structures()) hand_in_wrong(wrong);
-  EXPECT_GE(100 * named_of(wrong_structures(),
-                           grade({"rays-and-structures", "class", answers_folder("structures")})),
-            95 * wrong_structures().size());
+TEST_F(WrongAnswers, OfStructures) {
+  check(wrong_structures(), "structures");
 }
 
 // A mistake in one function excuses nothing in another.
@@ -116,7 +139,7 @@ TEST_F(GradeFunctions, EachFunctionHasMistakesOfItsOwn) {
   write_text(folder / "class/both/function/ray_box.glsl", box.replace(box.find(order), order.size(), ""));
   const json student = grade({"rays-and-surfaces", "class"}).at("both");
   EXPECT_EQ(student["checks"][22]["points"], 0) << student["checks"][22].dump(2);
-  EXPECT_EQ(named_in(student).size(), 2u) << student.dump(2);
+  EXPECT_EQ(outcome_of(student).named.size(), 2u) << student.dump(2);
 }
 
 const std::string box_begin = "float ray_box(vec3 origin, vec3 direction, vec3 low, vec3 high) {\n";
