@@ -57,7 +57,7 @@ class View:
     """The camera, and what it draws."""
 
     lens: fit.Lens
-    meshes: list  # each once, though a depth prepass draws it, too
+    meshes: list  # each once, though a depth prepass draws it, too; without `clip`, of which `positions` tell
     positions: list  # of their vertices, in view space
     state: object
 
@@ -81,17 +81,20 @@ def _is_mesh(mesh):
 
 def _view(frame, found):
     seen = {draw.event for draw in found.prepass}  # going to a draw costs a replay of the frame up to it
-    drawn = [mesh for draw in found.camera if draw.event not in seen for mesh in _visited(frame, draw) if _is_mesh(mesh)]
-    if not drawn:
+    once, last = {}, None
+    for draw in found.camera:
+        for mesh in _visited(frame, draw) if draw.event not in seen else ():
+            if _is_mesh(mesh):
+                once.setdefault((mesh.source, np.round(mesh.clip[:8], 4).tobytes()), mesh)
+                last = draw
+    if not once:
         raise FrameError("the camera draws no triangles in this frame")
-    state = frame.state(drawn[0].event)
-    matrices = [m for _, m in frame.constants(drawn[-1].event)[0]]
-    lens = fit.fit_lens([(m.objects, m.clip) for m in drawn], matrices)
-    once = {}
-    for mesh in drawn:
-        once.setdefault((mesh.source, np.round(mesh.clip[:8], 4).tobytes()), mesh)
     meshes = list(once.values())
-    return View(lens, meshes, [lens.view_of(m.clip, state.conventions.y_up) for m in meshes], state)
+    state = frame.state(meshes[0].event)
+    matrices = [m for _, m in frame.constants(last.event)[0]]
+    lens = fit.fit_lens([(m.objects, m.clip) for m in meshes], matrices)
+    places = [lens.view_of(mesh.clip, state.conventions.y_up) for mesh in meshes]
+    return View(lens, [replace(mesh, clip=mesh.clip[:0]) for mesh in meshes], places, state)
 
 
 def _visited(frame, draw):

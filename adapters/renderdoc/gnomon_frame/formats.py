@@ -67,7 +67,7 @@ def corners(topology, restart):
     or fan anew."""
     if topology == "list":
         count = len(restart) // 3 * 3
-        return np.arange(count)
+        return np.arange(count, dtype=np.int32)
     if topology not in ("strip", "fan"):
         return None
     pieces, begin = [], 0
@@ -87,4 +87,4 @@ def numbered(indices):
     """(indices that occur, in their order; each index as its place among these)"""
     occurs = np.zeros(int(indices.max()) + 1, bool)
     occurs[indices] = True
-    return np.flatnonzero(occurs), (np.cumsum(occurs) - 1)[indices]
+    return np.flatnonzero(occurs), (np.cumsum(occurs, dtype=np.int32) - np.int32(1))[indices]

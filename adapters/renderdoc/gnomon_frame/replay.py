@@ -49,7 +49,7 @@ class Mesh:
 
     event: int
     clip: np.ndarray  # [vertices, 4], each vertex once
-    objects: np.ndarray | None  # the same vertices before the shader, where an attribute of three floats tells
+    objects: np.ndarray | None  # the same vertices before the shader, 32-bit floats, where an attribute of three floats tells
     corners: np.ndarray  # three vertices for each triangle
     source: tuple  # equal for the same vertices in the same order, whichever shader moved them
 
@@ -240,7 +240,7 @@ class Frame:
         data = self.controller.GetBufferData(resource, offset, count * stride)
         kind = {1: np.uint8, 2: np.uint16, 4: np.uint32}[stride]
         raw = np.frombuffer(data, kind, len(data) // stride)[:count]
-        return raw.astype(np.int64) + base, raw == np.iinfo(kind).max
+        return raw.astype(np.int32) + np.int32(base), raw == np.iinfo(kind).max
 
     def meshes(self, draw):
         """A Mesh for each instance of a draw that is made of triangles."""
@@ -254,11 +254,14 @@ class Frame:
                 continue
             vertices, indices, places = drawn
             kept, corners = formats.numbered(indices[places])
-            objects = None
-            if source and len(source[0]) > places.max():
-                objects = np.empty((len(kept), 3))
-                objects[corners] = source[0][places]
-            out.append(Mesh(draw.event, vertices[kept].astype(float), objects, corners, source[1] if source else (draw.event, instance)))
+            objects, name = None, (draw.event, instance)
+            if source:
+                points, order, name = source
+                if len(order) > places.max():
+                    place_of = np.empty(len(kept), np.int32)  # one of the places at which a vertex stands among the indices
+                    place_of[corners] = places
+                    objects = points[order[place_of]]
+            out.append(Mesh(draw.event, vertices[kept].astype(float), objects, corners, name))
         return out
 
     def _clip(self, action, instance):
@@ -275,17 +278,17 @@ class Frame:
             indices, restart = self._indices(mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.numIndices, mesh.baseVertex)
             restart = restart if action.flags & rd.ActionFlags.Indexed else np.zeros(len(restart), bool)
         else:
-            indices, restart = np.arange(mesh.numIndices), np.zeros(mesh.numIndices, bool)
+            indices, restart = np.arange(mesh.numIndices, dtype=np.int32), np.zeros(mesh.numIndices, bool)
         corners = formats.corners(_topology(mesh.topology), restart)
         if corners is None or not len(corners):
             return None
         used = indices[corners]
         if used.min() < 0 or used.max() >= count:
             indices = indices - used.min()
-        return vertices, np.clip(indices, 0, count - 1), corners
+        return vertices, np.clip(indices, 0, count - 1, out=indices), corners
 
     def _source(self, pipe, action):
-        """(object position of each index, what names the vertices), or None where no attribute is three floats."""
+        """(object positions, the row of each index among them, what names the vertices), or None where no attribute is three floats."""
         fit = [a for a in pipe.GetVertexInputs()
                if a.format.compType == rd.CompType.Float and a.format.compCount >= 3 and a.format.compByteWidth == 4 and not a.perInstance]
         if not fit:
@@ -297,9 +300,9 @@ class Frame:
         if indexed:
             order, restart = self._indices(index.resourceId, index.byteOffset + action.indexOffset * index.byteStride, index.byteStride,
                                            action.numIndices, action.baseVertex)
-            order = np.where(restart, 0, order)
+            order[restart] = 0
         else:
-            order = np.arange(action.numIndices) + action.vertexOffset
+            order = np.arange(action.numIndices, dtype=np.int32) + np.int32(action.vertexOffset)
         stride = buffer.byteStride or 4 * attribute.format.compCount
         data = self.controller.GetBufferData(buffer.resourceId, buffer.byteOffset + attribute.byteOffset, (int(order.max()) + 1) * stride)
         values = np.frombuffer(data, np.float32, len(data) // 4)
@@ -307,7 +310,7 @@ class Frame:
         points = np.lib.stride_tricks.as_strided(values, (count, 3), (stride, 4))
         name = (int(buffer.resourceId), buffer.byteOffset, int(index.resourceId) if indexed else 0, action.indexOffset, action.vertexOffset,
                 action.baseVertex, action.numIndices, action.instanceOffset)
-        return points[np.clip(order, 0, count - 1)].astype(float), name
+        return points, np.clip(order, 0, count - 1, out=order), name
 
     # --- Pictures ---------------------------------------------------------------------------------------------------
 
