@@ -125,6 +125,9 @@ class Lookup(unittest.TestCase):
         pixels = extract.Pixels(places, np.ones(3, bool), np.zeros(3), np.ones(3, bool))
         extract._light_between_casters(pixels, [layer], [covered])
         np.testing.assert_allclose(pixels.visibility, [0, 0.5, 0.7], atol=1e-6)
+        pixels.visibility[:] = 0  # a coarser layer covers all: it may be the one that is read
+        extract._light_between_casters(pixels, [layer, layer], [covered, np.ones((8, 8), bool)])
+        np.testing.assert_allclose(pixels.visibility, 0, atol=1e-6)
 
 
 class PolygonOffset(unittest.TestCase):

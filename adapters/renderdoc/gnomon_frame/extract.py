@@ -314,16 +314,15 @@ def _is_bilinear(found):
 
 def _light_between_casters(pixels, layers, covered):
     """Puts back the light of texels that no caster covers: full maps leave them lit, so that the replays tell of the covered ones of the
-    four that a sampler weighs alone."""
+    four that a sampler weighs alone. Which of several layers is read is not known yet: the one that is covered most counts."""
+    if any(layer.matrix is None for layer in layers):
+        return
     asked, places = pixels.asked, pixels.positions[pixels.asked]
-    share, unknown = np.ones(len(places)), np.ones(len(places), bool)
+    share, held = np.zeros(len(places)), np.zeros(len(places), bool)
     for layer, full in zip(layers, covered):
-        if layer.matrix is None:
-            return
         at, inside = lookup.bilinear(layer, places, full.astype(float))
-        share[unknown & inside] = at[unknown & inside]
-        unknown &= ~inside
-    pixels.visibility[asked] = 1 - share * (1 - pixels.visibility[asked])
+        share, held = np.maximum(share, np.where(inside, at, 0)), held | inside
+    pixels.visibility[asked] = 1 - np.where(held, share, 1) * (1 - pixels.visibility[asked])
 
 
 def _light_beside_casters(pixels, layers, covered):
