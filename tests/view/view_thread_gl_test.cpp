@@ -94,7 +94,7 @@ TEST(RenderThread, TheNewestOrderIsTheOneThatIsFinished) {
     lab.thread().post(1, {state.revision, state.setup});
   }
   const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
-  EXPECT_EQ(done->outcome->labels.size, lab_size);
+  EXPECT_EQ(done->outcome->picture(Picture::labels).size, lab_size);
   EXPECT_EQ(done->outcome->light, posed_light(state));
 }
 

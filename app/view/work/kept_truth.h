@@ -29,6 +29,7 @@ class KeptTruth {
   void forget();
 
   bool has_frame() const { return frame_.has_value(); }
+  void take_traced(raytrace::RayTracedFrame frame) { frame_ = std::move(frame); }
   /// Requires has_frame(). The caller hands it back by keep().
   raytrace::RayTracedFrame take_frame();
   compare::Climb climb(const compare::LadderInput& input);

@@ -19,22 +19,7 @@ constexpr std::chrono::milliseconds file_interval{500};  // between looks at the
 const Rgb8Image* picture_of(const Snapshot& shown, Picture view) {
   const ComparisonOutcome* outcome = shown.outcome.get();
   if (outcome == nullptr || view == Picture::raster) return shown.live.picture.get();
-  switch (view) {
-    case Picture::raytrace:
-      return &outcome->raytrace;
-    case Picture::difference:
-      return &outcome->difference;
-    case Picture::labels:
-      return &outcome->labels;
-    case Picture::truth:
-      return &outcome->truth;
-    case Picture::gap:
-      return &outcome->gap;
-    case Picture::texels:
-      return &outcome->texels;
-    default:
-      return &outcome->depth;
-  }
+  return &outcome->picture(view);
 }
 
 RenderThread::RenderThread(MakeContext context, SceneSource first, StudioOptions options,

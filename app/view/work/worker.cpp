@@ -10,11 +10,12 @@
 
 namespace gnomon::app {
 
-/// What is under way. Only tracing is ever cut short, between two tiles: the tracer and the light's structures
-/// are always built whole.
+/// What is under way: one turn traces, the next compares, so that on one thread it can be given up in between. With threads only
+/// tracing is ever cut short, between two tiles: the tracer and the light's structures are always built whole.
 struct CompareWorker::Job {
-  bool preview = false;
+  ComparisonRequest request;
   std::stop_source given_up;
+  bool traced = false;
 };
 
 namespace {
@@ -24,17 +25,28 @@ World world_like(const World& other, const Scene& scene) {
   return make_world(scene, other.keeps_instances() ? InstanceChoice::automatic : InstanceChoice::flatten);
 }
 
-void draw_pictures(ComparisonOutcome& outcome) {
-  const compare::Comparison& comparison = outcome.comparison;
+Rgb8Image draw(const compare::Comparison& comparison, Picture view) {
   const compare::LightComparison& light = comparison.lights.front();
-  outcome.raytrace = compare::raytraced_picture(comparison);
-  outcome.difference = compare::difference_picture(comparison, light);
-  outcome.labels = compare::label_picture(light);
   const raster::LightRecord& record = comparison.raster.lights.front();
-  outcome.truth = truth_picture(light);
-  outcome.gap = gap_picture(record, light);
-  outcome.texels = texel_picture(compare::raster_picture(comparison), record, light);
-  outcome.depth = compare::depth_map_picture(comparison.raster.lights.front().map);
+  switch (view) {
+    case Picture::raster:
+      return compare::raster_picture(comparison);
+    case Picture::raytrace:
+      return compare::raytraced_picture(comparison);
+    case Picture::difference:
+      return compare::difference_picture(comparison, light);
+    case Picture::labels:
+      return compare::label_picture(light);
+    case Picture::truth:
+      return truth_picture(light);
+    case Picture::gap:
+      return gap_picture(record, light);
+    case Picture::texels:
+      return texel_picture(compare::raster_picture(comparison), record, light);
+    case Picture::depth:
+      break;
+  }
+  return compare::depth_map_picture(record.map);
 }
 
 ShownSurfaces shown_surfaces(const raytrace::Tracer& tracer, const compare::Comparison& comparison) {
@@ -52,6 +64,13 @@ ShownSurfaces shown_surfaces(const raytrace::Tracer& tracer, const compare::Comp
 }
 
 }  // namespace
+
+const Rgb8Image& ComparisonOutcome::picture(Picture view) const {
+  const std::lock_guard lock(made_->mutex);
+  std::optional<Rgb8Image>& made = made_->images[static_cast<std::size_t>(view)];
+  if (!made) made = draw(comparison, view);
+  return *made;
+}
 
 CompareWorker::CompareWorker(const Scene& scene, const World& world, const compare::CompareOptions& options,
                              std::function<void()> on_finished)
@@ -82,7 +101,7 @@ bool CompareWorker::busy() const {
 void CompareWorker::give_up() {
   const std::lock_guard lock(mutex_);
   if (request_ && !request_->preview) request_.reset();
-  if (job_ && !job_->preview) job_->given_up.request_stop();
+  if (job_ && !job_->request.preview) job_->given_up.request_stop();
 }
 
 void CompareWorker::start(ComparisonRequest request) {
@@ -100,23 +119,26 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::take() {
 
 bool CompareWorker::turn(bool wait) {
   std::shared_ptr<Job> job;
-  ComparisonRequest request;
   {
     std::unique_lock lock(mutex_);
-    if (wait) wake_.wait(lock, [this] { return stop_ || request_; });
-    if (stop_ || !request_) return !stop_;
-    request = std::move(*request_);
-    request_.reset();
-    job = job_ = std::make_shared<Job>();
-    job->preview = request.preview;
+    if (wait) wake_.wait(lock, [this] { return stop_ || request_ || job_; });
+    if (stop_ || !(request_ || job_)) return !stop_;
+    if (!job_) {
+      job_ = std::make_shared<Job>();
+      job_->request = *std::exchange(request_, std::nullopt);
+    }
+    job = job_;
   }
   std::optional<Expected<ComparisonOutcome>> outcome;
   try {
-    prepare_tracer(request.precision);
-    outcome = compare(std::move(request), *job);
+    if (!job->traced)
+      trace(*job);
+    else if (!job->given_up.stop_requested())
+      outcome = compare(*job);
   } catch (const std::exception& error) {
     outcome = fail(unforeseen(error));
   }
+  if (!outcome && !job->given_up.stop_requested()) return true;  // compared at the next turn
   {
     const std::lock_guard lock(mutex_);
     job_.reset();
@@ -135,9 +157,38 @@ void CompareWorker::prepare_tracer(raytrace::Precision precision) {
   tracer_precision_ = precision;
 }
 
-std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequest request, Job& job) {
+compare::CompareOptions CompareWorker::options_of(const Job& job) const {
+  compare::CompareOptions options = options_;
+  options.raster = job.request.drawn.options;
+  options.raytrace.size = options.raster.size;
+  return options;
+}
+
+KeptTruth& CompareWorker::kept_for(const Job& job) {
+  return job.request.preview ? kept_preview_ : kept_;
+}
+
+void CompareWorker::trace(Job& job) {
+  const ComparisonRequest& request = job.request;
+  prepare_tracer(request.precision);
   scene_->camera = request.camera;
-  scene_->lights = std::move(request.lights);
+  scene_->lights = request.lights;
+  const std::vector<std::uint32_t> lights{request.drawn.lights.front().light};
+  raytrace::RaytraceOptions options = options_of(job).raytrace;
+  KeptTruth& kept = kept_for(job);
+  kept.keep_for({scene_->camera, scene_->lights, lights.front(), options}, request.drawn);
+  if (!kept.has_frame()) {
+    options.stop = job.given_up.get_token();
+    auto traced = raytrace::trace_frame(*tracer_, request.plan, scene_->camera, lights, options);
+    if (job.given_up.stop_requested()) return;
+    traced.options.stop = {};
+    kept.take_traced(std::move(traced));
+  }
+  job.traced = true;
+}
+
+Expected<ComparisonOutcome> CompareWorker::compare(Job& job) {
+  ComparisonRequest& request = job.request;
   ComparisonOutcome outcome;
   outcome.revision = request.revision;
   outcome.preview = request.preview;
@@ -145,33 +196,21 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   outcome.camera = request.camera;
   const std::vector<std::uint32_t> lights{request.drawn.lights.front().light};
   outcome.light = scene_->lights[lights.front()];
-  compare::CompareOptions options = options_;
-  options.raster = request.drawn.options;
-  options.raytrace.size = options.raster.size;
-  KeptTruth& kept = request.preview ? kept_preview_ : kept_;
-  kept.keep_for({scene_->camera, scene_->lights, lights.front(), options.raytrace}, request.drawn);
-  options.raytrace.stop = job.given_up.get_token();
+  const compare::CompareOptions options = options_of(job);
+  KeptTruth& kept = kept_for(job);
   const compare::FrameSource frames{
       [&](const PictureRows&) { return Expected<raster::RasterFrame>(std::move(request.drawn)); },
-      [&](const PictureRows&) -> Expected<raytrace::RayTracedFrame> {
-        const auto given_up = [&] { return fail(ErrorKind::internal, "given up"); };
-        if (job.given_up.stop_requested()) return given_up();
-        if (kept.has_frame()) return kept.take_frame();
-        auto traced = raytrace::trace_frame(*tracer_, request.plan, scene_->camera, lights, options.raytrace);
-        if (job.given_up.stop_requested()) return given_up();
-        traced.options.stop = {};
-        return traced;
-      },
+      [&](const PictureRows&) { return Expected<raytrace::RayTracedFrame>(kept.take_frame()); },
       [&](const compare::LadderInput& input) { return kept.climb(input); }};
   compare::Comparison& comparison = outcome.comparison;
   compare::Plan plan = compare::plan_of(*tracer_, lights, options);
   plan.topology = &*topology_, plan.maps = kept.measures();
   const auto measured = compare::measure(comparison, plan, frames);
-  if (!measured && !kept.has_frame()) kept.forget();
-  if (!measured && job.given_up.stop_requested()) return std::nullopt;
-  if (!measured) return Expected<ComparisonOutcome>(fail(measured.error()));
+  if (!measured) {
+    kept.forget();
+    return fail(measured.error());
+  }
   comparison.plan = request.plan;
-  draw_pictures(outcome);
   outcome.verdict = compare::verdict_on(comparison, comparison.lights.front());
   outcome.normals = Image<Vec3f>(comparison.raytraced.receiver.size);
   for (std::size_t i = 0; i < outcome.normals.data.size(); ++i)
@@ -180,7 +219,7 @@ std::optional<Expected<ComparisonOutcome>> CompareWorker::compare(ComparisonRequ
   outcome.result = compare::result_json(comparison);
   kept.keep(comparison);
   comparison.world = nullptr;
-  return Expected<ComparisonOutcome>(std::move(outcome));
+  return outcome;
 }
 
 }  // namespace gnomon::app

@@ -3,6 +3,7 @@
 // is given up when another comes; a preview is finished, so that dragging shows something.
 #pragma once
 
+#include <array>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "app/view/state/look.h"
 #include "app/view/work/kept_truth.h"
 #include "app/view/work/priority.h"
 #include "app/view/work/turns.h"
@@ -55,7 +57,15 @@ struct ComparisonOutcome {
   ShownSurfaces shown;
   compare::Verdict verdict;
   std::string result;  ///< result.json
-  Rgb8Image raytrace, difference, labels, truth, gap, texels, depth;
+  /// A picture of what is compared (Picture::raster: of what was drawn), made when it is first asked for. From any thread.
+  const Rgb8Image& picture(Picture view) const;
+
+ private:
+  struct Made {
+    std::mutex mutex;
+    std::array<std::optional<Rgb8Image>, 8> images;
+  };
+  std::unique_ptr<Made> made_ = std::make_unique<Made>();
 };
 
 class CompareWorker {
@@ -77,8 +87,11 @@ class CompareWorker {
  private:
   struct Job;
   bool turn(bool wait);
-  /// Nothing when the job was given up.
-  std::optional<Expected<ComparisonOutcome>> compare(ComparisonRequest request, Job& job);
+  compare::CompareOptions options_of(const Job& job) const;
+  KeptTruth& kept_for(const Job& job);
+  /// Has the rays' frame kept, unless the job is given up.
+  void trace(Job& job);
+  Expected<ComparisonOutcome> compare(Job& job);
   void prepare_tracer(raytrace::Precision precision);
 
   std::unique_ptr<Scene> scene_;

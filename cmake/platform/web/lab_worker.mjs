@@ -2,7 +2,7 @@
 // draws and compares between them.
 import gnomon from "./gnomon.mjs";
 
-const quiet_turns = 4;  // that nothing came of: then there is nothing to do
+const quiet_turns = 8;  // that nothing came of, more than a comparison takes: then there is nothing to do
 const waiting = [];     // requests for news of a moment that has not come
 let module, number = 0, quiet = 0, turning = false;
 

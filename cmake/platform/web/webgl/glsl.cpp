@@ -19,7 +19,7 @@ precision highp sampler2D;
 precision highp usampler2D;
 precision highp sampler2DArray;
 precision highp usampler2DArray;
-#define gnomon_fetch(s, i) texelFetch(s, ivec2((i) % 2048, (i) / 2048), 0)
+#define gnomon_fetch(s, i) texelFetch(s, ivec2((i) & 2047, (i) >> 11), 0)
 float ldexp(float x, int n) {
   int half_n = n / 2;
   return x * uintBitsToFloat(uint(half_n + 127) << 23) * uintBitsToFloat(uint(n - half_n + 127) << 23);
