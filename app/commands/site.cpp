@@ -8,6 +8,7 @@
 
 #include "app/console.h"
 #include "app/invocation.h"
+#include "app/lessons/comparison.h"
 #include "app/lessons/site.h"
 #include "app/options/lab_options.h"
 #include "app/options/options.h"
@@ -46,9 +47,32 @@ Expected<std::vector<SitePage>> engine_files(const std::string& folder) {
   return files;
 }
 
-/// Where it all begins: the lab, the lessons, the manual, and every scene to be opened in the lab.
-SitePage start_page() {
-  std::string main = R"(<article class="lesson-text">
+/// The built-in scenes as cards, each with the picture of its labels, that open the lab.
+Expected<std::string> gallery(Console& console) {
+  std::string cards;
+  for (const BuiltinScene& scene : builtin_scenes()) {
+    if (scene.large) continue;
+    const auto picture = lessons::labels_png(std::string(scene.name), console);
+    if (!picture) return fail(picture.error());
+    cards += fmt::format(
+        "<li><a href=\"lab.html#scene={0}\"><span class=\"card-picture\"><img src=\"{1}\" "
+        "alt=\"\"></span><b>{0}</b> "
+        "<span>{2}</span></a></li>\n",
+        scene.name, compare::data_uri("image/png", *picture), compare::escaped(scene.description));
+  }
+  return cards;
+}
+
+/// Where it all begins: the lab, the lessons, the lectures, the manual, and every scene to be opened in the lab.
+Expected<SitePage> start_page(const std::vector<SitePage>& lectures, Console& console) {
+  const auto cards = gallery(console);
+  if (!cards) return fail(cards.error());
+  std::string decks;
+  for (const SitePage& deck : lectures)
+    decks += fmt::format("{}<a href=\"lectures/{}\">{}</a>", decks.empty() ? "" : ", ", deck.file,
+                         deck.file.substr(0, deck.file.find('.')));
+  const std::string main = fmt::format(
+      R"(<article class="lesson-text">
 <h1>Gnomon</h1>
 <p>Gnomon renders a scene twice, once as a rasterizer with shadow maps and once as a ray tracer, compares the shadows pixel by
 pixel, and says for every pixel that differs why.</p>
@@ -56,16 +80,17 @@ pixel, and says for every pixel that differs why.</p>
 <li><a href="lab.html">The lab</a>: change every setting of a shadow map, turn the light, and watch what becomes of the shadows. It
 is drawn and compared in this page, on your own machine.</li>
 <li><a href="lessons/index.html">The lessons</a>: shadow maps and ray tracing, with figures to try.</li>
+<li>The lectures: {}. Slides of 90 minutes each, to project and to print.</li>
 <li><a href="manual/index.html">The manual</a>: every option, key, label and channel.</li>
 </ul>
 <h2>Scenes to open in the lab</h2>
-<dl>
-)";
-  for (const BuiltinScene& scene : builtin_scenes())
-    if (!scene.large)
-      main += fmt::format("<dt><a href=\"lab.html#scene={0}\">{0}</a></dt><dd>{1}</dd>\n", scene.name,
-                          compare::escaped(scene.description));
-  return {"index.html", lessons::page_of_text("Gnomon", "", main + "</dl>\n</article>\n")};
+<p>The pictures show where the shadow map is right (white and grey) and, in colour, where it errs and why.</p>
+</article>
+<ul class="cards">
+{}</ul>
+)",
+      decks, *cards);
+  return SitePage{"index.html", lessons::page_of_text("Gnomon", "", main)};
 }
 
 /// All of them, or none.
@@ -103,7 +128,16 @@ Expected<ExitCode> run_site(const SiteCommand& command) {
   lab.scene = lab.scene.named("acne-floor");
   lab.compare.raster.size = {640, 360};
   files->push_back({"lab.html", lab_page(lab, true)});
-  files->push_back(start_page());
+  std::vector<SitePage> lectures;
+  for (const std::string_view name : lessons::lecture_names()) {
+    auto lecture = lessons::make_lecture(name, console);
+    if (!lecture) return fail(lecture.error());
+    lectures.push_back(std::move(*lecture));
+  }
+  auto start = start_page(lectures, console);
+  if (!start) return fail(start.error());
+  files->push_back(std::move(*start));
+  add_below("lectures", std::move(lectures), *files);
   add_below("lessons", std::move(*lesson_pages), *files);
   add_below("manual", std::move(*manual), *files);
   if (const auto written = write_files(command.folder, *files); !written) return fail(written.error());
@@ -118,7 +152,7 @@ void add_site(CLI::App& program, Invocation& invocation) {
   CLI::App* app =
       program.add_subcommand("site",
                              "Write a site for any host of plain files: a start page, the lab with an "
-                             "engine of its own, the lessons and the manual.");
+                             "engine of its own, the lessons, the lectures and the manual.");
   app->footer(
       "./gnomon web && ./gnomon site -o public   the folder public, to put on a host\n"
       "python3 -m http.server -d public          and to look at it here");

@@ -28,6 +28,8 @@ struct SmallComparison {
   double texel_world = 0.0;              ///< width of a texel, world units: the median
 };
 
+/// The picture of its labels, as PNG, for a comparison with the scene's own settings. Errors as below.
+Expected<std::string> labels_png(const std::string& scene, Console& console);
 /// Errors: of the scene, of its settings, of the graphics.
 Expected<SmallComparison> compare_small(const std::string& scene, const Settings& settings, Console& console);
 

@@ -5,6 +5,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import path from "node:path";
+import { pathToFileURL } from "node:url";
 import { browser, close, colours, openAt, violations } from "../browser/open_page.mjs";
 import { app, isBuilt, serveFolder, skip } from "./program_in_browser.mjs";
 
@@ -116,6 +117,31 @@ async function saysThatTheContextIsLost() {
   await page.close();
 }
 
+/** An engine that hears nothing for long, as one whose browser translates shaders for minutes. */
+async function saysThatItTakesLong() {
+  const page = await browser.newPage();
+  await page.clock.install();
+  await page.route("**/lab_worker.mjs", (route) => route.fulfill({ contentType: "text/javascript", body: "onmessage = ({ data: { id, name } }) => { if (name !== 'news') postMessage({ id, status: 200, type: 'application/json', body: new TextEncoder().encode('{\"number\": 1}') }); };" }));
+  await page.goto(`${host.url}lab.html#scene=shapes`);
+  await page.waitForFunction(() => document.body.dataset.busy === "true");
+  assert.equal(await page.locator("#lab-note").textContent(), "");
+  await page.clock.fastForward(21000);
+  assert.match(await page.locator("#lab-note").textContent(), /takes long.*without a GPU.*reload the page with another scene/);
+  assert.match(await page.evaluate(() => location.hash), /scene=shapes/, "the state is kept");
+  await page.close();
+}
+
+/** From the disk all opens, and the lab says what it needs. */
+async function opensFromTheDisk() {
+  const page = await openAt(pathToFileURL(path.join(folder, "site", "lab.html")).href, null);
+  await page.locator("#lab-gone").waitFor({ timeout: 10000 });
+  assert.match(await page.locator("#lab-gone").textContent(), /needs a host.*python3 -m http.server/);
+  await close(page);
+  const start = await openAt(pathToFileURL(path.join(folder, "site", "index.html")).href, null);
+  assert.ok(await start.locator(".cards img").evaluateAll((all) => all.length > 10 && all.every(({ naturalWidth }) => naturalWidth === 320)), "a picture of each scene");
+  await close(start);
+}
+
 async function saysThatThereIsNoWebGl() {
   const page = await openWith("OffscreenCanvas.prototype.getContext = () => null;");
   await page.waitForFunction(() => !document.getElementById("lab-error").hidden || !document.getElementById("lab-gone").hidden, null, { timeout: 60000 });
@@ -129,6 +155,8 @@ await canBeReadByAll();
 await leadsSomewhere();
 await saysThatTheContextIsLost();
 await saysThatThereIsNoWebGl();
+await saysThatItTakesLong();
+await opensFromTheDisk();
 await browser.close();
 host.stop();
 console.log("the site in a browser");

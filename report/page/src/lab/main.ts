@@ -17,12 +17,16 @@ import { Stage } from "./stage";
 const facts = pageData<LabFacts>();
 const poseOptions = ["camera", "camera-orbit", "camera-distance", "camera-target", "camera-up", "camera-height", "light", "light-azimuth", "light-elevation", "light-distance", "light-size", "size", "precision"];
 
+const patience = 20_000;  // milliseconds without news before the page says what may take so long
+const long = "This takes long: without a GPU a browser may need minutes for this scene's shaders. It goes on. To stop it, reload the page with another scene; its address keeps what is set here.";
+
 class Lab {
   private state: LabState = stateAt(location.hash) ?? { scene: facts.scene, options: new Map() };
   private readonly engine = facts.worker ? workerEngine(facts.scenes.some(({ name }) => name === this.state.scene) ? this.state.scene : facts.scene, facts.size) : servedEngine();
   private asked = 0;      // the moment from which readings are of this page's wish
   private asking = false;
   private again = false;  // something was changed meanwhile
+  private waits = 0;      // the timer of patience
   private preset: number | undefined;
   private seen = 0;
   private newest: Reading | null = null;
@@ -157,6 +161,7 @@ class Lab {
     history.replaceState(null, "", addressOf(this.state));
     document.body.dataset.busy = "true";
     this.say("");
+    this.wait();
     this.engine.ask({ scene: this.state.scene, words: wordsOf(this.state.options), ...(preset !== undefined && { preset }) }).then(
       (number) => { this.asked = number; this.fail(""); },
       (error: Error) => { this.fail(error.message); if (this.reading) this.settings.show(this.reading); },
@@ -165,6 +170,14 @@ class Lab {
       if (this.again) this.ask();
       else if (this.newest) this.take(this.newest);  // it may have come before the answer
     });
+  }
+
+  // A browser without a GPU translates some shaders for minutes, in which its engine hears nothing.
+  private wait(): void {
+    clearTimeout(this.waits);
+    this.waits = window.setTimeout(() => {
+      if (document.body.dataset.busy === "true") this.say(long);
+    }, patience);
   }
 
   /** A state of the address is asked for; else the engine's own is shown. */
@@ -192,6 +205,8 @@ class Lab {
 
   private take(reading: Reading): void {
     this.newest = reading;
+    if (this.part("lab-note").textContent === long) this.say("");
+    this.wait();
     const isOther = this.asked > 0 && reading.client !== this.engine.client;  // a page that has asked for nothing shows what is there
     this.part("lab-other").hidden = !isOther;
     this.part("lab-opening").hidden = !reading.opening;
