@@ -131,7 +131,8 @@ std::string step(std::string_view kind, std::string_view markdown) {
   return fmt::format("<div class=\"step {}\">\n\n{}\n</div>\n\n", kind, markdown);
 }
 
-/// "acne figure bias with map-size=32": the part, in the steps that show it.
+/// "acne figure bias with map-size=32": the part, in the steps that show it. "cascades pair lesson-cascades.png" is a figure of two
+/// pictures side by side, of which the slide shows the left one first and then the right one in its place, as large.
 Expected<std::string> steps_of(std::string_view shown) {
   const std::size_t first = shown.find(' '), second = shown.find(' ', first + 1);
   if (second == std::string_view::npos) return fail(not_there(shown));
@@ -140,8 +141,10 @@ Expected<std::string> steps_of(std::string_view shown) {
   const auto lesson =
       std::find_if(all.begin(), all.end(), [&](const compare::Lesson& one) { return one.name == name; });
   if (lesson == all.end()) return fail(not_there(shown));
-  const auto part = lesson_part(lesson->text, kind, shown.substr(second + 1));
+  const bool is_pair = kind == "pair";
+  const auto part = lesson_part(lesson->text, is_pair ? "figure" : kind, shown.substr(second + 1));
   if (!part) return fail(not_there(shown));
+  if (is_pair) return step("figure pair", *part) + step("flip", "");
   if (kind != "question") return step(kind, *part);
   const std::size_t answer = part->find("===\n");
   return step("question", part->substr(0, answer)) + step("sentence", part->substr(answer + 4));

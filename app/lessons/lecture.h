@@ -4,6 +4,7 @@
 //   ## Why is it one half?                          a slide, and what is asked first
 //   <!-- minutes: 2 -->
 //   <!-- show: acne figure flatland scene=floor with texels=10 -->
+//   <!-- show: cascades pair lesson-cascades.png -->          two pictures in one file, one after the other in one place
 //   <!-- show: acne sentence The stored depth is -->
 //   > A sentence of the deck's own, where no lesson has it.
 //   What is left is for the speaker.

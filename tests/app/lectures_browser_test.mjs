@@ -64,6 +64,21 @@ async function checkTexels(page, lecture) {
   }
 }
 
+/** Of two pictures in one file the slide shows the left one alone, then the right one alone, each as wide as the slide allows. */
+async function checkPairs(page, lecture) {
+  const pairs = await page.locator(".part:has(.step.pair)").evaluateAll((parts) => parts.map(({ id }) => Number(id.slice("slide-".length))));
+  assert.ok(pairs.length >= 3, `${lecture} shows ${pairs.length} pairs`);
+  for (const slide of pairs) {
+    await go(page, slide);
+    for (const [side, step] of [["0%", "pair"], ["100%", "flip"]]) {
+      while (await page.locator(`.on-slide .step.${step}.to-come`).count() > 0) await page.keyboard.press("ArrowRight");
+      const shown = await page.locator(".on-slide .step.pair img").evaluate((img) => ({ ...img.getBoundingClientRect().toJSON(), texel: img.getBoundingClientRect().height / img.naturalHeight, at: getComputedStyle(img).objectPosition }));
+      assert.equal(shown.at.split(" ")[0], side, `${lecture}, slide ${slide}`);
+      assert.ok(Math.abs(shown.width / shown.height - 16 / 9) < 0.01 && shown.texel > 2.2, `${lecture}, slide ${slide}: ${JSON.stringify(shown)}`);
+    }
+  }
+}
+
 /** Keys and a clicker's: a step at a time, back again, to the ends, black; and a slide's address. */
 async function checkKeys(page, lecture) {
   await go(page, 2);
@@ -131,6 +146,7 @@ try {
     const page = await at(lecture);
     await checkSlides(page, lecture);
     await checkTexels(page, lecture);
+    await checkPairs(page, lecture);
     await checkKeys(page, lecture);
     await checkNotes(page, lecture);
     const pages = await checkPrinted(page, lecture);
