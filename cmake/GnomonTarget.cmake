@@ -13,6 +13,9 @@ target_compile_definitions(gnomon_flags INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FO
 # A definition for targets with files that Highway compiles once per instruction set: for AVX-512, AVX2, SSE4 and a baseline,
 # which is one number at a time.
 set(GNOMON_INSTRUCTION_SETS HWY_DISABLED_TARGETS=HWY_SSSE3)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)  # NEON alone, without a choice: SVE's vectors cannot stand in arrays
+  set(GNOMON_INSTRUCTION_SETS TOOLCHAIN_MISS_SYS_AUXV_H)
+endif()
 
 add_library(gnomon_warnings INTERFACE)
 target_compile_options(gnomon_warnings INTERFACE -Wall -Wextra -Wpedantic

@@ -8,7 +8,7 @@
 
 namespace gnomon::verify {
 
-__extension__ using Quad = __float128;
+using Quad __attribute__((mode(TF))) = float;  // __float128, or long double where that has 113 bits
 
 struct Quad3 {
   Quad x, y, z;
