@@ -136,6 +136,7 @@ async function opensFromTheDisk() {
   const page = await openAt(pathToFileURL(path.join(folder, "site", "lab.html")).href, null);
   await page.locator("#lab-gone").waitFor({ timeout: 10000 });
   assert.match(await page.locator("#lab-gone").textContent(), /needs a host.*python3 -m http.server/);
+  assert.equal(await page.locator("#lab-verdict").textContent(), "", "nothing is said to be drawn");
   await close(page);
   const start = await openAt(pathToFileURL(path.join(folder, "site", "index.html")).href, null);
   assert.ok(await start.locator(".cards img").evaluateAll((all) => all.length > 10 && all.every(({ naturalWidth }) => naturalWidth === 320)), "a picture of each scene");

@@ -198,6 +198,7 @@ class Lab {
       } catch (error) {
         this.part("lab-gone").textContent = `${this.engine.makesReports ? `${(error as Error).message} ` : ""}${this.engine.lost}`;
         this.part("lab-gone").hidden = false;
+        if (this.seen === 0) this.part("lab-verdict").replaceChildren();  // nothing is being drawn
         await new Promise((done) => setTimeout(done, 1000));
       }
     }
