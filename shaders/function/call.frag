@@ -1,23 +1,18 @@
-// Calls one of the functions beside it, each pixel with a case of its own (gnomon shaders --call).
-layout(binding = 0) uniform samplerBuffer case_numbers;
+// Calls one of the functions beside it, each pixel with a case of its own (gnomon shaders --call). What is defined behind it, the
+// function cannot name: there is no other way to a case's numbers than those that count.
 layout(location = 0) out vec4 answer;
 
 #include "function/$FUNCTION.glsl"
 
-float case_number(int i) {
-  int pixel = int(gl_FragCoord.y) * 128 + int(gl_FragCoord.x);
-  return texelFetch(case_numbers, pixel * NUMBERS + i).r;
-}
+layout(binding = 0) uniform samplerBuffer case_numbers;
 
-vec3 case_vector(int i) {
-  return vec3(case_number(i), case_number(i + 1), case_number(i + 2));
-}
+#define case_number(i) \
+  texelFetch(case_numbers, (int(gl_FragCoord.y) * 128 + int(gl_FragCoord.x)) * NUMBERS + (i)).r
+#define case_vector(i) vec3(case_number(i), case_number((i) + 1), case_number((i) + 2))
 
 #ifdef CALLS_bvh_walk
 int boxes_asked = 0, leaves_asked = 0;
-float of_node(int node, int i) {
-  return node >= 0 && node < int(case_number(0)) ? case_number(3 + 4 * node + i) : -1.0;
-}
+#define of_node(node, i) (node >= 0 && node < int(case_number(0)) ? case_number(3 + 4 * node + i) : -1.0)
 float box_entry(int node) {
   ++boxes_asked;
   return of_node(node, 0);

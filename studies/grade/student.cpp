@@ -223,6 +223,11 @@ std::string refusal_beside_given(const std::string& name, const std::string& tex
       return fmt::format("{} includes the program's {}, which does what the exercise asks for", name,
                          included);
   }
+  static const std::regex input(R"re(\b(uniform|buffer|layout)\b)re");
+  if (std::smatch found; name.starts_with("function/") && std::regex_search(bare, found, input))
+    return fmt::format(
+        "{} has the word {}, which this exercise does not allow: a function is handed what it needs", name,
+        found.str());
   return {};
 }
 

@@ -161,6 +161,10 @@ TEST_F(GradeFunctions, NothingThatAFunctionDoesReachesTheGrader) {
       {"empty", {"float nothing() { return 0.0; }\n", "the function ray_box is missing"}},
       {"borrows",
        {"#include \"solid.glsl\"\n" + box_begin + "  return 0.0;\n}\n", "includes the program's solid.glsl"}},
+      {"peeks", {"float case_number(int i);\n" + box_begin + "  return case_number(9);\n}\n", "case_number"}},
+      {"declares",
+       {"layout(binding = 0) uniform samplerBuffer all;\n" + box_begin + "  return 0.0;\n}\n",
+        "has the word layout"}},
       {"undefines", {"#undef CALL_FUNCTION\n" + box_begin + "  return 0.0;\n}\n", "has an #undef"}}};
   for (const auto& [name, fault] : hostile) hand_in_with(name, "a", "ray_box", fault.first);
   ASSERT_EQ(gnomon({"grade", "--new", "kit", "rays-and-surfaces"}).exit_code, 0);
@@ -174,7 +178,7 @@ TEST_F(GradeFunctions, NothingThatAFunctionDoesReachesTheGrader) {
     std::string reasons;
     for (const json& check : student["checks"]) reasons += check["reason"].get<std::string>() + "\n";
     EXPECT_NE(reasons.find(fault.second), std::string::npos) << name << ": " << reasons;
-    const bool refused = name == "borrows" || name == "undefines";
+    const bool refused = name == "borrows" || name == "undefines" || name == "declares";
     EXPECT_EQ(student["checks"][0]["points"], refused ? 0 : 1) << name << " handed in a right eye ray";
     EXPECT_EQ(student["points"], refused ? 0 : student["of"].get<int>() - 6) << name << ": " << reasons;
   }
