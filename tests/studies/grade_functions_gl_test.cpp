@@ -27,9 +27,9 @@ class GradeFunctions : public Grade {
   /// The folder of the homework that asks for the function.
   std::string folder_of(const std::string& function) const {
     for (const std::string homework : {"light", "structures"})
-      if (const std::string own = answers_folder(homework);
-          fs::exists(own + "/a/function/" + function + ".glsl"))
-        return own;
+      if (const fs::path own = answers_folder(homework);
+          fs::exists(own / "a/function" / (function + ".glsl")))
+        return own.string();
     return answers_folder();
   }
   std::string style(const std::string& which, const std::string& function) const {
