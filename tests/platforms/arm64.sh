@@ -24,29 +24,15 @@ packages=(libc6-dev libstdc++-12-dev openimageio-tools libosmesa6)
 while read -r package; do packages+=("$package"); done < <(
   sed -n '/^run_packages=(/,/^)/p' "$project/gnomon" | tr ' ' '\n' | grep -E '^(lib.*-dev|nettle-dev|nlohmann-json3-dev)$')
 
+# shellcheck source=cmake/platform/own_apt.sh
+source "$project/cmake/platform/own_apt.sh"
 fetch_libraries() {
   local apt=$folder/apt root=$folder/root package link
   rm -rf "$root"
-  mkdir -p "$apt"/{lists/partial,archives/partial} "$root"/usr/{bin,lib,sbin}
+  mkdir -p "$root"/usr/{bin,lib,sbin}
   for link in bin lib sbin; do ln -sfn "usr/$link" "$root/$link"; done
-  echo "deb [arch=arm64 signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" \
-    >"$apt/sources.list"
-  : >"$apt/status"
-  cat >"$apt/apt.conf" <<END
-APT::Architecture "arm64";
-APT::Architectures { "arm64"; };
-APT::Sandbox::User "root";
-Dir::State "$apt";
-Dir::State::status "$apt/status";
-Dir::State::lists "$apt/lists";
-Dir::Cache "$apt";
-Dir::Etc::sourcelist "$apt/sources.list";
-Dir::Etc::sourceparts "/dev/null";
-Dir::Etc::main "/dev/null";
-Dir::Etc::parts "/dev/null";
-END
-  APT_CONFIG=$apt/apt.conf apt-get -qq update
-  APT_CONFIG=$apt/apt.conf apt-get -qq -y --no-install-recommends --download-only install "${packages[@]}"
+  own_apt "$folder" bookworm arm64
+  apt-get -qq -y --no-install-recommends --download-only install "${packages[@]}"
   for package in "$apt"/archives/*.deb; do
     dpkg-deb --fsys-tarfile "$package" | tar -x -C "$root" --keep-directory-symlink --no-same-owner
   done

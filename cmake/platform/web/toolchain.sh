@@ -10,27 +10,13 @@ while (($#)) && [[ $1 != -- ]]; do packages+=("$1"); shift; done
 (($# == 0)) || shift
 sources=("$@")
 
-release=trixie mirror=http://deb.debian.org/debian
-mkdir -p "$folder"/{apt/lists/partial,apt/archives/partial,packages,root,src}
+release=trixie
+mkdir -p "$folder"/{packages,root,src}
 folder=$(readlink -f -- "$folder")
-apt=$folder/apt
 rm -f "$folder/complete"
-printf 'deb%s [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] %s %s main\n' \
-  "" "$mirror" "$release" "-src" "$mirror" "$release" >"$apt/sources.list"
-: >"$apt/status"
-cat >"$apt/apt.conf" <<END
-Dir::State "$apt";
-Dir::State::status "$apt/status";
-Dir::State::lists "$apt/lists";
-Dir::Cache "$apt";
-Dir::Etc::sourcelist "$apt/sources.list";
-Dir::Etc::sourceparts "/dev/null";
-Dir::Etc::main "/dev/null";
-Dir::Etc::parts "/dev/null";
-APT::Sandbox::User "root";
-END
-export APT_CONFIG=$apt/apt.conf
-apt-get -qq update
+# shellcheck source=cmake/platform/own_apt.sh
+source "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../own_apt.sh"
+own_apt "$folder" "$release"
 
 cd "$folder/packages"
 apt-get -qq download "${packages[@]}"
