@@ -117,7 +117,7 @@ func add_node(view, node):
 		for primitive in glb["meshes"][node["mesh"]]["primitives"]:
 			add_mesh(view, primitive, transform_of(node))
 	if node.has("camera"):
-		add_camera(view, glb["cameras"][node["camera"]]["perspective"], transform_of(node))
+		add_camera(view, glb["cameras"][node["camera"]], transform_of(node))
 
 func add_mesh(view, primitive, place):
 	var arrays = []
@@ -138,12 +138,17 @@ func add_mesh(view, primitive, place):
 	instance.transform = place
 	view.add_child(instance)
 
-func add_camera(view, lens, place):
+func add_camera(view, description, place):
 	var camera = Camera.new()
+	var lens = description[description["type"]]
 	camera.transform = place
-	camera.fov = rad2deg(lens["yfov"])
 	camera.near = max(lens["znear"], 0.05)
 	camera.far = lens.get("zfar", 1000)
+	if description["type"] == "orthographic":
+		camera.projection = Camera.PROJECTION_ORTHOGONAL
+		camera.size = 2 * lens["ymag"]
+	else:
+		camera.fov = rad2deg(lens["yfov"])
 	var environment = Environment.new()
 	environment.background_mode = Environment.BG_COLOR
 	environment.background_color = Color(0, 0, 0)

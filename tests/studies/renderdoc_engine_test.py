@@ -45,20 +45,24 @@ def run(*words):
     done = subprocess.run([str(w) for w in words], env=SOFTWARE, cwd=FOLDER, capture_output=True, text=True)
     if done.returncode:
         raise AssertionError(f"{' '.join(map(str, words))}\n{done.stdout}{done.stderr}")
-    return done.stdout
+    return done
 
 
 def scene(name="floating-box"):
-    """A GLB of a built-in scene, or of floating-box with a lamp in its sun's place."""
+    """A GLB of a built-in scene, or of floating-box with a lamp in its sun's place, or with an orthographic camera."""
     path = os.path.join(FOLDER, f"{name}.glb")
     if os.path.exists(path):
         return path
     source = name
-    if name in LAMPS:
+    if name in LAMPS or name == "orthographic":
         with open(os.path.join(SOURCE, "scene/builtin/floating-box.json"), encoding="utf-8") as file:
             document = json.loads("".join(line for line in file if not line.startswith("//")))
-        beside = document["lights"] if name in SUN_BESIDE else []
-        document["lights"] = beside + [{"name": "lamp", "intensity": [60, 60, 60], **LAMPS[name]}]
+        if name in LAMPS:
+            beside = document["lights"] if name in SUN_BESIDE else []
+            document["lights"] = beside + [{"name": "lamp", "intensity": [60, 60, 60], **LAMPS[name]}]
+        else:
+            del document["camera"]["vertical_fov_degrees"]
+            document["camera"]["orthographic_height"] = 3.2
         source = os.path.join(FOLDER, f"{name}.json")
         with open(source, "w", encoding="utf-8") as file:
             json.dump(document, file)
@@ -79,15 +83,20 @@ def frame(name, glb, **settings):
                   *[f"--{k}={v}" for k, v in settings.items()])
 
 
-def judged(path):
-    """(capture.json, result.json) of a frame."""
+def judged_and_said(path):
+    """(capture.json, result.json, the notes) of a frame."""
     name = os.path.splitext(os.path.basename(path))[0]
-    run(GNOMON, "judge", path, "-o", name)
+    notes = run(GNOMON, "judge", path, "-o", name).stderr
     documents = []
     for document in (f"{name}-capture/capture.json", f"{name}/result.json"):
         with open(os.path.join(FOLDER, document), encoding="utf-8") as file:
             documents.append(json.load(file))
-    return documents
+    return (*documents, notes)
+
+
+def judged(path):
+    """(capture.json, result.json) of a frame."""
+    return judged_and_said(path)[:2]
 
 
 class Refusals(unittest.TestCase):
@@ -127,6 +136,15 @@ class Godot(unittest.TestCase):
     def test_a_bias_is_recovered_where_an_objects_shift_would_explain_the_map_as_well(self):
         capture, _ = judged(frame("wires-frame", scene("wires"), bias=0.2))
         self.assertAlmostEqual(self.bias(capture) / 0.2, 1, delta=0.01)
+
+    def test_an_orthographic_camera_is_told_from_the_sun_whose_projection_is_parallel_as_well(self):
+        capture, result, notes = judged_and_said(frame("orthographic", scene("orthographic"), ambient=0.5))
+        self.check(result)
+        self.assertAlmostEqual(self.bias(capture), 0.1, delta=0.001)
+        self.assertNotIn("changed the camera's depth", notes)
+        self.assertIn("it is taken out", notes)  # the ambient light, of which a full map leaves all
+        with open(os.path.join(FOLDER, "orthographic-capture/scene.glb"), "rb") as file:
+            self.assertIn(b'"orthographic"', file.read())
 
     def test_ambient_light_and_filters_are_taken_for_what_they_are(self):
         capture, result = judged(frame("sun-filtered", scene(), bias=0.1, filter=1, ambient=0.5))
@@ -182,7 +200,7 @@ class Godot(unittest.TestCase):
             self.check(json.load(file))
 
     def test_lights_are_listed(self):
-        listed = run(GNOMON, "judge", frame("listed", scene()), "--list")
+        listed = run(GNOMON, "judge", frame("listed", scene()), "--list").stdout
         self.assertRegex(listed, r"^light 1: sun, map 2048 x 2048 D24 .*, 6 draws of casters, read by 6 draws from event \d+ on\n$")
 
     def test_the_scene_script_writes_a_capture_by_itself(self):

@@ -9,26 +9,59 @@ class Lens(unittest.TestCase):
         for minus_one in (True, False):
             projection = perspective(1.7, 2.4, 0.05, 80, minus_one)
             meshes = [(CUBE, drawn(projection @ m, CUBE)) for m in PLACES]
-            lens = fit.fit_lens(meshes)
-            self.assertAlmostEqual(lens.fx, 1.7, delta=1e-5)
-            self.assertAlmostEqual(lens.fy, 2.4, delta=1e-5)
-            near, far, is_reversed = lens.planes(minus_one)
+            found = lens.fit_lens(meshes, [], pipeline(minus_one))
+            self.assertAlmostEqual(found.fx, 1.7, delta=1e-5)
+            self.assertAlmostEqual(found.fy, 2.4, delta=1e-5)
+            near, far, is_reversed = found.planes(minus_one)
             self.assertAlmostEqual(near, 0.05, delta=1e-4)
             self.assertAlmostEqual(far / 80, 1, delta=0.01)
             self.assertFalse(is_reversed)
-            self.assertLess(np.abs(lens.view_of(meshes[2][1], True) - (fit.homogeneous(CUBE) @ PLACES[2].T)[:, :3]).max(), 1e-5)
+            self.assertLess(np.abs(found.view_of(meshes[2][1], True) - (fit.homogeneous(CUBE) @ PLACES[2].T)[:, :3]).max(), 1e-5)
 
     def test_of_flat_meshes_comes_from_a_constant(self):
         flat = CUBE * [1, 0, 1]
         projection = perspective(1.7, 2.4, 0.1, 50, True)
         meshes = [(flat, drawn(projection @ PLACES[1], flat))]
-        with self.assertRaises(fit.FrameError):
-            fit.fit_lens(meshes)
-        self.assertAlmostEqual(fit.fit_lens(meshes, [np.eye(4), projection.T]).fy, 2.4, delta=1e-6)
+        with self.assertRaises(FrameError):
+            lens.fit_lens(meshes, [], pipeline())
+        self.assertAlmostEqual(lens.fit_lens(meshes, [np.eye(4), projection.T], pipeline()).fy, 2.4, delta=1e-6)
 
-    def test_of_a_parallel_camera_is_refused(self):
-        with self.assertRaisesRegex(fit.FrameError, "orthographic"):
-            fit.fit_lens([(CUBE, drawn(parallel(4, 0, 20) @ PLACES[0], CUBE))])
+    def test_of_a_parallel_camera_is_told_by_a_constant_of_its_shape(self):
+        projection, sun = shifted(0.1, 0, 0) @ parallel(4, -2, 20), parallel(7, 0, 20)  # it sees what lies behind it, too
+        scaled = np.diag([2, 2, 2, 1])  # meshes say nothing of their own size
+        meshes = [(CUBE, drawn(projection @ m @ scaled, CUBE)) for m in PLACES]
+        for constants in ([sun, np.eye(4), projection.T], [sun, projection @ PLACES[1], projection]):
+            found = lens.fit_lens(meshes, constants, pipeline())
+            self.assertLess(np.abs(found.view_of(meshes[2][1], True) - (fit.homogeneous(CUBE) @ (PLACES[2] @ scaled).T)[:, :3]).max(), 1e-5)
+            np.testing.assert_allclose(found.planes(True), (-2, 20, False), atol=1e-5)
+        view = SimpleNamespace(lens=found, state=pipeline())
+        self.assertEqual(capture._camera(view, 1.5)["eye"], [0, 0, -found.planes(True)[0]])
+        self.assertAlmostEqual(capture._camera(view, 1.5)["orthographic"]["ymag"], 4)
+
+    def test_of_a_parallel_camera_without_its_projection_has_the_size_that_is_told(self):
+        projection = parallel(4, 1, 20)
+        meshes = [(CUBE, drawn(projection @ m, CUBE)) for m in PLACES]
+        for constants in ([], [projection @ turned(0.4, (1, 2, 0))]):
+            found = lens.fit_lens(meshes, constants, pipeline())
+            self.assertAlmostEqual(found.fy, 0.25, delta=1e-6)
+            np.testing.assert_allclose(found.planes(True), (0, 19, False), atol=1e-5)
+        far = SimpleNamespace(conventions=conventions.opengl(minus_one=False), reversed=True)
+        reversed_ = np.diag([1, 1, -0.5, 1]) @ projection + np.outer([0, 0, 0.5, 0], projection[3])
+        meshes = [(CUBE, drawn(reversed_ @ m, CUBE)) for m in PLACES]
+        np.testing.assert_allclose(lens.fit_lens(meshes, [], far).planes(False), (0, 19, True), atol=1e-5)
+
+    def test_of_a_parallel_camera_that_nothing_solid_tells_is_refused(self):
+        flat = CUBE * [1, 0, 1]
+        with self.assertRaisesRegex(FrameError, "orthographic"):
+            lens.fit_lens([(flat, drawn(parallel(4, 0, 20) @ PLACES[0], flat))], [], pipeline())
+
+    def test_draws_over_the_whole_picture_are_no_meshes(self):
+        square = np.array([[x, y, 0.0] for x in (-1, 1) for y in (-1, 1)])
+        self.assertTrue(lens.covers_the_picture(fit.homogeneous(square)))
+        self.assertTrue(lens.covers_the_picture(np.array([[-1, -1, 0.5, 1], [3, -1, 0.5, 1], [-1, 3, 0.5, 1.0]])))
+        floor = square[:, [0, 2, 1]]
+        for matrix in (parallel(0.4, 0, 20), parallel(1, 0, 20) @ turned(0.5, (1, 0, 0)), parallel(0.4, 0, 20) @ turned(np.pi / 2, (1, 0, 0))):
+            self.assertFalse(lens.covers_the_picture(drawn(matrix @ shifted(0, 0, -5), floor)))
 
 
 class Light(unittest.TestCase):

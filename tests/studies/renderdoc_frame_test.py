@@ -122,12 +122,12 @@ class Lookup(unittest.TestCase):
         covered[:, :4] = True
         # Before the middle of texel 3 all of it is told; halfway to texel 4 half is; the rest is lit.
         places = np.array([[-0.5, 0, -1.0], [0.0, 0, -1.0], [0.05, 0, -1.0]])
-        pixels = extract.Pixels(places, np.ones(3, bool), np.zeros(3), np.ones(3, bool))
-        extract._light_between_casters(pixels, [layer], [covered])
-        np.testing.assert_allclose(pixels.visibility, [0, 0.5, 0.7], atol=1e-6)
-        pixels.visibility[:] = 0  # a coarser layer covers all: it may be the one that is read
-        extract._light_between_casters(pixels, [layer, layer], [covered, np.ones((8, 8), bool)])
-        np.testing.assert_allclose(pixels.visibility, 0, atol=1e-6)
+        seen = pixels.Pixels(places, np.ones(3, bool), np.zeros(3), np.ones(3, bool))
+        pixels._light_between_casters(seen, [layer], [covered])
+        np.testing.assert_allclose(seen.visibility, [0, 0.5, 0.7], atol=1e-6)
+        seen.visibility[:] = 0  # a coarser layer covers all: it may be the one that is read
+        pixels._light_between_casters(seen, [layer, layer], [covered, np.ones((8, 8), bool)])
+        np.testing.assert_allclose(seen.visibility, 0, atol=1e-6)
 
 
 class PolygonOffset(unittest.TestCase):
@@ -231,18 +231,39 @@ class OtherLights(unittest.TestCase):
     def test_are_told_by_their_projections_where_their_parts_overlap(self):
         sun = self.layer(parallel(3, 1, 9) @ TO_SUN)
         lamp = self.layer(perspective(1, 1, 0.5, 20, True) @ TO_SUN)
-        line = visibility._lines_of_others([sun], [lamp], {7})
+        line = apart.lines_of_others([sun], [lamp], {7})
         za, zb = line[0]
         clip = drawn(lamp.light.matrix, VIEWS)
         np.testing.assert_allclose(clip[:, 2] / clip[:, 3], za + zb / clip[:, 3], atol=1e-5)
-        self.assertEqual(visibility._lines_of_others([lamp], [sun], {7}), [(None, None)])
-        self.assertEqual(visibility._lines_of_others([sun], [lamp], {8}), [])
-        self.assertEqual(visibility._lines_of_others([lamp], [self.layer(lamp.light.matrix, (64, 0, 64, 64))], {7}), [])
+        self.assertEqual(apart.lines_of_others([lamp], [sun], {7}), [(None, None)])
+        self.assertEqual(apart.lines_of_others([sun], [lamp], {8}), [])
+        self.assertEqual(apart.lines_of_others([lamp], [self.layer(lamp.light.matrix, (64, 0, 64, 64))], {7}), [])
 
     def test_of_the_same_projection_are_refused(self):
         lamps = [self.layer(perspective(1, 1, 0.5, 20, True) @ TO_SUN @ shifted(k, 0, 0)) for k in range(2)]
         with self.assertRaisesRegex(FrameError, "the same projection"):
-            visibility._lines_of_others(lamps[:1], lamps[1:], {7})
+            apart.lines_of_others(lamps[:1], lamps[1:], {7})
+
+
+class Constants(unittest.TestCase):
+    """By which draws of one shader are told where their projections do not."""
+
+    def frame(self, camera, models=(1, 2, 3, 4)):
+        view = turned(0.3, (1, 0, 0))
+        values = {event: [("Scene.projection", camera), ("Scene.view", view), ("model", shifted(k, 0, 0))] for event, k in zip((20, 21), models)}
+        values |= {event: [("Scene.projection", parallel(8, -10, 20)), ("Scene.view", TO_SUN), ("model", shifted(k, 0, 0))]
+                   for event, k in zip((10, 11), models[2:])}
+        return SimpleNamespace(constants=lambda event: (values[event], []))
+
+    def test_the_matrix_that_differs_most_is_taken_if_the_shader_declares_it(self):
+        layers, camera = [SimpleNamespace(events=[10, 11])], parallel(4, 0, 9)
+        told = apart.constant(self.frame(camera), layers, {20, 21}, "mat4 projection;")
+        self.assertEqual(told.matrix, "projection")
+        self.assertAlmostEqual(told.own[0], parallel(8, -10, 20)[told.row, told.column])
+        self.assertAlmostEqual(told.within, abs(told.own[0] - camera[told.row, told.column]) / 2)
+        self.assertEqual(apart.constant(self.frame(camera), layers, {20, 21}, "mat4 view;").matrix, "view")
+        self.assertIsNone(apart.constant(self.frame(camera), layers, {20, 21}, "mat4 model;"))  # another for each draw
+        self.assertIsNone(apart.constant(self.frame(parallel(8, -10, 20)), layers, {20, 21}, "mat4 projection;"))
 
 
 class StandIns(unittest.TestCase):
@@ -271,6 +292,16 @@ class StandIns(unittest.TestCase):
         self.assertIn("abs(gl_FragCoord.w - 1.0)", stand_ins.glsl(source))
         self.assertNotIn("gl_FragCoord.w", stand_ins.glsl(stand_ins.Source(True, True)))
 
+    def test_what_a_constant_tells_goes_on_as_the_original(self):
+        original = "// first\n#version 330\nuniform mat4 m;\nvoid main() { if (m[0][0] < 0.0) discard; }\n"
+        told = apart.Constant("m", 0, 3, (2.5,), 0.25)
+        for full, act in ((False, "discard;"), (True, "gl_FragDepth = 0.0;")):
+            text = stand_ins.glsl(stand_ins.Source(True, full, rects=((0, 0, 64, 64),), original=original, told=told))
+            self.assertTrue(text.startswith("// first\n#version 330\n#define main drawn_otherwise\nuniform"))
+            last = text.splitlines()[-1]
+            self.assertIn(f"&& (abs(m[3][0] - (2.5)) < 0.25)) {{ {act} }} else {{", last)
+            self.assertEqual("gl_FragDepth = gl_FragCoord.z" in last, full)
+
 
 class Extension(unittest.TestCase):
     """qrenderdoc is stood in for: that its menu calls the package is all that is looked at here."""
@@ -297,13 +328,15 @@ class Files(unittest.TestCase):
     def test_glb_and_capture_are_read_back(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "scene.glb")
-            files.write_glb(path, [(CUBE, np.arange(6))], {"yfov": 0.6, "aspect": 1.5, "near": 0.1, "far": 20},
+            files.write_glb(path, [(CUBE, np.arange(6))], {"eye": [0, 0, 2], "type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0, "zfar": 20}},
                             [{"name": name, "type": kind, "matrix": np.eye(4), "inner": 0.1, "outer": 0.2} for name, kind in (("a", "directional"), ("b", "spot"))])
             with open(path, "rb") as file:
                 data = file.read()
             self.assertEqual(struct.unpack_from("<I", data, 8)[0], len(data))
             document = json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
             self.assertEqual(document["accessors"][0]["max"], [1, 1, 1])
+            self.assertEqual(document["cameras"], [{"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0, "zfar": 20}}])
+            self.assertEqual(document["nodes"][1]["translation"], [0, 0, 2])
             lights = document["extensions"]["KHR_lights_punctual"]["lights"]
             self.assertEqual([(light["name"], "spot" in light) for light in lights], [("a", False), ("b", True)])
             files.write_exr(os.path.join(folder, "a.exr"), {"Z": np.arange(6.0).reshape(2, 3)})

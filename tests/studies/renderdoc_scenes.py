@@ -17,7 +17,8 @@ except ImportError:
 
 ADAPTER = os.path.abspath(sys.argv.pop(1))
 sys.path.insert(0, ADAPTER)
-from gnomon_frame import capture, conventions, extract, files, fit, formats, lookup, pairing, passes, reader, spirv, stand_ins, visibility  # noqa: E402
+from gnomon_frame import apart, capture, conventions, extract, files, fit, formats, lens, lookup  # noqa: E402
+from gnomon_frame import pairing, passes, pixels, reader, spirv, stand_ins, visibility  # noqa: E402
 from gnomon_frame.errors import FrameError  # noqa: E402
 
 ARITHMETIC = 2e-6  # positions are kept as 32-bit floats
@@ -48,6 +49,11 @@ def perspective(fx, fy, near, far, minus_one):
 def parallel(half, near, far):
     """OpenGL's parallel projection."""
     return np.diag([1 / half, 1 / half, -2 / (far - near), 1]) + shifted(0, 0, -(far + near) / (far - near)) - np.eye(4)
+
+
+def pipeline(minus_one=True, **state):
+    """What a lens asks of the pipeline's state."""
+    return SimpleNamespace(conventions=conventions.opengl(minus_one=minus_one), reversed=False, **state)
 
 
 def drawn(matrix, points):

@@ -5,7 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import extract, files
+from .decision import Test
 from .errors import FrameError
+from .pixels import Pixels
 
 MOST_LAYERS = 32  # of a capture's map
 
@@ -17,8 +19,8 @@ class Measured:
     number: int
     found: extract.Found
     layers: list
-    pixels: extract.Pixels
-    test: extract.Test
+    pixels: Pixels
+    test: Test
 
     @property
     def parts(self):
@@ -142,15 +144,25 @@ def _settings(frame, light, prefix):
     return {prefix + key: value for key, value in settings.items()}
 
 
+def _camera(view, aspect):
+    """The glTF camera of a view, looking along -z from `eye`: 0, or the near plane of a parallel one that sees what lies behind it."""
+    near, far, _ = view.lens.planes(view.state.conventions.minus_one)
+    if not view.lens.parallel:
+        lens = {"yfov": 2 * np.arctan(1 / view.lens.fy), "aspectRatio": aspect, "znear": max(near, 1e-4), "zfar": far}
+        return {"eye": [0, 0, 0], "type": "perspective", "perspective": lens}
+    back = max(0.0, -near)
+    lens = {"xmag": aspect / view.lens.fy, "ymag": 1 / view.lens.fy, "znear": near + back, "zfar": far + back}
+    return {"eye": [0, 0, back], "type": "orthographic", "orthographic": lens}
+
+
 def write(folder, frame, lights, name):
     """The capture's folder, of what was Measured; returns the path of capture.json."""
     os.makedirs(folder, exist_ok=True)
     view, pixels = lights[0].found.view, lights[0].pixels
-    near, far, _ = view.lens.planes(view.state.conventions.minus_one)
     height, width = pixels.drawn.shape
     drawn = pixels.drawn.astype(float)
     files.write_exr(os.path.join(folder, "position.exr"), {c: pixels.positions[..., i] * drawn for i, c in enumerate("XYZ")} | {"A": drawn})
-    camera = {"yfov": 2 * np.arctan(1 / view.lens.fy), "aspect": width / height, "near": max(near, 1e-4), "far": far}
+    camera = _camera(view, width / height)
     names = {light.number: f"light {light.number}" if len(lights) > 1 else "light" for light in lights}
     files.write_glb(os.path.join(folder, "scene.glb"), _shapes(view, [layer for light in lights for layer in light.layers]), camera,
                     [{"name": names[light.number], **light_node(light.layers)} for light in lights])

@@ -75,15 +75,15 @@ def run(frame, given, say):
 
 def _measure(frame, found, layers, lights, encoding, before):
     """(found, layers, pixels, test) of a light. Those of one capture share the camera and its picture."""
-    from . import extract
+    from . import decision, extract, pixels
 
     found.notes.clear()  # a map's, which may be several lights'
     numbers = extract.read_layers(frame, found, layers)
     others = [layer for _, those in lights if those is not layers for layer in those]
-    pixels, exponent = extract.measure(frame, found, layers, encoding, others)
-    if before and not extract.is_same_picture(before[0].found, before[0].pixels, found, pixels):
+    seen, exponent = pixels.measure(frame, found, layers, encoding, others)
+    if before and not pixels.is_same_picture(before[0].found, before[0].pixels, found, seen):
         raise FrameError("another camera draws it than the first light: --light judges it by itself")
-    return found, layers, pixels, extract.find_test(found, layers, pixels, numbers, exponent)
+    return found, layers, seen, decision.find_test(found, layers, seen, numbers, exponent)
 
 
 def _on_a_display(words):

@@ -48,8 +48,8 @@ class _Blob:
 
 
 def write_glb(path, shapes, camera, lights):
-    """A scene of white `shapes` [(positions, three indices for each triangle)]; camera {yfov, aspect, near, far} at the origin, looking along -z;
-    lights [{name, type, matrix} and of spots {inner, outer}]."""
+    """A scene of white `shapes` [(positions, three indices for each triangle)]; camera as glTF has it, and its `eye`, from which it looks
+    along -z; lights [{name, type, matrix} and of spots {inner, outer}]."""
     blob = _Blob()
     meshes, nodes = [], []
     for positions, corners in shapes:
@@ -58,8 +58,7 @@ def write_glb(path, shapes, camera, lights):
         order = blob.add(corners.astype(np.uint32), "SCALAR", 5125, 34963)
         meshes.append({"primitives": [{"attributes": {"POSITION": at}, "indices": order, "material": 0}]})
         nodes.append({"mesh": len(meshes) - 1, "name": f"mesh{len(meshes)}"})
-    lens = {"yfov": camera["yfov"], "aspectRatio": camera["aspect"], "znear": camera["near"], "zfar": camera["far"]}
-    nodes.append({"camera": 0, "name": "camera"})
+    nodes.append({"camera": 0, "name": "camera", "translation": camera["eye"]})
     punctual = []
     for light in lights:
         nodes.append({"name": light["name"], "matrix": column_major(light["matrix"]), "extensions": {"KHR_lights_punctual": {"light": len(punctual)}}})
@@ -68,7 +67,7 @@ def write_glb(path, shapes, camera, lights):
                          "color": [1, 1, 1], **cone})
     white = {"name": "white", "doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 1}}
     document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}], "nodes": nodes, "meshes": meshes,
-                "cameras": [{"type": "perspective", "perspective": lens}], "materials": [white], "accessors": blob.accessors,
+                "cameras": [{key: value for key, value in camera.items() if key != "eye"}], "materials": [white], "accessors": blob.accessors,
                 "bufferViews": blob.views, "buffers": [{"byteLength": len(blob.data)}], "extensionsUsed": ["KHR_lights_punctual"],
                 "extensions": {"KHR_lights_punctual": {"lights": punctual}}}
     text = json.dumps(document).encode()

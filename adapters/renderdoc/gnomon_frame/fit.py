@@ -1,4 +1,4 @@
-"""Least squares on vertices as they were drawn: the camera's lens, a light's matrix, what moved casters.
+"""Least squares on vertices as they were drawn: a light's matrix, what moved casters.
 
 Vertices are rows; a homogeneous point has four columns. Matrices act on columns (clip = matrix @ point). World space is the
 camera's view space: x to the right, y up, looking along -z, which any engine's conventions leave alike. Residuals are the
@@ -9,36 +9,6 @@ from itertools import permutations, product
 
 import numpy as np
 
-from .errors import FrameError
-
-FAR_AWAY = 1e6  # where an infinite far plane is put, world units
-
-
-@dataclass(frozen=True)
-class Lens:
-    """A perspective camera: clip x = fx * x + cx * w, y alike, z = za * w + zb, w the distance along the view's axis."""
-
-    fx: float
-    fy: float
-    cx: float
-    cy: float
-    za: float
-    zb: float
-    residual: float
-
-    def view_of(self, clip, y_up):
-        """Positions in view space of clip positions."""
-        up = 1.0 if y_up else -1.0
-        w = clip[:, 3]
-        return np.c_[(clip[:, 0] - self.cx * w) / self.fx, up * (clip[:, 1] - self.cy * w) / self.fy, -w]
-
-    def planes(self, minus_one):
-        """(near, far, reversed): world units; far is at most FAR_AWAY."""
-        low = -1.0 if minus_one else 0.0
-        at = lambda z: self.zb / (z - self.za) if abs(z - self.za) > 1e-9 else FAR_AWAY
-        first, last = abs(at(low)), abs(at(1.0))
-        return min(first, last), min(max(first, last), FAR_AWAY), first > last
-
 
 def homogeneous(points):
     return np.c_[points, np.ones(len(points))]
@@ -46,51 +16,6 @@ def homogeneous(points):
 
 def residual(fitted, drawn):
     return float(np.abs(fitted - drawn).max() / max(np.abs(drawn).max(), 1e-30))
-
-
-def _lens_of_mesh(objects, clip):
-    """(fx, fy, cx, cy) from the rows of clip_from_object, or None: flat meshes and parallel projections do not tell."""
-    points = homogeneous(objects)
-    if len(points) < 4 or np.linalg.matrix_rank(points, 1e-6 * np.linalg.norm(points)) < 4:
-        return None
-    rows = np.linalg.lstsq(points, clip, rcond=None)[0].T
-    x, y, w = rows[0, :3], rows[1, :3], rows[3, :3]
-    scale = np.linalg.norm(w)
-    if scale < 1e-6 or residual(points @ rows.T, clip) > 1e-4:
-        return None
-    cx, cy = x @ w / scale**2, y @ w / scale**2
-    return np.linalg.norm(x - cx * w) / scale, np.linalg.norm(y - cy * w) / scale, cx, cy
-
-
-def _lens_of_matrix(matrix, za):
-    """(fx, fy, cx, cy) of a projection matrix with the z row that was drawn, or None."""
-    for m in (matrix, matrix.T):
-        if abs(abs(m[3, 2]) - 1) > 1e-6 or np.abs(m[3, [0, 1, 3]]).max() > 1e-6:
-            continue
-        if abs(m[0, 0]) < 1e-6 or abs(m[1, 1]) < 1e-6 or np.abs(m[[0, 0, 1, 1], [1, 3, 0, 3]]).max() > 1e-6:
-            continue
-        if abs(m[2, 2] * m[3, 2] - za) < 1e-4:
-            return abs(m[0, 0]), abs(m[1, 1]), m[0, 2] * m[3, 2], m[1, 2] * m[3, 2]
-    return None
-
-
-def fit_lens(meshes, matrices=()):
-    """The camera's lens of meshes [(object positions or None, clip positions)]: the median of what rigid meshes tell; of flat
-    meshes alone, the projection among the constants `matrices`."""
-    clip = np.concatenate([c for _, c in meshes])
-    if np.ptp(clip[:, 3]) < 1e-6 * np.abs(clip[:, 3]).max():
-        raise FrameError("the camera is orthographic (or everything stands at one distance): only perspective cameras can be told")
-    za, zb = np.linalg.lstsq(np.c_[clip[:, 3], np.ones(len(clip))], clip[:, 2], rcond=None)[0]
-    z_residual = residual(clip[:, 3] * za + zb, clip[:, 2])
-    told = [lens for objects, c in meshes if objects is not None and (lens := _lens_of_mesh(objects, c)) is not None]
-    if not told:
-        told = [lens for m in matrices if (lens := _lens_of_matrix(m, za)) is not None][:1]
-    if not told:
-        raise FrameError("no mesh with positions of its own and no constant tells the camera's field of view")
-    told = np.array(told)
-    fx, fy, cx, cy = np.median(told, axis=0)
-    spread = float(np.median(np.abs(told[:, :2] / [fx, fy] - 1)))
-    return Lens(fx, fy, cx, cy, za, zb, max(spread, z_residual))
 
 
 @dataclass

@@ -211,6 +211,12 @@ class Frame:
         way = "linear" if rd.FilterMode.Linear in (s.filter.magnify, s.filter.minify) else "nearest"
         return way + (" compare" if s.filter.filter == rd.FilterFunction.Comparison else "")
 
+    def glsl(self, event):
+        """The text of a draw's fragment shader; "" where the API has none in GLSL."""
+        self.go_to(event)
+        shader = self.controller.GetPipelineState().GetShaderReflection(rd.ShaderStage.Fragment)
+        return bytes(shader.rawBytes).decode(errors="replace") if shader and shader.encoding == rd.ShaderEncoding.GLSL else ""
+
     def constants(self, event):
         """([(name, 4x4 matrix)], [(name, number)]) of both shaders of a draw."""
         self.go_to(event)

@@ -51,7 +51,8 @@ def findings(frame, found, layers, test):
         out.append("map: no constant of the reader is the casters' matrix; theirs is taken")
     off = max(layer.distance.residual if layer.distance else float(np.max(layer.light.residuals)) for layer in layers)
     out.append(f"light: from {sum(layer.matched for layer in layers)} meshes that camera and light both draw, residual {off:.1e}")
-    out.append(f"camera: {2 * np.degrees(np.arctan(1 / lens.fy)):.2f} degrees high, residual {lens.residual:.1e}")
+    height = f"orthographic, {2 / lens.fy:.4g} world units" if lens.parallel else f"{2 * np.degrees(np.arctan(1 / lens.fy)):.2f} degrees"
+    out.append(f"camera: {height} high, residual {lens.residual:.1e}")
     if test.selection.by != "first":
         limits = ", ".join(f"{limit:.4g}" for limit in test.selection.limits)
         blends = ", ".join(f"{blend:.4g}" for blend in test.selection.blends)

@@ -2,11 +2,14 @@
 
 The fragment shader is exchanged where the casters have one, else the vertex shader. A fragment shader may be shared with draws
 that belong to no map of this light, such as a depth prepass or another light's: the stand-in then acts only where a fragment
-lies in the light's part of the map, and not on the line z/w = za + zb / w of another projection, nor at w = 1 of a parallel one.
+lies in the light's part of the map, and not on the line z/w = za + zb / w of another projection, nor at w = 1 of a parallel one, or
+where a constant of the original shader says so, which then goes on below the stand-in.
 """
+import re
 from dataclasses import dataclass
 
 from . import spirv
+from .apart import Constant
 
 # Fragments' z and w are floats: on the camera's line to some units in the last place of 1 (2^-24 each).
 ON_LINE = 2e-6
@@ -21,6 +24,8 @@ class Source:
     minus_one: bool = False  # whether z/w runs from -1
     rects: tuple = ()  # (x0, y0, x1, y1), texels: what lies outside of all is left alone
     colour: bool = False  # whether the map is a colour texture
+    original: str = ""  # text of the shader in GLSL, where a constant of its own tells the casters
+    told: Constant | None = None
 
 
 def encoded(source, pipe, encodings):
@@ -55,10 +60,25 @@ def glsl(source):
         place = "vec4(k == 1 ? 3.0 : -1.0, k == 2 ? 3.0 : -1.0, -1.0, 1.0)" if source.full else "vec4(2.0, 2.0, 2.0, 1.0)"
         return f"#version 330\nvoid main() {{ int k = gl_VertexID % 3; gl_Position = {place}; }}\n"
     here = _condition(source, "gl_FragCoord", "gl_FragCoord.w")
+    if source.told:
+        return _above_the_original(source, here)
     if not source.full:
         return f"#version 330\nvoid main() {{ if ({here}) discard; }}\n"
     colour = ("layout(location = 0) out vec4 colour;\n", f" colour = vec4({source.nearest:.1f});") if source.colour else ("", "")
     return (f"#version 330\n{colour[0]}void main() {{ gl_FragDepth = ({here}) ? {source.nearest:.1f} : gl_FragCoord.z;{colour[1]} }}\n")
+
+
+def _above_the_original(source, here):
+    """The original with another `main`, which calls its own for draws that are no casters of the light."""
+    version = re.search(r"^[ \t]*#[ \t]*version.*\n", source.original, re.MULTILINE)
+    begin = version.end() if version else 0
+    told = source.told
+    number = f"{told.matrix}[{told.column}][{told.row}]"
+    own = " || ".join(f"abs({number} - ({value:.9g})) < {told.within:.9g}" for value in told.own)
+    act = f"gl_FragDepth = {source.nearest:.1f};" if source.full else "discard;"
+    kept = "gl_FragDepth = gl_FragCoord.z; " if source.full else ""
+    return (source.original[:begin] + "#define main drawn_otherwise\n" + source.original[begin:] + "\n#undef main\n"
+            f"void main() {{ if (({here}) && ({own})) {{ {act} }} else {{ {kept}drawn_otherwise(); }} }}\n")
 
 
 def hlsl(source):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import formats
+from . import apart, formats
 from .errors import FrameError
 from .stand_ins import Source
 
@@ -21,34 +21,6 @@ class Visibility:
     darkest: float  # what full shadow leaves of the lit picture: ambient light, or a strength below 1
     full_map: np.ndarray  # the map as the stand-ins filled it
     untouched: bool  # whether the camera's depth stayed as it was in both replays
-
-
-def _line(layer):
-    """(za, zb) of a map's projection: z/w = za + zb / w; (None, None) where w is 1."""
-    z, w = layer.light.matrix[2], layer.light.matrix[3]
-    size = np.linalg.norm(w[:3])
-    if layer.distance or size < 1e-6 * abs(w[3]):
-        return None, None
-    za = float(z[:3] @ w[:3] / size**2)
-    return za, float(z[3] - za * w[3])
-
-
-def _overlap(one, other):
-    (x, y, width, height), (u, v, wide, high) = one.state.viewport, other.state.viewport
-    return x < u + wide and u < x + width and y < v + high and v < y + height
-
-
-def _lines_of_others(layers, others, shared):
-    """The lines of other lights' layers which those draws of shared shaders fill where the light's own lie, too."""
-    lines = []
-    for other in others:
-        overlapped = [layer for layer in layers if set(other.events) & shared and _overlap(layer, other)]
-        for own in map(_line, overlapped):
-            line = _line(other)
-            if (own[0] is None) == (line[0] is None) and (own[0] is None or np.allclose(own, line, rtol=1e-5)):
-                raise FrameError("its casters are drawn by the same shader and with the same projection as another light's: they cannot be told apart")
-            lines.append(line)
-    return lines
 
 
 def _plan(frame, passes, layers, lens, others):
@@ -73,10 +45,23 @@ def _plan(frame, passes, layers, lens, others):
         if shared and stage == vertex:
             raise FrameError("the casters have no fragment shader and share their vertex shader with other draws: the light cannot be "
                              "told apart in this frame")
-        lines = ([(lens.za, lens.zb)] if shared - of_others else []) + _lines_of_others(layers, others, shared)
+        of_camera = shared - of_others
+        like_camera = of_camera and any(apart.are_one(apart.line(layer), apart.lens_line(lens)) for layer in layers)
+        lines = ([apart.lens_line(lens)] if of_camera and not like_camera else []) + apart.lines_of_others(layers, others, shared)
+        original, told = _told_by_a_constant(frame, layers, of_camera, event) if like_camera else ("", None)
         plan[shaders[stage], stage] = Source(stage == fragment, False, 1.0 if layers[0].state.reversed else 0.0, tuple(dict.fromkeys(lines)), minus_one,
-                                             rects if shared else (), not frame.textures[passes.texture].is_depth)
+                                             rects if shared else (), not frame.textures[passes.texture].is_depth, original, told)
     return plan
+
+
+def _told_by_a_constant(frame, layers, of_camera, event):
+    """(the fragment shader's text, the Constant) where projections do not tell the casters from the camera's draws of one shader."""
+    text = frame.glsl(event)
+    told = apart.constant(frame, layers, of_camera, text) if text else None
+    if told is None:
+        raise FrameError("the camera and the light both project in parallel, or with the same near and far plane, and draw with one shader, of "
+                         "which no constant tells them apart: judge a frame of a camera in perspective, or without a depth prepass")
+    return text, told
 
 
 def _stages():

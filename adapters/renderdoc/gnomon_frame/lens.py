@@ -1,0 +1,167 @@
+"""The camera's lens, by least squares on vertices as they were drawn: perspective, or parallel (w = 1, as a sun's matrix has it).
+
+View space, rows and residuals are as in fit.py. Of a perspective camera the vertices tell all; of a parallel one they tell the
+shape of what it sees, in units of the meshes' own positions, and a constant with that shape tells the size and the place.
+"""
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from .errors import FrameError
+from .fit import homogeneous, residual
+
+FAR_AWAY = 1e6  # where an infinite far plane is put, world units
+ALIKE = 1e-3  # shapes that differ by more are another camera's
+CORNERS = (1.0, 3.0)  # |x| and |y| of the vertices of a draw that covers the picture: a rectangle's, or one triangle's
+
+
+@dataclass(frozen=True)
+class Lens:
+    """clip x / w = fx * x / d + cx of a perspective camera, whose z/w is za + zb / d, and fx * x + cx of a parallel one, whose z/w is
+    za * d + zb; y alike. d is the distance along the view's axis."""
+
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    za: float
+    zb: float
+    residual: float
+    parallel: bool = False
+
+    def distance(self, z):
+        """d of z/w."""
+        return (z - self.zb) / self.za if self.parallel else self.zb / (z - self.za)
+
+    def place(self, x, y, d, y_up):
+        """Positions in view space of x/w and y/w at the distances d."""
+        scale = 1.0 if self.parallel else d
+        up = 1.0 if y_up else -1.0
+        return np.stack([(x - self.cx) * scale / self.fx, up * (y - self.cy) * scale / self.fy, -d], -1)
+
+    def view_of(self, clip, y_up):
+        """Positions in view space of clip positions."""
+        w, up = clip[:, 3], 1.0 if y_up else -1.0
+        d = self.distance(clip[:, 2] / w) if self.parallel else w  # of which a perspective camera's may be 0
+        scale = w if self.parallel else 1.0
+        return np.c_[(clip[:, 0] - self.cx * w) / scale / self.fx, up * (clip[:, 1] - self.cy * w) / scale / self.fy, -d]
+
+    def planes(self, minus_one):
+        """(near, far, reversed): world units; far is at most FAR_AWAY. A parallel camera may see what lies behind it: near is below 0 then."""
+        low = -1.0 if minus_one else 0.0
+        if self.parallel:
+            first, last = float(self.distance(low)), float(self.distance(1.0))
+        else:
+            first, last = (float(abs(self.distance(z))) if abs(z - self.za) > 1e-9 else FAR_AWAY for z in (low, 1.0))
+        return min(first, last), min(max(first, last), FAR_AWAY), first > last
+
+
+def is_parallel(clip):
+    """Whether all vertices of a draw have one w: a parallel projection's, or of one distance."""
+    w = clip[:, 3]
+    return bool(np.ptp(w) <= 1e-6 * np.abs(w).max())
+
+
+def covers_the_picture(clip):
+    """Whether a draw is a rectangle or a triangle over the whole picture, which shows no mesh."""
+    flat = clip[:, :3] / clip[:, 3:]
+    at_corners = np.isclose(np.abs(flat[:, :2])[..., None], CORNERS, atol=1e-6).any(-1)
+    return is_parallel(clip) and np.ptp(flat[:, 2]) <= 1e-6 and bool(at_corners.all())
+
+
+def _rows_of_mesh(objects, clip):
+    """clip_from_object, or None: flat meshes and those that moved otherwise do not tell it."""
+    points = homogeneous(objects)
+    if len(points) < 4 or np.linalg.matrix_rank(points, 1e-6 * np.linalg.norm(points)) < 4:
+        return None
+    rows = np.linalg.lstsq(points, clip, rcond=None)[0].T
+    return rows if residual(points @ rows.T, clip) <= 1e-4 else None
+
+
+def fit_lens(meshes, matrices, state):
+    """The camera's lens of meshes [(object positions or None, clip positions)]: the median of what rigid meshes tell; of flat
+    meshes alone, the projection among the constants `matrices`. `state`: the pipeline at one of their draws."""
+    clip = np.concatenate([c for _, c in meshes])
+    rows = [r for objects, c in meshes if objects is not None and (r := _rows_of_mesh(objects, c)) is not None]
+    return _parallel_lens(clip, rows, matrices, state) if is_parallel(clip) else _perspective_lens(clip, rows, matrices)
+
+
+# --- Perspective -----------------------------------------------------------------------------------------------------------
+
+def _of_rows(rows):
+    """(fx, fy, cx, cy) from the rows of clip_from_object, or None of a parallel projection."""
+    x, y, w = rows[0, :3], rows[1, :3], rows[3, :3]
+    scale = np.linalg.norm(w)
+    if scale < 1e-6:
+        return None
+    cx, cy = x @ w / scale**2, y @ w / scale**2
+    return np.linalg.norm(x - cx * w) / scale, np.linalg.norm(y - cy * w) / scale, cx, cy
+
+
+def _of_matrix(matrix, za):
+    """(fx, fy, cx, cy) of a projection matrix with the z row that was drawn, or None."""
+    for m in (matrix, matrix.T):
+        if abs(abs(m[3, 2]) - 1) > 1e-6 or np.abs(m[3, [0, 1, 3]]).max() > 1e-6:
+            continue
+        if abs(m[0, 0]) < 1e-6 or abs(m[1, 1]) < 1e-6 or np.abs(m[[0, 0, 1, 1], [1, 3, 0, 3]]).max() > 1e-6:
+            continue
+        if abs(m[2, 2] * m[3, 2] - za) < 1e-4:
+            return abs(m[0, 0]), abs(m[1, 1]), m[0, 2] * m[3, 2], m[1, 2] * m[3, 2]
+    return None
+
+
+def _perspective_lens(clip, rows, matrices):
+    za, zb = np.linalg.lstsq(np.c_[clip[:, 3], np.ones(len(clip))], clip[:, 2], rcond=None)[0]
+    z_residual = residual(clip[:, 3] * za + zb, clip[:, 2])
+    told = [lens for r in rows if (lens := _of_rows(r)) is not None]
+    if not told:
+        told = [lens for m in matrices if (lens := _of_matrix(m, za)) is not None][:1]
+    if not told:
+        raise FrameError("no mesh with positions of its own and no constant tells the camera's field of view")
+    told = np.array(told)
+    fx, fy, cx, cy = np.median(told, axis=0)
+    spread = float(np.median(np.abs(told[:, :2] / [fx, fy] - 1)))
+    return Lens(fx, fy, cx, cy, za, zb, max(spread, z_residual))
+
+
+# --- Parallel --------------------------------------------------------------------------------------------------------------
+
+def _sizes(rows):
+    """Lengths of the rows x, y and z of a parallel projection, or None of another matrix and where they are at no right angles."""
+    scale = abs(rows[3, 3])
+    if scale < 1e-12 or np.abs(rows[3, :3]).max() > 1e-6 * scale:
+        return None
+    lengths = np.linalg.norm(rows[:3, :3], axis=1)
+    if lengths.min() < 1e-9 * lengths.max() or lengths.max() == 0:
+        return None
+    skewed = max(abs(rows[i, :3] @ rows[j, :3]) / (lengths[i] * lengths[j]) for i, j in combinations(range(3), 2))
+    return lengths / scale if skewed < ALIKE else None
+
+
+def _of_this_shape(matrices, shape):
+    """(whether it is a projection alone, the matrix) of constants whose rows are as long as one another as `shape` is."""
+    found = []
+    for matrix in matrices:
+        for m in (matrix, matrix.T) if np.isfinite(matrix).all() and matrix.any() else ():
+            sizes = _sizes(m)
+            if sizes is not None and np.abs(sizes / sizes[0] / shape - 1).max() < ALIKE:
+                m = m / m[3, 3]
+                found.append((bool(np.allclose(m[:3, :3], np.diag(np.diag(m)[:3]), atol=1e-6 * sizes.max())), m))
+    return sorted(found, key=lambda one: not one[0])
+
+
+def _parallel_lens(clip, rows, matrices, state):
+    told = np.array([sizes for r in rows if (sizes := _sizes(r)) is not None])
+    if not len(told):
+        raise FrameError("the camera is orthographic, and no solid mesh with positions of its own tells what it sees (or everything stands at one "
+                         "distance)")
+    shapes = told / told[:, :1]
+    shape = np.median(shapes, axis=0)
+    spread = float(np.median(np.abs(shapes / shape - 1)))
+    away = -1.0 if state.reversed else 1.0
+    first = 1.0 if state.reversed else -1.0 if state.conventions.minus_one else 0.0
+    alone, constant = next(iter(_of_this_shape(matrices, shape)), (False, None))
+    fx, fy, za = np.median(told, axis=0) if constant is None else _sizes(constant)
+    cx, cy, zb = constant[:3, 3] if alone else (0.0, 0.0, first)  # without: the place before the middle of the near plane
+    return Lens(float(fx), float(fy), float(cx), float(cy), float(away * za), float(zb), spread, True)

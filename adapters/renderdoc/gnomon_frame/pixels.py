@@ -1,0 +1,110 @@
+"""The camera's picture of one light: where its pixels are, and how much of the light reaches each."""
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from . import lookup, visibility
+from .errors import FrameError
+
+
+@dataclass
+class Pixels:
+    """The camera's picture of one light, its first row at the top."""
+
+    positions: np.ndarray  # view space
+    drawn: np.ndarray  # whether anything was
+    visibility: np.ndarray
+    asked: np.ndarray
+
+
+def positions_of(depth, view):
+    """(positions, whether anything was drawn) of the camera's depth buffer, whose own first row comes first."""
+    lens, clip = view.lens, view.state.conventions
+    depth = depth[::-1] if clip.bottom_row_first == clip.y_up else depth
+    drawn = depth != (0.0 if view.state.reversed else 1.0)
+    quotient = 2 * depth - 1 if clip.minus_one else depth
+    distance = np.where(drawn, lens.distance(np.where(drawn, quotient, 0)), 0)
+    height, width = depth.shape
+    x, y = np.meshgrid((np.arange(width) + 0.5) / width * 2 - 1, 1 - (np.arange(height) + 0.5) / height * 2)
+    return np.where(drawn[..., None], lens.place(x, y if clip.y_up else -y, distance, clip.y_up), 0), drawn
+
+
+def _cut(layer, picture):
+    x, y, width, height = (int(round(v)) for v in layer.state.viewport)
+    return picture[y:y + height, x:x + width, 0]
+
+
+def _flip(picture, view):
+    clip = view.state.conventions
+    return picture[::-1] if clip.bottom_row_first == clip.y_up else picture
+
+
+def measure(frame, found, layers, encoding, others):
+    """(pixels of one light, the exponential map's factor or None): three replays. `others`: layers of other lights. `encoding`: "srgb",
+    "linear", or "auto", which takes 8-bit pictures for sRGB unless an exponential map fits better without."""
+    if frame.textures[found.passes.picture].samples > 1:
+        raise FrameError("the picture has several samples a pixel: record a frame without MSAA")
+    drawn = visibility.take_pictures(frame, found.passes, sorted({layer.state.slice for layer in layers}))
+    for layer in layers:
+        layer.texels, layer.read = (_cut(layer, maps[layer.state.slice]) for maps in (drawn.maps, drawn.read))
+    empty, full = visibility.replay(frame, found.passes, layers, found.view.lens, drawn, others)
+    positions, is_drawn = positions_of(drawn.depth, found.view)
+    unsaid = visibility.does_not_say(frame, found.passes)
+    tried = []
+    for encoded in ([False] if not unsaid or encoding == "linear" else [True] if encoding == "srgb" else [True, False]):
+        seen = visibility.work_out(drawn, empty, full, encoded)
+        pixels = Pixels(positions, is_drawn, _flip(seen.values, found.view).copy(), _flip(seen.asked, found.view) & is_drawn)
+        tried.append((seen, pixels, _exponent(layers, pixels)))
+    seen, pixels, exponent = max(tried, key=lambda one: one[2].correlation if one[2] else 0)
+    covered = [_cut(layer, seen.full_map[layer.state.slice]) == (1.0 if layer.state.reversed else 0.0) for layer in layers]
+    if found.is_bilinear:
+        _light_between_casters(pixels, layers, covered)
+    if layers[0].place.apex is None:
+        _light_beside_casters(pixels, layers, covered)
+    if not seen.untouched:
+        found.notes.append("the stand-ins for the casters changed the camera's depth, too: they share a shader, and some pixels may be wrong")
+    if seen.darkest > 0.01:
+        found.notes.append(f"full shadow leaves {100 * seen.darkest:.0f} % of the lit picture: ambient light, other lights, a fade with the "
+                           f"distance, or a strength of {1 - seen.darkest:.2f}; it is taken out")
+    return pixels, exponent
+
+
+def is_same_picture(found, pixels, other, others):
+    """Whether two lights are seen by one camera in one picture."""
+    return (pixels.drawn.shape == others.drawn.shape and np.array_equal(pixels.drawn, others.drawn)
+            and np.allclose(pixels.positions, others.positions, rtol=1e-4, atol=1e-6)
+            and np.isclose(found.view.lens.fx, other.view.lens.fx) and np.isclose(found.view.lens.fy, other.view.lens.fy))
+
+
+def _exponent(layers, pixels):
+    if len(layers) > 1 or layers[0].matrix is None or np.array_equal(layers[0].texels, layers[0].read):
+        return None
+    blurred = replace(layers[0], texels=layers[0].read)
+    return lookup.exponent(lookup.margins(blurred, pixels.positions[pixels.asked]).values, pixels.visibility[pixels.asked])
+
+
+def _light_between_casters(pixels, layers, covered):
+    """Puts back the light of texels that no caster covers: full maps leave them lit, so that the replays tell of the covered ones of the
+    four that a sampler weighs alone. Which of several layers is read is not known yet: the one that is covered most counts."""
+    if any(layer.matrix is None for layer in layers):
+        return
+    asked, places = pixels.asked, pixels.positions[pixels.asked]
+    share, held = np.zeros(len(places)), np.zeros(len(places), bool)
+    for layer, full in zip(layers, covered):
+        at, inside = lookup.bilinear(layer, places, full.astype(float))
+        share, held = np.maximum(share, np.where(inside, at, 0)), held | inside
+    pixels.visibility[asked] = 1 - np.where(held, share, 1) * (1 - pixels.visibility[asked])
+
+
+def _light_beside_casters(pixels, layers, covered):
+    """A sun's pixels whose texel no caster covers, or that lie outside of all layers: the stand-ins do not reach them; they are lit."""
+    unknown = pixels.drawn & ~pixels.asked
+    places = pixels.positions[unknown]
+    dark = np.zeros(len(places), bool)
+    for layer, full in zip(layers, covered):
+        column, row, _, inside = lookup.texel_places(layer, places)
+        dark |= inside & full[np.clip(row, 0, full.shape[0] - 1).astype(int), np.clip(column, 0, full.shape[1] - 1).astype(int)]
+    lit = unknown.copy()
+    lit[unknown] = ~dark
+    pixels.visibility[lit] = 1
+    pixels.asked |= lit
