@@ -48,16 +48,24 @@ export async function openAt(url, allowed, contextOptions = {}, hash = "") {
   page.requests = [];
   page.on("console", (message) => page.offences.push(`console ${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => page.offences.push(`error: ${error.message}`));
+  page.own = url;
   page.on("request", (request) => {
     // A page may ask for nothing but itself, or, where it says so, for the files beside it.
     const asked = request.url().split("#")[0], besideIt = allowed !== null && asked.startsWith(allowed);
     page.requests.push(asked);
-    if (asked !== url && !asked.startsWith("data:") && !besideIt) page.offences.push(`request: ${asked}`);
+    if (asked !== page.own && !asked.startsWith("data:") && !besideIt) page.offences.push(`request: ${asked}`);
   });
   await page.goto(url + hash);
   if (contextOptions.javaScriptEnabled !== false)
     await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
   return page;
+}
+
+/** Another file of the folder in the page that is open, which collects on. */
+export async function goTo(page, folder, file) {
+  page.own = pathToFileURL(resolve(folder, file)).href;
+  await page.goto(page.own);
+  await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
 }
 
 export async function close(page) {

@@ -1,20 +1,21 @@
 // Build a structure over a few discs split by split, and walk a ray through it step by step, with what is on the stack. The discs can
 // be dragged: what becomes of the structure is seen at once.
-import { counted } from "../number_text";
+import { counted, grouped } from "../number_text";
 import { html, number } from "../svg";
 import { add, length, sub, unit, type Circle, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
 import { frame } from "./flatland_figure";
-import { countedNodes, expectedNodes, overlap, SmallTree, walkTree, type Kind, type Rule, type SmallNode } from "./small_tree";
+import { boxOfOutline, countedNodes, expectedNodes, overlap, SmallTree, walkTree, type Kind, type Rule, type SmallNode } from "./small_tree";
 import { walkCells } from "./small_grid";
 import { Sliders, Stage } from "./stage";
-import { outlineOf } from "./structure_walk";
 
 interface BuildJson {
   discs: [number, number, number][];
   checks: { from: Vec2; to: Vec2; t: number | null }[];
 }
-const names: Record<Kind, string> = { grid: "uniform grid", octree: "octree", kd: "kd-tree", bvh: "hierarchy of boxes" };
+const names: Record<Kind, string> = { grid: "uniform grid", octree: "octree", kd: "kd-tree", bsp: "BSP tree", bvh: "hierarchy of boxes" };
+/** What a ray meets, one and several. */
+const metBy = (kind: Kind): [string, string] => (kind === "grid" || kind === "bsp" ? ["cell", "cells"] : ["box", "boxes"]);
 const window: [number, number, number, number] = [-3, 3, -1.5, 1.5];
 
 const circleOf = ([x, y, radius]: [number, number, number]): Circle => ({ center: [x, y], radius });
@@ -54,20 +55,20 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
   };
   let [splits, steps] = [1, 1];
   const show = () => {
-    const way = length(sub(to, from)) > 0 ? unit(sub(to, from)) : ([1, 0] as Vec2), tree = new SmallTree(kind, ruled && sliders.value("rule") === 1 ? "area" : "middle", discs);
+    const way = length(sub(to, from)) > 0 ? unit(sub(to, from)) : ([1, 0] as Vec2), tree = new SmallTree(kind, kind === "bsp" || (ruled && sliders.value("rule") === 1) ? "area" : "middle", discs);
     const grid = kind === "grid" ? walkCells(discs, Math.sqrt(sliders.value("cells")), from, way) : null, walk = grid ?? walkTree(tree, from, way);
     splits = tree.splits.length;
     steps = walk.length;
     const made = kind === "grid" ? [] : tree.splits.slice(0, Math.round(sliders.value("built") * splits)), seen = walk.slice(0, Math.round(sliders.value("walk") * steps)), last = seen.at(-1), all = seen.length === steps;
-    const closed = (node: { box: SmallNode["box"] }): Vec2[] => [...outlineOf(node.box), outlineOf(node.box)[0]!];
+    const closed = ({ outline }: SmallNode): Vec2[] => [...outline, outline[0]!], middleOf = ({ outline }: SmallNode): Vec2 => outline.reduce<Vec2>((sum, p) => add(sum, p, 1 / outline.length), [0, 0]);
     const shownNodes = kind === "bvh" ? made.flatMap((node) => node.children) : [], tests = new Set(seen.flatMap((s) => s.tested));
     const hit = last && all && isFinite(last.t) ? add(from, way, last.t) : null;
     stage.put(stage.path("cells bold", [...(grid ? grid.lines : [closed(tree.root)]), ...made.flatMap((node) => node.cut), ...shownNodes.map(closed)]), ...seen.map((s) => stage.path(`visited${s.tested.length > 0 ? " tests" : ""}${s === last ? " last" : ""}`, [closed(s.node)])),
       ...discs.map((disc, i) => stage.circle(`disc${tests.has(i) ? " tested" : ""}`, disc.center, stage.units(disc.radius))), stage.path("ray", [[from, hit ?? add(from, way, 9)]]), stage.circle("point", from, 11), stage.circle("moved", to, 9), ...(hit ? [stage.circle("hit", hit, 8)] : []),
-      ...(grid || !last ? [] : tree.nodes().filter(({ name }) => last.stack.includes(name)).map(({ name, box }) => stage.label("middle", [(box[0] + box[1]) / 2, (box[2] + box[3]) / 2], name, 6))));
-    const met = last?.boxes ?? 0, tested = last?.discs ?? 0;
-    Object.assign(said.dataset, { splits: String(made.length), boxes: String(met), discs: String(tested), t: String(last?.t ?? Infinity), stack: (last?.stack ?? []).join(" ") });
-    said.textContent = `${kind === "grid" ? "" : `${counted(made.length, "split")} of ${splits}. `}The ray has met ${counted(met, kind === "grid" ? "cell" : "box", kind === "grid" ? "cells" : "boxes")} and tested ${counted(tested, "disc")} of ${discs.length}. ${grid || !last ? "" : last.stack.length > 0 ? `On the stack: ${last.stack.join(", ")}. ` : "The stack is empty. "}${kind === "grid" ? "" : costs(tree, said)}`;
+      ...(grid || !last ? [] : tree.nodes().filter(({ name }) => last.stack.includes(name)).map((node) => stage.label("middle", middleOf(node), node.name, 6))));
+    const met = last?.boxes ?? 0, tested = last?.discs ?? 0, tried = made.reduce((sum, node) => sum + node.tried, 0);
+    Object.assign(said.dataset, { splits: String(made.length), tried: String(tried), boxes: String(met), discs: String(tested), t: String(last?.t ?? Infinity), stack: (last?.stack ?? []).join(" ") });
+    said.textContent = `${kind === "grid" ? "" : `${counted(made.length, "split")} of ${splits}${tried > 0 ? `, the cheapest of ${grouped(tried)} tried` : ""}. `}The ray has met ${counted(met, ...metBy(kind))} and tested ${counted(tested, "disc")} of ${discs.length}. ${grid || !last ? "" : last.stack.length > 0 ? `On the stack: ${last.stack.join(", ")}. ` : "The stack is empty. "}${kind === "grid" ? "" : costs(tree, said)}`;
   };
   const bar = sliders.bar;
   show();
@@ -77,7 +78,7 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
 
 /** What the whole tree costs a line: foretold by perimeters, and counted. */
 function costs(tree: SmallTree, said: HTMLElement): string {
-  const expected = expectedNodes(tree), met = countedNodes(tree, 60), over = tree.kind === "bvh" ? tree.splits.reduce((sum, { children: [a, b] }) => sum + overlap(a!.box, b!.box), 0) : 0;
+  const expected = expectedNodes(tree), met = countedNodes(tree, 60), over = tree.kind === "bvh" ? tree.splits.reduce((sum, { children: [a, b] }) => sum + overlap(boxOfOutline(a!.outline), boxOfOutline(b!.outline)), 0) : 0;
   Object.assign(said.dataset, { expected: String(expected), counted: String(met), overlap: String(over) });
-  return `A line meets Σ perimeters/perimeter = ${number(expected, 3)} of its ${tree.nodes().length} boxes; counted: ${number(met, 3)}.${tree.kind === "bvh" ? ` Boxes overlap by ${number(over, 2)} in all.` : ""}`;
+  return `A line meets Σ perimeters/perimeter = ${number(expected, 3)} of its ${tree.nodes().length} ${metBy(tree.kind)[1]}; counted: ${number(met, 3)}.${tree.kind === "bvh" ? ` Boxes overlap by ${number(over, 2)} in all.` : ""}`;
 }

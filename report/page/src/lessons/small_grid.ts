@@ -1,8 +1,8 @@
 // A grid over a handful of discs, and the walk from cell to cell (Amanatides and Woo 1987): along each axis the t of the next wall
 // is known, the smaller one is crossed, and one addition gives that axis's next.
 import { meetCircle, type Circle, type Vec2 } from "./flatland";
-import { boxAround, lineInBox, type WalkStep } from "./small_tree";
-import type { Box } from "./structure_walk";
+import { boxAround, lineInside, type WalkStep } from "./small_tree";
+import { outlineOf, type Box } from "./structure_walk";
 
 /** Cells along each axis: `k` for each disc and axis, as in k · N^(1/2) in a plane, so that they are about square. */
 export function gridSize([left, right, bottom, top]: Box, count: number, k: number): [number, number] {
@@ -13,7 +13,7 @@ export function gridSize([left, right, bottom, top]: Box, count: number, k: numb
 export function walkCells(discs: Circle[], k: number, origin: Vec2, direction: Vec2): WalkStep[] & { lines: Vec2[][] } {
   const box = boxAround(discs.map(({ center: [x, y], radius: r }): Box => [x - r, x + r, y - r, y + r])), [left, , bottom] = box, [columns, rows] = gridSize(box, discs.length, k), wide = (box[1] - left) / columns, high = (box[3] - bottom) / rows;
   const lines = [...Array.from({ length: columns + 1 }, (_, i): Vec2[] => [[left + i * wide, bottom], [left + i * wide, box[3]]]), ...Array.from({ length: rows + 1 }, (_, i): Vec2[] => [[left, bottom + i * high], [box[1], bottom + i * high]])];
-  const steps: WalkStep[] = [], [entry, exit] = lineInBox(origin, direction, box), begin = Math.max(entry, 0);
+  const steps: WalkStep[] = [], [entry, exit] = lineInside(origin, direction, outlineOf(box)), begin = Math.max(entry, 0);
   const tested = new Set<number>();  // the mailbox: each disc is tested once
   let t = Infinity;
   if (begin <= exit) {
@@ -29,7 +29,7 @@ export function walkCells(discs: Circle[], k: number, origin: Vec2, direction: V
         const hit = meetCircle(origin, direction, discs[i]!)?.find((d) => d > 0);
         if (hit !== undefined) t = Math.min(t, hit);
       }
-      steps.push({ node: { name: `(${x}, ${y})`, box: cell, items: here, cut: [], children: [] }, stack: [], tested: here, boxes: steps.length + 1, discs: tested.size, t });
+      steps.push({ node: { name: `(${x}, ${y})`, outline: outlineOf(cell), items: here, cut: [], tried: 0, children: [] }, stack: [], tested: here, boxes: steps.length + 1, discs: tested.size, t });
       const axis = next[0]! < next[1]! ? 0 : 1;
       if (next[axis]! > Math.min(exit, t)) break;
       at[axis]! += direction[axis] > 0 ? 1 : -1;
