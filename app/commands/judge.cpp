@@ -4,13 +4,9 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <memory>
-#include <set>
-#include <utility>
 
+#include "app/judge/captures.h"
 #include "app/options/judge_options.h"
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
@@ -18,9 +14,7 @@
 #include "app/process/interrupt.h"
 #include "app/process/machine.h"
 #include "scene/base/stages.h"
-#include "scene/files/path_status.h"
 #include "scene/files/staged_folder.h"
-#include "scene/files/write_file.h"
 #include "studies/judge/identify.h"
 #include "studies/judge/recorded_frame.h"
 #include "studies/judge/several.h"
@@ -37,7 +31,6 @@ struct JudgeCommand : RunOptions {
   bool identify = false;
   std::string suite;
   bool list = false;
-  std::string light;  ///< of recorded frames, counted from 1; of captures it is one of the parts
   std::string command_line;
 };
 
@@ -45,30 +38,6 @@ struct JudgedScene {
   LoadedScene loaded;
   compare::Comparison comparison;
 };
-
-/// A capture's lights, each with the options' parts in place of its own; of several --light chooses one.
-Expected<std::vector<compare::Capture>> lights_of(const JudgeCommand& command, const std::string& path) {
-  std::vector<compare::Capture> lights(1);
-  CaptureOptions parts = command.parts;
-  if (!path.empty()) {
-    auto read = compare::read_captures(path);
-    if (!read) return fail(read.error());
-    lights = std::move(*read);
-  }
-  if (!lights.front().within.empty() && !parts.given.light.empty()) {
-    auto chosen = compare::read_capture(path, parts.given.light);
-    if (!chosen) return fail(chosen.error());
-    lights = {std::move(*chosen)}, parts.given.light.clear();
-  }
-  for (compare::Capture& light : lights) {
-    auto whole = with_options(std::move(light), parts);
-    if (!whole) return fail(whole.error());
-    light = std::move(*whole);
-    if (const auto sound = compare::check_capture(light); !sound)
-      return fail(light.path.empty() ? usage_error(sound.error(), parts) : sound.error());
-  }
-  return lights;
-}
 
 Expected<void> identify_map(const JudgeCommand& command, JudgedScene& judged, Console& console) {
   if (judged.comparison.judged->has_map) {
@@ -113,58 +82,6 @@ Expected<JudgedScene> judge_one(const JudgeCommand& command, const compare::Capt
   return out;
 }
 
-/// What a capture names.
-RunFiles inputs_of(const compare::Capture& capture) {
-  RunFiles files;
-  files.reads(capture.path);
-  files.reads(SceneArgument{capture.scene});
-  for (const std::string* picture :
-       {&capture.visibility, &capture.shadowed, &capture.unshadowed, &capture.also, &capture.position})
-    files.reads(*picture);
-  if (capture.depth) files.reads(capture.depth->file);
-  for (const compare::CapturedLayer& layer : capture.map) files.reads(layer.depth);
-  return files;
-}
-
-/// "wall" of wall/capture.json, "wall" of wall.json.
-std::string name_of(const std::string& path) {
-  const std::filesystem::path file(path);
-  const bool generic = file.stem() == "capture" && file.parent_path().has_filename();
-  return generic ? std::filesystem::weakly_canonical(file).parent_path().filename().string()
-                 : file.stem().string();
-}
-
-/// Makes a capture of a recorded frame in `folder` and puts its capture.json in the frame's place.
-Expected<void> make_capture(const JudgeCommand& command, std::string& path, const std::string& folder,
-                            Console& console) {
-  const OutputGuard whole_outputs;
-  auto staged = StagedFolder::open(folder);
-  if (!staged) return fail(staged.error());
-  console.progress("replaying the frame", 0.0);
-  const auto found = compare::capture_recorded_frame(path, staged->path(), command.light);
-  if (!found) return fail(found.error());
-  if (const auto sealed = staged->seal(std::vector{path}); !sealed) return sealed;
-  if (const auto published = staged->publish("capture.json"); !published) return published;
-  for (const std::string& finding : *found) console.note(finding);
-  path = folder + "/capture.json";
-  return {};
-}
-
-/// Makes captures of all recorded frames, beside their verdicts: "wall-capture" of "wall", "walls-captures/a" of "walls/a".
-Expected<void> make_captures(JudgeCommand& command, Console& console) {
-  if (std::ranges::none_of(command.captures, compare::is_recorded_frame)) return {};
-  command.light = std::exchange(command.parts.given.light, "");
-  const bool single = command.captures.size() == 1 && command.suite.empty();
-  std::string& folder = command.output.folder;
-  if (folder.empty()) folder = single ? "out/" + name_of(command.captures.front()) : "out/judge";
-  for (std::string& path : command.captures) {
-    if (!compare::is_recorded_frame(path)) continue;
-    const std::string place = single ? folder + "-capture" : folder + "-captures/" + name_of(path);
-    if (const auto made = make_capture(command, path, place, console); !made) return made;
-  }
-  return {};
-}
-
 Expected<ExitCode> list_lights(const JudgeCommand& command) {
   if (command.captures.size() != 1 || !compare::is_recorded_frame(command.captures.front()))
     return fail(ErrorKind::usage, "--list: needs one frame that RenderDoc recorded (.rdc)");
@@ -189,43 +106,6 @@ Expected<ExitCode> judge_single(JudgeCommand& command, const compare::Capture& c
   if (only_prints_json(command.output))
     return print_result(command.output, judged->comparison, judged->loaded, console);
   return write_folder(command.output, judged->comparison, judged->loaded, files, total, console);
-}
-
-/// One of several: a light of a capture, or why the capture cannot be read.
-struct NamedCapture {
-  std::string name;  ///< no two have one name
-  Expected<compare::Capture> capture;
-};
-
-std::string unused_name(const std::string& base, std::set<std::string>& taken) {
-  std::string name = base;
-  for (int count = 2; !taken.insert(name).second; ++count) name = fmt::format("{}-{}", base, count);
-  return name;
-}
-
-/// A letter, digit, dot, dash or underscore stays; what else a light's name has becomes a dash.
-std::string file_name_of(std::string light) {
-  for (char& c : light)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_') c = '-';
-  return light;
-}
-
-/// The lights of all captures; those of a capture of several are called by it and the light.
-std::vector<NamedCapture> all_lights(const JudgeCommand& command) {
-  std::vector<NamedCapture> out;
-  std::set<std::string> taken;
-  for (const std::string& path : command.captures) {
-    const std::string base = name_of(path);
-    auto lights = lights_of(command, path);
-    if (!lights) out.push_back({unused_name(base, taken), fail(lights.error())});
-    if (!lights) continue;
-    for (compare::Capture& light : *lights) {
-      const bool alone = lights->size() == 1;
-      const std::string name = alone ? base : base + "-" + file_name_of(light.light);
-      out.push_back({unused_name(name, taken), std::move(light)});
-    }
-  }
-  return out;
 }
 
 /// Its own folder below the common one, which is still in the making at `place`.
@@ -316,46 +196,26 @@ Expected<ExitCode> judge_several(JudgeCommand& command, const std::vector<NamedC
   return code;
 }
 
-/// Every capture.json of a folder and of those directly below it, by name.
-Expected<std::vector<std::string>> captures_below(const std::string& folder) {
-  std::vector<std::string> found;
-  const auto add = [&](const std::filesystem::path& file) -> Expected<void> {
-    const auto plain = is_plain_file(file.string());
-    if (!plain) return fail(plain.error());
-    if (*plain) found.push_back(file.string());
-    return {};
-  };
-  if (auto added = add(std::filesystem::path(folder) / "capture.json"); !added) return fail(added.error());
-  const auto names = names_if_there(folder);
-  if (!names) return fail(names.error());
-  for (const std::string& name : *names) {
-    const std::filesystem::path below = std::filesystem::path(folder) / name;
-    if (file_kind_or_none(below.string()) != FileKind::folder) continue;  // a link in a circle is none either
-    if (auto added = add(below / "capture.json"); !added) return fail(added.error());
-  }
-  if (found.empty())
-    return fail(ErrorKind::bad_input, fmt::format("--suite: no capture.json in {} or its folders", folder));
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 Expected<ExitCode> run_judge(JudgeCommand& command) {
   Console console(command.output.quiet);
   command.options.raytrace.seed = command.seed;
   if (command.captures.empty() && command.suite.empty() && !command.parts.any)
     return fail(ErrorKind::usage, "judge: needs a capture (a file, or its parts as options)");
   if (command.list) return list_lights(command);
-  if (const auto made = make_captures(command, console); !made) return fail(made.error());
+  if (const auto made = make_captures(command.captures, command.suite.empty(), command.parts,
+                                      command.output.folder, console);
+      !made)
+    return fail(made.error());
   if (!command.suite.empty()) {
     auto found = captures_below(command.suite);
     if (!found) return fail(found.error());
     command.captures.insert(command.captures.end(), found->begin(), found->end());
   }
   if (command.captures.size() > 1 || !command.suite.empty())
-    return judge_several(command, all_lights(command), console);
-  const auto lights = lights_of(command, command.captures.empty() ? "" : command.captures.front());
+    return judge_several(command, all_lights(command.captures, command.parts), console);
+  const auto lights = lights_of(command.parts, command.captures.empty() ? "" : command.captures.front());
   if (!lights) return fail(lights.error());
-  if (lights->size() > 1) return judge_several(command, all_lights(command), console);
+  if (lights->size() > 1) return judge_several(command, all_lights(command.captures, command.parts), console);
   return judge_single(command, lights->front(), console);
 }
 

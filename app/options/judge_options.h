@@ -16,7 +16,6 @@ struct CaptureOptions {
   std::optional<compare::StoredDepth> map_convention;
   std::optional<compare::RowOrder> map_rows;
   std::optional<double> bias_constant, bias_slope, bias_normal_offset;  ///< as compare::CapturedBias
-  std::optional<compare::CapturedCasterBias> caster_bias;               ///< of all layers
   /// These mean what compare::CapturedCasterBias says, and hold for all layers.
   std::optional<double> caster_constant, caster_constant_world, caster_slope, caster_clamp;
   std::optional<compare::FilterName> filter_kind;
