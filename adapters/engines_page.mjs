@@ -1,5 +1,6 @@
 // docs/engines.md: engines' shadows at their default settings and at those that their documents advise, judged on four scenes.
 //   node adapters/engines_page.mjs GNOMON FOLDER > docs/engines.md      (docs/make_engines.sh)
+//   node adapters/engines_page.mjs GNOMON FOLDER courtyard godot default      that row alone
 // FOLDER keeps the scenes, captures and reports; a capture that is there is not made again.
 import { execFileSync, spawnSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, readFileSync } from "node:fs";
@@ -8,8 +9,11 @@ import { fileURLToPath } from "node:url";
 import { differences, explanation } from "./second_truth.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const [gnomon, folder] = process.argv.slice(2).map((path) => resolve(path));
+const [gnomon, folder] = process.argv.slice(2, 4).map((path) => resolve(path));
+const wanted = process.argv.slice(4);
 const scenes = ["floating-box", "wires", "thin-wall", "courtyard"], size = "640x360";
+// Of which RenderDoc goes to some three hundred draws: each caster in each of four cascades.
+const smaller = { "godot-default-courtyard": "320x180" };
 // The second row of an engine: a finer map, its best filter for a sun, and biases in the range of its documents' examples.
 const rows = [
   ["three", "default", ""],
@@ -28,13 +32,15 @@ const rows = [
 ];
 const cycles = ["cycles", "rays", ""], cyclesAsShipped = ["cycles", "offset", "--shadowTerminatorOffset 0.1"];
 
+const sizeOf = (scene, [engine, name]) => smaller[`${engine}-${name}-${scene}`] ?? size;
+
 function judged(scene, [engine, name, options]) {
   const capture = join(folder, `${engine}-${name}-${scene}`);
   if (!existsSync(join(capture, "capture.json"))) {
-    const words = [join(here, "capture.mjs"), engine, join(folder, `${scene}.glb`), "-o", capture, "--size", size, ...options.split(" ").filter(Boolean)];
-    const drawn = spawnSync("node", words, { encoding: "utf8", timeout: 300000 });
+    const words = [join(here, "capture.mjs"), engine, join(folder, `${scene}.glb`), "-o", capture, "--size", sizeOf(scene, [engine, name]), ...options.split(" ").filter(Boolean)];
+    const drawn = spawnSync("node", words, { encoding: "utf8", timeout: 1800000 });
     console.error(drawn.stderr.trim());
-    if (drawn.status !== 0) return { refused: drawn.stderr.trim().split("\n")[0] || "not drawn within five minutes" };
+    if (drawn.status !== 0) return { refused: drawn.stderr.trim().split("\n")[0] || "not drawn within half an hour" };
   }
   const report = join(capture, "report"), json = join(capture, "result.json");
   const run = spawnSync(gnomon, ["judge", join(capture, "capture.json"), "-o", report, "--json", json, "--aov", join(capture, "verdict.exr"), "--quiet"], { encoding: "utf8" });
@@ -55,7 +61,8 @@ function advice({ advice: list }) {
   return (list || []).map((a) => `\`${a.setting}\` ${a.instead === a.now ? `stays ${number(a.now)}` : `${number(a.instead)} instead of ${number(a.now)}: ${percent(a.wrong_instead)}`}`).join("; ") || "-";
 }
 
-function row(scene, result, [engine, name]) {
+function row(scene, result, entry) {
+  const [engine] = entry, own = sizeOf(scene, entry), name = own === size ? entry[1] : `${entry[1]} at ${own}`;
   if (result.refused) return `| ${scene} | ${engine}, ${name} | not judged: ${result.refused} | | | | | |`;
   const light = result.lights[0], { renderer } = result.judged;
   const away = light.detachment?.pixels > 0 ? number(light.detachment.mean_world) : "-";
@@ -79,6 +86,13 @@ function secondTruth(scene) {
   return `| ${scene} | ${pixels.compared} | ${error.wrong} | ${found.filter(explanation).length} |`;
 }
 
+function printRow(scene, engine, name) {
+  mkdirSync(folder, { recursive: true });
+  execFileSync(gnomon, ["export", scene, "--quiet", "-o", join(folder, `${scene}.glb`)]);
+  const entry = rows.find((one) => one[0] === engine && one[1] === name);
+  console.log(row(scene, judged(scene, entry), entry));
+}
+
 function main() {
   mkdirSync(folder, { recursive: true });
   for (const scene of scenes) execFileSync(gnomon, ["export", scene, "--quiet", "-o", join(folder, `${scene}.glb`)]);
@@ -93,7 +107,7 @@ function main() {
   const least = (name) => (100 * Math.min(...drawn.filter((d) => d.name === name).map((d) => d.share))).toFixed(3);
   console.log(`# Engines, judged
 
-For whoever asks what engines draw: four of Gnomon's scenes, each with a sun, drawn at ${size} by engines of the web in
+For whoever asks what engines draw: four of Gnomon's scenes, each with a sun, drawn at ${size} (where a row says no other size) by engines of the web in
 headless Chromium, by Blender's EEVEE and Cycles, and by Godot and Qt Quick 3D, of which RenderDoc recorded a frame, and judged by \`gnomon judge\`. \`docs/make_engines.sh\` wrote this page
 with the [adapters](../adapters/README.md); versions and options stand in each row.
 
@@ -152,4 +166,5 @@ floats.
 `);
 }
 
-main();
+if (wanted.length === 3) printRow(...wanted);
+else main();
