@@ -183,6 +183,14 @@ std::string option_of(const std::string& field, const CaptureOptions& o) {
   if (std::find(std::begin(same), std::end(same), field) != std::end(same)) return "--" + field;
   if (field == "bias") return first_bias_option(o);
   if (field == "filter") return o.filter_kind ? "--map-filter" : "--map-filter-radius";
+  static constexpr std::pair<std::string_view, const char*> others[] = {
+      {"filter.kind", "--map-filter"},
+      {"bias.slope", "--map-slope-bias"},
+      {"caster_bias.constant", "--map-caster-bias"},
+      {"caster_bias.slope", "--map-caster-slope-bias"},
+      {"caster_bias.clamp", "--map-caster-bias-clamp"}};
+  for (const auto& [end, option] : others)
+    if (field == end || field.ends_with("]." + std::string(end))) return option;
   const std::size_t dot = field.find('.');
   if (dot == std::string::npos) return field.starts_with("map") ? "--map" : "";
   const std::string part = field.substr(dot + 1);
@@ -264,6 +272,8 @@ Expected<Capture> with_options(Capture capture, const CaptureOptions& o) {
   if (o.filter_kind || o.filter_radius) {
     compare::CapturedFilter& filter = capture.filter ? *capture.filter : capture.filter.emplace();
     filter.kind = o.filter_kind.value_or(filter.kind);
+    if (o.filter_radius && filter.kind == compare::FilterName::none)
+      return fail(ErrorKind::usage, "--map-filter-radius: is of filters: --map-filter none reads one texel");
     filter.radius_texels = o.filter_radius.value_or(filter.radius_texels);
   }
   if (const auto set = set_map(capture, o); !set) return fail(set.error());

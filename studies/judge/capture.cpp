@@ -46,6 +46,26 @@ Expected<void> check_layer_biases(const Capture& capture) {
   return {};
 }
 
+/// What of a layer's casters the convention leaves nothing to say of.
+Expected<void> check_caster_bias(const Capture& capture, std::size_t i) {
+  const CapturedLayer& layer = capture.map[i];
+  if (!layer.caster_bias) return {};
+  const CapturedCasterBias& bias = *layer.caster_bias;
+  const auto wrong = [&](const char* field, const char* reason) {
+    return capture_error(capture, fmt::format("map[{}].caster_bias.{}", i, field), reason);
+  };
+  const bool linear = is_linear(*layer.convention);
+  constexpr const char* of_matrix =
+      "is of the depths that a matrix makes; of distance, linear_z and paraboloid constant_world is known";
+  if (linear && bias.slope != 0.0) return wrong("slope", of_matrix);
+  if (linear && bias.clamp != 0.0) return wrong("clamp", of_matrix);
+  if (*layer.convention == StoredDepth::linear_z && bias.constant != 0.0)
+    return wrong("constant", "is not of linear_z; constant_world is, along the light's ray");
+  if (bias.clamp != 0.0 && bias.constant == 0.0 && bias.slope == 0.0)
+    return wrong("clamp", "limits constant and slope, and neither is there");
+  return {};
+}
+
 /// What a capture of paraboloids cannot say.
 Expected<void> check_halves(const Capture& capture) {
   const auto wrong = [&](const std::string& field, const char* reason) {
@@ -54,6 +74,12 @@ Expected<void> check_halves(const Capture& capture) {
   if (capture.map.size() != 2) return wrong("map", "of paraboloids has two layers, one for each half");
   if (capture.filter && capture.filter->read != raster::CapturedTest::Read::nearest)
     return wrong("filter.read", "is nearest of paraboloids, whose comparisons may be averaged (kind pcf)");
+  if (capture.filter && capture.filter->kind > FilterName::pcf)
+    return wrong("filter.kind", "is none or pcf of paraboloids");
+  if (capture.bias && capture.bias->slope != 0.0)
+    return wrong(
+        "bias.slope",
+        "is not of paraboloids, whose texels differ in size; constant_depth and normal_offset_world are");
   for (std::size_t i = 0; i < 2; ++i) {
     const CapturedLayer& layer = capture.map[i];
     const std::string field = fmt::format("map[{}].", i);
@@ -82,9 +108,7 @@ Expected<void> check_map(const Capture& capture) {
     if (!layer.convention) return wrong("convention", "is missing");
     if (!layer.rows) return wrong("rows", "is missing");
     if (!layer.clip_from_world) return wrong("clip_from_world", "is missing");
-    if (layer.caster_bias && layer.caster_bias->slope != 0.0 && is_linear(*layer.convention))
-      return wrong("caster_bias.slope",
-                   "is of the depths that a matrix makes; of distance and linear_z constant_world is known");
+    if (const auto sound = check_caster_bias(capture, i); !sound) return sound;
     if (layer.convention != capture.map.front().convention)
       return wrong(
           "convention",

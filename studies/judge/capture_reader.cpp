@@ -232,6 +232,8 @@ void CaptureReader::read_filter(const JsonNode& node) {
   CapturedFilter& filter = out_.filter.emplace();
   if (const auto kind = object.require("kind"))
     filter.kind = static_cast<FilterName>(kind->as_choice(choices(filter_names)));
+  if (filter.kind == FilterName::none)
+    object.forbid("radius_texels", "is of filters: kind none reads one texel");
   filter.radius_texels = object.number("radius_texels", filter.radius_texels, radius_range);
   using Read = raster::CapturedTest::Read;
   if (const auto read = object.find("read")) {
@@ -249,6 +251,10 @@ void CaptureReader::read_filter(const JsonNode& node) {
 }
 
 void CaptureReader::read_moments(const JsonObject& object, CapturedFilter& filter) {
+  using enum FilterName;
+  if (filter.kind == esm) object.forbid("light_bleeding_reduction", "is not of esm");
+  if (filter.kind != vsm && filter.kind != evsm) object.forbid("minimum_variance", "is of vsm and evsm");
+  if (filter.kind != msm) object.forbid("moment_bias", "is of msm");
   filter.light_bleeding_reduction = object.number("light_bleeding_reduction", 0.0, {0.0, 0.999});
   filter.minimum_variance = object.number("minimum_variance", 0.0, non_negative_number);
   filter.moment_bias = object.number("moment_bias", filter.moment_bias, strength_range);

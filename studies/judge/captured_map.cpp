@@ -362,6 +362,8 @@ Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const
   view.origin = faces.front().origin;
   view.reversed = convention == StoredDepth::reversed || linear;
   view.seamless = !parallel && faces.size() == 6;
+  if (view.seamless && capture.map.front().select)
+    return capture_error(capture, "map[0].select", "is not of a cube: the way to the light chooses the face");
   const auto order = order_faces(capture, faces);
   if (!order) return fail(order.error());
   out.caster_bias.resize(faces.size()), out.bias.resize(faces.size());

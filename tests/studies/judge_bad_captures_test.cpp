@@ -160,6 +160,49 @@ TEST(BadCaptures, OfMapsNameTheField) {
   expect_named(capture, "map[1].bias.angle: differs from that of map[0]");
 }
 
+// What a convention leaves nothing to say of is no key that is read and forgotten.
+TEST(BadCaptures, WithAKeyThatTheConventionHasNotNameTheKey) {
+  using compare::CapturedCasterBias;
+  using compare::FilterName;
+  using enum compare::StoredDepth;
+  struct Row {
+    compare::StoredDepth convention;
+    CapturedCasterBias casters;
+    compare::CapturedBias bias;
+    FilterName filter;
+    std::string named;
+  };
+  std::vector<Row> rows{
+      {linear_z, {.constant = 0.1}, {}, FilterName::none, "map[0].caster_bias.constant: is not of linear_z"},
+      {zero_to_one,
+       {.constant_world = 0.1, .clamp = 0.1},
+       {},
+       FilterName::none,
+       "map[0].caster_bias.clamp: limits constant and slope"},
+      {paraboloid, {}, {.slope = 1.0}, FilterName::none, "bias.slope: is not of paraboloids"},
+      {paraboloid, {}, {}, FilterName::vsm, "filter.kind: is none or pcf of paraboloids"}};
+  for (const auto linear : {distance, linear_z, paraboloid}) {
+    rows.push_back({linear,
+                    {.slope = 1.0},
+                    {},
+                    FilterName::none,
+                    "map[0].caster_bias.slope: is of the depths that a matrix makes"});
+    rows.push_back({linear,
+                    {.constant_world = 0.1, .clamp = 0.1},
+                    {},
+                    FilterName::none,
+                    "map[0].caster_bias.clamp: is of the depths"});
+  }
+  for (const Row& row : rows) {
+    Capture capture = good();
+    capture.map.assign(row.convention == paraboloid ? 2 : 1, layer(Mat4(1.0)));
+    for (compare::CapturedLayer& one : capture.map)
+      one.convention = row.convention, one.caster_bias = row.casters;
+    capture.bias = row.bias, capture.filter = compare::CapturedFilter{.kind = row.filter};
+    expect_named(capture, row.named);
+  }
+}
+
 TEST(BadCaptures, ThatContradictNameTheField) {
   Capture capture = good();
   capture.bias = compare::CapturedBias{};
@@ -235,6 +278,19 @@ TEST(CaptureSchema, TakesWhatTheReaderTakes) {
                        {"light_bleeding_reduction", 0.2},
                        {"minimum_variance", 0}};
   EXPECT_EQ(taken(moments), std::pair(true, true));
+  for (const auto& [kind, key] : {std::pair("vsm", "moment_bias"),
+                                  {"evsm", "moment_bias"},
+                                  {"esm", "moment_bias"},
+                                  {"esm", "minimum_variance"},
+                                  {"esm", "light_bleeding_reduction"},
+                                  {"msm", "minimum_variance"}}) {
+    Json capture = moments;
+    capture["filter"] = {{"kind", kind}, {"read", "moments"}, {key, 0.1}};
+    if (std::string_view(kind).starts_with("e")) capture["filter"]["exponents"] = {40};
+    EXPECT_EQ(taken(capture), std::pair(false, false)) << kind << " " << key;
+    capture["filter"].erase(key);
+    EXPECT_EQ(taken(capture), std::pair(true, true)) << kind;
+  }
   for (const auto& [path, value] : {std::pair<std::string, Json>{"/filter/kind", "pcf"},
                                     {"/filter/read", "nearest"},
                                     {"/filter/exponents", {1, 2, 3}},
@@ -284,6 +340,7 @@ TEST(CaptureSchema, TakesWhatTheReaderTakes) {
                                                         {"/also", ""},
                                                         {"/lights", Json::array()},
                                                         {"/filter/read", "cubic"},
+                                                        {"/filter/radius_texels", 2},
                                                         {"/strength", 1.5},
                                                         {"/map/0/caster_bias/factor", 1},
                                                         {"/map/0/caster_bias/slope", "steep"},

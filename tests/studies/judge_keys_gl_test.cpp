@@ -120,6 +120,18 @@ const KeyCase key_cases[] = {
     {"paraboloids_exchanged", bulb, as_paraboloids({600, 300}, false),
      [](Capture& c) { std::swap(c.map[0].depth, c.map[1].depth); },
      "the pictures of map[0] and map[1] are exchanged"},
+    {"paraboloids_fade", bulb,
+     [](Engine& e) {
+       as_paraboloids({512, 512}, false)(e);
+       faded({4.8, 5.2, false})(e);
+     },
+     [](Capture& c) { c.fade.reset(); }, "world units along the view's axis (`fade`)"},
+    {"cube_layer_bias", bulb,
+     [](Engine& e) {
+       for (compare::CapturedLayer& layer : e.capture.map) layer.bias = e.capture.bias;
+       e.capture.map[3].bias->constant_depth = 0.4;  // the floor's
+     },
+     no_layer_bias, "`constant_depth` is about 0.4"},
     {"paraboloids_range", bulb,
      [](Engine& e) {
        as_paraboloids({512, 256}, true)(e);
@@ -314,6 +326,13 @@ TEST_P(JudgeEveryKey, IsReadAndItsFaultNamed) {
 
 INSTANTIATE_TEST_SUITE_P(Keys, JudgeEveryKey, testing::ValuesIn(key_cases),
                          [](const auto& chosen) { return chosen.param.name; });
+
+// Which face of a cube is looked up is no distance's to say.
+TEST(JudgeEveryKeyOfCubes, HasNoSelect) {
+  Engine engine("keys-cube-select", bulb.constant, bulb.light, bulb.stored);
+  for (compare::CapturedLayer& layer : engine.capture.map) layer.select = CapturedSelect{0.0, 9.0};
+  EXPECT_NE(reason(engine.judged()).find("map[0].select: is not of a cube"), std::string::npos);
+}
 
 // The filter's picture is Gnomon's own.
 TEST(JudgeEveryKeyOfFilters, NamesAFilterThatIsNotSaid) {

@@ -123,11 +123,49 @@ class Lookup(unittest.TestCase):
         # Before the middle of texel 3 all of it is told; halfway to texel 4 half is; the rest is lit.
         places = np.array([[-0.5, 0, -1.0], [0.0, 0, -1.0], [0.05, 0, -1.0]])
         seen = pixels.Pixels(places, np.ones(3, bool), np.zeros(3), np.ones(3, bool))
-        pixels._light_between_casters(seen, [layer], [covered])
+        layer.covered = covered
+        pixels._light_between_casters(seen, [layer])
         np.testing.assert_allclose(seen.visibility, [0, 0.5, 0.7], atol=1e-6)
         seen.visibility[:] = 0  # a coarser layer covers all: it may be the one that is read
-        pixels._light_between_casters(seen, [layer, layer], [covered, np.ones((8, 8), bool)])
+        coarse = self.layer(np.ones((8, 8)))
+        coarse.covered = np.ones((8, 8), bool)
+        pixels._light_between_casters(seen, [layer, coarse])
         np.testing.assert_allclose(seen.visibility, 0, atol=1e-6)
+
+    def test_what_a_wide_filter_reads_beside_casters_is_left_out(self):
+        layer = self.layer(np.ones((16, 16)))
+        layer.covered = np.zeros((16, 16), bool)
+        layer.covered[:, :10] = True
+        # In texels 4, 8, 9 and 12; the third is fully lit all the same.
+        places = np.array([[-0.44, 0, -1.0], [0.06, 0, -1.0], [0.19, 0, -1.0], [0.56, 0, -1.0]])
+        seen = lambda: pixels.Pixels(places, np.ones(4, bool), np.array([0.0, 0.3, 1.0, 0.5]), np.ones(4, bool))
+        for radius, kept in ((None, [1, 1, 1, 1]), (1.0, [1, 1, 1, 1]), (2.5, [1, 0, 1, 0]), (6.0, [0, 0, 1, 0])):
+            one = seen()
+            self.assertEqual(pixels.leave_out_borders(one, [layer], radius), 4 - sum(kept))
+            self.assertEqual(one.asked.tolist(), [bool(k) for k in kept], radius)
+        coarse = self.layer(np.ones((16, 16)))
+        coarse.covered = np.ones((16, 16), bool)
+        self.assertEqual(pixels.leave_out_borders(seen(), [layer, coarse], 2.5), 0)
+
+    def test_texels_are_widened_along_both_axes(self):
+        texels = np.zeros((5, 7), bool)
+        texels[1, 5] = True
+        self.assertEqual(np.argwhere(lookup.widened(texels, 2)).tolist(), [[r, c] for r in range(4) for c in range(3, 7)])
+
+    def test_a_slope_of_a_paraboloid_is_said_to_be_left_out(self):
+        texture = SimpleNamespace(is_depth=True, format="D24", width=64, height=64)
+        for slope, said in ((0.0, False), (2.0, True)):
+            layer = SimpleNamespace(
+                state=SimpleNamespace(reversed=False, depth_bias={"constant": 4, "slope": slope, "clamp": 0.1}, conventions=conventions.opengl()),
+                has_caster_bias=False, constant=0.0, half=SimpleNamespace(residual=0.0), distance=SimpleNamespace(range=9.0, residual=0.0), matrix=np.eye(4),
+                matched=1, place=SimpleNamespace(apex=np.zeros(3)), texels=np.ones((2, 2)))
+            found = SimpleNamespace(passes=SimpleNamespace(texture=1), view=SimpleNamespace(lens=lens.Lens(1, 1, 0, 0, 1, 1, 0)), notes=[])
+            test = SimpleNamespace(selection=lookup.Selection("first", (), 0.0), exponent=None, radius=None, agreement=None)
+            findings = report.findings(SimpleNamespace(textures={1: texture}), found, [layer], test)
+            self.assertEqual(any("a capture says the constant alone" in one for one in findings), said)
+            with tempfile.TemporaryDirectory() as folder:
+                written = capture._layer(folder, texture, "map.exr", 0, layer, test, 1)
+            self.assertEqual(list(written["caster_bias"]), ["constant"])
 
 
 class PolygonOffset(unittest.TestCase):

@@ -20,9 +20,9 @@ class OtherRenderer {
   }
 
   float visibility(const Vec3& surface, const Vec3& normal) const {
-    if (has_paraboloids(capture_)) return paraboloid_visibility(surface, normal);
-    const auto seen = layer_of(surface);
-    float light = layer_visibility(surface, normal, seen);
+    const bool halves = has_paraboloids(capture_);
+    const auto seen = halves ? std::nullopt : layer_of(surface);
+    float light = halves ? paraboloid_visibility(surface, normal) : layer_visibility(surface, normal, seen);
     if (selects() && seen && capture_.map[*seen].select->blend > 0.0) {
       const compare::CapturedSelect& select = *capture_.map[*seen].select;
       const double left = select.far - from_camera(select.by_distance, surface);

@@ -87,7 +87,8 @@ def _layer(folder, texture, name, k, layer, test, count):
         out["caster_bias"] = moved
     if layer.half:
         out["range"] = [0.0, layer.distance.range]
-        moved.pop("slope", None)  # of distances no capture says it
+        for key in ("slope", "clamp"):  # of distances no capture says them; a finding does
+            moved.pop(key, None)
     elif layer.constant:
         out["bias"] = {"constant_depth": layer.constant}
     return out

@@ -83,7 +83,10 @@ def _measure(frame, found, layers, lights, encoding, before):
     seen, exponent = pixels.measure(frame, found, layers, encoding, others)
     if before and not pixels.is_same_picture(before[0].found, before[0].pixels, found, seen):
         raise FrameError("another camera draws it than the first light: --light judges it by itself")
-    return found, layers, seen, decision.find_test(found, layers, seen, numbers, exponent)
+    test = decision.find_test(found, layers, seen, numbers, exponent)
+    if left_out := pixels.leave_out_borders(seen, layers, test.radius):
+        found.notes.append(f"{left_out} pixels are left out, whose filter reads texels that no caster covers: the replays do not tell their light")
+    return found, layers, seen, test
 
 
 def _on_a_display(words):

@@ -30,6 +30,7 @@ class Layer:
     shift: CasterShift | None = None
     texels: np.ndarray | None = None  # of its own rectangle, as the casters left them
     read: np.ndarray | None = None  # the same as the readers found them: blurred, by some
+    covered: np.ndarray | None = None  # which of them some caster covers
     matrix: np.ndarray | None = None  # clip_from_view whose z/w is what a texel stores; of a half the light's view alone
     constant: float = 0.0  # the reader's own bias, stored numbers
 

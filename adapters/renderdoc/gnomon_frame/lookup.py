@@ -164,6 +164,27 @@ def bilinear(layer, positions, texels):
     return _weighed(np.where(inside, column, 0), np.where(inside, row, 0), at), inside
 
 
+def nearest(layer, positions, texels):
+    """(value of the texel in which each position lies, whether the layer holds it)."""
+    column, row, _, inside = texel_places(layer, positions)
+    rows, columns = texels.shape
+    at = lambda places, count: np.clip(np.where(inside, places, 0).astype(int), 0, count - 1)
+    return texels[at(row, rows), at(column, columns)], inside
+
+
+def widened(texels, reach):
+    """Texels within `reach` columns and rows of one that is set."""
+    for axis in (0, 1):
+        out = texels.copy()
+        for step in range(1, min(reach, texels.shape[axis] - 1) + 1):
+            low, high = [slice(None)] * 2, [slice(None)] * 2
+            low[axis], high[axis] = slice(None, -step), slice(step, None)
+            out[tuple(low)] |= texels[tuple(high)]
+            out[tuple(high)] |= texels[tuple(low)]
+        texels = out
+    return texels
+
+
 def find_blends(answers, visibility, key, selection):
     """(the selection with the width of each blend and where it ends, which places it leaves partly lit). Where two layers differ the
     picture says how much of it is the next one's, which of a blend grows evenly along the key."""

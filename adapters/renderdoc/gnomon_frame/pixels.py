@@ -56,11 +56,12 @@ def measure(frame, found, layers, encoding, others):
         pixels = Pixels(positions, is_drawn, _flip(seen.values, found.view).copy(), _flip(seen.asked, found.view) & is_drawn)
         tried.append((seen, pixels, _exponent(layers, pixels)))
     seen, pixels, exponent = max(tried, key=lambda one: one[2].correlation if one[2] else 0)
-    covered = [_cut(layer, seen.full_map[layer.state.slice]) == (1.0 if layer.state.reversed else 0.0) for layer in layers]
+    for layer in layers:
+        layer.covered = _cut(layer, seen.full_map[layer.state.slice]) == (1.0 if layer.state.reversed else 0.0)
     if found.is_bilinear:
-        _light_between_casters(pixels, layers, covered)
+        _light_between_casters(pixels, layers)
     if layers[0].place.apex is None:
-        _light_beside_casters(pixels, layers, covered)
+        _light_beside_casters(pixels, layers)
     if not seen.untouched:
         found.notes.append("the stand-ins for the casters changed the camera's depth, too: they share a shader, and some pixels may be wrong")
     if seen.darkest > 0.01:
@@ -83,28 +84,44 @@ def _exponent(layers, pixels):
     return lookup.exponent(lookup.margins(blurred, pixels.positions[pixels.asked]).values, pixels.visibility[pixels.asked])
 
 
-def _light_between_casters(pixels, layers, covered):
+def _light_between_casters(pixels, layers):
     """Puts back the light of texels that no caster covers: full maps leave them lit, so that the replays tell of the covered ones of the
     four that a sampler weighs alone. Which of several layers is read is not known yet: the one that is covered most counts."""
     if any(layer.matrix is None for layer in layers):
         return
     asked, places = pixels.asked, pixels.positions[pixels.asked]
     share, held = np.zeros(len(places)), np.zeros(len(places), bool)
-    for layer, full in zip(layers, covered):
-        at, inside = lookup.bilinear(layer, places, full.astype(float))
+    for layer in layers:
+        at, inside = lookup.bilinear(layer, places, layer.covered.astype(float))
         share, held = np.maximum(share, np.where(inside, at, 0)), held | inside
     pixels.visibility[asked] = 1 - np.where(held, share, 1) * (1 - pixels.visibility[asked])
 
 
-def _light_beside_casters(pixels, layers, covered):
+def _light_beside_casters(pixels, layers):
     """A sun's pixels whose texel no caster covers, or that lie outside of all layers: the stand-ins do not reach them; they are lit."""
     unknown = pixels.drawn & ~pixels.asked
     places = pixels.positions[unknown]
     dark = np.zeros(len(places), bool)
-    for layer, full in zip(layers, covered):
-        column, row, _, inside = lookup.texel_places(layer, places)
-        dark |= inside & full[np.clip(row, 0, full.shape[0] - 1).astype(int), np.clip(column, 0, full.shape[1] - 1).astype(int)]
+    for layer in layers:
+        at, inside = lookup.nearest(layer, places, layer.covered)
+        dark |= inside & at
     lit = unknown.copy()
     lit[unknown] = ~dark
     pixels.visibility[lit] = 1
     pixels.asked |= lit
+
+
+def leave_out_borders(pixels, layers, radius):
+    """Takes pixels out whose filter, of a radius of more than one texel, reads some that no caster covers: full maps leave those lit, so
+    that the replays do not tell what they take of a shadow. Returns how many. Which of several layers is read is not asked: the one
+    whose texels are covered counts."""
+    if radius is None or radius <= 1 or any(layer.matrix is None for layer in layers):
+        return 0
+    places = pixels.positions[pixels.asked]
+    beside, covered = np.zeros(len(places), bool), np.zeros(len(places), bool)
+    for layer in layers:
+        at, inside = lookup.nearest(layer, places, lookup.widened(~layer.covered, int(np.ceil(radius))))
+        beside, covered = beside | inside & at, covered | inside & ~at
+    unsure = beside & ~covered & (pixels.visibility[pixels.asked] < 1 - lookup.SURE)
+    pixels.asked[pixels.asked] = ~unsure
+    return int(unsure.sum())

@@ -36,7 +36,9 @@ def findings(frame, found, layers, test):
             out.append(f"{which}the reader's test lets {layer.constant:.3g} of stored depth pass (found from the picture)")
         offset = polygon_offset(layer, texture)
         if offset:
-            out.append(f"{which}the rasterizer's depth bias moves casters by {offset['constant']:.3g} of stored depth and {offset['slope']:g} slopes")
+            unsaid = "; of distances a capture says the constant alone, and the verdict charges the rest elsewhere" if layer.half and offset["slope"] else ""
+            out.append(f"{which}the rasterizer's depth bias moves casters by {offset['constant']:.3g} of stored depth and {offset['slope']:g} slopes"
+                       + unsaid)
     one = layers[0]
     if one.matrix is None:
         kind = (f"distances from a point, up to {one.distance.range:.4g} world units, which are no paraboloid's" if one.distance else
