@@ -76,7 +76,8 @@ int main(int argc, char** argv) {
   app.add_option("--runs", settings.runs, "timed repetitions, the median counts (default 5)")
       ->check(CLI::Range(1, 1000));
   std::array<int, 2> size{settings.size.width, settings.size.height};
-  app.add_option("--size", size, "WIDTHxHEIGHT in pixels (default 1920x1080, of whole commands 1280x720)")
+  app.add_option("--size", size,
+                 "WIDTHxHEIGHT in pixels (default 1920x1080, of whole commands 1280x720 as well)")
       ->delimiter('x')
       ->check(CLI::Range(16, 16384));
   app.add_option("--target", settings.target,
@@ -90,7 +91,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   settings.size = {size[0], size[1]};
-  if (app.count("--size") > 0) settings.whole_size = settings.size;
+  if (app.count("--size") > 0) settings.whole_sizes = {settings.size};
   if (!settings.target.empty() && !gnomon::bench::hold_to(settings.target)) {
     fmt::print(stderr, "--target {}: this machine does not have it\n", settings.target);
     return 2;

@@ -13,7 +13,7 @@ namespace gnomon::bench {
 
 struct Settings {
   ImageSize size{1920, 1080};
-  ImageSize whole_size{1280, 720};  ///< of whole commands
+  std::vector<ImageSize> whole_sizes{{1280, 720}, {1920, 1080}};  ///< of whole commands
   int runs = 5;
   std::string json;
   std::vector<std::string> scenes;

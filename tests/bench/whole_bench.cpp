@@ -10,7 +10,10 @@
 #include <filesystem>
 #include <thread>
 
+#include "bench_scenes.h"
 #include "bench_support.h"
+#include "scene/files/gltf/gltf_writer.h"
+#include "scene/files/write_file.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
@@ -66,39 +69,64 @@ struct Least {
 
 class WholeBench {
  public:
-  explicit WholeBench(const Settings& settings)
-      : settings_(settings),
-        size_(fmt::format("{}x{}", settings.whole_size.width, settings.whole_size.height)) {}
+  explicit WholeBench(const Settings& settings) : settings_(settings) {}
 
   std::vector<BenchRow> run() {
     fmt::print(settings_.table(), "Whole commands, the least of {} runs\n", settings_.runs);
-    const std::string bunny = test::shared_data() + "/common_organic/stanford-bunny.obj";
-    for (const std::string scene : {"fence", "courtyard", "teapot"}) comparison(scene, scene);
-    if (std::filesystem::exists(bunny)) comparison("bunny", bunny);
-    comparison("forest", "forest");
-    over_comparison("1,000 biases", "courtyard",
-                    {"sweep", "courtyard", "--size", size_, "--bias", "0:0.1:1000"}, 1.5);
-    over_comparison("shimmer, 60 frames", "courtyard",
-                    {"shimmer", "courtyard", "--size", size_, "--frames", "60"}, 8.0);
+    const std::vector<Named> scenes = compared_scenes();
+    for (const ImageSize& size : settings_.whole_sizes) {
+      size_ = fmt::format("{}x{}", size.width, size.height);
+      for (const Named& scene : scenes) comparison(scene);
+      if (&size != &settings_.whole_sizes.front()) continue;
+      over_comparison("1,000 biases", "courtyard",
+                      {"sweep", "courtyard", "--size", size_, "--bias", "0:0.1:1000"}, 1.5);
+      over_comparison("shimmer, 60 frames", "courtyard",
+                      {"shimmer", "courtyard", "--size", size_, "--frames", "60"}, 8.0);
+    }
     return rows_;
   }
 
  private:
+  struct Named {
+    std::string name, path;
+  };
+
+  std::vector<Named> compared_scenes() {
+    std::vector<Named> scenes{{"fence", "fence"}, {"courtyard", "courtyard"}, {"teapot", "teapot"}};
+    const std::string bunny = test::shared_data() + "/common_organic/stanford-bunny.obj";
+    if (std::filesystem::exists(bunny)) scenes.push_back({"bunny", bunny});
+    scenes.push_back({"terrain, 1 M", written_terrain()});
+    scenes.push_back({"forest", "forest"});
+    return scenes;
+  }
+
+  /// Under its sun alone, as the other scenes are.
+  std::string written_terrain() {
+    Scene scene = terrain_scene("terrain", 708).scene;
+    scene.lights.erase(scene.lights.begin());
+    const auto file = write_gltf(scene, true);
+    if (!file || !write_file(out("terrain.glb"), file->bytes)) {
+      fmt::print(stderr, "{}: cannot be written\n", out("terrain.glb"));
+      std::exit(1);
+    }
+    return out("terrain.glb");
+  }
+
   std::string out(const char* name) const { return folder_.path() + "/" + name; }
   Cost compare(const std::string& scene) const {
     return cost_of({"compare", scene, "--size", size_, "--quiet", "-o", out("compare")});
   }
 
-  void comparison(const std::string& name, const std::string& scene) {
-    fmt::print(settings_.table(), "{}, {}\n", name, size_);
+  void comparison(const Named& scene) {
+    fmt::print(settings_.table(), "{}, {}\n", scene.name, size_);
     Least whole, pictures;
     for (int i = 0; i < settings_.runs; ++i) {
-      whole.add(compare(scene));
-      pictures.add(cost_of({"raster", scene, "--size", size_, "--quiet", "-o", out("raster.png")}) +
-                   cost_of({"raytrace", scene, "--size", size_, "--quiet", "-o", out("raytrace.png")}));
+      whole.add(compare(scene.path));
+      pictures.add(cost_of({"raster", scene.path, "--size", size_, "--quiet", "-o", out("raster.png")}) +
+                   cost_of({"raytrace", scene.path, "--size", size_, "--quiet", "-o", out("raytrace.png")}));
     }
     const auto row = [&](const char* what, double ours, double theirs, double times) {
-      add(fmt::format("whole comparison, {}", what), name, ours, "its two pictures", theirs, times);
+      add(fmt::format("whole comparison, {}", what), scene.name, ours, "its two pictures", theirs, times);
     };
     row("processor", whole.cost.processor, pictures.cost.processor, 1.6);
     row("clock", whole.cost.wall, pictures.cost.wall, 1.5);
@@ -120,7 +148,7 @@ class WholeBench {
   void add(std::string name, const std::string& scene, double ours, const char* peer, double theirs,
            double times) {
     rows_.push_back({.name = std::move(name),
-                     .scene = scene,
+                     .scene = fmt::format("{}, {}", scene, size_),
                      .threads = static_cast<int>(std::thread::hardware_concurrency()),
                      .value = ours,
                      .unit = "s",
