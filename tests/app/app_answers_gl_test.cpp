@@ -11,11 +11,9 @@ namespace {
 
 /// Returns what result.json says of the scene's only light.
 nlohmann::json light_of(const Words& words) {
-  const TemporaryFolder folder;
-  const ProcessResult result =
-      run_gnomon(Words{"compare", "-o", folder / "out", "--runs", "1", "--quiet"} + words);
+  const ProcessResult result = run_gnomon(Words{"compare", "--json", "-", "--runs", "1", "--quiet"} + words);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  return nlohmann::json::parse(read_file(folder / "out/result.json")).at("lights").at(0);
+  return nlohmann::json::parse(result.out).at("lights").at(0);
 }
 
 Words words_of(const std::string& text) {

@@ -36,7 +36,7 @@ TEST(PagePolicy, EveryKindOfPageHasOne) {
       Words{"compare", "acne-floor", "--technique", "hybrid", "--runs", "1"} + quick,
       Words{"sweep", "acne-floor", "--size", "64x36", "--map-size", "64,128", "--runs", "1"},
       Words{"shimmer", "acne-floor", "--frames", "2"} + quick,
-      Words{"tune", "acne-floor", "--size", "64x36", "--map-size", "64,128", "--max-error", "90%"},
+      Words{"tune", "acne-floor", "--technique", "hard", "--max-error", "90%"} + quick,
       Words{"lessons", "--only", "precision"},
       Words{"lessons", "--lecture", "shadows"},
       Words{"grade", "rubric.json"}};

@@ -262,7 +262,7 @@ TEST(BiasCurve, BestBiasIsBestUnderALightWithSize) {
 // shader's floats and the doubles that it is said from part: as below, at most one in a thousand.
 TEST(BiasKinds, AreWhatTheyDraw) {
   OneWorld world(boxes_under_three_lights());
-  const auto options = test_options({640, 360}, 256, 0.01);
+  const auto options = test_options({320, 180}, 256, 0.01);
   auto thorough = options;
   thorough.perceptual = true;
   const compare::Comparison said = world.compare(thorough);
@@ -283,7 +283,7 @@ TEST(BiasKinds, AreWhatTheyDraw) {
 // In the casters' own terms, too: where they have a slope, slopes of theirs are tried, and a constant is theirs.
 TEST(BiasKinds, OfCastersAreWhatTheyDraw) {
   OneWorld world(boxes_under_three_lights());
-  auto options = test_options({640, 360}, 256);
+  auto options = test_options({320, 180}, 256);
   options.perceptual = true;
   options.raster.map.bias.caster_constant = 0.02, options.raster.map.bias.caster_slope = 3.0;
   const compare::Comparison said = world.compare(options);

@@ -17,7 +17,7 @@ TEST(HybridHardShadows, EqualRayTracingInEveryBuiltInScene) {
     if (builtin.large) continue;
     auto scene = load_scene(std::string(builtin.name));
     ASSERT_TRUE(scene);
-    const Stage stage(std::move(*scene), {320, 180});
+    const Stage stage(std::move(*scene), {160, 90});
     for (std::uint32_t light = 0; light < stage.scene.lights.size(); ++light)
       for (const int size : {1, 37, 256, 1024}) {
         const Outcome out = run(stage, light, size);

@@ -66,10 +66,12 @@ TEST(Izb, IsExactOnEveryBuiltinScene) {
     if (entry.large) continue;
     auto scene = load_scene(std::string(entry.name));
     ASSERT_TRUE(scene.has_value()) << scene.error().message();
+    ImageSize size{160, 90};
     // At that size some rays enter the torus's box on the torus itself.
-    const bool solids = entry.name == std::string_view("shapes");
-    expect_exact(std::move(*scene), std::string(entry.name),
-                 solids ? ImageSize{1280, 720} : ImageSize{160, 90}, 256);
+    if (entry.name == std::string_view("shapes")) size = {1280, 720};
+    // All that is small in it is in the lists of two texels, which every pixel there goes through.
+    if (entry.name == std::string_view("stadium")) size = {80, 45};
+    expect_exact(std::move(*scene), std::string(entry.name), size, 256);
   }
 }
 
