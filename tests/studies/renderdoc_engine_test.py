@@ -24,10 +24,13 @@ QML = "/usr/lib/qt6/bin/qml"
 LAVAPIPE = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json"
 HAS_GODOT = bool(shutil.which("godot3"))
 HAS_QUICK3D = all(os.path.exists(p) for p in (QML, LAVAPIPE, "/usr/lib/x86_64-linux-gnu/qt6/qml/QtQuick3D"))
+OGRE_PLUGIN = "/usr/lib/x86_64-linux-gnu/OGRE/RenderSystem_GL3Plus"
+HAS_OGRE = all(shutil.which(p) for p in ("g++", "pkg-config")) and os.path.exists(OGRE_PLUGIN + ".so.1.12.10") and not subprocess.run(
+    ["pkg-config", "--exists", "OGRE"], stderr=subprocess.DEVNULL).returncode
 if not shutil.which("xvfb-run"):
     skip("xvfb-run is not installed")
-if not HAS_GODOT and not HAS_QUICK3D:
-    skip("godot3 is not installed, nor Qt Quick 3D")
+if not HAS_GODOT and not HAS_QUICK3D and not HAS_OGRE:
+    skip("godot3 is not installed, nor Qt Quick 3D, nor OGRE")
 os.makedirs(FOLDER, exist_ok=True)
 # Mesa's software: the same pictures on every machine.
 SOFTWARE = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1", "VK_ICD_FILENAMES": LAVAPIPE, "QSG_RHI_BACKEND": "vulkan", "QSG_RENDER_LOOP": "basic"}
@@ -228,8 +231,27 @@ class Quick3D(unittest.TestCase):
         self.assertLess(result["lights"][0]["classes"]["unexplained"], 3)
 
 
+@unittest.skipUnless(HAS_OGRE, "libogre-1.12-dev is not installed")
+class Ogre(unittest.TestCase):
+    def test_a_depth_map_is_judged_and_what_is_advised_is_what_is_then_drawn(self):
+        folder = os.path.join(SOURCE, "adapters/ogre")
+        flags = run("pkg-config", "--cflags", "--libs", "OGRE").stdout.split()
+        run("g++", "-std=c++17", "-w", f'-DOGRE_PLUGIN="{OGRE_PLUGIN}"', '-DOGRE_MEDIA="/usr/share/OGRE/Media"', os.path.join(folder, "draw.cpp"),
+            "-o", "ogre-draw", *flags)
+        capture, result = judged(record("ogre", "--frame", "60", "./ogre-draw", folder, "0.012"))
+        self.assertGreaterEqual(result["judged"]["biased_is_drawn"], 0.999)
+        self.assertLess(result["lights"][0]["classes"]["unexplained"], 3)
+        self.assertAlmostEqual(capture["map"][0]["bias"]["constant_depth"], 0.012, delta=1e-6)
+        self.assertTrue(capture["renderer"]["settings"]["matrix"].startswith("$Globals.texture_from_world"))
+        advice = result["judged"]["advice"][0]
+        self.assertEqual(advice["setting"], "bias.constant_depth")
+        self.assertLess(advice["wrong_instead"], advice["wrong_now"])
+        again = judged(record("ogre-advised", "--frame", "60", "./ogre-draw", folder, str(advice["instead"])))[1]
+        self.assertAlmostEqual(again["lights"][0]["error"]["wrong_fraction"], advice["wrong_instead"], delta=0.0005)
+
+
 if __name__ == "__main__":
-    for engine, there in (("godot3", HAS_GODOT), ("qt6-quick3d", HAS_QUICK3D)):
+    for engine, there in (("godot3", HAS_GODOT), ("qt6-quick3d", HAS_QUICK3D), ("libogre-1.12-dev", HAS_OGRE)):
         if not there:
             print(f"skipped: {engine} is not installed")
     unittest.main()
