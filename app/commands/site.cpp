@@ -36,7 +36,7 @@ struct SiteCommand {
 /// The lab's engine, as ./gnomon web builds it.
 Expected<std::vector<SitePage>> engine_files(const std::string& folder) {
   std::vector<SitePage> files;
-  for (const char* name : {"gnomon.mjs", "gnomon.wasm", "lab_worker.mjs"}) {
+  for (const char* name : {"gnomon.mjs", "gnomon.wasm", "gnomon_worker.mjs"}) {
     auto bytes = read_file(folder + "/" + name);
     if (!bytes)
       return fail(ErrorKind::bad_input,

@@ -48,7 +48,7 @@ class LabAnswers {
 };
 
 /// The lab's page, as build_page() makes it: with what it knows beforehand. `worker`: the page has an engine of its own
-/// in the files beside it (lab_worker.mjs), and asks no program.
+/// in the files beside it (gnomon_worker.mjs), and asks no program.
 std::string lab_page(const LabOptions& options, bool worker);
 
 }  // namespace gnomon::app

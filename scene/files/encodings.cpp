@@ -59,6 +59,14 @@ std::string deflate(std::string_view bytes, int level) {
   return out;
 }
 
+bool inflate(std::string_view stream, std::span<char> out) {
+  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> decompressor(
+      libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
+  if (!decompressor) throw std::bad_alloc();
+  return libdeflate_zlib_decompress(decompressor.get(), stream.data(), stream.size(), out.data(), out.size(),
+                                    nullptr) == LIBDEFLATE_SUCCESS;
+}
+
 std::string sha256_hex(std::string_view bytes) {
   sha256_ctx state;
   sha256_init(&state);

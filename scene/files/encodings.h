@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,8 @@ std::optional<std::vector<char>> from_base64(std::string_view text);
 
 /// One zlib stream (RFC 1950). level: 1 (fastest) ... 12 (smallest).
 std::string deflate(std::string_view bytes, int level);
+/// Fills `out` from such a stream. False where it holds another number of bytes, or is damaged.
+bool inflate(std::string_view stream, std::span<char> out);
 
 // SHA-256 (FIPS 180-4), so that a report can say which file it was made from.
 

@@ -1,12 +1,14 @@
-// PNG and JPEG files of every kind, read as OpenImageIO reads them: to the last bit.
+// PNG and JPEG files of every kind, and EXR files of the usual ones, read as OpenImageIO reads them: to the last bit.
 #include <fmt/format.h>
 #include <turbojpeg.h>
 
 #include <algorithm>
+#include <bit>
 #include <memory>
 #include <random>
 
 #include "scene/files/encodings.h"
+#include "scene/files/pictures/exr_decode.h"
 #include "scene/files/pictures/image_io.h"
 #include "scene/files/pictures/image_library.h"
 #include "tests/support/scene_files_support.h"
@@ -22,6 +24,23 @@ void expect_as_open_image_io(const DecodedImage& own, const std::string& bytes, 
   EXPECT_EQ(own.size, other->size);
   EXPECT_EQ(own.channels.size(), other->channels.size());
   EXPECT_TRUE(own.bytes == other->bytes);
+}
+
+void expect_channels_as_open_image_io(const ChannelImage& own, const std::string& path) {
+  const auto library = image_library();
+  ASSERT_TRUE(library);
+  const auto other = (*library)->read(path, max_image_side, DecodeAs::floats);
+  ASSERT_TRUE(other) << other.error().message();
+  EXPECT_EQ(own.size, other->size);
+  ASSERT_EQ(own.channels.size(), other->channels.size());
+  for (std::size_t c = 0; c < other->channels.size(); ++c) {
+    const Channel* channel = &own.channels[c];
+    ASSERT_EQ(channel->name, other->channels[c]);
+    for (std::size_t i = 0; i < channel->values.size(); ++i)
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(channel->values[i]),
+                std::bit_cast<std::uint32_t>(other->floats[i * other->channels.size() + c]))
+          << other->channels[c] << " " << i;
+  }
 }
 
 struct PngKind {
@@ -107,6 +126,108 @@ TEST(ImageDecode, APngIsWholeOrAnError) {
   damaged[whole.size() - 14] ^= 1;
   EXPECT_EQ(decode_png("a.png", damaged).error().message(),
             "a.png: the PNG file is damaged: IDAT: CRC error");
+}
+
+/// Floats as judging reads them, of 8 and of 16 bits.
+TEST(ImageDecode, APngAsFloats) {
+  const TemporaryFolder folder;
+  for (const PngKind& kind : png_kinds()) {
+    SCOPED_TRACE(fmt::format("type {}, {} bits", kind.type, kind.depth));
+    const std::string path = folder.put("a.png", png(kind, 13, 11, false));
+    const auto own = read_channels(path);
+    ASSERT_TRUE(own) << own.error().message();
+    expect_channels_as_open_image_io(*own, path);
+  }
+}
+
+struct ExrKind {
+  char compression;  ///< 0 none, 2 ZIP of one row, 3 ZIP of 16
+  int value_bytes;   ///< 2 halves, 4 floats
+};
+
+template <class Number>
+std::string little_endian(Number value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+std::string exr_attribute(const std::string& name, const std::string& type, const std::string& value) {
+  return name + '\0' + type + '\0' + little_endian(std::int32_t(value.size())) + value;
+}
+
+/// What ZIP packs, said as the format says it: even bytes, odd bytes, differences.
+std::string zipped(const std::string& raw) {
+  std::string bytes;
+  for (const std::size_t first : {0, 1})
+    for (std::size_t i = first; i < raw.size(); i += 2) bytes += raw[i];
+  std::string out = bytes.substr(0, 1);
+  for (std::size_t i = 1; i < bytes.size(); ++i) out += static_cast<char>(bytes[i] - bytes[i - 1] + 128);
+  return deflate(out, 6);
+}
+
+/// Four channels whose window begins at row 3 and column -2, with blocks from the last to the first.
+std::string exr(const ExrKind& kind, std::int32_t width, std::int32_t height) {
+  const std::string field = little_endian(std::int32_t(kind.value_bytes == 2 ? 1 : 2)) +
+                            little_endian(std::int32_t{0}) + little_endian(std::int32_t{1}) +
+                            little_endian(std::int32_t{1});
+  std::string channels;
+  for (const char* name : {"A", "B", "G", "R"}) channels += std::string(name) + '\0' + field;
+  const std::string window = little_endian(std::int32_t{-2}) + little_endian(std::int32_t{3}) +
+                             little_endian(width - 3) + little_endian(height + 2);
+  const std::string one = little_endian(1.0f), no = little_endian(0.0f);
+  std::string file =
+      little_endian(std::int32_t{20000630}) + little_endian(std::int32_t{2}) +
+      exr_attribute("channels", "chlist", channels + '\0') +
+      exr_attribute("compression", "compression", std::string(1, kind.compression)) +
+      exr_attribute("dataWindow", "box2i", window) + exr_attribute("displayWindow", "box2i", window) +
+      exr_attribute("lineOrder", "lineOrder", std::string(1, '\1')) +
+      exr_attribute("pixelAspectRatio", "float", one) + exr_attribute("screenWindowCenter", "v2f", no + no) +
+      exr_attribute("screenWindowWidth", "float", one) + '\0';
+  const std::int32_t step = kind.compression == 3 ? 16 : 1, blocks = (height + step - 1) / step;
+  std::string places(std::size_t(blocks) * 8, '\0'), data;
+  for (std::int32_t i = blocks - 1; i >= 0; --i) {
+    const std::int32_t rows = std::min(step, height - i * step);
+    std::string raw(std::size_t(rows * width * 4 * kind.value_bytes), '\0');
+    for (std::size_t k = 0; k < raw.size(); ++k) raw[k] = static_cast<char>((k + std::size_t(i)) * 5 % 61);
+    const std::string packed = kind.compression == 0 ? raw : zipped(raw);
+    const std::string& kept = packed.size() < raw.size() ? packed : raw;
+    places.replace(std::size_t(i) * 8, 8,
+                   little_endian(std::uint64_t(file.size() + places.size() + data.size())));
+    data += little_endian(std::int32_t{3 + i * step}) + little_endian(std::int32_t(kept.size())) + kept;
+  }
+  return file + places + data;
+}
+
+constexpr ExrKind exr_kinds[]{{0, 2}, {0, 4}, {2, 2}, {2, 4}, {3, 2}, {3, 4}};
+
+TEST(ImageDecode, TheUsualKindsOfExr) {
+  const TemporaryFolder folder;
+  for (const ExrKind& kind : exr_kinds) {
+    SCOPED_TRACE(fmt::format("compression {}, values of {} bytes", int(kind.compression), kind.value_bytes));
+    const std::string bytes = exr(kind, 13, 37), path = folder.put("a.exr", bytes);
+    const auto own = decode_exr(bytes);
+    ASSERT_TRUE(own);
+    EXPECT_EQ(exr_size(bytes), own->size);
+    expect_channels_as_open_image_io(*own, path);
+  }
+}
+
+// Whatever its bytes say: a picture or none, and nothing read or written outside (sanitizers look on).
+TEST(ImageDecode, ADamagedExrIsLeftToOpenImageIo) {
+  std::mt19937 random(3);
+  for (const ExrKind& kind : exr_kinds) {
+    const std::string whole = exr(kind, 5, 19);
+    for (std::size_t keep = 0; keep < whole.size(); ++keep)
+      ASSERT_FALSE(decode_exr(std::string_view(whole).substr(0, keep))) << keep;
+    for (int i = 0; i < 2000; ++i) {
+      std::string damaged = whole;
+      for (int k = 0; k < 3; ++k) damaged[random() % (i < 1000 ? 400 : damaged.size())] = char(random());
+      decode_exr(damaged);
+    }
+  }
+  std::string twice = exr({0, 4}, 5, 19);
+  const std::size_t places = twice.size() - 19 * (8 + 8 + 5 * 4 * 4);
+  twice.replace(places, 8, twice.substr(places + 8, 8));
+  EXPECT_FALSE(decode_exr(twice)) << "a row is missing";
 }
 
 std::string jpeg(int subsampling, int flags, int format = TJPF_RGB) {

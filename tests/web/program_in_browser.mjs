@@ -1,6 +1,6 @@
 // The program for the web in a worker of a browser page, as a page's engine has it: command lines over files in memory.
 import { createServer } from "node:http";
-import { createReadStream, existsSync } from "node:fs";
+import { createReadStream, existsSync, readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import path from "node:path";
 import { browser } from "../browser/open_page.mjs";
@@ -10,23 +10,10 @@ export { skip } from "../browser/open_page.mjs";
 export const app = fileURLToPath(new URL("../../build/web/app/", import.meta.url));
 export const isBuilt = existsSync(path.join(app, "gnomon.wasm"));
 
-const worker = (lacking, files) => `
+const worker = (lacking) => `
 const extension = WebGL2RenderingContext.prototype.getExtension;
 WebGL2RenderingContext.prototype.getExtension = function (name) { return ${JSON.stringify(lacking)}.includes(name) ? null : extension.call(this, name); };
-import gnomon from "./gnomon.mjs";
-let said = "";
-const module = await gnomon({ thisProgram: "gnomon", print: (line) => { said += line + "\\n"; }, printErr: (line) => { said += line + "\\n"; } });
-for (const [file, text] of Object.entries(${JSON.stringify(files)})) {
-  module.FS.mkdirTree(file.slice(0, file.lastIndexOf("/")));
-  module.FS.writeFile(file, text);
-}
-onmessage = ({ data: { words, files } }) => {
-  said = "";
-  const begin = performance.now(), code = module.callMain(words), ms = performance.now() - begin;
-  const read = (file) => { try { return module.FS.readFile(file); } catch { return null; } };
-  postMessage({ code, said, ms, files: files.map(read) });
-};
-postMessage("ready");`;
+${readFileSync(path.join(app, "gnomon_worker.mjs"), "utf8")}`;
 const types = { ".mjs": "text/javascript", ".js": "text/javascript", ".wasm": "application/wasm", ".html": "text/html" };
 
 /** A host of plain files; `made`: {PATH: [TYPE, TEXT]} besides. Returns its address and what ends it. */
@@ -43,20 +30,16 @@ export async function serveFolder(folder, made = {}) {
   return { url: `http://127.0.0.1:${server.address().port}/`, stop: () => server.close() };
 }
 
-/** Opens a page that has the built program in a worker. `lacking`: extensions of WebGL that are not there; `files`: {PATH: TEXT}. */
-export async function openProgram(lacking = [], files = {}) {
-  const host = await serveFolder(app, { "/": ["text/html", "<!doctype html><title>Program</title>"], "/worker.mjs": ["text/javascript", worker(lacking, files)] });
+/** Opens a page that has the built program in a worker. `lacking`: extensions of WebGL that are not there; `given`: {PATH: TEXT}, for each run. */
+export async function openProgram(lacking = [], given = {}) {
+  const host = await serveFolder(app, { "/": ["text/html", "<!doctype html><title>Program</title>"], "/worker.mjs": ["text/javascript", worker(lacking)] });
   const page = await browser.newPage();
   page.on("console", (message) => console.log(`browser: ${message.text()}`));
   await page.goto(host.url);
-  await page.evaluate(() => new Promise((done, fail) => {
-    globalThis.program = new Worker("worker.mjs", { type: "module" });
-    globalThis.program.onerror = (event) => fail(new Error(event.message));
-    globalThis.program.onmessage = () => done();
-  }));
+  await page.evaluate(() => { globalThis.program = new Worker("worker.mjs", { type: "module" }); });
   /** Runs a command line, and hands out the files that it wrote. */
   const run = async (words, ...files) => {
-    const done = await page.evaluate(([asked, wanted]) => new Promise((tell, fail) => {
+    const done = await page.evaluate((asked) => new Promise((tell, fail) => {
       globalThis.program.onerror = (event) => fail(new Error(event.message));
       globalThis.program.onmessage = ({ data }) => {
         const text = (bytes) => {
@@ -64,10 +47,11 @@ export async function openProgram(lacking = [], files = {}) {
           for (let at = 0; at < bytes.length; at += 4096) parts.push(String.fromCharCode(...bytes.subarray(at, at + 4096)));
           return btoa(parts.join(""));
         };
-        tell({ ...data, files: data.files.map((bytes) => (bytes ? text(bytes) : null)) });
+        if (data.status !== 200) return fail(new Error(new TextDecoder().decode(data.body)));
+        tell({ ...data, said: data.out + data.err, files: data.files.map((bytes) => (bytes ? text(bytes) : null)) });
       };
-      globalThis.program.postMessage({ words: asked, files: wanted });
-    }), [words, files]);
+      globalThis.program.postMessage({ id: 1, name: "run", parameters: asked });
+    }), { words, files: given, wanted: files });
     return { ...done, files: done.files.map((text) => (text === null ? null : Buffer.from(text, "base64"))) };
   };
   return { run, close: () => page.close().then(() => host.stop()) };

@@ -96,8 +96,8 @@ async function leadsSomewhere() {
 /** A page whose worker begins with other lines. */
 async function openWith(lines) {
   const page = await browser.newPage();
-  const body = `${lines}\n${readFileSync(path.join(app, "lab_worker.mjs"), "utf8")}`;
-  await page.route("**/lab_worker.mjs", (route) => route.fulfill({ contentType: "text/javascript", body }));
+  const body = `${lines}\n${readFileSync(path.join(app, "gnomon_worker.mjs"), "utf8")}`;
+  await page.route("**/gnomon_worker.mjs", (route) => route.fulfill({ contentType: "text/javascript", body }));
   await page.goto(`${host.url}lab.html${small}`);
   return page;
 }
@@ -121,7 +121,7 @@ async function saysThatTheContextIsLost() {
 async function saysThatItTakesLong() {
   const page = await browser.newPage();
   await page.clock.install();
-  await page.route("**/lab_worker.mjs", (route) => route.fulfill({ contentType: "text/javascript", body: "onmessage = ({ data: { id, name } }) => { if (name !== 'news') postMessage({ id, status: 200, type: 'application/json', body: new TextEncoder().encode('{\"number\": 1}') }); };" }));
+  await page.route("**/gnomon_worker.mjs", (route) => route.fulfill({ contentType: "text/javascript", body: "onmessage = ({ data: { id, name } }) => { if (name !== 'news') postMessage({ id, status: 200, type: 'application/json', body: new TextEncoder().encode('{\"number\": 1}') }); };" }));
   await page.goto(`${host.url}lab.html#scene=shapes`);
   await page.waitForFunction(() => document.body.dataset.busy === "true");
   assert.equal(await page.locator("#lab-note").textContent(), "");

@@ -1,11 +1,14 @@
-// The image library of a page, where textures are PNG or JPEG: all other files are refused.
+// The image library of a page, where textures are PNG or JPEG and other pictures PNG or EXR: all other files are refused.
 #include "scene/files/pictures/image_library.h"
 
 namespace gnomon {
 namespace {
 
 tl::unexpected<Error> not_read(const std::string& path) {
-  Error error{ErrorKind::bad_input, "images are PNG or JPEG here; all others are read on Linux alone"};
+  Error error{ErrorKind::bad_input,
+              "not read here: textures are PNG or JPEG, other pictures PNG or EXR (scan lines, uncompressed "
+              "or ZIP), and whole; "
+              "Gnomon on Linux reads more"};
   error.file = path;
   return fail(std::move(error));
 }

@@ -1,4 +1,4 @@
-// The lab in a page's worker (lab_worker.mjs): the engine of `gnomon serve`, on the worker's one thread. The worker hands the page's
+// The lab in a page's worker (gnomon_worker.mjs): the engine of `gnomon serve`, on the worker's one thread. The worker hands the page's
 // requests over, and gives the engine its turns.
 #include <emscripten/em_js.h>
 #include <emscripten/emscripten.h>

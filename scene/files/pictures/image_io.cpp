@@ -6,6 +6,7 @@
 #include <array>
 
 #include "scene/base/parallel.h"
+#include "scene/files/pictures/exr_decode.h"
 #include "scene/files/pictures/exr_encode.h"
 #include "scene/files/pictures/image_library.h"
 #include "scene/files/read_file.h"
@@ -41,6 +42,13 @@ Expected<DecodedImage> decode(const std::string& name, std::string_view bytes) {
   const auto library = image_library();
   if (!library) return fail(library.error());
   return (*library)->decode(name, bytes, format, max_image_side);
+}
+
+Expected<DecodedImage> decode_floats(const std::string& path, std::string_view bytes) {
+  if (format_of(bytes) == "png") return decode_png(path, bytes, DecodeAs::floats);
+  const auto library = image_library();
+  if (!library) return fail(library.error());
+  return (*library)->read(path, max_image_side, DecodeAs::floats);
 }
 
 Expected<std::vector<std::uint8_t>> floats_as_bytes(const std::string& name, const std::vector<float>& floats,
@@ -201,15 +209,20 @@ const Channel* ChannelImage::find(std::string_view name) const {
 }
 
 Expected<ImageSize> read_image_size(const std::string& path) {
+  const auto bytes = read_file(path);
+  if (!bytes) return fail(bytes.error());
+  if (format_of(*bytes) == "png") return png_size(path, *bytes);
+  if (const auto size = exr_size(*bytes)) return *size;
   const auto library = image_library();
   if (!library) return fail(library.error());
   return (*library)->size(path, max_image_side);
 }
 
 Expected<ChannelImage> read_channels(const std::string& path) {
-  const auto library = image_library();
-  if (!library) return fail(library.error());
-  const auto image = (*library)->read(path, max_image_side, DecodeAs::floats);
+  const auto bytes = read_file(path);
+  if (!bytes) return fail(bytes.error());
+  if (auto exr = decode_exr(*bytes)) return std::move(*exr);
+  const auto image = decode_floats(path, *bytes);
   if (!image) return fail(image.error());
   ChannelImage out{image->size, {}};
   const std::size_t count = image->channels.size();

@@ -1,6 +1,6 @@
 // What of OpenImageIO the program uses, behind an interface: the library brings some two hundred others
 // along, whose loading takes longer than most pictures do. So it sits in a module of its own
-// (image_module.cpp) that is loaded when an image file other than PNG and JPEG is read, and not before.
+// (image_module.cpp) that is loaded when an image file is read that is none of PNG, JPEG and the usual kinds of EXR, and not before.
 #pragma once
 
 #include <cstdint>
@@ -55,9 +55,13 @@ Expected<const ImageLibrary*> image_library();
 /// The file is no image that can be read (bad input).
 tl::unexpected<Error> bad_image(const std::string& file, std::string reason);
 
-/// In 8 bits, colours as they are stored: of gamma and profiles nothing is applied, palettes and tRNS are. `name` is the
-/// file, for messages. Error (bad input): the file is cut off or damaged, or a side is not in 1 … max_image_side.
-Expected<DecodedImage> decode_png(const std::string& name, std::string_view bytes);
+/// In 8 bits, or in floats that are fractions of the largest value; colours as they are stored: of gamma and profiles nothing is
+/// applied, palettes and tRNS are. `name` is the file, for messages. Error (bad input): the file is cut off or damaged, or a side
+/// is not in 1 … max_image_side.
+Expected<DecodedImage> decode_png(const std::string& name, std::string_view bytes,
+                                  DecodeAs as = DecodeAs::stored);
+/// Returns what the header says. Errors as those of decode_png().
+Expected<ImageSize> png_size(const std::string& name, std::string_view bytes);
 
 /// Grey or RGB; of what is stored as CMYK nothing. Errors as those of decode_png().
 Expected<std::optional<DecodedImage>> decode_jpeg(const std::string& name, std::string_view bytes);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csetjmp>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "scene/files/pictures/image_io.h"
@@ -44,6 +45,7 @@ struct Header {
 /// Describes the rows as they are read.
 struct Layout {
   std::size_t row = 0, channels = 0;  // bytes
+  int depth = 8;                      // bits of a value
 };
 
 /// Up to the first pixels. libpng's errors jump back to here, over nothing that would have to be destroyed.
@@ -56,13 +58,18 @@ bool read_header(png_structp png, png_infop info, Header& header) {
   return true;
 }
 
-bool expand_rows(png_structp png, png_infop info, Layout& layout) {
+/// To 8 bits, or to 16 where the file has as many and these are wanted, in the machine's order.
+bool expand_rows(png_structp png, png_infop info, bool wants_16_bits, Layout& layout) {
   if (setjmp(*png_set_longjmp_fn(png, std::longjmp, sizeof(std::jmp_buf))) != 0) return false;
   png_set_expand(png);
-  png_set_scale_16(png);
+  if (wants_16_bits)
+    png_set_swap(png);
+  else
+    png_set_scale_16(png);
   png_set_interlace_handling(png);
   png_read_update_info(png, info);
   layout.row = png_get_rowbytes(png, info), layout.channels = png_get_channels(png, info);
+  layout.depth = png_get_bit_depth(png, info);
   return true;
 }
 
@@ -96,7 +103,7 @@ class PngReader {
   PngReader& operator=(const PngReader&) = delete;
 
   bool header(Header& out) { return info_ != nullptr && read_header(png_, info_, out); }
-  bool layout(Layout& out) { return expand_rows(png_, info_, out); }
+  bool layout(bool wants_16_bits, Layout& out) { return expand_rows(png_, info_, wants_16_bits, out); }
   bool rows(png_bytepp out) { return read_rows(png_, out); }
   std::string fault() const {
     return source_.fault == cut_off ? "the PNG file is cut off"
@@ -116,15 +123,36 @@ std::vector<std::string> channel_names(std::size_t count) {
   return names;
 }
 
+/// Fractions of the largest value.
+void to_floats(DecodedImage& image, int depth) {
+  const std::vector<std::uint8_t> bytes = std::exchange(image.bytes, {});
+  const std::size_t value_bytes = depth == 16 ? 2 : 1;
+  const float step = 1.0f / (depth == 16 ? 65535.0f : 255.0f);
+  image.floats.resize(bytes.size() / value_bytes);
+  for (std::size_t i = 0; i < image.floats.size(); ++i) {
+    std::uint16_t value = bytes[i];
+    if (depth == 16) std::memcpy(&value, bytes.data() + 2 * i, sizeof value);
+    image.floats[i] = static_cast<float>(value) * step;
+  }
+}
+
 }  // namespace
 
-Expected<DecodedImage> decode_png(const std::string& name, std::string_view bytes) {
+Expected<ImageSize> png_size(const std::string& name, std::string_view bytes) {
+  PngReader reader(bytes);
+  Header header;
+  if (!reader.header(header)) return bad_image(name, reader.fault());
+  if (const auto fits = check_extent(name, header, bytes.size()); !fits) return fail(fits.error());
+  return ImageSize{static_cast<int>(header.width), static_cast<int>(header.height)};
+}
+
+Expected<DecodedImage> decode_png(const std::string& name, std::string_view bytes, DecodeAs as) {
   PngReader reader(bytes);
   Header header;
   if (!reader.header(header)) return bad_image(name, reader.fault());
   if (const auto fits = check_extent(name, header, bytes.size()); !fits) return fail(fits.error());
   Layout layout;
-  if (!reader.layout(layout)) return bad_image(name, reader.fault());
+  if (!reader.layout(as == DecodeAs::floats, layout)) return bad_image(name, reader.fault());
   DecodedImage image{{static_cast<int>(header.width), static_cast<int>(header.height)},
                      channel_names(layout.channels),
                      std::vector<std::uint8_t>(layout.row * header.height),
@@ -132,6 +160,7 @@ Expected<DecodedImage> decode_png(const std::string& name, std::string_view byte
   std::vector<png_bytep> rows;
   for (std::size_t y = 0; y < header.height; ++y) rows.push_back(image.bytes.data() + y * layout.row);
   if (!reader.rows(rows.data())) return bad_image(name, reader.fault());
+  if (as == DecodeAs::floats) to_floats(image, layout.depth);
   return image;
 }
 

@@ -175,7 +175,7 @@ export const servedEngine = (): Engine => new Engine(
 export function workerEngine(scene: string, size: { width: number; height: number }): Engine {
   if (location.protocol === "file:") return new Engine(() => Promise.resolve(new Response("The lab needs a host: browsers start no engine for a page that is opened as a file.", { status: 500 })),
     "Put the folder on any host of plain files, or run python3 -m http.server in it and open http://localhost:8000/lab.html.", true);
-  const worker = new Worker("lab_worker.mjs", { type: "module" }), open = new Map<number, (answer: Response) => void>();
+  const worker = new Worker("gnomon_worker.mjs", { type: "module" }), open = new Map<number, (answer: Response) => void>();
   let last = 0, gone: string | null = null;
   const fail = (words: string): void => {
     gone = words;
