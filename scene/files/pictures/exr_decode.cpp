@@ -108,7 +108,7 @@ std::optional<ExrHeader> header_of(std::string_view file) {
       if (!channels) return std::nullopt;
       out.channels = std::move(*channels);
     } else if (name == "compression" && value.size() == 1) {
-      out.compression = value.front();
+      out.compression = static_cast<unsigned char>(value.front());
     } else if (name == "dataWindow" && !take_window(ExrBytes(value), out)) {
       return std::nullopt;
     }
