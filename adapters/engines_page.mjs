@@ -12,8 +12,6 @@ const here = dirname(fileURLToPath(import.meta.url));
 const [gnomon, folder] = process.argv.slice(2, 4).map((path) => resolve(path));
 const wanted = process.argv.slice(4);
 const scenes = ["floating-box", "wires", "thin-wall", "courtyard"], size = "640x360";
-// Of which RenderDoc goes to some three hundred draws: each caster in each of four cascades.
-const smaller = { "godot-default-courtyard": "320x180" };
 // The second row of an engine: a finer map, its best filter for a sun, and biases in the range of its documents' examples.
 const rows = [
   ["three", "default", ""],
@@ -32,12 +30,10 @@ const rows = [
 ];
 const cycles = ["cycles", "rays", ""], cyclesAsShipped = ["cycles", "offset", "--shadowTerminatorOffset 0.1"];
 
-const sizeOf = (scene, [engine, name]) => smaller[`${engine}-${name}-${scene}`] ?? size;
-
 function judged(scene, [engine, name, options]) {
   const capture = join(folder, `${engine}-${name}-${scene}`);
   if (!existsSync(join(capture, "capture.json"))) {
-    const words = [join(here, "capture.mjs"), engine, join(folder, `${scene}.glb`), "-o", capture, "--size", sizeOf(scene, [engine, name]), ...options.split(" ").filter(Boolean)];
+    const words = [join(here, "capture.mjs"), engine, join(folder, `${scene}.glb`), "-o", capture, "--size", size, ...options.split(" ").filter(Boolean)];
     const drawn = spawnSync("node", words, { encoding: "utf8", timeout: 1800000 });
     console.error(drawn.stderr.trim());
     if (drawn.status !== 0) return { refused: drawn.stderr.trim().split("\n")[0] || "not drawn within half an hour" };
@@ -61,8 +57,7 @@ function advice({ advice: list }) {
   return (list || []).map((a) => `\`${a.setting}\` ${a.instead === a.now ? `stays ${number(a.now)}` : `${number(a.instead)} instead of ${number(a.now)}: ${percent(a.wrong_instead)}`}`).join("; ") || "-";
 }
 
-function row(scene, result, entry) {
-  const [engine] = entry, own = sizeOf(scene, entry), name = own === size ? entry[1] : `${entry[1]} at ${own}`;
+function row(scene, result, [engine, name]) {
   if (result.refused) return `| ${scene} | ${engine}, ${name} | not judged: ${result.refused} | | | | | |`;
   const light = result.lights[0], { renderer } = result.judged;
   const away = light.detachment?.pixels > 0 ? number(light.detachment.mean_world) : "-";
@@ -107,7 +102,7 @@ function main() {
   const least = (name) => (100 * Math.min(...drawn.filter((d) => d.name === name).map((d) => d.share))).toFixed(3);
   console.log(`# Engines, judged
 
-For whoever asks what engines draw: four of Gnomon's scenes, each with a sun, drawn at ${size} (where a row says no other size) by engines of the web in
+For whoever asks what engines draw: four of Gnomon's scenes, each with a sun, drawn at ${size} by engines of the web in
 headless Chromium, by Blender's EEVEE and Cycles, and by Godot and Qt Quick 3D, of which RenderDoc recorded a frame, and judged by \`gnomon judge\`. \`docs/make_engines.sh\` wrote this page
 with the [adapters](../adapters/README.md); versions and options stand in each row.
 
