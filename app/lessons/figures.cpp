@@ -89,12 +89,13 @@ Expected<void> PageFigures::add(const LiveMark& mark) {
   if (mark.name == "flatland")
     made = flatland(mark.setting("show") == "penumbra" ? "disc" : mark.setting("scene"));
   if (mark.name == "structure") made = structure_cut(mark.setting("kind"), mark.setting("scene"));
-  if (mark.name == "whitted") made = whitted_cut();
+  if (mark.name == "whitted" || mark.name == "two-ways") made = whitted_cut();
   if (mark.name == "intersection") made = intersection_checks(mark.setting("kind"));
   if (mark.name == "build") made = intersection_checks("discs");
   if (mark.name == "grid-curve") made = grid_curve(mark.setting("scene"));
   if (mark.name == "eye-ray") made = eye_ray_checks();
   if (mark.name == "cube-faces") made = lessons::flatland("ball");
+  if (mark.name == "box-fit") made = Json::object();  // all of it is worked out in the page
   if (mark.name == "two-passes") made = two_passes(mark);
   if (!made) return fail(made.error());
   if (made->is_null())

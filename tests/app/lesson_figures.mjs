@@ -139,8 +139,19 @@ flatlands.stripes = async (page, id) => {
   near((await said(page, id)).falseShare, 0.5, 0.02, "half of each texel");
   assert.doesNotMatch(await page.locator(id).innerText(), /bias|missed|false shadow|offset/i);
 };
-operate.flatland = async (page, { settings: { show, scene } }, id) => {
-  if (show !== "shadow") return flatlands[show](page, id);
+// Without a bias nothing is wrong, with one the shadow starts δ·sin θ away, whatever the wall's thickness; the program says the same.
+flatlands["back-faces"] = async (page, id, program) => {
+  await slide(page, id, { angle: 60, texels: 128, bias: 0 });
+  assert.ok((await said(page, id)).falseShare < 0.01, "no acne: but for the texel at the shadow's end");
+  for (const [angle, bias] of [[60, 0.2], [-45, 0.3], [60, 0.03]]) {
+    await slide(page, id, { angle, texels: 128, bias });
+    const { texel, measured, bias: used } = await said(page, id);
+    near(measured, used * Math.sin(radians(Math.abs(angle))), texel / Math.cos(radians(angle)) + 0.006, `back faces at ${angle} degrees, bias ${bias}`);
+  }
+  near(result(program, { settings: { scene: "thin-wall", bias: "0.2", cull: "front" } }).detachment.max_world, 0.2 * Math.sin(radians(60)), 0.005, "the program's");
+};
+operate.flatland = async (page, { settings: { show, scene } }, id, program) => {
+  if (show !== "shadow") return flatlands[show](page, id, program);
   if (scene === "wall") await flatlands.wall(page, id);
   await flatlands.shadow(page, id);
 };
@@ -286,6 +297,33 @@ operate["cube-faces"] = async (page, figure, id) => {
   }
   await slide(page, id, { lampX: 0, lampY: 0.85, x: 0, texels: 9 });  // the middle of the ball: it stores the ball's far side
   near((await said(page, id)).stored, 0.7, 1e-9, "depth within the ball");
+};
+// Followed backwards light has the same way, and the same share of it arrives: by the page's paths, and by the program's Fresnel.
+operate["two-ways"] = async (page, { data: { fresnel } }, id) => {
+  for (const { cosine, ratio, reflected } of fresnel) {
+    const behind = Math.sqrt(1 - ratio ** 2 * (1 - cosine ** 2));
+    if (reflected < 1) near(await page.evaluate(([c, r]) => globalThis.gnomonFresnel(c, r), [behind, 1 / ratio]), reflected, 1e-12, "the program's share, the other way");
+  }
+  for (const [aimX, aimY, surfaces] of [[0.36, 0.3, 5], [0.4, 0.25, 5], [0.76, 0.31, 3]]) {
+    await slide(page, id, { aimX, aimY });
+    const found = await said(page, id);
+    assert.equal(found.surfaces, surfaces, `aimed at ${aimX}, ${aimY}`);
+    assert.ok(found.there > 0.4 && found.there < 1);
+    near(found.back, found.there, 1e-12, "share");
+    near(found.apart, 0, 1e-9, "places");
+  }
+};
+// A rod that leans by 45 degrees and has no width: 1/(|cos| + |sin|). Turned with it the box is the rod.
+operate["box-fit"] = async (page, figure, id) => {
+  for (const [rod, box, cost] of [[45, 0, 6], [20, 0, 6], [45, 30, 24], [10, 90, 6]]) {
+    await slide(page, id, { rod, box, width: 0.02 });
+    const { formula, measured, cost: paid } = await said(page, id), between = radians(rod - box);
+    near(formula, 1 / (Math.abs(Math.cos(between)) + Math.abs(Math.sin(between))), 0.01, `a rod at ${rod}, a box at ${box} degrees`);
+    near(measured, formula, 0.02, "counted");
+    assert.equal(paid, cost);
+  }
+  await slide(page, id, { rod: 35, box: 35, width: 0.4 });
+  assert.equal((await said(page, id)).measured, 1);
 };
 operate.whitted = async (page, { data: { fresnel } }, id) => {
   const shares = await page.evaluate((all) => all.map(({ cosine, ratio }) => globalThis.gnomonFresnel(cosine, ratio)), fresnel);

@@ -130,7 +130,7 @@ async function checkProjector() {
 
 const operated = new Set();
 /** What the lessons have: a figure that no lesson asks for would be looked at by nobody. */
-const wanted = ["bias", "build", "cube-faces", "eye-ray", "flatland", "grid-curve", "intersection", "map-size", "structure", "two-passes", "whitted"];
+const wanted = ["bias", "box-fit", "build", "cube-faces", "eye-ray", "flatland", "grid-curve", "intersection", "map-size", "structure", "two-passes", "two-ways", "whitted"];
 async function checkFigures(page) {
   const figures = await page.evaluate(() => JSON.parse(document.getElementById("page-data").textContent).figures);
   for (const [i, figure] of figures.entries()) {

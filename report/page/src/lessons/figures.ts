@@ -2,6 +2,7 @@
 // program says of them (app/lessons/figures.h) is in the page's data.
 import { pageData } from "../parts";
 import { biasFigure } from "./bias_figure";
+import { boxFitFigure } from "./box_fit_figure";
 import { buildFigure } from "./build_figure";
 import { cubeFigure } from "./cube_figure";
 import { eyeRayFigure } from "./eye_ray_figure";
@@ -11,6 +12,7 @@ import { intersectionFigure } from "./intersection_figure";
 import { mapSizeFigure } from "./map_size_figure";
 import { structureFigure } from "./structure_figure";
 import { twoPassesFigure } from "./two_passes_figure";
+import { twoWaysFigure } from "./two_ways_figure";
 import { whittedFigure } from "./whitted_figure";
 
 export interface FigureJson<Data = never> {
@@ -20,7 +22,7 @@ export interface FigureJson<Data = never> {
 }
 
 type Maker = (figure: FigureJson, id: string) => HTMLElement | Promise<HTMLElement>;
-const makers: Record<string, Maker> = { bias: biasFigure, build: buildFigure, "cube-faces": cubeFigure, "eye-ray": eyeRayFigure, flatland: flatlandFigure, "grid-curve": gridCurveFigure, intersection: intersectionFigure, "map-size": mapSizeFigure, structure: structureFigure, "two-passes": twoPassesFigure, whitted: whittedFigure };
+const makers: Record<string, Maker> = { bias: biasFigure, "box-fit": boxFitFigure, build: buildFigure, "cube-faces": cubeFigure, "eye-ray": eyeRayFigure, flatland: flatlandFigure, "grid-curve": gridCurveFigure, intersection: intersectionFigure, "map-size": mapSizeFigure, structure: structureFigure, "two-passes": twoPassesFigure, "two-ways": twoWaysFigure, whitted: whittedFigure };
 
 /** Null where that fails: the other figures and the slides do not wait for it. */
 async function makeFigure(figure: FigureJson, id: string): Promise<HTMLElement | null> {

@@ -3,7 +3,7 @@
 import { percent, texelsText } from "../number_text";
 import { html, number } from "../svg";
 import type { FigureJson } from "./figures";
-import { add, length, lengthOf, outcomeAt, piecesOf, sub, SunMap, type Circle, type Outcome, type Place, type Segment, type Vec2, type World2 } from "./flatland";
+import { add, dot, length, lengthOf, outcomeAt, piecesOf, sub, SunMap, type Circle, type Outcome, type Place, type Segment, type Vec2, type World2 } from "./flatland";
 import { penumbraFigure } from "./penumbra_figure";
 import { Sliders, Stage, type Slider } from "./stage";
 import { terminatorFigure } from "./terminator_figure";
@@ -73,7 +73,7 @@ export function flatlandFigure({ settings, data }: FigureJson, id: string): HTML
 
 /** `settings` may say with which texels, bias and offset to begin. */
 function shadowFigure(json: FlatlandJson, settings: Record<string, string>, id: string): HTMLElement {
-  const world = world2(json), { window } = json, width = window[1] - window[0], name = settings.scene, leaks = name === "leak", stripes = settings.show === "stripes", acne = stripes || settings.show === "acne";
+  const world = world2(json), { window } = json, width = window[1] - window[0], name = settings.scene, leaks = name === "leak", stripes = settings.show === "stripes", back = settings.show === "back-faces", acne = stripes || settings.show === "acne";
   const first = (key: string, otherwise: number) => Number(settings[key] ?? otherwise);
   const surfaces: (Segment | Circle)[] = [...world.segments, ...world.circles];
   const corners = surfaces.flatMap((s): Vec2[] => ("radius" in s ? [[1, 0], [-1, 0], [0, 1], [0, -1]].map((d) => add(s.center, d as unknown as Vec2, s.radius)) : [s.from, s.to]));
@@ -83,7 +83,10 @@ function shadowFigure(json: FlatlandJson, settings: Record<string, string>, id: 
     sliders.set("angle", Math.min(Math.max(angle, -80), 80));
   });
   const said = html("p", { class: "bias-counts", role: "status" });
-  const mapOf = () => new SunMap(world, sunAt(sliders.value("angle")), sliders.value("texels"), corners);
+  const mapOf = () => {
+    const light = sunAt(sliders.value("angle")), unseen = { segments: world.segments.filter(({ normal }) => dot(normal, light) > 0), circles: [] };
+    return new SunMap(back ? unseen : world, light, sliders.value("texels"), corners);
+  };
   const own: Record<"angle" | "texels" | "bias", Slider> = {
     angle: { name: "Sun, degrees from the zenith", from: -80, to: 80, step: 0.5, value: start, text: (v) => `${number(v, 3)}°`, drags: true },
     texels: { name: "Texels of the map", from: 4, to: 128, step: 1, value: first("texels", acne ? 14 : 40), text: (v) => String(v) },
@@ -111,11 +114,11 @@ function shadowFigure(json: FlatlandJson, settings: Record<string, string>, id: 
     Object.assign(said.dataset, { angle: String(sliders.value("angle")), bias: String(bias), texels: String(map.count), texel: String(map.texel), falseShare: String(shares.false), missedShare: String(shares.missed) });
     // The first figure of a course: no word in it that a later lesson explains.
     said.textContent = stripes ? `Nothing stands before the floor, and ${percent(shares.false)} of it is drawn dark (orange). A texel is ${number(map.texel, 2)} wide: one depth for all of it.` : `Of what faces the sun ${percent(shares.false)} is in false shadow (orange), ${percent(shares.missed)} in missed shadow (blue). A texel is ${number(map.texel, 2)} wide, the bias ${texelsText(bias / map.texel)}. ` +
-      (acne ? acneForm(map, bias, shares.false, said) : name === "wall" ? wallForm(world, map, pieces, bias, said) : "");
+      (acne ? acneForm(map, bias, shares.false, said) : name === "wall" ? wallForm(world, map, pieces, bias, back, said) : "");
   };
   show();
   return frame(id, stage, sliders.bar, said,
-    stripes ? "Drag the sun. Thick steps: the depths that the map stores. Gold: drawn lit." : "Drag the sun. Thick steps: the depths that the map stores; dashed: with the bias. Gold: lit, rightly; dark: in shadow, rightly; dotted: turned away from the sun.");
+    stripes ? "Drag the sun. Thick steps: the depths that the map stores. Gold: drawn lit." : `Drag the sun. Thick steps: the depths that the map stores${back ? ", of the faces that the sun does not see" : ""}; dashed: with the bias. Gold: lit, rightly; dark: in shadow, rightly; dotted: turned away from the sun.`);
 }
 
 /** On a plane the share in acne is (1 - bias / a) / 2, where the plane falls by a over half a texel. */
@@ -125,14 +128,14 @@ function acneForm(map: SunMap, bias: number, measured: number, said: HTMLElement
   return `The formula ½·(1 − δ/a), with a = ${number(a, 3)} that the floor falls over half a texel, says ${percent(formula)}; here it is ${percent(measured)}.`;
 }
 
-/** Behind a wall of thickness w the shadow starts max(0, bias · sin θ − w) away from it. */
-function wallForm(world: World2, map: SunMap, pieces: (Place & { outcome: Outcome })[], bias: number, said: HTMLElement): string {
+/** Behind a wall of thickness w the shadow starts max(0, bias · sin θ − w) away from it; with the map of its back faces w is 0. */
+function wallForm(world: World2, map: SunMap, pieces: (Place & { outcome: Outcome })[], bias: number, back: boolean, said: HTMLElement): string {
   const xs = world.segments.filter((s) => Math.max(s.from[1], s.to[1]) > 1e-6).flatMap((s) => [s.from[0], s.to[0]]), near = Math.min(...xs), beyond = Math.max(...xs);
-  const side = map.light[0] < 0 ? -1 : 1, face = side < 0 ? near : beyond, formula = Math.max(0, bias * Math.abs(map.light[0]) - (beyond - near));
+  const side = map.light[0] < 0 ? -1 : 1, face = side < 0 ? near : beyond, formula = Math.max(0, bias * Math.abs(map.light[0]) - (back ? 0 : beyond - near));
   const drawn = pieces.filter((p) => p.normal[1] > 0.5 && p.at[1] < 1e-6 && side * (p.at[0] - face) > 0 && p.outcome === "dark").map((p) => side * (p.at[0] - face));
   const measured = drawn.length > 0 ? Math.min(...drawn) : NaN;
   Object.assign(said.dataset, { formula: String(formula), measured: String(measured) });
   if (drawn.length === 0) return "Behind the wall no shadow is drawn.";
-  return `The shadow starts ${number(measured, 2)} behind the wall; the formula max(0, δ·sin θ − w) says ${number(formula, 2)}, give or take a texel on the floor, ${number(map.texel / Math.max(Math.abs(map.light[1]), 1e-9), 2)}.`;
+  return `The shadow starts ${number(measured, 2)} behind the wall; the formula ${back ? "δ·sin θ" : "max(0, δ·sin θ − w)"} says ${number(formula, 2)}, give or take a texel on the floor, ${number(map.texel / Math.max(Math.abs(map.light[1]), 1e-9), 2)}.`;
 }
 

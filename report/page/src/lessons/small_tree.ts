@@ -153,17 +153,20 @@ export function walkTree(tree: SmallTree, origin: Vec2, direction: Vec2): WalkSt
 /** The nodes that a line through the root is expected to meet: the sum of their perimeters over the root's (Santaló 1976: of convex boxes it is exact). */
 export const expectedNodes = (tree: SmallTree): number => tree.nodes().reduce((sum, { outline }) => sum + perimeter(outline), 0) / perimeter(tree.root.outline);
 
-/** The same counted: lines in `turns` directions, evenly beside each other. */
-export function countedNodes(tree: SmallTree, turns: number): number {
-  const nodes = tree.nodes(), [left, right, bottom, top] = boxOfOutline(tree.root.outline), middle: Vec2 = [(left + right) / 2, (bottom + top) / 2], reach = Math.hypot(right - left, top - bottom) / 2, beside = 60;
+/** The same counted. */
+export const countedNodes = (tree: SmallTree, turns: number): number => meetingLines(tree.root.outline, tree.nodes().map(({ outline }) => outline), turns);
+
+/** How many of the outlines a line through `whole` meets, on average of lines in `turns` directions, evenly beside each other. */
+export function meetingLines(whole: Vec2[], outlines: Vec2[][], turns: number): number {
+  const [left, right, bottom, top] = boxOfOutline(whole), middle: Vec2 = [(left + right) / 2, (bottom + top) / 2], reach = Math.hypot(right - left, top - bottom) / 2, beside = 60;
   let [lines, met] = [0, 0];
   for (let k = 0; k < turns; ++k) {
     const angle = (Math.PI * (k + 0.5)) / turns, d: Vec2 = [Math.cos(angle), Math.sin(angle)];
     for (let j = 0; j < beside; ++j) {
-      const off = reach * ((2 * (j + 0.5)) / beside - 1), o: Vec2 = [middle[0] - off * d[1], middle[1] + off * d[0]], meets = ({ outline }: SmallNode) => { const [entry, exit] = lineInside(o, d, outline); return entry <= exit; };
-      if (!meets(tree.root)) continue;
+      const off = reach * ((2 * (j + 0.5)) / beside - 1), o: Vec2 = [middle[0] - off * d[1], middle[1] + off * d[0]], meets = (outline: Vec2[]) => { const [entry, exit] = lineInside(o, d, outline); return entry <= exit; };
+      if (!meets(whole)) continue;
       ++lines;
-      met += nodes.filter(meets).length;
+      met += outlines.filter(meets).length;
     }
   }
   return met / lines;

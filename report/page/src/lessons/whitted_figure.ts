@@ -13,7 +13,7 @@ interface MaterialJson {
   transmission: number;
   ior: number;
 }
-interface WhittedJson extends FlatlandJson {
+export interface WhittedJson extends FlatlandJson {
   materials: MaterialJson[];  // of the circles
   least_share: number;  // a ray that counts for less of its pixel is not followed
   fresnel: { cosine: number; ratio: number; reflected: number }[];  // by the program
@@ -57,11 +57,11 @@ function passing({ normal, material }: Hit, direction: Vec2): number {
   return material && material.transmission > 0 ? material.transmission * (1 - fresnel(Math.abs(dot(direction, normal)), 1 / material.ior)) : 0;
 }
 
-class Tracer2 {
+export class Tracer2 {
   readonly rays: Ray[] = [];
   constructor(private readonly json: WhittedJson, private readonly floor: Segment[], private readonly balls: Circle[], private readonly lamp: Vec2, private readonly far: number) {}
 
-  private meet(from: Vec2, direction: Vec2, own: boolean): Hit | null {
+  meet(from: Vec2, direction: Vec2, own: boolean): Hit | null {
     let hit: Hit | null = null;
     const nearer = (t: number, normal: (at: Vec2) => Vec2, material: MaterialJson | null) => {
       if (!(t > (own ? 1e-9 : 0)) || t >= (hit?.t ?? Infinity)) return;
