@@ -1,5 +1,6 @@
 #include "app/lessons/figures.h"
 
+#include <embedded/lectures.h>
 #include <fmt/core.h>
 
 #include <sstream>
@@ -111,6 +112,9 @@ std::string PageFigures::data() const {
   Json json{{"kind", "lesson"}, {"figures", figures_}, {"labels", Json::array()}};
   json.update(words_);
   json["comparisons"] = comparisons_;
+  // English has none: its words stand in the page's own script.
+  if (const std::string_view words = embedded::lectures("figures.json"); !words.empty())
+    json["figure_words"] = Json::parse(words);
   return json.dump();
 }
 

@@ -4,7 +4,7 @@ target_sources(gnomon_app PRIVATE
   commands/lessons.cpp commands/site.cpp lessons/comparison.cpp lessons/eye_ray.cpp lessons/figures.cpp lessons/flatland.cpp lessons/grid_curve.cpp lessons/intersection.cpp lessons/lecture.cpp lessons/lesson_text.cpp lessons/manual_pages.cpp lessons/markdown.cpp lessons/site.cpp lessons/structure.cpp)
 file(GLOB lesson_images CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/images/*.png" "${PROJECT_SOURCE_DIR}/docs/images/*.svg")
 gnomon_embed(gnomon_app lesson_images ${lesson_images})
-file(GLOB lectures CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/lectures/en/*.md")
+file(GLOB lectures CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/lectures/${GNOMON_LANGUAGE}/*.md" "${PROJECT_SOURCE_DIR}/docs/lectures/${GNOMON_LANGUAGE}/figures.json")
 gnomon_embed(gnomon_app lectures ${lectures})
 target_link_libraries(gnomon_app PRIVATE md4c_html)
 # gnomon site has the manual and the lab besides, with the program for the web where ./gnomon web builds it.

@@ -168,7 +168,7 @@ Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, 
 std::vector<std::string_view> lecture_names() {
   std::vector<std::string_view> names;
   for (const embedded::Entry& deck : embedded::lectures_entries())
-    names.push_back(deck.name.substr(0, deck.name.rfind('.')));
+    if (deck.name.ends_with(".md")) names.push_back(deck.name.substr(0, deck.name.rfind('.')));
   return names;
 }
 

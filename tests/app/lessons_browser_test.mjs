@@ -8,6 +8,7 @@ import { readdirSync, rmSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { browser, close, colours, goTo, open, violations } from "../browser/open_page.mjs";
 import { near, operate, said, slide } from "./lesson_figures.mjs";
+import { checkLanguage } from "./lesson_language.mjs";
 
 const [program, folder, only] = process.argv.slice(2), site = join(folder, "site");
 rmSync(folder, { recursive: true, force: true });
@@ -166,6 +167,7 @@ try {
     await checkSliderEnds(page);
     if (name !== "index.html") await checkSlides(page, name);
   }
+  await checkLanguage(page, site, pages);
   await close(page);
   if (!only) await checkWhole();
   console.log(`live figures: ${[...operated].join(", ") || "none"}`);

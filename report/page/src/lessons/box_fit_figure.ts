@@ -6,6 +6,7 @@ import type { FigureJson } from "./figures";
 import { degrees, frame } from "./flatland_figure";
 import { meetingLines, perimeter } from "./small_tree";
 import { Sliders, Stage } from "./stage";
+import { say } from "./say";
 
 const window: [number, number, number, number] = [-3, 3, -1.5, 1.5];
 const long = 2.4;
@@ -19,10 +20,10 @@ function turned(width: number, height: number, angle: number): Vec2[] {
 }
 
 export function boxFitFigure(_: FigureJson, id: string): HTMLElement {
-  const stage = new Stage(window, "A rod, and a box around it that stands along the axes or is turned", (at) => sliders.set("rod", Math.min(Math.max(Math.atan2(at[1], at[0]) * degrees, -90), 90)));
+  const stage = new Stage(window, say("A rod, and a box around it that stands along the axes or is turned"), (at) => sliders.set("rod", Math.min(Math.max(Math.atan2(at[1], at[0]) * degrees, -90), 90)));
   const said = html("p", { class: "bias-counts", role: "status" }), angle = (name: string, value: number, drags = false) => ({ name, from: -90, to: 90, step: 1, value, text: (v: number) => `${number(v, 3)}°`, drags });
   const sliders: Sliders<"rod" | "box" | "width"> = new Sliders({
-    rod: angle("Rod turned by", 35, true), box: angle("Box turned by", 0), width: { name: "Width of the rod", from: 0.02, to: 1.5, step: 0.02, value: 0.2, text: (v) => number(v, 3) },
+    rod: angle(say("Rod turned by"), 35, true), box: angle(say("Box turned by"), 0), width: { name: say("Width of the rod"), from: 0.02, to: 1.5, step: 0.02, value: 0.2, text: (v) => number(v, 3) },
   }, () => show());
   const show = () => {
     const [rodAngle, boxAngle, width] = [sliders.value("rod"), sliders.value("box"), sliders.value("width")], between = (rodAngle - boxAngle) / degrees, [c, s] = [Math.abs(Math.cos(between)), Math.abs(Math.sin(between))];
@@ -30,8 +31,8 @@ export function boxFitFigure(_: FigureJson, id: string): HTMLElement {
     const closed = (outline: Vec2[]): Vec2[] => [...outline, outline[0]!];
     stage.put(stage.path("visited tests", [closed(rod)]), stage.path("cells bold", [closed(box)]));
     Object.assign(said.dataset, { formula: String(formula), measured: String(met), cost: String(cost) });
-    said.textContent = `The box costs ${cost} multiplications a ray. Of the lines that meet it ${percent(met)} meet the rod; perimeter over perimeter says ${percent(formula)}. Asked in vain: ${percent(1 - met)}.`;
+    said.textContent = say`The box costs ${cost} multiplications a ray. Of the lines that meet it ${percent(met)} meet the rod; perimeter over perimeter says ${percent(formula)}. Asked in vain: ${percent(1 - met)}.`;
   };
   show();
-  return frame(id, stage, sliders.bar, said, "Drag the rod round. A box along the axes fits it badly where it leans; a box that leans with it fits, and costs four times as much.");
+  return frame(id, stage, sliders.bar, said, say("Drag the rod round. A box along the axes fits it badly where it leans; a box that leans with it fits, and costs four times as much."));
 }

@@ -1,6 +1,6 @@
 // Build a structure over a few discs split by split, and walk a ray through it step by step, with what is on the stack. The discs can
 // be dragged: what becomes of the structure is seen at once.
-import { counted, grouped } from "../number_text";
+import { grouped } from "../number_text";
 import { html, number } from "../svg";
 import { add, length, sub, unit, type Circle, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
@@ -8,12 +8,13 @@ import { frame } from "./flatland_figure";
 import { boxOfOutline, countedNodes, expectedNodes, overlap, SmallTree, walkTree, type Kind, type Rule, type SmallNode } from "./small_tree";
 import { walkCells } from "./small_grid";
 import { Sliders, Stage } from "./stage";
+import { many, say } from "./say";
 
 interface BuildJson {
   discs: [number, number, number][];
   checks: { from: Vec2; to: Vec2; t: number | null }[];
 }
-const names: Record<Kind, string> = { grid: "uniform grid", octree: "octree", kd: "kd-tree", bsp: "BSP tree", bvh: "hierarchy of boxes" };
+const names: Record<Kind, string> = { grid: say("uniform grid"), octree: say("octree"), kd: say("kd-tree"), bsp: say("BSP tree"), bvh: say("hierarchy of boxes") };
 /** What a ray meets, one and several. */
 const metBy = (kind: Kind): [string, string] => (kind === "grid" || kind === "bsp" ? ["cell", "cells"] : ["box", "boxes"]);
 const window: [number, number, number, number] = [-3, 3, -1.5, 1.5];
@@ -34,7 +35,7 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
   const json = data as BuildJson, kind = settings.kind as Kind, discs = json.discs.map(circleOf), ruled = kind === "kd" || kind === "bvh";
   let from: Vec2 = [-2.7, 0.3], to: Vec2 = [1.45, 0.6];
   const handles = (): Record<string, Vec2> => ({ from, to, ...Object.fromEntries(discs.map(({ center }, i) => [`disc${i}`, center])) });
-  const stage = new Stage(window, `A ${names[kind]} over discs, and a ray on its way through it`, (at, handle) => {
+  const stage = new Stage(window, say`A ${names[kind]} over discs, and a ray on its way through it`, (at, handle) => {
     if (handle === "from") from = at;
     else if (handle === "to") to = at;
     else discs[Number(handle.slice(4))] = { ...discs[Number(handle.slice(4))]!, center: at };
@@ -43,13 +44,13 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
   const said = html("p", { class: "bias-counts", role: "status" });
   const share = (name: string, value: number) => ({ name, from: 0, to: 1, step: 0.001, value, text: (v: number) => `${Math.round(100 * v)} %` });
   const sliders: Sliders<string> = new Sliders<string>({
-    ...(kind === "grid" ? { cells: { name: "Cells for each disc", from: 1, to: 16, step: 1, value: 4, text: String } } : { built: share("Built", 1) }),
-    walk: share("Ray's way", 1),
-    ...(ruled ? { rule: { name: "Split", from: 0, to: 1, step: 1, value: 0, text: (v: number) => (v === 0 ? "in the middle" : "by area") } } : {}),
-    seventh: { name: "A disc, left and right", from: -2.9, to: 2.9, step: 0.01, value: discs[6]!.center[0], text: (v: number) => number(v, 3), drags: true },
+    ...(kind === "grid" ? { cells: { name: say("Cells for each disc"), from: 1, to: 16, step: 1, value: 4, text: String } } : { built: share(say("Built"), 1) }),
+    walk: share(say("Ray's way"), 1),
+    ...(ruled ? { rule: { name: say("Split"), from: 0, to: 1, step: 1, value: 0, text: (v: number) => (v === 0 ? say("in the middle") : say("by area")) } } : {}),
+    seventh: { name: say("A disc, left and right"), from: -2.9, to: 2.9, step: 0.01, value: discs[6]!.center[0], text: (v: number) => number(v, 3), drags: true },
   }, () => { discs[6] = { ...discs[6]!, center: [sliders.value("seventh"), discs[6]!.center[1]] }; show(); });
   const step = (key: string, by: number) => {
-    const button = html("button", { type: "button" }, by > 0 ? (key === "built" ? "Next split" : "Next step") : key === "built" ? "Split before" : "Step before");
+    const button = html("button", { type: "button" }, by > 0 ? (key === "built" ? say("Next split") : say("Next step")) : key === "built" ? say("Split before") : say("Step before"));
     button.addEventListener("click", () => { const n = Math.max(1, key === "built" ? splits : steps); sliders.set(key, Math.min(Math.max((Math.round(sliders.value(key) * n) + by) / n, 0), 1)); });
     return button;
   };
@@ -68,17 +69,17 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
       ...(grid || !last ? [] : tree.nodes().filter(({ name }) => last.stack.includes(name)).map((node) => stage.label("middle", middleOf(node), node.name, 6))));
     const met = last?.boxes ?? 0, tested = last?.discs ?? 0, tried = made.reduce((sum, node) => sum + node.tried, 0);
     Object.assign(said.dataset, { splits: String(made.length), tried: String(tried), boxes: String(met), discs: String(tested), t: String(last?.t ?? Infinity), stack: (last?.stack ?? []).join(" ") });
-    said.textContent = `${kind === "grid" ? "" : `${counted(made.length, "split")} of ${splits}${tried > 0 ? `, the cheapest of ${grouped(tried)} tried` : ""}. `}The ray has met ${counted(met, ...metBy(kind))} and tested ${counted(tested, "disc")} of ${discs.length}. ${grid || !last ? "" : last.stack.length > 0 ? `On the stack: ${last.stack.join(", ")}. ` : "The stack is empty. "}${kind === "grid" ? "" : costs(tree, said)}`;
+    said.textContent = say`${kind === "grid" ? "" : say`${many(made.length, "split", "splits")} of ${splits}${tried > 0 ? say`, the cheapest of ${grouped(tried)} tried` : ""}. `}The ray has met ${many(met, ...metBy(kind))} and tested ${many(tested, "disc", "discs")} of ${discs.length}. ${grid || !last ? "" : last.stack.length > 0 ? say`On the stack: ${last.stack.join(", ")}. ` : say("The stack is empty. ")}${kind === "grid" ? "" : costs(tree, said)}`;
   };
   const bar = sliders.bar;
   show();
   bar.prepend(html("div", { class: "steps" }, ...(kind === "grid" ? [] : [step("built", -1), step("built", 1)]), step("walk", -1), step("walk", 1)));
-  return frame(id, stage, bar, said, "Drag a disc or either end of the ray. Filled: what the ray came to, darker where discs were tested; their outlines are bold.");
+  return frame(id, stage, bar, said, say("Drag a disc or either end of the ray. Filled: what the ray came to, darker where discs were tested; their outlines are bold."));
 }
 
 /** What the whole tree costs a line: foretold by perimeters, and counted. */
 function costs(tree: SmallTree, said: HTMLElement): string {
   const expected = expectedNodes(tree), met = countedNodes(tree, 60), over = tree.kind === "bvh" ? tree.splits.reduce((sum, { children: [a, b] }) => sum + overlap(boxOfOutline(a!.outline), boxOfOutline(b!.outline)), 0) : 0;
   Object.assign(said.dataset, { expected: String(expected), counted: String(met), overlap: String(over) });
-  return `A line meets Σ perimeters/perimeter = ${number(expected, 3)} of its ${tree.nodes().length} ${metBy(tree.kind)[1]}; counted: ${number(met, 3)}.${tree.kind === "bvh" ? ` Boxes overlap by ${number(over, 2)} in all.` : ""}`;
+  return say`A line meets Σ perimeters/perimeter = ${number(expected, 3)} of its ${tree.nodes().length} ${say(metBy(tree.kind)[1])}; counted: ${number(met, 3)}.${tree.kind === "bvh" ? say` Boxes overlap by ${number(over, 2)} in all.` : ""}`;
 }

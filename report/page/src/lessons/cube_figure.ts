@@ -4,6 +4,7 @@ import { add, dot, firstDepth, length, occluded, sub, unit, type Vec2 } from "./
 import type { FigureJson } from "./figures";
 import { frame, world2, type FlatlandJson } from "./flatland_figure";
 import { Sliders, Stage } from "./stage";
+import { say } from "./say";
 
 interface Face {
   name: string;
@@ -24,7 +25,7 @@ export function lookUp(d: Vec2): { face: Face; z: number; u: number } {
 export function cubeFigure({ data }: FigureJson, id: string): HTMLElement {
   const json = data as FlatlandJson, world = world2(json), { window } = json, [left, right, , top] = window, floor = world.segments[0]!;
   let lamp: Vec2 = [0, 0], target: Vec2 = [0, 0];
-  const stage = new Stage(window, "A lamp over a ball on a floor: the faces of its cube map, and the texel that a point looks up", (at, handle) => {
+  const stage = new Stage(window, say("A lamp over a ball on a floor: the faces of its cube map, and the texel that a point looks up"), (at, handle) => {
     if (handle === "target") return sliders.set("x", at[0]);
     sliders.set("lampX", at[0]);
     sliders.set("lampY", at[1]);
@@ -32,9 +33,9 @@ export function cubeFigure({ data }: FigureJson, id: string): HTMLElement {
   const said = html("p", { class: "bias-counts", role: "status" });
   const slider = (name: string, from: number, to: number, value: number) => ({ name, from, to, step: 0.005, value, text: (v: number) => number(v, 3), drags: true });
   const sliders: Sliders<string> = new Sliders<string>({
-    x: slider("Point of the floor", left, right, 1.6),
-    texels: { name: "Texels along a face", from: 2, to: 32, step: 1, value: 8, text: String },
-    lampX: slider("Lamp, left and right", left, right, -0.9), lampY: slider("Lamp, up and down", 0.2, top, 1.7),
+    x: slider(say("Point of the floor"), left, right, 1.6),
+    texels: { name: say("Texels along a face"), from: 2, to: 32, step: 1, value: 8, text: String },
+    lampX: slider(say("Lamp, left and right"), left, right, -0.9), lampY: slider(say("Lamp, up and down"), 0.2, top, 1.7),
   }, () => show());
   const show = () => {
     lamp = [sliders.value("lampX"), sliders.value("lampY")];
@@ -60,9 +61,9 @@ export function cubeFigure({ data }: FigureJson, id: string): HTMLElement {
       ...faces.map((f) => stage.label("middle", add(lamp, f.axis, 0.34), f.name, 6)), stage.circle("sun", lamp, 10), stage.circle("point", target, 10));
     const wide = (2 * z) / n;
     Object.assign(said.dataset, { z: String(z), u: String(u), wide: String(wide), texel: String(texel), face: face.name, stored: String(stored) });
-    said.textContent = `From the lamp to the point d = (${number(d[0], 3)}, ${number(d[1], 3)}): its largest part is along ${face.name}, z = ${number(z, 3)}, so u = ½ + ½·(${number(dot(face.across, d), 3)})/z = ${number(u, 3)}, texel ${texel} of ${n}. ` +
-      `A texel is 2z/N = ${number(wide, 3)} wide there. It stores ${number(stored, 3)}: without a bias the point is drawn ${drawn ? "lit" : "in shadow"}; in truth it is ${lit ? "lit" : "in shadow"}.`;
+    said.textContent = say`From the lamp to the point d = (${number(d[0], 3)}, ${number(d[1], 3)}): its largest part is along ${face.name}, z = ${number(z, 3)}, so u = ½ + ½·(${number(dot(face.across, d), 3)})/z = ${number(u, 3)}, texel ${texel} of ${n}. ` +
+      say`A texel is 2z/N = ${number(wide, 3)} wide there. It stores ${number(stored, 3)}: without a bias the point is drawn ${drawn ? say("lit") : say("in shadow")}; in truth it is ${lit ? say("lit") : say("in shadow")}.`;
   };
   show();
-  return frame(id, stage, sliders.bar, said, `Drag the lamp, or the point on the floor. The section of the scene ${json.scene} has four of the six faces; +z and −z look out of the page and into it. Thick steps: the depths stored in each face's texels; the widest is the one that is looked up.`);
+  return frame(id, stage, sliders.bar, said, say`Drag the lamp, or the point on the floor. The section of the scene ${json.scene} has four of the six faces; +z and −z look out of the page and into it. Thick steps: the depths stored in each face's texels; the widest is the one that is looked up.`);
 }

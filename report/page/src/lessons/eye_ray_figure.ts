@@ -4,6 +4,7 @@ import type { Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
 import { frame } from "./flatland_figure";
 import { Sliders, Stage } from "./stage";
+import { say } from "./say";
 
 /** The unit direction through the centre of pixel (x, y), counted from the top left, of an eye that looks down −z; `fov`: of the picture's height, degrees. */
 export function eyeRay(columns: number, rows: number, fov: number, x: number, y: number): { u: number; v: number; direction: [number, number, number] } {
@@ -22,15 +23,15 @@ const film = 1.5, eye: Vec2 = [-4.2, 0], front: Vec2 = [1.9, 0];  // how far the
 
 export function eyeRayFigure(_: FigureJson, id: string): HTMLElement {
   let at: Vec2 = [0, 0];
-  const stage = new Stage(window, "The picture's pixels, and the same from the side: the eye, the picture and a ray", (place) => {
+  const stage = new Stage(window, say("The picture's pixels, and the same from the side: the eye, the picture and a ray"), (place) => {
     const { columns, rows, side } = grid();
     sliders.set("x", Math.min(Math.max(Math.floor((place[0] - front[0]) / side + columns / 2), 0), columns - 1));
     sliders.set("y", Math.min(Math.max(Math.floor((front[1] - place[1]) / side + rows / 2), 0), rows - 1));
   }, () => ({ at }));
   const said = html("p", { class: "bias-counts", role: "status" }), whole = (name: string, from: number, to: number, value: number, drags = false) => ({ name, from, to, step: 1, value, text: String, drags });
   const sliders: Sliders<string> = new Sliders<string>({
-    fov: { name: "Field of view, of the height", from: 20, to: 110, step: 1, value: 60, text: (v) => `${v}°` },
-    columns: whole("Columns", 1, 16, 8), rows: whole("Rows", 1, 12, 6), x: whole("Pixel's column", 0, 15, 6, true), y: whole("Pixel's row", 0, 11, 1, true),
+    fov: { name: say("Field of view, of the height"), from: 20, to: 110, step: 1, value: 60, text: (v) => `${v}°` },
+    columns: whole(say("Columns"), 1, 16, 8), rows: whole(say("Rows"), 1, 12, 6), x: whole(say("Pixel's column"), 0, 15, 6, true), y: whole(say("Pixel's row"), 0, 11, 1, true),
   }, () => show());
   const grid = () => { const columns = sliders.value("columns"), rows = sliders.value("rows"); return { columns, rows, side: Math.min(3.2 / columns, 2.6 / rows) }; };
   const lines = (count: number, from: number, side: number, other: [number, number], upright: boolean): Vec2[][] => Array.from({ length: count + 1 }, (_, i) => other.map((o): Vec2 => (upright ? [from + i * side, o] : [o, from + i * side])));
@@ -42,10 +43,10 @@ export function eyeRayFigure(_: FigureJson, id: string): HTMLElement {
     const plane = eye[0] + film, through: Vec2 = [plane, v * half], step = (2 * half) / rows, ticks = Array.from({ length: rows + 1 }, (_, i): Vec2[] => [[plane - 0.06, half - i * step], [plane + 0.06, half - i * step]]);
     stage.put(stage.path("cells", [...lines(columns, left, side, [bottom, top], true), ...lines(rows, bottom, side, [left, left + columns * side], false)]), stage.path("visited tests", [pixel]),
       stage.path("ghost", [[eye, [eye[0] + 3, half * 2]], [eye, [eye[0] + 3, -half * 2]], [eye, [eye[0] + 3, 0]]]), stage.path("profile thin", [[[plane, half], [plane, -half]], ...ticks]),
-      stage.path("ray", [[eye, [eye[0] + 2 * film, 2 * through[1]]]]), stage.circle("point", eye, 10), stage.label("middle", eye, "eye", -18), stage.circle("hit", through, 7), stage.circle("hit", at, 7));
+      stage.path("ray", [[eye, [eye[0] + 2 * film, 2 * through[1]]]]), stage.circle("point", eye, 10), stage.label("middle", eye, say("eye"), -18), stage.circle("hit", through, 7), stage.circle("hit", at, 7));
     Object.assign(said.dataset, { u: String(u), v: String(v), dx: String(direction[0]), dy: String(direction[1]), dz: String(direction[2]) });
-    said.textContent = `Pixel (${x}, ${y}) of ${columns} × ${rows}: its centre is at u = ${number(u, 3)}, v = ${number(v, 3)} of the half picture. tan(${fov}°/2) = ${number(half / film, 3)}, the aspect ${columns}/${rows} = ${number(columns / rows, 3)}: d = (${direction.map((c) => number(c, 3)).join(", ")}) of length 1.`;
+    said.textContent = say`Pixel (${x}, ${y}) of ${columns} × ${rows}: its centre is at u = ${number(u, 3)}, v = ${number(v, 3)} of the half picture. tan(${fov}°/2) = ${number(half / film, 3)}, the aspect ${columns}/${rows} = ${number(columns / rows, 3)}: d = (${direction.map((c) => number(c, 3)).join(", ")}) of length 1.`;
   };
   show();
-  return frame(id, stage, sliders.bar, said, "Choose a pixel in the picture on the right, or change the field of view and the number of pixels. On the left the same from the side.");
+  return frame(id, stage, sliders.bar, said, say("Choose a pixel in the picture on the right, or change the field of view and the number of pixels. On the left the same from the side."));
 }

@@ -7,6 +7,7 @@ import { add, dot, length, lengthOf, outcomeAt, piecesOf, sub, SunMap, type Circ
 import { penumbraFigure } from "./penumbra_figure";
 import { Sliders, Stage, type Slider } from "./stage";
 import { terminatorFigure } from "./terminator_figure";
+import { say } from "./say";
 
 export interface FlatlandJson {
   segments: [number, number, number, number, number, number][];
@@ -78,7 +79,7 @@ function shadowFigure(json: FlatlandJson, settings: Record<string, string>, id: 
   const surfaces: (Segment | Circle)[] = [...world.segments, ...world.circles];
   const corners = surfaces.flatMap((s): Vec2[] => ("radius" in s ? [[1, 0], [-1, 0], [0, 1], [0, -1]].map((d) => add(s.center, d as unknown as Vec2, s.radius)) : [s.from, s.to]));
   const start = first("angle", json.light.direction ? angleOf(json.light.direction) : 35);
-  const stage = new Stage(window, `A section of the scene ${json.scene}: its surfaces, the sun's depth map, and where the map is wrong`, (at) => {
+  const stage = new Stage(window, say`A section of the scene ${json.scene}: its surfaces, the sun's depth map, and where the map is wrong`, (at) => {
     const angle = Math.atan2(at[0] - (window[0] + window[1]) / 2, at[1] - Math.max(0, window[2])) * degrees;
     sliders.set("angle", Math.min(Math.max(angle, -80), 80));
   });
@@ -88,11 +89,11 @@ function shadowFigure(json: FlatlandJson, settings: Record<string, string>, id: 
     return new SunMap(back ? unseen : world, light, sliders.value("texels"), corners);
   };
   const own: Record<"angle" | "texels" | "bias", Slider> = {
-    angle: { name: "Sun, degrees from the zenith", from: -80, to: 80, step: 0.5, value: start, text: (v) => `${number(v, 3)}°`, drags: true },
-    texels: { name: "Texels of the map", from: 4, to: 128, step: 1, value: first("texels", acne ? 14 : 40), text: (v) => String(v) },
-    bias: { name: "Bias, world units", from: 0, to: Number((0.1 * width).toPrecision(2)), step: width / 4000, value: first("bias", name === "wall" ? 0.2 : 0), text: (v) => number(v, 3) },
+    angle: { name: say("Sun, degrees from the zenith"), from: -80, to: 80, step: 0.5, value: start, text: (v) => `${number(v, 3)}°`, drags: true },
+    texels: { name: say("Texels of the map"), from: 4, to: 128, step: 1, value: first("texels", acne ? 14 : 40), text: (v) => String(v) },
+    bias: { name: say("Bias, world units"), from: 0, to: Number((0.1 * width).toPrecision(2)), step: width / 4000, value: first("bias", name === "wall" ? 0.2 : 0), text: (v) => number(v, 3) },
   };
-  const offsets: Slider = { name: "Normal offset, texels", from: 0, to: 8, step: 0.25, value: first("offset", 4), text: String };
+  const offsets: Slider = { name: say("Normal offset, texels"), from: 0, to: 8, step: 0.25, value: first("offset", 4), text: String };
   const sliders: Sliders<string> = new Sliders<string>(leaks ? { ...own, offset: offsets } : stripes ? { angle: own.angle, texels: own.texels } : own, () => show());
   const show = () => {
     const map = mapOf(), bias = stripes ? 0 : sliders.value("bias"), offset = leaks ? sliders.value("offset") : 0;
@@ -113,19 +114,19 @@ function shadowFigure(json: FlatlandJson, settings: Record<string, string>, id: 
     const whole = sum("lit") + sum("dark") + sum("false") + sum("missed"), shares = { false: sum("false") / whole, missed: sum("missed") / whole };
     Object.assign(said.dataset, { angle: String(sliders.value("angle")), bias: String(bias), texels: String(map.count), texel: String(map.texel), falseShare: String(shares.false), missedShare: String(shares.missed) });
     // The first figure of a course: no word in it that a later lesson explains.
-    said.textContent = stripes ? `Nothing stands before the floor, and ${percent(shares.false)} of it is drawn dark (orange). A texel is ${number(map.texel, 2)} wide: one depth for all of it.` : `Of what faces the sun ${percent(shares.false)} is in false shadow (orange), ${percent(shares.missed)} in missed shadow (blue). A texel is ${number(map.texel, 2)} wide, the bias ${texelsText(bias / map.texel)}. ` +
+    said.textContent = stripes ? say`Nothing stands before the floor, and ${percent(shares.false)} of it is drawn dark (orange). A texel is ${number(map.texel, 2)} wide: one depth for all of it.` : say`Of what faces the sun ${percent(shares.false)} is in false shadow (orange), ${percent(shares.missed)} in missed shadow (blue). A texel is ${number(map.texel, 2)} wide, the bias ${texelsText(bias / map.texel)}. ` +
       (acne ? acneForm(map, bias, shares.false, said) : name === "wall" ? wallForm(world, map, pieces, bias, back, said) : "");
   };
   show();
   return frame(id, stage, sliders.bar, said,
-    stripes ? "Drag the sun. Thick steps: the depths that the map stores. Gold: drawn lit." : `Drag the sun. Thick steps: the depths that the map stores${back ? ", of the faces that the sun does not see" : ""}; dashed: with the bias. Gold: lit, rightly; dark: in shadow, rightly; dotted: turned away from the sun.`);
+    stripes ? say("Drag the sun. Thick steps: the depths that the map stores. Gold: drawn lit.") : say`Drag the sun. Thick steps: the depths that the map stores${back ? say(", of the faces that the sun does not see") : ""}; dashed: with the bias. Gold: lit, rightly; dark: in shadow, rightly; dotted: turned away from the sun.`);
 }
 
 /** On a plane the share in acne is (1 - bias / a) / 2, where the plane falls by a over half a texel. */
 function acneForm(map: SunMap, bias: number, measured: number, said: HTMLElement): string {
   const a = (0.5 * map.texel * Math.abs(map.light[0])) / Math.abs(map.light[1]), formula = a > bias ? 0.5 * (1 - bias / a) : 0;
   said.dataset.formula = String(formula);
-  return `The formula ½·(1 − δ/a), with a = ${number(a, 3)} that the floor falls over half a texel, says ${percent(formula)}; here it is ${percent(measured)}.`;
+  return say`The formula ½·(1 − δ/a), with a = ${number(a, 3)} that the floor falls over half a texel, says ${percent(formula)}; here it is ${percent(measured)}.`;
 }
 
 /** Behind a wall of thickness w the shadow starts max(0, bias · sin θ − w) away from it; with the map of its back faces w is 0. */
@@ -135,7 +136,7 @@ function wallForm(world: World2, map: SunMap, pieces: (Place & { outcome: Outcom
   const drawn = pieces.filter((p) => p.normal[1] > 0.5 && p.at[1] < 1e-6 && side * (p.at[0] - face) > 0 && p.outcome === "dark").map((p) => side * (p.at[0] - face));
   const measured = drawn.length > 0 ? Math.min(...drawn) : NaN;
   Object.assign(said.dataset, { formula: String(formula), measured: String(measured) });
-  if (drawn.length === 0) return "Behind the wall no shadow is drawn.";
-  return `The shadow starts ${number(measured, 2)} behind the wall; the formula ${back ? "δ·sin θ" : "max(0, δ·sin θ − w)"} says ${number(formula, 2)}, give or take a texel on the floor, ${number(map.texel / Math.max(Math.abs(map.light[1]), 1e-9), 2)}.`;
+  if (drawn.length === 0) return say("Behind the wall no shadow is drawn.");
+  return say`The shadow starts ${number(measured, 2)} behind the wall; the formula ${back ? say("δ·sin θ") : say("max(0, δ·sin θ − w)")} says ${number(formula, 2)}, give or take a texel on the floor, ${number(map.texel / Math.max(Math.abs(map.light[1]), 1e-9), 2)}.`;
 }
 

@@ -1,12 +1,12 @@
 // A ray dragged before a box, a ball and a surface that is given by a function, and the three areas that decide about a
 // triangle: the numbers of each test, as the lesson derives them.
-import { counted } from "../number_text";
 import { html, number } from "../svg";
 import { add, cross, dot, meetCircle, sub, unit, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
 import { frame } from "./flatland_figure";
 import { Sliders, Stage } from "./stage";
 import type { FlatlandJson } from "./flatland_figure";
+import { many, say } from "./say";
 
 type Interval = readonly [number, number];
 
@@ -78,7 +78,7 @@ export function implicitRoots(origin: Vec2, direction: Vec2, from: number, to: n
 const window: FlatlandJson["window"] = [-3, 3, -1.5, 1.5];
 const box = { low: [-0.9, -0.6] as Vec2, high: [0.9, 0.6] as Vec2 }, ball = { center: [0.2, 0] as Vec2, radius: 0.9 };
 const arc = (center: Vec2, radius: number): Vec2[] => Array.from({ length: 121 }, (_, i) => add(center, [Math.cos((i * Math.PI) / 60), Math.sin((i * Math.PI) / 60)], radius));
-const list = (roots: number[]): string => (roots.length === 0 ? "none" : roots.map((t) => number(t, 4)).join(", "));
+const list = (roots: number[]): string => (roots.length === 0 ? say("none") : roots.map((t) => number(t, 4)).join(", "));
 
 interface Drawn {
   elements: SVGElement[];
@@ -94,7 +94,7 @@ function drawBox(stage: Stage, o: Vec2, d: Vec2): Drawn {
   return {
     elements: [stage.path("ghost", planes), stage.path("profile thin", [corners]), ...intervals.map((i, k) => stage.path(k === 0 ? "slab x" : "slab y", i[0] <= i[1] ? [shown(i).map((p) => add(p, side, 0.05 + 0.06 * k))] : [])),
       ...(hit ? [stage.circle("hit", add(o, d, entry), 8), stage.circle("hit far", add(o, d, exit), 6)] : [])],
-    words: `In the slab of x for t in [${intervals[0]!.map((t) => number(t, 4)).join(", ")}] (violet), of y for t in [${intervals[1]!.map((t) => number(t, 4)).join(", ")}] (blue): the last entry ${number(entry, 4)} is ${hit ? "not after" : "after"} the first exit ${number(exit, 4)}, so the ray ${hit ? "hits" : "misses"} the box.`,
+    words: say`In the slab of x for t in [${intervals[0]!.map((t) => number(t, 4)).join(", ")}] (violet), of y for t in [${intervals[1]!.map((t) => number(t, 4)).join(", ")}] (blue): the last entry ${number(entry, 4)} is ${hit ? say("not after") : say("after")} the first exit ${number(exit, 4)}, so the ray ${hit ? say("hits") : say("misses")} the box.`,
     numbers: { entry: String(entry), exit: String(exit), hit: String(hit) },
   };
 }
@@ -103,7 +103,7 @@ function drawSphere(stage: Stage, o: Vec2, d: Vec2): Drawn {
   const { foot, discriminant, roots } = sphereRoots(o, d, ball.center, ball.radius), ahead = roots.filter((t) => t > 0), check = meetCircle(o, d, ball);
   return {
     elements: [stage.path("profile thin", [arc(ball.center, ball.radius)]), stage.path("ghost", [[ball.center, foot]]), stage.circle("moved", foot, 7), stage.label("middle", add(foot, sub(ball.center, foot), 0.5), "l", -8), ...ahead.map((t, i) => stage.circle(i === 0 ? "hit" : "hit far", add(o, d, t), 8))],
-    words: `From the ray's foot to the centre |l| = ${number(Math.hypot(...sub(ball.center, foot)), 4)}, the radius is ${ball.radius}: Δ = r² − l·l = ${number(discriminant, 4)}${discriminant < 0 ? " < 0, the ray misses." : `, and t = ${list(roots)}.`}`,
+    words: say`From the ray's foot to the centre |l| = ${number(Math.hypot(...sub(ball.center, foot)), 4)}, the radius is ${ball.radius}: Δ = r² − l·l = ${number(discriminant, 4)}${discriminant < 0 ? say(" < 0, the ray misses.") : say`, and t = ${list(roots)}.`}`,
     numbers: { discriminant: String(discriminant), roots: roots.join(" "), check: check ? check.join(" ") : "" },
   };
 }
@@ -119,7 +119,7 @@ function drawImplicit(stage: Stage, o: Vec2, d: Vec2): Drawn {
   return {
     elements: [stage.path("profile thin", body), stage.path("stretch none", empty.map((s) => [add(o, d, s.from), add(o, d, s.to)])), stage.path("stretch one", leaves.filter((s) => s.verdict === "one").map((s) => [add(o, d, s.from), add(o, d, s.to)])), stage.path("normals", ticks),
       ...roots.map((t, i) => stage.circle(i === 0 ? "hit" : "hit far", add(o, d, t), 8))],
-    words: `${counted(leaves.length, "stretch", "stretches")} after ${counted(stretches.length - leaves.length, "halving")}: ${empty.length} ${empty.length === 1 ? "is" : "are"} proved to hold no root (grey), in the others (blue) there is at most one each. Roots: t = ${list(roots)}.`,
+    words: say`${many(leaves.length, "stretch", "stretches")} after ${many(stretches.length - leaves.length, "halving", "halvings")}: ${empty.length} ${empty.length === 1 ? say("is") : say("are")} proved to hold no root (grey), in the others (blue) there is at most one each. Roots: t = ${list(roots)}.`,
     numbers: { roots: roots.join(" "), stretches: String(leaves.length) },
   };
 }
@@ -130,7 +130,7 @@ function drawPlane(stage: Stage, o: Vec2, d: Vec2): Drawn {
   const { point: p, normal: n } = plane, across: Vec2 = [-n[1], n[0]], height = dot(n, sub(p, o)), slope = dot(n, d), t = height / slope, hit = slope !== 0 && t > 0;
   return {
     elements: [stage.path("profile", [[add(p, across, -9), add(p, across, 9)]]), stage.path("normals", [[p, add(p, n, 0.5)]]), stage.label("middle", add(p, n, 0.62), "n"), stage.path("ghost", [[o, add(o, n, height)]]), stage.circle("moved", p, 7), stage.label("middle", p, "p", 30), ...(hit ? [stage.circle("hit", add(o, d, t), 8)] : [])],
-    words: `n·(p − o) = ${number(height, 4)}, how far the start is from the plane, and n·d = ${number(slope, 4)}, how fast the ray comes to it: ${slope === 0 ? "the ray is parallel and never comes." : `t = ${number(t, 4)}${hit ? "." : " lies behind the start, the ray misses."}`}`,
+    words: say`n·(p − o) = ${number(height, 4)}, how far the start is from the plane, and n·d = ${number(slope, 4)}, how fast the ray comes to it: ${slope === 0 ? say("the ray is parallel and never comes.") : `t = ${number(t, 4)}${hit ? "." : say(" lies behind the start, the ray misses.")}`}`,
     numbers: { roots: hit ? String(t) : "" },
   };
 }
@@ -148,38 +148,38 @@ function drawParity(stage: Stage, o: Vec2, d: Vec2): Drawn {
   const inside = crossings.length % 2 === 1;
   return {
     elements: [stage.path("profile thin", [[...zigzag, zigzag[0]!]]), ...crossings.map((t, i) => stage.label("middle", add(o, d, t - 0.13), String(i + 1), -14)), ...crossings.map((t) => stage.circle("hit", add(o, d, t), 8))],
-    words: `${counted(crossings.length, "crossing")}: ${inside ? "an odd number, the start lies inside." : "an even number, the start lies outside."}`,
+    words: `${many(crossings.length, "crossing", "crossings")}: ${inside ? say("an odd number, the start lies inside.") : say("an even number, the start lies outside.")}`,
     numbers: { roots: crossings.join(" "), inside: String(inside) },
   };
 }
 
 const kinds: Record<string, (stage: Stage, o: Vec2, d: Vec2) => Drawn> = { box: drawBox, sphere: drawSphere, implicit: drawImplicit, plane: drawPlane, parity: drawParity };
-const articles: Record<string, string> = { implicit: "a surface given by a function", parity: "a body that is not convex" };
+const articles: Record<string, string> = { box: say("a box"), sphere: say("a sphere"), plane: say("a plane"), implicit: say("a surface given by a function"), parity: say("a body that is not convex") };
 /** Rays that a test must bear, by the figure: start and aim. */
 const cases: Record<string, [string, Vec2, Vec2][]> = {
-  box: [["starts inside", [0.2, 0.1], [2, 0.6]], ["points away", [1.6, 0.3], [2.6, 0.6]], ["runs in a face", [-2, 0.6], [2, 0.6]], ["is parallel, outside", [-2, 1], [2, 1]]],
-  plane: [["points away", [-1, 0.9], [-2, 1.2]], ["is parallel", [-2, 0.25], [-1.2, 0.85]]],
-  parity: [["starts inside", [-1.3, 0.4], [2.4, 0.5]], ["starts in a notch", [0.6, 0.3], [2.4, 0.5]], ["passes a corner", [-2.4, 0.9], [2.4, 0.9]]],
+  box: [[say("starts inside"), [0.2, 0.1], [2, 0.6]], [say("points away"), [1.6, 0.3], [2.6, 0.6]], [say("runs in a face"), [-2, 0.6], [2, 0.6]], [say("is parallel, outside"), [-2, 1], [2, 1]]],
+  plane: [[say("points away"), [-1, 0.9], [-2, 1.2]], [say("is parallel"), [-2, 0.25], [-1.2, 0.85]]],
+  parity: [[say("starts inside"), [-1.3, 0.4], [2.4, 0.5]], [say("starts in a notch"), [0.6, 0.3], [2.4, 0.5]], [say("passes a corner"), [-2.4, 0.9], [2.4, 0.9]]],
 };
 const hints: Record<string, string> = {
-  plane: "Drag either end of the ray. Dotted: the way straight to the plane; violet: the plane's normal.",
-  parity: "Drag either end of the ray. Each crossing leads in or out.",
-  box: "Drag either end of the ray. Dotted: the planes of the two slabs.",
-  sphere: "Drag either end of the ray. Open circle: the point of the ray nearest to the centre.",
-  implicit: "Drag either end of the ray. The surface is (x² + y²)² − 2(x² − y²) = a⁴ − 1 with a = 0.985, of which only the function and its derivative are computed, on intervals.",
+  plane: say("Drag either end of the ray. Dotted: the way straight to the plane; violet: the plane's normal."),
+  parity: say("Drag either end of the ray. Each crossing leads in or out."),
+  box: say("Drag either end of the ray. Dotted: the planes of the two slabs."),
+  sphere: say("Drag either end of the ray. Open circle: the point of the ray nearest to the centre."),
+  implicit: say("Drag either end of the ray. The surface is (x² + y²)² − 2(x² − y²) = a⁴ − 1 with a = 0.985, of which only the function and its derivative are computed, on intervals."),
 };
 
 function rayFigure(kind: string, id: string): HTMLElement {
   let o: Vec2 = [0, 0], aim: Vec2 = [0, 0];
-  const stage = new Stage(window, `A ray and ${articles[kind] ?? `a ${kind}`}`, (at, handle) => {
+  const stage = new Stage(window, say`A ray and ${articles[kind]!}`, (at, handle) => {
     sliders.set(`${handle}x`, at[0]);
     sliders.set(`${handle}y`, at[1]);
   }, () => ({ a: aim, o }));
   const said = html("p", { class: "bias-counts", role: "status" });
   const slider = (name: string, k: 0 | 1, value: number) => ({ name, from: window[2 * k]!, to: window[2 * k + 1]!, step: 0.005, value, text: (v: number) => number(v, 3), drags: true });
   const sliders: Sliders<string> = new Sliders<string>({
-    ox: slider("Start, left and right", 0, -2.6), oy: slider("Start, up and down", 1, 0.9),
-    ax: slider("Aim, left and right", 0, 1.6), ay: slider("Aim, up and down", 1, kind === "implicit" ? -0.35 : -0.5),
+    ox: slider(say("Start, left and right"), 0, -2.6), oy: slider(say("Start, up and down"), 1, 0.9),
+    ax: slider(say("Aim, left and right"), 0, 1.6), ay: slider(say("Aim, up and down"), 1, kind === "implicit" ? -0.35 : -0.5),
   }, () => show());
   const show = () => {
     [o, aim] = [[sliders.value("ox"), sliders.value("oy")], [sliders.value("ax"), sliders.value("ay")]];
@@ -194,7 +194,7 @@ function rayFigure(kind: string, id: string): HTMLElement {
     button.addEventListener("click", () => { for (const [key, value] of [["ox", from[0]], ["oy", from[1]], ["ax", to[0]], ["ay", to[1]]] as const) sliders.set(key, value); });
     return button;
   });
-  if (presets.length > 0) sliders.bar.prepend(html("div", { class: "steps" }, "A ray that", ...presets));
+  if (presets.length > 0) sliders.bar.prepend(html("div", { class: "steps" }, say("A ray that"), ...presets));
   return frame(id, stage, sliders.bar, said, hints[kind]!);
 }
 
@@ -219,7 +219,7 @@ function bothWays(corners: readonly [Vec3, Vec3, Vec3]): { words: string; number
   const o: Vec3 = [0, 0, 0], d: Vec3 = [0, 0, 1], two = twoSteps(o, d, corners), { det, t, u, v } = mollerTrumbore(o, d, corners), n3 = (x: number) => number(x, 3);
   const hit = det !== 0 && u >= 0 && v >= 0 && u + v <= 1;
   return {
-    words: det === 0 ? "det = 0: the triangle has no area, or the ray runs in its plane; the ray misses." : `In two steps: the plane at t = ${n3(two.t)}, and the point's share of each side ${two.sides.map(n3).join(", ")}: ${two.sides.every((side) => side >= 0) ? "none is negative" : "one is negative"}. Möller and Trumbore: det = ${n3(det)}, u = ${n3(u)}, v = ${n3(v)}, t = ${n3(t)}: ${hit ? "the ray hits." : "the ray misses."}`,
+    words: det === 0 ? say("det = 0: the triangle has no area, or the ray runs in its plane; the ray misses.") : say`In two steps: the plane at t = ${n3(two.t)}, and the point's share of each side ${two.sides.map(n3).join(", ")}: ${two.sides.every((side) => side >= 0) ? say("none is negative") : say("one is negative")}. Möller and Trumbore: det = ${n3(det)}, u = ${n3(u)}, v = ${n3(v)}, t = ${n3(t)}: ${hit ? say("the ray hits.") : say("the ray misses.")}`,
     numbers: { hit: String(hit), z: String(t), u: String(u), v: String(v), det: String(det), twoSteps: String(two.t), sides: two.sides.join(" ") },
   };
 }
@@ -228,13 +228,13 @@ function bothWays(corners: readonly [Vec3, Vec3, Vec3]): { words: string; number
 function triangleFigure(id: string, both: boolean): HTMLElement {
   let corners: Vec2[] = [];
   const names = ["A", "B", "C"], depths = [2, 3, 5];
-  const stage = new Stage(window, "A triangle seen along the ray, which is the middle point", (at, handle) => {
+  const stage = new Stage(window, say("A triangle seen along the ray, which is the middle point"), (at, handle) => {
     sliders.set(`${handle}x`, at[0]);
     sliders.set(`${handle}y`, at[1]);
   }, () => Object.fromEntries(names.map((name, i) => [name, corners[i]!])));
   const said = html("p", { class: "bias-counts", role: "status" });
   const start: Vec2[] = [[-1.2, -0.7], [1.5, -0.4], [0.2, 1.1]];
-  const sliders: Sliders<string> = new Sliders<string>(Object.fromEntries(names.flatMap((name, i) => ([0, 1] as const).map((k) => [`${name}${"xy"[k]}`, { name: `Corner ${name}, ${k === 0 ? "left and right" : "up and down"}`, from: window[2 * k]!, to: window[2 * k + 1]!, step: 0.005, value: start[i]![k], text: (v: number) => number(v, 3), drags: true }]))), () => show());
+  const sliders: Sliders<string> = new Sliders<string>(Object.fromEntries(names.flatMap((name, i) => ([0, 1] as const).map((k) => [`${name}${"xy"[k]}`, { name: say`Corner ${name}, ${k === 0 ? say("left and right") : say("up and down")}`, from: window[2 * k]!, to: window[2 * k + 1]!, step: 0.005, value: start[i]![k], text: (v: number) => number(v, 3), drags: true }]))), () => show());
   const show = () => {
     corners = names.map((name): Vec2 => [sliders.value(`${name}x`), sliders.value(`${name}y`)]);
     const [A, B, C] = corners as [Vec2, Vec2, Vec2], u = cross(C, B), v = cross(A, C), w = cross(B, A), sum = u + v + w;
@@ -248,10 +248,10 @@ function triangleFigure(id: string, both: boolean): HTMLElement {
       return;
     }
     Object.assign(said.dataset, { u: String(u), v: String(v), w: String(w), z: String(z), hit: String(inside) });
-    said.textContent = `u = ${number(u, 3)} (violet), v = ${number(v, 3)} (blue), w = ${number(w, 3)} (gold): ${inside ? `none has another sign than the others, the ray hits, at z = (u·Az + v·Bz + w·Cz)/(u + v + w) = ${number(z, 4)} for corners at depths 2, 3 and 5.` : sum === 0 ? "their sum is 0, the triangle has no area, the ray misses." : "their signs differ, the ray misses."}`;
+    said.textContent = say`u = ${number(u, 3)} (violet), v = ${number(v, 3)} (blue), w = ${number(w, 3)} (gold): ${inside ? say`none has another sign than the others, the ray hits, at z = (u·Az + v·Bz + w·Cz)/(u + v + w) = ${number(z, 4)} for corners at depths 2, 3 and 5.` : sum === 0 ? say("their sum is 0, the triangle has no area, the ray misses.") : say("their signs differ, the ray misses.")}`;
   };
   show();
-  return frame(id, stage, sliders.bar, said, `Drag a corner: seen along the ray the ray is the point in the middle. ${both ? "The corners lie at depths 2, 3 and 5." : "Each coloured triangle is half of one of the three numbers."}`);
+  return frame(id, stage, sliders.bar, said, say`Drag a corner: seen along the ray the ray is the point in the middle. ${both ? say("The corners lie at depths 2, 3 and 5.") : say("Each coloured triangle is half of one of the three numbers.")}`);
 }
 
 export const intersectionFigure = ({ settings }: FigureJson, id: string): HTMLElement => (settings.kind === "triangle" ? triangleFigure(id, settings.show === "both") : rayFigure(settings.kind!, id));

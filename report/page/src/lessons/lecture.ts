@@ -3,6 +3,7 @@
 // screen and the printed page. The URL's hash is the slide, "#slide-3".
 import { html } from "../svg";
 import { NotesWindow } from "./notes_window";
+import { say } from "./say";
 
 const height = 768, least = 1024, most = 1366;  // of a slide, CSS pixels
 const largest = 38, beside = 27, smallest = 18;  // of its letters, CSS pixels; beside a figure
@@ -60,7 +61,7 @@ export class Lecture {
       made.addEventListener("click", () => this.act(key));
       return made;
     };
-    article.append(html("div", { class: "lecture-bar", role: "group", "aria-label": "Slides" }, button("Back", "ArrowLeft"), this.count, button("Next", "ArrowRight"), button("Black (B)", "b"), button("Notes (N)", "n")), this.black);
+    article.append(html("div", { class: "lecture-bar", role: "group", "aria-label": say("Slides") }, button(say("Back"), "ArrowLeft"), this.count, button(say("Next"), "ArrowRight"), button(say("Black (B)"), "b"), button(say("Notes (N)"), "n")), this.black);
     document.documentElement.dataset.view = "lecture";
     article.style.width = `${least}px`;
     this.slides.forEach((slide) => this.fit(slide));
@@ -94,7 +95,7 @@ export class Lecture {
     const slide = this.slides[at]!;
     this.slides.forEach(({ element }, i) => element.classList.toggle("on-slide", i === at));
     slide.steps.forEach((step, i) => step.classList.toggle("to-come", i >= shown));
-    this.count.textContent = `${at + 1} of ${this.slides.length}`;
+    this.count.textContent = say`${at + 1} of ${this.slides.length}`;
     history.replaceState(null, "", `#slide-${at + 1}`);
     this.notes.show(this.slides, at, slide.steps.length - shown);
   }

@@ -7,9 +7,10 @@ import { copyButton } from "../clipboard";
 import { startFigures } from "./figures";
 import { Lecture } from "./lecture";
 import { SlideView } from "./slides";
+import { say } from "./say";
 
 async function start(): Promise<void> {
-  for (const code of document.querySelectorAll<HTMLElement>("code.language-sh")) code.parentElement!.after(copyButton(code, "Copy"));
+  for (const code of document.querySelectorAll<HTMLElement>("code.language-sh")) code.parentElement!.after(copyButton(code, say("Copy")));
   await startFigures();
   const lecture = document.querySelector<HTMLElement>(".lecture");
   if (lecture) new Lecture(lecture);

@@ -2,6 +2,7 @@
 // own, so that it works from disk.
 import { html } from "../svg";
 import type { Slide } from "./lecture";
+import { say } from "./say";
 
 const clock = (seconds: number): string => `${seconds < 0 ? "−" : ""}${Math.floor(Math.abs(seconds) / 60)}:${String(Math.floor(Math.abs(seconds) % 60)).padStart(2, "0")}`;
 
@@ -21,7 +22,7 @@ export class NotesWindow {
     if (!this.window) return;  // the browser lets no window open
     const { document: page } = this.window;
     page.documentElement.lang = "en";
-    page.title = `Notes: ${document.title}`;
+    page.title = say`Notes: ${document.title}`;
     page.head.replaceChildren(...[...document.querySelectorAll("style")].map((style) => page.importNode(style, true)));
     page.body.replaceChildren(page.adoptNode(this.body));
     page.addEventListener("keydown", (event) => { if (this.act(event.key)) event.preventDefault(); });
@@ -37,13 +38,13 @@ export class NotesWindow {
     this.planned = slides.slice(0, at + 1).reduce((sum, slide) => sum + slide.minutes, 0);
     const text = html("div", { class: "notes-text" });
     text.append(...[...notes.children].map((child) => child.cloneNode(true)));
-    this.body.replaceChildren(this.time, html("p", {}, `Slide ${at + 1} of ${slides.length}, ${minutes} min. ${left === 0 ? "All of it is shown." : `${left} more to show.`}`),
-      html("h1", {}, heading), text, html("p", { class: "notes-next" }, next ? `Next: ${next.heading}` : "The last slide."));
+    this.body.replaceChildren(this.time, html("p", {}, say`Slide ${at + 1} of ${slides.length}, ${minutes} min. ${left === 0 ? say("All of it is shown.") : say`${left} more to show.`}`),
+      html("h1", {}, heading), text, html("p", { class: "notes-next" }, next ? say`Next: ${next.heading}` : say("The last slide.")));
     this.tick();
   }
 
   private tick(): void {
     const seconds = (Date.now() - this.begun) / 1000, ahead = 60 * this.planned - seconds;
-    this.time.textContent = `${clock(seconds)} gone; this slide ends at ${this.planned}:00, ${ahead < 0 ? `${clock(-ahead)} ago` : `in ${clock(ahead)}`}. Now ${new Date().toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" })}.`;
+    this.time.textContent = say`${clock(seconds)} gone; this slide ends at ${this.planned}:00, ${ahead < 0 ? say`${clock(-ahead)} ago` : say`in ${clock(ahead)}`}. Now ${new Date().toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" })}.`;
   }
 }

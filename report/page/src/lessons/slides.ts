@@ -2,6 +2,7 @@
 // slide; a picture, a live figure and a question are slides of their own, and so is text beyond what can be read at a glance.
 // The URL's hash is the slide, "#slide-3", so that a lecture can be linked to and resumed.
 import { html } from "../svg";
+import { say } from "./say";
 
 interface Slide {
   part: HTMLElement;
@@ -58,11 +59,11 @@ export class SlideView {
 
   constructor(lesson: HTMLElement) {
     this.slides = [...lesson.querySelectorAll<HTMLElement>(".part")].flatMap(slidesOf);
-    const open = this.button("Slides", () => this.go(0));
+    const open = this.button(say("Slides"), () => this.go(0));
     open.classList.add("open-slides");
     document.querySelector("header.bar-top")!.append(open);
-    this.bar = html("div", { class: "slide-bar", role: "group", "aria-label": "Slides" },
-      this.button("Previous", () => this.step(-1)), this.count, this.button("Next", () => this.step(1)), this.button("Close", () => this.go(-1)));
+    this.bar = html("div", { class: "slide-bar", role: "group", "aria-label": say("Slides") },
+      this.button(say("Previous"), () => this.step(-1)), this.count, this.button(say("Next"), () => this.step(1)), this.button(say("Close"), () => this.go(-1)));
     lesson.after(this.bar);
     document.addEventListener("keydown", (event) => this.key(event));
     window.addEventListener("hashchange", () => this.restore());
@@ -101,7 +102,7 @@ export class SlideView {
     if (slide) {
       for (const element of [slide.part, ...slide.elements]) element.classList.add("on-slide");
       headLevel(slide.part, "1");
-      this.count.textContent = `${at + 1} of ${this.slides.length}`;
+      this.count.textContent = say`${at + 1} of ${this.slides.length}`;
       window.scrollTo(0, 0);
     }
     this.fit();

@@ -1,5 +1,5 @@
 // Watch a ray visit the cells of a structure: the program's own one of a whole scene, in the plane that cuts it.
-import { counted, grouped } from "../number_text";
+import { grouped } from "../number_text";
 import { html, number } from "../svg";
 import { pageData } from "../parts";
 import { add, length, sub, unit, type Vec2 } from "./flatland";
@@ -7,8 +7,9 @@ import type { FigureJson } from "./figures";
 import { frame } from "./flatland_figure";
 import { Sliders, Stage } from "./stage";
 import { cellsOf, segmentsOf, walkRay, type StructureJson, type Walk } from "./structure_walk";
+import { many, say } from "./say";
 
-const names = { grid: "uniform grid", octree: "octree", kd: "kd-tree", bsp: "BSP tree", bvh: "bounding-volume hierarchy" };
+const names = { grid: say("uniform grid"), octree: say("octree"), kd: say("kd-tree"), bsp: say("BSP tree"), bvh: say("bounding-volume hierarchy") };
 /** What its walk counts, one and several. */
 const asked: Record<StructureJson["kind"], [string, string]> = { grid: ["cell", "cells"], octree: ["box", "boxes"], kd: ["plane", "planes"], bsp: ["plane", "planes"], bvh: ["box", "boxes"] };
 
@@ -35,10 +36,10 @@ export function structureFigure({ settings, data }: FigureJson, id: string): HTM
   const said = html("p", { class: "bias-counts", role: "status" }), first = view(Math.min(Number(settings.zoom ?? 1), zoomMost(lines, width)));
   const end = (key: string, name: string, value: number): Record<string, never> => ({ [key]: { name, from: 0, to: 1, step: 0.001, value, text: (v: number) => number(v, 3), drags: true } }) as Record<string, never>;
   const sliders: Sliders<string> = new Sliders<string>({
-    step: { name: "Cells visited", from: 0, to: 1, step: 0.001, value: 1, text: (v) => `${Math.round(100 * v)} %` },
-    zoom: { name: "Enlarged", from: 0, to: Math.log2(zoomMost(lines, width)), step: 0.05, value: Math.log2(Math.min(Number(settings.zoom ?? 1), zoomMost(lines, width))), text: (v) => `${number(2 ** v, 2)}×` },
-    ...end("fromX", "Ray's start, left and right", 0.06), ...end("fromY", "Ray's start, up and down", 0.86),
-    ...end("toX", "Ray's aim, left and right", (dense[0] - first[0]) / (first[1] - first[0])), ...end("toY", "Ray's aim, up and down", (dense[1] - first[2]) / (first[3] - first[2])),
+    step: { name: say("Cells visited"), from: 0, to: 1, step: 0.001, value: 1, text: (v) => `${Math.round(100 * v)} %` },
+    zoom: { name: say("Enlarged"), from: 0, to: Math.log2(zoomMost(lines, width)), step: 0.05, value: Math.log2(Math.min(Number(settings.zoom ?? 1), zoomMost(lines, width))), text: (v) => `${number(2 ** v, 2)}×` },
+    ...end("fromX", say("Ray's start, left and right"), 0.06), ...end("fromY", say("Ray's start, up and down"), 0.86),
+    ...end("toX", say("Ray's aim, left and right"), (dense[0] - first[0]) / (first[1] - first[0])), ...end("toY", say("Ray's aim, up and down"), (dense[1] - first[2]) / (first[3] - first[2])),
   }, () => show());
   let shown = first, ends: [Vec2, Vec2] = [[0, 0], [0, 0]];
   const share = (at: number, low: number, high: number) => (at - low) / (high - low);
@@ -46,7 +47,7 @@ export function structureFigure({ settings, data }: FigureJson, id: string): HTM
     sliders.set(`${handle}X`, share(at[0], shown[0], shown[1]));
     sliders.set(`${handle}Y`, share(at[1], shown[2], shown[3]));
   };
-  const stage = new Stage(shown, `The ${names[json.kind]} of the scene ${json.scene}, and the cells that a ray visits`, dragged, () => ({ to: ends[1], from: ends[0] }));
+  const stage = new Stage(shown, say`The ${names[json.kind]} of the scene ${json.scene}, and the cells that a ray visits`, dragged, () => ({ to: ends[1], from: ends[0] }));
   const show = () => {
     stage.look(shown = view(2 ** sliders.value("zoom")));
     const point = (key: string): Vec2 => [shown[0] + sliders.value(`${key}X`) * (shown[1] - shown[0]), shown[2] + sliders.value(`${key}Y`) * (shown[3] - shown[2])];
@@ -59,11 +60,11 @@ export function structureFigure({ settings, data }: FigureJson, id: string): HTM
       stage.path("profile thin", lines), stage.path("ray", [[from, stop]]), stage.circle("point", from, 11), stage.circle("moved", to, 9), ...(isFinite(walk.t) && all ? [stage.circle("hit", stop, 8)] : []));
     const boxes = all ? walk.boxes : (last?.boxes ?? 0), primitives = all ? walk.primitives : (last?.primitives ?? 0);
     Object.assign(said.dataset, { boxes: String(boxes), primitives: String(primitives), cells: String(seen) });
-    said.textContent = `${seen} of ${counted(walk.visits.length, "cell")}: ${counted(boxes, ...asked[json.kind])} and ${counted(primitives, "triangle")} tested. ` +
-      `Without a structure it would be all ${grouped(json.primitives)} triangles.${all ? (isFinite(walk.t) ? " The ray hits." : " The ray hits nothing.") : ""}`;
+    said.textContent = say`${seen} of ${many(walk.visits.length, "cell", "cells")}: ${many(boxes, ...asked[json.kind])} and ${many(primitives, "triangle", "triangles")} tested. ` +
+      say`Without a structure it would be all ${grouped(json.primitives)} triangles.${all ? (isFinite(walk.t) ? say(" The ray hits.") : say(" The ray hits nothing.")) : ""}`;
   };
   show();
-  return frame(id, stage, sliders.bar, said, `Drag either end of the ray. The plane z = ${json.plane} cuts the scene and its ${names[json.kind]}; the counts are the program's own for this ray. Filled: cells that were visited, darker where triangles were tested in them.`);
+  return frame(id, stage, sliders.bar, said, say`Drag either end of the ray. The plane z = ${json.plane} cuts the scene and its ${names[json.kind]}; the counts are the program's own for this ray. Filled: cells that were visited, darker where triangles were tested in them.`);
 }
 
 /** The middle of the shortest tenth of the segments. */

@@ -4,6 +4,7 @@ import { html, number } from "../svg";
 import { add, dot, occluded, piecesOf, polygon, sub, unit, type Circle, type Outcome, type Place, type Segment, type Vec2 } from "./flatland";
 import { angleOf, degrees, frame, rays, runs, sun, sunAt, world2, type FlatlandJson } from "./flatland_figure";
 import { Sliders, Stage } from "./stage";
+import { say } from "./say";
 
 const pieces = 60;  // of each face
 
@@ -20,12 +21,12 @@ function lostAngle(sides: number, from: number, way: 1 | -1): number {
 
 export function terminatorFigure(json: FlatlandJson, id: string): HTMLElement {
   const { circles: [ball], segments } = world2(json) as { circles: [Circle]; segments: Segment[] }, { window } = json;
-  const stage = new Stage(window, "A ball of flat faces under a sun: faces turned away, and smooth normals", (at) => sliders.set("angle", Math.atan2(at[0] - ball.center[0], at[1] - ball.center[1]) * degrees));
+  const stage = new Stage(window, say("A ball of flat faces under a sun: faces turned away, and smooth normals"), (at) => sliders.set("angle", Math.atan2(at[0] - ball.center[0], at[1] - ball.center[1]) * degrees));
   const said = html("p", { class: "bias-counts", role: "status" });
   const start = json.light.position ? angleOf(unit(sub(ball.center, json.light.position))) : 35;
   const sliders: Sliders<"angle" | "sides"> = new Sliders({
-    angle: { name: "Sun, degrees from the zenith", from: -180, to: 180, step: 0.5, value: Math.round(2 * start) / 2, text: (v) => `${number(v, 4)}°`, drags: true },
-    sides: { name: "Faces round the ball", from: 5, to: 60, step: 1, value: 14, text: String },
+    angle: { name: say("Sun, degrees from the zenith"), from: -180, to: 180, step: 0.5, value: Math.round(2 * start) / 2, text: (v) => `${number(v, 4)}°`, drags: true },
+    sides: { name: say("Faces round the ball"), from: 5, to: 60, step: 1, value: 14, text: String },
   }, () => show());
   const show = () => {
     const sides = sliders.value("sides"), light = sunAt(sliders.value("angle")), toLight: Vec2 = [-light[0], -light[1]], faces = polygon(ball, sides);
@@ -49,9 +50,9 @@ export function terminatorFigure(json: FlatlandJson, id: string): HTMLElement {
       ...runs(stage, [...floor, ...made], half), ...sun(stage, window, light, ball.center));
     const from = Math.atan2(toLight[1], toLight[0]) * degrees, formula = { left: lostAngle(sides, from, -1), right: lostAngle(sides, from, 1) };
     Object.assign(said.dataset, { sides: String(sides), angle: String(sliders.value("angle")), lostRight: String(lost[-1]), lostLeft: String(lost[1]), formulaRight: String(formula.right), formulaLeft: String(formula.left) });
-    said.textContent = `Orange: the smooth normal faces the sun, the face does not, and stands in its own shadow: ${number(lost[-1]!, 2)}° on one side and ${number(lost[1]!, 2)}° on the other; by the angles of the faces ${number(formula.right, 2)}° and ${number(formula.left, 2)}°. ` +
-      `It is never more than half a face, 180°/${sides} = ${number(180 / sides, 3)}°.`;
+    said.textContent = say`Orange: the smooth normal faces the sun, the face does not, and stands in its own shadow: ${number(lost[-1]!, 2)}° on one side and ${number(lost[1]!, 2)}° on the other; by the angles of the faces ${number(formula.right, 2)}° and ${number(formula.left, 2)}°. ` +
+      say`It is never more than half a face, 180°/${sides} = ${number(180 / sides, 3)}°.`;
   };
   show();
-  return frame(id, stage, sliders.bar, said, "Drag the sun round the ball, or give the ball more faces. Ticks at the corners: the ball's own normals; in the middle of faces: the faces' normals. The thin line parts what the smooth ball has in light from what it has in shadow.");
+  return frame(id, stage, sliders.bar, said, say("Drag the sun round the ball, or give the ball more faces. Ticks at the corners: the ball's own normals; in the middle of faces: the faces' normals. The thin line parts what the smooth ball has in light from what it has in shadow."));
 }

@@ -1,11 +1,12 @@
 // Whitted's tree of rays, one ray after the other, in the upright plane through the centres of both balls of the scene: there
 // every ray that begins in the plane stays in it.
-import { counted, percent } from "../number_text";
+import { percent } from "../number_text";
 import { html, number, svg } from "../svg";
 import { add, dot, length, meetCircle, meetSegment, sub, unit, type Circle, type Segment, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
 import { frame, world2, type FlatlandJson } from "./flatland_figure";
 import { Sliders, Stage } from "./stage";
+import { many, say } from "./say";
 
 interface MaterialJson {
   name: string;
@@ -78,11 +79,11 @@ export class Tracer2 {
 
   /** Breadth first: every ray before those that it calls for. */
   trace(eye: Vec2, aim: Vec2): void {
-    const waiting: { kind: Kind; from: Vec2; direction: Vec2; share: number; depth: number; parent: number; why: string }[] = [{ kind: "eye", from: eye, direction: unit(sub(aim, eye)), share: 1, depth: 0, parent: -1, why: "From the eye through a pixel" }];
+    const waiting: { kind: Kind; from: Vec2; direction: Vec2; share: number; depth: number; parent: number; why: string }[] = [{ kind: "eye", from: eye, direction: unit(sub(aim, eye)), share: 1, depth: 0, parent: -1, why: say("From the eye through a pixel") }];
     for (let next = waiting.shift(); next && this.rays.length < 120; next = waiting.shift()) {
       const { kind, from, direction, share, depth, parent, why } = next, hit = this.meet(from, direction, depth > 0), own = this.rays.length;
       this.rays.push({ kind, from, to: hit?.at ?? add(from, direction, this.far), share, depth, parent, blocked: false,
-        story: `${why}: ${hit ? `it meets the ${hit.material?.name ?? "floor"} after ${number(hit.t, 3)}` : "it meets nothing and takes the background"}.` });
+        story: `${why}: ${hit ? say`it meets the ${hit.material?.name ?? say("floor")} after ${number(hit.t, 3)}` : say("it meets nothing and takes the background")}.` });
       if (!hit) continue;
       const inside = dot(direction, hit.normal) > 0, n: Vec2 = inside ? [-hit.normal[0], -hit.normal[1]] : hit.normal;
       if (!inside) this.shadow(hit.at, n, share, depth, own);
@@ -91,12 +92,12 @@ export class Tracer2 {
       const follow = (to: Kind, way: Vec2, part: number, words: string) => {
         if (part * share >= this.json.least_share) waiting.push({ kind: to, from: hit.at, direction: way, share: part * share, depth: depth + 1, parent: own, why: words });
       };
-      const reflected = add(direction, n, 2 * c), mirrored = `Reflected at ${degrees(c)}`;
+      const reflected = add(direction, n, 2 * c), mirrored = say`Reflected at ${degrees(c)}`;
       if (transmission > 0) {
         const R = fresnel(c, ratio), k = 1 - ratio * ratio * (1 - c * c);
-        follow("reflected", reflected, transmission * R, k < 0 ? `${mirrored}, all of it: total reflection` : `${mirrored}, Fresnel's ${percent(R)}`);
-        if (k >= 0) follow("refracted", unit(add([ratio * direction[0], ratio * direction[1]], n, ratio * c - Math.sqrt(k))), transmission * (1 - R), `Refracted ${inside ? "out of" : "into"} the glass, from ${degrees(c)} to ${degrees(Math.sqrt(k))}, ${percent(1 - R)} of it`);
-      } else if (mirror > 0) follow("reflected", reflected, mirror, `${mirrored}, ${percent(mirror)} by the mirror`);
+        follow("reflected", reflected, transmission * R, k < 0 ? say`${mirrored}, all of it: total reflection` : say`${mirrored}, Fresnel's ${percent(R)}`);
+        if (k >= 0) follow("refracted", unit(add([ratio * direction[0], ratio * direction[1]], n, ratio * c - Math.sqrt(k))), transmission * (1 - R), say`Refracted ${inside ? say("out of") : say("into")} the glass, from ${degrees(c)} to ${degrees(Math.sqrt(k))}, ${percent(1 - R)} of it`);
+      } else if (mirror > 0) follow("reflected", reflected, mirror, say`${mirrored}, ${percent(mirror)} by the mirror`);
     }
   }
 
@@ -108,9 +109,9 @@ export class Tracer2 {
       const hit = this.meet(from, direction, true), blocker = hit && hit.t < length(sub(this.lamp, from)) ? hit : null;
       const passes = blocker ? passing(blocker, direction) : 0, glass = passes > 0;
       light *= blocker ? passes : 1;
-      const what = !blocker ? (light < 1 ? `nothing more is in its way, the surfaces of the glass let ${percent(light)} of the light through` : "nothing is in its way, the point is lit")
-        : glass ? `the ${blocker.material!.name} is in its way and lets ${percent(passes)} through` : `the ${blocker.material?.name ?? "floor"} is in its way, the point is in shadow`;
-      this.rays.push({ kind: "shadow", from, to: blocker?.at ?? this.lamp, share, depth: depth + 1, parent, blocked: blocker !== null && !glass, story: `Shadow ray to the lamp: ${what}.` });
+      const what = !blocker ? (light < 1 ? say`nothing more is in its way, the surfaces of the glass let ${percent(light)} of the light through` : say("nothing is in its way, the point is lit"))
+        : glass ? say`the ${blocker.material!.name} is in its way and lets ${percent(passes)} through` : say`the ${blocker.material?.name ?? say("floor")} is in its way, the point is in shadow`;
+      this.rays.push({ kind: "shadow", from, to: blocker?.at ?? this.lamp, share, depth: depth + 1, parent, blocked: blocker !== null && !glass, story: say`Shadow ray to the lamp: ${what}.` });
       if (!blocker || !glass) return;
       from = blocker.at;
     }
@@ -125,7 +126,7 @@ function treeOf(rays: readonly Ray[], last: Ray | undefined): SVGElement {
     row.sort((a, b) => (a.parent < 0 ? 0 : place(rays[a.parent]!)[0] - place(rays[b.parent]!)[0]));  // below their parents
     row.forEach((ray, i) => places.set(ray, [((i + 0.5) / row.length) * width, 60 * ray.depth + 30]));
   }
-  const drawing = svg("svg", { class: "flatland ray-tree", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "The tree of rays: each below the one that called for it" });
+  const drawing = svg("svg", { class: "flatland ray-tree", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": say("The tree of rays: each below the one that called for it") });
   for (const ray of rays.filter(({ parent }) => parent >= 0)) {
     const [x1, y1] = place(rays[ray.parent]!), [x2, y2] = place(ray);
     drawing.append(svg("path", { class: `tree ${ray.kind}${ray.blocked ? " blocked" : ""}`, d: `M${x1.toFixed(1)},${y1}L${x2.toFixed(1)},${y2}`, "stroke-width": 2 }));
@@ -142,20 +143,20 @@ export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
   const json = data as WhittedJson, { segments: floor, circles: balls } = world2(json), { window } = json, [left, right, bottom, top] = window;
   const shareX = (x: number) => (x - left) / (right - left), shareY = (y: number) => (y - bottom) / (top - bottom);
   let handles: Record<"eye" | "aim" | "lamp", Vec2>;
-  const stage = new Stage(window, "A glass ball and a mirror ball over a floor, and the tree of rays of one pixel", (at, handle) => {
+  const stage = new Stage(window, say("A glass ball and a mirror ball over a floor, and the tree of rays of one pixel"), (at, handle) => {
     sliders.set(`${handle}X`, shareX(at[0]));
     sliders.set(`${handle}Y`, shareY(at[1]));
   }, () => handles);
   const said = html("p", { class: "bias-counts", role: "status" });
   const slider = (name: string, value: number) => ({ name, from: 0, to: 1, step: 0.001, value, text: (v: number) => number(v, 3), drags: true });
   const sliders: Sliders<string> = new Sliders<string>({
-    step: { name: "Rays", from: 0, to: 1, step: 0.001, value: 1, text: (v) => percent(v) },
-    eyeX: slider("Eye, left and right", 0.05), eyeY: slider("Eye, up and down", 0.45),
-    aimX: slider("Aim, left and right", shareX(balls[0]!.center[0] - 0.2)), aimY: slider("Aim, up and down", shareY(balls[0]!.center[1] + 0.35)),
-    lampX: slider("Lamp, left and right", 0.3), lampY: slider("Lamp, up and down", 0.93),
+    step: { name: say("Rays"), from: 0, to: 1, step: 0.001, value: 1, text: (v) => percent(v) },
+    eyeX: slider(say("Eye, left and right"), 0.05), eyeY: slider(say("Eye, up and down"), 0.45),
+    aimX: slider(say("Aim, left and right"), shareX(balls[0]!.center[0] - 0.2)), aimY: slider(say("Aim, up and down"), shareY(balls[0]!.center[1] + 0.35)),
+    lampX: slider(say("Lamp, left and right"), 0.3), lampY: slider(say("Lamp, up and down"), 0.93),
   }, () => show());
   const step = (by: number) => {
-    const button = html("button", { type: "button", class: by > 0 ? "next-ray" : "" }, by > 0 ? "Next ray" : "Ray before");
+    const button = html("button", { type: "button", class: by > 0 ? "next-ray" : "" }, by > 0 ? say("Next ray") : say("Ray before"));
     button.addEventListener("click", () => { const n = total, at = Math.round(sliders.value("step") * n); sliders.set("step", Math.min(Math.max((at + by) / n, 0), 1)); });
     return button;
   };
@@ -175,15 +176,15 @@ export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
         path.setAttribute("stroke-width", String(1.5 + 4.5 * Math.sqrt(ray.share)));
         return path;
       }),
-      ...balls.map(({ center }, i) => stage.label("middle", center, json.materials[i]!.transmission > 0 ? "glass" : "mirror", 6)),
-      stage.circle("sun", handles.lamp, 13), stage.circle("point", handles.eye, 11), stage.circle("moved", handles.aim, 9), stage.label("middle", handles.eye, "eye", -18), stage.label("middle", handles.lamp, "lamp", -20));
+      ...balls.map(({ center }, i) => stage.label("middle", center, json.materials[i]!.transmission > 0 ? say("glass") : say("mirror"), 6)),
+      stage.circle("sun", handles.lamp, 13), stage.circle("point", handles.eye, 11), stage.circle("moved", handles.aim, 9), stage.label("middle", handles.eye, say("eye"), -18), stage.label("middle", handles.lamp, say("lamp"), -20));
     tree.replaceChildren(treeOf(rays, last));
     Object.assign(said.dataset, { rays: String(rays.length), total: String(total), share: String(last?.share ?? 0) });
-    said.textContent = `${rays.length} of ${counted(total, "ray")}. ${last ? `${last.story} It counts for ${percent(last.share)} of the pixel.` : ""}`;
+    said.textContent = say`${rays.length} of ${many(total, "ray", "rays")}. ${last ? say`${last.story} It counts for ${percent(last.share)} of the pixel.` : ""}`;
   };
   show();
   sliders.bar.prepend(html("div", { class: "steps" }, step(-1), step(1)));
-  const figure = frame(id, stage, sliders.bar, said, `Drag the eye, what it looks at, and the lamp. Orange: the eye's ray; violet: reflected; blue: refracted; gold: a shadow ray that reaches the lamp; dotted: one that does not. The wider, the more it counts; below ${percent(json.least_share)} of the pixel a ray is not followed.`);
+  const figure = frame(id, stage, sliders.bar, said, say`Drag the eye, what it looks at, and the lamp. Orange: the eye's ray; violet: reflected; blue: refracted; gold: a shadow ray that reaches the lamp; dotted: one that does not. The wider, the more it counts; below ${percent(json.least_share)} of the pixel a ray is not followed.`);
   said.after(tree);
   return figure;
 }
