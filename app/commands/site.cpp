@@ -120,7 +120,7 @@ Expected<ExitCode> run_site(const SiteCommand& command) {
   if (const auto fine = paths.check(); !fine) return fail(fine.error());
   auto files = engine_files(command.web);
   if (!files) return fail(files.error());
-  auto lesson_pages = lessons::make_site({}, console);
+  auto lesson_pages = lessons::make_site({}, console, "../lab.html");
   if (!lesson_pages) return fail(lesson_pages.error());
   auto manual = lessons::manual_pages();
   if (!manual) return fail(manual.error());

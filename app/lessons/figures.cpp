@@ -112,6 +112,7 @@ std::string PageFigures::data() const {
   Json json{{"kind", "lesson"}, {"figures", figures_}, {"labels", Json::array()}};
   json.update(words_);
   json["comparisons"] = comparisons_;
+  if (!lab_.empty()) json["lab"] = lab_;
   // English has none: its words stand in the page's own script.
   if (const std::string_view words = embedded::lectures("figures.json"); !words.empty())
     json["figure_words"] = Json::parse(words);

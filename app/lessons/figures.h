@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/lessons/comparison.h"
@@ -15,7 +16,8 @@ namespace gnomon::app::lessons {
 
 class PageFigures {
  public:
-  explicit PageFigures(Console& console) : console_(console) {}
+  /// `lab`: where the lab's page is, seen from this one; empty where there is none.
+  explicit PageFigures(Console& console, std::string lab = {}) : console_(console), lab_(std::move(lab)) {}
 
   /// Adds the figure of the next mark. Errors: of its scene and its settings.
   Expected<void> add(const LiveMark& mark);
@@ -34,6 +36,7 @@ class PageFigures {
   std::string keep(const std::string& key, SmallComparison&& comparison, int light);
 
   Console& console_;
+  std::string lab_;
   Json figures_ = Json::array(), comparisons_ = Json::object(), words_ = Json::object();
   std::set<std::string> kept_;  ///< names of parts
   std::vector<compare::DataPart> parts_;

@@ -71,7 +71,8 @@ std::string links_of(const Lessons& written, std::size_t at) {
 
 /// A page of a text with live figures; `kind`: the class of its article.
 Expected<std::string> article_page(const std::string& title, const std::string& links, std::string_view kind,
-                                   std::string_view markdown, const Lessons& written, Console& console) {
+                                   std::string_view markdown, const Lessons& written, Console& console,
+                                   const std::string& lab = {}) {
   const LessonText text = read_lesson(markdown);
   std::string main = fmt::format("<article class=\"{}\">\n", kind);
   for (const std::string& part : text.parts) {
@@ -79,16 +80,17 @@ Expected<std::string> article_page(const std::string& title, const std::string& 
     if (!html) return html;
     main += "<section class=\"part\">\n" + *html + "</section>\n";
   }
-  PageFigures figures(console);
+  PageFigures figures(console, lab);
   for (const LiveMark& mark : text.marks)
     if (const auto added = figures.add(mark); !added) return fail(added.error());
   return page_html(fmt::format("{} \u2013 Gnomon", title), links, main + "</article>\n", figures);
 }
 
-Expected<SitePage> lesson_page(const Lessons& written, std::size_t at, Console& console) {
+Expected<SitePage> lesson_page(const Lessons& written, std::size_t at, Console& console,
+                               const std::string& lab) {
   const Lesson& lesson = *written[at];
   const auto html = article_page(std::string(lesson.title), links_of(written, at), "lesson-text", lesson.text,
-                                 written, console);
+                                 written, console, lab);
   if (!html) return fail(html.error());
   return SitePage{page_name(lesson), *html};
 }
@@ -149,12 +151,13 @@ std::string page_of_text(const std::string& title, const std::string& links, con
   return page_html(title, links, main, PageFigures(quiet));
 }
 
-Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, Console& console) {
+Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, Console& console,
+                                          const std::string& lab) {
   const auto written = chosen(only);
   if (!written) return fail(written.error());
   std::vector<SitePage> pages;
   for (std::size_t i = 0; i < written->size(); ++i) {
-    auto page = lesson_page(*written, i, console);
+    auto page = lesson_page(*written, i, console, lab);
     if (!page) return fail(page.error());
     pages.push_back(std::move(*page));
     console.progress("lessons", static_cast<double>(i + 1) / static_cast<double>(written->size()));

@@ -43,8 +43,10 @@ struct SitePage {
 };
 
 /// The pages of the lessons of those names, all of them where there are none, and the index of these.
+/// `lab`: where a lesson finds the lab's page, to which its figures of comparisons lead then; empty: nowhere.
 /// Errors: (usage) a name that no lesson has; those of a live figure's scene, of its settings, of the graphics.
-Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, Console& console);
+Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, Console& console,
+                                          const std::string& lab = {});
 
 /// "shadows", "rays": the decks of docs/lectures/en.
 std::vector<std::string_view> lecture_names();

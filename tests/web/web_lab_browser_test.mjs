@@ -93,6 +93,23 @@ async function leadsSomewhere() {
   }
 }
 
+/** A lesson's figure leads to the lab, which draws the same picture: both count what the command counts. */
+async function computesALessonsFigure() {
+  const lesson = await openAt(`${host.url}lessons/acne.html`, host.url), figure = lesson.locator(".live-figure", { has: lesson.locator(".to-lab") }).first();
+  const [counted, href] = [await figure.locator(".bias-counts").evaluate(({ dataset }) => Number(dataset.falseShadow)), await figure.locator(".to-lab").evaluate((a) => a.href)];
+  await close(lesson);
+  const page = await openLab(new URL(href).hash);
+  assert.equal(new URL(href).href.split("#")[0], `${host.url}lab.html`);
+  await done(page);
+  const rows = await page.locator("#lab-results .labels tbody tr").evaluateAll((all) => Object.fromEntries(all.map((row) => [row.querySelector("summary").textContent, Number(row.querySelector(".n").textContent.replaceAll(",", ""))])));
+  const { scene, ...options } = Object.fromEntries(new URLSearchParams(new URL(href).hash.slice(1)));
+  const { classes, error } = JSON.parse(execFileSync(native, ["compare", scene, ...Object.entries(options).flatMap(([name, value]) => [`--${name}`, value]), "--runs", "1", "--quiet", "--no-report", "--json", "-"], { maxBuffer: 1 << 28 })).lights[0];
+  assert.equal(counted, error.false_shadow);
+  // Triangles are not drawn to the bit by another graphics driver: as in web_gl_browser_test.
+  assert.ok(Math.abs(rows.acne - classes.acne) <= 0.005 * classes.acne, `${JSON.stringify(rows)}, by the command ${classes.acne}`);
+  await close(page);
+}
+
 /** A page whose worker begins with other lines. */
 async function openWith(lines) {
   const page = await browser.newPage();
@@ -154,6 +171,7 @@ await countsWhatTheCommandCounts();
 await opensFilesAndSavesTheReport();
 await canBeReadByAll();
 await leadsSomewhere();
+await computesALessonsFigure();
 await saysThatTheContextIsLost();
 await saysThatThereIsNoWebGl();
 await saysThatItTakesLong();
