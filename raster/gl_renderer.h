@@ -98,6 +98,17 @@ class GlRenderer final : public Renderer {
     double first_map_ms;
   };
   bool reuse_kept_map(const Job& job, const Light& light, LightRecord& record) const;
+  /// What the light took in the last picture alone that was to be kept (RasterOptions::keep_time).
+  struct KeptTime {
+    RasterOptions options;
+    Camera camera;
+    Light light;
+    LightView map;
+    double ms;
+  };
+  void keep_time(const Job& job, const MapJob& map_job, double ms);
+  /// Returns it where it is of this drawing, milliseconds; once.
+  std::optional<double> take_kept_time(const Job& job, const MapJob& map_job);
   /// What the programs of a map depend on, and the state that they are used in.
   struct WarmMap {
     Technique technique;
@@ -127,6 +138,7 @@ class GlRenderer final : public Renderer {
   std::map<std::uint32_t, LightView> fitted_;  ///< by light, to what the whole of a picture in bands shows
   double upload_ms_;
   std::optional<KeptMap> kept_map_;
+  std::optional<KeptTime> kept_time_;
   /// What was drawn before and is kept, not timed: the driver has it ready.
   bool warm_camera_ = false;
   std::set<ShadePermutation> warm_shadings_;

@@ -161,6 +161,9 @@ struct RasterOptions {
   /// map on takes only one that was handed on. With the map it takes the map pass's times. A picture alone that is not
   /// timed takes the map as well.
   int runs = usual_runs;
+  /// A picture alone that is not timed: what its first light takes to shade is kept, and is the one run of the next frame with records
+  /// of the same light, camera, size and options. For who lets nothing else work meanwhile.
+  bool keep_time = false;
   double enough_ms = never_enough_ms;  ///< no further run of a pass once those made took so long together
   /// Time the shading without shadows, too (LightRecord::unshadowed_pass), in turn; of each subtracted_runs at least.
   bool shadow_cost = false;

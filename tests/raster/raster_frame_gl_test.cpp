@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
+#include "scene/base/stages.h"
 #include "tests/support/raster_fixture.h"
 
 namespace gnomon::test {
@@ -186,6 +188,37 @@ TEST_P(Records, TimesHoldEveryRunAndChangeNothing) {
   EXPECT_EQ(drawn.light().shade_pass.runs.size(), 2u);
   EXPECT_GT(drawn.light().shade_pass.median(), 0.0);
   EXPECT_EQ(drawn.frame.color.data, color);
+}
+
+// It is drawn no second time, where all but records and time are the same.
+TEST_P(Records, APicturesKeptTimeIsTheRunOfTheNextFrame) {
+  Drawn drawn = make(false);
+  raster::RasterOptions timed = drawn.frame.options, picture = timed;
+  timed.runs = 1;
+  picture.analysis = false, picture.keep_time = true;
+  drawn.render(timed);  // with the camera's runs, which stay
+  const StageLog log;
+  double before_ms = 0.0;
+  const auto made_runs = [&] {
+    const TimeBudget budget = log.budget();
+    const StageTime* stage = budget.find("shading runs");
+    const double ms = stage != nullptr ? stage->wall_ms : 0.0;
+    return std::exchange(before_ms, ms) < ms;
+  };
+  const auto color = drawn.frame.color.data;
+  drawn.render(picture);
+  EXPECT_EQ(drawn.frame.color.data, color);
+  drawn.render(timed);
+  EXPECT_FALSE(made_runs());
+  EXPECT_EQ(drawn.light().shade_pass.runs.size(), 1u);
+  EXPECT_GT(drawn.light().shade_pass.median(), 0.0);
+  EXPECT_EQ(drawn.frame.color.data, color);
+  drawn.render(timed);
+  EXPECT_TRUE(made_runs()) << "it counts once";
+  drawn.render(picture);
+  timed.map.bias.constant *= 2.0;
+  drawn.render(timed);
+  EXPECT_TRUE(made_runs()) << "of another bias";
 }
 
 void expect_same_frame(const Drawn& drawn, const Drawn& fresh, const std::string& what) {

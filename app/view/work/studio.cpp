@@ -46,6 +46,7 @@ Expected<raster::RasterFrame> Studio::render(const Setup& setup, ImageSize size,
   options.map = setup.map;
   options.runs = runs;
   options.analysis = analysis;
+  options.keep_time = !analysis && !worker_.busy();
   const std::vector<std::uint32_t> lights{setup.light};
   std::optional<raster::MapCamera> frozen;
   if (setup.map_camera) frozen = raster::MapCamera{.camera = *setup.map_camera};
