@@ -225,7 +225,7 @@ TEST(ImageDecode, ADamagedExrIsLeftToOpenImageIo) {
     }
   }
   std::string twice = exr({0, 4}, 5, 19);
-  const std::size_t places = twice.size() - 19 * (8 + 8 + 5 * 4 * 4);
+  const std::size_t places = twice.size() - std::size_t{19} * (8 + 8 + 5 * 4 * 4);
   twice.replace(places, 8, twice.substr(places + 8, 8));
   EXPECT_FALSE(decode_exr(twice)) << "a row is missing";
 }

@@ -1,6 +1,7 @@
 #include "scene/files/pictures/exr_decode.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
@@ -139,21 +140,25 @@ float value_at(const char* bytes, std::size_t size) {
   return value;
 }
 
-/// Reads the block that lies there into its rows. Returns the first of them; none: it is not whole.
-std::optional<int> take_block(ExrBytes block, const ExrHeader& header, ChannelImage& out) {
-  const std::int64_t row = std::int64_t{block.number<std::int32_t>()} - header.first_row;
+/// The row that the block lying there begins with, from the picture's first on.
+std::int64_t row_of_block(ExrBytes block, const ExrHeader& header) {
+  return std::int64_t{block.number<std::int32_t>()} - header.first_row;
+}
+
+/// Reads the block that lies there into its rows, the first of which is `row`. Returns whether it is whole.
+bool take_block(ExrBytes block, const ExrHeader& header, std::int64_t row, ChannelImage& out) {
+  block.number<std::int32_t>();  // its row
   const auto length = block.number<std::int32_t>();
-  if (length < 0 || row < 0 || row >= header.size.height || row % header.rows_of_block() != 0)
-    return std::nullopt;
+  if (length < 0) return false;
   const auto rows =
       static_cast<std::size_t>(std::min<std::int64_t>(header.rows_of_block(), header.size.height - row));
   const std::string_view stored = block.take(static_cast<std::size_t>(length));
   const std::size_t whole = rows * header.row_bytes();
-  if (block.cut_off || stored.size() > whole) return std::nullopt;
+  if (block.cut_off || stored.size() > whole) return false;
   std::string raw(stored);
   if (stored.size() < whole) {
     raw.assign(whole, '\0');
-    if (header.compression == 0 || !inflate(stored, raw)) return std::nullopt;
+    if (header.compression == 0 || !inflate(stored, raw)) return false;
     raw = restored(std::move(raw));
   }
   const auto width = static_cast<std::size_t>(header.size.width);
@@ -162,7 +167,7 @@ std::optional<int> take_block(ExrBytes block, const ExrHeader& header, ChannelIm
     for (std::size_t c = 0; c < header.channels.size(); ++c)
       for (std::size_t x = 0; x < width; ++x, at += header.channels[c].bytes)
         out.channels[c].values[y * width + x] = value_at(at, header.channels[c].bytes);
-  return static_cast<int>(row);
+  return true;
 }
 
 }  // namespace
@@ -199,13 +204,17 @@ std::optional<ChannelImage> decode_exr(std::string_view bytes) {
   for (std::size_t i = 0; i < count && !places.cut_off; ++i) begins.push_back(places.number<std::uint64_t>());
   if (places.cut_off || std::ranges::any_of(begins, [&](std::uint64_t at) { return at >= bytes.size(); }))
     return std::nullopt;
-  std::vector<int> rows(count, -1);
+  std::ranges::sort(begins, {},
+                    [&](std::uint64_t at) { return row_of_block(ExrBytes(bytes.substr(at)), *header); });
+  for (std::size_t i = 0; i < count; ++i)  // each block once, wherever it lies
+    if (row_of_block(ExrBytes(bytes.substr(begins[i])), *header) != static_cast<std::int64_t>(i) * step)
+      return std::nullopt;
+  std::atomic<bool> whole = true;
   parallel_tasks(count, [&](std::size_t i) {
-    rows[i] = take_block(ExrBytes(bytes.substr(begins[i])), *header, out).value_or(-1);
+    const std::int64_t row = static_cast<std::int64_t>(i) * step;
+    if (!take_block(ExrBytes(bytes.substr(begins[i])), *header, row, out)) whole = false;
   });
-  std::ranges::sort(rows);  // each block once, wherever it lies
-  for (std::size_t i = 0; i < count; ++i)
-    if (rows[i] != static_cast<int>(i) * step) return std::nullopt;
+  if (!whole) return std::nullopt;
   order_colours(out.channels);
   return out;
 }
