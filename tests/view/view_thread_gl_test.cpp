@@ -207,6 +207,26 @@ TEST(RenderThread, LabelsAreThoseOfCompareWhereOneThingChanges) {
 }
 
 // A light that gets a size calls for soft shadows, which the scene itself has none of.
+// A bias and a map's size leave the rays as they are.
+TEST(RenderThread, WhileTheRaysAreKnownNothingIsComparedSmaller) {
+  Lab lab("floating-box", {});
+  ViewState state = lab.state(*lab.until(is_open));
+  const auto is_seen_smaller = [&] {
+    bool seen = false;
+    lab.thread().post(1, {state.revision, state.setup});
+    lab.until([&](const Snapshot& shown) {
+      seen = seen || (shown.outcome && shown.outcome->revision == state.revision && shown.outcome->preview);
+      return shown.is_done(state);
+    });
+    return seen;
+  };
+  is_seen_smaller();  // the first comparison traces them
+  for (const int which : {0, 3, 0}) {
+    change_one_thing(state, which);
+    EXPECT_FALSE(is_seen_smaller()) << which;
+  }
+}
+
 TEST(RenderThread, ALightThatGetsASizeCastsSoftShadows) {
   Lab lab("floating-box", {});
   ViewState state = lab.state(*lab.until(is_open));

@@ -98,7 +98,11 @@ Expected<void> Studio::compare(const DrawOrder& order) {
 Expected<void> Studio::receive_outcome() {
   std::optional<Expected<ComparisonOutcome>> taken = worker_.take();
   if (!taken) return {};
-  if (!*taken) return fail(taken->error());
+  if (!*taken) {
+    known_rays_.reset();
+    return fail(taken->error());
+  }
+  if (!(*taken)->preview && (*taken)->revision == started_revision_) known_rays_ = started_rays_;
   outcome_ = std::make_shared<const ComparisonOutcome>(std::move(**taken));
   if (exposure_ == outcome_->comparison.exposure) return {};
   exposure_ = outcome_->comparison.exposure;
@@ -114,13 +118,17 @@ Expected<void> Studio::start_next(const DrawOrder& order) {
     return {};
   }
   const ImageSize small = preview_size(order.setup.size);
-  const bool preview = !same && !(small == order.setup.size);
+  started_rays_ = {loaded_->scene->camera, loaded_->scene->lights, order.setup.light, order.setup.precision,
+                   order.setup.size};
+  const bool known = known_rays_ == started_rays_;
+  const bool preview = !same && !known && !(small == order.setup.size);
+  if (!preview && !known) known_rays_.reset();  // the worker keeps one frame
   started_revision_ = order.revision;
   started_full_ = !preview;
   auto drawn = render(order.setup, preview ? small : order.setup.size, true, preview ? 0 : 1);
   if (!drawn) return fail(drawn.error());
-  worker_.start({order.revision, preview, order.setup.precision, plan_of(order.setup), loaded_->scene->camera,
-                 loaded_->scene->lights, std::move(*drawn)});
+  worker_.start({order.revision, preview, preview || known, order.setup.precision, plan_of(order.setup),
+                 loaded_->scene->camera, loaded_->scene->lights, std::move(*drawn)});
   return {};
 }
 

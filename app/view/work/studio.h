@@ -1,6 +1,7 @@
 // Keeps every picture of the window up to date with its setup: the rasterizer at once, on the caller's thread;
-// rays and comparison beside it, first at a quarter of the picture's width and height, then in full. Knows no
-// window: any OpenGL context will do. All pictures but those of map_pictures.h are made by compare's own code.
+// rays and comparison beside it, first at a quarter of the picture's width and height, then in full; in full at once while the
+// rays of the whole picture are known. Knows no window: any OpenGL context will do. All pictures but those of map_pictures.h
+// are made by compare's own code.
 #pragma once
 
 #include <array>
@@ -58,6 +59,16 @@ class Studio {
   const raster::ContextInfo& context_info() const { return renderer_->info(); }
 
  private:
+  /// What the rays of a picture depend on.
+  struct RaysOf {
+    Camera camera;
+    std::vector<Light> lights;
+    std::uint32_t light = 0;
+    raytrace::Precision precision = raytrace::Precision::robust;
+    ImageSize size;
+    bool operator==(const RaysOf&) const = default;
+  };
+
   Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const LoadedScene> loaded,
          const compare::CompareOptions& options, std::function<void()> on_finished);
   Expected<raster::RasterFrame> render(const Setup& setup, ImageSize size, bool analysis, int runs);
@@ -77,6 +88,8 @@ class Studio {
 
   std::uint64_t started_revision_ = 0;  ///< of the newest request
   bool started_full_ = false;
+  RaysOf started_rays_;
+  std::optional<RaysOf> known_rays_;                  ///< that the worker has of the whole picture
   std::shared_ptr<const ComparisonOutcome> outcome_;  ///< the newest
   CompareWorker worker_;                              ///< last: its thread ends first
 };

@@ -1,6 +1,6 @@
 // Ray tracing and comparing beside the window: one thread that has its own copy of the scene, so that the
-// window may move camera and light while it works. The newest request wins: a full-size one that is under way
-// is given up when another comes; a preview is finished, so that dragging shows something.
+// window may move camera and light while it works. The newest request wins: one that is under way is given up when another
+// comes, unless it is soon there, so that dragging shows something.
 #pragma once
 
 #include <array>
@@ -30,6 +30,7 @@ namespace gnomon::app {
 struct ComparisonRequest {
   std::uint64_t revision = 0;  ///< of the window's state
   bool preview = false;        ///< drawn smaller than the window
+  bool soon_there = false;     ///< not given up
   raytrace::Precision precision = raytrace::Precision::robust;
   EffectPlan plan;  ///< of these lights
   Camera camera;
@@ -77,7 +78,7 @@ class CompareWorker {
   ~CompareWorker();
 
   bool busy() const;
-  /// Gives up a full-size comparison that is under way.
+  /// Gives up what is under way, unless it is soon there.
   void give_up();
   /// Requires that the worker is not busy.
   void start(ComparisonRequest request);
