@@ -14,8 +14,6 @@ namespace {
 
 using raytrace::TexelKey;
 
-constexpr int texels_looked_at = 192;       ///< texels looked at on each side of a face
-constexpr std::size_t most_on_ray = 12;     ///< on a texel's ray
 constexpr std::size_t too_few_texels = 64;  ///< tell no bias
 constexpr double nearly_every = 0.75;       ///< of the texels looked at, the rest being edges
 constexpr double few_as_they_are = 0.5;     ///< hold a depth of the scene
@@ -86,16 +84,12 @@ struct Point {
 std::vector<Point> look_at(const StoredDepths& depths, const FaceReader& reader, const raster::ShadowMap& map,
                            int face, bool backs) {
   const LightView& view = map.view;
-  const int step = std::max(1, view.size / texels_looked_at);
-  std::vector<TexelKey> keys;
-  for (int row = step / 2; row < view.size; row += step)
-    for (int column = step / 2; column < view.size; column += step)
-      keys.push_back(TexelKey::pack(face, column, row));
+  const std::vector<TexelKey> keys = sampled_texels(view, face);
   std::vector<std::optional<Point>> points(keys.size());
   parallel_for(keys.size(), [&](std::size_t i) {
     const TexelKey key = keys[i];
     if (depths.is_empty(key)) return;
-    const std::vector<SurfaceOnRay> all = depths.all(key, most_on_ray);
+    const std::vector<SurfaceOnRay> all = depths.all(key);
     const auto surface =
         std::find_if(all.begin(), all.end(), [backs](const SurfaceOnRay& s) { return !backs || !s.front; });
     if (surface == all.end()) return;
@@ -247,7 +241,7 @@ class TexelMender {
   std::optional<Unmoved> among_all(TexelKey key, double stored) const {
     std::optional<Held> holder, nearest;
     double least = infinity;
-    for (const SurfaceOnRay& surface : depths_.all(key, most_on_ray)) {
+    for (const SurfaceOnRay& surface : depths_.all(key)) {
       const auto held = reader_.held(surface, key);
       if (!held) continue;
       const double off = behind(*held, key, stored);

@@ -7,9 +7,7 @@ namespace {
 
 using raytrace::TexelKey;
 
-constexpr int grid_side = 192;             ///< texels looked at on each side of a face
-constexpr std::size_t most_surfaces = 12;  ///< on a texel's ray
-constexpr std::size_t few_texels = 24;     ///< tell no bias
+constexpr std::size_t few_texels = 24;  ///< tell no bias
 constexpr double half = 0.5;
 constexpr double hardly_any = 0.1;    ///< share of back faces that the map holds where they were left out
 constexpr double nearly_all = 0.8;    ///< share of texels that a bias of casters, or culling, has to explain
@@ -19,7 +17,7 @@ constexpr double bias_slack = 0.1;    ///< of the depth that a bias moves a cast
 }  // namespace
 
 CasterTexel MapCasters::look(TexelKey key) const {
-  CasterTexel t{key, stored_.all(key, most_surfaces)};
+  CasterTexel t{key, stored_.all(key)};
   t.held = stored_.holds_scene(key);
   t.held_at_centre =
       t.held && t.has_first() && stored_.is_stored(key, t.first().depth, 0.25 * t.first().across);
@@ -32,11 +30,10 @@ CasterTexel MapCasters::look(TexelKey key) const {
 
 void MapCasters::look_at(std::vector<TexelKey> keys) {
   const LightView& view = record_.map.view;
-  const int step = std::max(1, view.size / grid_side);
-  for (int face = 0; face < view.face_count; ++face)
-    for (int row = step / 2; row < view.size; row += step)
-      for (int column = step / 2; column < view.size; column += step)
-        keys.push_back(TexelKey::pack(face, column, row));
+  for (int face = 0; face < view.face_count; ++face) {
+    const std::vector<TexelKey> sampled = sampled_texels(view, face);
+    keys.insert(keys.end(), sampled.begin(), sampled.end());
+  }
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   texels_.resize(keys.size());

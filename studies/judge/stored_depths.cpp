@@ -47,6 +47,16 @@ double find_format_step(const raster::ShadowMap& map) {
 
 }  // namespace
 
+std::vector<raytrace::TexelKey> sampled_texels(const LightView& view, int face) {
+  constexpr int on_a_side = 192;
+  const int step = std::max(1, view.size / on_a_side);
+  std::vector<raytrace::TexelKey> keys;
+  for (int row = step / 2; row < view.size; row += step)
+    for (int column = step / 2; column < view.size; column += step)
+      keys.push_back(raytrace::TexelKey::pack(face, column, row));
+  return keys;
+}
+
 StoredDepths::StoredDepths(const FrameInput& in, const raster::LightRecord& record)
     : in_(in), record_(record), view_(record.map.view), format_step_(find_format_step(record.map)) {}
 

@@ -18,6 +18,9 @@ struct SurfaceOnRay {
   bool front = true;          ///< its front faces the light
 };
 
+/// Texels of a face in even steps, 192 or a few more on each side; all of a small one.
+std::vector<raytrace::TexelKey> sampled_texels(const LightView& view, int face);
+
 class StoredDepths {
  public:
   StoredDepths(const FrameInput& input, const raster::LightRecord& record);
@@ -37,7 +40,7 @@ class StoredDepths {
   /// What the light meets first on that ray.
   std::optional<SurfaceOnRay> first(raytrace::TexelKey key, const Vec2& off = Vec2(0.0)) const;
   /// All that it meets there, nearest first, at most so many.
-  std::vector<SurfaceOnRay> all(raytrace::TexelKey key, std::size_t most) const;
+  std::vector<SurfaceOnRay> all(raytrace::TexelKey key, std::size_t most = 12) const;
 
   /// Whether the stored number is this depth, but for `slack` (a depth), 3/4 of a step of the format and 2^-22 of
   /// arithmetic. A depth before the near plane or behind the far one counts as one on it.

@@ -100,8 +100,8 @@ bool CompareWorker::busy() const {
 
 void CompareWorker::give_up() {
   const std::lock_guard lock(mutex_);
-  if (request_ && !request_->soon_there) request_.reset();
-  if (job_ && !job_->request.soon_there) job_->given_up.request_stop();
+  if (request_ && !request_->uninterruptible) request_.reset();
+  if (job_ && !job_->request.uninterruptible) job_->given_up.request_stop();
 }
 
 void CompareWorker::start(ComparisonRequest request) {

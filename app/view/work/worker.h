@@ -1,6 +1,6 @@
 // Ray tracing and comparing beside the window: one thread that has its own copy of the scene, so that the
 // window may move camera and light while it works. The newest request wins: one that is under way is given up when another
-// comes, unless it is soon there, so that dragging shows something.
+// comes, unless it is uninterruptible: what is soon there is finished, so that dragging shows something.
 #pragma once
 
 #include <array>
@@ -28,9 +28,9 @@ namespace gnomon::app {
 
 /// One drawn frame, and the scene's camera and lights that it was drawn with.
 struct ComparisonRequest {
-  std::uint64_t revision = 0;  ///< of the window's state
-  bool preview = false;        ///< drawn smaller than the window
-  bool soon_there = false;     ///< not given up
+  std::uint64_t revision = 0;    ///< of the window's state
+  bool preview = false;          ///< drawn smaller than the window
+  bool uninterruptible = false;  ///< finished although a newer one waits
   raytrace::Precision precision = raytrace::Precision::robust;
   EffectPlan plan;  ///< of these lights
   Camera camera;
@@ -78,7 +78,7 @@ class CompareWorker {
   ~CompareWorker();
 
   bool busy() const;
-  /// Gives up what is under way, unless it is soon there.
+  /// Gives up what is under way, unless it is uninterruptible.
   void give_up();
   /// Requires that the worker is not busy.
   void start(ComparisonRequest request);
