@@ -212,6 +212,7 @@ void finish(Judging& in, Comparison& out) {
     const MapContent content = label_map_content(frame, out.raster, light, advice_holds(test, other));
     note(map_content_notes(content, record));
     note(outside_map_notes(frame, light, record));
+    const TimedStage advising("advice");
     if (advice_holds(test, other) && !content.is_main_cause(light))
       judged->advice = give_advice(frame, out.raster, light, in.casters);
     for (Advice& advice : judged->advice)
