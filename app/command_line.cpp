@@ -176,7 +176,8 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   add_manual(*program);
   program->require_subcommand(1);
   add_commands(*program, invocation);
-  for (const std::string_view name : {"compare", "judge", "raster", "raytrace", "shimmer", "sweep", "tune"})
+  for (const std::string_view name :
+       {"compare", "judge", "lessons", "raster", "raytrace", "shimmer", "sweep", "tune"})
     for (CLI::App* command : program->get_subcommands({}))
       if (command->get_name() == name) add_trace(*command, invocation.trace);
   return program;

@@ -7,6 +7,7 @@
 
 #include "app/console.h"
 #include "app/lessons/flatland.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::app::lessons {
 
@@ -84,6 +85,7 @@ Expected<PageFigures::Json> PageFigures::two_passes(const LiveMark& mark) {
 }
 
 Expected<void> PageFigures::add(const LiveMark& mark) {
+  const TimedStage stage("figures");
   Expected<Json> made = Json(nullptr);
   if (mark.name == "bias") made = bias(mark);
   if (mark.name == "map-size") made = map_size(mark);

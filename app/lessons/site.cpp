@@ -15,6 +15,7 @@
 #include "report/lessons.h"
 #include "report/shell.h"
 #include "scene/base/option_text.h"
+#include "scene/base/stages.h"
 
 namespace gnomon::app::lessons {
 
@@ -73,6 +74,7 @@ std::string links_of(const Lessons& written, std::size_t at) {
 Expected<std::string> article_page(const std::string& title, const std::string& links, std::string_view kind,
                                    std::string_view markdown, const Lessons& written, Console& console,
                                    const std::string& lab = {}) {
+  const TimedStage stage("page");
   const LessonText text = read_lesson(markdown);
   std::string main = fmt::format("<article class=\"{}\">\n", kind);
   for (const std::string& part : text.parts) {
