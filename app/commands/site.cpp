@@ -1,4 +1,5 @@
 // gnomon site: all that can be read and tried in a browser, as one folder for a host of plain files.
+#include <embedded/page_scripts.h>
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -128,6 +129,8 @@ Expected<ExitCode> run_site(const SiteCommand& command) {
   lab.scene = lab.scene.named("acne-floor");
   lab.compare.raster.size = {640, 360};
   files->push_back({"lab.html", lab_page(lab, true)});
+  for (const embedded::Entry& script : embedded::page_scripts_entries())
+    files->push_back({std::string(script.name), std::string(script.bytes)});
   std::vector<SitePage> lectures;
   for (const std::string_view name : lessons::lecture_names()) {
     auto lecture = lessons::make_lecture(name, console);

@@ -10,5 +10,6 @@ target_link_libraries(gnomon_app PRIVATE md4c_html)
 # gnomon site has the manual and the lab besides, with the program for the web where ./gnomon web builds it.
 file(GLOB manual_pages CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/manual/*.md")
 gnomon_embed(gnomon_app manual_pages ${manual_pages} "${PROJECT_SOURCE_DIR}/docs/labels.md" "${PROJECT_SOURCE_DIR}/docs/glossary.md")
+gnomon_embed(gnomon_app page_scripts "${PROJECT_SOURCE_DIR}/adapters/open_in_lab.mjs")
 set_source_files_properties(commands/site.cpp PROPERTIES COMPILE_DEFINITIONS "GNOMON_WEB_PROGRAM=\"${PROJECT_SOURCE_DIR}/build/web/app\""
   SKIP_UNITY_BUILD_INCLUSION ON)

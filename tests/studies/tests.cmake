@@ -23,6 +23,7 @@ gnomon_test(judge_identify_gl_test
   LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
 # The adapters on real engines, as far as they are installed.
 gnomon_node_test(adapters_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_browser")
+gnomon_node_test(adapters_lab_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_lab_browser")
 gnomon_node_test(adapters_blender_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_blender")
 # The adapter for frames that RenderDoc recorded: its numbers, for which Debian's Python and NumPy are enough.
 foreach(test renderdoc_fit_test renderdoc_frame_test)

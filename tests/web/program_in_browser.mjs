@@ -23,7 +23,7 @@ export async function serveFolder(folder, made = {}) {
     const file = path.join(folder, path.normalize(pathname.endsWith("/") ? `${pathname}index.html` : pathname));
     const [type, text] = made[pathname] ?? [types[path.extname(file)]];
     if (!type || (text === undefined && !existsSync(file))) return response.writeHead(404).end();
-    response.writeHead(200, { "Content-Type": type });
+    response.writeHead(200, { "Content-Type": type, "Access-Control-Allow-Origin": "*" });  // as page hosts say
     return text === undefined ? createReadStream(file).pipe(response) : response.end(text);
   });
   await new Promise((done) => server.listen(0, "127.0.0.1", done));

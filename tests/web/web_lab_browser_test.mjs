@@ -7,6 +7,7 @@ import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
 import { browser, close, colours, openAt, violations } from "../browser/open_page.mjs";
+import { hasThree, serveThree } from "../support/three_page.mjs";
 import { app, isBuilt, serveFolder, skip } from "./program_in_browser.mjs";
 
 const [native, folder] = process.argv.slice(2);
@@ -26,6 +27,8 @@ const change = async (page, act) => {
 };
 const small = "#scene=sphere-plane&size=192x108&map-size=128";
 const set = (page, name, value) => change(page, () => page.locator(`[data-setting=${name}] input[type=text]`).fill(value).then(() => page.keyboard.press("Enter")));
+/** By the keys of result.json. */
+const countsOf = (page) => page.locator("#lab-results .labels tbody tr").evaluateAll((rows) => Object.fromEntries(rows.map((row) => [row.querySelector("summary").textContent.replaceAll(/[ -]/g, "_"), Number(row.querySelector(".n").textContent.replaceAll(",", ""))])));
 
 async function countsWhatTheCommandCounts() {
   const page = await openLab(small);
@@ -33,11 +36,10 @@ async function countsWhatTheCommandCounts() {
   for (const texels of ["3", "0"]) await set(page, "bias", texels);
   const command = await page.locator("#lab-command").textContent();
   const { classes } = JSON.parse(execFileSync("sh", ["-c", `${command.replace(/^gnomon/, `'${native}'`)} --json - --quiet --runs 1`], { maxBuffer: 1 << 28 })).lights[0];
-  const counts = await page.locator("#lab-results .labels tbody tr").evaluateAll((rows) => Object.fromEntries(rows.map((row) => [row.querySelector("summary").textContent.replaceAll("-", "_"),
-    Number(row.querySelector(".n").textContent.replaceAll(",", ""))])));
+  const counts = await countsOf(page);
   const wrong = Object.entries(classes).filter(([, count]) => count > 0);
   assert.ok(wrong.length > 0 && wrong.reduce((sum, [, count]) => sum + count, 0) > 100, "a bias of 0 leaves something wrong");
-  for (const [label, count] of wrong) assert.equal(counts[label.replace("_", " ")] ?? counts[label] ?? counts[label.replaceAll("_", "-")], count, `${label} of ${JSON.stringify(counts)}`);
+  for (const [label, count] of wrong) assert.equal(counts[label], count, `${label} of ${JSON.stringify(counts)}`);
   const box = await page.locator(".stage").boundingBox();
   await page.locator(".stage").click({ position: { x: 0.3 * box.width, y: 0.8 * box.height } });
   await page.locator("#lab-pixel h2").waitFor();
@@ -101,7 +103,7 @@ async function computesALessonsFigure() {
   const page = await openLab(new URL(href).hash);
   assert.equal(new URL(href).href.split("#")[0], `${host.url}lab.html`);
   await done(page);
-  const rows = await page.locator("#lab-results .labels tbody tr").evaluateAll((all) => Object.fromEntries(all.map((row) => [row.querySelector("summary").textContent, Number(row.querySelector(".n").textContent.replaceAll(",", ""))])));
+  const rows = await countsOf(page);
   const { scene, ...options } = Object.fromEntries(new URLSearchParams(new URL(href).hash.slice(1)));
   const { classes, error } = JSON.parse(execFileSync(native, ["compare", scene, ...Object.entries(options).flatMap(([name, value]) => [`--${name}`, value]), "--runs", "1", "--quiet", "--no-report", "--json", "-"], { maxBuffer: 1 << 28 })).lights[0];
   assert.equal(counted, error.false_shadow);
@@ -167,6 +169,56 @@ async function saysThatThereIsNoWebGl() {
   await page.close();
 }
 
+/** A page of three.js, of another host, hands its scene in with one line: the lab says where it came from, and counts what the command
+    counts of the same file. Nothing else is taken from anywhere. */
+async function takesARunningScene() {
+  const three = await serveThree(), page = await openAt(`${three.url}?light=sun&bias=-0.001`, "http://127.0.0.1:");
+  const opened = page.waitForEvent("popup");
+  const exported = page.evaluate(async (site) => {
+    const { exportForLab, openInLab } = await import(`${site}open_in_lab.mjs`);
+    await openInLab(globalThis.scene);
+    return [...new Uint8Array((await exportForLab(globalThis.scene)).glb)];
+  }, host.url);
+  const lab = await opened;
+  await lab.waitForFunction(() => document.title.startsWith("scene"), null, { timeout: 300000 });
+  await done(lab);
+  assert.equal(await lab.locator("#lab-from").textContent(), `This scene came from the page at ${new URL(three.url).origin}.`);
+  assert.match(lab.url(), /window-depths=1,9&bias=0\.008/, "the shadow's settings came along");
+  const file = path.join(folder, "scene.glb");
+  writeFileSync(file, Buffer.from(await exported));
+  const counts = await countsOf(lab), command = (await lab.locator("#lab-command").textContent()).replace(/^gnomon compare \S+/, `'${native}' compare '${file}'`);
+  const { classes, pixels } = JSON.parse(execFileSync("sh", ["-c", `${command} --json - --quiet --no-report --runs 1`], { maxBuffer: 1 << 28 })).lights[0];
+  // As in web_gl_browser_test; of what is wrong a twentieth.
+  for (const [label, count] of Object.entries(classes)) {
+    const apart = Math.abs((counts[label] ?? 0) - count);
+    assert.ok(apart <= Math.min(0.005 * pixels.compared, 0.05 * classes.acne), `${label}: ${JSON.stringify(counts)}, by the command ${count}`);
+  }
+  assert.ok(classes.acne > 1000, "a bias of 0.008 leaves acne");
+
+  await lab.close();
+
+  // Of what is no scene, of another window's, and of a second one nothing is taken; a file that is none says so, as one that is dropped.
+  const opening = page.waitForEvent("popup");
+  await page.evaluate((site) => { globalThis.lab = window.open(`${site}lab.html`); return new Promise((heard) => { window.onmessage = heard; }); }, host.url);
+  const other = await opening;
+  await other.evaluate(() => window.postMessage({ gnomon: "scene", glb: new ArrayBuffer(8) }, "*"));
+  await page.evaluate(() => {
+    for (const said of [null, "scene", { gnomon: "scene" }, { gnomon: "scene", glb: "text" }]) globalThis.lab.postMessage(said, "*");
+  });
+  await done(other);
+  assert.equal(await other.locator("#lab-from").textContent(), "");
+  assert.ok(await other.locator("#lab-error").isHidden());
+  await page.evaluate(() => {
+    for (const note of ["<b>first</b>", "second"]) globalThis.lab.postMessage({ gnomon: "scene", glb: new ArrayBuffer(8), options: { "no such": "1", "map-size": 7 }, notes: [note, 1] }, "*");
+  });
+  await other.waitForFunction(() => !document.getElementById("lab-error").hidden, null, { timeout: 60000 });
+  assert.match(await other.locator("#lab-from").textContent(), /Not brought along: <b>first<\/b>\.$/);
+  assert.match(await other.locator("#lab-error").textContent(), /not a GLB file/);
+  await other.close();
+  await close(page);
+  three.stop();
+}
+
 await countsWhatTheCommandCounts();
 await opensFilesAndSavesTheReport();
 await canBeReadByAll();
@@ -176,6 +228,8 @@ await saysThatTheContextIsLost();
 await saysThatThereIsNoWebGl();
 await saysThatItTakesLong();
 await opensFromTheDisk();
+if (hasThree) await takesARunningScene();
 await browser.close();
 host.stop();
+if (!hasThree) skip("three is not installed: npm install --prefix adapters");
 console.log("the site in a browser");

@@ -10,6 +10,7 @@ import { choiceRow, tidy } from "./controls";
 import { isDrawn, servedEngine, workerEngine, type CameraPose, type Drawn, type LabFacts, type Named, type Reading } from "./engine";
 import { addressOf, optionsOf, stateAt, wordsOf, type LabState, type Options } from "./lab_state";
 import { LightControls, type PoseChange } from "./light_controls";
+import { listenToOpener } from "./opener";
 import { biasAt, pixelMarkup, resultsMarkup } from "./results";
 import { SettingsPanel } from "./settings_panel";
 import { Stage } from "./stage";
@@ -103,10 +104,11 @@ class Lab {
       event.preventDefault();
       void this.open([...event.dataTransfer?.files ?? []]);
     });
+    listenToOpener(({ file, options, words }) => void this.open([file], options, words));
   }
 
   // Of several files the first that is a scene is opened; the others lie beside it.
-  private async open(files: File[]): Promise<void> {
+  private async open(files: File[], options: Options = new Map(), from = ""): Promise<void> {
     if (files.length === 0) return;
     this.say(`Reading ${files.map(({ name }) => name).join(", ")}…`);
     try {
@@ -115,13 +117,15 @@ class Lab {
       const scene = names.find((name) => /\.(json|gltf|glb|obj|ply|stl|fbx|dae|3ds|x3d|usd[acz]?)$/i.test(name)) ?? names[0]!;
       this.files.add(scene);
       this.offer(scene);
-      this.go({ scene, options: new Map() });
+      this.go({ scene, options });
+      this.part("lab-from").textContent = from;
     } catch (error) {
       this.fail((error as Error).message);
     }
   }
 
   private go(state: LabState): void {
+    if (state.scene !== this.state.scene) this.part("lab-from").textContent = "";
     this.state = state;
     this.offer(state.scene);
     this.part("lab-pixel").replaceChildren();
@@ -288,6 +292,7 @@ const layout = markup`<div class="lab">
 <button type="button" id="lab-reset">Reset</button></header>
 <section class="lab-words" aria-label="Verdict"><div id="lab-verdict" role="status"><p class="verdict">Drawing…</p></div>
 <p id="lab-error" role="alert" hidden></p><p id="lab-note" class="hint" role="status"></p>
+<p id="lab-from" class="hint"></p>
 <p id="lab-opening" class="hint" hidden>Opening the scene…</p>
 <p id="lab-other" class="hint" hidden>Another page has set this lab to something else; any change here takes it back.</p>
 <p id="lab-gone" role="alert" hidden></p></section>
