@@ -214,6 +214,14 @@ struct CustomShader {
   bool reads_bias = false;
 };
 
+/// What drawing took on the device (RasterOptions::span_drawings), milliseconds of all drawings of each kind together.
+struct ShadowSpans {
+  bool counted = false;  ///< false: the device lost count, and the times are 0
+  bool by_device =
+      false;  ///< by the device's own clock; else by the processor's, from an idle device to an idle device
+  double map_ms = 0.0, shaded_ms = 0.0, unshadowed_ms = 0.0;
+};
+
 struct RasterFrame {
   ContextInfo context;
   std::vector<ReplacedShader> replaced_shaders;  ///< those that drew this frame

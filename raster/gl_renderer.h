@@ -7,6 +7,7 @@
 #include <set>
 
 #include "raster/bands.h"
+#include "raster/gl/span_clock.h"
 #include "raster/passes/depth_map_pass.h"
 #include "raster/passes/shading_pass.h"
 #include "raster/passes/technique_pass.h"
@@ -28,6 +29,7 @@ class GlRenderer final : public Renderer {
         shading_(*gl_, programs_),
         light_block_(*gl_),
         external_(*gl_),
+        spans_(*gl_),
         upload_ms_(upload_ms) {
     info_ = {context_->backend(), gl_->text(GL_VERSION), gl_->text(GL_RENDERER), max_map_size(*gl_)};
   }
@@ -37,6 +39,7 @@ class GlRenderer final : public Renderer {
 
   Expected<void> compile();
   Expected<RasterFrame> render(const RasterOptions& options, std::span<const std::uint32_t> lights) override;
+  std::optional<ShadowSpans> take_spans() override;
   const ContextInfo& info() const override { return info_; }
   void use_external_visibility(std::shared_ptr<ExternalVisibility> visibility) override {
     external_.use(std::move(visibility));
@@ -73,6 +76,10 @@ class GlRenderer final : public Renderer {
   /// Times each run from an idle device to an idle device.
   Expected<void> time_pass(std::string_view repeats, const RasterOptions& options, Times& times,
                            const Pass& pass);
+  static bool has_spans(const Job& job, const LightRecord* record);
+  /// One span: `pass`, as often as RasterOptions::span_drawings says.
+  Expected<void> span(const Job& job, const Pass& pass);
+  Expected<void> span_shading(const Job& job, const MapJob& map_job);
   Expected<void> time_camera(Job& job);
   Expected<void> time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
                               LightRecord& record);
@@ -133,6 +140,7 @@ class GlRenderer final : public Renderer {
   std::unique_ptr<TechniquePass> technique_pass_;
   Technique technique_ = Technique::hard;  ///< of technique_pass_
   ExternalPass external_;
+  SpanClock spans_;
   std::optional<MapCamera> map_camera_;
   std::optional<PictureRows> rows_;
   std::map<std::uint32_t, LightView> fitted_;  ///< by light, to what the whole of a picture in bands shows

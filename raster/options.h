@@ -164,6 +164,9 @@ struct RasterOptions {
   /// A picture alone that is not timed: what its first light takes to shade is kept, and is the one run of the next frame with records
   /// of the same light, camera, size and options. For who lets nothing else work meanwhile.
   bool keep_time = false;
+  /// A picture alone that is not timed: its first light's map, shading and shading without shadows are drawn so often besides, and
+  /// what each takes on the device is what Renderer::take_spans() gives later. Not of Technique::hybrid.
+  int span_drawings = 0;
   double enough_ms = never_enough_ms;  ///< no further run of a pass once those made took so long together
   /// Time the shading without shadows, too (LightRecord::unshadowed_pass), in turn; of each subtracted_runs at least.
   bool shadow_cost = false;

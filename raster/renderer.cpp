@@ -195,6 +195,10 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
     if (auto ok = time_and_draw_map(job, map_job, record); !ok) return ok;
     if (record != nullptr) keep_map(job, light, *record);
   }
+  if (has_spans(job, record)) {
+    spans_.restart();
+    if (auto ok = span(job, [&] { return draw_map(map_job, false); }); !ok) return ok;
+  }
   return shade(job, map_job, request, record);
 }
 

@@ -93,6 +93,35 @@ Expected<void> GlRenderer::time_shading_as_judged(Job& job, const MapJob& map_jo
   return {};
 }
 
+bool GlRenderer::has_spans(const Job& job, const LightRecord* record) {
+  return job.options.span_drawings > 0 && job.options.map.technique != Technique::hybrid &&
+         !job.frame.lights.empty() && record == &job.frame.lights.front();
+}
+
+// The device's clock counts for who draws little else meanwhile: the map, which is kept, is drawn the same to the bit.
+Expected<void> GlRenderer::span(const Job& job, const Pass& pass) {
+  spans_.begin();
+  for (int drawing = 0; drawing < job.options.span_drawings; ++drawing)
+    if (auto ok = pass(); !ok) return ok;
+  spans_.end();
+  return {};
+}
+
+Expected<void> GlRenderer::span_shading(const Job& job, const MapJob& map_job) {
+  const ShadePermutation shadowed = shade_permutation(map_job.light, map_job.options, job.first_light, false);
+  for (const ShadePermutation& drawn : {shadowed, unshadowed(shadowed)})
+    if (auto ok = span(job, [&] { return shading_.draw_light(buffers_, drawn, true); }); !ok) return ok;
+  return {};
+}
+
+std::optional<ShadowSpans> GlRenderer::take_spans() {
+  if (!context_->make_current()) return ShadowSpans{};
+  const auto ms = spans_.answer();
+  if (!ms) return std::nullopt;
+  if (ms->size() != 3) return ShadowSpans{};
+  return ShadowSpans{true, spans_.is_of_device(), (*ms)[0], (*ms)[1], (*ms)[2]};
+}
+
 /// What the camera sees is the same for all lights, maps and techniques: once it was timed often enough, its median
 /// stands for it.
 Expected<void> GlRenderer::time_camera(Job& job) {
@@ -184,6 +213,8 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
   if (asked != nullptr && (record == nullptr || job.options.runs == 0)) {
     if (auto ok = find_external(asked); !ok) return ok;
   }
+  if (has_spans(job, record))
+    if (auto ok = span_shading(job, map_job); !ok) return ok;
   const ShadePermutation kept = shade_permutation(map_job.light, map, job.first_light, records);
   if (auto ok = warm_up_shading(job, kept); !ok) return ok;
   TimedStage shading(records ? "shading with records" : "shading");

@@ -117,6 +117,12 @@ Json compared_json(const ComparisonOutcome& outcome) {
           {"result", Json::parse(outcome.result)}};
 }
 
+Json times_json(const ShadowTimeWords& times) {
+  Json rows = Json::array();
+  for (const ShadowTimeWords::Row& row : times.rows) rows.push_back({row.name, row.time});
+  return {{"clock", times.of_device ? "gpu" : "processor"}, {"rows", rows}, {"by", times.by}};
+}
+
 }  // namespace
 
 std::string lab_facts(const LabOptions& options, bool worker) {
@@ -178,7 +184,9 @@ std::string lab_reading(const LabMoment& moment, const std::vector<std::string>&
               {"raster_ms", shown.live.raster_ms},
               {"compared", shown.outcome ? shown.outcome->revision : 0},
               {"preview", shown.outcome && shown.outcome->preview}});
-  if (shown.outcome) out.update(compared_json(*shown.outcome));
+  if (!shown.outcome) return out.dump();
+  out.update(compared_json(*shown.outcome));
+  out["times"] = times_json(shadow_time_words(shown, state));
   return out.dump();
 }
 

@@ -23,6 +23,7 @@ struct Times {
   }
   /// What else the machine does can only add: the least holds the least of it. 0 when there are no runs.
   double least() const { return runs.empty() ? 0.0 : *std::min_element(runs.begin(), runs.end()); }
+  double most() const { return runs.empty() ? 0.0 : *std::max_element(runs.begin(), runs.end()); }
   /// Adds the times of a further part of the work (a band of the picture), run by run. A pass that some part ran less
   /// often counts as often as there.
   void add_part(const Times& part) {

@@ -221,6 +221,29 @@ TEST_P(Records, APicturesKeptTimeIsTheRunOfTheNextFrame) {
   EXPECT_TRUE(made_runs()) << "of another bias";
 }
 
+// Between a picture and the next records, whose map stays the kept one.
+TEST_P(Records, SpansOfDrawingAreTimedAndChangeNothing) {
+  Drawn drawn = make(false);
+  const Drawn fresh = make(false);
+  const raster::RasterOptions records = drawn.frame.options;
+  raster::RasterOptions picture = records;
+  picture.runs = 0, picture.analysis = false, picture.span_drawings = 3;
+  EXPECT_FALSE(drawn.renderer->take_spans()->counted) << "none were asked for";
+  drawn.render(picture);
+  EXPECT_EQ(drawn.frame.color.data, fresh.frame.color.data);
+  std::optional<raster::ShadowSpans> spans;
+  while (!spans) spans = drawn.renderer->take_spans();
+  EXPECT_TRUE(spans->counted);
+  EXPECT_GT(spans->map_ms, 0.0);
+  EXPECT_GT(spans->shaded_ms, 0.0);
+  EXPECT_GT(spans->unshadowed_ms, 0.0);
+  EXPECT_FALSE(drawn.renderer->take_spans()->counted) << "once";
+  drawn.render(records);
+  EXPECT_EQ(drawn.frame.color.data, fresh.frame.color.data);
+  EXPECT_EQ(drawn.light().map.depth, fresh.light().map.depth);
+  EXPECT_EQ(drawn.light().visibility.data, fresh.light().visibility.data);
+}
+
 void expect_same_frame(const Drawn& drawn, const Drawn& fresh, const std::string& what) {
   EXPECT_EQ(drawn.frame.color.data, fresh.frame.color.data) << what;
   EXPECT_EQ(drawn.frame.primitive.data, fresh.frame.primitive.data) << what;

@@ -121,6 +121,55 @@ async function openWith(lines) {
   return page;
 }
 
+/** A GPU whose clock tells the first run's three spans in 1, 1.5 and 0.5 ms, so that a run has ten drawings, loses count in the second, and
+ *  answers nothing until a pixel is asked for. */
+const gpu = `const { getExtension, getParameter } = WebGL2RenderingContext.prototype, spans = [];
+  let open = false, lost = false;
+  addEventListener("message", ({ data }) => { open ||= data.name === "pixel"; });
+  Object.assign(WebGL2RenderingContext.prototype, {
+    getExtension(name) { return name === "EXT_disjoint_timer_query_webgl2" ? { TIME_ELAPSED_EXT: 0x88BF, QUERY_COUNTER_BITS_EXT: 0x8864 } : getExtension.call(this, name); },
+    getParameter(name) {
+      if (name === 0x8FBB) { const was = lost; lost = false; return was; }
+      return name === 0x9246 ? "Stub GPU" : getParameter.call(this, name);
+    },
+    getQuery: () => 30, createQuery: () => ({}), deleteQuery() {}, endQuery() {},
+    beginQuery(target, query) { Object.assign(query, { number: spans.push(query) - 1, told: false }); setTimeout(() => { query.told = true; }); lost ||= query.number === 4; },
+    getQueryParameter: (query, name) => (name === 0x8867 ? open && query.told
+      : 1e6 * (query.number < 3 ? [1, 1.5, 0.5] : query.number < 6 ? [99, 99, 99] : [4, 9, 6])[query.number % 3]),
+  });`;
+const noClock = `const { getExtension, getParameter } = WebGL2RenderingContext.prototype;
+  Object.assign(WebGL2RenderingContext.prototype, {
+    getExtension(name) { return name === "EXT_disjoint_timer_query_webgl2" ? null : getExtension.call(this, name); },
+    getParameter(name) { return name === 0x9246 ? "Stub GPU" : getParameter.call(this, name); },
+  });`;
+const askForAPixel = (page) => page.locator(".stage").click({ position: { x: 100, y: 100 } });
+const times = (page) => page.locator("#lab-times tbody tr").evaluateAll((rows) => Object.fromEntries(rows.map((row) => [...row.children].map(({ textContent }) => textContent))));
+const timedBy = (page, pattern) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector("#lab-times + p")?.textContent ?? ""), pattern.source, { timeout: 60000 });
+
+/** What shadows take: by the GPU's clock where a page may read it, which labels do not wait for; else by the program's; else not of a GPU. */
+async function timesTheShadowsOnTheGpu() {
+  const page = await openWith(gpu);
+  await done(page);
+  await timedBy(page, /Drawn once by Stub GPU, with the wait for the driver/);
+  await askForAPixel(page);
+  await timedBy(page, /by the clock of Stub GPU: 5 runs of 10 drawings, in steps of 1 ms/);
+  const { "Exact shadows by rays": rays, ...drawn } = await times(page);
+  assert.deepEqual(drawn, { "Shadow map drawn": "0.4 ms", "Its lookups, beyond the picture without shadows": "0.3 ms", "Both, a frame": "0.7 ms" }, "the run that the GPU lost count in is not among them");
+  assert.match(rays, /ms$/);
+  await page.close();
+
+  const without = await openWith(noClock);
+  await done(without);
+  await timedBy(without, /are a guess: no clock of Stub GPU is to be read here.*the wait for the driver too; 5 runs of \d+ drawings/);
+  assert.equal(Object.keys(await times(without)).length, 4);
+  await without.close();
+
+  const software = await openLab(small);
+  await done(software);
+  await timedBy(software, /Drawn once, by the processor: .*SwiftShader.* is no GPU/);
+  await close(software);
+}
+
 async function saysThatTheContextIsLost() {
   const page = await openWith(`const get = OffscreenCanvas.prototype.getContext;
     OffscreenCanvas.prototype.getContext = function (...words) { return (self.drawing = get.apply(this, words)); };
@@ -224,6 +273,7 @@ await opensFilesAndSavesTheReport();
 await canBeReadByAll();
 await leadsSomewhere();
 await computesALessonsFigure();
+await timesTheShadowsOnTheGpu();
 await saysThatTheContextIsLost();
 await saysThatThereIsNoWebGl();
 await saysThatItTakesLong();

@@ -97,20 +97,19 @@ void labels(const LightComparison& light) {
                       compare::grouped(light.pixels.compared).c_str());
 }
 
-void row(const char* what, double ms) {
+void row(const char* what, const std::string& time) {
   ImGui::TextUnformatted(what);
-  right_aligned(ms > 0.0 ? compare::milliseconds(ms) : "not timed yet");
+  right_aligned(time);
 }
 
 void times(const PanelContext& context) {
   if (!ImGui::CollapsingHeader("Times", ImGuiTreeNodeFlags_DefaultOpen)) return;
   const Readings now = readings_of(context.shown, context.state);
-  row("Live picture, with reading back", now.raster_ms);
-  if (!now.compared) return;
-  row("Depth map", now.compared->map_ms);
-  row("Shading with the map", now.compared->shade_ms);
-  row("Exact shadows by rays", now.compared->exact_shadows_ms);
-  faint(context.shown.renderer);
+  row("Live picture, with reading back",
+      now.raster_ms > 0.0 ? compare::milliseconds(now.raster_ms) : "not timed yet");
+  const ShadowTimeWords words = shadow_time_words(context.shown, context.state);
+  for (const auto& [name, time] : words.rows) row(name.c_str(), time);
+  if (!words.by.empty()) faint(words.by);
 }
 
 }  // namespace

@@ -183,4 +183,47 @@ Readings readings_of(const Snapshot& shown, const ViewState& state) {
   return out;
 }
 
+namespace {
+
+std::string once(double ms) {
+  return ms > 0.0 ? compare::milliseconds(ms) : "not timed yet";
+}
+
+void add_of_gpu(const ShadowTimes& times, const std::string& renderer, ShadowTimeWords& words) {
+  const Times& map = times.map;
+  words.rows = {
+      {"Shadow map drawn", compare::milliseconds({map, map.least(), map.median(), map.most(), true})},
+      {"Its lookups, beyond the picture without shadows", compare::milliseconds(times.lookups())},
+      {"Both, a frame", compare::milliseconds(times.map_and_lookups())}};
+  const std::string runs = fmt::format("{} runs of {} drawings, in steps of {}", map.runs.size(),
+                                       times.drawings, compare::milliseconds(times.step_ms));
+  words.of_device = times.by_device;
+  words.by =
+      times.by_device
+          ? fmt::format("Map and lookups by the clock of {}: {}. Rays on the processor.", renderer, runs)
+          : fmt::format(
+                "Map and lookups are a guess: no clock of {} is to be read here, and the processor's "
+                "counts the wait for the driver too; {}. Rays on the processor.",
+                renderer, runs);
+}
+
+}  // namespace
+
+ShadowTimeWords shadow_time_words(const Snapshot& shown, const ViewState& state) {
+  ShadowTimeWords words;
+  const auto compared = readings_of(shown, state).compared;
+  if (!compared) return words;
+  if (const auto times = shown.shadow_times; times && times->revision == state.revision) {
+    add_of_gpu(*times, shown.renderer, words);
+  } else {
+    words.rows = {{"Shadow map drawn", once(compared->map_ms)},
+                  {"Picture shaded with it", once(compared->shade_ms)}};
+    words.by = raster::draws_in_software(shown.renderer)
+                   ? fmt::format("Drawn once, by the processor: {} is no GPU.", shown.renderer)
+                   : fmt::format("Drawn once by {}, with the wait for the driver.", shown.renderer);
+  }
+  words.rows.push_back({"Exact shadows by rays", once(compared->exact_shadows_ms)});
+  return words;
+}
+
 }  // namespace gnomon::app

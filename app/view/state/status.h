@@ -27,6 +27,18 @@ struct Readings {
 };
 Readings readings_of(const Snapshot& shown, const ViewState& state);
 
+/// What the shadows took, in words: on the GPU (ShadowTimes) once that is known, else in the comparison.
+struct ShadowTimeWords {
+  struct Row {
+    std::string name, time;
+  };
+  std::vector<Row> rows;
+  std::string by;          ///< by which clock, how often, in which steps
+  bool of_device = false;  ///< by the GPU's own clock
+};
+/// Nothing before the first comparison.
+ShadowTimeWords shadow_time_words(const Snapshot& shown, const ViewState& state);
+
 /// Scene, view, technique, map size, bias in texels and world units, share of wrong pixels, times.
 std::string status_line(const ViewState& state, const Readings& readings, const std::string& scene);
 

@@ -82,6 +82,7 @@ void RenderThread::publish() {
   if (studio_) {
     now_.live = studio_->live();
     now_.outcome = studio_->outcome();
+    now_.shadow_times = studio_->shadow_times();
   }
   auto snapshot = std::make_shared<const Snapshot>(now_);
   {
@@ -212,6 +213,7 @@ void RenderThread::read_changed_files() {
 void RenderThread::carry_out(const DrawOrder& order) {
   const std::uint64_t live = studio_->live().revision;
   const auto outcome = studio_->outcome();
+  const auto shadow_times = studio_->shadow_times();
   const auto already = [&](const std::optional<Snapshot::Failure>& failure) {
     return failure && failure->revision == order.revision;
   };
@@ -226,7 +228,7 @@ void RenderThread::carry_out(const DrawOrder& order) {
   if (const auto compared = studio_->compare(order); !compared) {
     now_.incomparable = Snapshot::Failure{order.revision, compared.error()};
     publish();
-  } else if (studio_->outcome() != outcome) {
+  } else if (studio_->outcome() != outcome || studio_->shadow_times() != shadow_times) {
     now_.incomparable.reset();
     publish();
   }

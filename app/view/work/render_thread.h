@@ -35,6 +35,7 @@ struct Snapshot {
   std::shared_ptr<const OpenedScene> scene;
   LivePicture live;
   std::shared_ptr<const ComparisonOutcome> outcome;
+  std::shared_ptr<const ShadowTimes> shadow_times;  ///< Studio::shadow_times()
   int max_map_size = 0;
   std::string renderer;  ///< GL_RENDERER
   struct Failure {

@@ -40,13 +40,17 @@ Studio::Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const
       exposure_(loaded_->scene->exposure),
       worker_(*loaded_->scene, *loaded_->world, options, std::move(on_finished)) {}
 
-Expected<raster::RasterFrame> Studio::render(const Setup& setup, ImageSize size, bool analysis, int runs) {
+/// Of a picture alone.
+raster::RasterOptions Studio::raster_options(const Setup& setup, ImageSize size) const {
   raster::RasterOptions options = options_.raster;
   options.size = size;
   options.map = setup.map;
-  options.runs = runs;
-  options.analysis = analysis;
-  options.keep_time = !analysis && !worker_.busy();
+  options.runs = 0;
+  options.analysis = false;
+  return options;
+}
+
+Expected<raster::RasterFrame> Studio::render(const Setup& setup, const raster::RasterOptions& options) {
   const std::vector<std::uint32_t> lights{setup.light};
   std::optional<raster::MapCamera> frozen;
   if (setup.map_camera) frozen = raster::MapCamera{.camera = *setup.map_camera};
@@ -58,7 +62,9 @@ Expected<void> Studio::draw(const DrawOrder& order) {
   if (live_.revision == order.revision) return {};
   place(given_, order.setup, *loaded_->scene);
   const Stopwatch watch;
-  auto frame = render(order.setup, order.setup.size, false, 0);
+  raster::RasterOptions options = raster_options(order.setup, order.setup.size);
+  options.keep_time = !worker_.busy();
+  auto frame = render(order.setup, options);
   if (!frame) return fail(frame.error());
   const raster::LightRecord& record = frame->lights.front();
   live_.raster_ms = watch.elapsed_ms();
@@ -92,7 +98,21 @@ void Studio::encode_live() {
 Expected<void> Studio::compare(const DrawOrder& order) {
   const Expected<void> taken = receive_outcome();
   const Expected<void> started = start_next(order);
-  return taken ? started : taken;
+  if (!taken) return taken;
+  return started ? time_shadows(order) : started;
+}
+
+/// While nothing else is to be done. What draws in software is no GPU: the comparison's own times are all there is.
+Expected<void> Studio::time_shadows(const DrawOrder& order) {
+  if (raster::draws_in_software(renderer_->info().renderer) || worker_.busy()) return {};
+  if (!outcome_ || outcome_->preview || outcome_->revision != order.revision) return {};
+  if (order.setup.map.technique == raster::Technique::hybrid) return {};
+  return shadow_timer_.take_turn(order.revision, *renderer_, [&](int drawings) -> Expected<void> {
+    raster::RasterOptions options = raster_options(order.setup, order.setup.size);
+    options.span_drawings = drawings;
+    const auto drawn = render(order.setup, options);
+    return drawn ? Expected<void>{} : fail(drawn.error());
+  });
 }
 
 Expected<void> Studio::receive_outcome() {
@@ -125,7 +145,10 @@ Expected<void> Studio::start_next(const DrawOrder& order) {
   if (!preview && !known) known_rays_.reset();  // the worker keeps one frame
   started_revision_ = order.revision;
   started_full_ = !preview;
-  auto drawn = render(order.setup, preview ? small : order.setup.size, true, preview ? 0 : 1);
+  raster::RasterOptions options = raster_options(order.setup, preview ? small : order.setup.size);
+  options.analysis = true;
+  options.runs = preview ? 0 : 1;
+  auto drawn = render(order.setup, options);
   if (!drawn) return fail(drawn.error());
   worker_.start({order.revision, preview, preview || known, order.setup.precision, plan_of(order.setup),
                  loaded_->scene->camera, loaded_->scene->lights, std::move(*drawn)});

@@ -12,6 +12,7 @@
 
 #include "app/session.h"
 #include "app/view/state/state.h"
+#include "app/view/work/shadow_times.h"
 #include "app/view/work/worker.h"
 #include "raster/renderer.h"
 
@@ -55,6 +56,8 @@ class Studio {
   const LivePicture& live() const { return live_; }
   /// The newest; none yet: null.
   std::shared_ptr<const ComparisonOutcome> outcome() const { return outcome_; }
+  /// Of the newest revision that was looked at for long enough; none yet, or nothing but the processor draws: null.
+  std::shared_ptr<const ShadowTimes> shadow_times() const { return shadow_timer_.times(); }
   const GivenScene& given() const { return given_; }
   const raster::ContextInfo& context_info() const { return renderer_->info(); }
 
@@ -71,9 +74,11 @@ class Studio {
 
   Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const LoadedScene> loaded,
          const compare::CompareOptions& options, std::function<void()> on_finished);
-  Expected<raster::RasterFrame> render(const Setup& setup, ImageSize size, bool analysis, int runs);
+  raster::RasterOptions raster_options(const Setup& setup, ImageSize size) const;
+  Expected<raster::RasterFrame> render(const Setup& setup, const raster::RasterOptions& options);
   Expected<void> receive_outcome();
   Expected<void> start_next(const DrawOrder& order);
+  Expected<void> time_shadows(const DrawOrder& order);
   EffectPlan plan_of(const Setup& setup) const;
   void encode_live();
 
@@ -85,6 +90,8 @@ class Studio {
   LivePicture live_;
   ColorImage live_color_;
   std::optional<double> exposure_;
+
+  ShadowTimer shadow_timer_;
 
   std::uint64_t started_revision_ = 0;  ///< of the newest request
   bool started_full_ = false;

@@ -3,6 +3,7 @@
 import gnomon from "./gnomon.mjs";
 
 const quiet_turns = 8;  // that nothing came of, more than a comparison takes: then there is nothing to do
+const looks = 40, between_looks = 25;  // after them, and milliseconds apart: whether the GPU tells what shadows took
 const waiting = [];     // requests for news of a moment that has not come
 const port = globalThis.WorkerGlobalScope ? globalThis : (await import("node:worker_threads")).parentPort;
 let loading, module, said = { out: "", err: "" }, number = 0, quiet = 0, turning = false;
@@ -59,6 +60,7 @@ channel.port1.onmessage = () => {
     number = now;
     tellNews();
     if (quiet < quiet_turns) turnSoon();
+    else if (quiet < quiet_turns + looks) setTimeout(turnSoon, between_looks);
   } catch (error) {
     port.postMessage({ gone: module.ctx?.isContextLost() ? "The browser has taken the graphics away (context lost)." : String(error?.message ?? error) });
   }

@@ -18,11 +18,17 @@ EM_JS(char*, gnomon_renderer, (), {
   return stringToNewUTF8(GLctx.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : GLctx.RENDERER));
 });
 
+// What EXT_disjoint_timer_query_webgl2 counts in, bits; 0 where it is not there.
+EM_JS(int, gnomon_timer_bits, (), {
+  const timer = GLctx.getExtension("EXT_disjoint_timer_query_webgl2");
+  return timer ? GLctx.getQuery(timer.TIME_ELAPSED_EXT, timer.QUERY_COUNTER_BITS_EXT) : 0;
+});
+
 namespace gnomon::web {
 namespace {
 
 // OpenGL's, which WebGL's header has not.
-constexpr GLenum most_buffer_texels = 0x8C2B;
+constexpr GLenum most_buffer_texels = 0x8C2B, gpu_disjoint = 0x8FBB;
 
 void get_integer(GLenum name, GLint* value) {
   if (name == GL_NUM_EXTENSIONS) return void(*value = 1);  // the loader wants one (get_string_at())
@@ -48,6 +54,17 @@ const GLubyte* get_string(GLenum name) {
 }
 const GLubyte* get_string_at(GLenum, GLuint) {
   return reinterpret_cast<const GLubyte*>("");
+}
+void get_query(GLenum, GLenum, GLint* bits) {
+  *bits = gnomon_timer_bits();
+}
+/// Of timer queries. All ones: something came between, and the result is worth nothing (raster/gl/span_clock).
+void get_query_object(GLuint query, GLenum name, GLuint* value) {
+  glGetQueryObjectuiv(query, name, value);
+  if (name != GL_QUERY_RESULT) return;
+  GLboolean disjoint = GL_FALSE;
+  glGetBooleanv(gpu_disjoint, &disjoint);
+  if (disjoint == GL_TRUE) *value = ~GLuint{0};
 }
 void ignore_vertex_array(GLuint) {}  // the shaders fetch
 void vertex_array_two(GLuint, GLuint) {}
@@ -114,6 +131,12 @@ Procedure gl_procedure(const char* name) {
       named("glGetString", get_string),
       named("glGetStringi", get_string_at),
       named("glGetError", glGetError),
+      named("glGetQueryiv", get_query),
+      named("glGenQueries", glGenQueries),
+      named("glDeleteQueries", glDeleteQueries),
+      named("glBeginQuery", glBeginQuery),
+      named("glEndQuery", glEndQuery),
+      named("glGetQueryObjectuiv", get_query_object),
       named("glDebugMessageCallback", debug_callback),
   };
   for (const Procedure known :

@@ -58,6 +58,13 @@ export interface CameraPose {
   distance: number;  // world units
 }
 
+/** What the shadows took, in words. */
+export interface TimeWords {
+  clock: "gpu" | "processor";  // the GPU's own; or the program's, with the wait for the driver
+  rows: [name: string, time: string][];
+  by: string;  // by which clock, how often, in which steps
+}
+
 /** What there is of a state. */
 export interface Drawn {
   scene: { name: string; lights: string[] };
@@ -75,6 +82,7 @@ export interface Drawn {
   raster_ms: number;
   compared: number;  // the revision whose comparison there is; 0: none
   preview: boolean;  // at a quarter of the size
+  times?: TimeWords;  // once something is compared
   verdict?: { headline: string; detail: string };
   result?: { lights: (LightResult & { bias_curve: BiasPoint[] })[] };
 }

@@ -1,10 +1,10 @@
 // What is said of the state: the verdict, the wrong pixels by label, the error of every constant bias, what it took, and
 // one pixel explained.
 import { biasChart } from "../bias_chart";
-import { grouped, milliseconds, percent, plainNumber, signedNumber } from "../number_text";
+import { grouped, percent, plainNumber, signedNumber } from "../number_text";
 import type { LabelFacts, LightResult } from "../report_document";
 import { markup, scrollRegion, swatch, type Markup } from "../template";
-import type { Cut, Drawn, LabFacts, PixelStory } from "./engine";
+import type { Cut, Drawn, LabFacts, PixelStory, TimeWords } from "./engine";
 
 function labelRows(light: LightResult, labels: LabelFacts[]): Markup {
   const { compared } = light.pixels, seen = labels.filter(({ key, value }) => value > 0 && (light.classes[key] ?? 0) > 0)
@@ -20,11 +20,9 @@ function budget(light: LightResult, { rungs }: LabFacts): Markup {
     rungs[k + 1]!.step!}</th><td class="n">${percent(absolute)}</td><td class="n">${signed === 0 ? "0" : signedNumber(signed)}</td></tr>`)}</tbody></table>`;
 }
 
-function times(drawn: Drawn, light: LightResult): Markup {
-  const entries: [string, number | null | undefined][] = [["Shadow map drawn", light.times_ms.map_pass?.median], ["Picture shaded with it", light.times_ms.shade_pass?.median],
-    ["Exact shadows by rays", light.times_ms.shadow_rays?.median]];
-  return markup`<table class="numbers"><caption>What it took, on ${drawn.renderer}</caption><tbody>${entries.map(([name, ms]) => markup`<tr><th scope="row">${name}</th><td class="n">${
-    ms === null || ms === undefined ? "not timed yet" : milliseconds(ms)}</td></tr>`)}</tbody></table>`;
+function timeTable({ rows, by }: TimeWords): Markup {
+  return markup`<table class="numbers" id="lab-times"><caption>What the shadows took</caption><tbody>${rows.map(([name, time]) => markup`<tr><th scope="row">${name}</th><td class="n">${
+    time}</td></tr>`)}</tbody></table><p class="hint">${by}</p>`;
 }
 
 function engineUnits({ engine_units: units }: LightResult): Markup | null {
@@ -47,7 +45,7 @@ export function resultsMarkup(drawn: Drawn, facts: LabFacts): Markup {
   if (!light) return markup`<p>Comparing…</p>`;
   const chart = biasChart(light, "lab-bias");
   return markup`${labelRows(light, facts.labels)}${budget(light, facts)}${chart && markup`<h2>Every constant bias</h2>${scrollRegion("Wrong pixels at every constant bias", chart)}<p class="hint">A click takes the bias there.</p>`}${
-    engineUnits(light)}${times(drawn, light)}`;
+    engineUnits(light)}${drawn.times && timeTable(drawn.times)}`;
 }
 
 /** Stored depths of the texels as steps, the same with the bias, and the receiver: the light is above. */
