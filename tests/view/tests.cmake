@@ -6,6 +6,11 @@ gnomon_test(view_test SOURCES view_pose_test.cpp view_state_test.cpp view_input_
 gnomon_test(view_thread_gl_test SOURCES view_thread_gl_test.cpp view_story_gl_test.cpp
   LIBS app_process gnomon::app gnomon::compare gnomon::raster gnomon::scene)
 
+# One thread's turns, which the test takes: objects of its own stand for those of the library.
+gnomon_test(view_turns_gl_test SOURCES view_turns_gl_test.cpp ../../cmake/platform/web/turns.cpp
+  LIBS app_process gnomon::app gnomon::compare gnomon::raster gnomon::scene)
+set_target_properties(view_turns_gl_test PROPERTIES UNITY_BUILD OFF)
+
 # Each its own program: together they would take too long on a busy machine.
 foreach(subject window lab keys opened)
   gnomon_test(view_${subject}_gl_test SOURCES view_${subject}_gl_test.cpp view_display.cpp

@@ -12,7 +12,8 @@ namespace {
 class Told final : public raster::Renderer {
  public:
   explicit Told(std::deque<raster::ShadowSpans> answers) : answers_(std::move(answers)) {}
-  Expected<raster::RasterFrame> render(const raster::RasterOptions&, std::span<const std::uint32_t>) override {
+  Expected<raster::RasterFrame> render(const raster::RasterOptions&,
+                                       std::span<const std::uint32_t>) override {
     return raster::RasterFrame{};
   }
   std::optional<raster::ShadowSpans> take_spans() override {
@@ -48,8 +49,13 @@ struct Timed {
 TEST(ShadowTimes, AreMediansOfRunsThatTheClockCanTell) {
   // Once 3 ms, so ten drawings a run; in steps of 0.1 ms.
   const raster::ShadowSpans first{true, true, 1.0, 1.5, 0.5}, lost{};
-  Told renderer({first, {true, true, 4.0, 9.0, 6.0}, lost, {true, true, 4.2, 9.5, 6.0}, {true, true, 3.9, 9.0, 6.1},
-                 {true, true, 4.1, 9.1, 6.0}, {true, true, 40.0, 90.0, 6.0}});
+  Told renderer({first,
+                 {true, true, 4.0, 9.0, 6.0},
+                 lost,
+                 {true, true, 4.2, 9.5, 6.0},
+                 {true, true, 3.9, 9.0, 6.1},
+                 {true, true, 4.1, 9.1, 6.0},
+                 {true, true, 40.0, 90.0, 6.0}});
   Timed timed;
   timed.take(renderer, 7);
   EXPECT_EQ(timed.drawings, (std::vector{1, 10, 10, 10, 10, 10, 10})) << "what was lost is drawn again";
