@@ -145,6 +145,7 @@ std::string lab_facts(const LabOptions& options, bool worker) {
   const ImageSize size = options.compare.raster.size;
   const Json facts = {{"kind", "lab"},
                       {"worker", worker},
+                      {"manual", worker ? "manual/options.html" : ""},
                       {"size", {{"width", size.width}, {"height", size.height}}},
                       {"scene", options.scene.name},
                       {"settings", settings},

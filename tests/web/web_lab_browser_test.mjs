@@ -85,14 +85,42 @@ async function canBeReadByAll() {
   await close(dark);
 }
 
-/** Of all pages but the lessons', which are the same as those of `gnomon lessons`. */
+/** Of all pages but the lessons', which are the same as those of `gnomon lessons`: each link to a page and a place of it that there are. */
 async function leadsSomewhere() {
-  for (const name of ["", "manual/", "manual/options.html"]) {
+  for (const [name, least, which] of [["", 20, "a[href]"], ["manual/", 5, "a[href]"], ["manual/options.html", 3, "a[href]"], ["manual/techniques.html", 1, "a[href]"], ["lab.html", 7, "a.manual"]]) {
     const page = await openAt(`${host.url}${name}`, host.url);
-    for (const link of await page.locator("a[href]").evaluateAll((all) => all.map(({ href }) => href)))
-      if (link.startsWith(host.url)) assert.ok((await fetch(link)).ok, `${name}: ${link}`);
+    const links = (await page.locator(which).evaluateAll((all) => all.map(({ href }) => href))).filter((link) => link.startsWith(host.url));
+    assert.ok(links.length >= least, `${name}: ${links.length} links`);
+    for (const link of links) {
+      const [address, place = ""] = link.split("#"), answer = await fetch(address);
+      assert.ok(answer.ok, `${name}: ${link}`);
+      if (place !== "" && !address.endsWith("lab.html")) assert.ok((await answer.text()).includes(`id="${place}"`), `${name}: no such place: ${link}`);
+    }
     await close(page);
   }
+}
+
+/** The lab saved as one file begins from the disk with what was set, and computes there. */
+async function savesTheLabAsOneFile() {
+  const page = await openLab(small);
+  await done(page);
+  await set(page, "bias", "0");
+  const labels = (of) => of.locator("#lab-results .labels").textContent(), counted = await labels(page);
+  const saved = page.waitForEvent("download", { timeout: 120000 });
+  await page.locator("#lab-one-file").click();
+  const file = path.join(folder, "elsewhere", "gnomon-lab.html");
+  await (await saved).saveAs(file);
+  await close(page);
+  const alone = await openAt(pathToFileURL(file).href, "blob:");  // its worker
+  await done(alone);
+  assert.equal(await alone.locator("#lab-gone").textContent(), "");
+  assert.match(await alone.evaluate(() => location.hash), /scene=sphere-plane.*bias=0/);
+  assert.equal(await labels(alone), counted);
+  await set(alone, "bias", "3");
+  assert.notEqual(await labels(alone), counted);
+  assert.ok(await alone.locator("#lab-one-file").isHidden());
+  assert.ok((await alone.locator("a.manual").first().getAttribute("href")).startsWith(host.url), "the manual is where the lab came from");
+  await close(alone);
 }
 
 /** A lesson's figure leads to the lab, which draws the same picture: both count what the command counts. */
@@ -173,7 +201,7 @@ async function timesTheShadowsOnTheGpu() {
 async function saysThatTheContextIsLost() {
   const page = await openWith(`const get = OffscreenCanvas.prototype.getContext;
     OffscreenCanvas.prototype.getContext = function (...words) { return (self.drawing = get.apply(this, words)); };
-    addEventListener("message", ({ data }) => { if (data.name === "pixel") self.drawing.getExtension("WEBGL_lose_context").loseContext(); });`);
+    addEventListener("message", ({ data }) => { if (data.name === "pixel") self.drawing.getExtension("WEBGL_lose_context")?.loseContext(); });`);
   await done(page);
   await page.locator(".stage").click({ position: { x: 100, y: 100 } });
   await page.locator("#lab-pixel h2").waitFor();
@@ -277,6 +305,7 @@ await timesTheShadowsOnTheGpu();
 await saysThatTheContextIsLost();
 await saysThatThereIsNoWebGl();
 await saysThatItTakesLong();
+await savesTheLabAsOneFile();
 await opensFromTheDisk();
 if (hasThree) await takesARunningScene();
 await browser.close();

@@ -8,7 +8,7 @@ const waiting = [];     // requests for news of a moment that has not come
 const port = globalThis.WorkerGlobalScope ? globalThis : (await import("node:worker_threads")).parentPort;
 let loading, module, said = { out: "", err: "" }, number = 0, quiet = 0, turning = false;
 
-const load = () => (loading ??= gnomon({ thisProgram: "gnomon", print: (line) => { said.out += `${line}\n`; }, printErr: (line) => { said.err += `${line}\n`; } }).then((made) => {
+const load = (wasmBinary) => (loading ??= gnomon({ ...(wasmBinary && { wasmBinary }), thisProgram: "gnomon", print: (line) => { said.out += `${line}\n`; }, printErr: (line) => { said.err += `${line}\n`; } }).then((made) => {
   module = made;
   module.FS.mkdirTree("/given");
   module.FS.chdir("/given");
@@ -66,8 +66,9 @@ channel.port1.onmessage = () => {
   }
 };
 
-async function begin({ scene, size }) {
-  await load();
+/** `program`: its bytes, where they are no file beside this one. */
+async function begin({ scene, size, program }) {
+  await load(program);
   module.FS.mkdirTree("/dropped");
   module.ccall("gnomon_lab_begin", null, ["string", "number", "number"], [scene, size.width, size.height]);
   if (module.answer.status !== 200) throw new Error(new TextDecoder().decode(module.answer.body));

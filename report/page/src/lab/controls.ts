@@ -1,5 +1,8 @@
 // One row of a panel: a name, a control for its kind, and a note that is shown while the row is looked at.
+import { pageData } from "../parts";
 import { html } from "../svg";
+import type { LabFacts } from "./engine";
+import { packed } from "./one_file";
 
 let rows = 0;
 
@@ -22,6 +25,15 @@ export const powersOfTwo = (from: number, to: number): SliderScale => ({
 
 /** Four significant digits: what a slider gives is read and typed again. */
 export const tidy = (value: number): number => Number(value.toPrecision(4));
+
+const { manual } = pageData<LabFacts>();
+
+/** A panel, and a question mark that leads to the manual's paragraph on its first option, where there is a manual. */
+export function panel(name: string, option: string, ...rows: HTMLElement[]): HTMLFieldSetElement {
+  const legend = html("legend", {}, name);
+  if (manual !== "") legend.append(" ", html("a", { href: new URL(`${manual}#--${option}`, packed?.from ?? location.href).href, target: "_blank", class: "manual", "aria-label": `${name} in the manual` }, "?"));
+  return html("fieldset", {}, legend, ...rows);
+}
 
 export interface Row {
   element: HTMLElement;

@@ -1,5 +1,6 @@
 // The engine behind the lab's page: what it is asked, and what it answers (docs/lab.md, "The page and its engine"). It is the
 // program that serves the page, or the same in a worker of the page.
+import { packed, startPacked } from "./one_file";
 import type { BiasPoint, LabelFacts, LightResult } from "../report_document";
 
 export interface SettingFacts {
@@ -31,6 +32,7 @@ export interface Named {
 export interface LabFacts {
   scene: string;
   worker: boolean;  // the page has its engine itself
+  manual: string;   // the address of the manual's page of options; "": there is none
   size: { width: number; height: number };  // of its first picture
   settings: SettingFacts[];
   techniques: { name: string; for_suns: boolean }[];
@@ -179,11 +181,12 @@ export const servedEngine = (): Engine => new Engine(
   (name, parameters, body) => fetch(`${name}?${new URLSearchParams(parameters).toString()}`, { method: body === undefined ? "GET" : "POST", ...(body !== undefined && { body }) }),
   "The program behind this page does not answer. Start gnomon serve again, and open the address that it prints.", false);
 
-/** The program in a worker of this page, by the files beside it. It begins with a scene. */
+/** The program in a worker of this page, by the files beside it or within the page. It begins with a scene. */
 export function workerEngine(scene: string, size: { width: number; height: number }): Engine {
-  if (location.protocol === "file:") return new Engine(() => Promise.resolve(new Response("The lab needs a host: browsers start no engine for a page that is opened as a file.", { status: 500 })),
-    "Put the folder on any host of plain files, or run python3 -m http.server in it and open http://localhost:8000/lab.html.", true);
-  const worker = new Worker("gnomon_worker.mjs", { type: "module" }), open = new Map<number, (answer: Response) => void>();
+  if (!packed && location.protocol === "file:") return new Engine(() => Promise.resolve(new Response("The lab needs a host: browsers start no engine for a page that is opened as a file with others beside it.", { status: 500 })),
+    "Put the folder on any host of plain files, or run python3 -m http.server in it and open http://localhost:8000/lab.html. What “Save the lab as one file” gives there opens from the disk, too.", true);
+  const started = packed ? startPacked(packed) : { worker: new Worker("gnomon_worker.mjs", { type: "module" }) };
+  const { worker } = started, open = new Map<number, (answer: Response) => void>();
   let last = 0, gone: string | null = null;
   const fail = (words: string): void => {
     gone = words;
@@ -204,7 +207,7 @@ export function workerEngine(scene: string, size: { width: number; height: numbe
       worker.postMessage({ id: last, name, parameters, body: bytes }, bytes ? [bytes] : []);
     });
   };
-  const begun = post("begin", { scene, size });
+  const begun = "program" in started ? started.program.then((program) => post("begin", { scene, size, program })) : post("begin", { scene, size });
   return new Engine(async (...asked) => { const start = await begun; return start.ok ? post(...asked) : start.clone(); },
     "The program in this page has stopped: reload the page. Its address brings the state back.", true);
 }

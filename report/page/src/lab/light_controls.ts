@@ -1,6 +1,6 @@
 // Where the light comes from: a disc of the sky to drag in, sliders, and of a sun the date, the hour and the latitude.
 import { html, svg } from "../svg";
-import { choiceRow, linearScale, sliderRow, tidy, type Row } from "./controls";
+import { choiceRow, linearScale, panel, sliderRow, tidy, type Row } from "./controls";
 import type { Drawn, LightPose } from "./engine";
 import { dayOfYear, sunAt } from "./sun_place";
 
@@ -21,7 +21,7 @@ export class LightControls {
   private pose: LightPose | null = null;
 
   constructor(root: HTMLElement, private readonly changed: (pose: PoseChange) => void) {
-    const group = html("fieldset", {}, html("legend", {}, "Light"));
+    const group = panel("Light", "light");
     this.names = choiceRow("Which", "The light that is compared and turned. --light", [], (name) => changed({ light: name }));
     const number = (name: string, unit: string, note: string, option: string, from: number, to: number): Row =>
       sliderRow(name, unit, note, linearScale(from, to, 360), (text) => this.set({ [option]: text }));

@@ -6,12 +6,13 @@ import { copyButton } from "../clipboard";
 import { pageData } from "../parts";
 import { html } from "../svg";
 import { markup, flowing } from "../template";
-import { choiceRow, tidy } from "./controls";
+import { choiceRow, panel, tidy } from "./controls";
 import { isDrawn, servedEngine, workerEngine, type CameraPose, type Drawn, type LabFacts, type Named, type Reading } from "./engine";
 import { addressOf, optionsOf, stateAt, wordsOf, type LabState, type Options } from "./lab_state";
 import { LightControls, type PoseChange } from "./light_controls";
 import { listenToOpener } from "./opener";
 import { biasAt, pixelMarkup, resultsMarkup } from "./results";
+import { asOneFile, packed } from "./one_file";
 import { SettingsPanel } from "./settings_panel";
 import { Stage } from "./stage";
 
@@ -22,7 +23,7 @@ const patience = 20_000;  // milliseconds without news before the page says what
 const long = "This takes long: without a GPU a browser may need minutes for this scene's shaders. It goes on. To stop it, reload the page with another scene; its address keeps what is set here.";
 
 class Lab {
-  private state: LabState = stateAt(location.hash) ?? { scene: facts.scene, options: new Map() };
+  private state: LabState = stateAt(location.hash) ?? stateAt(packed?.state ?? "") ?? { scene: facts.scene, options: new Map() };
   private readonly engine = facts.worker ? workerEngine(facts.scenes.some(({ name }) => name === this.state.scene) ? this.state.scene : facts.scene, facts.size) : servedEngine();
   private asked = 0;      // the moment from which readings are of this page's wish
   private asking = false;
@@ -50,7 +51,7 @@ class Lab {
     });
     this.settings = new SettingsPanel(this.part("lab-settings"), facts.settings, (options) => this.changeMap(options));
     this.light = new LightControls(this.part("lab-settings"), (pose) => this.change(pose));
-    this.part("lab-settings").append(html("fieldset", {}, html("legend", {}, "Ray tracer"), this.precision.element));
+    this.part("lab-settings").append(panel("Ray tracer", "precision", this.precision.element));
     this.sceneMenu();
     this.presetButtons();
     this.part("lab-reset").after(copyButton(this.part("lab-command"), "Copy the command line"));
@@ -92,6 +93,8 @@ class Lab {
       this.part("lab-report").hidden = true;
       this.part("lab-save").addEventListener("click", (event) => { event.preventDefault(); void this.saveReport(); });
     }
+    this.part("lab-one-file").hidden = !facts.worker || packed !== null;
+    this.part("lab-one-file").addEventListener("click", () => void this.saveLab());
     this.part("lab-results").addEventListener("click", (event) => {
       const chart = (event.target as Element).closest<SVGElement>(".chart"), light = this.reading?.result?.lights[0];
       const texels = chart && light ? biasAt(chart, event.clientX, light) : null;
@@ -184,9 +187,9 @@ class Lab {
     }, patience);
   }
 
-  /** A state of the address is asked for; else the engine's own is shown. */
+  /** A state of the address, or one that was saved with the page, is asked for; else the engine's own is shown. */
   start(): void {
-    if (location.hash.length > 1) this.ask();
+    if (location.hash.length > 1 || packed) this.ask();
     void this.listenToEngine();
     document.documentElement.dataset.ready = "true";
   }
@@ -253,16 +256,20 @@ class Lab {
   }
 
   // What the page makes itself is a file to be saved: a page in it would have this page's policy, not its own.
-  private async saveReport(): Promise<void> {
-    if (!this.reading) return;
-    this.say("Writing the report…");
+  private async save(file: Promise<Blob>, name: string, before: string, after: string): Promise<void> {
+    this.say(before);
     try {
-      const link = html("a", { href: URL.createObjectURL(await this.engine.report(this.reading.command.split(" ").slice(1))), download: "report.html" });
-      link.click();
-      this.say("The report is saved as report.html.");
+      html("a", { href: URL.createObjectURL(await file), download: name }).click();
+      this.say(after);
     } catch (error) {
       this.fail((error as Error).message);
     }
+  }
+  private async saveReport(): Promise<void> {
+    if (this.reading) await this.save(this.engine.report(this.reading.command.split(" ").slice(1)), "report.html", "Writing the report…", "The report is saved as report.html.");
+  }
+  private saveLab(): Promise<void> {
+    return this.save(asOneFile(), "gnomon-lab.html", "Packing the lab…", "The lab is saved as gnomon-lab.html, which opens from the disk and begins with what is set here.");
   }
 
   private showReport(): void {
@@ -299,7 +306,7 @@ const layout = markup`<div class="lab">
 <div id="lab-settings" class="lab-settings" role="form" aria-label="Settings"></div>
 <div id="lab-stage" class="lab-stage"></div>
 <div class="lab-side"><div id="lab-pixel" class="lab-pixel" aria-live="polite"></div><div id="lab-results" class="lab-results"></div></div>
-<section class="lab-report" aria-label="Report"><p><button type="button" id="lab-report">Show the whole report</button> <a id="lab-save" href="report" download="report.html">Save the report</a> <code id="lab-command"></code></p><div id="lab-frame"></div></section>
+<section class="lab-report" aria-label="Report"><p><button type="button" id="lab-report">Show the whole report</button> <a id="lab-save" href="report" download="report.html">Save the report</a> <button type="button" id="lab-one-file">Save the lab as one file</button> <code id="lab-command"></code></p><div id="lab-frame"></div></section>
 </div>`;
 
 const lab = new Lab();

@@ -1,7 +1,6 @@
 // The settings of the shadow map, made from the program's own table (raster/settings.h): below the technique only what it
 // reads.
-import { html } from "../svg";
-import { choiceRow, linearScale, logarithmicScale, powersOfTwo, sliderRow, switchRow, textRow, tidy, type Row } from "./controls";
+import { choiceRow, linearScale, panel, logarithmicScale, powersOfTwo, sliderRow, switchRow, textRow, tidy, type Row } from "./controls";
 import type { Drawn, SettingFacts } from "./engine";
 import type { Options } from "./lab_state";
 
@@ -30,7 +29,7 @@ export class SettingsPanel {
       if (setting.name === "technique") continue;
       let group = this.groups.get(setting.group);
       if (!group) {
-        group = html("fieldset", {}, html("legend", {}, setting.group));
+        group = panel(setting.group, setting.name);
         this.groups.set(setting.group, group);
         root.append(group);
       }
