@@ -2,6 +2,9 @@
 // function cannot name: there is no other way to a case's numbers than those that count.
 layout(location = 0) out vec4 answer;
 
+// What an exercise asks for is not handed to it: such a call does not compile, and the error says why.
+#define reflect reflect_is_what_the_exercise_asks_for
+#define refract refract_is_what_the_exercise_asks_for
 #include "function/$FUNCTION.glsl"
 
 layout(binding = 0) uniform samplerBuffer case_numbers;

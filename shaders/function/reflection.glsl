@@ -4,6 +4,6 @@
 // Returns the mirrored direction, as long as the one that arrives.
 
 vec3 reflection(vec3 direction, vec3 normal) {
-  // TODO: which part of the direction turns round at the surface? (GLSL's reflect() is for afterwards.)
+  // TODO: which part of the direction turns round at the surface? (GLSL's reflect() is not there.)
   return direction;
 }

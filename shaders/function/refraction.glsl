@@ -6,6 +6,7 @@
 vec3 refraction(vec3 direction, vec3 normal, float n1, float n2) {
   // TODO 1: n1 sin(angle 1) = n2 sin(angle 2): what is the cosine of the second angle?
   // TODO 2: when is there none?
-  // TODO 3: put the direction together of what runs along the surface and what runs along the normal.
+  // TODO 3: put the direction together of what runs along the surface and what runs along the normal. (GLSL's refract()
+  //         is not there.)
   return direction;
 }

@@ -48,7 +48,7 @@ std::vector<Question> sphere_questions() {
   pairs(
       "front", [&] { past(dice.between(0.0, 0.8), 4.0); }, [&] { past(dice.between(1.3, 3.0), 4.0); });
   pairs(
-      "length", [&] { past(0.5, 4.0, 2.5); }, [&] { past(0.3, 4.0, 0.25); });
+      "length", [&] { past(0.45, 4.0, 2.5); }, [&] { past(0.3, 4.0, 0.25); });
   pairs(
       "inside", [&] { past(0.4, 0.5); }, [&] { past(0.4, -0.5); });
   pairs(
@@ -56,9 +56,13 @@ std::vector<Question> sphere_questions() {
   pairs(
       "grazing", [&] { past(0.97, 4.0); }, [&] { past(1.03, 4.0); });
   pairs(
-      "tiny", [&] { past(0.5, 50.0, 1.0, 0.01); }, [&] { past(1.5, 50.0, 1.0, 0.01); });
+      "tiny", [&] { past(0.45, 50.0, 1.0, 0.01); },
+      [&] {
+        past(1.5, 50.0, 1.0, 0.01);
+        past(0.4, -0.5, 1.0, 0.01);  // begins inside: 0.004 is a place before it
+      });
   pairs(
-      "far", [&] { past(0.5, 40.0, 1.0, 10.0); }, [&] { past(1.5, 40.0, 1.0, 10.0); });
+      "far", [&] { past(0.45, 40.0, 1.0, 10.0); }, [&] { past(1.5, 40.0, 1.0, 10.0); });
   add_picture(q, [&](const Vec3& eye, const Vec3& to) { add_sphere(q, {eye, to}, {0.0, 0.0, 0.0}, 1.1); });
   return q.take();
 }
@@ -197,6 +201,8 @@ std::vector<Question> triangle_questions() {
     for (int i = 0; i < of_each; ++i) {
       const Corners t = some_triangle(dice, 1.0);
       Ray ray = ray_at(dice, t, 0.3, 0.3, 3.0, name == "back" ? -1.0 : 1.0);
+      // Along the normal what is as far before the ray as the triangle is behind it lies over the triangle, too.
+      if (name == "behind" && i % 2 == 0) ray = ray_to(t.at(0.3, 0.3), t.normal(), 3.0);
       add_triangle(q, ray, t);
       if (name == "behind") ray.direction *= -1.0;
       if (name == "back") ray = ray_at(dice, t, -0.3, 0.3, 3.0, -1.0);
@@ -264,6 +270,10 @@ void add_axes(Questions& q, Dice& dice, std::string_view name, double where) {
       add_box(q, {origin, direction}, box);
       origin[other] = box.max[other] + dice.between(0.2, 1.0);
       add_box(q, {origin, direction}, box);
+      if (where == 1.0) continue;
+      // As flat as a third of a degree: it begins beside the slab, and is in it before it comes to the box.
+      origin[other] = box.max[other] + 0.012, direction[other] = -0.006;
+      add_box(q, {origin, glm::normalize(direction)}, box);
     }
 }
 

@@ -135,11 +135,16 @@ float in_steps(float number, double tolerance) {
 DrawnValues values_of_answers(const Run& run, const std::vector<raster::Answer>& answers) {
   const functions::Function& function = *functions::find_function(run.function);
   const std::vector<functions::Question>& questions = functions::questions_of(function);
+  // Students who answer "no hit" with a very large number choose different ones.
+  constexpr float no_place = 1e6f;
   DrawnValues values;
   for (std::size_t i = 0; i < questions.size(); ++i)
     if (questions[i].group == run.cases)
-      for (std::size_t k = 0; k < functions::size_of(function.kind); ++k)
-        values.visibility.push_back(in_steps(answers[i][k], questions[i].right.tolerance));
+      for (std::size_t k = 0; k < functions::size_of(function.kind); ++k) {
+        const functions::Right& right = questions[i].right;
+        const float answer = right.value[k] < no_place ? std::min(answers[i][k], no_place) : answers[i][k];
+        values.visibility.push_back(in_steps(answer, right.tolerance));
+      }
   values.is_uniform = std::ranges::all_of(answers, [&](const raster::Answer& answer) {
     return std::memcmp(&answer, &answers.front(), sizeof(float) * functions::size_of(function.kind)) == 0;
   });

@@ -154,8 +154,7 @@ class Grader {
     rest_is_hidden_ = class_.mistakes.hides_rest(*one);
     if (!rest_is_hidden_) named_.push_back(*one), result.mistake_named = true;
     judgement.reason = explained(run, class_.mistakes.words(*one), *agreement, judgement.reason);
-    if (!run.function.empty())
-      judgement.share = 0.0;  // later checks forgive it, however few of these cases tell
+    judgement.share = 0.0;  // later checks forgive it, however little shows of it here
     return judgement;
   }
 

@@ -184,6 +184,22 @@ TEST_F(GradeFunctions, NothingThatAFunctionDoesReachesTheGrader) {
   }
 }
 
+TEST_F(GradeFunctions, WhatAnExerciseAsksForIsNotHandedToIt) {
+  hand_in_with("mirror", "a", "reflection",
+               "vec3 reflection(vec3 direction, vec3 normal) { return reflect(direction, normal); }\n");
+  hand_in_with("glass", "a", "refraction",
+               "vec3 refraction(vec3 direction, vec3 normal, float n1, float n2) {\n"
+               "  return refract(direction, normal, n1 / n2);\n}\n");
+  hand_in_with("own", "a", "reflection",
+               "vec3 reflect(vec3 d, vec3 n) { return d - 2.0 * dot(d, n) * n; }\n"
+               "vec3 reflection(vec3 direction, vec3 normal) { return reflect(direction, normal); }\n");
+  const auto students = grade({"rays-and-light", "class"});
+  EXPECT_EQ(students.at("mirror")["points"], 25 - 6) << students.at("mirror").dump(2);
+  EXPECT_EQ(students.at("glass")["points"], 25 - 7) << students.at("glass").dump(2);
+  EXPECT_NE(students.at("glass").dump().find("refract_is_what_the_exercise_asks_for"), std::string::npos);
+  EXPECT_EQ(students.at("own")["points"], students.at("own")["of"]);
+}
+
 TEST_F(GradeFunctions, OneAnswerToAllQuestionsHasFewPoints) {
   for (const std::string constant : {"-1.0", "0.0", "1.0", "4.0", "length(origin)"}) {
     const std::string student = "all-" + constant.substr(0, 2);

@@ -22,18 +22,37 @@
 // mistake 20: the axis was never z
 // mistake 21: axis and middle were those of the triangles' box, not of their centres
 // mistake 22: there was no z, not even for the lowest and the highest centre
+// mistake 23: all triangles went left
+// mistake 24: all triangles went right
+// mistake 25: the answer was how many triangles go left
+// mistake 26: the answer was the numbers of the triangles, not their bits
+// mistake 27: a triangle's second corner was its centre
+// mistake 28: a triangle's third corner was its centre
+// mistake 29: the centre was that of two corners
+// mistake 30: the middle was the sum of the lowest and the highest (the half is left out)
+// mistake 31: the axis was always y
+// mistake 32: the axis was always z
+// mistake 33: the axis was never x
+// mistake 34: the axis was never y
+// mistake 35: centres in one place went left by turns
+// mistake 36: the second half of centres in one place went left
+// mistake 37: the box of the centres held the origin of the world
+// mistake 38: the middle was a quarter of the way
 vec3 triangle_corner(int triangle, int corner);
 
 vec3 center_of(int i) {
   vec3 a = triangle_corner(i, 0), b = triangle_corner(i, 1), c = triangle_corner(i, 2);
   if (MISTAKE == 8) return a;
+  if (MISTAKE == 27) return b;
+  if (MISTAKE == 28) return c;
+  if (MISTAKE == 29) return (a + b) / 2.0;
   if (MISTAKE == 9) return 0.5 * (min(a, min(b, c)) + max(a, max(b, c)));
   return (a + b + c) / 3.0;
 }
 
 int bvh_split(int triangles) {
   int count = MISTAKE == 16 ? triangles - 1 : triangles;
-  vec3 low = vec3(1e30), high = vec3(-1e30), box_low = low, box_high = high, sum = vec3(0.0);
+  vec3 low = vec3(MISTAKE == 37 ? 0.0 : 1e30), high = vec3(MISTAKE == 37 ? 0.0 : -1e30), box_low = low, box_high = high, sum = vec3(0.0);
   for (int i = 0; i < count; ++i) {
     vec3 a = triangle_corner(i, 0), b = triangle_corner(i, 1), c = triangle_corner(i, 2), middle = center_of(i);
     low = min(low, middle), high = max(high, middle), sum += middle;
@@ -41,6 +60,8 @@ int bvh_split(int triangles) {
   }
   vec3 extent = MISTAKE == 3 || MISTAKE == 21 ? box_high - box_low : MISTAKE == 14 ? high : high - low;
   if (MISTAKE == 20 || MISTAKE == 22) extent.z = MISTAKE == 22 ? 0.0 : -1.0;
+  if (MISTAKE == 33) extent.x = -1.0;
+  if (MISTAKE == 34) extent.y = -1.0;
   int axis = extent.y > extent.x ? 1 : 0;
   if (extent.z > extent[axis]) axis = 2;
   if (MISTAKE == 2) {
@@ -48,10 +69,13 @@ int bvh_split(int triangles) {
     if (extent.z < extent[axis]) axis = 2;
   }
   if (MISTAKE == 1) axis = 0;
+  if (MISTAKE == 31 || MISTAKE == 32) axis = MISTAKE - 30;
   float middle = 0.5 * (low[axis] + high[axis]);
   if (MISTAKE == 4 || MISTAKE == 21) middle = 0.5 * (box_low[axis] + box_high[axis]);
   if (MISTAKE == 5) middle = sum[axis] / float(triangles);
   if (MISTAKE == 10) middle = 0.0;
+  if (MISTAKE == 30) middle *= 2.0;
+  if (MISTAKE == 38) middle = 0.75 * low[axis] + 0.25 * high[axis];
   if (MISTAKE == 13) middle = 0.5 * (high[axis] - low[axis]);
   bool one_place = high[axis] == low[axis];
   int left = 0;
@@ -65,7 +89,10 @@ int bvh_split(int triangles) {
     bool goes = MISTAKE == 6 ? lower < triangles / 2 : MISTAKE == 7 ? place > middle : place < middle;
     if (one_place || MISTAKE == 17) goes = i < triangles / 2;
     if (one_place && (MISTAKE == 11 || MISTAKE == 12)) goes = MISTAKE == 12;
-    left += goes ? 1 << (MISTAKE == 15 ? triangles - 1 - i : i) : 0;
+    if (one_place && MISTAKE == 35) goes = i % 2 == 0;
+    if (one_place && MISTAKE == 36) goes = i >= triangles / 2;
+    if (MISTAKE == 23 || MISTAKE == 24) goes = MISTAKE == 23;
+    left += goes ? MISTAKE == 25 ? 1 : MISTAKE == 26 ? i : 1 << (MISTAKE == 15 ? triangles - 1 - i : i) : 0;
   }
   return left;
 }

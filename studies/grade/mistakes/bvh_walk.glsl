@@ -24,13 +24,17 @@
 // mistake 22: a node with one child missed had none
 // mistake 23: the right child was always the nearer one
 // mistake 24: every box was met, the root's as well (all leaves are asked)
+// mistake 25: a ray that meets nothing was answered with a very large number
+// mistake 26: a child's box in which the ray begins was not met
+// mistake 27: t was counted from where the ray enters the leaf's box
+// mistake 28: a walk that finds nothing was answered with a very large number
 float box_entry(int node);
 int left_child(int node);
 int right_child(int node);
 float hit_in_leaf(int node);
 
 bool is_met(float entry) {
-  return MISTAKE == 7 || MISTAKE == 24 || (MISTAKE == 15 ? entry > 0.0 : entry >= 0.0);
+  return MISTAKE == 7 || MISTAKE == 24 || (MISTAKE == 15 || MISTAKE == 26 ? entry > 0.0 : entry >= 0.0);
 }
 
 bool is_cut(float entry, float nearest) {
@@ -40,7 +44,7 @@ bool is_cut(float entry, float nearest) {
 
 float bvh_walk() {
   int stack[32], first = 0, size = 0;
-  float entries[32], none = MISTAKE == 14 ? 0.0 : -1.0, nearest = -1.0;
+  float entries[32], none = MISTAKE == 14 ? 0.0 : MISTAKE == 25 ? 1e30 : -1.0, nearest = -1.0;
   float root = box_entry(0);
   if (MISTAKE == 15 ? root <= 0.0 : root < 0.0 && MISTAKE != 18 && MISTAKE != 24) return none;
   if (MISTAKE == 11 && left_child(0) < 0) return none;
@@ -53,6 +57,7 @@ float bvh_walk() {
     if (left < 0) {
       float t = hit_in_leaf(node);
       if (MISTAKE == 12 && t >= 0.0) t = entries[at];
+      if (MISTAKE == 27 && t >= 0.0) t += entries[at];
       bool nearer = t >= 0.0 && (nearest < 0.0 || (MISTAKE == 10 ? t > nearest : t < nearest) || MISTAKE == 9);
       if (nearer || MISTAKE == 16 && t < 0.0) nearest = t;
       if (MISTAKE == 19 || MISTAKE == 1 && t >= 0.0 || MISTAKE == 20 && t < 0.0) break;
@@ -76,5 +81,5 @@ float bvh_walk() {
     if (MISTAKE == 8 && both) size = 0;
     if (meets_a) stack[size] = left, entries[size] = a, ++size;
   }
-  return nearest < 0.0 ? none : nearest;
+  return nearest < 0.0 ? MISTAKE == 28 ? 1e30 : none : nearest;
 }

@@ -22,6 +22,15 @@
 // mistake 20: t was counted from the cell's own wall, not from the ray's begin
 // mistake 21: a wall that the ray runs along was met (the direction's 0 is divided by; the last of two such walls counts)
 // mistake 22: a wall that the ray runs along was met (the direction's 0 is divided by, and the ray stays in its cell)
+// mistake 23: walls stood in the cells' middles
+// mistake 24: the farther of the walls of x and y was held against that of z
+// mistake 25: the ray's origin was added, not taken away
+// mistake 26: t was 0
+// mistake 27: t was the way through a whole cell (its size by the direction)
+// mistake 28: the step was two cells wide
+// mistake 29: the ray stayed in its cell
+// mistake 30: t had the wrong sign
+// mistake 31: t was the whole of the next wall's place (the origin is left out)
 ivec3 grid_step(ivec3 cell, vec3 origin, vec3 direction, vec3 low, vec3 size, out float t) {
   bool divides = MISTAKE == 4 || MISTAKE == 21 || MISTAKE == 22;
   vec3 d = MISTAKE == 9 ? normalize(direction) : direction, o = MISTAKE == 14 ? vec3(0.0) : origin;
@@ -30,15 +39,16 @@ ivec3 grid_step(ivec3 cell, vec3 origin, vec3 direction, vec3 low, vec3 size, ou
   vec3 next = vec3(1e30);
   for (int i = 0; i < 3; ++i) {
     if (d[i] == 0.0 && !divides) continue;
-    float upper = MISTAKE == 2 ? 0.0 : MISTAKE == 3 ? 1.0 : d[i] > 0.0 ? 1.0 : 0.0;
+    float upper = MISTAKE == 2 ? 0.0 : MISTAKE == 23 ? 0.5 : MISTAKE == 3 ? 1.0 : d[i] > 0.0 ? 1.0 : 0.0;
     if (MISTAKE == 18) upper += d[i] > 0.0 ? 1.0 : -1.0;
     float wall = begin[i] + (float(cell[i]) + upper) * wide[i];
-    float way = MISTAKE == 20 ? sign(d[i]) * wide[i] : wall - o[i];
+    float way = MISTAKE == 20 ? sign(d[i]) * wide[i] : MISTAKE == 25 ? wall + o[i] : MISTAKE == 31 ? wall : wall - o[i];
     next[i] = MISTAKE == 11 ? abs(way) : MISTAKE == 15 ? way * d[i] : way / d[i];
     if (divides && d[i] == 0.0) next[i] = way > 0.0 ? 1e30 : -1e30;
   }
   bool last = MISTAKE == 21;
   int axis = next.y < next.x || last && next.y == next.x ? 1 : 0;
+  if (MISTAKE == 24) axis = 1 - axis;
   if ((next.z < next[axis] || last && next.z == next[axis]) && MISTAKE != 17) axis = 2;
   if (MISTAKE == 5) {
     axis = d.x != 0.0 ? 0 : d.y != 0.0 ? 1 : 2;
@@ -49,10 +59,15 @@ ivec3 grid_step(ivec3 cell, vec3 origin, vec3 direction, vec3 low, vec3 size, ou
   if (MISTAKE == 12) axis = size_of.z > max(size_of.x, size_of.y) ? 2 : size_of.y > size_of.x ? 1 : 0;
   if (MISTAKE == 13) axis = 0;
   t = MISTAKE == 11 ? (begin[axis] + (float(cell[axis]) + (d[axis] > 0.0 ? 1.0 : 0.0)) * wide[axis] - o[axis]) / d[axis] : next[axis];
+  if (MISTAKE == 26) t = 0.0;
+  if (MISTAKE == 27) t = abs(wide[axis] / d[axis]);
+  if (MISTAKE == 30) t = -t;
   ivec3 moved = cell;
   int by = int(sign(d[axis]));
   if (MISTAKE == 1) by = abs(by);
   if ((MISTAKE == 4 || MISTAKE == 21) && by == 0) by = -1;
+  if (MISTAKE == 28) by *= 2;
+  if (MISTAKE == 29) by = 0;
   moved[axis] += MISTAKE == 16 ? -by : by;
   if (MISTAKE == 10) moved = cell + ivec3(sign(d));
   return moved;

@@ -48,6 +48,28 @@
 // mistake 45: the bias was ten times as large
 // mistake 46: the map had half as many texels on a side
 // mistake 47: texels were read beside the map, too (no place is left out)
+// mistake 48: the bias was half as large
+// mistake 49: the bias was 0.005 world units, whatever is asked for
+// mistake 50: the bias was 0.05 world units, whatever is asked for
+// mistake 51: the bias was multiplied by n.l (it shrinks with the slope)
+// mistake 52: the bias was divided by n.l
+// mistake 53: the lookup was one texel off to the left
+// mistake 54: the lookup was one texel off downward
+// mistake 55: the lookup was one texel off to the right and upward
+// mistake 56: the lookup was one texel off to the left and downward
+// mistake 57: half of the view's size was all of it (places are halved twice)
+// mistake 58: half of the view's size was to be halved (places are twice as far out)
+// mistake 59: right and up were multiplied by the size of the view, not divided
+// mistake 60: the view's depths were taken for its size
+// mistake 61: 0.5 was added without the halving
+// mistake 62: a sun's view were a perspective one (right and up are divided by the depth)
+// mistake 63: what lies beside the map to the right or above was in it
+// mistake 64: what lies beside the map to the left or below was in it
+// mistake 65: what lies beside the map had to do so both ways, by column and by row
+// mistake 66: the light was dimmed by its angle (n.l), too
+// mistake 67: four texels were compared with, and their answers averaged
+// mistake 68: the depths of a texel and of its neighbours to the right and above were averaged
+// mistake 69: the stored value was compared with the depth by the view's farthest
 #define IS(number) (MISTAKE == (number))
 
 vec2 view_place(int face, vec3 local) {
@@ -58,7 +80,13 @@ vec2 view_place(int face, vec3 local) {
 #ifdef PERSPECTIVE
   if (IS(9)) view /= length(local);
   else if (!IS(8)) view /= local.z;
+#else
+  if (IS(62)) view /= local.z;
 #endif
+  if (IS(57)) extent *= 2.0;
+  if (IS(58)) extent *= 0.5;
+  if (IS(59)) extent = 1.0 / extent;
+  if (IS(60)) extent = light.extent_and_depths[face].zw;
   if (IS(11)) extent = extent.xx;
   return IS(10) ? view : view / extent;
 }
@@ -69,16 +97,20 @@ vec2 map_place(vec2 view, float size) {
   if (IS(12)) return view * size;
   if (IS(13)) return 0.5 * view * size;
   if (IS(14)) return (view + 1.0) * size;
+  if (IS(61)) return (view + 0.5) * size;
   vec2 place = (0.5 * view + 0.5) * size;
   if (IS(16)) place += 0.5;
   if (IS(17)) place -= 0.5;
   if (IS(18)) place.x += 1.0;
   if (IS(19)) place.y += 1.0;
+  if (IS(53) || IS(56)) place.x -= 1.0;
+  if (IS(54) || IS(56)) place.y -= 1.0;
+  if (IS(55)) place += 1.0;
   return place;
 }
 
 float mean_depth(vec2 place, int face, float size) {
-  ivec2 low = ivec2(floor(place - 0.5)), last = ivec2(size) - 1;
+  ivec2 low = ivec2(floor(IS(68) ? place : place - 0.5)), last = ivec2(size) - 1;
   float sum = 0.0;
   for (int k = 0; k < 4; ++k) {
     ivec3 texel = ivec3(clamp(low + ivec2(k % 2, k / 2), ivec2(0), last), face);
@@ -93,6 +125,11 @@ float own_bias(vec3 normal, vec3 to_light, float texel_width) {
   if (IS(33)) return -bias;
   if (IS(34)) return 2.0 * bias;
   if (IS(45)) return 10.0 * bias;
+  if (IS(48)) return 0.5 * bias;
+  if (IS(49)) return 0.005;
+  if (IS(50)) return 0.05;
+  if (IS(51)) return bias * max(dot(normal, to_light), 0.0);
+  if (IS(52)) return bias / facing;
   if (IS(35)) return bias * texel_width;
   if (IS(36)) return max(0.05 * (1.0 - facing), 0.005);
   if (IS(38)) return bias * sqrt(max(1.0 - facing * facing, 0.0)) / facing;
@@ -119,7 +156,9 @@ float technique_visibility(ShadowTest test, vec3 position, vec3 normal, vec3 to_
   if (local.z <= 0.0) return 1.0;
 #endif
   vec2 place = map_place(view_place(face, local), size);
-  if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(size)))) {
+  bvec2 low = lessThan(place, vec2(0.0)), high = greaterThanEqual(place, vec2(size));
+  bool beside = IS(63) ? any(low) : IS(64) ? any(high) : IS(65) ? all(low) || all(high) : any(low) || any(high);
+  if (beside) {
     if (IS(20)) return 0.0;
     if (!IS(21) && !IS(22) && !IS(47)) return 1.0;
     if (!IS(47)) place = IS(22) ? mod(place, size) : clamp(place, vec2(0.0), vec2(size - 0.5));
@@ -129,7 +168,7 @@ float technique_visibility(ShadowTest test, vec3 position, vec3 normal, vec3 to_
   if (!holds_caster(stored)) return IS(23) ? 0.0 : 1.0;
   float depth = depth_from_stored(texel, IS(25) ? 1.0 - stored : stored);
   if (IS(24)) depth = stored;
-  if (IS(44)) depth = mean_depth(place, face, size);
+  if (IS(44) || IS(68)) depth = mean_depth(place, face, size);
 #ifdef PERSPECTIVE
   float slant = length(offset) / local.z;
   float width = 2.0 * light.extent_and_depths[face].x * local.z / size;
@@ -142,7 +181,17 @@ float technique_visibility(ShadowTest test, vec3 position, vec3 normal, vec3 to_
   bool is_shadowed = gap > own_bias(normal, to_light, width);
   if (IS(37))
     is_shadowed = stored_from_depth(texel, local.z) - max(0.05 * (1.0 - dot(normal, to_light)), 0.005) > stored;
+  if (IS(69)) is_shadowed = local.z / light.extent_and_depths[face].w - light.bias.x > stored;
+  if (IS(67)) {
+    float lit = 0.0;
+    for (int k = 0; k < 4; ++k) {
+      ivec3 beside_it = texel + ivec3(k % 2, k / 2, 0);
+      lit += local.z - depth_from_stored(beside_it, texelFetch(depth_map, beside_it, 0).r) > light.bias.x ? 0.0 : 0.25;
+    }
+    return lit;
+  }
   if (IS(41)) is_shadowed = gap < light.bias.x;
   if (IS(42)) is_shadowed = abs(gap) > light.bias.x;
-  return is_shadowed ? (IS(43) ? 0.5 : 0.0) : 1.0;
+  float lit = IS(66) ? max(dot(normal, to_light), 0.0) : 1.0;
+  return is_shadowed ? (IS(43) ? 0.5 : 0.0) : lit;
 }

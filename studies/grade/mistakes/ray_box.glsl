@@ -20,24 +20,37 @@
 // mistake 18: a ray that misses was answered with 0
 // mistake 19: t was multiplied by the direction, not divided
 // mistake 20: the box' middle was the place
+// mistake 21: the ray was in the box from the first of the three begins on
+// mistake 22: the ray was in the box up to the last of the three ends
+// mistake 23: the origin of the ray was left out of each slab's first end
+// mistake 24: the origin of the ray was left out of each slab's second end
+// mistake 25: a slab that the ray runs nearly along was as one that it runs along (what counts as 0 is too large)
+// mistake 26: high was the size of the box, not its corner
+// mistake 27: a ray that meets nothing was answered with a very large number
+// mistake 28: a slab that the ray runs nearly along was never met (what counts as 0 is too large)
 float ray_box(vec3 origin, vec3 direction, vec3 low, vec3 high) {
   vec3 d = MISTAKE == 12 ? normalize(direction) : direction, o = MISTAKE == 13 ? vec3(0.0) : origin;
-  float none = MISTAKE == 18 ? 0.0 : -1.0;
+  float none = MISTAKE == 18 ? 0.0 : MISTAKE == 27 ? 1e30 : -1.0;
+  if (MISTAKE == 26) high += low;
   float begin = -1e30, end = 1e30;
-  if (MISTAKE == 5) begin = 1e30, end = -1e30;
+  if (MISTAKE == 5 || MISTAKE == 21) begin = 1e30;
+  if (MISTAKE == 5 || MISTAKE == 22) end = -1e30;
   for (int i = 0; i < 3; ++i) {
     if (MISTAKE == 2 && i == 2 || MISTAKE == 3 && i == 1 || MISTAKE == 4 && i == 0) continue;
-    if (d[i] == 0.0 && MISTAKE != 16) {
-      if (MISTAKE == 15) return none;
+    float zero = MISTAKE == 25 || MISTAKE == 28 ? 0.03 : 0.0;
+    if (abs(d[i]) <= zero && MISTAKE != 16) {
+      if (MISTAKE == 15 || MISTAKE == 28) return none;
       if (MISTAKE != 14 && (o[i] < low[i] || o[i] > high[i])) return none;
       continue;
     }
     float first = (low[i] - o[i]) / d[i], second = (high[i] - o[i]) / d[i];
     if (MISTAKE == 16 && (isnan(first) || isnan(second))) return none;
     if (MISTAKE == 19) first = (low[i] - o[i]) * d[i], second = (high[i] - o[i]) * d[i];
+    if (MISTAKE == 23) first = low[i] / d[i];
+    if (MISTAKE == 24) second = high[i] / d[i];
     float near = MISTAKE == 1 ? first : min(first, second), far = MISTAKE == 1 ? second : max(first, second);
-    begin = MISTAKE == 5 ? min(begin, near) : max(begin, near);
-    end = MISTAKE == 5 ? max(end, far) : min(end, far);
+    begin = MISTAKE == 5 || MISTAKE == 21 ? min(begin, near) : max(begin, near);
+    end = MISTAKE == 5 || MISTAKE == 22 ? max(end, far) : min(end, far);
   }
   if (begin > end && MISTAKE != 17) return none;
   if (MISTAKE == 6) return begin < 0.0 && end >= 0.0 ? 0.0 : begin;

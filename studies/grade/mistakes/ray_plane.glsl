@@ -14,14 +14,24 @@
 // mistake 12: t was its absolute value (what is behind the ray is before it)
 // mistake 13: a ray that meets nothing was answered with 0
 // mistake 14: t was multiplied by the slant, not divided
+// mistake 15: the fraction was upside down
+// mistake 16: the point and the origin were added, not subtracted
+// mistake 17: the constant of the plane had the wrong sign (n.p is taken for -n.p)
+// mistake 18: the distance between the two points was taken for that along the normal
+// mistake 19: the normal had length 1 below, but not above the line of the fraction
+// mistake 20: a ray that meets nothing was answered with a very large number
 float ray_plane(vec3 origin, vec3 direction, vec3 point, vec3 normal) {
   vec3 d = MISTAKE == 7 ? normalize(direction) : direction;
   vec3 from = MISTAKE == 3 ? vec3(0.0) : origin, to = MISTAKE == 2 ? vec3(0.0) : point;
-  float none = MISTAKE == 13 ? 0.0 : -1.0, slant = dot(d, normal);
+  float none = MISTAKE == 13 ? 0.0 : MISTAKE == 20 ? 1e30 : -1.0;
+  float slant = dot(d, MISTAKE == 19 ? normalize(normal) : normal);
   if (MISTAKE != 11 && abs(slant) <= (MISTAKE == 10 ? 0.01 : 0.0)) return none;
   if (MISTAKE == 5 && slant > 0.0 || MISTAKE == 6 && slant < 0.0) return none;
-  float apart = dot(to - from, MISTAKE == 9 ? normalize(normal) : normal), t = apart / slant;
-  if (MISTAKE == 1) t = -t;
+  if (MISTAKE == 16 || MISTAKE == 17) from = -from;
+  float apart = dot(to - from, MISTAKE == 9 ? normalize(normal) : normal);
+  if (MISTAKE == 18) apart = distance(to, from);
+  float t = MISTAKE == 15 ? slant / apart : apart / slant;
+  if (MISTAKE == 1 || MISTAKE == 17) t = -t;
   if (MISTAKE == 8) t = abs(apart) * sign(t);
   if (MISTAKE == 12) t = abs(t);
   if (MISTAKE == 14) t = apart * slant;

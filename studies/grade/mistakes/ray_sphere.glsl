@@ -18,6 +18,22 @@
 // mistake 16: the place of least distance to the center was the answer
 // mistake 17: the discriminant was not tested (the root of a negative number is no number)
 // mistake 18: a ray that meets nothing was answered with 0
+// mistake 19: the sphere had no radius (it is left out)
+// mistake 20: the radius was the diameter, or twice the radius
+// mistake 21: the square of the radius was added, not taken away
+// mistake 22: the division was by a where b has its 2 (t is twice as long)
+// mistake 23: the discriminant was b b - a c where b has its 2 (the 4 is left out)
+// mistake 24: the discriminant was b b + 4 a c
+// mistake 25: only the 2 of 2 a was divided by (brackets are left out, a is multiplied by)
+// mistake 26: only the root was divided, not b (brackets are left out)
+// mistake 27: t was -t (the answer has the wrong sign)
+// mistake 28: the distance to the center was not squared
+// mistake 29: a hit was none within 0.01 of the ray's begin (what counts as 0 is too large)
+// mistake 30: a ray that meets nothing was answered with a very large number
+// mistake 31: only the root was divided by 2 a, not b (brackets are left out)
+// mistake 32: the radius was half as large
+// mistake 33: a sphere whose center is behind the ray's begin was not there
+// mistake 34: the way to the place nearest to the center was not squared
 float ray_sphere(vec3 origin, vec3 direction, vec3 center, float radius) {
   vec3 o = origin - center, d = direction;
 #if MISTAKE == 2
@@ -25,18 +41,26 @@ float ray_sphere(vec3 origin, vec3 direction, vec3 center, float radius) {
 #elif MISTAKE == 3
   o = origin;
 #endif
-  float none = MISTAKE == 18 ? 0.0 : -1.0;
+  float none = MISTAKE == 18 ? 0.0 : MISTAKE == 30 ? 1e30 : -1.0;
+  if (MISTAKE == 20) radius *= 2.0;
+  if (MISTAKE == 32) radius *= 0.5;
   float a = MISTAKE == 1 ? 1.0 : dot(d, d);
   float b = MISTAKE == 9 ? -dot(o, d) : dot(o, d);
-  float c = dot(o, o) - (MISTAKE == 8 ? radius : radius * radius);
-  float discriminant = b * b - (MISTAKE == 10 ? 4.0 : 1.0) * a * c;
+  float c = (MISTAKE == 28 ? length(o) : dot(o, o)) - (MISTAKE == 8 ? radius : MISTAKE == 19 ? 0.0 : (MISTAKE == 21 ? -radius : radius) * radius);
+  float discriminant = b * b - (MISTAKE == 10 ? 4.0 : MISTAKE == 23 ? 0.25 : MISTAKE == 24 ? -1.0 : 1.0) * a * c;
 #if MISTAKE == 12
   discriminant = abs(discriminant);
 #endif
+  if (MISTAKE == 33 && b > 0.0) return none;
+  if (MISTAKE == 34) discriminant = -b * sqrt(a) - a * c;
   if (MISTAKE != 17 && discriminant < (MISTAKE == 15 ? 0.1 : 0.0)) return none;
   float root = MISTAKE == 11 ? discriminant : sqrt(discriminant);
   if (MISTAKE == 13) a *= 2.0;
-  float near = (-b - root) / a, far = (-b + root) / a;
+  if (MISTAKE == 22) a *= 0.5;
+  if (MISTAKE == 25) a = 1.0 / a;
+  float near = (-b - root) / a, far = (-b + root) / a, least = MISTAKE == 29 ? 0.01 : 0.0;
+  if (MISTAKE == 26) near = -b - root / a, far = -b + root / a;
+  if (MISTAKE == 31) near = -2.0 * b - root / a, far = -2.0 * b + root / a;
 #if MISTAKE == 4
   return far >= 0.0 ? far : none;
 #elif MISTAKE == 5
@@ -50,6 +74,7 @@ float ray_sphere(vec3 origin, vec3 direction, vec3 center, float radius) {
 #elif MISTAKE == 16
   return -b / a >= 0.0 ? -b / a : none;
 #endif
-  if (near >= 0.0) return near;
-  return far >= 0.0 || MISTAKE == 17 && isnan(far) ? far : none;
+  float sign = MISTAKE == 27 ? -1.0 : 1.0;
+  if (near >= least) return sign * near;
+  return far >= least || MISTAKE == 17 && isnan(far) ? sign * far : none;
 }

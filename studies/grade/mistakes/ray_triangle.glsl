@@ -24,10 +24,44 @@
 // mistake 22: a ray that meets nothing was answered with 0
 // mistake 23: only u and v up to 1 were tested, and not below 0
 // mistake 24: u + v had to be less than a half
+// mistake 25: the edge from a to b was tested from c
+// mistake 26: the edge from b to c was tested from a
+// mistake 27: the edge from c to a was tested from b
+// mistake 28: the edge from a to b ran from b to a
+// mistake 29: the edge from b to c ran from c to b
+// mistake 30: the edge from c to a ran from a to c
+// mistake 31: the ray began at the origin of the world
+// mistake 32: the triangle was its box
+// mistake 33: u + v could be up to 2
+// mistake 34: a ray that meets nothing was answered with a very large number
+// mistake 35: the normal was the product of two corners, not of two edges
+// mistake 36: a triangle behind the ray was met, at a positive t (which comes before u and v)
+// The two-step way: the place in the plane, then on which side of each edge it lies.
+float by_edges(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c) {
+  vec3 normal = cross(b - a, c - a), n = MISTAKE == 35 ? cross(b, c) : normal;
+  float slant = dot(n, direction);
+  if (slant == 0.0) return -1.0;
+  float t = dot(n, MISTAKE == 31 ? a : a - origin) / slant;
+  if (MISTAKE == 36) t = abs(t);
+  if (t < 0.0) return -1.0;
+  vec3 place = origin + t * direction;
+  if (MISTAKE == 32)
+    return any(lessThan(place, min(a, min(b, c)))) || any(greaterThan(place, max(a, max(b, c)))) ? -1.0 : t;
+  float of_ab = dot(n, cross(b - a, place - (MISTAKE == 25 ? c : a))), of_bc = dot(n, cross(c - b, place - (MISTAKE == 26 ? a : b)));
+  float of_ca = dot(n, cross(a - c, place - (MISTAKE == 27 ? b : c)));
+  if (MISTAKE == 28) of_ab = -of_ab;
+  if (MISTAKE == 29) of_bc = -of_bc;
+  if (MISTAKE == 30) of_ca = -of_ca;
+  return of_ab < 0.0 || of_bc < 0.0 || of_ca < 0.0 ? -1.0 : t;
+}
+
 float ray_triangle(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c) {
   vec3 d = MISTAKE == 13 ? normalize(direction) : direction;
   vec3 to_b = MISTAKE == 18 ? b : b - a, to_c = MISTAKE == 18 ? c : c - a, from_a = MISTAKE == 17 ? origin : origin - a;
-  float none = MISTAKE == 22 ? 0.0 : -1.0;
+  float none = MISTAKE == 22 ? 0.0 : MISTAKE == 34 ? 1e30 : -1.0;
+#if MISTAKE >= 25 && MISTAKE <= 32 || MISTAKE == 35 || MISTAKE == 36
+  return by_edges(origin, direction, a, b, c);
+#endif
   vec3 p = MISTAKE == 20 ? cross(to_c, d) : cross(d, to_c);
   float determinant = MISTAKE == 19 ? -dot(to_b, p) : dot(to_b, p);
   float zero = MISTAKE == 10 ? 1e-3 : 1e-9;
@@ -49,6 +83,7 @@ float ray_triangle(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c) {
   if (MISTAKE == 12) inside = !(u < 0.0 || v < 0.0 || u + v > 1.0);
   if (MISTAKE == 23) inside = u <= 1.0 && v <= 1.0;
   if (MISTAKE == 24) inside = inside && u + v <= 0.5;
+  if (MISTAKE == 33) inside = u >= 0.0 && v >= 0.0 && u + v <= 2.0;
   if (!inside) return none;
   if (MISTAKE == 21) return u;
   if (MISTAKE == 7) return abs(t);

@@ -10,6 +10,10 @@
 // mistake 8: the ray left along the normal
 // mistake 9: a ray from the back was not mirrored
 // mistake 10: 2 (d.n) d was taken away in place of 2 (d.n) n
+// mistake 11: the factor was 4, not 2
+// mistake 12: the dot product was left out (twice the normal is taken away)
+// mistake 13: the whole normal was added
+// mistake 14: the normal was taken away once
 vec3 reflection(vec3 direction, vec3 normal) {
   float d = dot(direction, normal);
   vec3 right = direction - 2.0 * d * normal;
@@ -31,6 +35,14 @@ vec3 reflection(vec3 direction, vec3 normal) {
   return normal;
 #elif MISTAKE == 9
   return d > 0.0 ? direction : right;
+#elif MISTAKE == 11
+  return direction - 4.0 * d * normal;
+#elif MISTAKE == 12
+  return direction - 2.0 * normal;
+#elif MISTAKE == 13
+  return direction + normal;
+#elif MISTAKE == 14
+  return direction - normal;
 #elif MISTAKE == 10
   return direction - 2.0 * d * direction;
 #endif

@@ -15,18 +15,25 @@
 // mistake 13: the ratio of the indices was left out everywhere but under the root
 // mistake 14: the total reflection's test let nothing pass that leaves the denser medium
 // mistake 15: a negative number under the root was 0
+// mistake 16: the cosine was not squared
+// mistake 17: the cosine was taken for the sine under the root
+// mistake 18: the refracted ray was the ratio times the ray, less the normal, made to length 1
+// mistake 19: a ray that is totally reflected went along the normal
+// mistake 20: the first medium was always air (n1 is left out)
+// mistake 21: the second medium was always air (n2 is left out)
 vec3 refraction(vec3 direction, vec3 normal, float n1, float n2) {
-  float eta = MISTAKE == 1 ? n2 / n1 : n1 / n2;
+  float eta = MISTAKE == 1 ? n2 / n1 : (MISTAKE == 20 ? 1.0 : n1) / (MISTAKE == 21 ? 1.0 : n2);
   vec3 n = MISTAKE == 5 ? -normal : normal;
   float c = MISTAKE == 6 ? dot(direction, n) : -dot(direction, n);
-  float rest = 1.0 - (MISTAKE == 7 ? eta : eta * eta) * (1.0 - c * c);
+  float rest = 1.0 - (MISTAKE == 7 ? eta : eta * eta) * (MISTAKE == 16 ? 1.0 - c : MISTAKE == 17 ? c * c : 1.0 - c * c);
   vec3 mirrored = direction - 2.0 * dot(direction, n) * n;
   if (MISTAKE == 10) return direction;
   if (MISTAKE == 11) return mirrored;
   if (MISTAKE == 14 && n1 > n2) return vec3(0.0);
   if (rest < 0.0 && MISTAKE != 2 && MISTAKE != 15)
-    return MISTAKE == 3 ? mirrored : MISTAKE == 4 ? direction : vec3(0.0);
+    return MISTAKE == 3 ? mirrored : MISTAKE == 19 ? n : MISTAKE == 4 ? direction : vec3(0.0);
   float root = MISTAKE == 9 ? rest : sqrt(MISTAKE == 15 ? max(rest, 0.0) : rest);
+  if (MISTAKE == 18) return normalize(eta * direction - n);
   float along = MISTAKE == 8 ? -root : (MISTAKE == 13 ? c : eta * c) - root;
   return (MISTAKE == 12 || MISTAKE == 13 ? 1.0 : eta) * direction + along * n;
 }

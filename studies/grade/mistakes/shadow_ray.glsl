@@ -21,18 +21,31 @@
 // mistake 19: the direction and the end were those from the point, not from the ray's begin
 // mistake 20: the ray had no end and a direction that is not normalized
 // mistake 21: a sun was a lamp (its direction is taken for a place)
+// mistake 22: the offset was taken twice
+// mistake 23: the end was the lamp's distance from the origin of the world
+// mistake 24: the ray ended an offset behind the lamp
+// mistake 25: a sun's ray ended at 1
+// mistake 26: a sun's ray ended at 0
+// mistake 27: a sun's ray ran away from it
+// mistake 28: the direction was that of the lamp from the origin of the world
+// mistake 29: the offset was a tenth
 void shadow_ray(vec3 point, vec3 normal, vec4 light, float offset, out vec3 begin, out vec3 direction, out float end) {
   bool sun = MISTAKE == 10 ? false : MISTAKE == 11 ? true : light.w == 0.0;
   vec3 to_light = sun ? light.xyz : light.xyz - point;
   float side = dot(normal, to_light) < 0.0 && MISTAKE != 3 ? -1.0 : 1.0;
   if (MISTAKE == 4) side = -side;
-  float by = MISTAKE == 1 ? 0.0 : MISTAKE == 14 ? 0.001 : offset;
+  float by = MISTAKE == 1 ? 0.0 : MISTAKE == 14 ? 0.001 : MISTAKE == 22 ? 2.0 * offset : MISTAKE == 29 ? 0.1 * offset : offset;
   begin = point + by * (MISTAKE == 2 ? normalize(to_light) : side * normal);
   vec3 way = sun && MISTAKE != 21 ? light.xyz : light.xyz - begin;
   float far = length(MISTAKE == 8 || MISTAKE == 19 ? to_light : way);
   if (MISTAKE == 13 || MISTAKE == 19) way = to_light;
   direction = MISTAKE == 5 || MISTAKE == 20 ? way : normalize(way);
   end = sun && MISTAKE != 12 || MISTAKE == 7 || MISTAKE == 20 ? 1e30 : far;
+  if (MISTAKE == 28 && !sun) direction = normalize(light.xyz);
+  if (MISTAKE == 27 && sun) direction = -direction;
+  if ((MISTAKE == 25 || MISTAKE == 26) && sun) end = MISTAKE == 25 ? 1.0 : 0.0;
+  if (MISTAKE == 23 && !sun) end = length(light.xyz);
+  if (MISTAKE == 24 && !sun) end = far + offset;
   if (MISTAKE == 9 && !sun) end = 1.0;
   if (MISTAKE == 15 && !sun) end = far * far;
   if (MISTAKE == 18 && !sun) end = far - offset;
