@@ -41,6 +41,14 @@ def record(program, words, number, path):
             rd.ShutdownReplay()
 
 
+def _numbers(number):
+    """The frame that is wished for, and later ones, of which the first that is still to come is recorded."""
+    numbers = [number]
+    while numbers[-1] < 1_000_000:
+        numbers.append(max(2 * numbers[-1], numbers[-1] + 10))
+    return numbers
+
+
 def _wait(rd, control, number, until):
     """The file of the frame, once it is recorded."""
     queued = False
@@ -49,9 +57,14 @@ def _wait(rd, control, number, until):
         if message.type == rd.TargetControlMessageType.RegisterAPI and message.apiUse.presenting and not queued:
             if not message.apiUse.supported:
                 raise SystemExit(f"record: RenderDoc cannot record {message.apiUse.name} here: {message.apiUse.supportMessage}")
-            control.QueueCapture(number, 1)
+            # RenderDoc forgets without a word what is asked for too late, and does not say which frame is being drawn.
+            for at in _numbers(number):
+                control.QueueCapture(at, 1)
             queued = True
         elif message.type == rd.TargetControlMessageType.NewCapture:
+            taken = message.newCapture.frameNumber
+            if taken > number:
+                print(f"record: frame {taken}, for the program had drawn frame {number} before it could be recorded", file=sys.stderr)
             return message.newCapture.path
         elif message.type == rd.TargetControlMessageType.Disconnected:
             raise SystemExit("record: the program has ended before the frame was drawn")
@@ -63,7 +76,7 @@ def _wait(rd, control, number, until):
 def main():
     parser = argparse.ArgumentParser(prog="record.py", description="Record one frame of a program with RenderDoc.")
     parser.add_argument("-o", "--output", metavar="FRAME.rdc", required=True)
-    parser.add_argument("--frame", type=int, default=12, metavar="N", help="which frame, counted from the program's start [default 12]")
+    parser.add_argument("--frame", type=int, default=12, metavar="N", help="which frame, counted from the program's start, or the next that can be had [default 12]")
     parser.add_argument("program")
     parser.add_argument("words", nargs=argparse.REMAINDER)
     given = parser.parse_args()
