@@ -314,6 +314,19 @@ std::vector<float> with_caster_slope(const raster::ShadowMap& map, const CasterB
   return out;
 }
 
+namespace {
+
+/// How a reader finds a face of the map in the capture, whose cubes have their faces in any order. Nothing: there is no other.
+std::string name_of(const LightView& view, std::size_t face) {
+  if (view.face_count == 1) return {};
+  if (!view.seamless) return fmt::format("layer {}: ", face);
+  const Vec3 forward = view.face(static_cast<int>(face)).forward, length = glm::abs(forward);
+  const int axis = length.x > 0.5 ? 0 : length.y > 0.5 ? 1 : 2;
+  return fmt::format("face {}{}: ", forward[axis] > 0.0 ? '+' : '-', "xyz"[axis]);
+}
+
+}  // namespace
+
 std::vector<std::string> caster_bias_notes(const CasterBiases& casters, const raster::LightRecord& record) {
   if (!casters.found) return {};
   std::string text;
@@ -332,9 +345,7 @@ std::vector<std::string> caster_bias_notes(const CasterBiases& casters, const ra
     if (bias.constant_world != 0.0)
       parts.push_back(fmt::format("an offset of {:.3g} world units", bias.constant_world));
     if (bias.slope != 0.0) parts.push_back(fmt::format("a slope-scaled offset of factor {:.3g}", bias.slope));
-    text += fmt::format("{}{}{}", text.empty() ? "" : "; ",
-                        casters.faces.size() > 1 ? fmt::format("layer {}: ", face) : std::string(),
-                        parts.front());
+    text += fmt::format("{}{}{}", text.empty() ? "" : "; ", name_of(record.map.view, face), parts.front());
     if (parts.size() > 1) text += " and " + parts.back();
   }
   return {"the map was drawn with " + text +

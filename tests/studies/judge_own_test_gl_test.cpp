@@ -252,6 +252,16 @@ INSTANTIATE_TEST_SUITE_P(
                     CasterCase{"spot_slope", "lamp", StoredDepth::zero_to_one, 0.0, 120.0}),
     [](const auto& chosen) { return chosen.param.name; });
 
+// A capture may have a cube's faces in any order.
+TEST(JudgeCubeBias, IsSaidByTheDirectionsOfTheFaces) {
+  raster::Bias casters{.slope = 0.0};
+  casters.caster_constant = 0.4;
+  Engine engine("casters-cube", 0.0, "bulb", StoredDepth::zero_to_one, casters);
+  const std::string notes = notes_in(engine.judged());
+  EXPECT_NE(notes.find("face -y: an offset of"), std::string::npos) << notes;
+  EXPECT_EQ(notes.find("layer"), std::string::npos) << notes;
+}
+
 // ---- worlds and projections ----
 
 /// The capture as a renderer hands it over whose places are `captured_from_scene` times the scene's.
