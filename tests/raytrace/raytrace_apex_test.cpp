@@ -4,6 +4,7 @@
 #include "raytrace/shapes/along_ray.h"
 #include "tests/support/raytrace_support.h"
 #include "tests/support/solid_samples.h"
+#include "verify/quad.h"
 
 namespace gnomon {
 namespace {
@@ -55,7 +56,7 @@ TEST(Apex, RaysThatPassItByAMillionthAreSure) {
 }
 
 double exactly(const raytrace::AlongRay& f, double s) {
-  const auto on = [&](int a) { return __float128(f.origin[a]) + __float128(s) * f.direction[a]; };
+  const auto on = [&](int a) { return verify::Quad(f.origin[a]) + verify::Quad(s) * f.direction[a]; };
   return static_cast<double>(test::quad_value(*f.solid, on(0), on(1), on(2)));
 }
 

@@ -3,6 +3,7 @@
 
 #include "raytrace/shapes/intersect.h"
 #include "tests/support/raytrace_support.h"
+#include "verify/quad.h"
 
 namespace gnomon {
 namespace {
@@ -163,7 +164,7 @@ TEST(Shapes, EdgeFunctionSignsAreExact) {
   for (int i = 0; i < 100000; ++i) {
     const double p = random.uniform(1.0, 2.0), q = random.uniform(1.0, 2.0);
     const double r = random.nudged(Vec3(p), 2).x, s = random.nudged(Vec3(q), 2).x;
-    __extension__ using Quad = __float128;  // holds the exact products
+    using verify::Quad;  // holds the exact products
     const Quad exact = static_cast<Quad>(p) * q - static_cast<Quad>(r) * s;
     const double got = raytrace::signed_difference(p, q, r, s);
     ASSERT_EQ(got > 0.0, exact > 0);

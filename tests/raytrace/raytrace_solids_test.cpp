@@ -8,6 +8,7 @@
 #include "raytrace/shapes/solid.h"
 #include "tests/support/raytrace_support.h"
 #include "tests/support/solid_samples.h"
+#include "verify/quad.h"
 
 namespace gnomon {
 namespace {
@@ -27,7 +28,7 @@ Ray random_ray(Random& random) {
 
 // ---- the oracle ----
 
-using Quad = __float128;
+using verify::Quad;
 
 /// 1 inside the body, 0 outside, -1 where even 128 bits cannot tell from the surface at this scale. The open
 /// ones are seen as bodies too: the oracle's crossings of f are then filtered by the box.

@@ -1,4 +1,5 @@
 #include "tests/support/raytrace_support.h"
+#include "verify/quad.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -60,7 +61,7 @@ Mesh normalised(Mesh mesh) {
 
 namespace {
 
-__extension__ using Quad = __float128;
+using verify::Quad;
 
 struct Quad3 {
   Quad x, y, z;

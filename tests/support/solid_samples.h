@@ -5,6 +5,7 @@
 
 #include "raytrace/shapes/intersect.h"
 #include "scene/shapes/solid.h"
+#include "verify/quad.h"
 
 namespace gnomon::test {
 
@@ -68,7 +69,7 @@ inline std::vector<Shape> solid_samples(double size = 1.0, const Vec3& at = Vec3
 }
 
 namespace quad_arithmetic {
-using Quad = __float128;
+using verify::Quad;
 
 inline Quad power(Quad v, int n) {
   Quad r = 1;
@@ -151,7 +152,7 @@ inline Quad value(const Expression& e, Quad x, Quad y, Quad z) {
 }  // namespace quad_arithmetic
 
 /// f, without scene/shapes/solid.h: circles and slabs as a textbook writes them.
-inline __float128 quad_value(const ShapeGeometry& solid, __float128 x, __float128 y, __float128 z) {
+inline verify::Quad quad_value(const ShapeGeometry& solid, verify::Quad x, verify::Quad y, verify::Quad z) {
   using namespace quad_arithmetic;  // NOLINT(google-build-using-namespace)
   if (const auto* torus = std::get_if<Torus>(&solid)) {
     const Quad g =
