@@ -8,7 +8,9 @@
 #include "app/lessons/lesson_scene.h"
 #include "app/options/map_options.h"
 #include "app/options/options.h"
+#include "app/serve/setting_facts.h"
 #include "app/session.h"
+#include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
 #include "compare/result/result_parts.h"
 #include "report/pixels/page_data.h"
@@ -35,7 +37,7 @@ Expected<void> read_settings(const std::string& scene, const Settings& settings,
   add_scene(app, words.scene);
   add_setting_options(app, words.setting);
   std::vector<std::string> line{scene};
-  for (const auto& [key, value] : settings) line.insert(line.end(), {"--" + key, value});
+  for (const auto& [key, value] : settings) line.push_back(fmt::format("--{}={}", key, value));
   std::reverse(line.begin(), line.end());  // CLI11 takes the last one first
   try {
     app.parse(std::move(line));
@@ -64,6 +66,7 @@ Expected<compare::Comparison> compared(const Words& words, const LoadedScene& lo
 struct Compared {
   LoadedScene loaded;  ///< which the comparison points to
   compare::Comparison comparison;
+  raster::MapOptions asked;
 };
 
 Expected<Compared> load_and_compare(const std::string& scene, const Settings& settings, ImageSize size,
@@ -77,7 +80,7 @@ Expected<Compared> load_and_compare(const std::string& scene, const Settings& se
   if (!posed) return fail(posed.error());
   auto comparison = compared(words, *loaded);
   if (!comparison) return fail(comparison.error());
-  return Compared{std::move(*loaded), std::move(*comparison)};
+  return Compared{std::move(*loaded), std::move(*comparison), words.setting.options.raster.map};
 }
 
 Json part_of(const Json& head, std::initializer_list<const char*> keys) {
@@ -116,6 +119,9 @@ Expected<SmallComparison> compare_small(const std::string& scene, const Settings
   out.shared = part_of(head, {"exposure", "rays", "materials"});
   out.parts = std::move(data.parts);
   out.light = curve_of(compare::light_block(comparison, light));
+  out.drawn = {{"values", setting_values(made->asked)},
+               {"bias_world", compare::drawn_record(comparison, light).bias_constant_world},
+               {"texel_world", light.bias_texel_world}};
   out.wrong_fraction = light.error.wrong_fraction;
   out.texel_world = light.texel_world[1];
   return out;

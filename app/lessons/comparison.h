@@ -24,8 +24,10 @@ struct SmallComparison {
   nlohmann::ordered_json shared;         ///< exposure, rays, materials
   std::vector<compare::DataPart> parts;  ///< "pixels", "geometry", "light-0"
   nlohmann::ordered_json light;          ///< of its result what the chart of every bias shows
-  double wrong_fraction = 0.0;           ///< as drawn
-  double texel_world = 0.0;              ///< width of a texel, world units: the median
+  nlohmann::ordered_json
+      drawn;  ///< {"values": of the settings, "bias_world", "texel_world"}: what panels show
+  double wrong_fraction = 0.0;  ///< as drawn
+  double texel_world = 0.0;     ///< width of a texel, world units: the median
 };
 
 /// The picture of its labels, as PNG, for a comparison with the scene's own settings. Errors as below.

@@ -1,17 +1,21 @@
 #include "app/lessons/figures.h"
 
-#include <embedded/lectures.h>
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <sstream>
 
 #include "app/console.h"
 #include "app/lessons/flatland.h"
+#include "app/serve/setting_facts.h"
 #include "scene/base/stages.h"
 
 namespace gnomon::app::lessons {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// What of a mark is said to the comparison; `own`: to the figure alone.
 Settings for_comparison(const LiveMark& mark, std::string_view own = {}) {
@@ -35,10 +39,68 @@ std::vector<std::string> words_of(const std::string& list) {
   return words;
 }
 
+using Names = std::vector<std::string_view>;
+
+/// Sunlit scenes in which something can go wrong; such of triangles alone, whose structures are walked; and such as grids are filled with.
+const Names sunlit{"acne-floor", "floating-box", "thin-wall", "wires", "fence", "teapot", "courtyard"},
+    meshes{"stadium", "teapot", "courtyard"}, filled{"field", "stadium", "teapot", "courtyard"};
+
+Json choice_facts(std::string_view name, std::string_view title, std::string_view what,
+                  const Names& choices) {
+  return {{"name", name},        {"group", "Map"}, {"title", title},
+          {"control", "choice"}, {"what", what},   {"choices", choices}};
+}
+
 }  // namespace
+
+struct PageFigures::Row {
+  std::string_view name;
+  Expected<Json> (*make)(PageFigures& page, const LiveMark& mark);
+  /// Of the map, and "sizes": what the figure can be computed with anew. Where a constant bias is one, the slope is another: a bias that
+  /// is asked for takes the place of the default's slope.
+  Names settings{};
+  Names scenes{};  ///< the same
+};
+
+std::span<const PageFigures::Row> PageFigures::rows() {
+  using Page = PageFigures;
+  using Mark = const LiveMark;
+  static const std::array table{
+      Row{"bias",
+          [](Page& page, Mark& mark) { return page.bias(mark); },
+          {"map-size", "slope-bias", "normal-offset", "depth-format", "cull"},
+          sunlit},
+      Row{"map-size",
+          [](Page& page, Mark& mark) { return page.map_size(mark); },
+          {"sizes", "technique", "bias", "slope-bias", "filter-kernel", "filter-radius"},
+          sunlit},
+      Row{"two-passes",
+          [](Page& page, Mark& mark) { return page.two_passes(mark); },
+          {"map-size", "bias", "slope-bias", "cull"},
+          sunlit},
+      Row{"structure",
+          [](Page&, Mark& mark) { return structure_cut(mark.setting("kind"), mark.setting("scene")); },
+          {},
+          meshes},
+      Row{"grid-curve", [](Page&, Mark& mark) { return grid_curve(mark.setting("scene")); }, {}, filled},
+      Row{"flatland",
+          [](Page&, Mark& mark) {
+            return lessons::flatland(mark.setting("show") == "penumbra" ? "disc" : mark.setting("scene"));
+          }},
+      Row{"cube-faces", [](Page&, Mark&) { return lessons::flatland("ball"); }},
+      Row{"whitted", [](Page&, Mark&) { return whitted_cut(); }},
+      Row{"two-ways", [](Page&, Mark&) { return whitted_cut(); }},
+      Row{"intersection", [](Page&, Mark& mark) { return intersection_checks(mark.setting("kind")); }},
+      Row{"build", [](Page&, Mark&) { return intersection_checks("discs"); }},
+      Row{"eye-ray", [](Page&, Mark&) -> Expected<Json> { return eye_ray_checks(); }},
+      // All of it is worked out in the page.
+      Row{"box-fit", [](Page&, Mark&) -> Expected<Json> { return Json::object(); }}};
+  return table;
+}
 
 std::string PageFigures::keep(const std::string& key, SmallComparison&& comparison, int light) {
   words_ = std::move(comparison.words);
+  drawn_ = std::move(comparison.drawn);
   if (!comparisons_.contains(key)) comparisons_[key] = std::move(comparison.shared);
   for (compare::DataPart& part : comparison.parts) {
     part.name = part.name == "light-0" ? fmt::format("{}light-{}", key, light) : key + part.name;
@@ -84,40 +146,62 @@ Expected<PageFigures::Json> PageFigures::two_passes(const LiveMark& mark) {
   return Json{{"comparison", keep(key_of(mark, settings), std::move(*made), 0)}};
 }
 
+PageFigures::Json PageFigures::controls_of(const Row& row) {
+  Json controls = Json::array();
+  if (!row.scenes.empty())
+    controls.push_back(choice_facts("scene", "Scene", "The built-in scene that is looked at.", row.scenes));
+  for (const std::string_view name : row.settings) {
+    const raster::MapSetting* setting = raster::find_setting(name);
+    controls.push_back(
+        setting != nullptr
+            ? setting_facts(*setting)
+            : choice_facts(name, "Map sizes", "Texels along one side of each map.",
+                           {"16,32,64,128", "64,128,256,512", "128,256,512,1024", "256,512,1024,2048"}));
+  }
+  return controls;
+}
+
 Expected<void> PageFigures::add(const LiveMark& mark) {
   const TimedStage stage("figures");
-  Expected<Json> made = Json(nullptr);
-  if (mark.name == "bias") made = bias(mark);
-  if (mark.name == "map-size") made = map_size(mark);
-  if (mark.name == "flatland")
-    made = flatland(mark.setting("show") == "penumbra" ? "disc" : mark.setting("scene"));
-  if (mark.name == "structure") made = structure_cut(mark.setting("kind"), mark.setting("scene"));
-  if (mark.name == "whitted" || mark.name == "two-ways") made = whitted_cut();
-  if (mark.name == "intersection") made = intersection_checks(mark.setting("kind"));
-  if (mark.name == "build") made = intersection_checks("discs");
-  if (mark.name == "grid-curve") made = grid_curve(mark.setting("scene"));
-  if (mark.name == "eye-ray") made = eye_ray_checks();
-  if (mark.name == "cube-faces") made = lessons::flatland("ball");
-  if (mark.name == "box-fit") made = Json::object();  // all of it is worked out in the page
-  if (mark.name == "two-passes") made = two_passes(mark);
-  if (!made) return fail(made.error());
-  if (made->is_null())
+  const auto table = rows();
+  const auto row =
+      std::find_if(table.begin(), table.end(), [&](const Row& one) { return one.name == mark.name; });
+  if (row == table.end()) {
     console_.note(fmt::format("no live figure of that name: {}; its picture stands", mark.name));
-  Json settings = Json::object();
-  for (const auto& [key, value] : mark.settings) settings[key] = value;
-  figures_.push_back(made->is_null() ? Json(nullptr)
-                                     : Json{{"name", mark.name}, {"settings", settings}, {"data", *made}});
+    figures_.emplace_back(nullptr);
+    return {};
+  }
+  drawn_ = {{"values", Json::object()}};
+  auto made = row->make(*this, mark);
+  if (!made) return fail(made.error());
+  Json figure{{"name", mark.name}, {"settings", Json::object()}, {"data", std::move(*made)}};
+  for (const auto& [key, value] : mark.settings) {
+    figure["settings"][key] = value;
+    drawn_["values"].emplace(key, value);
+  }
+  if (Json controls = controls_of(*row); !lab_.empty() && !controls.empty()) {
+    figure["controls"] = std::move(controls);
+    figure["drawn"] = std::move(drawn_);
+  }
+  figures_.push_back(std::move(figure));
   return {};
 }
 
-std::string PageFigures::data() const {
+PageFigures::Json PageFigures::data() const {
   Json json{{"kind", "lesson"}, {"figures", figures_}, {"labels", Json::array()}};
   json.update(words_);
   json["comparisons"] = comparisons_;
   if (!lab_.empty()) json["lab"] = lab_;
-  // English has none: its words stand in the page's own script.
-  if (const std::string_view words = embedded::lectures("figures.json"); !words.empty())
-    json["figure_words"] = Json::parse(words);
+  return json;
+}
+
+Expected<std::string> compute_figure(const LiveMark& mark, Console& console) {
+  PageFigures page(console, "lab.html");
+  if (const auto added = page.add(mark); !added) return fail(added.error());
+  nlohmann::ordered_json json = page.data();
+  json["parts"] = nlohmann::ordered_json::object();
+  for (const compare::DataPart& part : page.parts())
+    json["parts"][part.name] = nlohmann::ordered_json::parse(part.json);
   return json.dump();
 }
 

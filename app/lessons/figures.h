@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,18 +17,22 @@ namespace gnomon::app::lessons {
 
 class PageFigures {
  public:
-  /// `lab`: where the lab's page is, seen from this one; empty where there is none.
+  /// `lab`: where the lab's page is, seen from this one, and beside it the program for the web; empty where there is none.
   explicit PageFigures(Console& console, std::string lab = {}) : console_(console), lab_(std::move(lab)) {}
 
   /// Adds the figure of the next mark. Errors: of its scene and its settings.
   Expected<void> add(const LiveMark& mark);
 
-  /// The page's data without its parts, JSON.
-  std::string data() const;
+  /// The page's data without its parts.
+  nlohmann::ordered_json data() const;
   const std::vector<compare::DataPart>& parts() const { return parts_; }
 
  private:
   using Json = nlohmann::ordered_json;
+  struct Row;
+  /// Every figure that the program knows: its name, what makes it, and what it can be computed with anew.
+  static std::span<const Row> rows();
+  static Json controls_of(const Row& row);
   Expected<Json> bias(const LiveMark& mark);
   Expected<Json> map_size(const LiveMark& mark);
   Expected<Json> two_passes(const LiveMark& mark);
@@ -37,10 +42,15 @@ class PageFigures {
 
   Console& console_;
   std::string lab_;
-  Json figures_ = Json::array(), comparisons_ = Json::object(), words_ = Json::object();
+  Json figures_ = Json::array(), comparisons_ = Json::object(), words_ = Json::object(),
+       drawn_ = Json::object();
   std::set<std::string> kept_;  ///< names of parts
   std::vector<compare::DataPart> parts_;
 };
+
+/// One figure as a page of its own would have it, data and parts: what the program for the web answers a lesson's page that asks for
+/// other settings. JSON. Errors: of the mark's scene and its settings, of the graphics.
+Expected<std::string> compute_figure(const LiveMark& mark, Console& console);
 
 // What the ray tracer finds for rays at the surfaces of the intersection figures (report/page/src/lessons), whose
 // numbers the page works out by itself.

@@ -23,10 +23,10 @@ bool is_live(std::string_view line) {
   return line.starts_with(live_opening) && line.ends_with(comment_closing);
 }
 
-LiveMark read_mark(std::string_view line) {
-  line.remove_prefix(live_opening.size());
-  line.remove_suffix(comment_closing.size());
-  std::istringstream words{std::string(line)};
+}  // namespace
+
+LiveMark read_mark(std::string_view text) {
+  std::istringstream words{std::string(text)};
   LiveMark mark;
   words >> mark.name;
   for (std::string word; words >> word;) {
@@ -35,8 +35,6 @@ LiveMark read_mark(std::string_view line) {
   }
   return mark;
 }
-
-}  // namespace
 
 std::string LiveMark::setting(std::string_view key) const {
   const auto found =
@@ -62,7 +60,8 @@ LessonText read_lesson(std::string_view markdown) {
     if (!in_code && is_live(line)) {
       close_figure();
       add(fmt::format("\n<div class=\"live\" data-figure=\"{}\">\n", text.marks.size()));
-      text.marks.push_back(read_mark(line));
+      text.marks.push_back(read_mark(std::string_view(line).substr(
+          live_opening.size(), line.size() - live_opening.size() - comment_closing.size())));
       wants_picture = true;
       continue;
     }

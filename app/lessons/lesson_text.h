@@ -22,6 +22,9 @@ struct LiveMark {
   std::string setting(std::string_view key) const;
 };
 
+/// Of "bias scene=acne-floor map-size=64".
+LiveMark read_mark(std::string_view text);
+
 struct LessonText {
   std::vector<std::string> parts;  ///< Markdown; each mark is a <div class="live" data-figure="N">
   std::vector<LiveMark> marks;     ///< by N

@@ -1,7 +1,13 @@
+# The lessons' figures, which the program for the web computes as well.
+target_sources(gnomon_app PRIVATE
+  lessons/comparison.cpp lessons/eye_ray.cpp lessons/figures.cpp lessons/flatland.cpp lessons/grid_curve.cpp lessons/intersection.cpp lessons/lesson_text.cpp lessons/structure.cpp)
+if(NOT GNOMON_PLATFORM STREQUAL native)
+  return()
+endif()
 # gnomon lessons: the lessons as a site, and lectures made of their parts. Their text is embedded with the report, their
 # pictures and the decks here.
 target_sources(gnomon_app PRIVATE
-  commands/lessons.cpp commands/site.cpp lessons/comparison.cpp lessons/eye_ray.cpp lessons/figures.cpp lessons/flatland.cpp lessons/grid_curve.cpp lessons/intersection.cpp lessons/lecture.cpp lessons/lesson_text.cpp lessons/manual_pages.cpp lessons/markdown.cpp lessons/site.cpp lessons/structure.cpp)
+  commands/lessons.cpp commands/site.cpp lessons/lecture.cpp lessons/manual_pages.cpp lessons/markdown.cpp lessons/site.cpp)
 file(GLOB lesson_images CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/images/*.png" "${PROJECT_SOURCE_DIR}/docs/images/*.svg")
 gnomon_embed(gnomon_app lesson_images ${lesson_images})
 file(GLOB lectures CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/lectures/${GNOMON_LANGUAGE}/*.md" "${PROJECT_SOURCE_DIR}/docs/lectures/${GNOMON_LANGUAGE}/figures.json")

@@ -46,15 +46,20 @@ Expected<std::string> body_html(std::string_view markdown, const Lessons& writte
 }
 
 std::string page_html(const std::string& title, const std::string& links, const std::string& main,
-                      const PageFigures& figures) {
+                      const PageFigures& figures, bool computes = false) {
   compare::PageShell shell;
+  nlohmann::ordered_json data = figures.data();
+  // English has none: its words stand in the page's own script.
+  if (const std::string_view words = embedded::lectures("figures.json"); !words.empty())
+    data["figure_words"] = nlohmann::ordered_json::parse(words);
   shell.title = title;
   shell.links = links;
   shell.main = main;
-  shell.data = figures.data();
+  shell.data = data.dump();
   shell.parts = figures.parts();
   shell.built = "lesson.html";
   shell.skip = "Skip to the lesson";
+  if (computes) shell.live = compare::LivePage::worker;
   return compare::build_page(shell).html;
 }
 
@@ -85,7 +90,8 @@ Expected<std::string> article_page(const std::string& title, const std::string& 
   PageFigures figures(console, lab);
   for (const LiveMark& mark : text.marks)
     if (const auto added = figures.add(mark); !added) return fail(added.error());
-  return page_html(fmt::format("{} \u2013 Gnomon", title), links, main + "</article>\n", figures);
+  return page_html(fmt::format("{} \u2013 Gnomon", title), links, main + "</article>\n", figures,
+                   !lab.empty());
 }
 
 Expected<SitePage> lesson_page(const Lessons& written, std::size_t at, Console& console,

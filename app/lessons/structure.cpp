@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <optional>
 
@@ -28,7 +30,10 @@ std::optional<Accel> accel_of(const std::string& kind) {
   return std::nullopt;
 }
 
-Json ranges_of(std::span<const std::uint32_t> items) {
+/// In ascending order: in a leaf of boxes they lie as their builder's library left them.
+Json ranges_of(std::span<const std::uint32_t> of_cell) {
+  std::vector<std::uint32_t> items(of_cell.begin(), of_cell.end());
+  std::sort(items.begin(), items.end());
   Json ranges = Json::array();
   for (std::size_t i = 0; i < items.size();) {
     std::size_t end = i + 1;
@@ -39,10 +44,25 @@ Json ranges_of(std::span<const std::uint32_t> items) {
   return ranges;
 }
 
+using Polygon = std::vector<Vec2>;
+
+/// The part of a polygon on which normal . p <= offset.
+Polygon clipped(const Polygon& polygon, const Vec2& normal, double offset) {
+  Polygon part;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    const double from = glm::dot(normal, a) - offset, to = glm::dot(normal, b) - offset;
+    if (from <= 0.0) part.push_back(a);
+    if ((from <= 0.0) != (to <= 0.0)) part.push_back(a + (b - a) * (from / (from - to)));
+  }
+  return part;
+}
+
 /// The structures count from the centre of the world's bounds.
 class StructureCut {
  public:
-  explicit StructureCut(const Vec3& center) : center_(center), z_(plane_z - center.z) {}
+  StructureCut(const Vec3& center, const raytrace::CellBox& box)
+      : center_(center), z_(plane_z - center.z), box_(box) {}
 
   Json operator()(const raytrace::KdTree& tree) const { return tree.nodes.empty() ? Json() : kd(tree, 0); }
   Json operator()(const raytrace::Octree& tree) const {
@@ -52,7 +72,15 @@ class StructureCut {
     return tree.nodes.empty() ? Json() : bvh(tree, 0);
   }
   Json operator()(const raytrace::BspTree& tree) const {
-    return tree.leaves.empty() ? Json() : bsp(tree, tree.root);
+    if (tree.leaves.empty()) return {};
+    // How far from a plane a ray that begins within three widths of the scene may still seem to be on its other side
+    // (PlaneRay, raytrace/accel/bsp.h), with room to spare.
+    double width = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) width += box_.max[axis] - box_.min[axis];
+    const double doubt = tree.plane_slack + 32.0 * FLT_EPSILON * width;
+    const double left = box_.min[0] - doubt, right = box_.max[0] + doubt, bottom = box_.min[1] - doubt,
+                 top = box_.max[1] + doubt;
+    return bsp(tree, tree.root, {{left, bottom}, {right, bottom}, {right, top}, {left, top}}, doubt);
   }
   Json operator()(const raytrace::UniformGrid& grid) const {
     std::size_t slice = 0;
@@ -119,24 +147,29 @@ class StructureCut {
     return json;
   }
 
-  Json bsp(const raytrace::BspTree& tree, std::uint32_t at) const {
+  /// `cell`: what a ray in the plane can see of it; nothing is left of one that it cannot come to.
+  Json bsp(const raytrace::BspTree& tree, std::uint32_t at, const Polygon& cell, double doubt) const {
     using raytrace::BspNode;
+    if (cell.empty()) return {};
     if ((at & BspNode::leaf_flag) != 0) {
       const raytrace::BspLeaf& own = tree.leaves[at & ~BspNode::leaf_flag];
       return leaf(tree, own.first, own.count);
     }
     const BspNode& node = tree.nodes[at];
+    const Vec2 normal(node.normal[0], node.normal[1]);
     const double offset = node.offset - node.normal[2] * z_;  // in the plane
-    const bool parallel = node.normal[0] == 0.0 && node.normal[1] == 0.0, above = parallel && 0.0 > offset;
-    Json children{parallel && above ? Json() : bsp(tree, node.child[0]),
-                  parallel && !above ? Json() : bsp(tree, node.child[1])};
-    return {{"normal", {node.normal[0], node.normal[1]}},
-            {"offset", offset + node.normal[0] * center_.x + node.normal[1] * center_.y},
+    Json children = Json::array();
+    for (const double side : {1.0, -1.0})
+      children.push_back(
+          bsp(tree, node.child[side < 0.0], clipped(cell, side * normal, side * offset + doubt), doubt));
+    return {{"normal", {normal.x, normal.y}},
+            {"offset", offset + normal.x * center_.x + normal.y * center_.y},
             {"children", std::move(children)}};
   }
 
   Vec3 center_;
   double z_;
+  raytrace::CellBox box_;
 };
 
 /// Where the plane cuts the triangles, by the items' places.
@@ -188,7 +221,7 @@ Expected<nlohmann::ordered_json> structure_cut(const std::string& kind, const st
   if (!scene) return fail(scene.error());
   const World world = make_world(*scene);
   const raytrace::CellItems items(world);
-  const StructureCut cut(items.center());
+  const StructureCut cut(items.center(), items.bounds());
   const raytrace::Structure structure = raytrace::build_structure(world, *accel);
   Json json{{"kind", kind}, {"scene", scene_name}, {"plane", plane_z}, {"primitives", items.count()}};
   json["bounds"] = cut.bounds(items.bounds());

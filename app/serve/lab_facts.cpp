@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/serve/setting_facts.h"
 #include "app/view/state/look.h"
 #include "app/view/state/pixel_story.h"
 #include "app/view/state/status.h"
@@ -18,71 +19,6 @@ namespace gnomon::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string_view group_title(raster::SettingGroup group) {
-  switch (group) {
-    case raster::SettingGroup::map:
-      return "Map";
-    case raster::SettingGroup::window:
-      return "Window";
-    case raster::SettingGroup::bias:
-      return "Bias";
-    case raster::SettingGroup::filter:
-      return "Filter";
-    case raster::SettingGroup::cascades:
-      return "Cascades";
-  }
-  return {};
-}
-
-/// Adds what a control of each kind of setting needs.
-struct ControlFacts {
-  Json& out;
-  std::string_view slider_unit;
-
-  void operator()(const raster::NumberSetting& s) const {
-    out["control"] = "number", out["unit"] = slider_unit.empty() ? s.unit : slider_unit;
-    out["from"] = s.slider.min, out["to"] = s.slider.max, out["logarithmic"] = s.logarithmic;
-  }
-  void operator()(const raster::IntegerSetting& s) const {
-    out["control"] = "integer", out["unit"] = slider_unit.empty() ? s.unit : slider_unit;
-    out["from"] = s.slider_from, out["to"] = s.slider_to, out["powers_of_two"] = s.powers_of_two;
-  }
-  void operator()(const raster::SwitchSetting& s) const {
-    out["control"] = "switch", out["flag"] = s.form != raster::SwitchForm::word;
-  }
-  void operator()(const raster::ChoiceSetting& s) const {
-    out["control"] = "choice", out["choices"] = s.names();
-  }
-  void operator()(const raster::ListSetting& s) const { out["control"] = "text", out["unit"] = s.unit; }
-  void operator()(const raster::ConstantBiasSetting& s) const {
-    out["control"] = "bias", out["unit"] = "texels", out["from"] = 0.0, out["to"] = 10.0;
-    out["automatic"] = s.may_be_automatic;
-  }
-};
-
-/// The techniques that read a setting, and of pcf's kernels those that do.
-Json readers_json(const raster::MapSetting& row) {
-  Json readers = Json::array(), kernels = Json::array();
-  for (const raster::TechniqueTraits& traits : raster::all_technique_traits())
-    if (raster::reads(traits, row)) readers.push_back(traits.name);
-  for (const raster::FilterKernelTraits& traits : raster::all_filter_kernel_traits())
-    if (row.read_by_kernel == nullptr || row.read_by_kernel(traits.kernel)) kernels.push_back(traits.name);
-  return {{"techniques", readers}, {"kernels", kernels}};
-}
-
-Json setting_facts(const raster::MapSetting& row) {
-  Json out = {{"name", row.name},
-              {"group", group_title(row.group)},
-              {"title", row.title},
-              {"what", row.what},
-              {"acne", row.acne},
-              {"peter_panning", row.peter_panning},
-              {"allowed", raster::allowed_text(row)},
-              {"readers", readers_json(row)}};
-  std::visit(ControlFacts{out, row.slider_unit}, row.kind);
-  return out;
-}
 
 Json pose_json(const CameraPose& pose) {
   return {
@@ -101,14 +37,6 @@ Json light_json(const ViewState& state) {
           {"distance", sun ? Json() : Json(pose.distance.value_or(own))},
           {"own_distance", own},
           {"size", light_size(posed_light(state))}};
-}
-
-/// Settings that the technique reads, with their values as the command line takes them.
-Json values_json(const raster::MapOptions& map) {
-  Json values = Json::object();
-  for (const raster::MapSetting& row : raster::map_settings())
-    if (raster::reads(map, row)) values[std::string(row.name)] = raster::setting_text(row, map);
-  return values;
 }
 
 Json compared_json(const ComparisonOutcome& outcome) {
@@ -175,7 +103,7 @@ std::string lab_reading(const LabMoment& moment, const std::vector<std::string>&
               {"size", {{"width", state.setup.size.width}, {"height", state.setup.size.height}}},
               {"camera", pose_json(current_camera(state))},
               {"light", light_json(state)},
-              {"values", values_json(state.setup.map)},
+              {"values", setting_values(state.setup.map)},
               {"precision", raytrace::precision_name(state.setup.precision)},
               {"max_map_size", shown.max_map_size},
               {"renderer", shown.renderer},

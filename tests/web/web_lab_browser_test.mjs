@@ -1,6 +1,6 @@
 // The site that `gnomon site` writes, on a host of plain files: the lab's page with an engine of its own, whose labels are the native
 // command's, whose files come by drop, whose report is saved, and which says what it cannot do; start page, manual and lessons beside
-// it. Usage: web_lab_browser_test.mjs GNOMON FOLDER. Exit code 77 where the program for the web has not been built.
+// it (their figures: web_lessons_browser_test.mjs). Usage: web_lab_browser_test.mjs GNOMON FOLDER. Exit code 77 where the program for the web has not been built.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -124,7 +124,7 @@ async function savesTheLabAsOneFile() {
 }
 
 /** A lesson's figure leads to the lab, which draws the same picture: both count what the command counts. */
-async function computesALessonsFigure() {
+async function leadsFromALessonToTheLab() {
   const lesson = await openAt(`${host.url}lessons/acne.html`, host.url), figure = lesson.locator(".live-figure", { has: lesson.locator(".to-lab") }).first();
   const [counted, href] = [await figure.locator(".bias-counts").evaluate(({ dataset }) => Number(dataset.falseShadow)), await figure.locator(".to-lab").evaluate((a) => a.href)];
   await close(lesson);
@@ -300,7 +300,7 @@ await countsWhatTheCommandCounts();
 await opensFilesAndSavesTheReport();
 await canBeReadByAll();
 await leadsSomewhere();
-await computesALessonsFigure();
+await leadsFromALessonToTheLab();
 await timesTheShadowsOnTheGpu();
 await saysThatTheContextIsLost();
 await saysThatThereIsNoWebGl();

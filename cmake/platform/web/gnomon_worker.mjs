@@ -1,5 +1,5 @@
-// The program for the web in a worker, of a page or of Node. It runs command lines over files in memory ("run"), and is the engine of
-// the lab's page: it takes the page's requests, and draws and compares between them.
+// The program for the web in a worker, of a page or of Node. It runs command lines over files in memory ("run"), computes a lesson's
+// figure ("figure"), and is the engine of the lab's page: it takes the page's requests, and draws and compares between them.
 import gnomon from "./gnomon.mjs";
 
 const quiet_turns = 8;  // that nothing came of, more than a comparison takes: then there is nothing to do
@@ -79,6 +79,7 @@ let begun;
 port.onmessage = async ({ data: { id, name, parameters, body } }) => {
   try {
     if (name === "run") return void (await (begun ?? load()), tell(id, { status: 200, ...run(parameters) }));
+    if (name === "figure") return void (await (begun ?? load()), tell(id, asked(name, parameters)));
     if (name === "begin") return void (await (begun = begin(parameters)), tell(id, { status: 200, type: "text/plain", body: new Uint8Array(0) }));
     await begun;
     if (name === "news") { waiting.push({ id, parameters }); return tellNews(); }

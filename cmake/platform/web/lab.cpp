@@ -6,6 +6,7 @@
 #include <exception>
 #include <memory>
 
+#include "app/lessons/figures.h"
 #include "app/serve/lab_answers.h"
 #include "app/view/work/scene_source.h"
 #include "app/view/work/turns.h"
@@ -54,6 +55,14 @@ LabAnswer begin(const std::string& scene, ImageSize size) {
   return {200, "text/plain", ""};
 }
 
+/// A lesson's figure with other settings; the lab need not have begun.
+LabAnswer compute_figure(const std::string& mark) {
+  Console console(true);
+  auto data = lessons::compute_figure(lessons::read_mark(mark), console);
+  if (!data) return lab_refusal(data.error());
+  return {200, "application/json", std::move(*data)};
+}
+
 /// "name=house.obj" of lines like it.
 std::string line_value(const std::string& lines, const std::string& name) {
   const std::string begin = "\n" + name + "=";
@@ -89,7 +98,10 @@ EMSCRIPTEN_KEEPALIVE void gnomon_lab_answer(const char* name, const char* parame
   using namespace gnomon::app;
   const std::string lines = parameters;
   const auto parameter = [&](const char* key) { return line_value(lines, key); };
-  answered([&] { return lab().answers->answer({name, parameter, {body, size}}); });
+  answered([&] {
+    return std::string_view(name) == "figure" ? compute_figure(parameter("mark"))
+                                              : lab().answers->answer({name, parameter, {body, size}});
+  });
 }
 
 /// Draws or compares what is next. Returns the number of the moment (LabMoment) after it.

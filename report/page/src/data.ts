@@ -2,7 +2,7 @@
 import { endless, expectedGaps, nothingStored } from "./expected_gaps";
 import { alongRay, texelRay, add, type LightView, type MapPoint, type Vec3 } from "./light_view";
 import { surfaceSources, unpack, unpackAll, type Channel, type Numbers, type Packed } from "./packed";
-import { pageData, part } from "./parts";
+import { pageData, part, putParts } from "./parts";
 import { addPredicted, type PixelRays, type PixelSurfaces } from "./surface_prediction";
 
 export interface LabelWords {
@@ -45,7 +45,7 @@ export interface ShownMaterial {
 }
 
 /** What the lights of one comparison share. */
-interface ComparisonJson {
+export interface ComparisonJson {
   exposure: number;  // linear factor of both pictures
   rays: PixelRays;
   materials: ShownMaterial[];  // those that mirror or transmit
@@ -83,6 +83,7 @@ class Once<T> {
     if (!this.made.has(comparison)) this.made.set(comparison, this.make(comparison));
     return this.made.get(comparison)!;
   }
+  forget(comparison: string): void { this.made.delete(comparison); }
 }
 
 /** What both renderers see, and their linear pictures. */
@@ -90,6 +91,7 @@ export class Pixels {
   private static readonly loaded = new Once((comparison) => Pixels.unpacked(comparison));
   private constructor(readonly comparison: ComparisonJson, readonly channels: Record<string, Numbers>, readonly sources: Int32Array) {}
   static load(comparison: string): Promise<Pixels> { return Pixels.loaded.of(comparison); }
+  static forget(comparison: string): void { Pixels.loaded.forget(comparison); }
   private static async unpacked(comparison: string): Promise<Pixels> {
     let sources: Int32Array | undefined;
     const sourcesOf = (done: Record<string, Numbers>) => sources ??= surfaceSources(done.primitive!);
@@ -126,6 +128,14 @@ async function loadGeometry(comparison: string): Promise<Geometry> {
 }
 const geometries = new Once(loadGeometry);
 export const geometry = (comparison = ""): Promise<Geometry> => geometries.of(comparison);
+
+/** Takes a comparison that came later, in the place of the one before of that key; the names of its parts begin with the key. */
+export function putComparison(key: string, shared: ComparisonJson, parts: Record<string, unknown>): void {
+  Pixels.forget(key);
+  geometries.forget(key);
+  page.comparisons![key] = shared;
+  putParts(key, parts);
+}
 
 /** One pixel as one light sees it. */
 export interface Pixel {

@@ -47,3 +47,9 @@ export function fromFile<T>(path: string, name: string): Promise<T> {
 export function part<T>(name: string): Promise<T> {
   return data.parts ? Promise.resolve(data.parts[name] as T) : fromFile(`${data.folder}/${name}.js`, name);
 }
+
+/** Takes parts that came later, in the place of all whose names begin so. */
+export function putParts(prefix: string, parts: Record<string, unknown>): void {
+  for (const name of Object.keys(data.parts!)) if (name.startsWith(prefix)) delete data.parts![name];
+  Object.assign(data.parts!, parts);
+}

@@ -1,4 +1,5 @@
 // One row of a panel: a name, a control for its kind, and a note that is shown while the row is looked at.
+import "./controls.css";
 import { pageData } from "../parts";
 import { html } from "../svg";
 import type { LabFacts } from "./engine";
@@ -31,7 +32,7 @@ const { manual } = pageData<LabFacts>();
 /** A panel, and a question mark that leads to the manual's paragraph on its first option, where there is a manual. */
 export function panel(name: string, option: string, ...rows: HTMLElement[]): HTMLFieldSetElement {
   const legend = html("legend", {}, name);
-  if (manual !== "") legend.append(" ", html("a", { href: new URL(`${manual}#--${option}`, packed?.from ?? location.href).href, target: "_blank", class: "manual", "aria-label": `${name} in the manual` }, "?"));
+  if (manual) legend.append(" ", html("a", { href: new URL(`${manual}#--${option}`, packed?.from ?? location.href).href, target: "_blank", class: "manual", "aria-label": `${name} in the manual` }, "?"));
   return html("fieldset", {}, legend, ...rows);
 }
 

@@ -1,5 +1,6 @@
 // The engine behind the lab's page: what it is asked, and what it answers (docs/lab.md, "The page and its engine"). It is the
 // program that serves the page, or the same in a worker of the page.
+import { answered, ProgramWorker } from "../program_worker";
 import { packed, startPacked } from "./one_file";
 import type { BiasPoint, LabelFacts, LightResult } from "../report_document";
 
@@ -8,10 +9,10 @@ export interface SettingFacts {
   group: string;
   title: string;
   what: string;
-  acne: string;
-  peter_panning: string;
-  allowed: string;
-  readers: { techniques: string[]; kernels: string[] };
+  acne?: string;  // this and the next three: of a setting of the map
+  peter_panning?: string;
+  allowed?: string;
+  readers?: { techniques: string[]; kernels: string[] };
   control: "number" | "integer" | "switch" | "choice" | "text" | "bias";
   unit?: string;
   from?: number;  // of the slider
@@ -133,16 +134,6 @@ export interface Wish {
 /** How an engine is asked: a request as docs/lab.md has it, and its answer, like one over HTTP. */
 type Transport = (name: string, parameters: Record<string, string>, body?: Blob | string) => Promise<Response>;
 
-async function answered(response: Response): Promise<Response> {
-  if (response.ok) return response;
-  const text = await response.text();
-  let said = text.trim();
-  try {
-    said = (JSON.parse(text) as { error: string }).error;
-  } catch { /* words, then */ }
-  throw new Error(said || `the engine answers with ${response.status}`);
-}
-
 export class Engine {
   /** This page's name for itself among all that look at the same lab. */
   readonly client = crypto.randomUUID();
@@ -185,29 +176,8 @@ export const servedEngine = (): Engine => new Engine(
 export function workerEngine(scene: string, size: { width: number; height: number }): Engine {
   if (!packed && location.protocol === "file:") return new Engine(() => Promise.resolve(new Response("The lab needs a host: browsers start no engine for a page that is opened as a file with others beside it.", { status: 500 })),
     "Put the folder on any host of plain files, or run python3 -m http.server in it and open http://localhost:8000/lab.html. What “Save the lab as one file” gives there opens from the disk, too.", true);
-  const started = packed ? startPacked(packed) : { worker: new Worker("gnomon_worker.mjs", { type: "module" }) };
-  const { worker } = started, open = new Map<number, (answer: Response) => void>();
-  let last = 0, gone: string | null = null;
-  const fail = (words: string): void => {
-    gone = words;
-    for (const answer of open.values()) answer(new Response(words, { status: 500 }));
-    open.clear();
-  };
-  worker.onerror = (event) => fail(event.message || "The program for the web cannot be loaded: its files are not beside this page.");
-  worker.onmessage = ({ data }: MessageEvent<{ id?: number; gone?: string; status: number; type: string; body: Uint8Array<ArrayBuffer> }>) => {
-    if (data.gone !== undefined || data.id === undefined) return fail(data.gone ?? "");
-    open.get(data.id)?.(new Response(data.body, { status: data.status, headers: { "Content-Type": data.type } }));
-    open.delete(data.id);
-  };
-  const post = async (name: string, parameters: object, body?: Blob | string): Promise<Response> => {
-    const bytes = body === undefined ? undefined : await new Response(body).arrayBuffer();
-    return new Promise((answer) => {
-      if (gone !== null) return answer(new Response(gone, { status: 500 }));
-      open.set(++last, answer);
-      worker.postMessage({ id: last, name, parameters, body: bytes }, bytes ? [bytes] : []);
-    });
-  };
-  const begun = "program" in started ? started.program.then((program) => post("begin", { scene, size, program })) : post("begin", { scene, size });
-  return new Engine(async (...asked) => { const start = await begun; return start.ok ? post(...asked) : start.clone(); },
+  const started = packed && startPacked(packed), program = new ProgramWorker(started?.worker ?? new Worker("gnomon_worker.mjs", { type: "module" }));
+  const begun = Promise.resolve(started?.program).then((bytes) => program.ask("begin", { scene, size, ...(bytes && { program: bytes }) }));
+  return new Engine(async (...asked) => { const start = await begun; return start.ok ? program.ask(...asked) : start.clone(); },
     "The program in this page has stopped: reload the page. Its address brings the state back.", true);
 }

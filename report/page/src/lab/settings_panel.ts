@@ -5,13 +5,22 @@ import type { Drawn, SettingFacts } from "./engine";
 import type { Options } from "./lab_state";
 
 const noteOf = ({ what, acne, peter_panning, name, allowed }: SettingFacts): string =>
-  `${what} Acne: ${acne} Peter-panning: ${peter_panning} --${name} [${allowed}]`;
+  allowed === undefined ? what : `${what} Acne: ${acne} Peter-panning: ${peter_panning} --${name} [${allowed}]`;
+
+/** What a panel shows. */
+export type Panelled = Pick<Drawn, "values" | "bias_world" | "texel_world">;
 
 /** "0.5texel" -> 0.5 texels; "0.02" -> in texels of that width; "auto" -> what it came to. */
-function biasInTexels(text: string, drawn: Drawn): string {
+function biasInTexels(text: string, drawn: Panelled): string {
   if (text.endsWith("texel")) return text.slice(0, -"texel".length);
   const world = text === "auto" ? drawn.bias_world : Number(text);
   return drawn.texel_world > 0 ? String(tidy(world / drawn.texel_world)) : "0";
+}
+
+/** Whether the technique of these values reads the setting; what is none of the map's is always read. */
+function isRead({ readers }: SettingFacts, values: Record<string, string>): boolean {
+  if (!readers) return true;
+  return readers.techniques.includes(values.technique!) && (values.technique !== "pcf" || readers.kernels.includes(values["filter-kernel"] ?? readers.kernels[0]!));
 }
 
 const groups = ["Map", "Bias", "Filter", "Cascades", "Window"];  // as the lab's window has them
@@ -19,12 +28,12 @@ const groups = ["Map", "Bias", "Filter", "Cascades", "Window"];  // as the lab's
 export class SettingsPanel {
   private readonly rows = new Map<string, Row>();
   private readonly groups = new Map<string, HTMLFieldSetElement>();
-  private drawn: Drawn | null = null;
+  private drawn: Panelled | null = null;
 
   /** `changed`: with the options that then hold, all of them. */
   constructor(root: HTMLElement, private readonly facts: SettingFacts[], private readonly changed: (options: Options) => void) {
-    const technique = facts.find(({ name }) => name === "technique")!;
-    root.append(this.rowOf(technique).element);
+    const technique = facts.find(({ name }) => name === "technique");
+    if (technique) root.append(this.rowOf(technique).element);
     for (const setting of [...facts].sort((a, b) => groups.indexOf(a.group) - groups.indexOf(b.group))) {
       if (setting.name === "technique") continue;
       let group = this.groups.get(setting.group);
@@ -67,9 +76,8 @@ export class SettingsPanel {
   private optionsOf(values: Record<string, string>): Options {
     const options: Options = new Map();
     for (const setting of this.facts) {
-      const value = values[setting.name], { techniques, kernels } = setting.readers;
-      const isRead = techniques.includes(values.technique!) && (values.technique !== "pcf" || kernels.includes(values["filter-kernel"] ?? kernels[0]!));
-      if (value === undefined || !isRead) continue;
+      const value = values[setting.name];
+      if (value === undefined || !isRead(setting, values)) continue;
       if (setting.control === "switch" && setting.flag) {
         if (value === "on") options.set(setting.name, "");
       } else options.set(setting.name, value);
@@ -77,7 +85,7 @@ export class SettingsPanel {
     return options;
   }
 
-  show(drawn: Drawn): void {
+  show(drawn: Panelled): void {
     this.drawn = drawn;
     for (const setting of this.facts) {
       const row = this.rows.get(setting.name)!, value = drawn.values[setting.name];

@@ -1,12 +1,15 @@
 // The live figures of a lesson, each in the place of its picture; the picture stays where its figure cannot be made. What the
 // program says of them (app/lessons/figures.h) is in the page's data.
 import { page } from "../data";
+import type { SettingFacts } from "../lab/engine";
 import { addressOf } from "../lab/lab_state";
+import type { Panelled } from "../lab/settings_panel";
 import { pageData } from "../parts";
 import { html } from "../svg";
 import { biasFigure } from "./bias_figure";
 import { boxFitFigure } from "./box_fit_figure";
 import { buildFigure } from "./build_figure";
+import { canCompute, ComputePanel } from "./compute_panel";
 import { cubeFigure } from "./cube_figure";
 import { eyeRayFigure } from "./eye_ray_figure";
 import { flatlandFigure } from "./flatland_figure";
@@ -23,6 +26,8 @@ export interface FigureJson<Data = never> {
   name: string;
   settings: Record<string, string>;  // of the mark in the lesson's text
   data: Data;
+  controls?: SettingFacts[];  // what it can be computed with anew, by the program for the web
+  drawn?: Panelled;           // and with what it was
 }
 
 type Maker = (figure: FigureJson, id: string) => HTMLElement | Promise<HTMLElement>;
@@ -38,23 +43,60 @@ async function makeFigure(figure: FigureJson, id: string): Promise<HTMLElement |
   }
 }
 
-/** Of a figure that the program drew: where the browser draws the same picture anew, with any setting. */
-function labLink(lab: string, { scene, ...options }: Record<string, string>): HTMLElement {
-  const address = addressOf({ scene: scene!, options: new Map(Object.entries(options).filter(([name]) => name !== "sizes")).set("size", `${page.width}x${page.height}`) });
-  return html("p", { class: "hint" }, html("a", { class: "to-lab", href: lab + address }, say("Change every setting in the lab")), ". ", say("The program itself computes it there, in your browser."));
+/** Where the browser draws the same picture anew, with any setting. */
+function labAddress(lab: string, { scene, ...options }: Record<string, string>): string {
+  return lab + addressOf({ scene: scene!, options: new Map(Object.entries(options).filter(([name]) => name !== "sizes")).set("size", `${page.width}x${page.height}`) });
+}
+
+type PlacedJson = FigureJson<{ comparison?: string }>;
+const pageFigures = pageData<{ figures: (PlacedJson | null)[]; lab?: string }>();
+
+/** A figure with what the program can do about it: a panel of settings, and the way to the lab. */
+class PlacedFigure {
+  private own: Element[];
+  private readonly panel: HTMLElement | null = null;
+  private readonly link = html("a", { class: "to-lab" }, say("Change every setting in the lab"));
+
+  constructor(readonly element: HTMLElement, figure: PlacedJson, private readonly at: number, private readonly id: string) {
+    this.own = [...element.children];
+    element.classList.add("live-figure");
+    element.dataset.name = figure.name;
+    if (figure.controls && canCompute()) {
+      this.panel = new ComputePanel(figure as FigureJson, id, (shown) => this.show(shown)).element;
+      element.append(this.panel);
+      this.arrange(this.own);
+    }
+    if (!pageFigures.lab || !figure.data.comparison) return;
+    this.setLink(figure);
+    element.append(html("p", { class: "hint" }, this.link, ". ", say("The program itself computes it there, in your browser.")));
+  }
+
+  private setLink({ settings }: PlacedJson): void { if (pageFigures.lab) this.link.href = labAddress(pageFigures.lab, settings); }
+
+  /** The panel stands below the picture, before charts and hints, and stays where it is: it may have the focus. */
+  private arrange(elements: Element[]): void {
+    const more = elements.findIndex((element) => element.matches(".scroll, .hint")), split = more < 0 ? elements.length : more;
+    this.element.prepend(...elements.slice(0, split));
+    this.panel!.after(...elements.slice(split));
+    this.own = elements;
+  }
+
+  private async show(shown: FigureJson): Promise<void> {
+    const fresh = [...(await makers[shown.name]!(shown, this.id)).children];
+    for (const element of this.own) element.remove();
+    this.arrange(fresh);
+    pageFigures.figures[this.at] = shown;
+    this.setLink(shown);
+  }
 }
 
 export async function startFigures(): Promise<void> {
-  const { figures, lab } = pageData<{ figures: (FigureJson<{ comparison?: string }> | null)[]; lab?: string }>();
   for (const host of document.querySelectorAll<HTMLElement>(".live")) {
-    const at = Number(host.dataset.figure), figure = figures[at];
+    const at = Number(host.dataset.figure), figure = pageFigures.figures[at], id = `figure-${at}`;
     if (!figure) continue;
-    const made = await makeFigure(figure as FigureJson, `figure-${at}`);
+    const made = await makeFigure(figure as FigureJson, id);
     if (!made) continue;
-    if (lab && figure.data.comparison) made.append(labLink(lab, figure.settings));
-    made.classList.add("live-figure");
-    made.dataset.name = figure.name;
-    host.prepend(made);
+    host.prepend(new PlacedFigure(made, figure, at, id).element);
     host.classList.add("is-live");
   }
 }
