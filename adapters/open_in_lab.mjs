@@ -87,7 +87,7 @@ function settingsOf(light, renderer, camera, meshes) {
   if (width !== height) notes.push(`the map's height of ${height} texels (the lab's maps are square)`);
   // A difference of stored depths, and the length that it is.
   const bias = -shadow.bias * (depth === undefined ? far - near : depth * depth * (far - near) / (near * far));
-  if (depth !== undefined && (shadow.bias || shadow.normalBias)) notes.push(`how the bias changes with depth (it is right at ${round(depth)} from the light)`);
+  if (depth !== undefined && (shadow.bias || shadow.normalBias)) notes.push(`how the bias changes with depth (it is right at ${Number(depth.toPrecision(3))} from the light)`);
   const options = {
     size: `640x${Math.max(1, Math.round(640 * elements[0] / elements[5]))}`, "map-size": String(width), technique, bias: round(bias),
     "normal-offset": round(shadow.normalBias * width / wide), "window-depths": `${round(near)},${round(far)}`,
