@@ -22,7 +22,8 @@ for library in fmt glm hwy tl; do ln -sfn "/usr/include/$library" "$folder/heade
 sources=(tests/platforms/small_rays{,_alone}.cpp cmake/platform/web/one_thread.cpp scene/world.cpp raytrace/huge_array.cpp
   raytrace/bvh/{boxes,bvh,clusters,instance,leaf_primitives,treelet,wide_instances,wide_on_demand,wide_pack,wide_traverse,wide_tree}.cpp)
 # The flags that decide about numbers are gnomon_flags' own (cmake/GnomonTarget.cmake).
-flags=(-std=c++20 -O2 $(sed -n 's/^target_compile_options(gnomon_flags INTERFACE \(-f[^)]*\))$/\1/p' cmake/GnomonTarget.cmake) -Wno-psabi
+read -ra deciding < <(sed -n 's/^target_compile_options(gnomon_flags INTERFACE \(-f[^)]*\))$/\1/p' cmake/GnomonTarget.cmake)
+flags=(-std=c++20 -O2 "${deciding[@]}" -Wno-psabi
   -DGLM_FORCE_EXPLICIT_CTOR -DGLM_FORCE_SILENT_WARNINGS -DTOOLCHAIN_MISS_SYS_AUXV_H -DFMT_HEADER_ONLY -I. -isystem "$folder/headers")
 [[ " ${flags[*]} " == *" -ffp-contract=off "* ]] || { echo "gnomon_flags no longer says -ffp-contract=off"; exit 1; }
 objects=()
