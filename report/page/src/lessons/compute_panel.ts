@@ -46,7 +46,7 @@ export class ComputePanel {
     this.showSettings(lesson);
     back.addEventListener("click", () => void this.restore());
     this.element = html("details", { class: "compute" }, html("summary", {}, say("Compute with other settings")),
-      html("p", { class: "hint" }, say("The program itself draws, traces and compares here, in your browser. It is loaded with the first change.")), rows, html("div", { class: "compute-end" }, back, this.said));
+      html("p", { class: "hint" }, say("The program itself computes the figure anew here, in your browser. It is loaded with the first change.")), rows, html("div", { class: "compute-end" }, back, this.said));
   }
 
   private showSettings({ drawn }: FigureJson): void { this.panel.show(structuredClone(drawn!)); }
