@@ -98,7 +98,10 @@ BuiltPage build_page(const PageShell& shell) {
   const Template built = page_template(shell.built);
   BuiltPage out;
   out.html.reserve(bytes_of(shell) + embedded::report(shell.built).size() + (std::size_t{1} << 16));
+  constexpr std::string_view own_language = "lang=\"en\"";
   out.html = built.before_head;
+  if (const std::size_t at = out.html.find(own_language); at != std::string::npos)
+    out.html.replace(at, own_language.size(), fmt::format("lang=\"{}\"", shell.language));
   out.html.append(page_head({shell.title, built.style, built.script, shell.beside, shell.live}))
       .append(built.after_head);
   out.html += fmt::format(R"(<a class="skip" href="#main">{}</a>)", shell.skip);

@@ -44,6 +44,7 @@ struct PageShell {
   std::string_view built = "page.html";  ///< which of the built pages
   LivePage live = LivePage::no;
   std::string_view skip = "Skip to the report";
+  std::string_view language = "en";  ///< of its text (BCP 47), by which screen readers go
 };
 
 BuiltPage build_page(const PageShell& shell);

@@ -19,3 +19,4 @@ gnomon_embed(gnomon_app manual_pages ${manual_pages} "${PROJECT_SOURCE_DIR}/docs
 gnomon_embed(gnomon_app page_scripts "${PROJECT_SOURCE_DIR}/adapters/open_in_lab.mjs")
 set_source_files_properties(commands/site.cpp PROPERTIES COMPILE_DEFINITIONS "GNOMON_WEB_PROGRAM=\"${PROJECT_SOURCE_DIR}/build/web/app\""
   SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(lessons/site.cpp PROPERTIES COMPILE_DEFINITIONS "GNOMON_LANGUAGE=\"${GNOMON_LANGUAGE}\"" SKIP_UNITY_BUILD_INCLUSION ON)

@@ -45,33 +45,54 @@ Expected<std::string> body_html(std::string_view markdown, const Lessons& writte
   return with_pictures(with_links(*html, [&](std::string_view target) { return page_of(target, written); }));
 }
 
-std::string page_html(const std::string& title, const std::string& links, const std::string& main,
-                      const PageFigures& figures, bool computes = false) {
-  compare::PageShell shell;
+/// The language's own words for the English ones (docs/lectures/README.md), which English has no table of.
+const nlohmann::ordered_json& figure_words() {
+  static const nlohmann::ordered_json words = [] {
+    const std::string_view text = embedded::lectures("figures.json");
+    return text.empty() ? nlohmann::ordered_json::object() : nlohmann::ordered_json::parse(text);
+  }();
+  return words;
+}
+std::string said(const std::string& english) {
+  return figure_words().value(english, english);
+}
+
+std::string page_html(compare::PageShell shell, const PageFigures& figures) {
   nlohmann::ordered_json data = figures.data();
-  // English has none: its words stand in the page's own script.
-  if (const std::string_view words = embedded::lectures("figures.json"); !words.empty())
-    data["figure_words"] = nlohmann::ordered_json::parse(words);
-  shell.title = title;
-  shell.links = links;
-  shell.main = main;
+  if (!figure_words().empty()) data["figure_words"] = figure_words();
   shell.data = data.dump();
   shell.parts = figures.parts();
   shell.built = "lesson.html";
-  shell.skip = "Skip to the lesson";
-  if (computes) shell.live = compare::LivePage::worker;
   return compare::build_page(shell).html;
+}
+
+/// A page of a lesson's or a lecture's, in the language of the lessons.
+std::string lesson_html(const std::string& title, std::string links, std::string main,
+                        const PageFigures& figures, bool computes = false) {
+  const std::string skip = said("Skip to the lesson");
+  compare::PageShell shell;
+  shell.title = title + " \u2013 Gnomon";
+  shell.links = std::move(links);
+  shell.main = std::move(main);
+  shell.skip = skip;
+  shell.language = GNOMON_LANGUAGE;
+  if (computes) shell.live = compare::LivePage::worker;
+  return page_html(std::move(shell), figures);
 }
 
 std::string link(const std::string& page, std::string_view words, std::string_view kind) {
   return fmt::format("<li><a href=\"{}\" rel=\"{}\">{}</a></li>", page, kind, words);
 }
 
+std::string link_to_all() {
+  return fmt::format("<li><a href=\"index.html\">{}</a></li>", said("All lessons"));
+}
+
 /// To the neighbours in the order of reading.
 std::string links_of(const Lessons& written, std::size_t at) {
-  std::string links = "<li><a href=\"index.html\">All lessons</a></li>";
-  if (at > 0) links += link(page_name(*written[at - 1]), "Previous", "prev");
-  if (at + 1 < written.size()) links += link(page_name(*written[at + 1]), "Next", "next");
+  std::string links = link_to_all();
+  if (at > 0) links += link(page_name(*written[at - 1]), said("Previous"), "prev");
+  if (at + 1 < written.size()) links += link(page_name(*written[at + 1]), said("Next"), "next");
   return links;
 }
 
@@ -90,8 +111,7 @@ Expected<std::string> article_page(const std::string& title, const std::string& 
   PageFigures figures(console, lab);
   for (const LiveMark& mark : text.marks)
     if (const auto added = figures.add(mark); !added) return fail(added.error());
-  return page_html(fmt::format("{} \u2013 Gnomon", title), links, main + "</article>\n", figures,
-                   !lab.empty());
+  return lesson_html(title, links, main + "</article>\n", figures, !lab.empty());
 }
 
 Expected<SitePage> lesson_page(const Lessons& written, std::size_t at, Console& console,
@@ -130,9 +150,9 @@ Expected<SitePage> index_page(const Lessons& written) {
     if (!html) return fail(html.error());
     main += *html;
   }
+  Console quiet(true);
   return SitePage{"index.html",
-                  page_of_text("Lessons \u2013 Gnomon", "<li><a href=\"index.html\">All lessons</a></li>",
-                               main + "</ol>\n")};
+                  lesson_html(said("Lessons"), link_to_all(), main + "</ol>\n", PageFigures(quiet))};
 }
 
 Expected<Lessons> chosen(const std::vector<std::string>& only) {
@@ -156,7 +176,12 @@ Expected<Lessons> chosen(const std::vector<std::string>& only) {
 
 std::string page_of_text(const std::string& title, const std::string& links, const std::string& main) {
   Console quiet(true);
-  return page_html(title, links, main, PageFigures(quiet));
+  compare::PageShell shell;
+  shell.title = title;
+  shell.links = links;
+  shell.main = main;
+  shell.skip = "Skip to the text";
+  return page_html(std::move(shell), PageFigures(quiet));
 }
 
 Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, Console& console,
@@ -193,7 +218,8 @@ Expected<SitePage> make_lecture(std::string_view name, Console& console) {
   if (!text) return fail(text.error());
   const std::string title(deck.substr(2, deck.find('\n') - 2));
   const auto html =
-      article_page(title, "<li><a href=\"#slide-1\">First slide</a></li>", "lecture", *text, {}, console);
+      article_page(title, fmt::format("<li><a href=\"#slide-1\">{}</a></li>", said("First slide")), "lecture",
+                   *text, {}, console);
   if (!html) return fail(html.error());
   return SitePage{fmt::format("{}.html", name), *html};
 }
