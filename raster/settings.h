@@ -17,6 +17,11 @@
 namespace gnomon::raster {
 
 enum class SettingGroup : std::uint8_t { map, window, bias, filter, cascades };
+/// What stands above a group's settings in the lab. A literal, ended by a zero.
+constexpr std::string_view group_title(SettingGroup group) {
+  constexpr std::string_view titles[] = {"Map", "Window", "Bias", "Filter", "Cascades"};
+  return titles[static_cast<std::size_t>(group)];
+}
 
 /// A number of this unit. The slider's ends lie within the range; what lies beyond them can be typed.
 struct NumberSetting {

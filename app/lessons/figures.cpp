@@ -47,8 +47,9 @@ const Names sunlit{"acne-floor", "floating-box", "thin-wall", "wires", "fence", 
 
 Json choice_facts(std::string_view name, std::string_view title, std::string_view what,
                   const Names& choices) {
-  return {{"name", name},        {"group", "Map"}, {"title", title},
-          {"control", "choice"}, {"what", what},   {"choices", choices}};
+  return {{"name", name},   {"group", raster::group_title(raster::SettingGroup::map)},
+          {"title", title}, {"control", "choice"},
+          {"what", what},   {"choices", choices}};
 }
 
 }  // namespace

@@ -5,22 +5,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view group_title(raster::SettingGroup group) {
-  switch (group) {
-    case raster::SettingGroup::map:
-      return "Map";
-    case raster::SettingGroup::window:
-      return "Window";
-    case raster::SettingGroup::bias:
-      return "Bias";
-    case raster::SettingGroup::filter:
-      return "Filter";
-    case raster::SettingGroup::cascades:
-      return "Cascades";
-  }
-  return {};
-}
-
 /// Adds what a control of each kind of setting needs.
 struct ControlFacts {
   Json& out;
@@ -61,7 +45,7 @@ Json readers_json(const raster::MapSetting& row) {
 
 nlohmann::ordered_json setting_facts(const raster::MapSetting& row) {
   Json out = {{"name", row.name},
-              {"group", group_title(row.group)},
+              {"group", raster::group_title(row.group)},
               {"title", row.title},
               {"what", row.what},
               {"acne", row.acne},

@@ -193,11 +193,12 @@ bool is_shown(const raster::MapSetting& row, raster::SettingGroup group, const r
   return row.group == group && row.name != "technique" && raster::reads(map, row);
 }
 
-bool group(PanelContext& context, raster::MapOptions& map, raster::SettingGroup group, const char* title) {
+bool group(PanelContext& context, raster::MapOptions& map, raster::SettingGroup group) {
   const auto rows = raster::map_settings();
   const bool any =
       std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return is_shown(row, group, map); });
-  if (!any || !ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen)) return false;
+  if (!any || !ImGui::CollapsingHeader(raster::group_title(group).data(), ImGuiTreeNodeFlags_DefaultOpen))
+    return false;
   bool changed = false;
   for (const raster::MapSetting& row : rows) {
     if (!is_shown(row, group, map)) continue;
@@ -400,11 +401,9 @@ std::uint32_t colour(const glm::u8vec3& c) {
 void settings_panel(PanelContext& context) {
   raster::MapOptions map = context.state.setup.map;
   bool changed = technique(context, map);
-  changed |= group(context, map, raster::SettingGroup::map, "Map");
-  changed |= group(context, map, raster::SettingGroup::bias, "Bias");
-  changed |= group(context, map, raster::SettingGroup::filter, "Filter");
-  changed |= group(context, map, raster::SettingGroup::cascades, "Cascades");
-  changed |= group(context, map, raster::SettingGroup::window, "Window");
+  using Group = raster::SettingGroup;
+  for (const Group of : {Group::map, Group::bias, Group::filter, Group::cascades, Group::window})
+    changed |= group(context, map, of);
   if (changed && raster::check_map_options(map)) context.ask(Change{SetMap{map}});
   lights(context);
   film(context);
