@@ -2,8 +2,8 @@
 # When ./gnomon configures a build: the first time, where the checkout was moved or copied (CMake cannot move a build), and
 # after the presets have changed; and then no more. Ninja is asked where something has changed since, and else is not:
 # that takes longer than starting the program. Who waits for another ./gnomon says so, and asks for a text without waiting.
-# What cannot be written, and words that are missing, end with the README's exit codes. CMake, Ninja and dpkg-query are
-# stand-ins that note what they are asked.
+# What cannot be written, and words that are missing, end with the README's exit codes. Another apt is waited for. CMake,
+# Ninja and dpkg-query are stand-ins that note what they are asked.
 # usage: project_script_test.sh SOURCE_DIR
 set -euo pipefail
 source=$1
@@ -28,7 +28,7 @@ cat >"$work/bin/dpkg-query" <<'EOF'
 #!/bin/sh
 case $2 in
   *Version*) cat "$WORK/installed" ;;
-  *) echo installed ;;
+  *) [ -e "$WORK/missing" ] || echo installed ;;
 esac
 EOF
 chmod +x "$work/bin/cmake" "$work/bin/ninja" "$work/bin/dpkg-query"
@@ -129,6 +129,67 @@ for ((i = 0; i < 600; ++i)); do [[ ! -s $work/said ]] || break; sleep 0.1; done
 [[ ! -s $work/out ]] || fail 'it did not wait'
 exec 8>&-
 wait $waits || fail "after it had waited: $(cat "$work/said")"
+
+# Another apt or dpkg that holds a lock: it is waited for, and named. apt-get is the real one, with folders of its own, and
+# installs nothing.
+hold() {  # hold LOCK: until $work/LOCK's name.free is there
+  local name=${1##*/}
+  rm -f "$work/$name.free"
+  /usr/bin/python3 - "$1" "$work/$name" <<'EOF' &
+import fcntl, os, sys, time
+lock = open(sys.argv[1], "w")
+fcntl.lockf(lock, fcntl.LOCK_EX)
+open(sys.argv[2] + ".held", "w").close()
+for _ in range(3000):
+    if os.path.exists(sys.argv[2] + ".free"): break
+    time.sleep(0.02)
+EOF
+  holder=$!
+  for ((i = 0; i < 600; ++i)); do [[ ! -e $work/$name.held ]] || break; sleep 0.1; done
+}
+# expect_said WORDS: by the ./gnomon that waits, which has not ended.
+expect_said() {
+  local i
+  for ((i = 0; i < 600; ++i)); do [[ $(<"$work/said") != *"$1"* ]] || break; sleep 0.1; done
+  [[ $(<"$work/said") == *"$1"* ]] || fail "who waits for apt does not say '$1': $(cat "$work/said")"
+  kill -0 $waits || fail "who waits for apt has ended: $(cat "$work/said")"
+}
+if ((EUID == 0)) && [[ -x /usr/bin/apt-get && -x /usr/bin/python3 ]]; then
+  apt=$work/apt
+  mkdir -p "$apt"/lists/partial "$apt"/archives/partial "$apt"/dpkg "$apt"/etc/{sources.list.d,preferences.d,apt.conf.d} "$apt"/repo
+  touch "$apt/dpkg/status" "$apt/repo/Packages"
+  echo "deb [trusted=yes] file:$apt/repo ./" >"$apt/etc/sources.list"
+  cat >"$work/bin/apt-get" <<'EOF'
+#!/bin/bash
+apt=$WORK/apt words=()
+for word; do words+=("$word"); [[ $word != install ]] || break; done
+/usr/bin/apt-get -o Dir::State="$apt" -o Dir::State::status="$apt/dpkg/status" -o Dir::State::Lists="$apt/lists" \
+  -o Dir::Cache="$apt" -o Dir::Cache::archives="$apt/archives" -o Dir::Etc="$apt/etc" "${words[@]}" || exit
+[[ $word == update ]] || rm -f "$WORK/missing"
+EOF
+  chmod +x "$work/bin/apt-get"
+  hold "$apt/lists/lock"; of_lists=$holder
+  hold "$apt/dpkg/lock-frontend"; of_dpkg=$holder
+  touch "$work/missing" && rm "$work/copy/build/packages-run" && : >"$work/said"
+  "$work/copy/gnomon" scenes >"$work/out" 2>"$work/said" &
+  waits=$!
+  expect_said "waiting for process $of_lists (python3), which holds $apt/lists/lock"
+  touch "$work/lock.free"
+  expect_said "waiting for process $of_dpkg (python3), which holds $apt/dpkg/lock-frontend"
+  [[ -e $work/missing ]] || fail 'packages were installed beside another dpkg'
+  touch "$work/lock-frontend.free"
+  wait $waits || fail "after it had waited for apt: $(cat "$work/said")"
+  [[ ! -e $work/missing && -s $work/out ]] || fail "what was waited for was not done: $(cat "$work/said")"
+  [[ $(grep -c waiting "$work/said") == 2 ]] || fail "each is said once: $(cat "$work/said")"
+
+  sed -i 's/^apt_wait_s=.*/apt_wait_s=1/' "$work/copy/gnomon"
+  hold "$apt/lists/lock"
+  touch "$work/missing" && rm "$work/copy/build/packages-run"
+  expect_end 5 "still waiting for process $holder (python3)" scenes
+  touch "$work/lock.free"
+  rm "$work/missing" "$work/bin/apt-get"
+  "$work/copy/gnomon" scenes >"$work/out" 2>"$work/said" || fail "with its packages again: $(cat "$work/said")"
+fi
 
 # What cannot be written. A user who may not write can run what is built.
 if ((EUID == 0)) && command -v setpriv >/dev/null; then
