@@ -45,3 +45,6 @@ add_test(NAME project_exercise_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_LI
 
 # The sentences of the lab and of the grader, read through in one file.
 add_test(NAME project_prose_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_LIST_DIR}/project_prose_test.py")
+
+# Numbers that documents repeat: those of the confusion matrix.
+add_test(NAME project_numbers_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_LIST_DIR}/project_numbers_test.py")
