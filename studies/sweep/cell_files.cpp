@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <functional>
 #include <optional>
 
@@ -12,6 +11,7 @@
 #include "report/shell.h"
 #include "scene/files/encodings.h"
 #include "scene/files/path_status.h"
+#include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 #include "studies/sweep/journal.h"
 
@@ -48,8 +48,6 @@ std::string truth_name(std::string_view png) {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// The cell that "cell-000012.js" belongs to, in the cells' folder or that of the thumbnails; none of a name that the
 /// program would not write.
 std::optional<std::size_t> cell_of_file(std::string_view name) {
@@ -78,9 +76,9 @@ bool is_unfinished(std::string_view name) {
           std::find(sweep_file_names.begin(), sweep_file_names.end(), of) != sweep_file_names.end());
 }
 
-/// The folder need not be there.
+/// The folder need not be there. `unwanted` is asked of the names in it.
 Expected<void> remove_files(const std::string& folder,
-                            const std::function<bool(std::string_view)>& unwanted) {
+                            const std::function<bool(const std::string&)>& unwanted) {
   const auto names = names_if_there(folder, ErrorKind::cannot_write);
   if (!names) return fail(names.error());
   for (const std::string& name : *names) {
@@ -94,7 +92,36 @@ Expected<void> remove_files(const std::string& folder,
   return {};
 }
 
+/// Whether the file is a ray-traced picture that a sweep wrote: it is named after what it holds.
+bool is_own_truth(const std::string& folder, const std::string& name) {
+  if (!is_truth(name)) return false;
+  const auto png = read_file(folder + "/" + name);
+  return png && truth_name(*png) + ".png" == name;
+}
+
+/// Removes a sweep's page or list of the ray tracer's; one of another command is replaced as any output is.
+Expected<void> remove_if_own(const std::string& folder, std::string_view name) {
+  const auto file = OwnFile::open(folder, name, false);
+  if (!file) return fail(file.error());
+  return file->is_open() && file->text() ? remove_path(file->path()) : Expected<void>{};
+}
+
 }  // namespace
+
+bool is_cell_picture(std::string_view name) {
+  return cell_of_file(name) || is_truth(name);
+}
+
+Expected<std::vector<std::string>> cell_pictures_in(const std::string& folder) {
+  std::vector<std::string> found;
+  for (const std::string_view pictures : sweep_folder_names) {
+    const auto names = names_if_there(path_in(folder, pictures), ErrorKind::cannot_write);
+    if (!names) return fail(names.error());
+    for (const std::string& name : *names)
+      if (is_cell_picture(name)) found.push_back(path_in(path_in(folder, pictures), name));
+  }
+  return found;
+}
 
 Expected<std::vector<std::string>> truths_in(const std::string& folder) {
   auto names = names_if_there(cells_folder(folder));
@@ -103,7 +130,7 @@ Expected<std::vector<std::string>> truths_in(const std::string& folder) {
 }
 
 Expected<void> remove_strays(const std::string& folder, std::span<const std::size_t> unfinished) {
-  const auto stray = [&](std::string_view name) {
+  const auto stray = [&](const std::string& name) {
     const auto cell = cell_of_file(name);
     return is_unfinished(name) || (cell && std::binary_search(unfinished.begin(), unfinished.end(), *cell));
   };
@@ -116,17 +143,26 @@ Expected<void> remove_strays(const std::string& folder, std::span<const std::siz
 Expected<void> discard_sweep(const std::string& folder) {
   const auto claim = SweepClaim::of(folder);
   if (!claim) return fail(claim.error());
-  for (const std::string_view name : sweep_file_names)
-    if (auto gone = remove_path((fs::path(folder) / name).string()); !gone) return gone;
-  const auto ours = [](std::string_view name) {
-    return is_unfinished(name) || cell_of_file(name) || is_truth(name);
-  };
-  for (const std::string& pictures : {folder + "/thumbnails", cells_folder(folder)}) {
+  const auto cells = cells_of_sweep(folder);
+  if (!cells) return fail(cells.error());
+  if (auto own = check_own_files(folder, cells->has_value()); !own) return own;
+  for (const std::string_view name : sweep_folder_names) {
+    const std::string pictures = path_in(folder, name);
+    const auto ours = [&](const std::string& file) {
+      const auto cell = cell_of_file(file);
+      return is_unfinished(file) || (cell && *cell < cells->value_or(0)) || is_own_truth(pictures, file);
+    };
     if (auto gone = remove_files(pictures, ours); !gone) return gone;
     const auto others = names_if_there(pictures, ErrorKind::cannot_write);
     if (!others) return fail(others.error());
     if (!others->empty()) continue;
     if (auto gone = remove_path(pictures); !gone) return gone;
+  }
+  if (auto gone = remove_files(folder, is_unfinished); !gone) return gone;
+  for (const std::string_view name : sweep_file_names) {
+    const bool checked = name.starts_with("sweep");
+    if (auto gone = checked ? remove_path(path_in(folder, name)) : remove_if_own(folder, name); !gone)
+      return gone;
   }
   return {};
 }

@@ -34,12 +34,18 @@ std::string truth_name(std::string_view png);
 /// The names of the ray-traced pictures in the folder of a sweep's cells.
 Expected<std::vector<std::string>> truths_in(const std::string& folder);
 
+/// Whether a sweep writes pictures of that name into its two folders of pictures.
+bool is_cell_picture(std::string_view name);
+/// The paths of all files of such names there.
+Expected<std::vector<std::string>> cell_pictures_in(const std::string& folder);
+
 /// Removes what an interrupted sweep left: what a process that is no more had begun of the sweep's own files, and the
 /// pictures of the cells that are still to be made (`unfinished`, sorted). All other files stay, whatever their names
 /// end in. The folder must be this process's (journal.h).
 Expected<void> remove_strays(const std::string& folder, std::span<const std::size_t> unfinished);
-/// Removes all that a sweep writes into the folder; all other files stay. ErrorKind::usage while another process is at
-/// work there.
+/// Removes the sweep that lies in the folder: its files (own_files.h), the pictures of as many cells as it has, and the ray-traced
+/// pictures, which are named after their contents. All other files stay. ErrorKind::usage while another process is at work
+/// there; cannot_write where a file is no sweep's, and nothing is removed then.
 Expected<void> discard_sweep(const std::string& folder);
 
 /// The text of a cell's data file.

@@ -1,15 +1,11 @@
 #include "studies/sweep/journal.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <signal.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "compare/result/output_parts.h"
@@ -51,19 +47,16 @@ std::size_t size_of_lines(const std::vector<std::string>& lines) {
 
 // A file that grows by whole lines. A line that could not be written whole is taken back.
 struct Journal::File {
-  std::string path;
-  int descriptor = -1;
+  explicit File(OwnFile file) : own(std::move(file)), path(own.path()), descriptor(own.descriptor()) {}
+  OwnFile own;
+  const std::string& path;
+  int descriptor;
   std::size_t size = 0;
-  ~File() {
-    if (descriptor >= 0) ::close(descriptor);
-  }
 
-  static Expected<std::unique_ptr<File>> open(std::string path) {
-    auto file = std::make_unique<File>();
-    file->path = std::move(path);
-    file->descriptor = ::open(file->path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file->descriptor < 0) return failed_call(ErrorKind::cannot_write, file->path, "cannot open", errno);
-    return file;
+  static Expected<std::unique_ptr<File>> open(const std::string& folder, std::string_view name) {
+    auto own = OwnFile::open(folder, name, true);
+    if (!own) return fail(own.error());
+    return std::make_unique<File>(std::move(*own));
   }
   Expected<void> cut(std::size_t length) {
     size = length;
@@ -104,10 +97,11 @@ std::string differences(const std::string& a, const std::string& b) {
   return keys.size() > 3 ? text + ", …" : text;
 }
 
-/// Where a header is; true: it is this sweep's.
+/// Where a header is; true: it is this sweep's. Error (cannot_write): it is no sweep's.
 Expected<bool> has_header(const std::string& folder, const SweepHeader& header) {
-  const auto exists = is_there(path_in(folder, "sweep.json"), ErrorKind::cannot_write);
-  if (!exists || !*exists) return exists;
+  const auto cells = cells_of_sweep(folder);
+  if (!cells) return fail(cells.error());
+  if (!*cells) return false;
   const auto there = read_header(folder, ErrorKind::cannot_write);
   if (!there) return fail(there.error());
   if (there->hash != header.hash)
@@ -118,6 +112,14 @@ Expected<bool> has_header(const std::string& folder, const SweepHeader& header) 
     return fail(ErrorKind::usage, fmt::format("{} holds shard {}/{} of this sweep; give another folder",
                                               folder, there->shard.part, there->shard.of));
   return true;
+}
+
+/// Whether the folder holds this sweep (true) or none, and else nothing in the place of what is one's.
+Expected<bool> check_folder(const std::string& folder, const SweepHeader& header) {
+  const auto same = has_header(folder, header);
+  if (!same) return same;
+  const auto own = check_own_files(folder, *same);
+  return own ? same : Expected<bool>(fail(own.error()));
 }
 
 tl::unexpected<Error> is_claimed(const std::string& folder) {
@@ -137,7 +139,8 @@ Expected<std::size_t> count_good(const std::string& path, const std::vector<std:
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const bool belongs = i < axes.size() && axes_of_line(parsed(lines[i])) == axes[i];
     if (belongs && is_sealed(lines[i])) continue;
-    if (i + 1 == lines.size() && !parsed(lines[i]).is_object()) return i;
+    const bool torn = begins_as_own("sweep.jsonl", lines[i]) && !parsed(lines[i]).is_object();
+    if (i + 1 == lines.size() && torn) return i;
     return bad_line(path, i + 1,
                     belongs ? std::string(edited) : "not the line of this sweep that belongs here");
   }
@@ -163,18 +166,33 @@ struct GoodLines {
   bool torn = false;
 };
 
-Expected<GoodLines> read_lines(const std::string& line_path, const std::string& time_path,
+/// Whether all that will be cut off, the whole lines from `keep` on and what follows the last, begins as a sweep's lines do.
+Expected<void> check_rest(const OwnFile& file, std::string_view name, const std::string& text,
+                          const std::vector<std::string>& lines, std::size_t keep) {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i <= lines.size(); ++i) {
+    if (i >= keep && !begins_as_own(name, std::string_view(text).substr(begin)))
+      return bad_line(file.path(), i + 1, "no line of a sweep, and no beginning of one");
+    if (i < lines.size()) begin += lines[i].size();
+  }
+  return {};
+}
+
+Expected<GoodLines> read_lines(const OwnFile& line_file, const OwnFile& time_file,
                                const std::vector<std::string>& axes) {
-  const auto bytes = read_as(ErrorKind::cannot_write, line_path),
-             bytes_of_times = read_as(ErrorKind::cannot_write, time_path);
+  const auto bytes = line_file.text(), bytes_of_times = time_file.text();
   if (!bytes) return fail(bytes.error());
   if (!bytes_of_times) return fail(bytes_of_times.error());
   GoodLines found{whole_lines(*bytes), whole_lines(*bytes_of_times), false};
-  const auto good = count_good(line_path, found.lines, axes);
+  const auto good = count_good(line_file.path(), found.lines, axes);
   if (!good) return fail(good.error());
   // Times are written first: a line without times cannot be, but a surplus of times can.
   const std::size_t keep = std::min(*good, found.times.size());
-  if (auto fine = check_seals(time_path, found.times, keep); !fine) return fail(fine.error());
+  if (auto fine = check_seals(time_file.path(), found.times, keep); !fine) return fail(fine.error());
+  if (auto fine = check_rest(line_file, "sweep.jsonl", *bytes, found.lines, keep); !fine)
+    return fail(fine.error());
+  if (auto fine = check_rest(time_file, "sweep_times.jsonl", *bytes_of_times, found.times, keep); !fine)
+    return fail(fine.error());
   found.lines.resize(keep);
   found.times.resize(keep);
   found.torn = size_of_lines(found.lines) != bytes->size();
@@ -203,30 +221,21 @@ std::string all_of_lines(const std::vector<std::string>& lines) {
 
 }  // namespace
 
-SweepClaim::~SweepClaim() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 Expected<SweepClaim> SweepClaim::of(const std::string& folder) {
-  const std::string path = path_in(folder, "sweep.jsonl");
-  SweepClaim claim(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-  if (claim.descriptor_ < 0 && errno != ENOENT && errno != ENOTDIR)
-    return failed_call(ErrorKind::cannot_write, path, "cannot open", errno);
-  if (claim.descriptor_ >= 0 && ::flock(claim.descriptor_, LOCK_EX | LOCK_NB) != 0) return is_claimed(folder);
-  return claim;
+  auto file = OwnFile::open(folder, "sweep.jsonl", false);
+  if (!file) return fail(file.error());
+  if (file->is_open() && ::flock(file->descriptor(), LOCK_EX | LOCK_NB) != 0) return is_claimed(folder);
+  return SweepClaim(std::move(*file));
 }
 
 Expected<void> check_takes_sweep(const std::string& folder, const SweepHeader& header,
                                  const std::vector<std::string>& axes) {
-  const auto same = has_header(folder, header);
-  if (!same) return fail(same.error());
-  const std::string lines = path_in(folder, "sweep.jsonl"), times = path_in(folder, "sweep_times.jsonl");
-  for (const std::string* path : {&lines, &times}) {
-    const auto exists = is_there(*path, ErrorKind::cannot_write);
-    if (!exists) return fail(exists.error());
-    if (!*exists) return {};  // killed before the first line
-  }
-  const auto found = read_lines(lines, times, axes);
+  if (const auto same = check_folder(folder, header); !same) return fail(same.error());
+  const auto lines = OwnFile::open(folder, "sweep.jsonl", false),
+             times = OwnFile::open(folder, "sweep_times.jsonl", false);
+  if (!lines) return fail(lines.error());
+  if (!times) return fail(times.error());
+  const auto found = read_lines(*lines, *times, axes);
   return found ? Expected<void>{} : fail(found.error());
 }
 
@@ -250,21 +259,24 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
                                 const std::vector<std::string>& axes, std::vector<std::size_t> cells) {
   const TimedStage stage("records");
   if (auto made = make_output_folder(folder); !made) return fail(made.error());
+  // Before anything is made in the folder, and again of what is then open.
+  if (const auto own = check_folder(folder, header); !own) return fail(own.error());
   Journal journal;
-  auto lines = File::open(path_in(folder, "sweep.jsonl"));
+  auto lines = File::open(folder, "sweep.jsonl");
   if (!lines) return fail(lines.error());
   if (::flock((*lines)->descriptor, LOCK_EX | LOCK_NB) != 0) return is_claimed(folder);
-  const auto same = has_header(folder, header);
+  const auto same = check_folder(folder, header);
   if (!same) return fail(same.error());
   if (!*same)
     if (auto written = write_file(path_in(folder, "sweep.json"), header_json(header)); !written)
       return fail(written.error());
-  auto times = File::open(path_in(folder, "sweep_times.jsonl"));
+  auto times = File::open(folder, "sweep_times.jsonl");
   if (!times) return fail(times.error());
-  auto table = File::open(path_in(folder, "sweep.csv"));
+  auto table = File::open(folder, "sweep.csv");
   if (!table) return fail(table.error());
+  if (const auto text = (*table)->own.text(); !text) return fail(text.error());
 
-  auto found = read_lines((*lines)->path, (*times)->path, axes);
+  auto found = read_lines((*lines)->own, (*times)->own, axes);
   if (!found) return fail(found.error());
   journal.size_ = found->lines.size();
   if (journal.size_ > 0) journal.drawer_ = drawer_of_line(parsed(found->lines.front()));

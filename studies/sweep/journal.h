@@ -9,35 +9,27 @@
 // of a torn last line is cut off when the folder is opened again, and its cell is made again.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "compare/result/result_table.h"
 #include "scene/base/expected.h"
+#include "studies/sweep/own_files.h"
 #include "studies/sweep/sweep_line.h"
 
 namespace gnomon::compare {
-
-/// Files that a sweep's folder always has.
-inline constexpr std::array<std::string_view, 6> sweep_file_names{
-    "sweep.json", "sweep.jsonl", "sweep_times.jsonl", "sweep.csv", "ray_tracer.json", "report.html"};
 
 /// Nobody else takes up or replaces the sweep of a folder while one lives.
 class SweepClaim {
  public:
   /// Where no sweep is, there is nothing to claim. ErrorKind::usage while another process is at work in the folder.
   static Expected<SweepClaim> of(const std::string& folder);
-  SweepClaim(SweepClaim&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  SweepClaim& operator=(SweepClaim&&) = delete;
-  ~SweepClaim();
 
  private:
-  explicit SweepClaim(int descriptor) : descriptor_(descriptor) {}
-  int descriptor_;
+  explicit SweepClaim(OwnFile file) : file_(std::move(file)) {}
+  OwnFile file_;
 };
 
 /// Whether a sweep may be put into the folder: it holds none, or the same one, and no line that is not the sweep's own.
@@ -56,7 +48,8 @@ class Journal {
  public:
   /// Makes the folder, or takes up the sweep that it holds. `axes`: of every line that this shard will have,
   /// in order, as the text of their "axes" object. Errors: ErrorKind::usage when the folder holds another
-  /// configuration or another process is at work in it, bad_input for a line that is not this sweep's.
+  /// configuration or another process is at work in it, bad_input for a line that is not this sweep's, cannot_write for a
+  /// file that is no sweep's (own_files.h); all of it is then as it was.
   /// `cells`: the index of each line's cell in the whole sweep.
   static Expected<Journal> open(const std::string& folder, const SweepHeader& header,
                                 const std::vector<std::string>& axes, std::vector<std::size_t> cells);

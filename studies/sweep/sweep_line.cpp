@@ -55,6 +55,13 @@ std::string header_json(const SweepHeader& header) {
   return json.dump(2) + "\n";
 }
 
+std::optional<std::size_t> cells_of_header(std::string_view text) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || json.value("schema", Json()) != "gnomon/sweep/1") return std::nullopt;
+  const Json cells = json.value("cells", Json());
+  return cells.is_number_unsigned() ? std::optional(cells.get<std::size_t>()) : std::nullopt;
+}
+
 Expected<SweepHeader> read_header(const std::string& folder, ErrorKind unreadable) {
   const std::string path = path_in(folder, "sweep.json");
   const auto bytes = read_as(unreadable, path);

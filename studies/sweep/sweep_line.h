@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -29,6 +30,8 @@ struct SweepHeader {
 };
 SweepHeader make_header(std::string configuration, std::size_t cells, Shard shard);
 std::string header_json(const SweepHeader& header);
+/// The number of cells that a sweep.json names, whatever else in it was changed; none of a text that is not one.
+std::optional<std::size_t> cells_of_header(std::string_view text);
 /// Reads DIR/sweep.json. A file that cannot be read is an error of the kind `unreadable`, one that is no sweep's
 /// bad_input.
 Expected<SweepHeader> read_header(const std::string& folder, ErrorKind unreadable = ErrorKind::bad_input);

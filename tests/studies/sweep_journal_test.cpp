@@ -2,11 +2,13 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "studies/sweep/cell_files.h"
@@ -20,16 +22,17 @@ namespace fs = std::filesystem;
 
 /// Returns the line as the journal keeps it.
 std::string line(int cell) {
-  return sealed(R"({"lights":[{"light":{"name":"sun","type":"directional"},"error":{"wrong":)" +
-                std::to_string(cell) +
-                R"(},"budget":[],"ladder":[]}],"size":{"width":2,"height":1},"costs":{},"axes":{"bias":)" +
-                std::to_string(cell) + "}}\n");
+  return sealed(
+      R"({"schema":"gnomon/result/1","lights":[{"light":{"name":"sun","type":"directional"},"error":{"wrong":)" +
+      std::to_string(cell) +
+      R"(},"budget":[],"ladder":[]}],"size":{"width":2,"height":1},"costs":{},"axes":{"bias":)" +
+      std::to_string(cell) + "}}\n");
 }
-const std::string no_times = sealed("{}\n");
+const std::string no_times = sealed("{\"cell\":0}\n");
 Expected<void> append(Journal& journal, int cell) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(line(cell));
   json.erase("checksum");
-  return journal.append(json, nlohmann::ordered_json::object());
+  return journal.append(json, {{"cell", 0}});
 }
 std::string axes(int cell) {
   return "{\"bias\":" + std::to_string(cell) + "}";
@@ -37,7 +40,7 @@ std::string axes(int cell) {
 
 class JournalTest : public ::testing::Test {
  protected:
-  Expected<Journal> open(const std::string& configuration = R"({"axes":[1]})") {
+  Expected<Journal> open(const std::string& configuration = R"({"axes":[1]})") const {
     return Journal::open(folder, make_header(configuration, 3, {}), {axes(0), axes(1), axes(2)}, {0, 1, 2});
   }
   std::string bytes(const std::string& name) const { return test::bytes_of(folder + "/" + name); }
@@ -153,8 +156,8 @@ TEST_F(JournalTest, RemovesWhatWasNotFinishedAndNothingElse) {
     ASSERT_TRUE(append(*journal, 0));
   }
   const std::string dead = dead_process(), alive = std::to_string(::getppid());
-  const std::vector<std::string> own = {"cells/cell-000000.js", "cells/truth-0123456789ab.png",
-                                        "thumbnails/cell-000000.png"};
+  const std::string truth = "cells/" + truth_name("x") + ".png";  // named after what the files hold
+  const std::vector<std::string> own = {"cells/cell-000000.js", truth, "thumbnails/cell-000000.png"};
   // Of other people and other programs, of other runs of this one, and of cells that this sweep does not have.
   const std::vector<std::string> others = {"mine.txt",
                                            "movie.mp4.part",
@@ -176,6 +179,9 @@ TEST_F(JournalTest, RemovesWhatWasNotFinishedAndNothingElse) {
                                            "cells/truth-12.png",
                                            "cells/truth-0123456789aB.png",
                                            "cells/truth-0123456789ab.jpg",
+                                           "cells/truth-0123456789ab.png",
+                                           "cells/cell-000003.png",
+                                           "thumbnails/cell-000077.png",
                                            "cells/x.png." + dead + "-1.part",
                                            "thumbnails/download.part",
                                            "thumbnails/cell-1.png"};
@@ -240,7 +246,7 @@ TEST_F(JournalTest, WhatCannotBeReadStays) {
   const int next = ::open("/dev/null", O_RDONLY);
   ASSERT_GE(next, 0);
   ::close(next);
-  constexpr rlim_t opened = 3;  // lines, times and table
+  constexpr rlim_t opened = 1;  // the lines, and not the times
   const rlimit few{static_cast<rlim_t>(next) + opened, before.rlim_max};
   ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
   const auto journal = open();
@@ -249,6 +255,121 @@ TEST_F(JournalTest, WhatCannotBeReadStays) {
   EXPECT_NE(journal.error().message().find("cannot be opened: Too many open files"), std::string::npos)
       << journal.error().message();
   EXPECT_EQ(bytes("sweep.jsonl"), line(0));
+}
+
+// What a sweep would cut, write over or remove, and did not write.
+class NotASweepsTest : public JournalTest {
+ protected:
+  void SetUp() override { fs::create_directories(folder); }
+  /// Everything in the folder and beside it, links as what they lead to.
+  std::map<std::string, std::string> contents() const {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(outer.path())) {
+      const std::string path = entry.path().string();
+      if (fs::is_symlink(entry.path()))
+        found[path] = "link to " + fs::read_symlink(entry.path()).string();
+      else if (fs::is_regular_file(entry.path()))
+        found[path] = test::bytes_of(path);
+      else
+        found[path] = "no file";
+    }
+    return found;
+  }
+  /// A new sweep, one begun anew, and one to be merged into the folder: all say that they cannot write, and change nothing.
+  void expect_refused(const std::string& what) const {
+    const auto before = contents();
+    const SweepHeader header = make_header(R"({"axes":[1]})", 3, {});
+    const auto opened = open();
+    EXPECT_FALSE(opened) << what;
+    if (!opened) {
+      EXPECT_EQ(opened.error().kind, ErrorKind::cannot_write) << what << ": " << opened.error().message();
+      EXPECT_NE(opened.error().message().find("left as it is"), std::string::npos)
+          << opened.error().message();
+    }
+    const auto merged = check_takes_sweep(folder, header, {axes(0), axes(1), axes(2)});
+    EXPECT_FALSE(merged) << what;
+    const auto discarded = discard_sweep(folder);
+    EXPECT_FALSE(discarded) << what;
+    if (!discarded) {
+      EXPECT_EQ(discarded.error().kind, ErrorKind::cannot_write) << what;
+    }
+    EXPECT_EQ(contents(), before) << what;
+  }
+  void clear() const {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+};
+
+TEST_F(NotASweepsTest, AFileThatBeginsOtherwiseStays) {
+  for (const char* name : {"sweep.jsonl", "sweep_times.jsonl", "sweep.csv", "sweep.json"})
+    for (const char* text :
+         {"precious text without a line break", "precious, no JSON\n", "[1]\n", "{\"a\":1}\n"}) {
+      clear();
+      write(name, text);
+      expect_refused(std::string(name) + " holds " + text);
+      if (std::string_view(name) == "sweep.json") continue;
+      clear();
+      ASSERT_TRUE(open());  // nor where a sweep's list lies beside it
+      write(name, text);
+      expect_refused(std::string(name) + " of a sweep holds " + text);
+    }
+}
+
+TEST_F(NotASweepsTest, WhatBeginsAlikeWithoutASweepStays) {
+  for (const auto& [name, text] : {std::pair("sweep.csv", "cell,my own table\n1,2\n"),
+                                   {"sweep.jsonl", "{\"schema\":\"gnomon/result/1\",\"mine\":1}\n"},
+                                   {"sweep_times.jsonl", "{\"cell\":\"phone\"}\n"}}) {
+    clear();
+    write(name, text);
+    expect_refused(name);
+  }
+  for (const char* name :
+       {"cells/cell-000000.png", "thumbnails/cell-000002.png", "cells/truth-0123456789ab.png"}) {
+    clear();
+    fs::create_directories((fs::path(folder) / name).parent_path());
+    write(name, "a picture of mine");
+    expect_refused(name);
+  }
+}
+
+TEST_F(NotASweepsTest, NothingIsWrittenThroughALink) {
+  std::ofstream(outer / "mine.txt") << "";  // empty: as if no line had been written yet
+  fs::create_directories(outer / "pictures");
+  for (const char* name : {"sweep.jsonl", "sweep_times.jsonl", "sweep.csv", "report.html", "ray_tracer.json",
+                           "cells", "thumbnails", "cells/cell-000000.png", "cells/truth-0123456789ab.png"}) {
+    const bool is_folder = !fs::path(name).has_extension();
+    for (const std::string& target : {outer / (is_folder ? "pictures" : "mine.txt"), outer / "nowhere"}) {
+      clear();
+      ASSERT_TRUE(open());
+      fs::create_directories((fs::path(folder) / name).parent_path());
+      fs::remove_all(fs::path(folder) / name);
+      fs::create_symlink(target, fs::path(folder) / name);
+      expect_refused(std::string(name) + " is a link to " + target);
+    }
+  }
+}
+
+TEST_F(NotASweepsTest, APipeDoesNotHoldIt) {
+  for (const char* name : {"sweep.jsonl", "sweep_times.jsonl", "sweep.csv"}) {
+    clear();
+    ASSERT_EQ(::mkfifo((folder + "/" + name).c_str(), 0600), 0);
+    expect_refused(std::string(name) + " is a pipe");
+  }
+}
+
+// What is behind the sweep's own lines is cut off only where a crash can have left it.
+TEST_F(NotASweepsTest, WhatFollowsItsLinesStays) {
+  for (const char* rest : {"a note of mine", "a note of mine\n", "a note\nof two lines\n"})
+    for (const bool of_times : {false, true}) {
+      clear();
+      ASSERT_TRUE(open());
+      write("sweep.jsonl", line(0) + (of_times ? "" : rest));
+      write("sweep_times.jsonl", no_times + (of_times ? rest : ""));
+      const auto before = contents();
+      EXPECT_FALSE(open()) << rest;
+      EXPECT_EQ(contents(), before) << rest;
+    }
 }
 
 TEST_F(JournalTest, OneProcessAtATime) {

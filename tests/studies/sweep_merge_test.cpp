@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 std::string merge_line(int cell) {
   std::string text =
-      R"({"scene":{"name":"s"},"command":"gnomon compare s","gl":{"backend":"osmesa","renderer":"llvmpipe"},"lights":[{
+      R"({"schema":"gnomon/result/1","scene":{"name":"s"},"command":"gnomon compare s","gl":{"backend":"osmesa","renderer":"llvmpipe"},"lights":[{
       "light":{"name":"sun","type":"directional"},"map":{"technique":"hard","size":64},"pixels":{"compared":9,
       "uncertain":0,"uncertain_by_samples":0},"classes":{},"edges":{"count":0,"rms_texels":null},"error":{"wrong":N,
       "ties":0,"false_shadow":0,"missed_shadow":0,"wrong_fraction":0.1,"mean_absolute":0.1,"rms":0.1,"flip":null,
