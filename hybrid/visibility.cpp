@@ -32,49 +32,14 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
   explicit HybridVisibility(const World& world) : world_(world) {}
 
   Expected<void> prepare(const VisibilityRequest& request, bool changed) override {
-    start();
-    Kept& kept = kept_[request.light];
-    const Light& light = world_.scene->lights[request.light];
-    const bool same_light = kept.cache && kept.cache->light == light;
-    if (same_light && same(kept.cache->sheets.view(), request.map)) {
-      if (!changed) return {};
-    } else {
-      // One picture shows what sheets can tell; of a light that moves from frame to frame only speed counts.
-      kept.when = kept.cache && !request.analysis ? Sheets::when_they_pay : Sheets::at_once;
-      kept.build = {};
-    }
-    time_run(kept.build, [&] {
-      kept.cache.emplace(*tracer_, *topology_, light, request.map, kept.when);
-      if (changed || !same_light) kept.soft.reset();  // it does not depend on the map
-      if (has_size(light) && !kept.soft) kept.soft.emplace(*tracer_, *topology_, request.light);
-    });
-    kept.receivers_ms = kept.shadow = {};
-    return {};
+    return whole_or_forgotten([&] { return prepare_whole(request, changed); });
   }
 
   void set_first_row(int row) override { first_row_ = row; }
 
   Expected<void> find(const VisibilityRequest& request, const Image<std::uint32_t>& primitive,
                       Image<float>& visibility) override {
-    Kept& kept = kept_.at(request.light);
-    time_run(kept.receivers_ms,
-             [&] { silhouette_ = finder_->find(request.camera, first_row_, primitive, receivers_).traced; });
-    if (!(decision_.size == primitive.size)) decision_ = Image<Decision>(primitive.size);
-    const double refined_before = kept.cache->sheets.stats().refine_ms;
-    time_run(kept.shadow, [&] {
-      counts_ = trace_hard_shadows(*tracer_, *kept.cache, receivers_, centre_, &decision_);
-      if (kept.soft) {
-        const std::size_t first_pixel = receivers_.points.index(0, first_row_);
-        soft_counts_ =
-            kept.soft->find(receivers_.points, centre_, {samples_of(request), request.seed, first_pixel},
-                            decision_, visibility);
-        return;
-      }
-      for (std::size_t i = 0; i < centre_.data.size(); ++i)
-        visibility.data[i] = centre_.data[i] == PointVisibility::shadowed ? 0.0f : 1.0f;
-    });
-    charge_to_build(kept, kept.cache->sheets.stats().refine_ms - refined_before);
-    return {};
+    return whole_or_forgotten([&] { return find_whole(request, primitive, visibility); });
   }
 
   ExternalCosts costs(const VisibilityRequest& request, bool counted) override {
@@ -109,6 +74,61 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
     Times build, receivers_ms, shadow;
   };
 
+  /// What was half made when the work was left is made anew by the next one.
+  template <class Work>
+  Expected<void> whole_or_forgotten(const Work& work) {
+    try {
+      return work();
+    } catch (...) {
+      kept_.clear();
+      throw;
+    }
+  }
+
+  Expected<void> prepare_whole(const VisibilityRequest& request, bool changed) {
+    start();
+    Kept& kept = kept_[request.light];
+    const Light& light = world_.scene->lights[request.light];
+    const bool same_light = kept.cache && kept.cache->light == light;
+    if (same_light && same(kept.cache->sheets.view(), request.map)) {
+      if (!changed) return {};
+    } else {
+      // One picture shows what sheets can tell; of a light that moves from frame to frame only speed counts.
+      kept.when = kept.cache && !request.analysis ? Sheets::when_they_pay : Sheets::at_once;
+      kept.build = {};
+    }
+    time_run(kept.build, [&] {
+      kept.cache.emplace(*tracer_, *topology_, light, request.map, kept.when);
+      if (changed || !same_light) kept.soft.reset();  // it does not depend on the map
+      if (has_size(light) && !kept.soft) kept.soft.emplace(*tracer_, *topology_, request.light);
+    });
+    kept.receivers_ms = kept.shadow = {};
+    return {};
+  }
+
+  Expected<void> find_whole(const VisibilityRequest& request, const Image<std::uint32_t>& primitive,
+                            Image<float>& visibility) {
+    Kept& kept = kept_.at(request.light);
+    time_run(kept.receivers_ms,
+             [&] { silhouette_ = finder_->find(request.camera, first_row_, primitive, receivers_).traced; });
+    if (!(decision_.size == primitive.size)) decision_ = Image<Decision>(primitive.size);
+    const double refined_before = kept.cache->sheets.stats().refine_ms;
+    time_run(kept.shadow, [&] {
+      counts_ = trace_hard_shadows(*tracer_, *kept.cache, receivers_, centre_, &decision_);
+      if (kept.soft) {
+        const std::size_t first_pixel = receivers_.points.index(0, first_row_);
+        soft_counts_ =
+            kept.soft->find(receivers_.points, centre_, {samples_of(request), request.seed, first_pixel},
+                            decision_, visibility);
+        return;
+      }
+      for (std::size_t i = 0; i < centre_.data.size(); ++i)
+        visibility.data[i] = centre_.data[i] == PointVisibility::shadowed ? 0.0f : 1.0f;
+    });
+    charge_to_build(kept, kept.cache->sheets.stats().refine_ms - refined_before);
+    return {};
+  }
+
   // Sheets that a frame has looked at closely stay so while the light stands still.
   static void charge_to_build(Kept& kept, double refined_ms) {
     kept.shadow.runs.back() -= refined_ms;
@@ -116,7 +136,7 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
   }
 
   void start() {
-    if (tracer_) return;
+    if (finder_) return;
     tracer_.emplace(world_, raytrace::Accel::bvh);
     topology_.emplace(world_);
     finder_.emplace(*tracer_);

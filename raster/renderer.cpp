@@ -13,6 +13,7 @@
 #include "raster/passes/map_shape.h"
 #include "raster/programs/shader_folder.h"
 #include "raster/technique_traits.h"
+#include "scene/base/interruptible.h"
 #include "scene/base/stages.h"
 #include "shaders/shared_constants.h"
 
@@ -43,6 +44,8 @@ Expected<RasterFrame> GlRenderer::render(const RasterOptions& options,
     frame = render_checked(options, lights);
   } catch (const std::bad_alloc&) {
     frame = fail(ErrorKind::graphics, "out of memory for the images and depth maps to read back");
+  } catch (const Interrupted& interrupted) {
+    frame = fail(ErrorKind::internal, interrupted.what());
   }
   restore_state();
   return frame;
@@ -72,6 +75,7 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
   buffers_.set_reference(reference_point(*world_, job.view.eye));
   shading_.set_camera(buffers_, job.view);
   for (std::uint32_t light = 0; light < scene.lights.size(); ++light) {
+    leave_if_interrupted();
     const auto found = std::find(lights.begin(), lights.end(), light);
     LightRecord* record =
         found == lights.end() ? nullptr : &job.frame.lights[static_cast<std::size_t>(found - lights.begin())];

@@ -30,7 +30,8 @@ class Renderer {
 
   /// Renders all lights into the picture; `lights` (indices in Scene::lights) get a LightRecord each.
   /// Errors: usage for a choice outside its range; graphics (exit 5) for a map larger than the context
-  /// allows, out of memory, a GL error; never a silent shrink. The lights and camera are read from the
+  /// allows, out of memory, a GL error; never a silent shrink; internal when the work is interrupted
+  /// (scene/base/interruptible.h), after which the next frame is drawn as if this one had never been begun. The lights and camera are read from the
   /// world's scene at each call, so a viewer may change them in between.
   virtual Expected<RasterFrame> render(const RasterOptions& options,
                                        std::span<const std::uint32_t> lights) = 0;

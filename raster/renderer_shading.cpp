@@ -10,6 +10,7 @@
 #include "raster/programs/programs.h"
 #include "raster/programs/shader_folder.h"
 #include "raster/technique_traits.h"
+#include "scene/base/interruptible.h"
 
 namespace gnomon::raster {
 namespace {
@@ -100,6 +101,7 @@ bool GlRenderer::has_spans(const Job& job, const LightRecord* record) {
 
 // The device's clock counts for who draws little else meanwhile: the map, which is kept, is drawn the same to the bit.
 Expected<void> GlRenderer::span(const Job& job, const Pass& pass) {
+  const ShareOf whole(nullptr);
   spans_.begin();
   for (int drawing = 0; drawing < job.options.span_drawings; ++drawing)
     if (auto ok = pass(); !ok) return ok;

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 
 #include "app/options/map_options.h"
 #include "app/options/options.h"
@@ -13,6 +14,7 @@
 #include "compare/bias/bias_curve.h"
 #include "compare/result/number_text.h"
 #include "raster/settings.h"
+#include "raster/technique_traits.h"
 #include "report/lessons.h"
 #include "scene/load.h"
 
@@ -44,6 +46,29 @@ bool is_own_scene(const std::string& name) {
                              [&](const compare::Lesson& lesson) { return lesson.name == name; });
 }
 
+// Beyond this a single call of the driver can take seconds, and images gigabytes: gnomon compare takes both.
+constexpr ImageSize largest_picture{3840, 2160};
+constexpr double most_map_texels = 8192.0 * 8192.0;
+
+/// Nothing that keeps the lab from a newer wish for long.
+Expected<void> check_load(const ViewState& state) {
+  const Setup& setup = state.setup;
+  if (setup.size.pixels() > largest_picture.pixels())
+    return fail(ErrorKind::usage,
+                fmt::format("--size: the lab draws at most {} x {} pixels (gnomon compare draws more)",
+                            largest_picture.width, largest_picture.height));
+  const bool has_point_light = std::ranges::any_of(
+      state.given.lights, [](const Light& light) { return light.type == LightType::point; });
+  const int cascades = raster::follows_camera(setup.map.technique) ? setup.map.cascades.count : 1;
+  const int maps = std::max(has_point_light ? 6 : 1, cascades);
+  if (const double side = std::sqrt(most_map_texels / maps); setup.map.size > side)
+    return fail(ErrorKind::usage,
+                fmt::format("--map-size: the lab draws at most {:.0f} texels on a side here (gnomon compare "
+                            "draws more)",
+                            std::floor(side)));
+  return {};
+}
+
 /// Returns what a preset leaves undone until its comparison is there: the words for how much of it is seen.
 std::string shown_words(const Preset& preset, const compare::LightComparison& light) {
   constexpr double hardly = 0.001;
@@ -59,6 +84,7 @@ Expected<std::unique_ptr<LabEngine>> LabEngine::start(const LabOptions& options,
   const LoadedScene& loaded = *first.loaded;
   auto state = first_state(options, given_scene(*loaded.scene, *loaded.world, loaded.paths));
   if (!state) return fail(state.error());
+  if (const auto fits = check_load(*state); !fits) return fail(fits.error());
   std::unique_ptr<LabEngine> engine(new LabEngine(options, std::move(*state)));
   StudioOptions studio{options.compare, options.shader_folder, options.exposure, options.tessellate,
                        options.max_lights};
@@ -122,7 +148,10 @@ Expected<ViewState> LabEngine::state_of(const std::vector<std::string>& words, c
   }
   if (const auto fine = raster::check_map_options(options.compare.raster.map); !fine)
     return fail(fine.error());
-  return first_state(options, scene.given);
+  auto state = first_state(options, scene.given);
+  if (!state) return state;
+  if (const auto fits = check_load(*state); !fits) return fail(fits.error());
+  return state;
 }
 
 Expected<void> LabEngine::carry_out(const LabWish& wish, const OpenedScene& scene) {

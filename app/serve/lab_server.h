@@ -5,15 +5,11 @@
 #include <memory>
 #include <string>
 
+#include "app/serve/http_server.h"
 #include "app/serve/lab_engine.h"
 #include "scene/base/expected.h"
 
 namespace gnomon::app {
-
-struct ServerPlace {
-  std::string address = "127.0.0.1";  ///< that is listened at
-  int port = 0;                       ///< 0: any that is free
-};
 
 class LabServer {
  public:
@@ -27,7 +23,7 @@ class LabServer {
   /// "http://127.0.0.1:40123/TOKEN/"
   std::string url() const;
   /// Answers until the process ends.
-  Expected<void> run();
+  void run();
 
  private:
   LabServer();

@@ -4,7 +4,7 @@ set(GNOMON_READ_ONLY_DATA ".rodata")  # the section of embedded files
 set(GNOMON_TEXT_OPTIMIZATION -Og)  # of sources that read and write text (GnomonTarget.cmake)
 set(GNOMON_STACK_NOTE "    .section .note.GNU-stack,\"\",@progbits\n")  # of assembler files: no stack that can be executed
 set(GNOMON_SCENE_PLATFORM
-  base/parallel.cpp base/run_program.cpp base/sort_keys.cpp base/start_threads.cpp files/gltf/gltf_draco.cpp
+  base/interruptible.cpp base/parallel.cpp base/run_program.cpp base/sort_keys.cpp base/start_threads.cpp files/gltf/gltf_draco.cpp
   files/pictures/image_library.cpp)
 set(GNOMON_RASTER_PLATFORM gl/context.cpp gl/context_egl.cpp gl/context_osmesa.cpp gl/dynamic_library.cpp)
 set(GNOMON_STUDIES_PLATFORM  # grade runs students' programs
@@ -33,8 +33,8 @@ find_package(PNG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(IMGUI REQUIRED imgui)
 
-# cpp-httplib, for `gnomon serve` alone.
-pkg_check_modules(HTTPLIB REQUIRED cpp-httplib)
+# Boost.Beast, for `gnomon serve` alone: headers, and nothing to link.
+find_path(BEAST_HEADERS boost/beast/http.hpp REQUIRED)
 
 # libdeflate 1.14, Debian 12's, has no CMake file.
 find_library(LIBDEFLATE_LIBRARY deflate REQUIRED)

@@ -1,5 +1,6 @@
 #include "raster/passes/midpoint_pass.h"
 
+#include "raster/gl/fill.h"
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
@@ -52,7 +53,7 @@ Expected<void> MidpointPass::draw(const MapJob& job) {
   for (int face = 0; face < job.view.face_count; ++face) {
     gl->BindFramebuffer(GL_FRAMEBUFFER, faces_[static_cast<std::size_t>(face)].id());
     gl->ProgramUniform1i((*program_of_view)->id(), shaders::face_uniform, face);
-    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    fill(gl, drawn);
   }
   return {};
 }

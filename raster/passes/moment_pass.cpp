@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "raster/gl/fill.h"
 #include "raster/technique_traits.h"
 #include "shaders/shared_constants.h"
 
@@ -93,21 +94,23 @@ Expected<void> MomentPass::draw(const MapJob& job) {
   if (!convert) return fail(convert.error());
   const auto blur_program = programs_->fullscreen("blur.frag", {});
   if (!blur_program) return fail(blur_program.error());
-  set_state(job.world.drawn_part(moments_.size()));
+  const ImageSize drawn = job.world.drawn_part(moments_.size());
+  set_state(drawn);
   job.world.bind();
   job.map.bind_for_lookup();
   (*convert)->use();
   for (std::size_t face = 0; face < faces_.size(); ++face) {
     gl->ProgramUniform1i((*convert)->id(), shaders::layer_uniform, static_cast<int>(face));
     gl->BindFramebuffer(GL_FRAMEBUFFER, faces_[face].id());
-    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    fill(gl, drawn);
   }
-  if (job.options.filter.blur_radius_texels > 0) blur(**blur_program, job.options.filter.blur_radius_texels);
+  if (job.options.filter.blur_radius_texels > 0)
+    blur(**blur_program, job.options.filter.blur_radius_texels, drawn);
   if (moments_.levels() > 1) gl->GenerateTextureMipmap(moments_.id());
   return {};
 }
 
-void MomentPass::blur(const Program& program, int radius) {
+void MomentPass::blur(const Program& program, int radius, ImageSize drawn) {
   const Gl& gl = *gl_;
   program.use();
   gl->ProgramUniform1i(program.id(), shaders::blur_radius_uniform, radius);
@@ -116,12 +119,12 @@ void MomentPass::blur(const Program& program, int radius) {
     gl->ProgramUniform1i(program.id(), shaders::layer_uniform, static_cast<int>(face));
     gl->ProgramUniform2i(program.id(), shaders::step_uniform, 1, 0);
     gl->BindFramebuffer(GL_FRAMEBUFFER, row_target_.id());
-    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    fill(gl, drawn);
     row_means_.bind(unit);
     gl->ProgramUniform1i(program.id(), shaders::layer_uniform, 0);
     gl->ProgramUniform2i(program.id(), shaders::step_uniform, 0, 1);
     gl->BindFramebuffer(GL_FRAMEBUFFER, faces_[face].id());
-    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    fill(gl, drawn);
   }
 }
 

@@ -26,7 +26,7 @@ class MomentPass final : public TechniquePass {
  private:
   static const int unit;
   void set_state(ImageSize drawn) const;
-  void blur(const Program& program, int radius);
+  void blur(const Program& program, int radius, ImageSize drawn);
 
   Gl* gl_;
   ProgramCache* programs_;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "raster/bands.h"
+#include "raster/gl/fill.h"
 #include "raster/passes/impostors.h"
 #include "raster/programs/shader_folder.h"
 #include "scene/base/parallel.h"
@@ -198,7 +199,8 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
   gl->Disable(GL_CULL_FACE);
   gl->Disable(GL_SCISSOR_TEST);
   gl->Disable(GL_BLEND);
-  if (world.draws_little() && !trial && !permutation.first_light) {  // what others added to the picture stays
+  const bool draws_nothing = world.draws_little() && !trial && !permutation.first_light;
+  if (draws_nothing) {  // what others added to the picture stays
     gl->Enable(GL_SCISSOR_TEST);
     gl->Scissor(0, 0, 0, 0);
   }
@@ -212,7 +214,7 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
     gl->ClearNamedFramebufferfv(target.id(), GL_COLOR, shaders::visibility_output, &unwritten.x);
   }
   (*program)->use();
-  gl->DrawArrays(GL_TRIANGLES, 0, 3);
+  draws_nothing ? gl->DrawArrays(GL_TRIANGLES, 0, 3) : fill(gl, drawn);
   return {};
 }
 

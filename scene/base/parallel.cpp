@@ -10,6 +10,8 @@
 
 #include <mutex>
 
+#include "scene/base/interruptible.h"
+
 namespace gnomon {
 namespace {
 
@@ -19,13 +21,22 @@ using Range = tbb::blocked_range<std::size_t>;
 
 void parallel_ranges(std::size_t count, std::size_t at_a_time,
                      FunctionRef<void(std::size_t first, std::size_t last)> body) {
-  tbb::parallel_for(Range(0, count, at_a_time),
-                    [&](const Range& range) { body(range.begin(), range.end()); });
+  const Interruptible* work = interruptible_work();
+  tbb::parallel_for(Range(0, count, at_a_time), [&](const Range& range) {
+    const ShareOf share(work);
+    leave_if_interrupted();
+    body(range.begin(), range.end());
+  });
 }
 
 void parallel_tasks(std::size_t count, FunctionRef<void(std::size_t)> task) {
-  tbb::parallel_for(
-      Range(0, count, 1), [&](const Range& range) { task(range.begin()); }, tbb::simple_partitioner());
+  const Interruptible* work = interruptible_work();
+  const auto take = [&](const Range& range) {
+    const ShareOf share(work);
+    leave_if_interrupted();
+    task(range.begin());
+  };
+  tbb::parallel_for(Range(0, count, 1), take, tbb::simple_partitioner());
 }
 
 struct ThreadSlots::Impl {

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "scene/base/interruptible.h"
 #include "scene/base/timing.h"
 
 namespace gnomon {
@@ -105,11 +106,11 @@ Expected<int> run_program(std::vector<std::string> words, std::optional<double> 
   bool late = false;
   const auto code = wait_for(child, [&] {
     late = longest_s && watch.elapsed_ms() > 1e3 * *longest_s;
-    return late || process_ends;
+    return late || process_ends || is_interrupted();
   });
   if (!code) return failed("cannot be waited for: " + code.error().reason);
   if (late) return failed(fmt::format("did not end within {:.3g} s, and was ended", *longest_s));
-  if (process_ends) return failed("was ended");
+  if (process_ends || is_interrupted()) return failed("was ended");
   return code;
 }
 

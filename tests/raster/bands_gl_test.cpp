@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <cstring>
 
 #include "hybrid/visibility.h"
 #include "raster/bands.h"
 #include "raster/technique_traits.h"
 #include "raytrace/frame.h"
+#include "scene/base/interruptible.h"
 #include "scene/load.h"
 
 namespace gnomon::test {
@@ -81,49 +83,86 @@ TEST_P(TracedBands, AreTheWholesRows) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TracedBands, testing::Values("fence", "penumbra", "whitted", "shapes"));
 
+void expect_rows(const raster::RasterFrame& whole, const raster::RasterFrame& band, const PictureRows& rows) {
+  EXPECT_TRUE(same_bits(whole.color, band.color, rows)) << rows.first;
+  EXPECT_TRUE(same_bits(whole.primitive, band.primitive, rows)) << rows.first;
+  for (std::size_t i = 0; i < whole.lights.size(); ++i) {
+    const raster::LightRecord &a = whole.lights[i], &b = band.lights[i];
+    EXPECT_TRUE(same_bits(a.visibility, b.visibility, rows)) << rows.first;
+    EXPECT_TRUE(same_bits(a.texel_uv, b.texel_uv, rows)) << rows.first;
+    EXPECT_TRUE(same_bits(a.face, b.face, rows)) << rows.first;
+    EXPECT_TRUE(same_bits(a.distance, b.distance, rows)) << rows.first;
+    EXPECT_TRUE(same_bits(a.gap, b.gap, rows)) << rows.first;
+    EXPECT_TRUE(same_bits(a.outside_map, b.outside_map, rows)) << rows.first;
+    EXPECT_TRUE(same_bits(a.lookups, b.lookups, rows)) << rows.first;
+    EXPECT_EQ(a.map.depth, b.map.depth) << rows.first;
+    EXPECT_EQ(a.bias_constant_world, b.bias_constant_world);
+  }
+}
+
 struct DrawnCase {
   const char* scene;
   raster::Technique technique;
 };
 
-class DrawnBands : public testing::TestWithParam<DrawnCase> {};
+class DrawnBands : public testing::TestWithParam<DrawnCase> {
+ protected:
+  void SetUp() override {
+    auto context = raster::create_context(raster::Backend::automatic);
+    ASSERT_TRUE(context);
+    auto made = raster::Renderer::create(std::move(*context), stage.world, stage.plan);
+    ASSERT_TRUE(made);
+    renderer = std::move(*made);
+    renderer->use_external_visibility(hybrid::make_visibility(stage.world));
+    options.size = size, options.map.size = 128, options.runs = 1, options.shadow_cost = true;
+    options.map.technique = GetParam().technique;
+    options.analysis = true, options.seed = 3, options.shadow_samples = 8;
+  }
+  Expected<raster::RasterFrame> render() const { return renderer->render(options, stage.lights); }
+
+  Stage stage{GetParam().scene};
+  raster::RasterOptions options;
+  std::unique_ptr<raster::Renderer> renderer;
+};
 
 TEST_P(DrawnBands, AreTheWholesRows) {
-  Stage stage(GetParam().scene);
-  auto context = raster::create_context(raster::Backend::automatic);
-  ASSERT_TRUE(context);
-  auto made = raster::Renderer::create(std::move(*context), stage.world, stage.plan);
-  ASSERT_TRUE(made);
-  raster::Renderer& renderer = **made;
-  renderer.use_external_visibility(hybrid::make_visibility(stage.world));
-  raster::RasterOptions options;
-  options.size = size, options.map.size = 128, options.runs = 1, options.shadow_cost = true;
-  options.map.technique = GetParam().technique;
-  options.analysis = true, options.seed = 3, options.shadow_samples = 8;
-  const auto whole = renderer.render(options, stage.lights);
+  const auto whole = render();
   ASSERT_TRUE(whole) << whole.error().reason;
   raster::RasterFrame costs;
   for (const PictureRows& rows : bands_of(size, band_step)) {
-    raster::set_rows(renderer, rows);
-    const auto band = renderer.render(options, stage.lights);
+    raster::set_rows(*renderer, rows);
+    const auto band = render();
     ASSERT_TRUE(band) << band.error().reason;
-    EXPECT_TRUE(same_bits(whole->color, band->color, rows)) << rows.first;
-    EXPECT_TRUE(same_bits(whole->primitive, band->primitive, rows)) << rows.first;
-    for (std::size_t i = 0; i < whole->lights.size(); ++i) {
-      const raster::LightRecord &a = whole->lights[i], &b = band->lights[i];
-      EXPECT_TRUE(same_bits(a.visibility, b.visibility, rows)) << rows.first;
-      EXPECT_TRUE(same_bits(a.texel_uv, b.texel_uv, rows)) << rows.first;
-      EXPECT_TRUE(same_bits(a.face, b.face, rows)) << rows.first;
-      EXPECT_TRUE(same_bits(a.distance, b.distance, rows)) << rows.first;
-      EXPECT_TRUE(same_bits(a.gap, b.gap, rows)) << rows.first;
-      EXPECT_TRUE(same_bits(a.outside_map, b.outside_map, rows)) << rows.first;
-      EXPECT_TRUE(same_bits(a.lookups, b.lookups, rows)) << rows.first;
-      EXPECT_EQ(a.map.depth, b.map.depth) << rows.first;
-      EXPECT_EQ(a.bias_constant_world, b.bias_constant_world);
-    }
+    expect_rows(*whole, *band, rows);
     raster::add_costs(*band, costs);
   }
   EXPECT_EQ(whole->map_texels, costs.map_texels);
+}
+
+// Work that may be left is drawn in stripes; and wherever it is left, the next frame is drawn as if it had not been begun.
+TEST_P(DrawnBands, AreWholeInStripesAndAfterOnesThatWereLeft) {
+  options.map.filter.blur_radius_texels = 2;
+  const auto whole = render();
+  ASSERT_TRUE(whole) << whole.error().reason;
+  const PictureRows rows{0, size.height};
+  std::atomic<int> asked{0};
+  {
+    const Interruptible work([&] { return ++asked, false; });
+    const auto striped = render();
+    ASSERT_TRUE(striped) << striped.error().reason;
+    expect_rows(*whole, *striped, rows);
+  }
+  const int most = asked;
+  for (const int share : {0, 1, 3, 5, 7}) {
+    asked = 0;
+    {
+      const Interruptible work([&, last = most * share / 8] { return ++asked > last; });
+      EXPECT_FALSE(render()) << share;
+    }
+    const auto again = render();
+    ASSERT_TRUE(again) << again.error().reason;
+    expect_rows(*whole, *again, rows);
+  }
 }
 
 using raster::Technique;

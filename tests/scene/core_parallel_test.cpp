@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "scene/base/interruptible.h"
+
 namespace {
 
 using namespace gnomon;
@@ -115,6 +117,29 @@ TEST(Parallel, AnExceptionEndsTheLoopAndItsOtherTasksAreTold) {
   if (threads_in_use() < 2) GTEST_SKIP() << "one thread: the tasks run one after the other";
   EXPECT_THROW(work(), std::runtime_error);
   EXPECT_FALSE(is_given_up());
+}
+
+// As they are left by any exception; what another thread does, and what is begun afterwards, is not.
+TEST(Interruptible, LeavesLoopsWithinLoopsOnAllThreads) {
+  constexpr int most = 1'000'000;
+  std::atomic<int> begun{0}, others{0};
+  const auto count_to = [](int count, std::atomic<int>& counter) {
+    parallel_for(count, 1, [&](int) { ++counter; });
+  };
+  {
+    const Interruptible work([&] { return begun >= 1000; });
+    EXPECT_THROW(parallel_tasks(64, [&](std::size_t) { count_to(most, begun); }), Interrupted);
+    EXPECT_LT(begun, 64 * most);
+    EXPECT_TRUE(is_interrupted());
+    std::thread([&] { count_to(most, others); }).join();
+    EXPECT_EQ(others, most);
+    const Interruptible inner([] { return false; });
+    EXPECT_FALSE(is_interrupted()) << "the innermost counts";
+  }
+  EXPECT_EQ(interruptible_work(), nullptr);
+  others = 0;
+  count_to(most, others);
+  EXPECT_EQ(others, most);
 }
 
 TEST(RunIsolated, TakesUpNothingBegunOutside) {

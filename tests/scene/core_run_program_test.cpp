@@ -9,6 +9,8 @@
 
 #include "scene/base/run_program.h"
 
+#include "scene/base/interruptible.h"
+
 namespace gnomon {
 namespace {
 
@@ -49,6 +51,16 @@ TEST(RunProgram, EndsWhatTakesTooLong) {
   std::string child;
   std::getline(std::ifstream(note), child);
   EXPECT_FALSE(runs(child)) << child;
+  std::filesystem::remove(note);
+}
+
+TEST(RunProgram, EndsWhatIsWaitedForInVain) {
+  const std::string note = testing::TempDir() + "/gnomon-run-program-" + std::to_string(getpid());
+  const Interruptible work([&] { return std::filesystem::exists(note); });
+  const auto ended =
+      run_program({"sh", "-c", "echo $$ >" + note + ".part; mv " + note + ".part " + note + "; sleep 1000"});
+  ASSERT_FALSE(ended);
+  EXPECT_EQ(ended.error().message(), "sh was ended");
   std::filesystem::remove(note);
 }
 

@@ -1,8 +1,9 @@
 // The lab's page in a browser, on the program that serves it: a setting that is changed is drawn and counted as its command counts
-// it, the address brings a state back, pixels are explained, files are opened, the report is shown, and nothing is asked of
-// anybody else. Usage: node serve_browser_test.mjs PROGRAM WORK_FOLDER
+// it, the address brings a state back, pixels are explained, files are opened, the report is shown, nothing is asked of
+// anybody else, and no page of another origin is answered. Usage: node serve_browser_test.mjs PROGRAM WORK_FOLDER
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
+import { createServer } from "node:http";
 import { join } from "node:path";
 import { browser, close, colours, openAt, pixelsOf, violations } from "../browser/open_page.mjs";
 import { compared, folder, serve } from "./served_lab.mjs";
@@ -112,6 +113,31 @@ async function canBeReadByAll() {
   await close(dark);
 }
 
+/** A page of another origin that knows the key sends what it can: nothing of it is a wish, whatever its body looks like. */
+async function answersNoPageOfAnotherOrigin() {
+  const { host } = new URL(lab.url), wish = JSON.stringify({ client: "evil", scene: "fence", words: [] });
+  const inner = `POST ${new URL(lab.url).pathname}wish HTTP/1.1\r\nHost: ${host}\r\nContent-Length: ${wish.length}\r\n\r\n${wish}`;
+  const other = createServer((_, response) => { response.setHeader("Content-Type", "text/html"); response.end("<title>other</title>"); });
+  await new Promise((done) => { other.listen(0, "127.0.0.1", done); });
+  const context = await browser.newContext(), page = await context.newPage();
+  await page.goto(`http://127.0.0.1:${other.address().port}/`);
+  const read = await page.evaluate(async ({ url, bodies }) => {
+    const got = [];
+    for (const path of ["x", "wish", ""])  // one connection after the other, and its next request
+      for (const body of bodies) {
+        await fetch(url + path, { method: "POST", mode: "no-cors", body }).catch(() => undefined);
+        await fetch(url + path, { method: "POST", body }).then((answer) => answer.text()).then((text) => got.push(text), () => undefined);
+      }
+    await fetch(url).then((answer) => answer.text()).then((text) => got.push(text), () => undefined);
+    return got;
+  }, { url: lab.url, bodies: [wish, inner, `${inner}${"p".repeat(5000)}`, ...Array.from({ length: 5 }, (_, i) => `${inner}${" ".repeat(1400 + i)}`)] });
+  assert.deepEqual(read, [], "it reads nothing");
+  const { client, words } = await (await fetch(`${lab.url}news?after=0`)).json();
+  assert.notEqual(client, "evil", words.join(" "));
+  await context.close();
+  await new Promise((done) => { other.close(done); });
+}
+
 async function saysThatItsProgramIsGone() {
   const page = await openLab();
   await done(page);
@@ -124,6 +150,7 @@ await countsWhatTheCommandCounts();
 await turnsAndExplains();
 await opensFilesAndTheReport();
 await canBeReadByAll();
+await answersNoPageOfAnotherOrigin();
 await saysThatItsProgramIsGone();
 await browser.close();
 console.log("the lab in a browser");

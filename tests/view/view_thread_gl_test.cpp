@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <future>
 #include <random>
 #include <set>
+#include <thread>
 
 #include "app/view/state/presets.h"
 #include "app/view/state/projection.h"
@@ -96,6 +98,33 @@ TEST(RenderThread, TheNewestOrderIsTheOneThatIsFinished) {
   const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
   EXPECT_EQ(done->outcome->picture(Picture::labels).size, lab_size);
   EXPECT_EQ(done->outcome->light, posed_light(state));
+}
+
+// Left while it is drawn, and while it is compared; what comes afterwards is as if it had not been.
+TEST(RenderThread, WhatTakesMinutesIsLeftForANewerOrder) {
+  Lab lab("acne-floor", {}), fresh("acne-floor", {});
+  ViewState state = fresh.state(*fresh.until(is_open));
+  lab.until(is_open);
+  raster::MapOptions slow = state.setup.map;
+  slow.technique = raster::Technique::pcss, slow.size = 2048;
+  slow.filter.samples = slow.filter.blocker_samples = 1024;
+  for (const ImageSize size : {ImageSize{3840, 2160}, ImageSize{480, 270}}) {
+    ViewState heavy = state;
+    heavy.setup.size = size;
+    carry_out(heavy, SetMap{slow});
+    lab.thread().post(1, {heavy.revision, heavy.setup});
+    if (size.width == 480) lab.until([&](const Snapshot& shown) { return shown.is_drawn(heavy); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    state.revision = heavy.revision;
+    carry_out(state, TurnLightBy{1.0, 0.0});
+    lab.thread().post(1, {state.revision, state.setup});
+    fresh.thread().post(1, {state.revision, state.setup});
+    const auto is_done = [&](const Snapshot& shown) { return shown.is_done(state); };
+    const auto after = lab.until(is_done), without = fresh.until(is_done);
+    EXPECT_EQ(after->live.picture->data, without->live.picture->data);
+    EXPECT_EQ(after->outcome->picture(Picture::labels).data, without->outcome->picture(Picture::labels).data);
+    EXPECT_FALSE(after->undrawable || after->incomparable);
+  }
 }
 
 // All are asked for while the thread has something else to do.

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "app/view/work/priority.h"
+#include "scene/base/interruptible.h"
 #include "scene/base/threads.h"
 
 namespace gnomon::app {
@@ -13,6 +14,7 @@ namespace gnomon::app {
 namespace {
 
 constexpr std::chrono::milliseconds file_interval{500};  // between looks at the files
+constexpr double soon_ms = 2000.0;  // what is drawn within that is drawn, so that dragging shows something
 
 }  // namespace
 
@@ -44,6 +46,7 @@ void RenderThread::post(std::uint64_t scene, DrawOrder order) {
   {
     const std::lock_guard lock(mutex_);
     asked_order_ = std::pair{scene, std::move(order)};
+    newer_waits_ = true;
   }
   changed_.notify_one();
 }
@@ -52,6 +55,8 @@ void RenderThread::open(SceneArgument scene, std::string camera) {
   {
     const std::lock_guard lock(mutex_);
     asked_scene_.emplace(std::move(scene), std::move(camera));
+    newer_waits_ = true;
+    other_scene_waits_ = reads_ && asked_scene_->first.name != *reads_;
   }
   changed_.notify_one();
 }
@@ -102,6 +107,7 @@ RenderThread::Task RenderThread::next_task(bool wait) {
   given_back.swap(given_back_);
   Task task;
   task.quit = quit_;
+  newer_waits_ = other_scene_waits_ = false;
   task.open = std::exchange(asked_scene_, std::nullopt);
   finished_ = false;
   if (auto asked = std::exchange(asked_order_, std::nullopt);
@@ -148,14 +154,36 @@ void RenderThread::work_on(const Task& task) {
   if (last_order_ && studio_) carry_out(*last_order_);
 }
 
+std::optional<Expected<SceneSource>> RenderThread::read(const SceneArgument& argument,
+                                                        const std::string& camera) {
+  const auto reads = [this](std::optional<std::string> name) {
+    const std::lock_guard lock(mutex_);
+    other_scene_waits_ = name && asked_scene_ && asked_scene_->first.name != *name;
+    reads_ = std::move(name);
+  };
+  reads(argument.name);
+  std::optional<Expected<SceneSource>> source;
+  {
+    const Interruptible reading([this] { return quit_ || other_scene_waits_; });
+    try {
+      source = read_source(argument, camera, options_);
+    } catch (const Interrupted&) {
+    }
+    if (reading.has_ended()) source.reset();
+  }
+  reads({});
+  return source;
+}
+
 void RenderThread::read_scene(const SceneArgument& argument, const std::string& camera, bool again) {
   now_.opening = true;
   if (!again) now_.unreadable.reset();  // it was another scene
   publish();
-  auto source = read_source(argument, camera, options_);
+  const auto source = read(argument, camera);
   now_.opening = false;
-  if (source) return install(*source, again);
-  now_.unreadable = source.error();
+  if (!source) return;
+  if (*source) return install(**source, again);
+  now_.unreadable = source->error();
   only_said_ = !again;
   publish();
 }
@@ -164,12 +192,16 @@ void RenderThread::read_scene(const SceneArgument& argument, const std::string& 
 Expected<std::unique_ptr<Studio>> RenderThread::make_studio(const SceneSource& source, bool& again) {
   auto context = context_();
   if (!context) return fail(context.error());
-  auto studio = Studio::create(std::move(*context), source.loaded, options_.compare, options_.shader_folder,
-                               [this] { wake_thread(); });
+  auto studio = Studio::create(
+      std::move(*context), source.loaded, options_.compare, options_.shader_folder, [this] { wake_thread(); },
+      [this] { return is_overtaken(); });
   if (!studio) return studio;
   again = again && last_order_ && (*studio)->given().lights.size() == last_order_->setup.lights.size();
   if (!again) return studio;
-  if (const auto drawn = (*studio)->draw(*last_order_); !drawn) return fail(drawn.error());
+  must_finish_ = true;
+  const auto drawn = (*studio)->draw(*last_order_);
+  must_finish_ = false;
+  if (!drawn) return fail(drawn.error());
   return studio;
 }
 
@@ -210,7 +242,12 @@ void RenderThread::read_changed_files() {
   if (scene || shaders) read_scene(now_.scene->argument, now_.scene->camera, true);
 }
 
+bool RenderThread::is_overtaken() const {
+  return quit_ || (!must_finish_ && newer_waits_ && since_order_.elapsed_ms() > soon_ms);
+}
+
 void RenderThread::carry_out(const DrawOrder& order) {
+  since_order_ = Stopwatch();
   const std::uint64_t live = studio_->live().revision;
   const auto outcome = studio_->outcome();
   const auto shadow_times = studio_->shadow_times();
@@ -219,6 +256,7 @@ void RenderThread::carry_out(const DrawOrder& order) {
   };
   if (already(now_.undrawable)) return;
   if (const auto drawn = studio_->draw(order); !drawn) {
+    if (is_overtaken()) return;
     now_.undrawable = Snapshot::Failure{order.revision, drawn.error()};
     return publish();
   }
@@ -226,6 +264,7 @@ void RenderThread::carry_out(const DrawOrder& order) {
   if (studio_->live().revision != live) publish();
   if (already(now_.incomparable)) return;
   if (const auto compared = studio_->compare(order); !compared) {
+    if (is_overtaken()) return;
     now_.incomparable = Snapshot::Failure{order.revision, compared.error()};
     publish();
   } else if (studio_->outcome() != outcome || studio_->shadow_times() != shadow_times) {

@@ -1,8 +1,10 @@
 // The thread that draws and compares: it owns the studio, so that the window never waits for a picture. The
 // window posts what it wants, of which the newest wins, and reads what is there as snapshots that never change.
+// What takes longer than two seconds to draw is left when something newer waits, and a scene that is read when another one does.
 // The thread also looks after the scene's files and the shader folder, and reads them again when they change.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -15,6 +17,7 @@
 #include "app/view/work/scene_source.h"
 #include "app/view/work/studio.h"
 #include "app/view/work/turns.h"
+#include "scene/base/timing.h"
 
 namespace gnomon::app {
 
@@ -83,11 +86,15 @@ class RenderThread {
   void work_on(const Task& task);
   void give_up(const std::exception& error);
   Task next_task(bool wait);
+  /// Nothing where it was left for another scene.
+  std::optional<Expected<SceneSource>> read(const SceneArgument& argument, const std::string& camera);
   void read_scene(const SceneArgument& argument, const std::string& camera, bool again);
   void install(const SceneSource& source, bool again);
   Expected<std::unique_ptr<Studio>> make_studio(const SceneSource& source, bool& again);
   void read_changed_files();
   void carry_out(const DrawOrder& order);
+  /// Whether what is drawn is not worth its end: something newer waits, and it has taken seconds already.
+  bool is_overtaken() const;
   void publish();
   void wake_thread();
 
@@ -101,6 +108,8 @@ class RenderThread {
   FileWatch scene_files_, shader_files_;
   Snapshot now_;
   std::optional<DrawOrder> last_order_;
+  Stopwatch since_order_;     ///< since the last one was begun
+  bool must_finish_ = false;  ///< what is drawn
   bool gave_up_ = false;
   bool only_said_ = false;  ///< what is unreadable is another scene than the one that is shown
 
@@ -109,7 +118,10 @@ class RenderThread {
   std::optional<std::pair<SceneArgument, std::string>> asked_scene_;
   std::optional<std::pair<std::uint64_t, DrawOrder>> asked_order_;
   bool finished_ = false;  ///< a comparison has finished
-  bool quit_ = false;
+  std::atomic<bool> quit_ = false;
+  std::atomic<bool> newer_waits_ = false;        ///< asked_scene_ or asked_order_
+  std::optional<std::string> reads_;             ///< the scene that is read
+  std::atomic<bool> other_scene_waits_ = false;  ///< than the one that is read
   std::shared_ptr<const Snapshot> published_;
   std::vector<std::shared_ptr<const Snapshot>> given_back_;
   Turns turns_;  ///< last

@@ -4,6 +4,7 @@
 
 #include "compare/result/layout.h"
 #include "compare/result/outputs.h"
+#include "scene/base/interruptible.h"
 #include "scene/base/timing.h"
 #include "scene/exposure.h"
 #include "scene/files/pictures/image_io.h"
@@ -24,19 +25,22 @@ Expected<std::unique_ptr<Studio>> Studio::create(std::unique_ptr<raster::Context
                                                  std::shared_ptr<const LoadedScene> loaded,
                                                  const compare::CompareOptions& options,
                                                  const std::string& shader_folder,
-                                                 std::function<void()> on_finished) {
+                                                 std::function<void()> on_finished,
+                                                 std::function<bool()> overtaken) {
   auto renderer = make_renderer(std::move(context), *loaded, shader_folder);
   if (!renderer) return fail(renderer.error());
-  return std::unique_ptr<Studio>(
-      new Studio(std::move(*renderer), std::move(loaded), options, std::move(on_finished)));
+  return std::unique_ptr<Studio>(new Studio(std::move(*renderer), std::move(loaded), options,
+                                            std::move(on_finished), std::move(overtaken)));
 }
 
 Studio::Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const LoadedScene> loaded,
-               const compare::CompareOptions& options, std::function<void()> on_finished)
+               const compare::CompareOptions& options, std::function<void()> on_finished,
+               std::function<bool()> overtaken)
     : loaded_(std::move(loaded)),
       options_(options),
       given_(given_scene(*loaded_->scene, *loaded_->world, loaded_->paths)),
       renderer_(std::move(renderer)),
+      overtaken_(std::move(overtaken)),
       exposure_(loaded_->scene->exposure),
       worker_(*loaded_->scene, *loaded_->world, options, std::move(on_finished)) {}
 
@@ -55,6 +59,7 @@ Expected<raster::RasterFrame> Studio::render(const Setup& setup, const raster::R
   std::optional<raster::MapCamera> frozen;
   if (setup.map_camera) frozen = raster::MapCamera{.camera = *setup.map_camera};
   raster::set_map_camera(*renderer_, frozen);
+  const Interruptible drawing(overtaken_);
   return renderer_->render(options, lights);
 }
 
@@ -143,13 +148,13 @@ Expected<void> Studio::start_next(const DrawOrder& order) {
   const bool known = known_rays_ == started_rays_;
   const bool preview = !same && !known && !(small == order.setup.size);
   if (!preview && !known) known_rays_.reset();  // the worker keeps one frame
-  started_revision_ = order.revision;
-  started_full_ = !preview;
   raster::RasterOptions options = raster_options(order.setup, preview ? small : order.setup.size);
   options.analysis = true;
   options.runs = preview ? 0 : 1;
   auto drawn = render(order.setup, options);
   if (!drawn) return fail(drawn.error());
+  started_revision_ = order.revision;
+  started_full_ = !preview;
   worker_.start({order.revision, preview, preview || known, order.setup.precision, plan_of(order.setup),
                  loaded_->scene->camera, loaded_->scene->lights, std::move(*drawn)});
   return {};

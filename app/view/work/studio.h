@@ -39,12 +39,14 @@ struct LivePicture {
 
 class Studio {
  public:
-  /// `on_finished` is called from another thread when it is worth calling compare() again.
+  /// `on_finished` is called from another thread when it is worth calling compare() again. While something is drawn, `overtaken`
+  /// says whether it is worth its end (interruptible.h); where it is not, draw() and compare() return an error.
   static Expected<std::unique_ptr<Studio>> create(std::unique_ptr<raster::Context> context,
                                                   std::shared_ptr<const LoadedScene> loaded,
                                                   const compare::CompareOptions& options,
                                                   const std::string& shader_folder,
-                                                  std::function<void()> on_finished);
+                                                  std::function<void()> on_finished,
+                                                  std::function<bool()> overtaken);
 
   /// Draws the live picture where the revision is another. Error: this cannot be drawn.
   Expected<void> draw(const DrawOrder& order);
@@ -73,7 +75,8 @@ class Studio {
   };
 
   Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const LoadedScene> loaded,
-         const compare::CompareOptions& options, std::function<void()> on_finished);
+         const compare::CompareOptions& options, std::function<void()> on_finished,
+         std::function<bool()> overtaken);
   raster::RasterOptions raster_options(const Setup& setup, ImageSize size) const;
   Expected<raster::RasterFrame> render(const Setup& setup, const raster::RasterOptions& options);
   Expected<void> receive_outcome();
@@ -86,6 +89,7 @@ class Studio {
   compare::CompareOptions options_;
   GivenScene given_;
   std::unique_ptr<raster::Renderer> renderer_;
+  std::function<bool()> overtaken_;
 
   LivePicture live_;
   ColorImage live_color_;

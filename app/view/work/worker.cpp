@@ -6,19 +6,24 @@
 #include <stop_token>
 
 #include "compare/result/outputs.h"
+#include "scene/base/interruptible.h"
 #include "scene/base/threads.h"
+#include "scene/base/timing.h"
 
 namespace gnomon::app {
 
-/// What is under way: one turn traces, the next compares, so that on one thread it can be given up in between. With threads only
-/// tracing is ever cut short, between two tiles: the tracer and the light's structures are always built whole.
+/// What is under way: one turn traces, the next compares, so that on one thread it can be given up in between. With
+/// threads tracing is cut short between two tiles, and comparing in any loop; the tracer is always built whole.
 struct CompareWorker::Job {
   ComparisonRequest request;
   std::stop_source given_up;
   bool traced = false;
+  Stopwatch begun;
 };
 
 namespace {
+
+constexpr double soon_ms = 2000.0;  ///< what is not there by then is not soon there
 
 /// A world of the thread's own scene, which holds the meshes; with instances kept where the other one keeps them.
 World world_like(const World& other, const Scene& scene) {
@@ -101,7 +106,8 @@ bool CompareWorker::busy() const {
 void CompareWorker::give_up() {
   const std::lock_guard lock(mutex_);
   if (request_ && !request_->uninterruptible) request_.reset();
-  if (job_ && !job_->request.uninterruptible) job_->given_up.request_stop();
+  if (job_ && (!job_->request.uninterruptible || job_->begun.elapsed_ms() > soon_ms))
+    job_->given_up.request_stop();
 }
 
 void CompareWorker::start(ComparisonRequest request) {
@@ -135,6 +141,8 @@ bool CompareWorker::turn(bool wait) {
       trace(*job);
     else if (!job->given_up.stop_requested())
       outcome = compare(*job);
+  } catch (const Interrupted&) {
+    kept_for(*job).forget();
   } catch (const std::exception& error) {
     outcome = fail(unforeseen(error));
   }
@@ -205,6 +213,7 @@ Expected<ComparisonOutcome> CompareWorker::compare(Job& job) {
   compare::Comparison& comparison = outcome.comparison;
   compare::Plan plan = compare::plan_of(*tracer_, lights, options);
   plan.topology = &*topology_, plan.maps = kept.measures();
+  const Interruptible measuring([given_up = job.given_up.get_token()] { return given_up.stop_requested(); });
   const auto measured = compare::measure(comparison, plan, frames);
   if (!measured) {
     kept.forget();

@@ -1,6 +1,6 @@
 // Ray tracing and comparing beside the window: one thread that has its own copy of the scene, so that the
 // window may move camera and light while it works. The newest request wins: one that is under way is given up when another
-// comes, unless it is uninterruptible: what is soon there is finished, so that dragging shows something.
+// comes, unless it is uninterruptible: what is there within two seconds is finished, so that dragging shows something.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ namespace gnomon::app {
 struct ComparisonRequest {
   std::uint64_t revision = 0;    ///< of the window's state
   bool preview = false;          ///< drawn smaller than the window
-  bool uninterruptible = false;  ///< finished although a newer one waits
+  bool uninterruptible = false;  ///< finished although a newer one waits, unless it takes seconds
   raytrace::Precision precision = raytrace::Precision::robust;
   EffectPlan plan;  ///< of these lights
   Camera camera;

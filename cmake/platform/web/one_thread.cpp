@@ -2,6 +2,7 @@
 // headers that a plain host does not send.
 #include <algorithm>
 
+#include "scene/base/interruptible.h"
 #include "scene/base/parallel.h"
 #include "scene/base/threads.h"
 
@@ -45,6 +46,23 @@ int threads_in_use() {
 }
 
 void limit_loops(int) {}
+
+// Nothing new is heard of before a turn is over.
+
+Interruptible::Interruptible(std::function<bool()>) : around_(nullptr) {}
+Interruptible::~Interruptible() = default;
+ShareOf::ShareOf(const Interruptible*) : before_(nullptr) {}
+ShareOf::~ShareOf() = default;
+
+const Interruptible* interruptible_work() {
+  return nullptr;
+}
+
+bool is_interrupted() {
+  return false;
+}
+
+void leave_if_interrupted() {}
 
 /// Nobody is refused one: who asks has the work done on the thread there is.
 int startable_threads(int wanted) {
