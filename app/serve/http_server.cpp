@@ -68,6 +68,8 @@ std::optional<LabAnswer> unclear(const http::request<http::string_body>& request
     if (!is_once(request, name)) return lab_refusal(400, "A header that has to stand once stands twice.");
   if (request.count("Sec-Fetch-Site") > 1)
     return lab_refusal(400, "A header that has to stand once stands twice.");
+  if (request[http::field::content_length].find(',') != beast::string_view::npos)
+    return lab_refusal(400, "A body has one length.");
   const bool asks = request.method() == http::verb::get || request.method() == http::verb::head;
   if (!asks && request.method() != http::verb::post)
     return lab_refusal(405, "Only GET and POST are answered.");
@@ -229,7 +231,7 @@ void HttpServer::Inside::Exchange::take_head(error_code failed) {
   head_ = head_of(parser_.get());
   const std::uint64_t length = parser_.content_length().value_or(0);
   if (auto refused = unclear(parser_.get(), length)) return send(std::move(*refused));
-  if (auto refused = server_->service.refusal(head_)) return send(std::move(*refused));
+  if (auto known = server_->service.at_once(head_)) return send(std::move(*known));
   if (length > largest_body) return send(lab_refusal(413, "A file of 256 MB is the largest that is taken."));
   if (parser_.is_done()) return work();
   wait_in(server_->senders, length, deadline_of(length));

@@ -31,9 +31,9 @@ struct HttpHead {
 std::string query_parameter(std::string_view query, std::string_view name);
 
 struct HttpService {
-  /// Called on the network's thread as soon as the head is there, and returns at once. None: the request goes on; else it is
-  /// answered so, and its body is never looked at.
-  std::function<std::optional<LabAnswer>(const HttpHead& head)> refusal;
+  /// Called on the network's thread as soon as the head is there: a refusal, or what needs no work. The body is never looked at
+  /// then. None: the request goes on.
+  std::function<std::optional<LabAnswer>(const HttpHead& head)> at_once;
   /// Called on one of several other threads, when the body is there.
   std::function<LabAnswer(const HttpHead& head, std::string_view body)> answer;
 };

@@ -58,8 +58,8 @@ struct LabServer::Inside {
   Inside(LabEngine& of, const LabOptions& options, std::string in)
       : engine(of), page(lab_page(options, false)), answers(of, std::move(in), longest_wait) {}
 
-  /// None where the request may be answered at all: by who asks, by which name, from where.
-  std::optional<LabAnswer> refusal(const HttpHead& head) const;
+  /// The refusal by who asks, by which name, from where, or the page; none: the request is to be answered.
+  std::optional<LabAnswer> at_once(const HttpHead& head) const;
   LabAnswer answer(const HttpHead& head, std::string_view body);
   LabAnswer make_report();
 
@@ -72,7 +72,7 @@ struct LabServer::Inside {
   std::unique_ptr<HttpServer> server;     ///< last: its threads use the rest
 };
 
-std::optional<LabAnswer> LabServer::Inside::refusal(const HttpHead& head) const {
+std::optional<LabAnswer> LabServer::Inside::at_once(const HttpHead& head) const {
   const std::string_view name = host_name(head.host);
   // Another name that leads here is that of a page elsewhere (DNS rebinding).
   const bool known = is_loopback(name) || name == in_url(address) || !is_loopback(address);
@@ -92,12 +92,12 @@ std::optional<LabAnswer> LabServer::Inside::refusal(const HttpHead& head) const 
   const bool gives = asked == "wish" || asked == "file";
   if (gives != (head.method == "POST"))
     return lab_refusal(405, "This is asked for by the other of GET and POST.");
+  if (asked.empty()) return LabAnswer{200, "text/html; charset=utf-8", page};
   return std::nullopt;
 }
 
 LabAnswer LabServer::Inside::answer(const HttpHead& head, std::string_view body) {
   const std::string name = head.path.substr(token.size() + 2);
-  if (name.empty()) return {200, "text/html; charset=utf-8", page};
   if (name == "report") return make_report();
   const auto parameter = [&](const char* key) { return query_parameter(head.query, key); };
   return answers.answer({name, parameter, body});
@@ -136,7 +136,7 @@ Expected<std::unique_ptr<LabServer>> LabServer::open(const ServerPlace& place, L
   Inside& in = *out->inside_;
   in.address = place.address, in.token = std::move(*token);
   auto server = HttpServer::open(
-      place, {[&in](const HttpHead& head) { return in.refusal(head); },
+      place, {[&in](const HttpHead& head) { return in.at_once(head); },
               [&in](const HttpHead& head, std::string_view body) { return in.answer(head, body); }});
   if (!server) return fail(server.error());
   in.server = std::move(*server);

@@ -156,7 +156,7 @@ TEST_P(DrawnBands, AreWholeInStripesAndAfterOnesThatWereLeft) {
   for (const int share : {0, 1, 3, 5, 7}) {
     asked = 0;
     {
-      const Interruptible work([&, last = most * share / 8] { return ++asked > last; });
+      const Interruptible work([&, last = most * share / 16] { return ++asked > last; });
       EXPECT_FALSE(render()) << share;
     }
     const auto again = render();

@@ -1,11 +1,13 @@
 // gnomon serve, met by whoever means it no good: a connection has one request, and what stands behind it is never taken for another;
 // what can be read in two ways is refused; clients that are slow, with or without the key, keep nobody waiting and do not grow in
-// number; many ranges are one page; and a wish that takes minutes is left when another one comes.
+// number; many ranges are one page; and a wish that takes minutes, or a file
+// that is read for ever, is left when another one comes.
 // Usage: node serve_hostile_test.mjs PROGRAM WORK_FOLDER
 import assert from "node:assert/strict";
-import { readdirSync, readlinkSync } from "node:fs";
+import { mkdirSync, readdirSync, readFileSync, readlinkSync, writeFileSync } from "node:fs";
 import { connect } from "node:net";
-import { ask, post, serve } from "./served_lab.mjs";
+import { join } from "node:path";
+import { ask, folder, post, serve } from "./served_lab.mjs";
 
 const ordinary = ["--size", "96x54", "--map-size", "64"];
 const lab = await serve("acne-floor", ...ordinary);
@@ -155,12 +157,35 @@ async function leavesWhatTakesMinutes() {
     assert.match((await ask(lab, { scene: "acne-floor", words })).error, /the lab draws at most/, words.join(" "));
 }
 
+/** A program that reads a dropped file and never ends: what is asked for next ends it. */
+async function leavesAFileThatIsReadForEver() {
+  const bin = join(folder, "bin"), assimp = join(bin, "assimp");
+  mkdirSync(bin);
+  writeFileSync(assimp, "#!/bin/sh\nsleep 1000\n", { mode: 0o755 });
+  const path = process.env.PATH;
+  process.env.PATH = `${bin}:${path}`;
+  const other = await serve("acne-floor", ...ordinary);
+  process.env.PATH = path;
+  const isRead = () => readdirSync("/proc").some((pid) => {
+    try { return /^\d+$/.test(pid) && readFileSync(`/proc/${pid}/cmdline`, "utf8").includes(assimp); } catch { return false; }
+  });
+  assert.equal((await post(`${other.url}file?name=model.x3d`, "<X3D><Scene/></X3D>")).status, 200);
+  assert.equal((await post(`${other.url}wish`, { client: "test", scene: "model.x3d", words: [] })).status, 200);
+  while (!isRead()) await pause(50);
+  const late = pause(120000).then(() => ({ scene: undefined }));
+  const after = await Promise.race([ask(other, { scene: "floating-box", words: ordinary }), late]);
+  assert.equal(after.scene?.name, "floating-box");
+  assert.ok(!isRead(), "the program has ended");
+  assert.equal(await other.stop(), 130);
+}
+
 await takesNoBodyForARequest();
 await refusesWhatCanBeReadInTwoWays();
 await isNotHeldBySlowClients();
 await hasAtMostSoManyConnections();
 await sendsAPageOnce();
 await leavesWhatTakesMinutes();
+await leavesAFileThatIsReadForEver();
 assert.equal(await lab.stop(), 130);
 console.log("nobody gets in, and nobody waits");
 process.exit(0);

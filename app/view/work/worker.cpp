@@ -13,17 +13,16 @@
 namespace gnomon::app {
 
 /// What is under way: one turn traces, the next compares, so that on one thread it can be given up in between. With
-/// threads tracing is cut short between two tiles, and comparing in any loop; the tracer is always built whole.
+/// threads tracing is cut short between two tiles, and comparing in any loop once it has taken seconds; the tracer is always built whole.
 struct CompareWorker::Job {
   ComparisonRequest request;
   std::stop_source given_up;
   bool traced = false;
   Stopwatch begun;
+  bool may_be_soon_there() const { return begun.elapsed_ms() < 2000.0; }
 };
 
 namespace {
-
-constexpr double soon_ms = 2000.0;  ///< what is not there by then is not soon there
 
 /// A world of the thread's own scene, which holds the meshes; with instances kept where the other one keeps them.
 World world_like(const World& other, const Scene& scene) {
@@ -106,8 +105,7 @@ bool CompareWorker::busy() const {
 void CompareWorker::give_up() {
   const std::lock_guard lock(mutex_);
   if (request_ && !request_->uninterruptible) request_.reset();
-  if (job_ && (!job_->request.uninterruptible || job_->begun.elapsed_ms() > soon_ms))
-    job_->given_up.request_stop();
+  if (job_ && (!job_->request.uninterruptible || !job_->may_be_soon_there())) job_->given_up.request_stop();
 }
 
 void CompareWorker::start(ComparisonRequest request) {
@@ -213,7 +211,8 @@ Expected<ComparisonOutcome> CompareWorker::compare(Job& job) {
   compare::Comparison& comparison = outcome.comparison;
   compare::Plan plan = compare::plan_of(*tracer_, lights, options);
   plan.topology = &*topology_, plan.maps = kept.measures();
-  const Interruptible measuring([given_up = job.given_up.get_token()] { return given_up.stop_requested(); });
+  // What is soon there is kept for the next one.
+  const Interruptible measuring([&job] { return job.given_up.stop_requested() && !job.may_be_soon_there(); });
   const auto measured = compare::measure(comparison, plan, frames);
   if (!measured) {
     kept.forget();
