@@ -21,7 +21,8 @@ class Stages {
     stage_.scene = std::make_unique<Scene>(std::move(*scene));
     stage_.world = std::make_unique<World>(make_world(*stage_.scene, source_.scene.instances));
     stage_.plan = plan_effects(*stage_.scene);
-    auto renderer = make_renderer(source_.backend, stage_, source_.shader_folder);
+    Console quiet(true);  // it was said of the first moment
+    auto renderer = make_renderer(source_.backend, stage_, quiet, source_.shader_folder);
     if (!renderer) return fail(renderer.error());
     renderer_ = std::move(*renderer);
     return compare::FilmStage{*stage_.world, *stage_.scene, *renderer_};

@@ -124,15 +124,30 @@ Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std
                                             name, fmt::join(names, ", "), more, suggestion));
 }
 
-Expected<std::unique_ptr<raster::Context>> make_context(raster::Backend backend) {
+namespace {
+
+void say_what_draws(const raster::Context& context, Console& console) {
+  if (context.why_not_osmesa().empty()) return;
+  console.note(
+      fmt::format("OSMesa does not load ({}), so {} draws. --backend {} asks for it at once; Debian's "
+                  "libosmesa6 is OSMesa.",
+                  context.why_not_osmesa(), context.backend(), context.backend()));
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<raster::Context>> make_context(raster::Backend backend, Console& console) {
   if (const auto fits = check_memory({0, 0}, 0.0, graphics_bytes); !fits) return fail(fits.error());
   const TimedStage stage("context");
-  return raster::create_context(backend);
+  auto context = raster::create_context(backend);
+  if (context) say_what_draws(**context, console);
+  return context;
 }
 
 Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backend, const LoadedScene& loaded,
+                                                          Console& console,
                                                           const std::string& shader_folder) {
-  auto context = make_context(backend);
+  auto context = make_context(backend, console);
   if (!context) return fail(context.error());
   return make_renderer(std::move(*context), loaded, shader_folder);
 }

@@ -41,10 +41,12 @@ Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Conso
 /// Indices in Scene::lights: all of them, or the one with that name. ErrorKind::usage when there is none.
 Expected<std::vector<std::uint32_t>> choose_lights(const Scene& scene, const std::string& name);
 
-/// Error (graphics): the machine has none of that kind, or no memory for it.
-Expected<std::unique_ptr<raster::Context>> make_context(raster::Backend backend);
+/// Says what draws where OSMesa does not, which is asked first. Error (graphics): the machine has none of that kind, or no memory
+/// for it.
+Expected<std::unique_ptr<raster::Context>> make_context(raster::Backend backend, Console& console);
 /// Ready for every technique.
 Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backend, const LoadedScene& loaded,
+                                                          Console& console,
                                                           const std::string& shader_folder = {});
 Expected<std::unique_ptr<raster::Renderer>> make_renderer(std::unique_ptr<raster::Context> context,
                                                           const LoadedScene& loaded,

@@ -84,7 +84,7 @@ Expected<ExitCode> run_techniques(const BenchCommand& command) {
   for (const std::string& scene : command.techniques) {
     const auto loaded = load(command.scene.named(scene), files, console);
     if (!loaded) return fail(loaded.error());
-    const auto renderer = make_renderer(raster::Backend::automatic, *loaded);
+    const auto renderer = make_renderer(raster::Backend::automatic, *loaded, console);
     if (!renderer) return fail(renderer.error());
     auto table =
         bench::bench_techniques(*loaded->scene, *loaded->world, **renderer, options, shown_on(console));
@@ -117,7 +117,7 @@ Expected<std::vector<compare::TuneFamily>> families_of(const BenchCommand& comma
 
 Expected<compare::GridCheck> check_tuning(const BenchCommand& command, int runs, const LoadedScene& loaded,
                                           Console& console) {
-  const auto renderer = make_renderer(raster::Backend::automatic, loaded);
+  const auto renderer = make_renderer(raster::Backend::automatic, loaded, console);
   if (!renderer) return fail(renderer.error());
   auto families = families_of(command, *loaded.scene);
   if (!families) return fail(families.error());

@@ -76,7 +76,7 @@ Expected<Compared> compare_picture(const CompareCommand& command, const LoadedSc
   const compare::Progress progress = [&](std::string_view stage, double done) {
     console.progress(stage, done);
   };
-  auto context = make_context(command.backend);
+  auto context = make_context(command.backend, console);
   if (!context) return fail(context.error());
   progress("building", 0.0);
   const raytrace::Tracer tracer(*loaded.world, options.accel, options.precision);
@@ -194,7 +194,7 @@ Expected<compare::ViewErrors> judge_views(const CompareCommand& command, LoadedS
   const compare::Pose own{loaded.scene->camera, loaded.scene->lights};
   errors.places = compare::places_of(*loaded.world, own.camera);
   {
-    auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
+    auto renderer = make_renderer(command.backend, loaded, console, command.shader_folder);
     if (!renderer) return fail(renderer.error());
     const raytrace::Tracer tracer(*loaded.world, options.accel, options.precision);
     for (const compare::JudgedView& view : views) {

@@ -44,7 +44,7 @@ Expected<void> identify_map(const JudgeCommand& command, JudgedScene& judged, Co
     console.note("--identify looks for nothing: the capture has its map");
     return {};
   }
-  auto renderer = make_renderer(command.backend, judged.loaded);
+  auto renderer = make_renderer(command.backend, judged.loaded, console);
   if (!renderer) return fail(renderer.error());
   return compare::identify(
       judged.comparison, **renderer,

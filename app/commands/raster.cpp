@@ -74,7 +74,7 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   for (const std::string& note :
        options_without_effect(command.given, command.options.map, *loaded->scene, *drawn_lights))
     console.note(note);
-  const auto renderer = make_renderer(command.backend, *loaded, command.shader_folder);
+  const auto renderer = make_renderer(command.backend, *loaded, console, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   console.progress("shadow maps", 0.5);
   command.options.runs = command.json.empty() ? 0 : 1;

@@ -74,7 +74,7 @@ Expected<Filmed> make_film(const ShimmerCommand& command, const LoadedScene& loa
   const StageSource source{command.scene, command.camera, command.backend, command.shader_folder};
   auto plan = resolve_film(command.film, loaded.paths, *loaded.scene, console, &source);
   if (!plan) return fail(plan.error());
-  auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
+  auto renderer = make_renderer(command.backend, loaded, console, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   compare::ShimmerOptions options{std::move(*plan), command.setting.options};
   options.compare.raytrace.seed = command.seed;

@@ -90,7 +90,7 @@ Expected<void> check_same_drawer(const compare::Journal& journal, const raster::
 
 Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& loaded,
                     LightSelection& selection, compare::Journal& journal, Console& console) {
-  const auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
+  const auto renderer = make_renderer(command.backend, loaded, console, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   if (const auto same = check_same_drawer(journal, (*renderer)->info()); !same) return same;
   compare::Engine engine(*loaded.scene, *loaded.world, **renderer, command.perceptual);

@@ -160,7 +160,7 @@ Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
   if (!setting) return fail(setting.error());
   setting->raster.runs = command.runs.value_or(tuned_runs);
   setting->raytrace.picture = !command.folder.empty();
-  auto renderer = make_renderer(command.backend, loaded, command.shader_folder);
+  auto renderer = make_renderer(command.backend, loaded, console, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   const auto sizes = choose_sizes(command, (*renderer)->info().max_map_size);
   if (!sizes) return fail(sizes.error());

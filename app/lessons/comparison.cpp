@@ -54,10 +54,10 @@ Expected<void> read_settings(const std::string& scene, const Settings& settings,
   return {};
 }
 
-Expected<compare::Comparison> compared(const Words& words, const LoadedScene& loaded) {
+Expected<compare::Comparison> compared(const Words& words, const LoadedScene& loaded, Console& console) {
   const auto lights = choose_lights(*loaded.scene, words.setting.light);
   if (!lights) return fail(lights.error());
-  auto renderer = make_renderer(raster::Backend::automatic, loaded);
+  auto renderer = make_renderer(raster::Backend::automatic, loaded, console);
   if (!renderer) return fail(renderer.error());
   const std::vector<std::uint32_t> first{lights->front()};
   return compare::compare_world(*loaded.world, **renderer, first, words.setting.options);
@@ -78,7 +78,7 @@ Expected<Compared> load_and_compare(const std::string& scene, const Settings& se
   if (!loaded) return fail(loaded.error());
   const auto posed = apply_poses(words.setting.poses, words.setting.light, *loaded);
   if (!posed) return fail(posed.error());
-  auto comparison = compared(words, *loaded);
+  auto comparison = compared(words, *loaded, console);
   if (!comparison) return fail(comparison.error());
   return Compared{std::move(*loaded), std::move(*comparison), words.setting.options.raster.map};
 }

@@ -92,8 +92,11 @@ Expected<std::unique_ptr<LabEngine>> LabEngine::start(const LabOptions& options,
   engine->admit(options.scene.name, options.scene.name);
   const std::lock_guard lock(engine->mutex_);  // notice() waits until the thread is known
   engine->thread_ = std::make_unique<RenderThread>(
-      [backend = options.backend] { return make_context(backend); }, std::move(first), std::move(studio),
-      [raw = engine.get()] { raw->notice(); });
+      [backend = options.backend, quiet = options.quiet] {
+        Console console(quiet);
+        return make_context(backend, console);
+      },
+      std::move(first), std::move(studio), [raw = engine.get()] { raw->notice(); });
   return engine;
 }
 
@@ -191,7 +194,10 @@ Expected<std::uint64_t> LabEngine::ask(const LabWish& wish) {
     now_.client = wish.client;
     now_.error.clear();
     ++now_.number;
-    thread_->open(given_.scene.name == path ? given_.scene : given_.scene.named(path), camera_of(wish.words));
+    SceneArgument scene_to_open = given_.scene.named(path);
+    // What the command line lets its own scene do is not for files that are dropped on the page.
+    if (given_.scene.name != path) scene_to_open.allow_outside = false;
+    thread_->open(std::move(scene_to_open), camera_of(wish.words));
   }
   changed_.notify_all();
   return now_.number;

@@ -59,7 +59,10 @@ Expected<std::unique_ptr<Viewer>> Viewer::open(const ViewOptions& options, Scene
 Expected<RenderThread::MakeContext> Viewer::choose_context() {
   using Made = Expected<std::unique_ptr<raster::Context>>;
   if (options_.backend != raster::Backend::automatic || raster::draws_in_software(presenter_->renderer()))
-    return [backend = options_.backend] { return raster::create_context(backend); };
+    return [backend = options_.backend, quiet = options_.quiet]() -> Made {
+      Console console(quiet);
+      return make_context(backend, console);
+    };
   if (const auto added = window_->add_hidden_context(); !added) return fail(added.error());
   options_.backend = raster::Backend::egl_hardware;  // what the commands need to draw the same
   return [w = window_.get()]() -> Made { return w->hidden_context(); };

@@ -48,6 +48,7 @@ Expected<std::unique_ptr<Context>> first_context(Backend backend) {
   for (const auto& [name, devices] :
        {std::pair{"egl in software", EglDevices::software}, {"egl on hardware", EglDevices::hardware}}) {
     auto context = create_egl_context(devices);
+    if (context) (*context)->set_why_not_osmesa(osmesa.error().reason);
     if (context) return context;
     tried += fmt::format("; {}: {}", name, context.error().reason);
   }

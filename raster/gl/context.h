@@ -3,7 +3,9 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "raster/frame.h"
 #include "raster/options.h"
@@ -20,6 +22,13 @@ class Context {
   virtual bool make_current() = 0;
   virtual Procedure procedure(const char* name) const = 0;
   virtual const char* backend() const = 0;
+
+  /// Why not OSMesa, which Backend::automatic tries first; empty where that was not tried, or draws.
+  const std::string& why_not_osmesa() const { return why_not_osmesa_; }
+  void set_why_not_osmesa(std::string why) { why_not_osmesa_ = std::move(why); }
+
+ private:
+  std::string why_not_osmesa_;
 };
 
 /// Backend::automatic tries OSMesa, then EGL in software, then EGL on hardware, so that the same machine draws the

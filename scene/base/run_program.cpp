@@ -11,8 +11,11 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <system_error>
+#include <thread>
 
 #include "scene/base/interruptible.h"
+#include "scene/base/threads.h"
 #include "scene/base/timing.h"
 
 namespace gnomon {
@@ -25,21 +28,16 @@ constexpr double grace_ms = 1000.0;     // for what a program does when it is as
 std::atomic<bool> process_ends{false};
 std::atomic<int> running{0};
 
-struct Running {
-  Running() { ++running; }
-  ~Running() { --running; }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-};
-
 /// What posix_spawnp() is told of the child: no stdin, stdout and stderr to `output`, no signal blocked, a process group of its own.
 class ChildSettings {
  public:
-  explicit ChildSettings(int output) {
+  ChildSettings(int output, const std::vector<int>& descriptors) {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
+    for (const int kept : descriptors)  // onto itself: it is not closed when the program starts
+      posix_spawn_file_actions_adddup2(&actions, kept, kept);
     posix_spawnattr_init(&attributes);
     sigset_t none;
     sigemptyset(&none);
@@ -56,6 +54,26 @@ class ChildSettings {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
 };
+
+/// Returns 0 and the child, or the number of an error.
+int spawn(char* const* words, const ChildSettings& settings, pid_t& child) {
+  return posix_spawnp(&child, words[0], &settings.actions, &settings.attributes, words, environ);
+}
+
+/// The same on a thread that has given something up before.
+int spawn_without(const std::function<void()>& give_up, char* const* words, const ChildSettings& settings,
+                  pid_t& child) {
+  int error = EAGAIN;
+  try {
+    const RefusalIsHandled is_told;
+    std::thread([&] {
+      give_up();
+      error = spawn(words, settings, child);
+    }).join();
+  } catch (const std::system_error&) {  // no thread
+  }
+  return error;
+}
 
 /// Looks until the child has ended; its group is asked to end, and then made to, when `stop()` says so.
 template <class Stop>
@@ -81,25 +99,33 @@ Expected<int> wait_for(pid_t child, const Stop& stop) {
 
 }  // namespace
 
+WaitedFor::WaitedFor() {
+  ++running;
+}
+WaitedFor::~WaitedFor() {
+  --running;
+}
+
 void end_programs() {
   process_ends = true;
   const Stopwatch watch;
   while (running > 0 && watch.elapsed_ms() < 3.0 * grace_ms) usleep(pause_us);
 }
 
-Expected<int> run_program(std::vector<std::string> words, std::optional<double> longest_s, int output) {
+Expected<int> run_program(std::vector<std::string> words, std::optional<double> longest_s, int output,
+                          const ProgramStart& start) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const auto failed = [&](const std::string& what) {
     return fail(ErrorKind::graphics, fmt::format("{} {}", words[0], what));
   };
-  const Running counted;
+  const WaitedFor counted;
   if (process_ends) return failed("is not started any more");
-  const ChildSettings settings(output);
+  const ChildSettings settings(output, start.descriptors);
   pid_t child = 0;
-  if (const int error = posix_spawnp(&child, arguments[0], &settings.actions, &settings.attributes,
-                                     arguments.data(), environ);
+  if (const int error = start.give_up ? spawn_without(start.give_up, arguments.data(), settings, child)
+                                      : spawn(arguments.data(), settings, child);
       error != 0)
     return failed(fmt::format("cannot be started: {}", std::strerror(error)));
   const Stopwatch watch;

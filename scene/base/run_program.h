@@ -1,6 +1,7 @@
 // Other programs that this one starts and waits for.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,13 @@
 
 namespace gnomon {
 
+/// What a program is started with beside its words.
+struct ProgramStart {
+  std::vector<int> descriptors{};  ///< this program's, which it has, too
+  /// Called on a thread of its own, which then starts the program: what that thread has given up, the program has not either.
+  std::function<void()> give_up{};
+};
+
 /// Runs a program of the PATH with these words, of which the first is its name, and waits for its end. What it says goes to
 /// the descriptor `output`, where messages go unless another is named: this program's stdout is for data. Signals reach it
 /// though this program's threads block some.
@@ -16,7 +24,7 @@ namespace gnomon {
 /// `longest_s` seconds, or when the work that waits for it is interrupted (interruptible.h). Returns its exit code, or 128 and the signal that ended it. ErrorKind::graphics: it cannot be
 /// started, it was ended.
 Expected<int> run_program(std::vector<std::string> words, std::optional<double> longest_s = std::nullopt,
-                          int output = 2);
+                          int output = 2, const ProgramStart& start = {});
 
 /// How a program ended, and the first megabyte of what it said.
 struct ProgramEnd {
@@ -27,6 +35,15 @@ struct ProgramEnd {
 /// As run_program(), but what the program says is kept and returned. ErrorKind::graphics, too, where there is no memory for it.
 Expected<ProgramEnd> run_and_listen(std::vector<std::string> words,
                                     std::optional<double> longest_s = std::nullopt);
+
+/// While one lives, end_programs() waits for its end, some seconds at most.
+class WaitedFor {
+ public:
+  WaitedFor();
+  ~WaitedFor();
+  WaitedFor(const WaitedFor&) = delete;
+  WaitedFor& operator=(const WaitedFor&) = delete;
+};
 
 /// Programs that run are ended, which is waited for some seconds at most, and no other is started any more: this process is
 /// about to end.

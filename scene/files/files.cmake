@@ -1,6 +1,6 @@
 # The loaders, and everything that reads or writes a file.
 target_sources(gnomon_scene PRIVATE
-  texture_sample.cpp files/pictures/apng.cpp files/encodings.cpp files/foreign.cpp files/defaults.cpp files/gltf/gltf_accessor.cpp
+  texture_sample.cpp files/pictures/apng.cpp files/encodings.cpp files/foreign.cpp files/repeated_instances.cpp files/defaults.cpp files/gltf/gltf_accessor.cpp
   files/gltf/gltf_container.cpp files/gltf/gltf_data.cpp files/gltf/gltf_meshes.cpp files/gltf/gltf_meshopt.cpp
   files/gltf/gltf_transforms.cpp files/gltf/gltf_writer_meshes.cpp files/pictures/exr_decode.cpp files/pictures/exr_encode.cpp files/pictures/image_io.cpp files/interior.cpp
   files/pictures/png_encode.cpp files/mapped_file.cpp files/merge.cpp files/obj/obj.cpp files/obj/obj_text.cpp

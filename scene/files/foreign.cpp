@@ -1,17 +1,14 @@
 #include "scene/files/formats.h"
 
 #include <fmt/core.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
+#include <filesystem>
+#include <vector>
 
-#include "scene/base/run_program.h"
+#include "scene/base/run_apart.h"
 #include "scene/files/read_file.h"
-#include "scene/files/write_file.h"
 
 namespace gnomon {
 namespace {
@@ -43,19 +40,35 @@ tl::unexpected<Error> foreign_error(const std::string& file, ErrorKind kind, std
   return fail(std::move(error));
 }
 
-/// A file in memory, which a child inherits.
-class MemoryFile {
- public:
-  explicit MemoryFile(const char* name) : file_(memfd_create(name, 0)) {}
+/// The files that X3D text shows in its own place: the url of each Inline, quotes and all. Whatever begins so counts, in comments, too:
+/// parsers do not agree on where those end.
+std::vector<std::string> inlined_files(std::string_view text) {
+  constexpr std::string_view element = "<Inline";
+  std::vector<std::string> files;
+  for (std::size_t at = text.find(element); at != std::string_view::npos; at = text.find(element, at + 1)) {
+    const std::string_view rest = text.substr(at + element.size());
+    if (rest.empty() || std::string_view(" \t\r\n/>").find(rest.front()) == std::string_view::npos) continue;
+    const std::string_view tag = rest.substr(0, rest.find('>'));
+    const std::size_t url = tag.find("url");
+    files.emplace_back(url == std::string_view::npos ? std::string_view() : tag.substr(url));
+  }
+  return files;
+}
 
-  bool is_open() const { return file_.number() >= 0; }
-  int number() const { return file_.number(); }
-  std::string path() const { return fmt::format("/proc/self/fd/{}", number()); }
-  Expected<std::string> bytes() const { return read_file(path()); }
-
- private:
-  Descriptor file_;
-};
+/// What an X3D file names is not read: only the file itself is.
+Expected<void> check_stands_alone(std::string_view bytes, const std::string& file) {
+  // Other encodings would be read, and not be looked through here.
+  if (bytes.find('\0') != std::string_view::npos)
+    return foreign_error(file, ErrorKind::bad_input,
+                         "its text is not UTF-8; save it as such, or export .glb");
+  const std::vector<std::string> inlined = inlined_files(bytes);
+  if (inlined.empty()) return {};
+  return foreign_error(
+      file, ErrorKind::bad_input,
+      fmt::format("shows another file in its place (Inline {}), and no file but itself is read; put all "
+                  "into one file, or export .glb",
+                  printable(inlined.front(), 100)));
+}
 
 /// Finds the error in what assimp says, in one line.
 std::string why_not(const std::string& said) {
@@ -66,14 +79,19 @@ std::string why_not(const std::string& said) {
   return fmt::format("assimp: {}", printable(said.substr(begin, said.find('\n', begin) - begin), 200));
 }
 
-Expected<std::string> converted(const std::string& file) {
-  const MemoryFile glb("gnomon-glb");
-  if (!glb.is_open())
-    return foreign_error(file, ErrorKind::graphics,
-                         fmt::format("cannot make a file in memory: {}", std::strerror(errno)));
-  const std::string path = (file.starts_with('-') ? "./" : "") + file;
-  const auto end = run_and_listen(
-      {"prlimit", "--as=4000000000", "--cpu=120", "assimp", "export", path, glb.path(), "-fglb2"}, longest_s);
+Expected<std::string> converted(std::string_view bytes, const std::string& file) {
+  ApartProgram assimp{.name = std::filesystem::path(file).filename().string(),
+                      .bytes = bytes,
+                      .words =
+                          [](const std::string& in, const std::string& out) {
+                            return std::vector<std::string>{
+                                "prlimit",  "--as=4000000000", "--cpu=120", "--fsize=4000000000",
+                                "--core=0", "assimp",          "export",    in,
+                                out,        "-fglb2"};
+                          },
+                      .programs = {"prlimit", "assimp"},
+                      .longest_s = longest_s};
+  auto end = run_apart(assimp);
   if (!end) return foreign_error(file, end.error().kind, end.error().reason);
   constexpr int not_found = 127, not_started = 1;  // prlimit's own ends
   const bool is_missing =
@@ -84,7 +102,7 @@ Expected<std::string> converted(const std::string& file) {
         file, ErrorKind::bad_input,
         "this format is read by the program assimp, which is not there (Debian: assimp-utils)");
   if (end->code != 0) return foreign_error(file, ErrorKind::bad_input, why_not(end->said));
-  return glb.bytes();
+  return std::move(end->written);
 }
 
 }  // namespace
@@ -98,9 +116,11 @@ std::string_view foreign_hint(std::string_view extension) {
   return found == std::end(hints) ? std::string_view() : found->text;
 }
 
-Expected<LoadedFile> read_foreign(const std::string& file, const std::string& folder,
+Expected<LoadedFile> read_foreign(std::string_view bytes, const std::string& file, const std::string& folder,
                                   const LoadOptions& options) {
-  const auto glb = converted(file);
+  if (lower_extension(file) == ".x3d")
+    if (auto alone = check_stands_alone(bytes, file); !alone) return fail(alone.error());
+  const auto glb = converted(bytes, file);
   if (!glb) return fail(glb.error());
   auto loaded = read_gltf(*glb, file, folder, options);
   if (!loaded) return loaded;

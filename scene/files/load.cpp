@@ -187,7 +187,7 @@ Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string
   if (extension == ".gltf" || extension == ".glb") return read_gltf(bytes, path, folder, options);
   if (extension == ".obj") return read_obj(bytes, path, folder, options);
   if (extension == ".ply") return read_ply(bytes, path);
-  if (is_foreign(extension)) return read_foreign(path, folder, options);
+  if (is_foreign(extension)) return read_foreign(bytes, path, folder, options);
   const std::string_view hint = foreign_hint(extension);
   Error error{ErrorKind::bad_input,
               fmt::format("unknown extension (got \"{}\", allowed {}){}{}", printable(extension),

@@ -120,6 +120,28 @@ TEST(Faults, LinksInACircleAndNoFolderForTemporaryFiles) {
   EXPECT_EQ(compared.exit_code, 0) << compared.err;
 }
 
+TEST(Faults, OsmesaThatDoesNotLoadIsSaid) {
+  const TemporaryFolder folder;
+  Words words{"raster", "acne-floor", "-o", "picture.png"};
+  words = words + small;
+  if (run_gnomon(words + Words{"--backend", "egl-software"}, {.folder = folder.path()}).exit_code != 0)
+    GTEST_SKIP() << "no EGL in software here";
+  for (const char* name : {"libOSMesa.so.8", "libOSMesa.so"}) folder.put(name, "no library");
+  const auto run = [&](const Words& further) {
+    return run_gnomon(words + further,
+                      {.folder = folder.path(), .environment = {"LD_LIBRARY_PATH=" + folder.path()}});
+  };
+  const ProcessResult result = run({});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("OSMesa does not load"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("--backend egl-"), std::string::npos) << result.err;
+  for (const Words& further : {Words{"-q"}, Words{"--backend", "egl-software"}}) {
+    const ProcessResult silent = run(further);
+    EXPECT_EQ(silent.exit_code, 0) << silent.err;
+    EXPECT_EQ(silent.err.find("OSMesa"), std::string::npos) << silent.err;
+  }
+}
+
 TEST(Faults, NeitherOsmesaNorEgl) {
   const TemporaryFolder folder;
   for (const char* name : {"libOSMesa.so.8", "libOSMesa.so", "libEGL.so.1", "libEGL.so"})

@@ -1,6 +1,10 @@
 // Formats that are read by way of glTF, by assimp in a process of its own; a skip where that program is not there.
-#include <cstdlib>
+#include <sys/stat.h>
 
+#include <cstdlib>
+#include <thread>
+
+#include "scene/base/confine.h"
 #include "scene/base/run_program.h"
 #include "scene/load.h"
 #include "tests/support/scene_files_support.h"
@@ -104,6 +108,73 @@ TEST(Foreign, WithoutAssimpTheMessageNamesItsPackage) {
   setenv("PATH", before.c_str(), 1);
   ASSERT_FALSE(scene);
   EXPECT_NE(scene.error().reason.find("assimp-utils"), std::string::npos) << scene.error().message();
+}
+
+/// An X3D file with a square of its own.
+std::string x3d_with(const std::string& element) {
+  std::string text = x3d_square;
+  return text.insert(text.find("<Shape>"), element);
+}
+
+// By its path, beside the file, above it, a pipe that nobody writes to, a device that never ends, an address.
+TEST(Foreign, AFileThatShowsAnotherIsRefusedAndTheOtherNamed) {
+  const TemporaryFolder folder;
+  const std::string other = folder.put("secret/other.x3d", x3d_square);
+  ASSERT_EQ(mkfifo(folder.file("pipe.x3d").c_str(), 0600), 0);
+  for (const std::string& url :
+       {other, std::string("secret/other.x3d"), std::string("../secret/other.x3d"), std::string("pipe.x3d"),
+        std::string("/dev/zero"), std::string("/dev/stdin"), std::string("http://127.0.0.1:9/a.x3d")})
+    for (const std::string& element :
+         {"<Inline url=\"" + url + "\"/>", "<Inline DEF='a' load=\"true\"\n url='\"" + url + "\"'></Inline>",
+          "<Transform><Inline\turl='" + url + "'/></Transform>",
+          "<!-- " + std::string("<Inline url='") + url + "'/> -->"}) {
+      const auto scene = load_scene(folder.put("a.x3d", x3d_with(element)), {});
+      ASSERT_FALSE(scene) << element;
+      EXPECT_EQ(scene.error().kind, ErrorKind::bad_input);
+      EXPECT_NE(scene.error().reason.find(url), std::string::npos) << scene.error().message();
+      EXPECT_NE(scene.error().reason.find("no file but itself is read"), std::string::npos);
+    }
+}
+
+TEST(Foreign, TextThatCannotBeLookedThroughIsRefused) {
+  const TemporaryFolder folder;
+  std::string wide("\xff\xfe");
+  for (const char c : x3d_with("<Inline url='other.x3d'/>")) wide.append({c, '\0'});
+  const auto scene = load_scene(folder.put("wide.x3d", wide), {});
+  ASSERT_FALSE(scene);
+  EXPECT_NE(scene.error().reason.find("UTF-8"), std::string::npos) << scene.error().message();
+}
+
+TEST(Foreign, ANameThatOnlyBeginsAlikeIsNone) {
+  const TemporaryFolder folder;
+  const auto scene = load_scene(folder.put("a.x3d", x3d_with("<InlineOfMine url='other.x3d'/>")), {});
+  ASSERT_FALSE(scene);  // assimp does not know it either
+  EXPECT_EQ(scene.error().reason.find("no file but itself"), std::string::npos) << scene.error().message();
+}
+
+// A reader that was taken over through the file: a program in assimp's place.
+TEST(Foreign, WhateverReadsItSeesNothingElse) {
+  bool can = false;
+  std::thread([&] { can = give_up_rights({}); }).join();
+  if (!can) GTEST_SKIP() << "this kernel has no Landlock";
+  const TemporaryFolder folder, programs;
+  const std::string secret = folder.put("secret.txt", "precious"),
+                    path = folder.put("square.stl", stl_square),
+                    before = std::getenv("PATH") != nullptr ? std::getenv("PATH") : "";
+  const std::string program =
+      programs.put("assimp", "#!/bin/sh\necho \"ERROR: read $(wc -c <\"$2\") bytes, $(cat " + secret +
+                                 ") $(ls " + folder.path() + ")\"; exit 1\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  setenv("PATH", (programs.path() + ":" + before).c_str(), 1);
+  const auto scene = load_scene(path, {});
+  setenv("PATH", before.c_str(), 1);
+  ASSERT_FALSE(scene);
+  EXPECT_NE(
+      scene.error().reason.find("read " + std::to_string(std::string_view(stl_square).size()) + " bytes"),
+      std::string::npos)
+      << scene.error().message();
+  EXPECT_EQ(scene.error().reason.find("precious"), std::string::npos) << scene.error().message();
+  EXPECT_EQ(scene.error().reason.find("square"), std::string::npos) << scene.error().message();
 }
 
 TEST(Foreign, OtherFormatsHaveAHint) {

@@ -152,6 +152,34 @@ TEST_F(Gltf, ALongChainOfNodesIsNoProblem) {
   EXPECT_NEAR(scene.instances[0].world_from_object[3].x, 20.0, 1e-9);
 }
 
+// 50,000 layers at one place would be met by every ray and drawn into every texel; one of them is all that can be seen.
+TEST_F(Gltf, NodesThatRepeatAnotherAreLeftOutAndSaid) {
+  Builder b = simple();
+  Json nodes = Json::array({{{"children", Json::array()}}});
+  for (int i = 0; i < 50000; ++i) nodes.push_back({{"mesh", 0}, {"name", "copy" + std::to_string(i)}});
+  nodes.push_back({{"mesh", 0}, {"name", "elsewhere"}, {"translation", {0, 1e-12, 0}}});
+  for (int i = 1; i <= 50001; ++i) nodes[0]["children"].push_back(i);
+  b.json["nodes"] = nodes;
+  const Scene scene = loaded(b);
+  ASSERT_EQ(scene.instances.size(), 2u);
+  EXPECT_EQ(scene.instances[0].name, "copy0");
+  EXPECT_EQ(scene.instances[1].name, "elsewhere");
+  EXPECT_EQ(
+      std::ranges::count(
+          scene.notes, "49999 of 50001 nodes repeat another exactly and are left out (the first is copy1)."),
+      1);
+}
+
+TEST_F(Gltf, GlassThatIsRepeatedStays) {
+  Builder b = simple();
+  b.json["materials"] =
+      Json::array({{{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1.0}}}}}}});
+  b.json["extensionsUsed"] = {"KHR_materials_transmission"};
+  b.json["meshes"][0]["primitives"][0]["material"] = 0;
+  b.json["nodes"] = Json::array({{{"children", {1, 2}}}, {{"mesh", 0}}, {{"mesh", 0}}});
+  EXPECT_EQ(loaded(b).instances.size(), 2u);
+}
+
 TEST_F(Gltf, LightsAndCameras) {
   Builder b = simple();
   b.json["extensionsUsed"] = {"KHR_lights_punctual"};

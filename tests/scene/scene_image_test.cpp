@@ -231,5 +231,21 @@ TEST(Image, DisplayClipsAndFlagsNan) {
   EXPECT_EQ(shown.at(2, 0), glm::u8vec3(255, 0, 188));
 }
 
+// A film's list names further files and addresses, which what reads films would open.
+TEST(Image, AFilmIsNoPicture) {
+  const TemporaryFolder folder;
+  const std::string list = "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\nother.ts\n#EXT-X-ENDLIST\n";
+  for (const char* name : {"a.mp4", "a.avi", "a.mov"}) {
+    const std::string path = folder.put(name, list);
+    const auto channels = read_channels(path);
+    ASSERT_FALSE(channels) << name;
+    EXPECT_NE(channels.error().reason.find("a film is no picture"), std::string::npos)
+        << channels.error().message();
+    const auto size = read_image_size(path);
+    ASSERT_FALSE(size) << name;
+    EXPECT_NE(size.error().reason.find("a film is no picture"), std::string::npos) << size.error().message();
+  }
+}
+
 }  // namespace
 }  // namespace gnomon

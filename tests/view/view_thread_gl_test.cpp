@@ -1,5 +1,6 @@
 // The thread that draws and compares for the window, without a window: any offscreen context will do. Each test waits
 // for what it needs and for nothing else.
+#include "app/console.h"
 #include "app/view/work/render_thread.h"
 
 #include <gtest/gtest.h>
@@ -212,7 +213,8 @@ void expect_labels_of_compare(const std::function<void(ViewState&, int)>& change
   ViewState state = lab.state(*lab.until(is_open));
   const auto source = read_source({"floating-box", false}, {}, {});
   ASSERT_TRUE(source);
-  auto renderer = make_renderer(raster::Backend::automatic, *source->loaded);
+  Console quiet(true);
+  auto renderer = make_renderer(raster::Backend::automatic, *source->loaded, quiet);
   ASSERT_TRUE(renderer);
   for (int i = 0; i < 20; ++i) {
     change(state, i);
@@ -270,7 +272,8 @@ TEST(RenderThread, ALightThatGetsASizeCastsSoftShadows) {
   EXPECT_GT(penumbra(), 20);
   const auto source = read_source({"floating-box", false}, {}, {});
   ASSERT_TRUE(source);
-  auto renderer = make_renderer(raster::Backend::automatic, *source->loaded);
+  Console quiet(true);
+  auto renderer = make_renderer(raster::Backend::automatic, *source->loaded, quiet);
   ASSERT_TRUE(renderer);
   const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
   EXPECT_EQ(done->outcome->comparison.lights.front().labels.data,

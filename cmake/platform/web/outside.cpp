@@ -5,6 +5,7 @@
 #include <hwy/targets.h>
 #include <cerrno>
 
+#include "scene/base/run_apart.h"
 #include "scene/base/run_program.h"
 #include "scene/files/gltf/gltf_data.h"
 #include "scene/files/gltf/gltf_value.h"
@@ -35,8 +36,11 @@ tl::unexpected<Error> no_program(const std::vector<std::string>& words) {
 
 }  // namespace
 
-Expected<int> run_program(std::vector<std::string> words, std::optional<double>, int) {
+Expected<int> run_program(std::vector<std::string> words, std::optional<double>, int, const ProgramStart&) {
   return no_program(words);
+}
+Expected<ApartEnd> run_apart(const ApartProgram& program) {
+  return no_program(program.words({}, {}));
 }
 Expected<ProgramEnd> run_and_listen(std::vector<std::string> words, std::optional<double>) {
   return no_program(words);

@@ -21,6 +21,7 @@
 #include "scene/files/gltf/gltf_transforms.h"
 #include "scene/files/gltf/gltf_value.h"
 #include "scene/files/read_file.h"
+#include "scene/files/repeated_instances.h"
 #include "scene/files/shadow_variants.h"
 #include "scene/files/validate.h"
 
@@ -361,6 +362,7 @@ Expected<LoadedFile> build(GltfDocument& document, GltfData& data, const LoadOpt
     if (!paths) return fail(paths.error());
     loaded.paths = std::move(*paths);
   }
+  leave_out_repeated_instances(loaded.scene);
   extras.read_scene(loaded.scene);
   if (errors.first) return fail(std::move(*errors.first));
   if (loaded.scene.instances.empty() && !meshes.skipped_points())

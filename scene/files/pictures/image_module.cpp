@@ -52,6 +52,13 @@ Expected<void> check_header(const std::string& name, const OIIO::ImageInput* inp
   return {};
 }
 
+/// Films are no pictures: ffmpeg, which would read them, opens further files and addresses that they name.
+Expected<void> check_no_film(const std::string& path) {
+  const auto input = OIIO::ImageInput::create(path);
+  if (input == nullptr || std::string_view(input->format_name()) != "FFmpeg movie") return {};
+  return image_error(ErrorKind::bad_input, path, "a film is no picture; give one of its frames as PNG");
+}
+
 bool is_floating(const OIIO::TypeDesc& type) {
   return type.basetype == OIIO::TypeDesc::HALF || type.basetype == OIIO::TypeDesc::FLOAT ||
          type.basetype == OIIO::TypeDesc::DOUBLE;
@@ -94,6 +101,7 @@ Expected<DecodedImage> pixels_of(const std::string& name, OIIO::ImageInput* inpu
 class OpenImageIo final : public ImageLibrary {
  public:
   Expected<ImageSize> size(const std::string& path, int max_side) const override {
+    if (const auto still = check_no_film(path); !still) return fail(still.error());
     const auto input = OIIO::ImageInput::open(path);
     if (const auto sound = check_header(path, input.get(), max_side); !sound) return fail(sound.error());
     return ImageSize{input->spec().width, input->spec().height};
@@ -101,6 +109,7 @@ class OpenImageIo final : public ImageLibrary {
 
   Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as) const override {
     const OIIO::ImageSpec hints = read_hints();
+    if (const auto still = check_no_film(path); !still) return fail(still.error());
     const auto input = OIIO::ImageInput::open(path, &hints);
     return pixels_of(path, input.get(), max_side, as, OIIO::Filesystem::file_size(path));
   }
