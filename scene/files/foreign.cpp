@@ -48,7 +48,8 @@ std::vector<std::string> inlined_files(std::string_view text) {
   for (std::size_t at = text.find(element); at != std::string_view::npos; at = text.find(element, at + 1)) {
     const std::string_view rest = text.substr(at + element.size());
     if (rest.empty() || std::string_view(" \t\r\n/>").find(rest.front()) == std::string_view::npos) continue;
-    const std::string_view tag = rest.substr(0, rest.find('>'));
+    std::string_view tag = rest.substr(0, rest.find('>'));
+    if (tag.ends_with('/')) tag.remove_suffix(1);
     const std::size_t url = tag.find("url");
     files.emplace_back(url == std::string_view::npos ? std::string_view() : tag.substr(url));
   }
