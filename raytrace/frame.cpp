@@ -143,6 +143,7 @@ void trace_soft_shadows(const Tracer& tracer, const Band& band, const RaytraceOp
     prepare_light_shafts(tracer, truth.samples);
     std::fill(rays.begin(), rays.end(), Counts{});
     for_each_pixel(grid, [&](int x, int y, std::size_t tile) {
+      if (options.stop.stop_requested()) return;  // a pixel may have thousands of samples
       const SurfacePoint& point = receivers.at(x, y);
       if (point.primitive == no_id) return;
       const std::uint64_t key = pixel_key(options.seed, first_pixel + receivers.index(x, y), truth.light);

@@ -63,6 +63,7 @@ void shade_centres(const PictureInput& input, RayTracedFrame& frame) {
   const TileGrid grid{input.options.size, input.options.stop};
   std::vector<TileCounts> counts(grid.count());
   for_each_receiver(input, frame, grid, [&](int x, int y, std::size_t tile, const SurfacePoint& point) {
+    if (grid.stop.stop_requested()) return;  // a pixel may have thousands of paths
     if (point.primitive == no_id) {
       frame.color.at(x, y) = scene.background;
       return;
@@ -104,7 +105,7 @@ void shade_samples(const PictureInput& input, RayTracedFrame& frame) {
     Shader<Kind> shader(input, input.first_pixel() + pixel, rays);
     const StratifiedSquare square(static_cast<std::uint32_t>(per_pixel), shader.next_key());
     Vec3 sum(0.0);
-    for (int s = 0; s < per_pixel; ++s) {
+    for (int s = 0; s < per_pixel && !grid.stop.stop_requested(); ++s) {
       const Vec2 place = square[static_cast<std::uint32_t>(s)];
       const Ray ray = pixel_ray(input.view, x + place.x, y + input.first_row + place.y);
       if (s > 0 || traced_centres) ++rays.antialiasing;
