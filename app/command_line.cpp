@@ -26,6 +26,7 @@
 #include "scene/base/option_text.h"
 #include "scene/base/stages.h"
 #include "scene/base/threads.h"
+#include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 #include "scene/load.h"
 
@@ -185,7 +186,7 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
 
 /// `code`, or the one for outputs that cannot be written when the data did not reach stdout.
 int code_after_stdout(int code) {
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  if (data_reached_stdout()) return code;
   print_error(Error{ErrorKind::cannot_write, "could not write to stdout"});
   return static_cast<int>(ErrorKind::cannot_write);
 }
@@ -229,8 +230,22 @@ Error placed(const Error& error, const Invocation& invocation) {
   return in_file;
 }
 
+/// One message, quiet or not: who planted it may be nobody's friend.
+void tell_left_alone() {
+  const std::vector<std::string> names = StagedFolder::left_alone();
+  if (names.empty()) return;
+  constexpr std::size_t most = 4;
+  const std::size_t shown = std::min(names.size(), most);
+  std::string text =
+      fmt::format("gnomon: left alone, though named like unfinished work: {}",
+                  fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
+  print_error(one_line(text));
+}
+
 int run_action(const Invocation& invocation) {
   Expected<ExitCode> code = act_and_trace(invocation);
+  tell_left_alone();
   // First: a program that this one had started may have failed because the signal reached it, too.
   if (const int interrupted = interrupt_exit_code(); interrupted != 0) return interrupted;
   if (!code) {

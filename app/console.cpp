@@ -5,20 +5,39 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 #include "scene/base/expected.h"
+#include "scene/base/interrupted.h"
 
 namespace gnomon::app {
+
+namespace {
+
+std::atomic<bool> data_is_lost{false};  ///< some of the data
+
+}  // namespace
 
 void print_data(std::string_view text) {
   constexpr std::array<std::string_view, 3> styles{"\x1b[0m", "\x1b[1m", "\x1b[2m"};
   const std::string plain =
       plain_lines(text, stdout_takes_colour() ? std::span<const std::string_view>(styles)
                                               : std::span<const std::string_view>());
-  std::fwrite(plain.data(), 1, plain.size(), stdout);
+  std::fflush(stdout);
+  for (std::string_view rest = plain; !rest.empty() && !data_is_lost;) {
+    const ssize_t written = uninterrupted([&] { return ::write(STDOUT_FILENO, rest.data(), rest.size()); });
+    if (written < 0)
+      data_is_lost = true;
+    else
+      rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+bool data_reached_stdout() {
+  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && !data_is_lost;
 }
 
 void print_error(const std::string& text) {

@@ -12,6 +12,9 @@ namespace gnomon::app {
 /// scene/base/expected.h), but for the program's own styles where stdout takes colour.
 void print_data(std::string_view text);
 
+/// Whether all data got there.
+bool data_reached_stdout();
+
 /// Lines on stderr, escaped likewise; a line break is added where there is none.
 void print_error(const std::string& text);
 /// An input's error as file:line:column: reason, any other after the program's name.

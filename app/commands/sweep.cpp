@@ -73,7 +73,7 @@ Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan,
   loaded.scene->camera = given_camera;
   loaded.scene->lights = given_lights;
   const OutputGuard whole_file;
-  return write_file(compare::ray_points_path(command.folder), compare::ray_points_json(points));
+  return write_file_in(command.folder, compare::ray_points_name, compare::ray_points_json(points));
 }
 
 /// Cells that another OpenGL drew differ by more than the option that the sweep varies.
@@ -143,9 +143,10 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
   if (holds_line_break(program + folder + task_arguments(command)))
     return fail(ErrorKind::usage, "--slurm: a path or name holds a line break, which a batch script cannot");
   if (const auto made = make_output_folder(command.folder); !made) return fail(made.error());
-  const std::string script = folder + "/slurm.sh";
+  const std::string script_name = "slurm.sh", script = folder + "/" + script_name;
   const int tasks = *command.slurm_tasks;
-  if (const auto written = write_file(script, slurm_script(program, task_arguments(command), folder, tasks));
+  if (const auto written =
+          write_file_in(folder, script_name, slurm_script(program, task_arguments(command), folder, tasks));
       !written)
     return fail(written.error());
   console.message(fmt::format("submitting {} task{}, then waiting", tasks, tasks == 1 ? "" : "s"));

@@ -118,7 +118,12 @@ TemporaryFolder::TemporaryFolder(const std::string& name) {
   const std::lock_guard lock(folders.mutex);
   std::error_code error;
   std::string path = (std::filesystem::temp_directory_path(error) / (name + "-XXXXXX")).string();
-  if (error || mkdtemp(path.data()) == nullptr) path.clear();
+  if (error || mkdtemp(path.data()) == nullptr)
+    path.clear();
+  else if (access(path.c_str(), R_OK | W_OK | X_OK) != 0) {  // the umask takes it away from its maker
+    rmdir(path.c_str());
+    path.clear();
+  }
   place_ = folders.paths.insert(folders.paths.end(), path);
 }
 

@@ -28,8 +28,9 @@ bool PicturedCells::take(std::size_t cell, const compare::Comparison& comparison
 }
 
 Expected<void> CellPictureWriter::make_folders() const {
-  if (auto made = make_output_folder(folder_ + "/thumbnails"); !made) return made;
-  return make_output_folder(compare::cells_folder(folder_));
+  for (const std::string_view name : compare::sweep_folder_names)
+    if (auto made = make_output_subfolder(folder_, std::string(name)); !made) return made;
+  return {};
 }
 
 /// The name of a truth's picture, empty if it could not be encoded. The job of the truth's first cell tells;
@@ -49,8 +50,8 @@ struct CellPictureWriter::Pictures {
 };
 
 Expected<void> CellPictureWriter::write(const Pictures& p) {
-  const std::string cells = compare::cells_folder(p.folder) + "/";
-  std::vector<std::pair<std::string, std::string>> files;  // path, bytes
+  const std::string cells = std::string(compare::cells_name) + "/";
+  std::vector<std::pair<std::string, std::string>> files;  // name in the folder, bytes
   const auto add = [&files](const std::string& path, const Rgb8Image& image) -> Expected<void> {
     auto png = encode_png(image);
     if (!png) return fail(png.error());
@@ -73,10 +74,10 @@ Expected<void> CellPictureWriter::write(const Pictures& p) {
   files.emplace_back(name + ".js", compare::cell_data_file(p.cell, p.codes, p.truth_name->name.get()));
   if (p.drawing)
     if (auto added = add(name + ".png", *p.drawing); !added) return added;
-  if (auto added = add(compare::thumbnail_path(p.folder, p.cell), p.thumbnail); !added) return added;
+  if (auto added = add(compare::thumbnail_name(p.cell), p.thumbnail); !added) return added;
   const OutputGuard whole_files;
   for (const auto& [path, bytes] : files)
-    if (auto written = write_file(path, bytes); !written) return written;
+    if (auto written = write_file_in(p.folder, path, bytes); !written) return written;
   return {};
 }
 

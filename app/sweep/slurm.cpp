@@ -4,6 +4,7 @@
 
 #include "scene/base/option_text.h"
 #include "scene/base/run_program.h"
+#include "scene/files/links.h"
 
 namespace gnomon::app {
 
@@ -31,7 +32,16 @@ std::vector<std::string> shard_folders(const std::string& folder, int tasks) {
   return folders;
 }
 
+/// Slurm and its tasks write by names that can be known beforehand.
+Expected<void> check_no_links(const std::string& folder, int tasks) {
+  std::vector<std::string> names;
+  for (int i = 1; i <= tasks; ++i)
+    names.insert(names.end(), {fmt::format("shard-{}", i), fmt::format("slurm-{}.log", i)});
+  return refuse_links(folder, names);
+}
+
 Expected<void> run_slurm_array(const std::string& script_path, const std::string& folder, int tasks) {
+  if (auto plain = check_no_links(folder, tasks); !plain) return plain;
   std::vector<std::string> words{"sbatch",
                                  "--wait",
                                  "--parsable",

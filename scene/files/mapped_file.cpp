@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "scene/base/interrupted.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon {
@@ -14,7 +15,8 @@ constexpr std::int64_t worth_mapping = 1 << 16;  // bytes
 
 /// Nothing where the file is small, is no plain file, or cannot be mapped: then it is read.
 const char* map(const std::string& path, std::size_t& size) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe must not make us wait
+  const int file = uninterrupted(  // a pipe must not make us wait
+      [&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); });
   if (file < 0) return nullptr;
   struct stat status {};
   void* bytes = MAP_FAILED;

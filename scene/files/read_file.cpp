@@ -1,8 +1,8 @@
 #include "scene/files/read_file.h"
-#include "scene/base/expected.h"
-#include "scene/files/path_status.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -11,7 +11,11 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+
+#include "scene/base/expected.h"
+#include "scene/base/interrupted.h"
+#include "scene/files/path_status.h"
+#include "scene/files/write_file.h"
 
 namespace gnomon {
 namespace {
@@ -32,14 +36,20 @@ Expected<std::string> read_file(const std::string& path) {
   if (*kind == FileKind::none) return cannot_read(path, "no such file");
   if (*kind == FileKind::folder) return cannot_read(path, "is a folder, not a file");
   if (*kind != FileKind::file) return cannot_read(path, "is not a plain file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return failed_call(ErrorKind::bad_input, path, "cannot be opened", errno);
+  const Descriptor file(
+      uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }));
+  if (file.number() < 0) return failed_call(ErrorKind::bad_input, path, "cannot be opened", errno);
   const auto size = size_of_file(path);
   if (!size) return fail(size.error());
   std::string bytes(*size, '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(*size));
-  if (static_cast<std::uintmax_t>(file.gcount()) != *size)
-    return cannot_read(path, fmt::format("could be read only up to byte {} of {}", file.gcount(), *size));
+  std::size_t count = 0;
+  while (count < bytes.size()) {
+    const ssize_t got =
+        uninterrupted([&] { return ::read(file.number(), bytes.data() + count, bytes.size() - count); });
+    if (got <= 0)
+      return cannot_read(path, fmt::format("could be read only up to byte {} of {}", count, *size));
+    count += static_cast<std::size_t>(got);
+  }
   return bytes;
 }
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "scene/base/interrupted.h"
 #include "scene/files/path_status.h"
 
 namespace gnomon {
@@ -32,10 +33,11 @@ Expected<RowFile> RowFile::open(const std::string& folder) {
   }
   RowFile file;
   file.folder_ = place.string();
-  file.descriptor_ = ::open(file.folder_.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  file.descriptor_ =
+      uninterrupted([&] { return ::open(file.folder_.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); });
   if (file.descriptor_ >= 0) return file;
   std::string name = file.folder_ + "/gnomon-rows-XXXXXX";  // the file system has no files without a name
-  file.descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
+  file.descriptor_ = uninterrupted([&] { return ::mkostemp(name.data(), O_CLOEXEC); });
   if (file.descriptor_ < 0) return trouble(file.folder_, "cannot create a file", errno);
   ::unlink(name.c_str());
   return file;

@@ -1,20 +1,21 @@
 #include "scene/files/write_file.h"
 
-#include "scene/files/path_status.h"
-
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
-#include <charconv>
-#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <optional>
+#include <vector>
+
+#include "scene/base/interrupted.h"
+#include "scene/files/folder.h"
+#include "scene/files/new_file.h"
+#include "scene/files/path_status.h"
 
 namespace gnomon {
 namespace {
@@ -55,7 +56,7 @@ int write_all(int descriptor, std::string_view bytes) {
 }
 
 Expected<void> write_directly(const std::string& path, std::string_view bytes) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  Descriptor file(uninterrupted([&] { return ::open(path.c_str(), O_WRONLY | O_CLOEXEC); }));
   if (file.number() < 0) return failed_call(ErrorKind::cannot_write, path, "cannot open it", errno);
   if (const int error = write_all(file.number(), bytes))
     return failed_call(ErrorKind::cannot_write, path, "cannot write", error);
@@ -63,41 +64,49 @@ Expected<void> write_directly(const std::string& path, std::string_view bytes) {
   return {};
 }
 
-// Of the original name, of 255 bytes that a file system takes.
-constexpr std::size_t longest_kept_name = 100;
-
-/// Beside the path, with so much of its name as a file system takes (255 bytes).
-std::string temporary_name(const std::string& path) {
-  static std::atomic<unsigned> counter{0};
-  const fs::path file(path);
-  const std::string name = file.filename().string().substr(0, longest_kept_name);
-  return (file.parent_path() / fmt::format("{}.{}-{}.part", name, ::getpid(), counter++)).string();
+/// `path`: the file's name in messages.
+Expected<void> keep_permissions(const NewFile& file, mode_t older, const std::string& path) {
+  if (::fchmod(file.descriptor(), older & 07777) == 0) return {};
+  return failed_call(ErrorKind::cannot_write, path, "cannot keep its permissions", errno);
 }
 
-/// Goes unless it was renamed, whatever is thrown.
-struct TemporaryFile {
-  explicit TemporaryFile(const std::string& target) : path(temporary_name(target)) {}
-  ~TemporaryFile() { ::unlink(path.c_str()); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  const std::string path;
-};
-
-// Writes, flushes and closes the temporary file.
-Expected<void> fill_temporary(const std::string& path, const std::string& temporary, std::string_view bytes,
-                              std::optional<mode_t> old_mode) {
-  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (file.number() < 0)
-    return failed_call(ErrorKind::cannot_write, path, "cannot create a file beside it", errno);
-  if (old_mode && ::fchmod(file.number(), *old_mode & 07777) != 0)
-    return failed_call(ErrorKind::cannot_write, path, "cannot keep its permissions", errno);
-  if (const int error = write_all(file.number(), bytes))
+Expected<void> replace_file(Folder folder, const std::string& name, std::string_view bytes,
+                            std::optional<mode_t> older, const std::string& path) {
+  const auto named = [&path](Error error) {
+    error.file = path;
+    return fail(std::move(error));
+  };
+  auto file = NewFile::make(std::move(folder), name, NewFile::Name::temporary);
+  if (!file) return named(file.error());
+  if (older)
+    if (auto kept = keep_permissions(*file, *older, path); !kept) return kept;
+  if (const int error = write_all(file->descriptor(), bytes))
     return failed_call(ErrorKind::cannot_write, path, "cannot write", error);
-  if (::fsync(file.number()) != 0)
-    return failed_call(ErrorKind::cannot_write, path, "cannot flush it to the disk", errno);
-  if (!file.close()) return failed_call(ErrorKind::cannot_write, path, "cannot close it", errno);
+  if (auto flushed = file->flush(); !flushed) return named(flushed.error());
+  if (auto there = file->publish(); !there) return named(there.error());
   return {};
 }
+
+/// Makes a folder and those above it that are missing, and adds those that it made to `made`.
+Expected<void> make_folders(const std::string& path, std::vector<std::string>& made) {
+  const auto there = is_there(path, ErrorKind::cannot_write);
+  if (!there) return fail(there.error());
+  if (*there || path.empty()) return {};
+  const fs::path folder(path);
+  if (folder.has_relative_path() && folder.parent_path() != folder)
+    if (auto above = make_folders(folder.parent_path().string(), made); !above) return above;
+  if (!folder.has_filename()) return {};  // "a/", after "a"
+  if (::mkdir(path.c_str(), 0777) == 0)
+    made.push_back(path);
+  else if (errno != EEXIST)
+    return failed_call(ErrorKind::cannot_write, path, "cannot create the folder", errno);
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) != 0)
+    return failed_call(ErrorKind::cannot_write, path, "cannot be looked at", errno);
+  return made.empty() ? Expected<void>{} : check_umask_leaves(0700, status.st_mode, path);
+}
+
+}  // namespace
 
 // A symbolic link stays a link: what it points to is replaced. One that leads nowhere is replaced itself.
 Expected<std::string> follow_link(const std::string& path) {
@@ -109,17 +118,6 @@ Expected<std::string> follow_link(const std::string& path) {
   if (error) return failed_call(ErrorKind::cannot_write, path, "cannot follow it", error.value());
   return target.string();
 }
-
-/// Reads a process's number, which has decimal digits alone, without a leading zero.
-std::optional<pid_t> process_number(std::string_view text) {
-  pid_t number = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (status != std::errc() || end != text.data() + text.size() || number <= 0 || text.front() == '0')
-    return std::nullopt;
-  return number;
-}
-
-}  // namespace
 
 Expected<void> write_file(const std::string& path, std::string_view bytes) {
   const FileSizeSignalBlock block;
@@ -133,57 +131,47 @@ Expected<void> write_file(const std::string& path, std::string_view bytes) {
     if (!S_ISREG(status.st_mode)) return write_directly(path, bytes);
     old_mode = status.st_mode;
   }
-  const TemporaryFile temporary(target);
-  if (auto filled = fill_temporary(path, temporary.path, bytes, old_mode); !filled) return filled;
-  if (::rename(temporary.path.c_str(), target.c_str()) != 0)
-    return failed_call(ErrorKind::cannot_write, path, "cannot rename the finished file", errno);
-  return {};
+  auto folder = Folder::at(fs::path(target).parent_path().string());
+  if (!folder) return fail(folder.error());
+  return replace_file(std::move(*folder), last_part(target), bytes, old_mode, path);
 }
 
-std::string abandoned_part_of(std::string_view name) {
-  constexpr std::string_view end = ".part";
-  if (!name.ends_with(end)) return {};
-  name.remove_suffix(end.size());
-  const std::size_t dot = name.rfind('.'), dash = name.rfind('-');
-  if (dot == std::string_view::npos || dash == std::string_view::npos || dash < dot ||
-      dot > longest_kept_name)
-    return {};
-  const std::string_view count = name.substr(dash + 1);
-  const auto process = process_number(name.substr(dot + 1, dash - dot - 1));
-  if (!process || count.empty() || count.find_first_not_of("0123456789") != std::string_view::npos) return {};
-  const bool lives = *process != ::getpid() && (::kill(*process, 0) == 0 || errno != ESRCH);
-  return lives ? std::string() : std::string(name.substr(0, dot));
+Expected<void> write_file_in(const std::string& folder, const std::string& name, std::string_view bytes) {
+  const FileSizeSignalBlock block;
+  const auto opened = Folder::at(folder);
+  if (!opened) return fail(opened.error());
+  auto place = opened->below(folder_part(name));
+  if (!place) return fail(place.error());
+  const auto there = place->find(last_part(name));
+  if (!there) return fail(there.error());
+  std::optional<mode_t> old_mode;
+  if (*there && S_ISDIR((*there)->st_mode))
+    return failed_call(ErrorKind::cannot_write, opened->path_of(name), "it is a folder", EISDIR);
+  if (*there && S_ISREG((*there)->st_mode)) old_mode = (*there)->st_mode;
+  return replace_file(std::move(*place), last_part(name), bytes, old_mode, opened->path_of(name));
+}
+
+Expected<void> make_output_subfolder(const std::string& folder, const std::string& name) {
+  const auto opened = Folder::at(folder);
+  if (!opened) return fail(opened.error());
+  if (auto made = make_folder_in(*opened, name); !made) return fail(made.error());
+  const auto inside = opened->below(name);
+  if (!inside) return fail(inside.error());
+  const auto takes = try_new_file(*inside);
+  return takes ? Expected<void>{} : fail(takes.error());
 }
 
 Expected<PartFile> PartFile::create(const std::string& path) {
-  PartFile file;
   auto target = follow_link(path);
   if (!target) return fail(target.error());
-  file.target_ = std::move(*target);
   struct stat status {};
-  if (::stat(file.target_.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+  if (::stat(target->c_str(), &status) == 0 && !S_ISREG(status.st_mode))
     return failed_call(ErrorKind::cannot_write, path, "a picture made in bands needs a plain file", EINVAL);
-  const fs::path folder = fs::path(file.target_).parent_path();
-  file.descriptor_ = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
-  if (file.descriptor_ >= 0) return file;
-  const std::string part = temporary_name(file.target_);
-  file.descriptor_ = ::open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file.descriptor_ < 0)
-    return failed_call(ErrorKind::cannot_write, path, "cannot create a file beside it", errno);
-  file.part_ = part;
-  return file;
-}
-
-PartFile& PartFile::operator=(PartFile&& other) noexcept {
-  std::swap(target_, other.target_);
-  std::swap(part_, other.part_);
-  std::swap(descriptor_, other.descriptor_);
-  return *this;
-}
-
-PartFile::~PartFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-  if (!part_.empty()) ::unlink(part_.c_str());
+  auto folder = Folder::at(fs::path(*target).parent_path().string());
+  if (!folder) return fail(folder.error());
+  auto file = NewFile::make(std::move(*folder), last_part(*target), NewFile::Name::none_if_possible);
+  if (!file) return fail(file.error());
+  return PartFile(std::move(*target), std::move(*file));
 }
 
 Expected<void> PartFile::append(std::string_view bytes) {
@@ -196,34 +184,34 @@ Expected<void> PartFile::write_over_begin(std::string_view bytes) {
 
 Expected<void> PartFile::write_from(int whence, std::string_view bytes) {
   const FileSizeSignalBlock block;
-  if (::lseek(descriptor_, 0, whence) < 0)
+  if (::lseek(file_.descriptor(), 0, whence) < 0)
     return failed_call(ErrorKind::cannot_write, target_, "cannot write", errno);
-  if (const int error = write_all(descriptor_, bytes))
+  if (const int error = write_all(file_.descriptor(), bytes))
     return failed_call(ErrorKind::cannot_write, target_, "cannot write", error);
   return {};
 }
 
-Expected<void> PartFile::publish() {
+Expected<void> PartFile::finish() {
   struct stat old {};
-  if (::stat(target_.c_str(), &old) == 0 && ::fchmod(descriptor_, old.st_mode & 07777) != 0)
-    return failed_call(ErrorKind::cannot_write, target_, "cannot keep its permissions", errno);
-  if (::fsync(descriptor_) != 0)
-    return failed_call(ErrorKind::cannot_write, target_, "cannot flush it to the disk", errno);
-  if (part_.empty()) {  // gets a name first, for a file that is there already can only be renamed over
-    const std::string part = temporary_name(target_);
-    const std::string here = fmt::format("/proc/self/fd/{}", descriptor_);
-    if (::linkat(AT_FDCWD, here.c_str(), AT_FDCWD, part.c_str(), AT_SYMLINK_FOLLOW) != 0)
-      return failed_call(ErrorKind::cannot_write, target_, "cannot name the finished file", errno);
-    part_ = part;
-  }
-  if (::rename(part_.c_str(), target_.c_str()) != 0)
-    return failed_call(ErrorKind::cannot_write, target_, "cannot rename the finished file", errno);
-  part_.clear();
-  return {};
+  if (::stat(target_.c_str(), &old) == 0)
+    if (auto kept = keep_permissions(file_, old.st_mode, target_); !kept) return kept;
+  return file_.flush();
+}
+
+Expected<void> PartFile::publish() {
+  if (auto finished = finish(); !finished) return finished;
+  return file_.publish();
+}
+
+Expected<void> PartFile::publish_at(const std::string& place) {
+  if (auto finished = finish(); !finished) return finished;
+  const auto folder = Folder::at(folder_part(place));
+  if (!folder) return fail(folder.error());
+  return file_.publish(*folder, last_part(place));
 }
 
 Expected<void> write_over_end(const std::string& path, std::string_view end) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  Descriptor file(uninterrupted([&] { return ::open(path.c_str(), O_WRONLY | O_CLOEXEC); }));
   if (file.number() < 0) return failed_call(ErrorKind::cannot_write, path, "cannot open it", errno);
   if (::lseek(file.number(), -static_cast<off_t>(end.size()), SEEK_END) < 0)
     return failed_call(ErrorKind::cannot_write, path, "cannot write over its end", errno);
@@ -244,11 +232,15 @@ bool is_same_file(const std::string& a, const std::string& b) {
   return whole(a) == whole(b) && !error;
 }
 
-Expected<void> make_output_folder(const std::string& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) return failed_call(ErrorKind::cannot_write, path, "cannot create the folder", error.value());
-  return check_takes_files(path);
+Expected<void> make_output_folder(const std::string& path, std::vector<std::string>* made) {
+  std::vector<std::string> own;
+  auto fine = make_folders(path, own);
+  if (fine) fine = check_takes_files(path);
+  if (!fine)
+    for (auto folder = own.rbegin(); folder != own.rend(); ++folder) ::rmdir(folder->c_str());
+  else if (made != nullptr)
+    made->insert(made->end(), own.begin(), own.end());
+  return fine;
 }
 
 Expected<void> make_folder_for(const std::string& path) {
@@ -260,13 +252,10 @@ Expected<void> check_takes_files(const std::string& folder) {
   const auto there = is_folder(folder, ErrorKind::cannot_write);
   if (!there) return fail(there.error());
   if (!*there) return failed_call(ErrorKind::cannot_write, folder, "cannot write here", ENOTDIR);
-  const Descriptor nameless(::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600));
-  if (nameless.number() >= 0) return {};
-  const std::string probe = temporary_name((fs::path(folder) / probe_name).string());
-  const Descriptor file(::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-  if (file.number() < 0)
-    return failed_call(ErrorKind::cannot_write, folder, "cannot create files in the folder", errno);
-  return remove_path(probe);
+  const auto opened = Folder::at(folder);
+  if (!opened) return fail(opened.error());
+  const auto taken = try_new_file(*opened);
+  return taken ? Expected<void>{} : fail(taken.error());
 }
 
 }  // namespace gnomon

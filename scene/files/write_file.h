@@ -2,11 +2,15 @@
 #pragma once
 
 #include <unistd.h>
+
+#include <cerrno>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "scene/base/expected.h"
+#include "scene/files/new_file.h"
 
 namespace gnomon {
 
@@ -16,28 +20,32 @@ namespace gnomon {
 /// signal.
 Expected<void> write_file(const std::string& path, std::string_view bytes);
 
-/// The name of the file that a process of this program was writing when it left a temporary file called `name` (what
-/// write_file() calls it: NAME.PROCESS-COUNT.part, with up to 100 bytes of the file's own name), and is no more. Empty for
-/// every other name, and while the process lives, unless it is this one.
-std::string abandoned_part_of(std::string_view name);
+/// Writes likewise to the file `name` ("cells/1.png") in a folder, where the program itself chose that name: no link in the
+/// folder is followed, and one that has the file's name is replaced.
+Expected<void> write_file_in(const std::string& folder, const std::string& name, std::string_view bytes);
+/// Makes a folder in an output folder unless it is there, and checks that files can be written in it. A link of that name
+/// is an error. ErrorKind::cannot_write.
+Expected<void> make_output_subfolder(const std::string& folder, const std::string& name);
 
 /// Writes over the end of a file that write_file() wrote, in its place and without waiting for the disk: after
 /// a cut of power parts of the old end may stand there. ErrorKind::cannot_write.
 Expected<void> write_over_end(const std::string& path, std::string_view end);
 
+/// Returns what a path leads to. A link that leads nowhere is a place itself. ErrorKind::cannot_write.
+Expected<std::string> follow_link(const std::string& path);
+
 /// Whether two paths lead to one file, which need not exist yet; a device is nobody's.
 bool is_same_file(const std::string& a, const std::string& b);
 
-/// Creates the folder (and its parents) and checks that files can be written in it.
-Expected<void> make_output_folder(const std::string& path);
+/// Creates the folder (and its parents) and checks that files can be written in it; else none of them stays. Those that it
+/// made are added to `made`, the outermost first.
+Expected<void> make_output_folder(const std::string& path, std::vector<std::string>* made = nullptr);
 /// Makes the folder that the file is to lie in, to be called when the file is about to be written.
 Expected<void> make_folder_for(const std::string& path);
 
-/// Makes a file in the folder, without a name where the file system knows such: permissions alone do not tell. Nothing is
-/// left behind. ErrorKind::cannot_write.
+/// Makes a file in the folder: permissions alone do not tell. Nothing is left behind. ErrorKind::cannot_write, also where
+/// the umask would take the file away from the user.
 Expected<void> check_takes_files(const std::string& folder);
-/// The file's name in an output's folder where it must have one, as abandoned_part_of() gives it.
-inline constexpr std::string_view probe_name = "probe";
 
 // A file descriptor that closes itself.
 
@@ -51,7 +59,7 @@ class Descriptor {
   /// For those who want to know whether that worked.
   bool close() {
     const int number = std::exchange(number_, -1);
-    return number < 0 || ::close(number) == 0;
+    return number < 0 || ::close(number) == 0 || errno == EINTR;  // it is closed after a signal, too
   }
 
  private:
@@ -66,20 +74,20 @@ class PartFile {
  public:
   /// Empty, beside `path`. An error also where that is there and no plain file.
   static Expected<PartFile> create(const std::string& path);
-  PartFile(PartFile&& other) noexcept { *this = std::move(other); }
-  PartFile& operator=(PartFile&& other) noexcept;
-  ~PartFile();
   /// Behind what is there.
   Expected<void> append(std::string_view bytes);
   /// Over what is there, from its first byte on.
   Expected<void> write_over_begin(std::string_view bytes);
   Expected<void> publish();
+  /// Puts it, with all else as it would be, in another place on the same file system.
+  Expected<void> publish_at(const std::string& place);
 
  private:
-  PartFile() = default;
+  Expected<void> finish();
+  PartFile(std::string target, NewFile file) : target_(std::move(target)), file_(std::move(file)) {}
   Expected<void> write_from(int whence, std::string_view bytes);
-  std::string target_, part_;
-  int descriptor_ = -1;
+  std::string target_;
+  NewFile file_;
 };
 
 }  // namespace gnomon

@@ -16,6 +16,7 @@
 #include <ctime>
 #include <optional>
 
+#include "scene/base/interrupted.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::grade {
@@ -57,7 +58,7 @@ bool read_some(int from, int wait_ms, std::string& text) {
   if (ready < 0) return errno == EINTR;
   if (ready == 0) return true;
   char buffer[4096];
-  const ssize_t count = read(from, buffer, sizeof buffer);
+  const ssize_t count = uninterrupted([&] { return read(from, buffer, sizeof buffer); });
   if (count <= 0) return false;
   const std::size_t room = longest_message - std::min(longest_message, text.size());
   text.append(buffer, std::min(room, static_cast<std::size_t>(count)));
@@ -107,7 +108,7 @@ Outcome follow(pid_t child, int from, const Limits& limits) {
     if (const auto why = meter.look()) {
       outcome.end = *why;
       kill(child, SIGKILL);
-      wait4(child, &status, 0, &used);
+      uninterrupted([&] { return wait4(child, &status, 0, &used); });
       return outcome;
     }
     if (open) open = read_some(from, look_ms, outcome.err);

@@ -30,12 +30,16 @@ bool has_thumbnail(std::size_t cell, std::size_t cells) {
   return k < max_thumbnails && k * cells / max_thumbnails == cell;
 }
 
+std::string thumbnail_name(std::size_t cell) {
+  return fmt::format("{}/{}.png", thumbnails_name, cell_name(cell));
+}
+
 std::string thumbnail_path(const std::string& folder, std::size_t cell) {
-  return fmt::format("{}/thumbnails/{}.png", folder, cell_name(cell));
+  return fmt::format("{}/{}", folder, thumbnail_name(cell));
 }
 
 std::string cells_folder(const std::string& folder) {
-  return folder + "/cells";
+  return fmt::format("{}/{}", folder, cells_name);
 }
 
 std::string cell_name(std::size_t cell) {

@@ -15,6 +15,7 @@
 
 #include "scene/base/expected.h"
 #include "scene/image.h"
+#include "studies/sweep/own_files.h"
 
 namespace gnomon::compare {
 
@@ -24,6 +25,9 @@ inline constexpr int drawing_width = 640;    ///< pixels
 inline constexpr std::size_t max_thumbnails = 144;
 bool has_thumbnail(std::size_t cell, std::size_t cells);
 
+inline constexpr std::string_view thumbnails_name = sweep_folder_names[0], cells_name = sweep_folder_names[1];
+/// "thumbnails/cell-000012.png", in the sweep's folder.
+std::string thumbnail_name(std::size_t cell);
 std::string thumbnail_path(const std::string& folder, std::size_t cell);
 std::string cells_folder(const std::string& folder);
 std::string cell_name(std::size_t cell);  ///< "cell-000012"

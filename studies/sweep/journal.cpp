@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/result/output_parts.h"
+#include "scene/base/interrupted.h"
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
 #include "scene/files/path_status.h"
@@ -60,7 +61,7 @@ struct Journal::File {
   }
   Expected<void> cut(std::size_t length) {
     size = length;
-    if (::ftruncate(descriptor, static_cast<off_t>(length)) != 0)
+    if (uninterrupted([&] { return ::ftruncate(descriptor, static_cast<off_t>(length)); }) != 0)
       return failed_call(ErrorKind::cannot_write, path, "cannot cut", errno);
     return {};
   }

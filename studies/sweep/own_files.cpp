@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "scene/base/interrupted.h"
 #include "scene/files/path_status.h"
 #include "studies/sweep/cell_files.h"
 #include "studies/sweep/sweep_line.h"
@@ -55,7 +56,7 @@ Expected<OwnFile> OwnFile::open(const std::string& folder, std::string_view name
   file.path_ = path_in(folder, name), file.name_ = name;
   // O_NONBLOCK: a pipe with no other end would not open.
   const int flags = O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | (make ? O_CREAT : 0);
-  file.descriptor_ = ::open(file.path_.c_str(), flags, 0666);
+  file.descriptor_ = uninterrupted([&] { return ::open(file.path_.c_str(), flags, 0666); });
   if (!file.is_open()) {
     if (!make && (errno == ENOENT || errno == ENOTDIR)) return file;
     if (errno == ELOOP) return not_a_sweeps(file.path_, "is a link");

@@ -124,7 +124,7 @@ Expected<WrittenPage> read_and_write_page(const std::string& folder, double repo
   written.page_mb = static_cast<double>(page.size()) / 1e6;
   written.beside = input.beside = written.page_mb > report_max_mb;
   if (input.beside) page = sweep_page(input);
-  if (auto saved = write_file(folder + "/report.html", page); !saved) return fail(saved.error());
+  if (auto saved = write_file_in(folder, "report.html", page); !saved) return fail(saved.error());
   return written;
 }
 

@@ -145,7 +145,7 @@ std::vector<RayPoint> measure_ray_points(const World& world, raytrace::Accel acc
 }
 
 std::string ray_points_path(const std::string& folder) {
-  return folder + "/ray_tracer.json";
+  return fmt::format("{}/{}", folder, ray_points_name);
 }
 
 std::string ray_points_json(const std::vector<RayPoint>& points) {

@@ -35,6 +35,7 @@ std::vector<RayPoint> measure_ray_points(const World& world, raytrace::Accel acc
 std::string ray_points_json(const std::vector<RayPoint>& points);
 /// Reads DIR/ray_tracer.json; none where there is no such file. Errors are ErrorKind::bad_input.
 Expected<std::vector<RayPoint>> read_ray_points(const std::string& folder);
+inline constexpr const char* ray_points_name = "ray_tracer.json";
 std::string ray_points_path(const std::string& folder);
 
 }  // namespace gnomon::compare

@@ -1,5 +1,6 @@
-// Folders of outputs when the system fails, or the process is killed, at any of its steps. This program has its own rename(),
-// link(), mkdir(), fsync() and unlinkat(), which the libraries call, too; each can be told to fail or to end the process.
+// Folders of outputs when the system fails, or the process is killed, at any of its steps. This program has its own
+// renameat(), linkat(), mkdirat(), fsync() and unlinkat(), which the libraries call, too; each can be told to fail or to end
+// the process.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -24,10 +25,10 @@ enum class Fault { none, fails, stays_broken, kills };
 struct Plan {
   Fault fault = Fault::none;
   std::string call;
-  int at = 0, count = 0;
+  int at = 0, count = 0, error = EIO;
 } plan;
 
-int looks = 0;  ///< calls of stat() and lstat()
+int looks = 0;  ///< calls of stat() and fstatat()
 
 /// Whether this call is to fail.
 bool strikes(const char* call) {
@@ -35,7 +36,7 @@ bool strikes(const char* call) {
   ++plan.count;
   const bool now = plan.count == plan.at || (plan.fault == Fault::stays_broken && plan.count > plan.at);
   if (now && plan.fault == Fault::kills) ::kill(::getpid(), SIGKILL);
-  if (now) errno = EIO;
+  if (now) errno = plan.error;
   return now;
 }
 
@@ -47,14 +48,16 @@ Function real(const char* name) {
 }  // namespace
 
 extern "C" {
-int rename(const char* from, const char* to) noexcept {
-  return strikes("rename") ? -1 : real<int (*)(const char*, const char*)>("rename")(from, to);
+int renameat(int from_folder, const char* from, int folder, const char* to) noexcept {
+  using Rename = int (*)(int, const char*, int, const char*);
+  return strikes("rename") ? -1 : real<Rename>("renameat")(from_folder, from, folder, to);
 }
-int link(const char* from, const char* to) noexcept {
-  return strikes("link") ? -1 : real<int (*)(const char*, const char*)>("link")(from, to);
+int linkat(int from_folder, const char* from, int folder, const char* to, int flags) noexcept {
+  using Link = int (*)(int, const char*, int, const char*, int);
+  return strikes("link") ? -1 : real<Link>("linkat")(from_folder, from, folder, to, flags);
 }
-int mkdir(const char* path, mode_t mode) noexcept {
-  return strikes("mkdir") ? -1 : real<int (*)(const char*, mode_t)>("mkdir")(path, mode);
+int mkdirat(int folder, const char* path, mode_t mode) noexcept {
+  return strikes("mkdir") ? -1 : real<int (*)(int, const char*, mode_t)>("mkdirat")(folder, path, mode);
 }
 int fsync(int) {  // these tests cut no power
   return strikes("fsync") ? -1 : 0;
@@ -63,9 +66,10 @@ int stat(const char* path, struct stat* status) noexcept {
   ++looks;
   return real<int (*)(const char*, struct stat*)>("stat")(path, status);
 }
-int lstat(const char* path, struct stat* status) noexcept {
+int fstatat(int folder, const char* path, struct stat* status, int flags) noexcept {
   ++looks;
-  return real<int (*)(const char*, struct stat*)>("lstat")(path, status);
+  using Look = int (*)(int, const char*, struct stat*, int);
+  return real<Look>("fstatat")(folder, path, status, flags);
 }
 int unlinkat(int folder, const char* path, int flags) noexcept {
   return strikes("unlinkat") ? -1 : real<int (*)(int, const char*, int)>("unlinkat")(folder, path, flags);
@@ -128,7 +132,7 @@ void for_each_fault(Fault fault, const std::string& call, bool older, const Chec
     if (older) write_older(folder);
     const Contents before = contents(folder.path());
     SCOPED_TRACE(call + " " + std::to_string(at));
-    plan = {fault, call, at, 0};
+    plan = {fault, call, at};
     const auto published = publish_newer(folder.file("out"));
     const bool struck = plan.count >= plan.at;
     plan = {};
@@ -165,13 +169,23 @@ TEST(OutputFaults, ANewResultIsThereWholeOrNotAtAll) {
                    });
 }
 
-// What cannot be put back at once is kept, and the next run puts it back before it does anything else.
+/// The older files by their names, wherever in the folder they lie.
+std::map<std::string, std::string> older_wherever(const Contents& all) {
+  std::map<std::string, std::string> found;
+  for (const std::string& name : older_files)
+    for (const auto& [path, content] : all)
+      if (content == "older " + name) found[name] = path;
+  return found;
+}
+
+// What cannot be put back at once is kept, until a whole new result is there.
 TEST(OutputFaults, ADiskThatStaysBrokenLosesNothing) {
   for (const char* call : {"rename", ""})
     for_each_fault(
         Fault::stays_broken, call, true,
         [&](const TemporaryFolder& folder, const Contents& before, const Expected<void>& published) {
-          const bool whole = without_staged(contents(folder.path())) == before;
+          const Contents left = contents(folder.path());
+          const bool whole = without_staged(left) == before;
           if (!whole && !published) {
             const std::string& why = published.error().reason;
             EXPECT_TRUE(why.find("put back") != std::string::npos ||
@@ -180,7 +194,10 @@ TEST(OutputFaults, ADiskThatStaysBrokenLosesNothing) {
           }
           if (published || published.error().reason.find("in their places") != std::string::npos) return;
           ASSERT_TRUE(StagedFolder::open(folder.file("out")));
-          EXPECT_EQ(contents(folder.path()), before) << published.error().message();
+          EXPECT_EQ(older_wherever(contents(folder.path())).size(), older_files.size())
+              << published.error().message();
+          ASSERT_TRUE(publish_newer(folder.file("out")));
+          EXPECT_EQ(contents(folder.path()), newer_contents());
         });
 }
 
@@ -188,7 +205,7 @@ TEST(OutputFaults, ADiskThatStaysBrokenLosesNothing) {
 bool is_killed_at(int at, const std::string& folder) {
   const pid_t child = ::fork();
   if (child == 0) {
-    plan = {Fault::kills, "", at, 0};
+    plan = {Fault::kills, "", at};
     ::_exit(publish_newer(folder) ? 0 : 1);
   }
   int status = 0;
@@ -199,7 +216,7 @@ bool is_killed_at(int at, const std::string& folder) {
 
 TEST(OutputFaults, AKilledProcessLeavesNoMixtureWithAPage) {
   const Contents newer = newer_contents();
-  int undone = 0;
+  int mixed = 0;
   for (int at = 1;; ++at) {
     const TemporaryFolder folder;
     write_older(folder);
@@ -207,61 +224,183 @@ TEST(OutputFaults, AKilledProcessLeavesNoMixtureWithAPage) {
     SCOPED_TRACE(at);
     if (!is_killed_at(at, folder.file("out"))) break;
     const Contents left = without_staged(contents(folder.path()));
-    const bool mixed = left != before && left != newer;
-    if (mixed) {
+    if (left != before && left != newer) {
       EXPECT_FALSE(left.contains("out/page"));
+      ++mixed;
     }
-    undone += mixed ? 1 : 0;
-    ASSERT_TRUE(StagedFolder::open(folder.file("out")));
-    EXPECT_EQ(contents(folder.path()), left == newer ? newer : before);
+    EXPECT_EQ(left.at("out/of-the-older-alone"), "older of-the-older-alone");
+    EXPECT_EQ(left.at("out/mine.part"), "older mine.part");
+    ASSERT_TRUE(publish_newer(folder.file("out")));
+    EXPECT_EQ(contents(folder.path()), newer);
   }
-  EXPECT_GT(undone, 5) << "kills in the middle";
+  EXPECT_GT(mixed, 5) << "kills in the middle";
 }
 
-// A file that its owner puts in the place of one of the killed process's is not taken away again.
-TEST(OutputFaults, WhatSomebodyWroteSinceTheKillStays) {
-  int tried = 0;
+// A staged folder from somebody else is no list of what to move: it goes, and nothing of it is used.
+TEST(OutputFaults, APlantedFolderMovesNothing) {
+  const TemporaryFolder folder;
+  write_older(folder);
+  for (const char* name : {"out/.gnomon.1.part", "out.gnomon.2.part"}) {
+    const std::string staged = name;
+    folder.put(staged + "/.publishing", std::string("7 7 ../outside\0"
+                                                    "7 7 l/outside\0",
+                                                    30));
+    folder.put(staged + "/.replaced/l/outside", "planted");
+    folder.put(staged + "/.replaced/page", "planted");
+    folder.put(staged + "/outside", "planted");
+  }
+  fs::create_symlink("..", folder.file("out/l"));
+  ASSERT_TRUE(publish_newer(folder.file("out")));
+  Contents expected = newer_contents();
+  expected["out/l"] = "a folder";
+  EXPECT_EQ(contents(folder.path()), expected);
+  EXPECT_TRUE(StagedFolder::left_alone().empty());
+}
+
+// Neither what they lead to nor what they are is touched, and one sentence names them.
+TEST(OutputFaults, WhatIsNoStagedFolderOfTheUsersIsLeftAndSaid) {
+  const TemporaryFolder folder;
+  write_older(folder);
+  folder.put("outside/a", "mine");
+  folder.put("out/.gnomon.1.part", "a file");
+  fs::create_directory_symlink(folder.file("outside"), folder.file("out/.gnomon.2.part"));
+  fs::create_symlink("nowhere", folder.file("out/.gnomon.3.part"));
+  ASSERT_EQ(::mkfifo(folder.file("out.gnomon.4.part").c_str(), 0600), 0);
+  std::size_t refused = 4;
+  if (::geteuid() == 0) {
+    folder.put("out/.gnomon.5.part/a", "another's");
+    ASSERT_EQ(::chown(folder.file("out/.gnomon.5.part").c_str(), 65534, 65534), 0);
+    folder.put("out/.gnomon.6.part/below/a", "another's");
+    ASSERT_EQ(::chown(folder.file("out/.gnomon.6.part/below/a").c_str(), 65534, 65534), 0);
+    refused = 6;
+  }
+  ASSERT_TRUE(StagedFolder::open(folder.file("out")));
+  EXPECT_EQ(StagedFolder::left_alone().size(), refused);
+  EXPECT_TRUE(StagedFolder::left_alone().empty());
+  EXPECT_EQ(test::bytes_of(folder.file("outside/a")), "mine");
+  EXPECT_EQ(test::bytes_of(folder.file("out/.gnomon.1.part")), "a file");
+  for (const char* name : {"out/.gnomon.2.part", "out/.gnomon.3.part"})
+    EXPECT_TRUE(fs::is_symlink(folder.file(name))) << name;
+  EXPECT_TRUE(fs::is_fifo(folder.file("out.gnomon.4.part")));
+  if (refused == 6) {
+    EXPECT_EQ(test::bytes_of(folder.file("out/.gnomon.5.part/a")), "another's");
+    EXPECT_EQ(test::bytes_of(folder.file("out/.gnomon.6.part/below/a")), "another's");
+  }
+}
+
+// Abandoned folders go with the links in them, which lead out to what stays.
+TEST(OutputFaults, RemovingFollowsNoLink) {
+  const TemporaryFolder folder;
+  write_older(folder);
+  folder.put("outside/a", "mine");
+  folder.put("out/.gnomon.1.part/a", "abandoned");
+  fs::create_directory_symlink(folder.file("outside"), folder.file("out/.gnomon.1.part/l"));
+  ASSERT_TRUE(StagedFolder::open(folder.file("out")));
+  EXPECT_FALSE(fs::exists(folder.file("out/.gnomon.1.part")));
+  EXPECT_EQ(test::bytes_of(folder.file("outside/a")), "mine");
+}
+
+// The process's own number is no secret.
+TEST(OutputFaults, AStagedNameThatIsTakenGetsAnother) {
+  const TemporaryFolder folder;
+  write_older(folder);
+  folder.put("outside/a", "mine");
+  fs::create_directory_symlink(folder.file("outside"),
+                               folder.file("out/.gnomon." + std::to_string(::getpid()) + ".part"));
+  ASSERT_TRUE(publish_newer(folder.file("out")));
+  EXPECT_EQ(test::bytes_of(folder.file("out/page")), "newer page");
+  EXPECT_EQ(test::bytes_of(folder.file("outside/a")), "mine");
+  EXPECT_EQ(StagedFolder::left_alone().size(), 1u) << "once, though it was met twice";
+}
+
+TEST(OutputFaults, ALinkInTheFolderIsNotWrittenThrough) {
+  for (const char* way : {"cells", "more", "more/deep"}) {
+    const TemporaryFolder folder;
+    folder.put("out/a", "older a");
+    folder.put("outside/1", "mine");
+    fs::create_directories(
+        folder.file(std::string("out/") + way).substr(0, folder.file(std::string("out/") + way).rfind('/')));
+    fs::create_directory_symlink(folder.file("outside"), folder.file(std::string("out/") + way));
+    const Contents before = contents(folder.path());
+    const auto published = publish_newer(folder.file("out"));
+    ASSERT_FALSE(published) << way;
+    EXPECT_EQ(published.error().kind, ErrorKind::cannot_write);
+    EXPECT_NE(published.error().message().find("is a link"), std::string::npos)
+        << published.error().message();
+    EXPECT_EQ(contents(folder.path()), before) << way;
+  }
+}
+
+// A file that is a link is replaced itself; the folder, which its user named, may be one.
+TEST(OutputFaults, AFileThatIsALinkIsReplaced) {
+  const TemporaryFolder folder;
+  folder.put("outside", "mine");
+  folder.put("real/a", "older a");
+  fs::create_symlink(folder.file("outside"), folder.file("real/page"));
+  fs::create_directory_symlink("real", folder.file("out"));
+  ASSERT_TRUE(publish_newer(folder.file("out")));
+  EXPECT_EQ(test::bytes_of(folder.file("outside")), "mine");
+  EXPECT_EQ(test::bytes_of(folder.file("real/page")), "newer page");
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder.file("real/page"))));
+  EXPECT_TRUE(fs::is_symlink(folder.file("out")));
+}
+
+// A signal that comes while the disk is waited for is no fault of the disk.
+TEST(OutputFaults, AnInterruptedCallIsMadeAgain) {
   for (int at = 1;; ++at) {
     const TemporaryFolder folder;
     write_older(folder);
-    if (!is_killed_at(at, folder.file("out"))) break;
-    if (fs::exists(folder.file("out/page"))) continue;
-    ++tried;
-    folder.put("mine", "mine");
-    fs::rename(folder.file("mine"), folder.file("out/a"));
-    folder.put("mine", "mine");
-    fs::rename(folder.file("mine"), folder.file("out/b"));
-    ASSERT_TRUE(StagedFolder::open(folder.file("out")));
-    EXPECT_EQ(test::bytes_of(folder.file("out/a")), "mine");
-    EXPECT_EQ(test::bytes_of(folder.file("out/b")), "mine");
-    EXPECT_EQ(test::bytes_of(folder.file("out/page")), "older page");
+    plan = {Fault::fails, "fsync", at, 0, EINTR};
+    const auto published = publish_newer(folder.file("out"));
+    const bool struck = plan.count >= plan.at;
+    plan = {};
+    ASSERT_TRUE(published) << at << ": " << published.error().message();
+    if (!struck) break;
   }
-  EXPECT_GT(tried, 5);
 }
 
-// Undoing can be killed, too.
-TEST(OutputFaults, AKillWhileUndoingLosesNothing) {
-  int tried = 0;
-  for (int at = 1, again = 1;; again = again % 24 + 1) {
-    const TemporaryFolder folder;
-    write_older(folder);
-    const Contents before = contents(folder.path());
-    SCOPED_TRACE(std::to_string(at) + " and " + std::to_string(again));
-    if (!is_killed_at(at, folder.file("out"))) break;
-    const bool undoes = !fs::exists(folder.file("out/page"));
-    if (undoes) {
-      ++tried;
-      is_killed_at(again, folder.file("out"));
-      const Contents left = without_staged(contents(folder.path()));
-      if (test::bytes_of(folder.file("out/page")) == "older page") {
-        EXPECT_EQ(left, before);
-      }
-      ASSERT_TRUE(StagedFolder::open(folder.file("out")));
-      EXPECT_EQ(contents(folder.path()), before);
-    }
-    if (!undoes || again == 24) at += 4, again = 0;
+/// Two folders of one run, published together.
+Expected<void> publish_both(const std::string& one, const std::string& other) {
+  auto first = StagedFolder::open(one), second = StagedFolder::open(other);
+  for (auto* staged : {&first, &second}) {
+    if (!*staged) return fail(staged->error());
+    for (const char* name : {"a", "page"})
+      if (auto written = write_file((*staged)->path() + "/" + name, "newer"); !written) return written;
+    if (auto sealed = (*staged)->seal({}); !sealed) return sealed;
   }
-  EXPECT_GT(tried, 24);
+  const StagedFolder::Part parts[] = {{&*first, ""}, {&*second, "page"}};
+  return StagedFolder::publish(parts);
+}
+
+TEST(OutputFaults, SeveralFoldersAppearTogetherOrNotAtAll) {
+  for (const char* call : {"rename", "mkdir", "link", "fsync"})
+    for (int at = 1;; ++at) {
+      const TemporaryFolder folder;
+      for (const char* name : {"one/a", "two/a", "two/page"}) folder.put(name, "older");
+      const Contents before = contents(folder.path());
+      plan = {Fault::fails, call, at};
+      const auto published = publish_both(folder.file("one"), folder.file("two"));
+      const bool struck = plan.count >= plan.at;
+      plan = {};
+      SCOPED_TRACE(std::string(call) + " " + std::to_string(at));
+      if (!published) {
+        EXPECT_EQ(contents(folder.path()), before);
+      }
+      if (!struck) break;
+    }
+}
+
+TEST(OutputFaults, TheLastFileMayLieInANewFolder) {
+  const TemporaryFolder folder;
+  write_older(folder);
+  auto staged = StagedFolder::open(folder.file("out"));
+  ASSERT_TRUE(staged);
+  ASSERT_TRUE(make_output_folder(staged->path() + "/deep/er"));
+  for (const char* name : {"/a", "/deep/er/page"}) ASSERT_TRUE(write_file(staged->path() + name, "newer"));
+  ASSERT_TRUE(staged->seal({}));
+  const auto published = staged->publish("deep/er/page");
+  ASSERT_TRUE(published) << published.error().message();
+  EXPECT_EQ(test::bytes_of(folder.file("out/deep/er/page")), "newer");
 }
 
 // Folders of other people whose names are like those of the program's own.
@@ -309,7 +448,7 @@ TEST(OutputFaults, WorkGrowsWithTheNumberOfFilesAndNotWithItsSquare) {
     EXPECT_TRUE(staged);
     for (int i = 0; i < files; ++i) std::ofstream(staged->path() + "/" + std::to_string(i)) << i;
     looks = 0;
-    plan = {Fault::fails, "", -1, 0};
+    plan = {Fault::fails, "", -1};
     EXPECT_TRUE(staged->seal(inputs));
     EXPECT_TRUE(staged->publish("0"));
     const int count = plan.count + looks;

@@ -47,6 +47,70 @@ TEST(WriteFile, KeepsPermissionsAndLinks) {
   EXPECT_EQ(status.st_mode & 0777, 0640u);
 }
 
+/// The names that this process's next temporary files of `path` would have.
+std::vector<std::string> plant_temporary_names(const std::string& path, const std::string& target) {
+  std::vector<std::string> planted;
+  for (int count = 0; count < 40; ++count) {
+    planted.push_back(path + "." + std::to_string(::getpid()) + "-" + std::to_string(count) + ".part");
+    std::filesystem::create_symlink(target, planted.back());
+  }
+  return planted;
+}
+
+// Names that can be guessed are no way to another file: links are not followed, and who planted them keeps them.
+TEST(WriteFile, ATemporaryNameThatIsTakenIsLeftAndAnotherUsed) {
+  const TemporaryFolder folder;
+  const std::string outside = folder.put("outside", "mine");
+  const auto planted = plant_temporary_names(folder.file("a.txt"), "outside");
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(write_file(folder.file("a.txt"), "new"));
+  EXPECT_EQ(test::bytes_of(folder.file("a.txt")), "new");
+  auto file = PartFile::create(folder.file("a.txt"));
+  ASSERT_TRUE(file);
+  ASSERT_TRUE(file->append("newer"));
+  ASSERT_TRUE(file->publish());
+  EXPECT_EQ(test::bytes_of(folder.file("a.txt")), "newer");
+  EXPECT_EQ(test::bytes_of(outside), "mine");
+  for (const std::string& name : planted) EXPECT_TRUE(std::filesystem::is_symlink(name)) << name;
+}
+
+TEST(WriteFile, InAFolderNoLinkIsFollowed) {
+  const TemporaryFolder folder;
+  folder.put("outside/1", "mine");
+  folder.put("out/a", "older");
+  std::filesystem::create_symlink("../outside/1", folder.file("out/b"));
+  std::filesystem::create_directory_symlink("../outside", folder.file("out/cells"));
+  ASSERT_TRUE(write_file_in(folder.file("out"), "b", "new"));
+  EXPECT_EQ(test::bytes_of(folder.file("out/b")), "new");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder.file("out/b")));
+  const auto written = write_file_in(folder.file("out"), "cells/1", "new");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().kind, ErrorKind::cannot_write);
+  EXPECT_FALSE(make_output_subfolder(folder.file("out"), "cells"));
+  EXPECT_EQ(test::bytes_of(folder.file("outside/1")), "mine");
+  ASSERT_TRUE(make_output_subfolder(folder.file("out"), "thumbnails"));
+  ASSERT_TRUE(write_file_in(folder.file("out"), "thumbnails/1", "new"));
+  EXPECT_EQ(test::bytes_of(folder.file("out/thumbnails/1")), "new");
+}
+
+/// Restores the umask.
+struct Umask {
+  explicit Umask(mode_t mask) : before(::umask(mask)) {}
+  ~Umask() { ::umask(before); }
+  mode_t before;
+};
+
+TEST(WriteFile, AUmaskThatTakesAllAwayIsSaidAndNothingStays) {
+  for (const mode_t mask : {0777u, 0377u, 0277u, 0600u, 0700u}) {
+    const TemporaryFolder folder;
+    const Umask taken(mask);
+    const auto made = make_output_folder(folder.file("a/b"));
+    ASSERT_FALSE(made) << mask;
+    EXPECT_EQ(made.error().kind, ErrorKind::cannot_write);
+    EXPECT_NE(made.error().message().find("umask"), std::string::npos) << made.error().message();
+    EXPECT_EQ(folder.file_count(), 0u) << mask;
+  }
+}
+
 TEST(PartFile, AppearsWholeWithTheOldPermissions) {
   const TemporaryFolder folder;
   const std::string path = folder.put("real.exr", "old");

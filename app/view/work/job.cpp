@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "scene/base/interrupted.h"
+
 namespace gnomon::app {
 
 namespace {
@@ -53,7 +55,7 @@ Expected<std::unique_ptr<Job>> Job::start(std::string title, const std::vector<s
 Job::~Job() {
   if (child_ > 0) {
     kill(child_, SIGKILL);
-    waitpid(child_, nullptr, 0);
+    uninterrupted([&] { return waitpid(child_, nullptr, 0); });
   }
   for (const int file : {out_, err_})
     if (file >= 0) close(file);

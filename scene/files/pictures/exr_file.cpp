@@ -16,9 +16,9 @@ Expected<void> ExrFile::write(const PictureRows& rows, std::span<const Channel> 
   return file_->append(encoder_->add(rows.count, channels));
 }
 
-Expected<void> ExrFile::close() {
+Expected<void> ExrFile::close(const std::string& place) {
   if (const auto written = file_->write_over_begin(encoder_->begin()); !written) return written;
-  return file_->publish();
+  return place == path_ ? file_->publish() : file_->publish_at(place);
 }
 
 }  // namespace gnomon

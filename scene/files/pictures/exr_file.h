@@ -22,7 +22,9 @@ class ExrFile {
   /// of the rows. Error (cannot_write), also where the path is no plain file.
   Expected<void> write(const PictureRows& rows, std::span<const Channel> channels,
                        std::span<const std::pair<std::string, std::string>> attributes = {});
-  Expected<void> close();
+  /// `place`: where it appears instead of its path, on the same file system.
+  Expected<void> close(const std::string& place);
+  const std::string& path() const { return path_; }
 
  private:
   std::string path_;
