@@ -125,29 +125,64 @@ Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, Band
   const Expected<Names> more = write_files(folder, others);
   if (!more) return fail(more.error());
   names->insert(names->end(), more->begin(), more->end());
-  return WrittenOutputs{
-      std::move(*names), std::move(texts.result),  !texts.page.files.empty(), texts.page.megabytes(),
-      output.page,       std::move(output.inputs), std::move(output.folder),  std::move(*staged)};
+  return WrittenOutputs{std::move(*names),
+                        std::move(texts.result),
+                        !texts.page.files.empty(),
+                        texts.page.megabytes(),
+                        output.page,
+                        std::move(output.inputs),
+                        std::move(output.folder),
+                        std::move(*staged),
+                        {},
+                        std::move(output.elsewhere)};
 }
 
-Expected<void> write_result(WrittenOutputs& written) {
-  const std::string path = written.staged.path() + "/result.json";
+namespace {
+
+/// Where the text of result.json goes: into the folder, and to the copy's place.
+Expected<Names> places_of_result(WrittenOutputs& written) {
+  Names places{written.staged.path() + "/result.json"};
+  if (written.result_copy.empty()) return places;
+  auto copy = written.also.place_of(written.result_copy, &written.staged);
+  if (!copy) return fail(copy.error());
+  if (*copy != written.result_copy) places.push_back(std::move(*copy));
+  return places;
+}
+
+/// Once the disk has all, writes again how long that took: a reading is as long as another.
+Expected<void> write_and_seal(WrittenOutputs& written, const Names& places) {
   const auto with_times = [&] { return with_time_budget(written.result); };
   TimedStage writing("write");
   const std::string early = with_times();
-  if (const auto there = write_file(path, early); !there) return fail(there.error());
-  if (const auto sealed = written.staged.seal(written.inputs); !sealed) return fail(sealed.error());
+  for (const std::string& place : places)
+    if (auto there = write_file(place, early); !there) return there;
+  for (const FileText& file : written.elsewhere)
+    if (auto there = written.also.write(file, &written.staged); !there) return there;
+  if (auto sealed = written.also.seal(); !sealed) return sealed;
+  if (auto sealed = written.staged.seal(written.inputs); !sealed) return sealed;
   writing.end();
-  // What it took until the disk had this file is known only now, and a reading is as long as another.
   const std::string late = with_times();
-  const auto amended = late.size() == early.size()
-                           ? write_over_end(path, std::string_view(late).substr(written.result.rfind("\n}")))
-                           : write_file(path, late);
-  if (!amended) return fail(amended.error());
+  for (const std::string& place : places) {
+    auto amended = late.size() == early.size()
+                       ? write_over_end(place, std::string_view(late).substr(written.result.rfind("\n}")))
+                       : write_file(place, late);
+    if (!amended) return amended;
+  }
   written.result = late;
+  return {};
+}
+
+}  // namespace
+
+Expected<void> write_result(WrittenOutputs& written) {
+  const auto places = places_of_result(written);
+  if (!places) return fail(places.error());
+  if (auto sealed = write_and_seal(written, *places); !sealed) return sealed;
   written.paths.push_back("result.json");
-  if (const auto there = written.staged.publish(written.page ? "report.html" : "result.json"); !there)
-    return fail(there.error());
+  const char* const last = written.page ? "report.html" : "result.json";
+  if (auto there = written.also.publish(&written.staged, last); !there) return there;
+  if (places->size() == 1 && !written.result_copy.empty())  // a device or a pipe
+    if (auto there = write_file(written.result_copy, written.result); !there) return there;
   for (std::string& name : written.paths) name = (std::filesystem::path(written.folder) / name).string();
   return {};
 }

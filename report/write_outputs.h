@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/result/outputs.h"
+#include "scene/files/staged_files.h"
 #include "scene/files/staged_folder.h"
 
 namespace gnomon::compare {
@@ -23,11 +24,14 @@ struct WrittenOutputs {
   std::vector<std::string> paths;  ///< names in the folder, until the folder is in its place
   std::string result;              ///< the text of result.json, until it is written without its time budget
   bool beside = false;  ///< the page's pictures and pixels are files beside it: it would have grown too large
-  double page_mb = 0.0;             ///< what the page, or the page with the files beside it, weighs
-  bool page = true;                 ///< OutputFolder's
-  std::vector<std::string> inputs;  ///< OutputFolder's
-  std::string folder;               ///< OutputFolder's
-  StagedFolder staged;              ///< where the files are until then
+  double page_mb = 0.0;               ///< what the page, or the page with the files beside it, weighs
+  bool page = true;                   ///< OutputFolder's
+  std::vector<std::string> inputs;    ///< OutputFolder's
+  std::string folder;                 ///< OutputFolder's
+  StagedFolder staged;                ///< where the files are until then
+  StagedFiles also{};                 ///< what appears with the folder, elsewhere
+  std::vector<FileText> elsewhere{};  ///< OutputFolder's
+  std::string result_copy{};          ///< a file that gets the bytes of result.json; "": none
 };
 
 /// Files that a comparison's folder always has.
@@ -45,6 +49,7 @@ struct OutputFolder {
   std::vector<OutputFile> more{};                  ///< further files of the folder
   bool page = true;                                ///< false: no report.html, and nothing is made for it
   std::vector<std::string> inputs{};               ///< files that must not be replaced: ErrorKind::usage
+  std::vector<FileText> elsewhere{};               ///< files that appear with the folder, wherever they lie
 };
 
 /// Writes report.html, result.json, result.csv and the PNG pictures into a folder, which appears whole
@@ -59,7 +64,7 @@ Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, Band
 
 /// The last of two steps (the first: write_all_but_result()), so that the time budget in
 /// result.json holds what the other files took and whatever is done in between. Where no StageLog runs it has none. The
-/// folder is in its place afterwards.
+/// folder is in its place afterwards, and what appears with it in its own.
 Expected<void> write_result(WrittenOutputs& written);
 
 }  // namespace gnomon::compare

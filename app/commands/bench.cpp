@@ -63,10 +63,15 @@ Expected<ExitCode> hand_out_rows(const BenchCommand& command, const std::vector<
   return ExitCode::done;
 }
 
-Expected<void> write_page(const BenchCommand& command, const std::vector<bench::TechniqueTable>& tables) {
-  if (command.page.empty()) return {};
-  if (const auto made = make_folder_for(command.page); !made) return made;
-  return write_file(command.page, bench::markdown(tables, command.command_line));
+Expected<ExitCode> hand_out_tables(const BenchCommand& command,
+                                   const std::vector<bench::TechniqueTable>& tables,
+                                   const std::vector<BenchRow>& rows) {
+  StagedFiles files;
+  const auto out = publish_texts({{command.page, bench::markdown(tables, command.command_line)},
+                                  {command.json, bench::bench_json(rows, machine_info())}},
+                                 files);
+  if (!out) return fail(out.error());
+  return ExitCode::done;
 }
 
 Expected<ExitCode> run_techniques(const BenchCommand& command) {
@@ -94,8 +99,7 @@ Expected<ExitCode> run_techniques(const BenchCommand& command) {
     for (BenchRow& row : bench::bench_rows(*table)) rows.push_back(std::move(row));
     tables.push_back(std::move(*table));
   }
-  if (const auto written = write_page(command, tables); !written) return fail(written.error());
-  return hand_out_rows(command, rows);
+  return hand_out_tables(command, tables, rows);
 }
 
 /// Every family that the scene's lights have a map for, of the techniques named.

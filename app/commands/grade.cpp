@@ -93,22 +93,19 @@ Expected<void> keep_scenes(const grade::Rubric& rubric, RunFiles& files) {
   return files.check();
 }
 
-Expected<void> write_folder(const GradeCommand& command, const grade::ClassResult& result,
-                            const std::vector<std::string>& inputs, Console& console) {
-  if (command.folder.empty()) return {};
-  if (const auto written = grade::write_pages(result, command.folder, inputs); !written) return written;
-  console.message(fmt::format("pages: {}/index.html", command.folder));
-  return {};
-}
-
-/// Each output comes out whether or not another can be written.
+/// All files appear, or none; what goes onto stdout comes regardless.
 Expected<void> write_all(const GradeCommand& command, const grade::ClassResult& result,
                          const std::vector<std::string>& inputs, Console& console) {
   const OutputGuard whole_outputs;
-  const auto json = hand_out_json(command.json, grade::grade_json(result));
-  const auto csv = hand_out_json(command.csv, grade::grade_csv(result, command.csv_form));
-  const auto folder = write_folder(command, result, inputs, console);
-  return !json ? json : !csv ? csv : folder;
+  const std::vector<FileText> texts{{command.json, grade::grade_json(result)},
+                                    {command.csv, grade::grade_csv(result, command.csv_form)}};
+  StagedFiles files;
+  if (command.folder.empty()) return publish_texts(texts, files);
+  const auto written = grade::write_pages(result, command.folder, inputs, texts_for_files(texts));
+  print_texts(texts);
+  if (!written) return written;
+  console.message(fmt::format("pages: {}/index.html", command.folder));
+  return {};
 }
 
 Expected<std::vector<grade::StudentResult>> grade_all(const GradeCommand& command,

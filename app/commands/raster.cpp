@@ -92,9 +92,12 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
   if (!drawn) return fail(drawn.error());
   const auto used = check_shaders_used(command.shader_folder, frame, *loaded->scene, console);
   if (!used) return fail(used.error());
-  const PictureWriter writer{
-      .picture = [&] { return whole ? write_whole(command, *loaded, frame) : picture.finish(); },
-      .json = [&](const RenderRecord& record) { return render_json(record, frame); }};
+  const PictureWriter writer{.picture =
+                                 [&](const std::string& place) {
+                                   return whole ? write_whole(command, *loaded, frame, place)
+                                                : picture.finish(place);
+                                 },
+                             .json = [&](const RenderRecord& record) { return render_json(record, frame); }};
   return hand_out(command, *loaded, writer, watch, console);
 }
 

@@ -107,7 +107,10 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
   if (frame.non_finite > 0)
     console.note(fmt::format("{} samples of the picture were not finite; they are black.", frame.non_finite));
   const PictureWriter writer{
-      .picture = [&] { return whole ? write_whole(command, *loaded, frame) : picture.finish(); },
+      .picture =
+          [&](const std::string& place) {
+            return whole ? write_whole(command, *loaded, frame, place) : picture.finish(place);
+          },
       .json =
           [&](const RenderRecord& record) {
             return render_json(record, tracer, raytrace::accel_name(command.accel), command.options, frame);

@@ -97,14 +97,15 @@ Expected<Filmed> make_film(const ShimmerCommand& command, const LoadedScene& loa
 Expected<void> write_all(const ShimmerCommand& command, const Filmed& film, const std::string& json,
                          const RunFiles& files, Console& console) {
   const OutputGuard whole_outputs;
-  if (film.pictures) {
-    const auto megabytes =
-        compare::write_shimmer(film.shimmer, *film.pictures, json,
-                               {command.folder, command.report_max_mb, files.inputs(), command.film_format});
-    if (!megabytes) return fail(megabytes.error());
-    if (*megabytes > command.report_max_mb) console.note(beside_note(*megabytes, command.report_max_mb));
-  }
-  return hand_out_json(command.json, json);
+  if (!film.pictures) return hand_out_json(command.json, json);
+  const std::vector<FileText> texts{{command.json, json}};
+  const auto megabytes = compare::write_shimmer(
+      film.shimmer, *film.pictures, json,
+      {command.folder, command.report_max_mb, files.inputs(), command.film_format, texts_for_files(texts)});
+  if (!megabytes) return fail(megabytes.error());
+  if (*megabytes > command.report_max_mb) console.note(beside_note(*megabytes, command.report_max_mb));
+  print_texts(texts);
+  return {};
 }
 
 ExitCode judge_lights(const ShimmerCommand& command, const compare::Shimmer& film, Console& console) {

@@ -124,7 +124,8 @@ Expected<void> write_page(const TuneCommand& command, const TuneAnswer& answer, 
                                           .report_max_mb = command.report_max_mb,
                                           .introduction = &introduction,
                                           .more = {{"tune.json", answer.json()}, {"sheet.html", sheet}},
-                                          .inputs = files.inputs()});
+                                          .inputs = files.inputs(),
+                                          .elsewhere = texts_for_files({{command.json, answer.json()}})});
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
   console.message(fmt::format("report: {0}/report.html, a page to print: {0}/sheet.html", command.folder));
@@ -134,6 +135,8 @@ Expected<void> write_page(const TuneCommand& command, const TuneAnswer& answer, 
 Expected<void> hand_out(const TuneCommand& command, const TuneAnswer& answer) {
   if (!command.quiet && command.json != "-")
     print_data(command.verbose ? answer.whole_text() : answer.text());
+  // With a page the file has appeared with it.
+  if (!command.folder.empty() && command.json != "-") return {};
   const OutputGuard whole_file;
   return hand_out_json(command.json, answer.json());
 }

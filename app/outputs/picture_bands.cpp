@@ -57,11 +57,11 @@ Expected<void> PictureBands::expose() {
   return for_each_kept([&](const ColorImage& color, const PictureRows& rows) { show(color, rows); });
 }
 
-Expected<double> PictureBands::finish() {
+Expected<double> PictureBands::finish(const std::string& place) {
   if (!exposure_)
     if (const auto exposed = expose(); !exposed) return fail(exposed.error());
   colors_.reset();
-  const Expected<void> written = exr_ ? exr_->close() : write_png(path_, shown_);
+  const Expected<void> written = exr_ ? exr_->close(place) : write_png(place, shown_);
   if (!written) return fail(written.error());
   return *exposure_;
 }

@@ -25,8 +25,8 @@ class PictureBands {
       if (const auto written = exr_->write(rows, exr_channels(world_, frame)); !written) return written;
     return add_color(frame.color, rows);
   }
-  /// The file, and its exposure.
-  Expected<double> finish();
+  /// Finishes the file, at a place on the file system that its path is on, and tells its exposure.
+  Expected<double> finish(const std::string& place);
 
  private:
   Expected<void> add_color(const ColorImage& color, const PictureRows& rows);
@@ -47,11 +47,12 @@ class PictureBands {
   std::optional<RowFile> colors_;
 };
 
-/// The file of a frame that holds the whole picture, and its exposure.
+/// Writes the file of a frame that holds the whole picture, at `place`, and tells its exposure.
 template <class Frame>
-Expected<double> write_whole(const PictureCommand& command, const LoadedScene& loaded, const Frame& frame) {
+Expected<double> write_whole(const PictureCommand& command, const LoadedScene& loaded, const Frame& frame,
+                             const std::string& place) {
   const double exposure = choose_exposure(command.exposure, *loaded.scene, frame.color);
-  const auto written = write_picture(command.image, *loaded.world, frame, exposure);
+  const auto written = write_picture(place, *loaded.world, frame, exposure);
   if (!written) return fail(written.error());
   return exposure;
 }

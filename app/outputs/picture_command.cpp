@@ -11,6 +11,7 @@
 #include "compare/result/outputs.h"
 #include "scene/base/stages.h"
 #include "scene/files/read_file.h"
+#include "scene/files/staged_files.h"
 
 namespace gnomon::app {
 
@@ -77,16 +78,18 @@ Expected<LoadedScene> open_scene(const PictureCommand& command, RunFiles& files,
 Expected<ExitCode> hand_out(const PictureCommand& command, const LoadedScene& loaded,
                             const PictureWriter& writer, const Stopwatch& watch, Console& console) {
   const OutputGuard whole_outputs;
-  if (const auto made = make_folder_for(command.image); !made) return fail(made.error());
   TimedStage writing("write");
-  const Expected<double> exposure = writer.picture();
+  StagedFiles files;
+  const auto place = files.place_of(command.image);
+  if (!place) return fail(place.error());
+  const Expected<double> exposure = writer.picture(*place);
   if (!exposure) return fail(exposure.error());
   writing.end();
-  console.message(fmt::format("picture: {}", command.image));
   const RenderRecord record{command.command_line, command.image, loaded, *exposure, watch.elapsed_ms()};
-  if (command.json.empty()) return ExitCode::done;
-  if (const auto out = hand_out_json(command.json, compare::with_time_budget(writer.json(record))); !out)
-    return fail(out.error());
+  std::string json;
+  if (!command.json.empty()) json = compare::with_time_budget(writer.json(record));
+  if (const auto out = publish_texts({{command.json, json}}, files); !out) return fail(out.error());
+  console.message(fmt::format("picture: {}", command.image));
   return ExitCode::done;
 }
 

@@ -53,10 +53,11 @@ Expected<LoadedScene> open_scene(const PictureCommand& command, RunFiles& files,
 
 /// How a renderer's frame becomes a file and a document.
 struct PictureWriter {
-  std::function<Expected<double>()> picture;  ///< gives its exposure
+  /// Writes it at a place in the making, and gives its exposure.
+  std::function<Expected<double>(const std::string& place)> picture;
   std::function<std::string(const RenderRecord& record)> json;
 };
-/// Writes the picture and, where it is asked for, the JSON, neither to be interrupted.
+/// Writes the picture and, where it is asked for, the JSON, both or none and neither to be interrupted.
 Expected<ExitCode> hand_out(const PictureCommand& command, const LoadedScene& loaded,
                             const PictureWriter& writer, const Stopwatch& watch, Console& console);
 

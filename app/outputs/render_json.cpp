@@ -103,4 +103,24 @@ Expected<void> hand_out_json(const std::string& path, const std::string& json) {
   return write_file(path, json);
 }
 
+std::vector<FileText> texts_for_files(const std::vector<FileText>& texts) {
+  std::vector<FileText> files = texts;
+  std::erase_if(files, [](const FileText& text) { return text.path.empty() || text.path == "-"; });
+  return files;
+}
+
+void print_texts(const std::vector<FileText>& texts) {
+  for (const FileText& text : texts)
+    if (text.path == "-") print_data(text.bytes);
+}
+
+Expected<void> publish_texts(const std::vector<FileText>& texts, StagedFiles& files) {
+  for (const FileText& text : texts_for_files(texts))
+    if (auto written = files.write(text); !written) return written;
+  if (auto sealed = files.seal(); !sealed) return sealed;
+  if (auto published = files.publish(); !published) return published;
+  print_texts(texts);
+  return {};
+}
+
 }  // namespace gnomon::app

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/session.h"
 #include "raster/frame.h"
 #include "raytrace/frame.h"
+#include "scene/files/staged_files.h"
 
 namespace gnomon::app {
 
@@ -27,5 +29,11 @@ std::string render_json(const RenderRecord& record, const raytrace::Tracer& trac
 /// Any command's --json, and whatever else goes to FILE|-: onto stdout for "-", into a file, whose folder is made where
 /// there is none, for any other path but "".
 Expected<void> hand_out_json(const std::string& path, const std::string& json);
+/// The same for several of a command's outputs, which appear together or not at all, and with `files`. What goes onto stdout
+/// comes when all others are in their places.
+Expected<void> publish_texts(const std::vector<FileText>& texts, StagedFiles& files);
+/// Those of the texts that go into files, and the others onto stdout.
+std::vector<FileText> texts_for_files(const std::vector<FileText>& texts);
+void print_texts(const std::vector<FileText>& texts);
 
 }  // namespace gnomon::app

@@ -24,21 +24,29 @@
 namespace gnomon::app {
 namespace {
 
-/// --json hands out the same bytes as the folder's result.json.
-Expected<void> write_json(const ResultOutput& output) {
-  if (output.json.empty()) return {};
-  const std::string path = output.folder + "/result.json";
-  const Expected<std::string> json = read_file(path);
-  if (!json) return fail(Error{ErrorKind::cannot_write, "cannot read back what was written", path});
-  return hand_out_json(output.json, *json);
-}
-
 /// With several lights the channels go into files whose names are known only now.
 Expected<void> check_aov(const ResultOutput& output, const compare::Comparison& comparison, RunFiles files) {
   if (output.aov.empty() || comparison.lights.size() < 2) return {};
   for (const compare::LightComparison& light : comparison.lights)
     files.writes("--aov", compare::aov_path(comparison, light, output.aov));
   return files.check();
+}
+
+/// The channels, where they wait for the folder.
+Expected<void> write_aov(const ResultOutput& output, const compare::Comparison& comparison,
+                         compare::WrittenOutputs& written, compare::BandedParts* parts) {
+  if (output.aov.empty()) return {};
+  const TimedStage stage("write");
+  std::vector<std::string> places;
+  for (const compare::LightComparison& light : comparison.lights) {
+    auto place = written.also.place_of(compare::aov_path(comparison, light, output.aov), &written.staged);
+    if (!place) return fail(place.error());
+    places.push_back(std::move(*place));
+  }
+  if (parts == nullptr) return compare::write_aov(comparison, places);
+  for (std::size_t i = 0; i < parts->channels.size(); ++i)
+    if (auto closed = parts->channels[i].close(places[i]); !closed) return closed;
+  return {};
 }
 
 /// All but result.json.
@@ -53,16 +61,8 @@ Expected<compare::WrittenOutputs> write_all(const ResultOutput& output, const co
                                                 .inputs = files.inputs()});
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, output.report_max_mb));
-  if (!output.aov.empty()) {
-    const TimedStage stage("write");
-    if (const auto made = make_folder_for(output.aov); !made) return fail(made.error());
-    if (parts != nullptr) {
-      for (ExrFile& file : parts->channels)
-        if (const auto closed = file.close(); !closed) return fail(closed.error());
-      return written;
-    }
-    if (const auto saved = compare::write_aov(comparison, output.aov); !saved) return fail(saved.error());
-  }
+  if (output.json != "-") written->result_copy = output.json;
+  if (const auto saved = write_aov(output, comparison, *written, parts); !saved) return fail(saved.error());
   return written;
 }
 
@@ -161,7 +161,7 @@ Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison&
   const ExitCode code = judge_lights(output, comparison, console);
   give_back(comparison, loaded);
   if (const auto result = compare::write_result(*written); !result) return fail(result.error());
-  if (const auto json = write_json(output); !json) return fail(json.error());
+  if (output.json == "-") print_data(written->result);
   whole_outputs.reset();
   if (const StageLog* log = StageLog::current(); log != nullptr && output.verbose)
     summary += compare::time_budget_text(log->budget(), colour);

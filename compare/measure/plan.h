@@ -50,7 +50,7 @@ struct Plan {
   ErrorPlaces* places = nullptr;  ///< takes the errors of all lights; null: not asked for
   // Of a picture in bands:
   bool page = true;      ///< whether the images that the report page shows are wanted
-  std::string aov{};     ///< a path as write_aov() has it; "": not wanted
+  std::string aov{};     ///< a path as aov_path() has it; "": not wanted
   std::string folder{};  ///< for what waits on the disk; "": the present one
 };
 

@@ -108,11 +108,12 @@ AovAttributes aov_attributes(const Comparison& c, const LightComparison& light) 
            {"gnomon_classes", classes}}};
 }
 
-Expected<void> write_aov(const Comparison& c, const std::string& path) {
-  for (const LightComparison& light : c.lights) {
+Expected<void> write_aov(const Comparison& c, std::span<const std::string> places) {
+  for (std::size_t i = 0; i < c.lights.size(); ++i) {
+    const LightComparison& light = c.lights[i];
     const AovRows rows{*c.world, c.raster, drawn_record(c, light), c.raytraced, light.rungs, light.labels};
     const Expected<void> written =
-        write_exr(aov_path(c, light, path), light.labels.size, aov_channels(rows), aov_attributes(c, light));
+        write_exr(places[i], light.labels.size, aov_channels(rows), aov_attributes(c, light));
     if (!written) return written;
   }
   return {};

@@ -151,7 +151,7 @@ Expected<void> check_pages(const std::string& folder, const std::vector<std::str
 }
 
 Expected<void> write_pages(const ClassResult& result, const std::string& folder,
-                           const std::vector<std::string>& inputs) {
+                           const std::vector<std::string>& inputs, std::span<const FileText> elsewhere) {
   auto staged = StagedFolder::open(folder);
   if (!staged) return fail(staged.error());
   std::vector<std::pair<std::string, std::string>> files = {{"grades.json", grade_json(result)},
@@ -161,8 +161,8 @@ Expected<void> write_pages(const ClassResult& result, const std::string& folder,
     files.emplace_back(result.pages[i], student_page(result.rubric, result.students[i]));
   for (const auto& [name, text] : files)
     if (auto written = write_file(staged->path() + "/" + name, text); !written) return written;
-  if (auto sealed = staged->seal(inputs); !sealed) return sealed;
-  return staged->publish("index.html");
+  StagedFiles also;
+  return also.publish(*staged, "index.html", inputs, elsewhere);
 }
 
 }  // namespace gnomon::grade

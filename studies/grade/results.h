@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "scene/base/expected.h"
+#include "scene/files/staged_files.h"
 #include "studies/grade/alike.h"
 #include "studies/grade/grade.h"
 
@@ -56,9 +58,9 @@ std::string class_page(const ClassResult& result);
 inline constexpr std::array<std::string_view, 3> class_file_names{"index.html", "grades.json", "grades.csv"};
 /// Before anything is drawn: whether these pages can be put there. ErrorKind::cannot_write.
 Expected<void> check_pages(const std::string& folder, const std::vector<std::string>& pages);
-/// Writes those files and every student's page: all of them appear, or none. Errors: ErrorKind::usage where one would take
-/// the place of one of `inputs`, ErrorKind::cannot_write.
+/// Writes those files and every student's page, and some elsewhere: all of them appear, or none. Errors: ErrorKind::usage
+/// where one would take the place of one of `inputs`, ErrorKind::cannot_write.
 Expected<void> write_pages(const ClassResult& result, const std::string& folder,
-                           const std::vector<std::string>& inputs);
+                           const std::vector<std::string>& inputs, std::span<const FileText> elsewhere);
 
 }  // namespace gnomon::grade

@@ -6,6 +6,7 @@
 
 #include "report/shell.h"
 #include "scene/base/expected.h"
+#include "scene/files/staged_files.h"
 #include "studies/shimmer/film.h"
 #include "studies/shimmer/shimmer.h"
 
@@ -67,6 +68,7 @@ struct ShimmerFolder {
   double report_max_mb = default_film_max_mb;
   std::vector<std::string> inputs{};  ///< files that must not be replaced: ErrorKind::usage
   FilmFormat film = FilmFormat::apng;
+  std::vector<FileText> elsewhere{};  ///< files that appear with the folder, wherever they lie
 };
 
 /// result.json, report.html and, for each light, film-I-drawn, film-I-truth and film-I-flips (.png, animated, or .mp4),

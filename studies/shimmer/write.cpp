@@ -51,8 +51,9 @@ Expected<double> write_shimmer(const Shimmer& shimmer, const FilmRecorder& films
   if (const auto written = write_file(folder + "/result.json", json); !written) return fail(written.error());
   if (const auto written = write_file(folder + "/report.html", page->html); !written)
     return fail(written.error());
-  if (const auto sealed = staged->seal(output.inputs); !sealed) return fail(sealed.error());
-  if (const auto there = staged->publish("report.html"); !there) return fail(there.error());
+  StagedFiles also;
+  if (const auto there = also.publish(*staged, "report.html", output.inputs, output.elsewhere); !there)
+    return fail(there.error());
   return page->megabytes();
 }
 

@@ -126,9 +126,9 @@ TEST_P(CompareBands, AreTheWhole) {
   ASSERT_TRUE(pictures && in_bands);
   expect_same(*pictures, *in_bands);
   expect_same_page(*whole, banded, *pictures);
-  ASSERT_TRUE(write_aov(*whole, path("whole.exr")));
+  ASSERT_TRUE(write_aov(*whole, std::vector{path("whole.exr")}));
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    ASSERT_TRUE((*parts)->channels[i].close());
+    ASSERT_TRUE((*parts)->channels[i].close((*parts)->channels[i].path()));
     EXPECT_TRUE(test::bytes_of(aov_path(*whole, whole->lights[i], path("whole.exr"))) ==
                 test::bytes_of(aov_path(*whole, whole->lights[i], path("bands.exr"))));
   }

@@ -130,7 +130,7 @@ TEST(Aov, HasTheChannelsOfTheContract) {
   const std::size_t grey = 7;  // an error of no more than one half has a cause, and is not wrong
   light.labels.data[grey] = Label::blur;
   for (std::size_t k = 0; k < rung_count; ++k) light.rungs[k].data[grey] = k < 6 ? 1.0f : 0.75f;
-  const auto written = write_aov(made->comparison, path);
+  const auto written = write_aov(made->comparison, std::vector{path});
   ASSERT_TRUE(written) << written.error().message();
   const auto image = read_channels(path);
   ASSERT_TRUE(image) << image.error().message();
@@ -163,7 +163,10 @@ TEST(Aov, WritesOneFilePerLight) {
   const test::TemporaryFolder own;
   const fs::path folder = own / "out";
   fs::create_directories(folder);
-  ASSERT_TRUE(write_aov(made->comparison, (folder / "a.exr").string()));
+  std::vector<std::string> places;
+  for (const LightComparison& light : made->comparison.lights)
+    places.push_back(aov_path(made->comparison, light, (folder / "a.exr").string()));
+  ASSERT_TRUE(write_aov(made->comparison, places));
   EXPECT_TRUE(fs::exists(folder / "a-sun.exr"));
   EXPECT_TRUE(fs::exists(folder / "a-lamp-2.exr"));
   EXPECT_FALSE(fs::exists(folder / "a.exr"));
