@@ -5,7 +5,8 @@
 // Every further option is one of that engine's own (see its head).
 // Writes DIR/capture.json, the pictures that it names, and DIR/picture.png, what the engine itself shows.
 import { spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { randomUUID } from "node:crypto";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, dirname, join, relative, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -92,12 +93,19 @@ function drawInBlender(job) {
 
 const floats = ({ floats: text }) => { const bytes = Buffer.from(text, "base64"); return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.length / 4); };
 
+/** Writes a file of the folder whole; a link that has its name is replaced, not followed. */
+function writeWhole(path, bytes) {
+  const part = `${path}.${randomUUID()}.part`;
+  writeFileSync(part, bytes, { flag: "wx" });
+  renameSync(part, path);
+}
+
 /** result: {renderer, light, visibility | shadowed and unshadowed, covered and position [x, y, z] or neither, map [{texels, size, ...}],
     bias, filter, picture}. */
 function write(job, result) {
   mkdirSync(job.folder, { recursive: true });
   const put = (name, width, height, channels) => {
-    writeFileSync(join(job.folder, name), exr(width, height, Object.fromEntries(Object.entries(channels).map(([c, values]) => [c, floats(values)]))));
+    writeWhole(join(job.folder, name), exr(width, height, Object.fromEntries(Object.entries(channels).map(([c, values]) => [c, floats(values)]))));
     return name;
   };
   const { covered: A, position: [X, Y, Z] = [] } = result;
@@ -113,8 +121,8 @@ function write(job, result) {
     capture.map = result.map.map(({ texels, size, ...layer }, i) => ({ depth: put(`map-${i}.exr`, size, size, { Z: texels }), ...layer }));
     Object.assign(capture, { bias: result.bias, filter: result.filter });
   }
-  writeFileSync(join(job.folder, "capture.json"), JSON.stringify(capture, null, 1) + "\n");
-  if (result.picture) writeFileSync(join(job.folder, "picture.png"), Buffer.from(result.picture.split(",")[1], "base64"));
+  writeWhole(join(job.folder, "capture.json"), JSON.stringify(capture, null, 1) + "\n");
+  if (result.picture) writeWhole(join(job.folder, "picture.png"), Buffer.from(result.picture.split(",")[1], "base64"));
 }
 
 const job = readArguments();

@@ -5,5 +5,7 @@ set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 program=${1:-$root/build/release/app/gnomon}
 folder=${2:-$root/build/engines}
-node "$root/adapters/engines_page.mjs" "$program" "$folder" >"$root/docs/engines.md.part"
-mv "$root/docs/engines.md.part" "$root/docs/engines.md"
+page=$(mktemp)
+trap 'rm -f "$page"' EXIT
+node "$root/adapters/engines_page.mjs" "$program" "$folder" >"$page"
+cp "$page" "$root/docs/engines.md"

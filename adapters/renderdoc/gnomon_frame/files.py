@@ -1,9 +1,25 @@
 """What a capture is made of: EXR of 32-bit floats without compression, GLB, and capture.json."""
+import contextlib
 import json
 import os
+import secrets
 import struct
 
 import numpy as np
+
+
+@contextlib.contextmanager
+def whole_file(path):
+    """A file in the making, which appears when its `with` ends. A link that has its name is replaced, not followed."""
+    part = f"{path}.{secrets.token_hex(8)}.part"
+    try:
+        with open(part, "xb") as file:
+            yield file
+        os.replace(part, path)
+    except BaseException:
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(part)
+        raise
 
 
 def write_exr(path, channels):
@@ -25,7 +41,7 @@ def write_exr(path, channels):
     rows["y"], rows["length"] = np.arange(height), row
     for k, name in enumerate(names):
         rows["values"][:, k] = channels[name]
-    with open(path, "wb") as file:
+    with whole_file(path) as file:
         file.write(head + (first + (row + 8) * np.arange(height, dtype=np.uint64)).astype("<u8").tobytes())
         file.write(rows.tobytes())
 
@@ -73,12 +89,11 @@ def write_glb(path, shapes, camera, lights):
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     data = bytes(blob.data) + b"\0" * (-len(blob.data) % 4)
-    with open(path, "wb") as file:
+    with whole_file(path) as file:
         file.write(struct.pack("<III", 0x46546C67, 2, 28 + len(text) + len(data)) + struct.pack("<II", len(text), 0x4E4F534A) + text)
         file.write(struct.pack("<II", len(data), 0x004E4942) + data)
 
 
 def write_capture(folder, document):
-    with open(os.path.join(folder, "capture.json"), "w", encoding="utf-8") as file:
-        json.dump({"schema": "gnomon/capture/2", **document}, file, indent=1)
-        file.write("\n")
+    with whole_file(os.path.join(folder, "capture.json")) as file:
+        file.write((json.dumps({"schema": "gnomon/capture/2", **document}, indent=1) + "\n").encode())
