@@ -33,7 +33,8 @@ FAILING_CALLS = """## Single calls that fail
 
 One call of the C library fails in each run: the n-th write, fsync, rename, open, mkdir, unlink, read, listing of a folder, mmap,
 malloc, thread, process or pipe, n spread evenly and over all calls that publish. "Reached" are the points at which the program was
-the one to answer; calls of a graphics driver's own, of which `tests/faults/points.py` says why, are not."""
+the one to answer; calls of a graphics driver's own, of which `tests/faults/points.py` says why, are not. In further runs somebody
+has planted something where the command writes (`tests/faults/planted.py`): lists, links, FIFOs, another user's things."""
 SWEEP = ['sweep', 'floating-box', '--size', '96x54', '--map-size', '32,64,128', '--bias', '0:0.1:4', '--runs', '1', '-q']
 
 
@@ -154,7 +155,7 @@ def failing_calls(page):
     found = re.search(r'^(\d+) points of (\d+) commands, (\d+) reached: (.*)$', done.stdout, re.MULTILINE)
     if not found:
         sys.exit(f'campaign.py said something else:\n{done.stdout}{done.stderr}')
-    page.add(f'Single calls that fail (files, memory, threads, processes) in {found[2]} commands: half outputs, older results or '
+    page.add(f'Single calls that fail (files, memory, threads, processes), planted folders and links, in {found[2]} commands: half outputs, older results or '
              "files of the user's harmed, wrong exit codes, crashes, hangs", int(found[3]), sum(numbers(found[4])), seconds,
              f'`tests/faults/campaign.py BUILD/app/gnomon BUILD/tests/libfault_injector.so --points {n} --table FILE`')
 

@@ -6,7 +6,8 @@ gnomon_test(app_test
 add_dependencies(app_test gnomon_program fault_injector)
 
 # The commands that take a tenth of a second, single files and whole folders, with a call of the C library failing here and there:
-# around those that publish, and of all kinds; then memory, threads and descriptors alone. A sanitizer has its own malloc().
+# around those that publish, and of all kinds, and with what somebody planted in their folders; then memory, threads and descriptors
+# alone; then signals that interrupt calls. A sanitizer has its own malloc().
 if(NOT GNOMON_SANITIZE)
   set(campaign /usr/bin/python3 "${CMAKE_CURRENT_SOURCE_DIR}/faults/campaign.py" "$<TARGET_FILE:gnomon_program>"
     "$<TARGET_FILE:fault_injector>")
@@ -14,8 +15,14 @@ if(NOT GNOMON_SANITIZE)
     --only export --only merge --only shaders --only "grade --new" --only plan --only scenes --only completion --only "man page")
   add_test(NAME faults_resources_test COMMAND ${campaign} --points 36 --kind malloc --kind large-malloc --kind thread --kind descriptor
     --only export --only merge --only shaders)
-  set_tests_properties(faults_test faults_resources_test PROPERTIES TIMEOUT 1200)
+  add_test(NAME faults_interrupted_test COMMAND ${campaign} --points 40 --error EINTR
+    --only export --only merge --only shaders --only "grade --new")
+  set_tests_properties(faults_test faults_resources_test faults_interrupted_test PROPERTIES TIMEOUT 1200)
 endif()
+
+# What lies in the way of outputs, and a umask.
+gnomon_test(hostile_folders_test SOURCES app_hostile_folders_test.cpp LIBS app_process)
+add_dependencies(hostile_folders_test gnomon_program fault_injector)
 
 # The lessons' own commands, and the fault that each of them shows.
 gnomon_test(lesson_faults_gl_test TIMEOUT 900 SOURCES lesson_faults_gl_test.cpp LIBS app_process gnomon::report nlohmann_json::nlohmann_json)

@@ -277,6 +277,10 @@ int mkdir(const char* path, mode_t mode) {
   NEXT(mkdir);
   return fails_at(mkdir_, AT_FDCWD, path, CALLER) ? -1 : next(path, mode);
 }
+int mkdirat(int folder, const char* path, mode_t mode) {
+  NEXT(mkdirat);
+  return fails_at(mkdir_, folder, path, CALLER) ? -1 : next(folder, path, mode);
+}
 char* mkdtemp(char* path) {
   NEXT(mkdtemp);
   return fails_at(mkdir_, AT_FDCWD, path, CALLER) ? nullptr : next(path);

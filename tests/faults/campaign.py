@@ -1,22 +1,25 @@
 #!/usr/bin/env python3
-"""Makes calls of the C library fail, one at a time, in every command of gnomon, and looks at what the command leaves behind.
+"""Makes calls of the C library fail, one at a time, in every command of gnomon, and looks at what the command leaves behind. Does
+the same over what somebody else has planted where the command writes (planted.py).
 
-usage: tests/faults/campaign.py GNOMON INJECTOR [--points N] [--only COMMAND]... [--kind KIND]... [--jobs N] [--log FILE]
-                                [--table FILE]
+usage: tests/faults/campaign.py GNOMON INJECTOR [--points N] [--only COMMAND]... [--kind KIND]... [--error NAME] [--jobs N]
+                                [--log FILE] [--table FILE]
 
 INJECTOR is the library made of tests/faults/injector.cpp. A point is one run in which the n-th call of one kind fails. Each
 command is run undisturbed first, which counts its calls; then the points are spread evenly over the kinds and over each kind's
 calls, and all calls around those that publish a result (the renames to its final names) are points. Half of the runs find an
-older result where they write, and every run finds files of the user's there.
+older result where they write, and every run finds files of the user's there. Each plant is a point as well, with and without an
+older result, unless kinds or an error are chosen.
 
 Held at every point:
   - exit code 0 (or what the undisturbed run has): every output is there and is the undisturbed run's (outputs.py);
-  - else each output (a folder, or a file that an option names) is the older one byte by byte, or all of the new, and nothing
-    else of the program's lies about. Three commands finish what they can: a sweep that failed is taken up by the
+  - else the outputs are, all together, the older ones byte by byte, or all of the new, and nothing else of the program's lies
+    about (commands.py says which come one by one). Three commands finish what they can: a sweep that failed is taken up by the
     next and is then whole, grade gives all points but those of students that it names, and of several captures judge
     refuses the one that it cannot read;
   - files of the user's are what they were;
-  - the exit code is 4 where an output failed, 3 where an input did, 5 where a resource did; the program does not crash, hang
+  - the exit code is 4 where an output failed, 3 where an input did, 5 where a resource did, and none but success where a signal
+    interrupted the call; the program does not crash, hang
     (limits: processor time, and a generous time besides) or call it an error of its own.
 Where a drawn process of grade fails, its parent has to answer as well.
 
@@ -38,9 +41,10 @@ import subprocess
 import sys
 import tempfile
 
+import planted
 from commands import COMMANDS, make_inputs
 from outputs import files_below, same, same_but_drawn_anew, same_but_refused, same_but_ungraded
-from points import EXCEPTIONS, KINDS, RESOURCES, SHORT_IS_END, points_of
+from points import EXCEPTIONS, KINDS, RESOURCES, SHORT_IS_END, points_of, ways_of
 
 FOREIGN = {"out/movie.mp4.part": b"a film that a browser is loading", "out/notes.txt": b"notes", "out/cells/cell-7.png": b"a picture",
            "out/.gnomon-notes": b"more notes", "mine.part": b"mine"}
@@ -50,7 +54,9 @@ class Campaign:
 
     def __init__(self, options, folder):
         self.program, self.injector = str(options.gnomon.resolve()), str(options.injector.resolve())
-        self.kinds = options.kind or KINDS
+        self.error = getattr(errno, options.error) if options.error else None
+        self.kinds = [kind for kind in options.kind or KINDS if ways_of(kind, self.error)]
+        self.plants = not options.kind and not options.error
         self.folder, self.account = folder / "work", folder / "account"
         self.counts, self.rows = collections.Counter(), []
         self.environment = dict(
@@ -67,7 +73,7 @@ class Campaign:
             if name == "in":
                 continue
             path = self.folder / name
-            shutil.rmtree(path) if path.is_dir() else path.unlink()
+            shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
         for name in ("tmp", "said"):
             (self.folder / name).mkdir()
         if older is None:
@@ -261,9 +267,73 @@ class Campaign:
             return {3}
         if point.kind in ("short-write", "short-read") or not failed:
             return set()
+        if point.error == errno.EINTR:
+            return {3, 4} if is_a_librarys(failed[0][5]) else set()
         if point.kind in RESOURCES:
             return {5}
         return {3} if failed[0][4].startswith(str(self.folder / "in")) else {4}
+
+    # -- A plant.
+
+    def try_plant(self, command, plant, base, older):
+        self.clear(older)
+        (self.folder / "outside").mkdir()
+        for name in ("hook", *(name.rsplit("/", 1)[-1] for name in base if name.startswith("out/"))):
+            (self.folder / "outside" / (name or "hook")).write_bytes(planted.MINE)
+        removed = self.make_room(plant, base) if plant.name.startswith("linked") else []
+        stays = plant.put(self.folder, command, base)
+        if stays is None:
+            return
+        before = planted.tree(self.folder)
+        code, said = self.run(command, {"CALL": "none"})
+        found = self.judge_plant(command, plant, code, said, stays, removed, before, base)
+        self.counts["points"] += 1
+        self.counts["reached"] += 1
+        for what in {what for what, _ in found}:
+            self.counts[what] += 1
+        if found:
+            print(f"{command.name}: {plant.name}{', over an older result' if older else ''}: " + "; ".join(text for _, text in found),
+                  flush=True)
+        self.rows.append({"command": command.name, "kind": plant.name, "old": bool(older), "code": code, "said": said[-400:], "found": found})
+
+    def make_room(self, plant, base):
+        """Takes away what the plant's links are to stand for."""
+        removed = []
+        for name in {name if plant.name == "linked files" else "/".join(name.split("/")[:2]) for name in base
+                     if name.startswith("out/") and not name.endswith("/") and (name.count("/") > 1) == (plant.name == "linked folders")}:
+            path = self.folder / name
+            removed += [other for other in FOREIGN if other == name or other.startswith(name + "/")]
+            if path.is_dir():
+                shutil.rmtree(path)
+            elif path.exists():
+                path.unlink()
+        return removed
+
+    def judge_plant(self, command, plant, code, said, stays, removed, before, base):
+        after, found = planted.tree(self.folder), []
+        kept = [name for name in before if name.startswith(("outside", "in/")) or name in FOREIGN or name in stays]
+        changed = [name for name in kept if after.get(name) != before[name]]
+        changed += [name for name in after if name.startswith("outside/") and name not in before]
+        if changed:
+            found.append(("foreign", f"{self.listed(changed)} changed"))
+        if code == "hangs" or code < 0 or code >= 128:
+            return found + [("crashes", f"ended with {code}: {said.strip()[-160:]}")]
+        if code != command.code and not (plant.refusable and code == 4):
+            found.append(("exit codes", f"exit code {code}: {said.strip()[-200:]}"))
+        if code == 4 and not any(why in said for why in ("link", "differs from")):
+            found.append(("exit codes", f"refused without the reason: {said.strip()[-200:]}"))
+        if plant.refused and code == command.code and not command.resumes:
+            found.append(("foreign", "a link was taken for a folder"))
+        if plant.said and command.folder and "left alone" not in said and not command.resumes:
+            found.append(("wrong", "what was left is not said"))
+        if code == command.code and not plant.refused:
+            files = {name: content for name, (kind, _, content) in after.items() if isinstance(content, bytes)
+                     and not name.startswith(("in/", "outside/")) and name not in stays}
+            wrong = [name for name in same(base, files) if name not in removed and (name in base or name not in before)]
+            wrong = [name for name in wrong if not name.endswith("/") and not (name in base and name in stays)]
+            if wrong:
+                found.append(("wrong", f"exit code {code}, but {self.listed(wrong)} missing or different"))
+        return found
 
     # -- All points of a command.
 
@@ -280,8 +350,18 @@ class Campaign:
             again = same(base, self.undisturbed(command, older if old else None, {"CALL": "none"})) if budget > 20 else []
             if again:
                 raise SystemExit(f"{command.name}: two undisturbed runs differ in {', '.join(again)}")
-            for point in points_of(counts, calls, self.kinds, old, part):
+            for point in points_of(counts, calls, self.kinds, old, part, self.error):
                 self.try_point(command, point, base, older if old else None, seconds)
+            writes = any(name.startswith("out/") for name in base)
+            for plant in planted.PLANTS if self.plants and writes else []:
+                self.try_plant(command, plant, base, older if old else None)
+
+
+def is_a_librarys(callers):
+    """Whether a library made the call of itself: it tells of what a signal interrupted as of any failure, and cannot be asked to try
+    again."""
+    own = [name for name in callers.split() if not name.startswith(("libgnomon_fault", "libfault", "libc.so", "libstdc++"))]
+    return bool(own) and not own[0].startswith(("gnomon", "libgnomon"))
 
 
 WRONG = {"half": "half outputs", "damaged": "older results damaged", "wrong": "successes with a wrong output", "left over": "left over",
@@ -354,6 +434,7 @@ def main():
     parser.add_argument("--points", type=int, default=120, help="over all commands (default %(default)s)")
     parser.add_argument("--only", action="append", default=[], metavar="COMMAND", help="of commands.py, by its name")
     parser.add_argument("--kind", action="append", choices=KINDS, help="of calls; default all")
+    parser.add_argument("--error", metavar="NAME", help="calls fail with this errno alone (EINTR)")
     parser.add_argument("--jobs", type=int, default=1, help="commands at a time (default %(default)s)")
     parser.add_argument("--log", metavar="FILE", help="writes every point as a line of JSON")
     parser.add_argument("--table", metavar="FILE", help="writes points and failures by command, in Markdown")

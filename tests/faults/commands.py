@@ -30,8 +30,15 @@ class Command:
     code: int = 0
 
     def output_of(self, name):
-        """To which of the command's outputs a file belongs: a folder is one, and so is each file that an option names."""
-        return name if name in self.words or name in SCRIPT else name.split("/")[0]
+        """To which of the command's outputs, of which each is whole by itself, a file belongs: all that a run writes is one, but
+        for its --trace, a record of the run that comes last, and for what a window is asked for in its turn."""
+        before = dict(zip(self.words[1:], self.words)).get(name)
+        return name if before == "--trace" or name in SCRIPT or name.startswith("said/") else "outputs"
+
+    @property
+    def folder(self):
+        """Whether out/ as a whole is what the command writes."""
+        return "out" in self.words
 
 
 def with_size(words, size):

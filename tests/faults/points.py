@@ -21,15 +21,17 @@ SHORT_IS_END = {"libOpenImageIO": "IOFile::pread()"}
 KINDS = ["write", "short-write", "fsync", "close", "rename", "link", "open", "mkdir", "unlink", "truncate", "read", "short-read",
          "list", "stat", "descriptor", "mmap", "malloc", "large-malloc", "thread", "process", "pipe"]
 # How each kind fails: errno, and whether it goes on failing (a disk that stays full, no more threads, no more large pieces of
-# memory). What clearing up needs itself fails once: names that cannot be removed stay, whoever tries.
+# memory). What clearing up needs itself fails once: names that cannot be removed stay, whoever tries. EINTR is no failure: a signal
+# came, and the program makes the call again.
 ONCE, ONWARD = False, True
 WAYS = {
-    "write": [(errno.ENOSPC, ONWARD), (errno.EIO, ONCE), (errno.EDQUOT, ONCE)], "short-write": [(0, ONCE), (0, ONWARD)],
-    "fsync": [(errno.EIO, ONCE), (errno.ENOSPC, ONWARD)], "close": [(errno.EIO, ONCE), (errno.ENOSPC, ONCE)],
+    "write": [(errno.ENOSPC, ONWARD), (errno.EIO, ONCE), (errno.EDQUOT, ONCE), (errno.EINTR, ONCE)], "short-write": [(0, ONCE), (0, ONWARD)],
+    "fsync": [(errno.EIO, ONCE), (errno.EINTR, ONCE), (errno.ENOSPC, ONWARD)],
+    "close": [(errno.EIO, ONCE), (errno.EINTR, ONCE), (errno.ENOSPC, ONCE)],
     "rename": [(errno.EIO, ONCE), (errno.EACCES, ONCE)], "link": [(errno.EIO, ONCE), (errno.EPERM, ONWARD)],
-    "open": [(errno.EACCES, ONCE), (errno.EIO, ONCE)], "mkdir": [(errno.ENOSPC, ONCE), (errno.EACCES, ONWARD)],
-    "unlink": [(errno.EACCES, ONCE), (errno.EIO, ONCE)], "truncate": [(errno.ENOSPC, ONCE), (errno.EIO, ONCE)],
-    "read": [(errno.EIO, ONCE)], "short-read": [(0, ONCE), (0, ONWARD)], "list": [(errno.EIO, ONCE), (errno.EACCES, ONCE)],
+    "open": [(errno.EACCES, ONCE), (errno.EIO, ONCE), (errno.EINTR, ONCE)], "mkdir": [(errno.ENOSPC, ONCE), (errno.EACCES, ONWARD)],
+    "unlink": [(errno.EACCES, ONCE), (errno.EIO, ONCE)], "truncate": [(errno.ENOSPC, ONCE), (errno.EIO, ONCE), (errno.EINTR, ONCE)],
+    "read": [(errno.EIO, ONCE), (errno.EINTR, ONCE)], "short-read": [(0, ONCE), (0, ONWARD)], "list": [(errno.EIO, ONCE), (errno.EACCES, ONCE)],
     "stat": [(errno.EIO, ONCE), (errno.EACCES, ONCE)], "descriptor": [(errno.EMFILE, ONCE), (errno.ENFILE, ONCE)],
     "mmap": [(errno.ENOMEM, ONCE), (errno.ENOMEM, ONWARD)], "malloc": [(errno.ENOMEM, ONCE)], "large-malloc": [(errno.ENOMEM, ONWARD)],
     "thread": [(errno.EAGAIN, ONCE), (errno.EAGAIN, ONWARD)], "process": [(errno.EAGAIN, ONCE), (errno.ENOMEM, ONWARD)],
@@ -41,7 +43,12 @@ AROUND = 4  # calls before and after a publishing one
 Point = collections.namedtuple("Point", "process kind n error onward old")
 
 
-def points_of(counts, calls, kinds, old, budget):
+def ways_of(kind, only):
+    """How a kind fails: in all ways, or with one errno alone."""
+    return [way for way in WAYS[kind] if only is None or way[0] == only]
+
+
+def points_of(counts, calls, kinds, old, budget, only=None):
     """`counts` by (process, kind) and `calls` in their order. All calls around those that publish come first, with an allocation
     between any two of those, then each kind's in turn, spread evenly over its calls."""
     final = [i for i, (_, _, kind, _, path, _) in enumerate(calls)
@@ -60,7 +67,7 @@ def points_of(counts, calls, kinds, old, budget):
             lists.append([place(places, kind, i) for i in spread(total, budget)])
     rounds = [chosen for turn in range(budget) for places in lists for chosen in places[turn:turn + 1]]
     seen = dict.fromkeys(chosen for chosen in wanted + rounds if chosen[1] in kinds)
-    return [as_point(i, *chosen, old) for i, chosen in enumerate(list(seen)[:budget])]
+    return [as_point(i, *chosen, old, only) for i, chosen in enumerate(list(seen)[:budget])]
 
 
 def allocations_between(final):
@@ -78,8 +85,9 @@ def place(places, kind, index):
     raise IndexError
 
 
-def as_point(i, process, kind, n, old):
-    error, onward = WAYS[kind][(n + i) % len(WAYS[kind])]
+def as_point(i, process, kind, n, old, only):
+    ways = ways_of(kind, only)
+    error, onward = ways[(n + i) % len(ways)]
     return Point(process, kind, n, error, onward, old)
 
 

@@ -17,6 +17,9 @@ add_test(NAME project_commit_test COMMAND "${CMAKE_CURRENT_LIST_DIR}/project_com
 # ./gnomon and a build folder that is not what it was.
 add_test(NAME project_script_test COMMAND "${CMAKE_CURRENT_LIST_DIR}/project_script_test.sh" "${PROJECT_SOURCE_DIR}")
 
+# The threat model names tests that are there.
+add_test(NAME project_threats_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_LIST_DIR}/project_threats_test.py")
+
 # What comes from npm runs on Debian 12's Node.js.
 add_test(NAME project_node_test COMMAND "${CMAKE_CURRENT_LIST_DIR}/project_node_test.sh" "${PROJECT_SOURCE_DIR}")
 
