@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <span>
 
+#include "scene/files/made_view.h"
 #include "scene/files/material_notes.h"
 #include "scene/files/pictures/image_io.h"
 #include "scene/files/polygon.h"
@@ -17,7 +17,7 @@ namespace gnomon {
 namespace {
 
 constexpr double coplanar_share = 1e-6;  // of the diagonal
-constexpr double default_fov = 40.0 * pi / 180.0;
+constexpr double framed_aspect = 4.0 / 3.0;
 
 // Upward and downward areas of the scene's triangles, projected to the ground; and how much of the upward
 // area lies flat near the bottom.
@@ -27,32 +27,6 @@ struct Footprint {
   // A triangle that faces up lies in the lowest plane itself; or one that faces down and shows its back.
   bool lowest_faces_up = false, lowest_shows_back = false;
 };
-
-template <class Visit>
-void for_each_corner(const Aabb& box, const Visit& visit) {
-  for (int corner = 0; corner < 8; ++corner)
-    visit(Vec3((corner & 1) ? box.max.x : box.min.x, (corner & 2) ? box.max.y : box.min.y,
-               (corner & 4) ? box.max.z : box.min.z));
-}
-
-// Adds up, with add(sum, point), points whose hull holds all that is finite: corners of triangles, and of the boxes
-// around spheres.
-template <class Sum, class Add, class Join>
-Sum over_points(const Scene& scene, const Sum& none, const Add& add, const Join& join) {
-  Sum sum = over_placed_triangles(
-      scene, none,
-      [&](Sum& of_triangles, const PlacedTriangle& t) {
-        add(of_triangles, t.a), add(of_triangles, t.b), add(of_triangles, t.c);
-      },
-      join);
-  const auto visit = [&](const Vec3& p) { add(sum, p); };
-  for (const Shape& shape : scene.shapes)
-    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
-      for_each_corner({sphere->center - Vec3(sphere->radius), sphere->center + Vec3(sphere->radius)}, visit);
-    else if (is_solid(shape.geometry))
-      for_each_corner(world_box(shape.geometry), visit);
-  return sum;
-}
 
 Footprint footprint(const Scene& scene, const Aabb& bounds) {
   constexpr double floor_share = 0.1;  // of the height: a floor slab has some thickness
@@ -107,12 +81,10 @@ bool has_own_ground(const Footprint& areas, const Aabb& bounds) {
   return floor || sheet;
 }
 
-void add_ground(Scene& scene, const Aabb& bounds) {
+/// Returns what was made, in words.
+std::string add_ground(Scene& scene, const Aabb& bounds) {
   const Footprint areas = footprint(scene, bounds);
-  if (has_own_ground(areas, bounds)) {
-    scene.notes.push_back("No ground was added: the model brings a floor of its own.");
-    return;
-  }
+  if (has_own_ground(areas, bounds)) return {};
   // A visible face in the ground's own plane would fight with it for the same depth.
   const bool fights = areas.lowest_faces_up || (areas.lowest_shows_back && shows_lowest_back(scene, bounds));
   const double drop = fights ? 1e-3 * bounds.diagonal() : 0.0;
@@ -123,12 +95,44 @@ void add_ground(Scene& scene, const Aabb& bounds) {
                static_cast<std::uint32_t>(scene.materials.size())};
   scene.materials.push_back(std::move(material));
   scene.shapes.push_back(std::move(ground));
-  scene.notes.push_back(
-      fmt::format("Made a grey ground plane at y = {:g}, {} the model's lowest point, to receive shadows.",
-                  bounds.min.y - drop, drop > 0.0 ? "just below" : "touching"));
+  return fmt::format("a grey ground at y = {:g}, {} the model's lowest point", bounds.min.y - drop,
+                     drop > 0.0 ? "just below" : "touching");
 }
 
-// From above, on the camera's left, and a little from its side.
+/// Returns what was made, in words.
+std::string add_sun(Scene& scene, bool is_model) {
+  const Light sun = default_sun(scene.camera);
+  scene.lights.push_back(sun);
+  std::string words = fmt::format("a directional light 'sun' along [{:.3f}, {:.3f}, {:.3f}]", sun.direction.x,
+                                  sun.direction.y, sun.direction.z);
+  if (!is_model) return words;
+  scene.ambient = Vec3f(0.15f);
+  scene.background = Vec3f(0.35f, 0.45f, 0.6f);
+  return words + ", an ambient light of 0.15, a pale blue background";
+}
+
+/// From the sun nothing would come in. As bright as the sun is elsewhere at what is `typical` far away. Returns what was
+/// made, in words.
+std::string add_lamp(Scene& scene, const Vec3& position, double typical) {
+  Light lamp;
+  lamp.name = "lamp";
+  lamp.type = LightType::point;
+  lamp.position = position;
+  lamp.intensity = Vec3f(static_cast<float>(std::pow(typical, 2.0)));
+  scene.lights.push_back(lamp);
+  scene.ambient = Vec3f(0.15f);
+  return fmt::format(
+      "a point light 'lamp' at [{:.3f}, {:.3f}, {:.3f}], where the sun would not come in, an "
+      "ambient light of 0.15",
+      position.x, position.y, position.z);
+}
+
+bool holds(const Aabb& box, const Vec3& p) {
+  return glm::clamp(p, box.min, box.max) == p;
+}
+
+}  // namespace
+
 Light default_sun(const Camera& camera) {
   const Vec3 up(0.0, 1.0, 0.0);
   const Vec3 forward = glm::normalize(camera.target - camera.eye);
@@ -143,70 +147,10 @@ Light default_sun(const Camera& camera) {
   return sun;
 }
 
-void add_sun(Scene& scene, bool is_model) {
-  const Light sun = default_sun(scene.camera);
-  scene.lights.push_back(sun);
-  scene.notes.push_back(
-      fmt::format("Made a directional light 'sun' from the upper left, direction [{:.3f}, {:.3f}, {:.3f}]: "
-                  "the file has no light.",
-                  sun.direction.x, sun.direction.y, sun.direction.z));
-  if (!is_model) return;
-  scene.ambient = Vec3f(0.15f);
-  scene.background = Vec3f(0.35f, 0.45f, 0.6f);
-  scene.notes.push_back("Made an ambient light of 0.15 and a pale blue background for the bare model.");
-}
-
-// From the sun nothing would come in. As bright at the room's walls as the sun is elsewhere.
-void add_lamp(Scene& scene, const Vec3& position, double diagonal) {
-  constexpr double typical = 0.35;  // of the diagonal: how far the walls are
-  Light lamp;
-  lamp.name = "lamp";
-  lamp.type = LightType::point;
-  lamp.position = position;
-  lamp.intensity = Vec3f(static_cast<float>(std::pow(typical * diagonal, 2.0)));
-  scene.lights.push_back(lamp);
-  scene.ambient = Vec3f(0.15f);
-  scene.notes.push_back(
-      fmt::format("Made a point light 'lamp' at [{:.3f}, {:.3f}, {:.3f}] under the ceiling, and an ambient "
-                  "light of 0.15: the room is closed, and the file has no light.",
-                  position.x, position.y, position.z));
-}
-
-bool holds(const Aabb& box, const Vec3& p) {
-  return glm::clamp(p, box.min, box.max) == p;
-}
-
-}  // namespace
-
 Aabb scene_bounds(const Scene& scene) {
   return over_points(
       scene, Aabb{}, [](Aabb& bounds, const Vec3& p) { bounds.grow(p); },
       [](Aabb& bounds, const Aabb& more) { bounds.grow(more); });
-}
-
-Camera default_camera(const Scene& scene, const Aabb& bounds) {
-  constexpr double margin = 1.1;
-  constexpr double narrowest_aspect = 4.0 / 3.0;
-  const Vec3 center = bounds.center();
-  const Vec3 back = glm::normalize(Vec3(0.55, 0.5, 1.0));  // from the target to the eye
-  const Vec3 right = glm::normalize(glm::cross(Vec3(0.0, 1.0, 0.0), back));
-  const Vec3 up = glm::cross(back, right);
-  const double tangent = std::tan(0.5 * default_fov) / margin;
-  const auto include = [&](double& distance, const Vec3& p) {
-    const Vec3 offset = p - center;
-    const double across =
-        std::max(std::abs(glm::dot(offset, right)) / narrowest_aspect, std::abs(glm::dot(offset, up)));
-    distance = std::max(distance, across / tangent + glm::dot(offset, back));
-  };
-  double distance =
-      over_points(scene, 0.0, include, [](double& most, double more) { most = std::max(most, more); });
-  if (distance == 0.0)  // planes alone
-    for_each_corner(bounds, [&](const Vec3& p) { include(distance, p); });
-  Camera camera;
-  camera.target = center;
-  camera.eye = center + back * (distance > 0.0 ? distance : 1.0);
-  camera.vertical_fov = default_fov;
-  return camera;
 }
 
 // Glass needs an inside: an index of refraction on one side of it. A thin sheet has none. Said once for each mesh.
@@ -277,27 +221,117 @@ Aabb bounds_to_frame(const Scene& scene) {
   return bounds;
 }
 
+std::string made_note(const std::vector<std::string>& made) {
+  return fmt::format("Made, as the file has none: {}.", fmt::join(made, ", "));
+}
+
+/// Makes up what a scene lacks, from where its parts lie.
+class Maker {
+ public:
+  Maker(Scene& scene, double aspect)
+      : scene_(scene), aspect_(aspect), bounds_(bounds_to_frame(scene)), parts_(scene) {
+    room_ = find_interior(scene, parts_, bounds_);
+  }
+
+  void add_camera() {
+    if (room_) {
+      scene_.camera = room_->camera;
+      looked_at_ = room_->contents;
+    } else {
+      MadeView view = find_view(scene_, parts_, bounds_, aspect_);
+      scene_.camera = view.camera;
+      looked_at_ = std::move(view.looked_at);
+      in_shell_ = view.in_shell;
+    }
+    const Vec3& eye = scene_.camera.eye;
+    made_.push_back(fmt::format("a camera at [{:.3f}, {:.3f}, {:.3f}]{}", eye.x, eye.y, eye.z, where()));
+  }
+
+  void add_light(bool is_model) {
+    if (const auto lamp = find_lamp()) {
+      made_.push_back(add_lamp(scene_, *lamp, typical_distance(*lamp)));
+      return;
+    }
+    made_.push_back(add_sun(scene_, is_model));
+    if (!is_model) return;
+    if (std::string ground = add_ground(scene_, bounds_); !ground.empty()) made_.push_back(std::move(ground));
+  }
+
+  void add_note(bool with_camera) {
+    std::string note = made_note(made_);
+    if (with_camera) note += " " + casting_words();
+    scene_.notes.push_back(std::move(note));
+  }
+
+ private:
+  std::string where() const {
+    if (room_) return room_->open != Vec3(0.0) ? " before the open side of a room" : " inside a closed room";
+    return in_shell_ ? " inside of what is closed around the rest" : "";
+  }
+
+  /// Whether the camera is in the room, or looks into it.
+  bool looks_into_room() const {
+    if (!room_ || holds(bounds_, scene_.camera.eye)) return room_.has_value();
+    const double out = glm::dot(scene_.camera.eye - bounds_.center(), room_->open);
+    return out > 0.5 * glm::dot(bounds_.extent(), glm::abs(room_->open));
+  }
+
+  /// The room's, or one beside what is looked at where the sun does not reach that; none where it does.
+  std::optional<Vec3> find_lamp() const {
+    if (looks_into_room()) return room_->lamp;
+    if (!in_shell_) return std::nullopt;
+    const Light sun = default_sun(scene_.camera);
+    return glm::mix(scene_.camera.target, scene_.camera.eye, 0.7) -
+           0.5 * glm::distance(scene_.camera.eye, scene_.camera.target) * sun.direction;
+  }
+  double typical_distance(const Vec3& lamp) const {
+    constexpr double of_walls = 0.35;  // of the diagonal
+    return in_shell_ ? glm::distance(lamp, scene_.camera.target) : of_walls * bounds_.diagonal();
+  }
+
+  /// Nothing casts on anything where all lies in one plane.
+  bool is_one_plane() const {
+    const Vec3 e = scene_bounds(scene_).extent();
+    const bool flat = std::min({e.x, e.y, e.z}) <= coplanar_share * bounds_.diagonal();
+    return flat && std::none_of(scene_.shapes.begin(), scene_.shapes.end(), [](const Shape& shape) {
+             return std::holds_alternative<Plane>(shape.geometry);
+           });
+  }
+
+  std::string casting_words() const {
+    if (is_one_plane()) return "Nothing that the picture shows casts a shadow.";
+    Sketch sketch(make_view(scene_.camera, sketch_size));
+    sketch.draw(scene_, parts_, true, false, [](std::uint32_t) { return true; });
+    const double share =
+        sketch.share([&](std::uint32_t part) { return looked_at_[part] != 0 && parts_.all()[part].casts; });
+    if (share == 0.0) return "Nothing that the picture shows casts a shadow.";
+    return fmt::format("What casts shadows fills {:.2g} % of the picture.", 100.0 * share);
+  }
+
+  Scene& scene_;
+  double aspect_;
+  Aabb bounds_;
+  SceneParts parts_;
+  std::optional<Interior> room_;
+  std::vector<char> looked_at_;
+  bool in_shell_ = false;
+  std::vector<std::string> made_;
+};
+
 }  // namespace
 
 Scene add_defaults(LoadedFile loaded) {
   Scene& scene = loaded.scene;
   const bool needs_light = scene.lights.empty();
-  const bool looks_around = !loaded.has_camera || (loaded.is_model && needs_light);
-  const Aabb bounds = looks_around ? bounds_to_frame(scene) : Aabb{};
-  const auto room = looks_around ? find_interior(scene, bounds) : std::nullopt;
-  if (!loaded.has_camera) {
-    scene.camera = room ? room->camera : default_camera(scene, bounds);
-    scene.notes.push_back(
-        fmt::format("Made a camera at [{:.3f}, {:.3f}, {:.3f}] {}: the file has none.", scene.camera.eye.x,
-                    scene.camera.eye.y, scene.camera.eye.z,
-                    room ? "inside the model, which is a closed room" : "that frames the scene"));
+  const bool needs_surroundings = loaded.is_model && needs_light;
+  if (!loaded.has_camera || needs_surroundings) {
+    Maker maker(scene, framed_aspect);
+    if (!loaded.has_camera) maker.add_camera();
+    if (needs_light) maker.add_light(loaded.is_model);
+    maker.add_note(!loaded.has_camera);
+  } else if (needs_light) {
+    scene.notes.push_back(made_note({add_sun(scene, loaded.is_model)}));
   }
-  const bool lamp = needs_light && room && holds(bounds, scene.camera.eye);
-  if (loaded.is_model && needs_light && !lamp) add_ground(scene, bounds);
-  if (lamp)
-    add_lamp(scene, room->lamp, bounds.diagonal());
-  else if (needs_light)
-    add_sun(scene, loaded.is_model);
   if (scene.materials.empty()) scene.materials.push_back(model_material("default"));
   note_open_glass(scene);
   note_emission(scene);

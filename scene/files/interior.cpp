@@ -1,9 +1,9 @@
-#include "scene/files/defaults.h"
-
+// Rooms: where one stands in them to see what is in them, and where their lamp hangs.
 #include <algorithm>
 #include <array>
 
-#include "scene/files/polygon.h"
+#include "scene/files/made_view.h"
+#include "scene/files/sketch.h"
 
 namespace gnomon {
 namespace {
@@ -110,19 +110,61 @@ struct Walls {
   }
 };
 
-bool is_room(const Scene& scene, const Aabb& box) {
+Walls walls_of(const Scene& scene, const Aabb& box) {
   Walls none;
   for (int axis = 0; axis < 3; ++axis)
     for (const bool high : {false, true}) none.sides.emplace_back(box, axis, high);
-  const Walls walls = over_placed_triangles(
+  return over_placed_triangles(
       scene, none, [&](Walls& sum, const PlacedTriangle& t) { sum.add(scene, t); },
       [](Walls& sum, const Walls& more) { sum.join(more); });
-  const auto all = [&](double (Side::*share)() const) {
-    return std::all_of(walls.sides.begin(), walls.sides.end(),
-                       [&](const Side& side) { return (side.*share)() >= closed_share; });
-  };
-  return all(&Side::covered) &&
-         (all(&Side::covered_inwards) || (walls.lamp && walls.dull) || shines_inside(scene, box));
+}
+
+/// By part, whether it stands free in the room: it is no wall of it, and none divides it.
+std::vector<char> contents_of(const SceneParts& parts, const Aabb& box) {
+  constexpr double most = 0.8;  // of the room's extent, along every axis
+  std::vector<char> out;
+  for (const ScenePart& part : parts.all()) {
+    const Vec3 room = box.extent(), is = part.box.extent();
+    const bool within = glm::clamp(part.box.center(), box.min, box.max) == part.box.center();
+    const Vec3 from_low = (part.box.max - box.min) / room, from_high = (box.max - part.box.min) / room;
+    const bool in_side =
+        std::min({from_low.x, from_low.y, from_low.z, from_high.x, from_high.y, from_high.z}) <= near_share;
+    out.push_back(static_cast<char>(part.casts && within && !in_side && !part.flat() &&
+                                    is.x <= most * room.x && is.y <= most * room.y && is.z <= most * room.z));
+  }
+  return out;
+}
+
+/// Whether no eye outside sees what is in the box.
+bool hides(const Scene& scene, const SceneParts& parts, const Aabb& box, const std::vector<char>& contents) {
+  constexpr double hidden = 0.1;  // of what would be seen without the walls
+  const auto counts = [&](std::uint32_t part) { return contents[part] != 0; };
+  for (const Vec3& back : {Vec3(0.55, 0.5, 1.0), Vec3(-0.55, 0.5, -1.0), Vec3(0.1, 1.0, 0.2)})
+    if (seen_share(scene, parts, framed(box, back), counts) > hidden) return false;
+  return true;
+}
+
+/// One of Walls::sides, or -1 of a room that is closed all around; none: it is no room.
+std::optional<int> open_side(const Scene& scene, const SceneParts& parts, const Aabb& box,
+                             const std::vector<char>& contents) {
+  constexpr double open_share = 0.3;  // of the side that is covered at most
+  constexpr int bottom = 2;
+  const Walls walls = walls_of(scene, box);
+  int open = -1;
+  bool inwards = true;
+  for (int i = 0; i < 6; ++i) {
+    const Side& side = walls.sides[static_cast<std::size_t>(i)];
+    if (side.covered() >= closed_share) {
+      inwards = inwards && side.covered_inwards() >= closed_share;
+    } else {
+      if (open >= 0 || i == bottom || side.covered() > open_share) return std::nullopt;
+      open = i;
+    }
+  }
+  if (inwards || (walls.lamp && walls.dull) || shines_inside(scene, box)) return open;
+  const bool holds_some = std::any_of(contents.begin(), contents.end(), [](char c) { return c != 0; });
+  if (!holds_some || (open < 0 && !hides(scene, parts, box, contents))) return std::nullopt;
+  return open;
 }
 
 /// The part of the way from one point to another that is free of the triangle, up to 1.
@@ -139,50 +181,127 @@ double free_part(const PlacedTriangle& t, const Vec3& from, const Vec3& to) {
   return at;
 }
 
-/// The first point that is `clear` of everything and sees half of the way to the target, else the best. Of many
-/// triangles some are looked at.
-Vec3 clearest(const Scene& scene, const std::vector<Vec3>& points, const Vec3& target, double clear) {
+/// How free places are, and the ways from them to targets.
+struct Freedom {
+  std::vector<double> near;               ///< by place: how far everything is, up to what is asked for
+  std::vector<std::vector<double>> free;  ///< by place and target: the free part of the way, up to half of it
+};
+
+/// Of many triangles some are looked at.
+Freedom freedom(const Scene& scene, const std::vector<Vec3>& places, const std::vector<Vec3>& targets,
+                double clear) {
   constexpr std::size_t enough = 500000;
   std::size_t count = 0, at = 0;
   for (const MeshInstance& instance : scene.instances) count += scene.meshes[instance.mesh].triangles.size();
   const std::size_t step = std::max<std::size_t>(1, count / enough);
-  std::vector<double> near(points.size(), clear), free(points.size(), 0.5);
+  Freedom out{std::vector<double>(places.size(), clear), {}};
+  out.free.assign(places.size(), std::vector<double>(targets.size(), 0.5));
   const auto look = [&](const PlacedTriangle& t) {
     if (at++ % step != 0) return;
     const Vec3 low = glm::min(t.a, glm::min(t.b, t.c)), high = glm::max(t.a, glm::max(t.b, t.c));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      near[i] = std::min(near[i], glm::distance(points[i], glm::clamp(points[i], low, high)));
-      free[i] = std::min(free[i], free_part(t, points[i], target));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      out.near[i] = std::min(out.near[i], glm::distance(places[i], glm::clamp(places[i], low, high)));
+      for (std::size_t k = 0; k < targets.size(); ++k)
+        out.free[i][k] = std::min(out.free[i][k], free_part(t, places[i], targets[k]));
     }
   };
   for (const MeshInstance& instance : scene.instances)
     visit_placed(scene, instance, 0, scene.meshes[instance.mesh].triangles.size(), look);
+  return out;
+}
+
+/// The first place that is `clear` of everything and sees half of the way to all targets, else the best.
+Vec3 clearest(const Scene& scene, const std::vector<Vec3>& places, const std::vector<Vec3>& targets,
+              double clear) {
+  const Freedom found = freedom(scene, places, targets, clear);
+  const auto worth = [&](std::size_t i) {
+    double product = found.near[i];
+    for (const double free : found.free[i]) product *= free;
+    return product;
+  };
   std::size_t best = 0;
-  for (std::size_t i = 1; i < points.size(); ++i)
-    if (near[i] * free[i] > near[best] * free[best]) best = i;
-  return points[best];
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (worth(i) > worth(best)) best = i;
+  return places[best];
+}
+
+/// How well a camera shows what is in the room, worst where that is cut off; of an empty room, how far it sees.
+double usefulness(const Scene& scene, const SceneParts& parts, const Camera& camera, double diagonal,
+                  const std::vector<char>& contents) {
+  constexpr double enough = 0.04, least = 0.002;  // of the picture
+  constexpr double cut_off = 0.3;
+  Sketch sketch(make_view(camera, sketch_size));
+  sketch.draw(scene, parts, true, false, [](std::uint32_t) { return true; });
+  const auto counts = [&](std::uint32_t part) { return contents[part] != 0; };
+  if (std::any_of(contents.begin(), contents.end(), [](char c) { return c != 0; }))
+    return (least + std::min(enough, sketch.share(counts))) * (sketch.cuts(counts) ? cut_off : 1.0);
+  double sum = 0.0;
+  for (const double depth : sketch.depths()) sum += std::min(depth, diagonal);
+  return sum;
+}
+
+/// The first of the cameras at these eyes that is about as good as any.
+Camera chosen_inside(const Scene& scene, const SceneParts& parts, const std::vector<Vec3>& eyes,
+                     const std::vector<Vec3>& targets, double diagonal, const std::vector<char>& contents) {
+  constexpr double clear_share = 0.04;  // of the diagonal
+  constexpr double as_good = 0.6, worth_a_look = 0.5;
+  const Freedom found = freedom(scene, eyes, targets, clear_share * diagonal);
+  std::vector<std::pair<double, Camera>> cameras;
+  double freest = 0.0, best = 0.0;
+  for (std::size_t k = 0; k < targets.size(); ++k)
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+      Camera camera;
+      camera.eye = eyes[i], camera.target = targets[k], camera.vertical_fov = 70.0 * pi / 180.0;
+      cameras.emplace_back(found.near[i] * found.free[i][k], camera);
+      freest = std::max(freest, cameras.back().first);
+    }
+  for (auto& [worth, camera] : cameras) {
+    worth *= worth >= worth_a_look * freest ? usefulness(scene, parts, camera, diagonal, contents) : 0.0;
+    best = std::max(best, worth);
+  }
+  return std::find_if(cameras.begin(), cameras.end(),
+                      [&](const auto& c) { return c.first >= as_good * best; })
+      ->second;
 }
 
 }  // namespace
 
-std::optional<Interior> find_interior(const Scene& scene, const Aabb& bounds) {
+std::optional<Interior> find_interior(const Scene& scene, const SceneParts& parts, const Aabb& bounds) {
   const Vec3 extent = bounds.extent();
-  if (bounds.empty() || !(extent.x > 0.0 && extent.y > 0.0 && extent.z > 0.0) || !is_room(scene, bounds))
-    return std::nullopt;
+  if (bounds.empty() || !(extent.x > 0.0 && extent.y > 0.0 && extent.z > 0.0)) return std::nullopt;
+  Interior out;
+  out.contents = contents_of(parts, bounds);
+  const auto open = open_side(scene, parts, bounds, out.contents);
+  if (!open) return std::nullopt;
+  constexpr int top = 3;
+  if (*open >= 0) out.open[*open / 2] = *open % 2 == 0 ? -1.0 : 1.0;
   const auto place = [&](double x, double y, double z) { return bounds.min + extent * Vec3(x, y, z); };
-  constexpr double eye_height = 0.55, lamp_height = 0.85, inset = 0.15;
-  std::vector<Vec3> eyes, lamps;
+  constexpr double eye_height = 0.55, target_height = 0.45, lamp_height = 0.85, inset = 0.15;
+  std::vector<Vec3> eyes, targets{place(0.5, target_height, 0.5)}, lamps;
   for (const Vec2& at : {Vec2(0.5, 1.0 - inset), Vec2(1.0 - inset, 1.0 - inset), Vec2(inset, 1.0 - inset),
                          Vec2(1.0 - inset, 0.5), Vec2(inset, 0.5), Vec2(0.5, inset)})
     eyes.push_back(place(at.x, eye_height, at.y));
+  for (const Vec2& at : {Vec2(0.75, 0.5), Vec2(0.25, 0.5), Vec2(0.5, 0.25), Vec2(0.5, 0.75)})
+    targets.push_back(place(at.x, target_height, at.y));
+  Aabb standing;
+  for (std::size_t i = 0; i < out.contents.size(); ++i)
+    if (out.contents[i] != 0) standing.grow(parts.all()[i].box);
+  if (!standing.empty()) targets.push_back(standing.center());
+  if (*open < 0) {
+    out.camera = chosen_inside(scene, parts, eyes, targets, bounds.diagonal(), out.contents);
+  } else {
+    out.camera = framed(bounds, *open == top ? Vec3(0.3, 1.2, 0.7) : out.open);
+  }
+  if (*open == top) return out;
+  const Vec3 eye = *open < 0 ? out.camera.eye : out.camera.target;
   for (const Vec2& at : {Vec2(0.5), Vec2(0.5, 0.65), Vec2(0.65, 0.5), Vec2(0.35, 0.5), Vec2(0.5, 0.35)})
     lamps.push_back(place(at.x, lamp_height, at.y));
-  const double clear = 0.04 * bounds.diagonal();
-  Interior out;
-  out.camera.target = place(0.5, 0.45, 0.5);
-  out.camera.eye = clearest(scene, eyes, out.camera.target, clear);
-  out.camera.vertical_fov = 70.0 * pi / 180.0;
-  out.lamp = clearest(scene, lamps, out.camera.target, 0.5 * clear);
+  for (const double way : {0.3, 0.5}) {
+    Vec3 above = glm::mix(out.camera.target, eye, way);
+    above.y = lamps.front().y;
+    lamps.push_back(above);
+  }
+  out.lamp = clearest(scene, lamps, {out.camera.target, eye}, 0.02 * bounds.diagonal());
   return out;
 }
 

@@ -173,9 +173,9 @@ TEST(JsonScene, MissingCameraAndLightAreMadeAndNoted) {
   EXPECT_EQ(s.lights[0].type, LightType::directional);
   EXPECT_LT(s.lights[0].direction.y, 0.0);
   EXPECT_EQ(s.camera.target, Vec3(100, 0, 0));
-  ASSERT_EQ(s.notes.size(), 2u);
-  EXPECT_NE(s.notes[0].find("Made a camera"), std::string::npos);
-  EXPECT_NE(s.notes[1].find("Made a directional light"), std::string::npos);
+  ASSERT_EQ(s.notes.size(), 1u);
+  EXPECT_EQ(s.notes[0].find("Made, as the file has none: a camera at ["), 0u);
+  EXPECT_NE(s.notes[0].find(", a directional light 'sun' along ["), std::string::npos);
   EXPECT_EQ(s.shapes.size(), 1u);  // a scene says itself whether it has a ground
 }
 

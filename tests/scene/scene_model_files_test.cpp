@@ -153,7 +153,7 @@ void check_loaded(const std::string& path, const Scene& scene) {
   fmt::print("{}: {} triangles, {} shapes, {} lights, {} textures\n", path, world.triangle_count(),
              scene.shapes.size(), scene.lights.size(), scene.textures.size());
   for (const std::string& note : scene.notes)
-    if (!note.starts_with("Made a")) fmt::print("    {}\n", note);
+    if (!note.starts_with("Made, ")) fmt::print("    {}\n", note);
   if (const auto known = known_triangles.find(path); known != known_triangles.end()) {
     EXPECT_EQ(world.triangle_count(), known->second) << path;
   }
