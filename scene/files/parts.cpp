@@ -10,10 +10,10 @@
 namespace gnomon {
 namespace {
 
-constexpr double thin = 0.15;      // of the middle extent
-constexpr double small = 0.5;      // of what is set aside: what is looked at is no larger
-constexpr double inside = 0.8;     // of a shell's extent along every axis
-constexpr double not_lost = 0.02;  // of a shell's largest extent: less inside is no reason to enter
+constexpr double thin = 0.15;        // of the middle extent
+constexpr double small = 0.5;        // of what is set aside: what is looked at is no larger
+constexpr double shell_share = 0.8;  // of a shell's extent along every axis
+constexpr double not_lost = 0.02;    // of a shell's largest extent: less inside is no reason to enter
 
 /// Numbers the mesh's connected pieces from 0 in the order of their first triangles, one number for each triangle. A mesh
 /// of very many triangles takes long to look through, and is taken for one piece.
@@ -121,7 +121,7 @@ void set_shell_aside(const SceneParts& scene, Subject& out) {
     if (i == shell || parts[i].flat()) aside[i] = 1;
   const Aabb rest = box_of_others(parts, aside), &box = parts[shell].box;
   if (rest.empty() || !holds_box(box, rest) || largest_extent(rest) < not_lost * largest_extent(box)) return;
-  const Vec3 most = inside * box.extent(), is = rest.extent();
+  const Vec3 most = shell_share * box.extent(), is = rest.extent();
   if (is.x > most.x || is.y > most.y || is.z > most.z || !is_hollow(scene, shell)) return;
   out.aside = aside, out.box = rest, out.anything = out.in_shell = true;
 }
