@@ -11,19 +11,12 @@ namespace gnomon {
 namespace {
 
 using test::box;
+using test::loaded;
 
 const Vec3 low(-2.0, 0.0, -3.0), high(2.0, 2.5, 3.0);
 
 bool is_inside(const Vec3& p) {
   return glm::clamp(p, low, high) == p;
-}
-
-Scene loaded(const std::string& obj) {
-  const TemporaryFolder folder;
-  auto scene = load_scene(folder.put("room.obj", obj));
-  if (scene) return std::move(*scene);
-  ADD_FAILURE() << scene.error().message();
-  return {};
 }
 
 TEST(Interior, ARoomIsSeenAndLitFromInside) {

@@ -13,14 +13,7 @@ namespace {
 
 using test::box;
 using test::level;
-
-Scene loaded(const std::string& obj) {
-  const TemporaryFolder folder;
-  auto scene = load_scene(folder.put("m.obj", obj));
-  if (scene) return std::move(*scene);
-  ADD_FAILURE() << scene.error().message();
-  return {};
-}
+using test::loaded;
 
 /// The corners of a box in the picture's coordinates, each from -1 to 1 where it is in the picture.
 Aabb in_picture(const Scene& scene, const Vec3& low, const Vec3& high, ImageSize size = {160, 90}) {

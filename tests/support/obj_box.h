@@ -5,8 +5,11 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
+#include "scene/load.h"
 #include "scene/math.h"
+#include "tests/support/scene_files_support.h"
 
 namespace gnomon::test {
 
@@ -32,6 +35,15 @@ inline std::string box(const Vec3& low, const Vec3& high, bool inwards, int with
 inline std::string level(const Vec3& low, double x, double z, int first = 0) {
   return fmt::format("v {0} {1} {4}\nv {2} {1} {4}\nv {2} {1} {3}\nv {0} {1} {3}\nf {5} {6} {7} {8}\n", low.x,
                      low.y, x, low.z, z, first + 1, first + 2, first + 3, first + 4);
+}
+
+/// The scene of such a file, with the camera and light that are made for it.
+inline Scene loaded(const std::string& obj) {
+  const TemporaryFolder folder;
+  auto scene = load_scene(folder.put("m.obj", obj));
+  if (scene) return std::move(*scene);
+  ADD_FAILURE() << scene.error().message();
+  return {};
 }
 
 }  // namespace gnomon::test
