@@ -143,12 +143,18 @@ double mean_of_moments(const CapturedMoments& moments, const Averages& a) {
   return moments.technique == Technique::evsm ? unwarped(moments, a[0]) : a[0];
 }
 
+std::array<double, 4> moments_between(const raster::LightRecord& record, const TexelCoordinate& at) {
+  const CapturedMoments& moments = record.captured->test->moments;
+  Averages read{};
+  for (const WeighedTexel& near : texels_between(record, at))
+    for (std::size_t k = 0; k < read.size(); ++k) read[k] += near.weight * moments.texels[near.index][k];
+  return read;
+}
+
 std::optional<double> caster_of_moments(const raster::LightRecord& record, const BiasedLookup& lookup) {
   constexpr int halvings = 48;
   const CapturedMoments& moments = record.captured->test->moments;
-  Averages read{};
-  for (const WeighedTexel& near : texels_between(record, lookup.at))
-    for (std::size_t k = 0; k < read.size(); ++k) read[k] += near.weight * moments.texels[near.index][k];
+  const Averages read = moments_between(record, lookup.at);
   const Numbers numbers(record, lookup.key);
   Interval between = numbers.ends();
   const auto has_half = [&](double x) { return light_of_moments(moments, read, x) >= 0.5; };

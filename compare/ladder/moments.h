@@ -33,6 +33,9 @@ inline bool reads_moments(const raster::LightRecord& record) {
          record.captured->test->read == raster::CapturedTest::Read::moments;
 }
 
+/// Returns the averages read between the four texels around a place.
+std::array<double, 4> moments_between(const raster::LightRecord& record, const TexelCoordinate& at);
+
 /// Returns the depth along forward up to which receivers have half of the light at least, of moments read between the four
 /// texels around the lookup; none where all have it.
 std::optional<double> caster_of_moments(const raster::LightRecord& record, const BiasedLookup& lookup);

@@ -41,9 +41,10 @@ struct AdvisedSetting {
   double unit_world = 0.0, texel_world = 0.0;
 };
 struct Advice : AdvisedSetting {
-  double wrong_now = 0.0,
-         wrong_instead = 0.0;  ///< shares of all compared pixels, those outside the map among them
-  bool feasible = false;       ///< with it every compared pixel is right
+  /// Shares of all compared pixels, those outside the map among them: of what was drawn, and of what the filter and test that
+  /// are in use draw on the same map.
+  double wrong_now = 0.0, wrong_instead = 0.0;
+  bool feasible = false;  ///< with it every compared pixel is right
   std::optional<AdvisedSetting> with = {};  ///< what is to be set together with it
   std::vector<AdvisedSetting> layers =
       {};  ///< the same of the layers after the first, where each has its own
@@ -51,8 +52,11 @@ struct Advice : AdvisedSetting {
   std::optional<double> texels_of_each = {};
   /// The whole advice as settings of the engine that drew, where it is known (engine_units.h).
   std::vector<std::pair<std::string, double>> in_engine = {};
-  /// Where the map is read by a filter that is known: what that makes of the mean error, now and instead, in [0, 1].
+  /// The mean error of the same drawings, in [0, 1].
   std::optional<double> mean_now = {}, mean_instead = {};
+  /// What is promised is good to a fifth: the filter is known in kind alone, or pixels that change are not explained by the
+  /// description. Else to 0.05 % of the pixels.
+  bool about = false;
 };
 
 struct Judged {
@@ -64,6 +68,7 @@ struct Judged {
   std::vector<Agreement> agreement;  ///< after what was mended
   std::vector<Mended> mended;
   std::optional<Identified> identified;
+  bool advice_sought = false;  ///< other biases were tried; where none is worth advising `advice` is empty all the same
   std::vector<Advice> advice;
   std::vector<std::string> notes;
   /// With a map: the share of the compared pixels whose V5 is V6; of a map without filter all but those on

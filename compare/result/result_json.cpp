@@ -97,7 +97,7 @@ Json judged_json(const Judged& j) {
   for (const Advice& a : j.advice) {
     Json one = setting(a);
     one["wrong_now"] = number(a.wrong_now), one["wrong_instead"] = number(a.wrong_instead);
-    one["feasible"] = a.feasible;
+    one["feasible"] = a.feasible, one["about"] = a.about;
     one["with"] = a.with ? setting(*a.with) : Json(nullptr);
     one["layers"] = Json::array();
     for (const AdvisedSetting& layer : a.layers) one["layers"].push_back(setting(layer));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "compare/advice/rule.h"
 #include "compare/bias/bias_advice.h"
 #include "compare/bias/bias_curve.h"
 #include "compare/ladder/labels.h"
@@ -136,30 +137,42 @@ std::string instead_text(const Setting& one) {
   return fmt::format("{} {:.4g} instead of {:.4g}", one.setting, one.instead, one.now);
 }
 
+// "about 1.2 % on average, 0.3 % wrong", "none wrong": what the advice for another renderer leaves.
+std::string left_by_advice(const Advice& advice, const LightComparison& light, const Figure& measure) {
+  const double mean = advice.mean_instead.value_or(advice.wrong_instead);
+  const std::string about = advice.about ? "about " : "";
+  if (&measure == find_measure("mean"))
+    return fmt::format(fmt::runtime(measure.measure.said), about + percent(mean));
+  const std::string wrong = left_text(advice.wrong_instead, light, measure);
+  if (measure.measure.by_halves && &measure != &wrong_and_mean()) return about + wrong;
+  return about + (light.error.fractional > 0 ? percent(mean) + " on average, " : "") + wrong;
+}
+
 // Of another renderer's picture, in that renderer's own units; no option of Gnomon's own can be set there. First comes
-// the constant alone, and where a normal offset does clearly better that offset and the constant beside it.
+// the constant alone, and where another setting does clearly better that one and the constant beside it.
 std::string judged_advice(const Judged& judged, const LightComparison& light, const Figure& measure) {
   if (judged.advice.empty()) return {};
   const Advice& last = judged.advice.back();
-  const double drawn = light.error.wrong_fraction;
-  const bool blurs_more = last.mean_now && last.mean_instead && *last.mean_instead > *last.mean_now;
-  if (blurs_more) return {};
-  if (last.wrong_instead >= drawn || percent(last.wrong_instead) == percent(drawn)) return {};
+  const bool mean = &measure == find_measure("mean");
+  if (!mean && !measure.measure.by_halves)
+    return fmt::format("Only a drawing tells what another bias does to the {}.", measure_words(measure));
+  const double mean_now = last.mean_now.value_or(last.wrong_now),
+               mean_instead = last.mean_instead.value_or(last.wrong_instead);
+  const bool by_wrong = !mean && (&measure != &wrong_and_mean() || light.error.fractional == 0);
+  if (!is_worth_advising({last.wrong_instead, mean_instead, by_wrong ? last.wrong_instead : mean_instead},
+                         {last.wrong_now, mean_now, by_wrong ? last.wrong_now : mean_now},
+                         light.pixels.compared))
+    return {};
   std::string settings;
   if (last.instead != last.now) settings = instead_text(last);
   if (last.with && last.with->instead != last.with->now)
     settings += (settings.empty() ? "" : " and ") + instead_text(*last.with);
   for (const AdvisedSetting& layer : last.layers)
     if (layer.instead != layer.now) settings += (settings.empty() ? "" : " and ") + instead_text(layer);
-  if (settings.empty()) return {};
   if (last.texels_of_each)
     settings = fmt::format("a bias of {:.3g} texels on each layer, {}", *last.texels_of_each, settings);
   if (const std::string own = in_engine_text(judged, last); !own.empty()) settings += " (" + own + ")";
-  if (&measure == find_measure("mean") && last.mean_instead)
-    return fmt::format("Try {}: {}.", settings, left_text(*last.mean_instead, light, measure));
-  if (!counts_biases(light, measure))
-    return fmt::format("Only a drawing tells what another bias does to the {}.", measure_words(measure));
-  return fmt::format("Try {}: {}.", settings, left_text(last.wrong_instead, light, measure));
+  return fmt::format("Try {}: {}.", settings, left_by_advice(last, light, measure));
 }
 
 /// "about 2.6 % wrong", "mean error about 2.6 %": what an estimate of the mean error leaves.

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 
-#include "compare/ladder/biased_test.h"
-#include "compare/ladder/budget.h"
+#include "compare/advice/rule.h"
 #include "compare/result/engine_units.h"
 #include "compare/result/number_text.h"
-#include "studies/judge/advice_parts.h"
+#include "studies/judge/advisor.h"
 #include "studies/tune/engines.h"
 
 namespace gnomon::compare {
@@ -21,14 +20,6 @@ std::vector<double> offsets_to_try(double now, double texel_world) {
   out.erase(std::unique(out.begin(), out.end()), out.end());
   std::erase(out, now);
   return out;
-}
-
-TriedConstants try_with_offset(const FrameInput& in, const raster::Bias& bias, const LightComparison& light,
-                               const raster::LightRecord& drawn, double offset) {
-  raster::LightRecord record = drawn;
-  record.captured->test->normal_offset_world = offset;
-  fill_record(in, bias, record);
-  return try_constants(record, light);
 }
 
 /// Factors of polygon offset that people set.
@@ -52,43 +43,141 @@ CastersConstant casters_constant(const CapturedCasterBias& bias, double unit_wor
   return {"map[].caster_bias.constant", bias.constant, unit_world, "stored depth"};
 }
 
-TriedConstants try_with_slope(const FrameInput& in, const raster::Bias& bias, const LightComparison& light,
-                              const raster::LightRecord& drawn, const CasterBiases& casters, double slope) {
-  raster::LightRecord record = drawn;
-  record.map.depth = with_caster_slope(drawn.map, casters, slope);
-  fill_record(in, bias, record);
-  return try_constants(record, light);
+void unchanged(raster::LightRecord&) {}
+
+}  // namespace
+
+/// The constant alone, and the best normal offset of a few with the constant beside it.
+void Advisor::propose_on_receivers() {
+  TestedRecord tested = redrawing_.as_drawn();
+  const GoodConstant best = search_.best_beside(tested);
+  Advice alone;
+  static_cast<AdvisedSetting&>(alone) = constant(best.stored);
+  propose({alone, unchanged, best.stored});
+  double least = best.left;
+  if (reads_moments()) return propose_on_moments(least);
+  std::optional<Candidate> pair;
+  for (const double offset : offsets_to_try(test().normal_offset_world, record().texel_world)) {
+    const auto change = [offset](raster::LightRecord& one) {
+      one.captured->test->normal_offset_world = offset;
+    };
+    tested.change(change);
+    const GoodConstant there = search_.best_beside(tested);
+    if (!(there.left < worth_changing * least)) continue;
+    least = there.left;
+    Advice advice;
+    static_cast<AdvisedSetting&>(advice) = {
+        "bias.normal_offset_world", test().normal_offset_world, offset, "world units", 1.0,
+        record().texel_world};
+    advice.with = constant(there.stored);
+    pair = Candidate{advice, change, there.stored};
+  }
+  if (pair) propose(std::move(*pair));
+  propose_on_layers(least);
+}
+
+void Advisor::propose_on_layers(double least) {
+  if (!has_layers(record())) return;
+  for (const auto advise : {advise_in_texels, advise_on_layers}) {
+    Advice advice = advise(search_);
+    std::vector<double> stored{advice.instead};
+    for (const AdvisedSetting& layer : advice.layers) stored.push_back(layer.instead);
+    const auto change = [stored](raster::LightRecord& one) {
+      auto& layers = one.captured->test->layers;
+      layers.resize(stored.size());
+      for (std::size_t i = 0; i < stored.size(); ++i) layers[i].constant = stored[i] - stored.front();
+    };
+    TestedRecord tested = redrawing_.as_drawn();
+    tested.change(change);
+    const double left = search_.left_at(tested, stored.front());
+    if (!(left < worth_changing * least)) continue;
+    least = left;
+    propose({std::move(advice), change, stored.front()});
+  }
 }
 
 /// In the casters' own terms.
-std::vector<Advice> advise_on_casters(const FrameInput& in, const raster::Bias& bias,
-                                      const LightComparison& light, const raster::LightRecord& record,
-                                      const CasterBiases& casters) {
-  const double unit_world = record.captured->test->unit_world, now = record.bias_constant_world / unit_world;
-  const auto moved = std::find_if(casters.faces.begin(), casters.faces.end(),
+void Advisor::propose_on_casters() {
+  const auto moved = std::find_if(casters_.faces.begin(), casters_.faces.end(),
                                   [](const CapturedCasterBias& face) { return face.moves(); });
-  const CastersConstant constant = casters_constant(*moved, unit_world);
-  const TriedConstants tried = try_constants(record, light);
-  const double wrong_now = tried.wrong_at(record.bias_constant_world);
-  const GoodConstant best = good_constant(tried, unit_world, now);
-  const AdvisedSetting set = constant.instead((best.stored - now) * unit_world, record.texel_world);
-  std::vector<Advice> out{{set, wrong_now, best.wrong, best.wrong == 0.0}};
-  double least = best.wrong;
+  const double unit = test().unit_world, now = search_.now;
+  const CastersConstant said = casters_constant(*moved, unit);
+  const auto change_to = [&](double slope, const AdvisedSetting& constant) {
+    CapturedCasterBias bias = *moved;
+    bias.slope = slope;
+    (bias.constant_world != 0.0 ? bias.constant_world : bias.constant) = constant.instead;
+    return [bias, this](raster::LightRecord& one) {
+      one.map.depth = with_caster_bias(record().map, casters_, bias);
+    };
+  };
+  TestedRecord tested = redrawing_.as_drawn();
+  const GoodConstant best = search_.best_beside(tested);
+  const AdvisedSetting alone = said.instead((best.stored - now) * unit, record().texel_world);
+  Advice first;
+  static_cast<AdvisedSetting&>(first) = alone;
+  propose({first, change_to(moved->slope, alone), now});
+  double least = best.left;
+  std::optional<Candidate> pair;
   for (const double slope : slopes_to_try) {
     if (slope == moved->slope) continue;
-    const GoodConstant there =
-        good_constant(try_with_slope(in, bias, light, record, casters, slope), unit_world, now);
-    if (!(there.wrong < worth_changing * least)) continue;
-    least = there.wrong;
-    out.resize(1);
-    out.push_back({{"map[].caster_bias.slope", moved->slope, slope, "multiples of the stored depth's slope"},
-                   wrong_now,
-                   there.wrong,
-                   there.wrong == 0.0,
-                   constant.instead((there.stored - now) * unit_world, record.texel_world)});
+    tested.change(change_to(slope, {said.setting, said.now, said.now, said.unit}));
+    const GoodConstant there = search_.best_beside(tested);
+    if (!(there.left < worth_changing * least)) continue;
+    least = there.left;
+    Advice advice;
+    static_cast<AdvisedSetting&>(advice) = {"map[].caster_bias.slope", moved->slope, slope,
+                                            "multiples of the stored depth's slope"};
+    advice.with = said.instead((there.stored - now) * unit, record().texel_world);
+    pair = Candidate{advice, change_to(slope, *advice.with), now};
+  }
+  if (pair) propose(std::move(*pair));
+}
+
+namespace {
+
+bool changes_nothing(const Advice& advice) {
+  const auto stays = [](const AdvisedSetting& one) { return one.instead == one.now; };
+  return stays(advice) && (!advice.with || stays(*advice.with)) &&
+         std::all_of(advice.layers.begin(), advice.layers.end(), stays);
+}
+
+}  // namespace
+
+/// Draws a candidate again; false where it is not worth a sentence.
+bool Advisor::fill(const Candidate& candidate, Advice& advice) const {
+  /// Figures that may be off are good to a fifth, and said where they are good to a twentieth of a percent without "about".
+  constexpr double off_by = 0.2, exactly = 5e-4;
+  if (changes_nothing(candidate.advice)) return false;
+  TestedRecord tested = redrawing_.as_drawn();
+  tested.change(candidate.change);
+  const Redrawn left = redrawing_.redraw(tested, candidate.stored * test().unit_world);
+  advice = candidate.advice;
+  advice.wrong_now = light_.error.wrong_fraction, advice.mean_now = light_.error.mean_absolute;
+  advice.wrong_instead = left.wrong_fraction, advice.mean_instead = left.mean_absolute;
+  advice.feasible = left.wrong_fraction == 0.0, advice.about = candidate.about || left.unsure > exactly;
+  const double factor = advice.about ? 1.0 + off_by : 1.0;
+  return is_worth_advising(
+      {factor * left.wrong_fraction, factor * left.mean_absolute, factor * left.mean_absolute},
+      {advice.wrong_now, *advice.mean_now, *advice.mean_now}, light_.pixels.compared);
+}
+
+std::vector<Advice> Advisor::drawn_again() {
+  std::vector<Advice> out;
+  constexpr std::size_t most_drawn = 3;
+  // The simplest, and the two that are likely to leave least.
+  if (candidates_.size() > most_drawn)
+    candidates_.erase(candidates_.begin() + 1, candidates_.end() - (most_drawn - 1));
+  for (const Candidate& candidate : candidates_) {
+    Advice advice;
+    if (!fill(candidate, advice)) continue;
+    if (!out.empty() && !(*advice.mean_instead < worth_changing * *out.back().mean_instead)) continue;
+    if (out.size() > 1) out.pop_back();
+    out.push_back(std::move(advice));
   }
   return out;
 }
+
+namespace {
 
 /// How far receivers reach that the picture shows, across a parallel map's window.
 std::string window_words(const FrameInput& in, const LightComparison& light, const LightView& view) {
@@ -110,46 +199,9 @@ std::string window_words(const FrameInput& in, const LightComparison& light, con
 }  // namespace
 
 std::vector<Advice> give_advice(const FrameInput& in, const raster::RasterFrame& drawn,
-                                const LightComparison& light, const CasterBiases& casters) {
-  const raster::LightRecord& record = drawn.lights.front();
-  const raster::Bias& bias = drawn.options.map.bias;
-  std::vector<Advice> out;
-  const raster::CapturedTest& test = *record.captured->test;
-  using Stores = raster::CapturedTest::Stores;
-  const std::string unit =
-      test.stores == Stores::depths || test.unit_world != 1.0 ? "stored depth" : "world units";
-  const TriedConstants tried = try_constants(record, light);
-  if (tried.gaps.lit.empty() && tried.gaps.shadowed.empty()) return out;
-  if (!casters.faces.empty()) return advise_on_casters(in, bias, light, record, casters);
-  const double now = record.bias_constant_world / test.unit_world;
-  const double wrong_now = tried.wrong_at(record.bias_constant_world);
-  const GoodConstant best = good_constant(tried, test.unit_world, now);
-  const auto constant = [&](double instead) {
-    return AdvisedSetting{"bias.constant_depth", now, instead, unit, test.unit_world, record.texel_world};
-  };
-  out.push_back({constant(best.stored), wrong_now, best.wrong, best.wrong == 0.0});
-  weigh_mean_error(in, drawn, light, out.front());
-  double least = best.wrong;
-  for (const double offset : offsets_to_try(test.normal_offset_world, record.texel_world)) {
-    const TriedConstants moved = try_with_offset(in, bias, light, record, offset);
-    const GoodConstant there = good_constant(moved, test.unit_world, now);
-    if (!(there.wrong < worth_changing * least)) continue;
-    least = there.wrong;
-    out.resize(1);
-    out.push_back({{"bias.normal_offset_world", test.normal_offset_world, offset, "world units", 1.0,
-                    record.texel_world},
-                   wrong_now,
-                   there.wrong,
-                   there.wrong == 0.0,
-                   constant(there.stored)});
-  }
-  for (const auto advise : {advise_in_texels, advise_on_layers})
-    if (auto layers = advise(light, record, wrong_now, least)) {
-      least = layers->wrong_instead;
-      out.resize(1);
-      out.push_back(std::move(*layers));
-    }
-  return out;
+                                const LightComparison& light, const CasterBiases& casters,
+                                double drawn_constant) {
+  return Advisor(in, drawn, light, casters, drawn_constant).advise();
 }
 
 namespace {

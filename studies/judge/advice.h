@@ -7,13 +7,15 @@
 
 namespace gnomon::compare {
 
-/// The best constant with the renderer's own normal offset, below 0, too, and the best normal offset of a few with the
-/// best constant beside it: smaller ones than the present one, none among them, and larger ones. Shares are what the hard
-/// test with that bias draws wrong, of all compared pixels: those outside the map stay as they were drawn. Nothing is
-/// advised that is worse than the present setting. Where the casters have a bias the constant is theirs, and in place of
-/// normal offsets slopes of casters are tried, the map's depths moved accordingly.
+/// The constant that leaves least, below 0, too, and with the best constant beside it the best normal offset of a few,
+/// where that leaves clearly less: the present one, smaller ones, none among them, and larger ones; of layers one constant in
+/// texels, or one each. Where the casters have a bias the constant is theirs, and in place of normal offsets slopes of casters
+/// are tried, the map's depths moved accordingly. Each is drawn again with the filter (redrawing.h) over all compared pixels,
+/// and left out where it is not worth advising (compare/advice/rule.h): where none is, nothing is advised. `drawn_constant`: world
+/// units, of what was drawn, where that is not what the capture says.
 std::vector<Advice> give_advice(const FrameInput& input, const raster::RasterFrame& drawn,
-                                const LightComparison& light, const CasterBiases& casters);
+                                const LightComparison& light, const CasterBiases& casters,
+                                double drawn_constant);
 
 /// What an advice changes in an engine's settings (EngineUnit::engine); none where it sets the layers apart, or the engine
 /// has no number for it.

@@ -5,15 +5,17 @@
 #include <algorithm>
 
 #include "compare/bias/bias_kinds.h"
-#include "compare/ladder/biased_test.h"
 #include "scene/base/parallel.h"
-#include "scene/light.h"
 
 namespace gnomon::compare {
 namespace {
 
 /// Hardly worse than the best: by one compared pixel in 100,000, or by one wrong pixel in fifty.
 constexpr double hardly_pixels = 1e-5, few_wrong = 0.02;
+
+double hardly_more(double least) {
+  return least + std::max(hardly_pixels, few_wrong * least);
+}
 
 /// A constant below 0 that is hardly wrong more often than the best of those, the one nearest to 0.
 std::optional<BiasRange> good_range_below_zero(const GapLists& gaps) {
@@ -57,11 +59,10 @@ GoodConstant good_constant(const TriedConstants& tried, double unit_world, doubl
     const double most = -double{below->from} / unit_world;
     const double least = std::max(std::nextafter(-double{below->to} / unit_world, infinity), 1e-3 * most);
     const GoodConstant negative = at(-short_number_in(least, most));
-    if (negative.wrong < worth_changing * best.wrong) best = negative;
+    if (negative.left < worth_changing * best.left) best = negative;
   }
   const GoodConstant present = at(now);
-  const double hardly = std::max(hardly_pixels, few_wrong * best.wrong);
-  return present.wrong <= best.wrong + hardly ? present : best;
+  return present.left <= hardly_more(best.left) ? present : best;
 }
 
 TriedConstants try_constants(const raster::LightRecord& record, const LightComparison& light, int face) {
@@ -80,12 +81,76 @@ TriedConstants try_constants(const raster::LightRecord& record, const LightCompa
 
 namespace {
 
-/// Whether the layers of a record's map can each have a constant of their own that counts alike at every angle.
-bool has_layers(const raster::LightRecord& record) {
-  const LightView& view = record.map.view;
-  return view.face_count >= 2 && view.projection == LightProjection::orthographic &&
-         !record.captured->test->has_angle();
+/// A short number in [from, to], where there is one beside the ends of that.
+double short_number_within(double from, double to) {
+  if (from <= 0.0 && to >= 0.0) return 0.0;
+  if (from < 0.0) return -short_number_within(-to, -from);
+  return from < to ? short_number_in(from, to) : from;
 }
+
+/// What constants leave, ascending.
+struct Tries {
+  std::vector<double> constants;  ///< world units
+  std::vector<Redrawn> left;
+  double most_wrong = 1.0;  ///< of those that may be taken
+
+  bool may_be(std::size_t i) const { return left[i].wrong_fraction <= most_wrong; }
+  std::size_t best() const {
+    std::size_t out = 0;
+    for (std::size_t i = 1; i < left.size(); ++i)
+      if (may_be(i) > may_be(out) ||
+          (may_be(i) == may_be(out) && left[i].mean_absolute < left[out].mean_absolute))
+        out = i;
+    return out;
+  }
+};
+
+/// A sample drawn again with telling constants, and once more with some around the best of these.
+GoodConstant good_filtered_constant(const ConstantSearch& search, const TestedRecord& record, int face) {
+  constexpr int between = 8;
+  const Redrawing::Pixels pixels{.sample = true, .face = face};
+  const double present = search.now * search.unit_world;
+  const Redrawn drawn = search.redrawing.redraw(search.redrawing.as_drawn(), {present}, pixels).front();
+  Tries tries{search.redrawing.telling_constants(record, pixels), {}, drawn.wrong_fraction};
+  for (int round = 0; round < 2; ++round) {
+    tries.left = search.redrawing.redraw(record, tries.constants, pixels);
+    if (round == 1) break;
+    const std::size_t best = tries.best(), last = tries.constants.size() - 1;
+    const double from = tries.constants[best > 0 ? best - 1 : 0], to = tries.constants[std::min(best + 1, last)];
+    for (int k = 1; k < between; ++k) tries.constants.push_back(from + (to - from) * k / between);
+    std::sort(tries.constants.begin(), tries.constants.end());
+  }
+  const std::size_t best = tries.best();
+  const double enough = hardly_more(tries.left[best].mean_absolute);
+  const auto is_good = [&](std::size_t i) {
+    return tries.may_be(i) == tries.may_be(best) && tries.left[i].mean_absolute <= enough;
+  };
+  std::size_t first = best, last = best;
+  while (first > 0 && is_good(first - 1)) --first;
+  while (last + 1 < tries.constants.size() && is_good(last + 1)) ++last;
+  for (std::size_t i = first; i <= last; ++i)
+    if (tries.constants[i] == present) return {search.now, tries.left[i].mean_absolute};
+  const double unit = search.unit_world;
+  return {short_number_within(tries.constants[first] / unit, tries.constants[last] / unit),
+          tries.left[best].mean_absolute};
+}
+
+}  // namespace
+
+GoodConstant ConstantSearch::best_beside(TestedRecord& record, int face) const {
+  if (!redrawing.compares_once()) return good_filtered_constant(*this, record, face);
+  fill_record(in, bias, record.own);
+  return good_constant(try_constants(record.own, light, face), unit_world, now);
+}
+
+double ConstantSearch::left_at(TestedRecord& record, double stored) const {
+  if (!redrawing.compares_once())
+    return redrawing.redraw(record, {stored * unit_world}, {.sample = true}).front().mean_absolute;
+  fill_record(in, bias, record.own);
+  return try_constants(record.own, light).wrong_at(stored * unit_world);
+}
+
+namespace {
 
 /// A layer's constant in stored numbers, of all that its test has.
 struct LayerConstant {
@@ -110,150 +175,93 @@ struct LayerConstant {
   }
 };
 
-Advice of_layers(const std::vector<AdvisedSetting>& settings, double wrong_now, double instead) {
+std::vector<LayerConstant> layers_of(const ConstantSearch& search) {
+  const raster::LightRecord& record = search.redrawing.as_drawn().own;
+  std::vector<LayerConstant> out;
+  for (int face = 0; face < record.map.view.face_count; ++face) out.emplace_back(record, face);
+  return out;
+}
+
+Advice of_layers(const std::vector<AdvisedSetting>& settings) {
   Advice out;
   static_cast<AdvisedSetting&>(out) = settings.front();
-  out.wrong_now = wrong_now, out.wrong_instead = instead, out.feasible = instead == 0.0;
   out.layers.assign(settings.begin() + 1, settings.end());
   return out;
 }
 
-}  // namespace
-
-std::optional<Advice> advise_in_texels(const LightComparison& light, const raster::LightRecord& record,
-                                       double wrong_now, double least) {
-  if (!has_layers(record)) return std::nullopt;
-  const double unit = record.captured->test->unit_world;
-  std::vector<LayerConstant> layers;
-  TriedConstants all;  // by texels of the layer
-  for (int face = 0; face < record.map.view.face_count; ++face) {
-    const LayerConstant& layer = layers.emplace_back(record, face);
-    TriedConstants tried = try_constants(record, light, face);
+/// The gaps of all layers as multiples of each one's texel.
+TriedConstants tried_in_texels(const ConstantSearch& search, const std::vector<LayerConstant>& layers) {
+  TriedConstants all;
+  for (const LayerConstant& layer : layers) {
+    TriedConstants tried = try_constants(search.redrawing.as_drawn().own, search.light, layer.face);
     for (const auto& [from, to] :
          {std::pair(&tried.gaps.lit, &all.gaps.lit), std::pair(&tried.gaps.shadowed, &all.gaps.shadowed)})
       for (const float gap : *from)
-        to->push_back(
-            static_cast<float>((double{gap} / unit + layer.beside) * layer.range / layer.texel_world));
+        to->push_back(static_cast<float>((double{gap} / search.unit_world + layer.beside) * layer.range /
+                                         layer.texel_world));
     all.gaps.lit_left_out += tried.gaps.lit_left_out, all.gaps.ties += tried.gaps.ties;
     all.outside += tried.outside, all.outside_wrong += tried.outside_wrong;
     all.outside_ties += tried.outside_ties;
   }
   std::sort(all.gaps.lit.begin(), all.gaps.lit.end());
   std::sort(all.gaps.shadowed.begin(), all.gaps.shadowed.end());
-  const BiasRange range = smallest_good_range(all.gaps);
-  const double texels = short_number_in(range.from, range.to), instead = all.wrong_at(texels);
-  if (!(instead < worth_changing * least)) return std::nullopt;
-  std::vector<AdvisedSetting> settings;
+  return all;
+}
+
+/// Of a filter, the middle of the layers' own constants that suits them together, by a sample.
+double filtered_texels(const ConstantSearch& search, const std::vector<LayerConstant>& layers) {
+  TestedRecord record = search.redrawing.as_drawn();
+  std::vector<double> texels{0.0};
   for (const LayerConstant& layer : layers)
-    settings.push_back(
-        layer.instead(record.bias_constant_world / unit, texels * layer.texel_world / layer.range));
-  Advice out = of_layers(settings, wrong_now, instead);
-  out.texels_of_each = texels;
-  return out;
-}
-
-std::optional<Advice> advise_on_layers(const LightComparison& light, const raster::LightRecord& record,
-                                       double wrong_now, double least) {
-  if (!has_layers(record)) return std::nullopt;
-  const double unit = record.captured->test->unit_world, first = record.bias_constant_world / unit;
-  std::vector<AdvisedSetting> settings;
-  double wrong = 0.0, pixels = 0.0;
-  for (int face = 0; face < record.map.view.face_count; ++face) {
-    const TriedConstants tried = try_constants(record, light, face);
-    const GoodConstant best = good_constant(tried, unit, first);
-    wrong += best.wrong * tried.pixels(), pixels += tried.pixels();
-    const LayerConstant layer(record, face);
-    settings.push_back(layer.instead(first, best.stored + layer.beside));
+    texels.push_back(
+        (good_filtered_constant(search, record, layer.face).stored + layer.beside) * layer.range /
+        layer.texel_world);
+  double best = 0.0, least = infinity;
+  for (const double t : texels) {
+    const double tried = rounded_to_three(t);
+    record.change([&](raster::LightRecord& one) {
+      auto& own = one.captured->test->layers;
+      own.resize(layers.size());
+      for (std::size_t i = 0; i < layers.size(); ++i)
+        own[i].constant = tried * layers[i].texel_world / layers[i].range;
+    });
+    if (const double left = search.left_at(record, 0.0); left < least) least = left, best = tried;
   }
-  const double instead = wrong / std::max(1.0, pixels);
-  if (!(instead < worth_changing * least)) return std::nullopt;
-  return of_layers(settings, wrong_now, instead);
-}
-
-namespace {
-
-/// The filter's average over a square of texels, with any constant, of some of the pixels.
-class FilteredTest {
- public:
-  FilteredTest(const FrameInput& in, const raster::RasterFrame& drawn, const LightComparison& light);
-  /// Mean of |average - truth|.
-  double mean_error(double constant_world) const;
-  bool empty() const { return pixels_.empty(); }
-
- private:
-  struct Tap {
-    double gap = 0.0, weight = 0.0;
-  };
-  struct Pixel {
-    std::vector<Tap> taps;
-    double truth = 0.0;
-  };
-  std::vector<Pixel> pixels_;
-};
-
-FilteredTest::FilteredTest(const FrameInput& in, const raster::RasterFrame& drawn,
-                           const LightComparison& light) {
-  constexpr std::size_t most = 20000;
-  const raster::LightRecord& record = drawn.lights.front();
-  const raster::MapOptions& map = drawn.options.map;
-  const Light& source = in.world.scene->lights[record.light];
-  const double radius = map.filter.radius_texels, size = record.map.view.size;
-  std::vector<std::size_t> asked;
-  for (std::size_t i = 0; i < light.labels.data.size(); ++i)
-    if (is_compared(light.labels.data[i]) && record.outside_map.data[i] == 0) asked.push_back(i);
-  const std::size_t step = std::max<std::size_t>(1, asked.size() / most);
-  pixels_.resize(asked.size() / step);
-  parallel_for(pixels_.size(), [&](std::size_t k) {
-    const std::size_t i = asked[k * step];
-    const raytrace::SurfacePoint& point = in.traced.receiver.data[i];
-    pixels_[k].truth = double{light.rungs[0].data[i]};
-    const auto lookup = biased_lookup(record, map.bias, light_at(source, point.position).to_light, point, i);
-    if (!lookup) return;
-    const double u = lookup->at.u, v = lookup->at.v;
-    const auto part = [radius](double middle, int texel) {
-      return std::min(middle + radius, texel + 1.0) - std::max(middle - radius, double(texel));
-    };
-    for (int row = std::max(0, int(v - radius)); row <= std::min(int(size) - 1, int(v + radius)); ++row)
-      for (int column = std::max(0, int(u - radius)); column <= std::min(int(size) - 1, int(u + radius));
-           ++column) {
-        BiasedLookup there = *lookup;
-        there.key = raytrace::TexelKey::pack(lookup->at.face, column, row);
-        const auto depth = stored_caster(record, there.key);
-        const double gap = depth ? gap_before(record, map.bias, point.normal, there, *depth) : -infinity;
-        pixels_[k].taps.push_back({gap, part(u, column) * part(v, row)});
-      }
-  });
-}
-
-double FilteredTest::mean_error(double constant_world) const {
-  double sum = 0.0;
-  for (const Pixel& pixel : pixels_) {
-    double lit = 0.0, all = 0.0;
-    for (const Tap& tap : pixel.taps) all += tap.weight, lit += tap.gap <= constant_world ? tap.weight : 0.0;
-    sum += std::abs((all > 0.0 ? lit / all : 1.0) - pixel.truth);
-  }
-  return sum / std::max<double>(1.0, double(pixels_.size()));
+  return best;
 }
 
 }  // namespace
 
-void weigh_mean_error(const FrameInput& in, const raster::RasterFrame& drawn, const LightComparison& light,
-                      Advice& advice) {
-  constexpr int steps = 8;
-  const raster::LightRecord& record = drawn.lights.front();
-  if (drawn.options.map.technique != raster::Technique::pcf || !advice.layers.empty()) return;
-  const FilteredTest filtered(in, drawn, light);
-  if (filtered.empty()) return;
-  const double unit = record.captured->test->unit_world, now = advice.now, best = advice.instead;
-  advice.mean_now = filtered.mean_error(now * unit), advice.mean_instead = filtered.mean_error(best * unit);
-  if (!(*advice.mean_instead > *advice.mean_now)) return;
-  for (int step = steps - 1; step >= 0; --step) {
-    const double constant = now + (best - now) * step / steps, mean = filtered.mean_error(constant * unit);
-    if (mean >= *advice.mean_instead) continue;
-    advice.instead = constant, advice.mean_instead = mean;
+bool has_layers(const raster::LightRecord& record) {
+  const LightView& view = record.map.view;
+  return view.face_count >= 2 && view.projection == LightProjection::orthographic &&
+         !record.captured->test->has_angle();
+}
+
+Advice advise_in_texels(const ConstantSearch& search) {
+  const std::vector<LayerConstant> layers = layers_of(search);
+  double texels = 0.0;
+  if (search.redrawing.compares_once()) {
+    const BiasRange range = smallest_good_range(tried_in_texels(search, layers).gaps);
+    texels = short_number_in(range.from, range.to);
+  } else {
+    texels = filtered_texels(search, layers);
   }
-  const TriedConstants tried = try_constants(record, light);
-  advice.wrong_instead = tried.wrong_at(advice.instead * unit), advice.feasible = advice.wrong_instead == 0.0;
+  std::vector<AdvisedSetting> settings;
+  for (const LayerConstant& layer : layers)
+    settings.push_back(layer.instead(search.now, texels * layer.texel_world / layer.range));
+  Advice out = of_layers(settings);
+  out.texels_of_each = texels;
+  return out;
+}
+
+Advice advise_on_layers(const ConstantSearch& search) {
+  TestedRecord record = search.redrawing.as_drawn();
+  std::vector<AdvisedSetting> settings;
+  for (const LayerConstant& layer : layers_of(search))
+    settings.push_back(
+        layer.instead(search.now, search.best_beside(record, layer.face).stored + layer.beside));
+  return of_layers(settings);
 }
 
 }  // namespace gnomon::compare

@@ -1,13 +1,15 @@
-// Constants that the captured test could have: what each makes of the picture.
+// Constants that the captured test could have: which of them leaves least of the error.
 #pragma once
 
 #include "compare/bias/bias_curve.h"
 #include "compare/result/judged.h"
 #include "studies/judge/captured_frame.h"
+#include "studies/judge/redrawing.h"
 
 namespace gnomon::compare {
 
-/// What the test draws with every constant: of pixels inside the map by their gaps; those outside stay as they are.
+/// What a test that compares once draws with every constant: of pixels inside the map by their gaps; those outside stay as
+/// they are.
 struct TriedConstants {
   GapLists gaps;
   std::uint64_t outside = 0, outside_wrong = 0, outside_ties = 0;
@@ -21,29 +23,37 @@ struct TriedConstants {
 /// `face`: of the pixels that look this one up alone; below 0: of all.
 TriedConstants try_constants(const raster::LightRecord& record, const LightComparison& light, int face = -1);
 
-/// A constant that is hardly wrong more often than the best one: the present one if it is, else the one nearest to 0.
+/// A constant that leaves hardly more than the best one: the present one if it does, else the one nearest to 0.
 struct GoodConstant {
   double stored = 0.0;  ///< in the map's own numbers
-  double wrong = 0.0;   ///< share of the compared pixels
+  double left = 0.0;    ///< the mean error beside it, of single comparisons the share of wrong pixels; of a sample of filtered ones
 };
 GoodConstant good_constant(const TriedConstants& tried, double unit_world, double now);
 
 /// Another setting is worth changing for when it leaves less than this share of what the simpler one leaves.
 inline constexpr double worth_changing = 0.9;
 
-/// One constant in texels for all layers of a directional light's map, each of its own, where that is worth it; none else.
-/// `least`: the share of wrong pixels that one constant in stored depth leaves.
-std::optional<Advice> advise_in_texels(const LightComparison& light, const raster::LightRecord& record,
-                                       double wrong_now, double least);
+/// What constants are looked for with.
+struct ConstantSearch {
+  const FrameInput& in;
+  const raster::Bias& bias;
+  const LightComparison& light;
+  const Redrawing& redrawing;
+  double unit_world = 1.0;
+  double now = 0.0;  ///< stored numbers
 
-/// Each layer of a directional light's map with a constant of its own, where that is worth it; none else. `least`: the share
-/// of wrong pixels that the best without leaves.
-std::optional<Advice> advise_on_layers(const LightComparison& light, const raster::LightRecord& record,
-                                       double wrong_now, double least);
+  /// Returns the constant that suits the record's other numbers; it changes the record's gaps. `face`: for that one alone.
+  GoodConstant best_beside(TestedRecord& record, int face = -1) const;
+  /// Returns what a constant, stored numbers, leaves of what is looked for.
+  double left_at(TestedRecord& record, double stored) const;
+};
 
-/// Of a map that is read by an average of comparisons (pcf): the advised constant with what it makes of the mean error. One that raises that is moved towards the
-/// present one until it does not.
-void weigh_mean_error(const FrameInput& input, const raster::RasterFrame& drawn, const LightComparison& light,
-                      Advice& advice);
+/// Whether the layers of a record's map can each have a constant of their own that counts alike at every angle.
+bool has_layers(const raster::LightRecord& record);
+
+/// One constant in texels for all layers of a directional light's map, each of its own.
+Advice advise_in_texels(const ConstantSearch& search);
+/// Each layer of a directional light's map with a constant of its own.
+Advice advise_on_layers(const ConstantSearch& search);
 
 }  // namespace gnomon::compare

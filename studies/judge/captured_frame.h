@@ -6,6 +6,10 @@
 
 namespace gnomon::compare {
 
+/// A renderer's floats place a receiver that far from where doubles do, texels; and the last bits of a depth between 1/2 and 1,
+/// with those of the matrix that made it.
+inline constexpr double lookup_rounding_texels = 0.02, lookup_rounding_stored = 0x1p-22;
+
 struct FrameInput {
   const Capture& capture;
   const CapturedPictures& pictures;

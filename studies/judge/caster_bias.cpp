@@ -298,18 +298,30 @@ CasterBiases take_out_caster_bias(const FrameInput& in, const std::vector<Captur
   return out;
 }
 
-std::vector<float> with_caster_slope(const raster::ShadowMap& map, const CasterBiases& casters,
-                                     double slope) {
+std::vector<float> with_caster_bias(const raster::ShadowMap& map, const CasterBiases& casters,
+                                    const CapturedCasterBias& instead) {
+  const LightView& view = map.view;
   std::vector<float> out = map.depth;
-  const auto n = static_cast<std::size_t>(map.view.size);
-  parallel_for(out.size(), [&](std::size_t i) {
-    if (!holds_caster(map.view, double{map.depth[i]})) return;
-    const CapturedCasterBias& bias = casters.faces[i / (n * n)];
-    const auto offset = [&](double s) {
-      return clamped(bias.constant + s * double{casters.slopes[i]}, bias.clamp);
-    };
-    const double by = away_from_light(map.view) * (offset(slope) - offset(bias.slope));
-    out[i] = static_cast<float>(std::clamp(double{map.depth[i]} + by, 0.0, 1.0));
+  const auto n = static_cast<std::size_t>(view.size);
+  parallel_for(out.size() / n, [&](std::size_t line) {
+    const int face = static_cast<int>(line / n), row = static_cast<int>(line % n);
+    const CapturedCasterBias& bias = casters.faces[static_cast<std::size_t>(face)];
+    if (!bias.moves()) return;
+    for (int column = 0; column < view.size; ++column) {
+      const std::size_t i = map.texel_index(face, column, row);
+      if (!holds_caster(view, double{map.depth[i]})) continue;
+      const auto offset = [&](const CapturedCasterBias& of) {
+        return away_from_light(view) * clamped(of.constant + of.slope * double{casters.slopes[i]}, of.clamp);
+      };
+      double stored = double{map.depth[i]} - offset(bias);
+      if (const double by = instead.constant_world - bias.constant_world; by != 0.0) {
+        const double along = glm::dot(texel_ray(view, face, column + 0.5, row + 0.5).direction,
+                                      view.face(face).forward);
+        stored = stored_from_depth(view, face, row + 0.5,
+                                   depth_from_stored(view, face, row + 0.5, stored) + by * along);
+      }
+      out[i] = static_cast<float>(std::clamp(stored + offset(instead), 0.0, 1.0));
+    }
   });
   return out;
 }

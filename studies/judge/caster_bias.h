@@ -26,8 +26,9 @@ struct CasterBiases {
 CasterBiases take_out_caster_bias(const FrameInput& input, const std::vector<CapturedCasterBias>& given,
                                   raster::LightRecord& record);
 
-/// The map's numbers as they are with another slope of casters, all else alike.
-std::vector<float> with_caster_slope(const raster::ShadowMap& map, const CasterBiases& casters, double slope);
+/// Returns the map's numbers as they are with this bias in place of what moved the casters of its faces, all else alike.
+std::vector<float> with_caster_bias(const raster::ShadowMap& map, const CasterBiases& casters,
+                                    const CapturedCasterBias& instead);
 
 /// That a bias of casters was found, as a sentence.
 std::vector<std::string> caster_bias_notes(const CasterBiases& casters, const raster::LightRecord& record);

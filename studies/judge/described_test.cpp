@@ -16,9 +16,6 @@ namespace {
 
 using raytrace::SurfacePoint;
 
-/// A renderer's floats place a receiver that far from where doubles do; and the last bits of a depth between 1/2 and 1,
-/// with those of the matrix that made it.
-constexpr double rounding_texels = 0.02, rounding_stored = 0x1p-22;
 /// Pixels whose drawing the description does not explain, of which nothing is said: a share, and a number.
 constexpr double few_share = 1e-3;
 constexpr std::size_t few_pixels = 10;
@@ -29,12 +26,12 @@ class Checker {
         map_(drawn.options.map),
         record_(drawn.lights.front()),
         light_(in.world.scene->lights[record_.light]),
-        slack_(record_.rounding_world + rounding_stored * record_.captured->test->unit_world),
+        slack_(record_.rounding_world + lookup_rounding_stored * record_.captured->test->unit_world),
         reads_between_(record_.captured->test->read != raster::CapturedTest::Read::nearest) {
     using raster::Technique;
     const bool compares =
         map_.technique == Technique::pcf || map_.technique == Technique::pcss || is_hard() || reads_between_;
-    reach_ = compares ? rounding_texels + (is_hard() ? 0.0 : map_.filter.radius_texels) : infinity;
+    reach_ = compares ? lookup_rounding_texels + (is_hard() ? 0.0 : map_.filter.radius_texels) : infinity;
   }
 
   bool may_draw(std::size_t pixel, float visibility, bool any_cascade) const;
@@ -71,7 +68,7 @@ class Checker {
 bool Checker::read_between_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const {
   for (const Vec2& off : {Vec2(0, 0), Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)}) {
     BiasedLookup there = lookup;
-    there.at.u += rounding_texels * off.x, there.at.v += rounding_texels * off.y;
+    there.at.u += lookup_rounding_texels * off.x, there.at.v += lookup_rounding_texels * off.y;
     if (draws(lookup, normal, compared_caster(record_, there), lit)) return true;
   }
   return false;

@@ -34,6 +34,7 @@ struct OtherTest {
   double share = 0.0;  ///< of the compared pixels that are drawn so
   /// It is the constant that the capture says otherwise: what other constants would draw holds all the same.
   bool of_constant = false;
+  double constant_world = 0.0;  ///< where it is `of_constant`: the one that was drawn, as of LightRecord
 };
 std::optional<OtherTest> find_drawn_test(const FrameInput& input, const raster::RasterFrame& drawn,
                                          const LightComparison& light);

@@ -81,7 +81,7 @@ std::optional<OtherTest> find_other_constant(const raster::LightRecord& describe
   if (!fits(fit, now)) return std::nullopt;
   return OtherTest{fmt::format("`constant_depth` is about {:.2g}",
                                record.bias_constant_world / described.captured->test->unit_world),
-                   fit.drawn, true};
+                   fit.drawn, true, record.bias_constant_world};
 }
 
 /// Mistakes made one by one and together; the best explanation, of equally good ones the one with the fewest.
@@ -111,7 +111,7 @@ class Search {
     fill_record(turned, bias_, record);
     const Fit fit = fit_of(record, light_);
     if (!fits(fit, now_) || (best_ && best_->share >= fit.drawn - clearly)) return;
-    OtherTest found{"", fit.drawn, suspects.size() == 1};
+    OtherTest found{"", fit.drawn, suspects.size() == 1, record.bias_constant_world};
     for (const TestSuspect* suspect : suspects) {
       const bool renderer = !suspect->of_renderer.empty() && fit.wrong > now_.wrong;
       found.what +=

@@ -213,8 +213,11 @@ void finish(Judging& in, Comparison& out) {
     note(map_content_notes(content, record));
     note(outside_map_notes(frame, light, record));
     const TimedStage advising("advice");
-    if (advice_holds(test, other) && !content.is_main_cause(light))
-      judged->advice = give_advice(frame, out.raster, light, in.casters);
+    judged->advice_sought = advice_holds(test, other) && !content.is_main_cause(light);
+    if (judged->advice_sought)
+      judged->advice = give_advice(frame, out.raster, light, in.casters,
+                                   other && other->of_constant ? other->constant_world
+                                                               : record.bias_constant_world);
     for (Advice& advice : judged->advice)
       advice.in_engine =
           settings_in_engine(judged->engine, advice, in.scene.lights[in.light].type, record, in.world);

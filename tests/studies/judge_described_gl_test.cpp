@@ -110,7 +110,8 @@ void expect_other_test(const JudgeOutcome& judged, const std::string& named, boo
   ASSERT_TRUE(judged.result) << reason(judged);
   EXPECT_NE(notes_of(judged).find("is not the one that was drawn"), std::string::npos) << notes_of(judged);
   EXPECT_NE(notes_of(judged).find(named), std::string::npos) << notes_of(judged);
-  EXPECT_EQ(judged.result->judged->advice.empty(), !advice);
+  EXPECT_EQ(judged.result->judged->advice_sought, advice);
+  EXPECT_TRUE(advice || judged.result->judged->advice.empty());
   EXPECT_LT(double(count_of(judged, compare::Label::stored_depth)),
             1e-3 * double(judged.result->lights[0].pixels.compared));
 }
@@ -198,7 +199,7 @@ TEST(JudgeDescribed, RightCapturesAreNotDoubted) {
   for (const JudgeOutcome& judged : {picture.judged(), judge(capture, *filtered.scene)}) {
     EXPECT_EQ(notes_of(judged), "");
     ASSERT_TRUE(judged.result) << reason(judged);
-    EXPECT_FALSE(judged.result->judged->advice.empty());
+    EXPECT_TRUE(judged.result->judged->advice_sought);
     EXPECT_EQ(count_of(judged, compare::Label::unexplained), 0U);
   }
 }

@@ -334,7 +334,7 @@ TEST(JudgeOwnTest, AReversedInfiniteProjectionIsNotSingular) {
   const JudgeOutcome judged = engine.judged();
   ASSERT_TRUE(judged.result) << reason(judged);
   EXPECT_GT(judged.result->judged->biased_is_drawn, 0.999);
-  EXPECT_FALSE(judged.result->judged->advice.empty());
+  EXPECT_TRUE(judged.result->judged->advice_sought);
   EXPECT_LT(called(judged, Label::unexplained) + called(judged, Label::stored_depth), 10U);
 }
 

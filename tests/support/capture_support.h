@@ -61,11 +61,20 @@ std::string reason(const JudgeOutcome& outcome);
 /// Floor and boxes under one light: "sun", "lamp" (spot) or "bulb" (point).
 Scene scene_under(const std::string& light);
 
+/// Where the other renderer's filter compares, texels beside the place; empty: at the place alone.
+struct FilterTaps {
+  std::vector<Vec2> taps{};
+  bool linear = false;  ///< each compares with the four texels around it, by how near they are
+  bool turned = false;  ///< at every pixel by another angle
+};
+/// `side` x `side` of them, a texel apart.
+FilterTaps square_taps(int side, bool linear = false);
+
 /// Puts in the place of the capture's visibility what the other renderer draws on the capture's map, with the
-/// capture's bias and without a filter. `outside`: what it draws beside the map. `by_fronts`: offsets go along
-/// the fronts' normals, also where a back is seen.
+/// capture's bias. `outside`: what it draws beside the map. `by_fronts`: offsets go along the fronts' normals, also where a
+/// back is seen.
 void draw_again(const compare::Capture& capture, const Compared& drawn, float outside = 1.0f,
-                bool by_fronts = false);
+                bool by_fronts = false, const FilterTaps& filter = {});
 
 /// Turns the layers' stored numbers into the moments of the capture's filter, averaged over 5 x 5 texels.
 void store_moments(compare::Capture& capture);

@@ -14,8 +14,9 @@ using compare::StoredDepth;
 /// Looks shadows up as engines write it: the place through the layer's matrix, one texel, two stored numbers compared.
 class OtherRenderer {
  public:
-  OtherRenderer(const Capture& capture, const Light& light, const View& view, float outside)
-      : capture_(capture), light_(light), view_(view), outside_(outside) {
+  OtherRenderer(const Capture& capture, const Light& light, const View& view, float outside,
+                const FilterTaps& filter)
+      : capture_(capture), light_(light), view_(view), outside_(outside), filter_(filter) {
     for (const compare::CapturedLayer& layer : capture.map) texels_.push_back(*read_channels(layer.depth));
   }
 
@@ -63,11 +64,33 @@ class OtherRenderer {
       return float(light_of(
           *layer, ndc,
           number_of(ndc.z, stored(clip.w), stored(glm::length(place - light_.position))) - constant));
-    const double texel = sign * read(*layer, ndc, 0);
-    return is_dark(ndc.z, sign * stored(clip.w), sign * stored(glm::length(place - light_.position)), texel,
-                   constant)
-               ? 0.0f
-               : 1.0f;
+    const double along = sign * stored(clip.w),
+                 distance = sign * stored(glm::length(place - light_.position));
+    return averaged(*layer, ndc, [&](const Vec3& at) {
+      return is_dark(ndc.z, along, distance, sign * read(*layer, at, 0), constant) ? 0.0 : 1.0;
+    });
+  }
+
+  /// The mean of the comparisons at the filter's taps, each of one texel or of four by how near they are; without taps the one.
+  template <class Lit>
+  float averaged(std::size_t layer, const Vec3& ndc, const Lit& lit) const {
+    if (filter_.taps.empty()) return float(lit(ndc));
+    const Vec2 size(texels_[layer].size.width, texels_[layer].size.height), own = (0.5 * Vec2(ndc) + 0.5) * size;
+    const auto at = [&](const Vec2& texels) { return lit(Vec3(2.0 * texels / size - 1.0, ndc.z)); };
+    // One turn for each pixel, as noise would give it.
+    const double angle = filter_.turned ? 1e4 * (own.x + 1.7 * own.y) : 0.0;
+    double sum = 0.0;
+    for (const Vec2& tap : filter_.taps) {
+      const Vec2 place = own + Vec2(std::cos(angle) * tap.x - std::sin(angle) * tap.y,
+                                    std::sin(angle) * tap.x + std::cos(angle) * tap.y);
+      const Vec2 corner = glm::floor(place - 0.5) + 0.5, share = place - corner;
+      sum += !filter_.linear ? at(place)
+                             : (1.0 - share.y) * ((1.0 - share.x) * at(corner) +
+                                                  share.x * at(corner + Vec2(1.0, 0.0))) +
+                                   share.y * ((1.0 - share.x) * at(corner + Vec2(0.0, 1.0)) +
+                                              share.x * at(corner + Vec2(1.0, 1.0)));
+    }
+    return float(sum / double(filter_.taps.size()));
   }
 
   /// As Brabec and others write it: the half that the place lies before, and the distance.
@@ -245,6 +268,7 @@ class OtherRenderer {
   const Light& light_;
   View view_;
   float outside_;
+  const FilterTaps& filter_;
   std::vector<ChannelImage> texels_;
 };
 
@@ -301,9 +325,17 @@ Scene scene_under(const std::string& light) {
   return scene;
 }
 
-void draw_again(const Capture& capture, const Compared& drawn, float outside, bool by_fronts) {
+FilterTaps square_taps(int side, bool linear) {
+  FilterTaps out{.linear = linear};
+  for (int j = 0; j < side; ++j)
+    for (int i = 0; i < side; ++i) out.taps.emplace_back(i - 0.5 * (side - 1), j - 0.5 * (side - 1));
+  return out;
+}
+
+void draw_again(const Capture& capture, const Compared& drawn, float outside, bool by_fronts,
+                const FilterTaps& filter) {
   const OtherRenderer other(capture, drawn.scene->lights[0], make_view(drawn.scene->camera, capture.size),
-                            outside);
+                            outside, filter);
   spoil(capture.visibility, [&](ChannelImage& image) {
     for (Channel& channel : image.channels)
       for (std::size_t i = 0; channel.name != "A" && i < channel.values.size(); ++i) {
