@@ -154,7 +154,9 @@ bool Advisor::fill(const Candidate& candidate, Advice& advice) const {
   advice = candidate.advice;
   advice.wrong_now = light_.error.wrong_fraction, advice.mean_now = light_.error.mean_absolute;
   advice.wrong_instead = left.wrong_fraction, advice.mean_instead = left.mean_absolute;
-  advice.feasible = left.wrong_fraction == 0.0, advice.about = candidate.about || left.unsure > exactly;
+  advice.feasible = left.wrong_fraction == 0.0, advice.about = candidate.about || left.unexplained + left.of_kernel > exactly;
+  const double least = std::min(left.wrong_fraction, left.mean_absolute);
+  if (left.unexplained > std::max(exactly, off_by * least)) return false;
   const double factor = advice.about ? 1.0 + off_by : 1.0;
   return is_worth_advising(
       {factor * left.wrong_fraction, factor * left.mean_absolute, factor * left.mean_absolute},

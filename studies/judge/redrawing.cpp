@@ -22,6 +22,7 @@ constexpr double light_rounding = 0.02;  ///< five steps of eight bits
 constexpr double of_like_kernels = 0.25;  ///< what filters differ by that are known in kind alone
 constexpr double kernel_is_known = 0.01, kernel_is_alike = 0.15;  ///< mean differences of partly lit pixels
 constexpr std::size_t most_sampled = 10000, most_fitted = 1000, most_told = 24;
+constexpr std::size_t few_partly_lit = 50;
 constexpr std::size_t pixels_at_a_time = 256;
 
 bool is_partly_lit(double light) {
@@ -44,6 +45,15 @@ double number_of(const LightRecord& record, double slope_world, const BiasedLook
 double taken_off(const CapturedTest& test, double constant, double cosine) {
   if (!test.has_angle() || constant == 0.0) return std::clamp(constant, test.least, test.most);
   return std::clamp(constant * angle_factor(test.constant_angle, cosine), test.least, test.most);
+}
+
+void add_redrawn(const Redrawn& one, Redrawn& sum) {
+  sum.wrong_fraction += one.wrong_fraction, sum.mean_absolute += one.mean_absolute;
+  sum.unexplained += one.unexplained, sum.of_kernel += one.of_kernel;
+}
+
+Redrawn scaled_redrawn(const Redrawn& one, double by) {
+  return {by * one.wrong_fraction, by * one.mean_absolute, by * one.unexplained, by * one.of_kernel};
 }
 
 raytrace::TexelKey texel_at(const LightRecord& record, int face, int column, int row) {
@@ -112,8 +122,7 @@ void Redrawing::take_layers() {
   fill_record(in_, bias, drawn_.own);
 }
 
-/// The kernel that comes nearest to the picture where it is partly lit. Where it is nowhere so, one texel decides, or
-/// nothing tells the filter.
+/// The kernel that comes nearest to the picture where it is partly lit. Hardly any such pixels tell its kind alone.
 void Redrawing::fit_kernel() {
   std::vector<FilterKernel> kernels = kernels_of_reach(frame_.options.map.filter.radius_texels);
   if (reads_paraboloids(drawn_.own)) kernels = {{FilterKernel::Shape::taps, 1}};
@@ -136,7 +145,7 @@ void Redrawing::fit_kernel() {
   });
   const auto best = std::min_element(errors.begin(), errors.end());
   kernel_ = kernels[static_cast<std::size_t>(best - errors.begin())];
-  kernel_error_ = *best, exact_ = kernel_error_ < kernel_is_known;
+  kernel_error_ = *best, exact_ = kernel_error_ < kernel_is_known && partly.size() >= few_partly_lit;
   known_ = kernel_error_ < kernel_is_alike;
 }
 
@@ -239,13 +248,13 @@ double Redrawing::light(const LightRecord& record, const Reading& reading, doubl
 }
 
 /// What a pixel shows once the test makes `light` of it.
-double Redrawing::redrawn_light(const Pixel& pixel, double light, double& unsure) const {
+double Redrawing::redrawn_light(const Pixel& pixel, double light, Redrawn& sum) const {
   const double drawn = double{light_.rungs[6].data[pixel.index]}, now = double{pixel.now};
-  if (!pixel.explained) return unsure += std::abs(light - now), drawn;
+  if (!pixel.explained) return sum.unexplained += std::abs(light - now), drawn;
   const double changed = std::clamp(drawn + light - now, 0.0, 1.0);
-  if (exact_) return unsure += std::min(std::abs(light - now), std::abs(drawn - now)), changed;
+  if (exact_) return sum.unexplained += std::min(std::abs(light - now), std::abs(drawn - now)), changed;
   if (!is_partly_lit(light)) return light;
-  unsure += kernel_error_;
+  sum.of_kernel += kernel_error_;
   return is_partly_lit(now) ? changed : light;
 }
 
@@ -256,11 +265,8 @@ bool Redrawing::is_asked(const Pixel& pixel, std::size_t place, const Pixels& pi
 
 std::vector<Redrawn> Redrawing::redraw(const TestedRecord& record, const std::vector<double>& constants,
                                        const Pixels& pixels) const {
-  struct Sum {
-    double wrong = 0.0, absolute = 0.0, unsure = 0.0;
-  };
   const std::size_t parts = (pixels_.size() + pixels_at_a_time - 1) / pixels_at_a_time;
-  std::vector<std::vector<Sum>> sums(parts, std::vector<Sum>(constants.size()));
+  std::vector<std::vector<Redrawn>> sums(parts, std::vector<Redrawn>(constants.size()));
   std::vector<std::size_t> counts(parts, 0);
   parallel_for(parts, [&](std::size_t part) {
     Reading reading = empty_reading();
@@ -271,12 +277,12 @@ std::vector<Redrawn> Redrawing::redraw(const TestedRecord& record, const std::ve
       const double truth = double{light_.rungs[0].data[pixel.index]};
       read(record, pixel.index, pixel.shift, reading);
       for (std::size_t k = 0; k < constants.size(); ++k) {
-        Sum& sum = sums[part][k];
+        Redrawn& sum = sums[part][k];
         const double shown = reading.known
-                                 ? redrawn_light(pixel, light(record.own, reading, constants[k]), sum.unsure)
+                                 ? redrawn_light(pixel, light(record.own, reading, constants[k]), sum)
                                  : double{light_.rungs[6].data[pixel.index]};
         const double off = std::abs(static_cast<float>(shown) - truth);
-        sum.absolute += off, sum.wrong += off > 0.5 ? 1.0 : off == 0.5 ? 0.5 : 0.0;
+        sum.mean_absolute += off, sum.wrong_fraction += off > 0.5 ? 1.0 : off == 0.5 ? 0.5 : 0.0;
       }
     }
   });
@@ -284,13 +290,10 @@ std::vector<Redrawn> Redrawing::redraw(const TestedRecord& record, const std::ve
   std::vector<Redrawn> out(constants.size());
   for (std::size_t part = 0; part < parts; ++part) {
     count += counts[part];
-    for (std::size_t k = 0; k < constants.size(); ++k) {
-      const Sum& sum = sums[part][k];
-      out[k].wrong_fraction += sum.wrong, out[k].mean_absolute += sum.absolute, out[k].unsure += sum.unsure;
-    }
+    for (std::size_t k = 0; k < constants.size(); ++k) add_redrawn(sums[part][k], out[k]);
   }
-  const double all = static_cast<double>(std::max<std::size_t>(1, count));
-  for (Redrawn& one : out) one.wrong_fraction /= all, one.mean_absolute /= all, one.unsure /= all;
+  const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, count));
+  for (Redrawn& one : out) one = scaled_redrawn(one, share);
   return out;
 }
 

@@ -15,9 +15,9 @@ namespace gnomon::compare {
 /// Is what a drawing leaves, over all pixels that were looked at.
 struct Redrawn {
   double wrong_fraction = 0.0, mean_absolute = 0.0;  ///< as of ErrorStats
-  /// Mean of how far the pixels that change may be off what is drawn: those that the description does not explain, and those
-  /// whose filter is known in kind alone.
-  double unsure = 0.0;
+  /// Means of how far pixels that change may be off what is drawn: those that the description does not explain, and those whose
+  /// filter is known in kind alone.
+  double unexplained = 0.0, of_kernel = 0.0;
 };
 
 /// Is the record of a test with other numbers, and that of the layers that take over where two blend.
@@ -92,7 +92,7 @@ class Redrawing {
   bool read_layer(const raster::LightRecord& record, std::uint32_t index, int shift, double share,
                   Reading& reading) const;
   double light(const raster::LightRecord& record, const Reading& reading, double constant_world) const;
-  double redrawn_light(const Pixel& pixel, double light, double& unsure) const;
+  double redrawn_light(const Pixel& pixel, double light, Redrawn& sum) const;
   bool is_asked(const Pixel& pixel, std::size_t place, const Pixels& pixels) const;
 
   const FrameInput& in_;
