@@ -152,8 +152,37 @@ void Redrawing::fit_kernel() {
 void Redrawing::look_at_picture() {
   parallel_for((pixels_.size() + pixels_at_a_time - 1) / pixels_at_a_time, [&](std::size_t part) {
     Reading reading = empty_reading();
-    for (std::size_t i = part * pixels_at_a_time; i < std::min(pixels_.size(), (part + 1) * pixels_at_a_time); ++i)
+    for (std::size_t i = part * pixels_at_a_time; i < std::min(pixels_.size(), (part + 1) * pixels_at_a_time);
+         ++i)
       pixels_[i] = look_at(pixels_[i].index, reading);
+  });
+  doubt_neighbours();
+}
+
+/// Where something else draws, the test agrees by chance on many pixels: what lies among unexplained pixels that are drawn
+/// alike is not explained either.
+void Redrawing::doubt_neighbours() {
+  constexpr int reach = 3;
+  constexpr double share = 0.25;
+  Image<char> asked(in_.capture.size, 0), doubted(in_.capture.size, 0);
+  for (const Pixel& pixel : pixels_) {
+    asked.data[pixel.index] = 1;
+    doubted.data[pixel.index] = pixel.explained ? 0 : 1;
+  }
+  const ImageSize size = in_.capture.size;
+  parallel_for(pixels_.size(), pixels_at_a_time, [&](std::size_t k) {
+    Pixel& pixel = pixels_[k];
+    if (!pixel.explained) return;
+    const int x = static_cast<int>(pixel.index) % size.width, y = static_cast<int>(pixel.index) / size.width;
+    const float drawn = light_.rungs[6].data[pixel.index];
+    int around = 0, alike = 0;
+    for (int j = std::max(0, y - reach); j <= std::min(size.height - 1, y + reach); ++j)
+      for (int i = std::max(0, x - reach); i <= std::min(size.width - 1, x + reach); ++i) {
+        const std::size_t at = asked.index(i, j);
+        around += asked.data[at];
+        if (doubted.data[at] != 0 && std::abs(light_.rungs[6].data[at] - drawn) <= float(light_rounding)) ++alike;
+      }
+    if (alike > share * around) pixel.explained = false;
   });
 }
 
@@ -167,7 +196,7 @@ Redrawing::Pixel Redrawing::look_at(std::uint32_t index, Reading& reading) const
     const double now = light(drawn_.own, reading, constant_world_);
     const double low = light(drawn_.own, reading, constant_world_ - slack_world_);
     const double high = light(drawn_.own, reading, constant_world_ + slack_world_);
-    const double off = exact_ ? light_rounding : is_partly_lit(now) ? 1.0 : of_like_kernels;
+    const double off = exact_ ? light_rounding : std::max(of_like_kernels, 4.0 * kernel_error_);
     if (shift == 0) out.now = static_cast<float>(now);
     if (drawn < low - off || drawn > high + off) continue;
     out.explained = true, out.shift = static_cast<std::uint8_t>(shift);
@@ -250,7 +279,8 @@ double Redrawing::light(const LightRecord& record, const Reading& reading, doubl
 /// What a pixel shows once the test makes `light` of it.
 double Redrawing::redrawn_light(const Pixel& pixel, double light, Redrawn& sum) const {
   const double drawn = double{light_.rungs[6].data[pixel.index]}, now = double{pixel.now};
-  if (!pixel.explained) return sum.unexplained += std::abs(light - now), drawn;
+  if (!pixel.explained)
+    return sum.unexplained += std::min(std::abs(light - now), std::abs(light - drawn)), drawn;
   const double changed = std::clamp(drawn + light - now, 0.0, 1.0);
   if (exact_) return sum.unexplained += std::min(std::abs(light - now), std::abs(drawn - now)), changed;
   if (!is_partly_lit(light)) return light;

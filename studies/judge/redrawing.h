@@ -87,6 +87,7 @@ class Redrawing {
   void take_layers();
   void fit_kernel();
   void look_at_picture();
+  void doubt_neighbours();
   Pixel look_at(std::uint32_t index, Reading& reading) const;
   void read(const TestedRecord& record, std::uint32_t index, int shift, Reading& reading) const;
   bool read_layer(const raster::LightRecord& record, std::uint32_t index, int shift, double share,
