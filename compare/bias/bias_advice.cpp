@@ -13,7 +13,7 @@
 namespace gnomon::compare {
 namespace {
 
-constexpr double clear_gain = 0.05;  // of the wrong pixels, so as to be worth another bias
+constexpr double clear_gain_of_kinds = 0.05;  // of the wrong pixels, so as to be worth another bias
 
 bool is_tiny(double texel, double bias) {
   return bias < 0.01 * texel;
@@ -57,7 +57,7 @@ std::string beside_drawn(const raster::Bias& drawn) {
 
 // Where the pixels happen to lie changes a count of wrong ones by about its square root. The best of many biases gains
 // as much by that alone.
-bool is_more_than_chance(double fraction, double than, const LightComparison& light) {
+bool is_beyond_chance(double fraction, double than, const LightComparison& light) {
   const double wrong = than * static_cast<double>(light.pixels.compared);
   const double gain = wrong - fraction * static_cast<double>(light.pixels.compared);
   return gain > 2.0 * std::sqrt(wrong);
@@ -65,9 +65,9 @@ bool is_more_than_chance(double fraction, double than, const LightComparison& li
 
 // A gain that no figure shows is none to a reader, nor is one that only rounding or chance shows.
 bool is_clearly_better(double fraction, double than, const LightComparison& light) {
-  return fraction < (1.0 - clear_gain) * than &&
+  return fraction < (1.0 - clear_gain_of_kinds) * than &&
          left_text(fraction, light, wrong_and_mean()) != left_text(than, light, wrong_and_mean()) &&
-         (fraction == 0.0 || is_more_than_chance(fraction, than, light));
+         (fraction == 0.0 || is_beyond_chance(fraction, than, light));
 }
 
 // Whether the drawing has the slope bias already, and nothing else beside its constant: then only that one changes.

@@ -44,7 +44,7 @@ struct Advice : AdvisedSetting {
   /// Shares of all compared pixels, those outside the map among them: of what was drawn, and of what the filter and test that
   /// are in use draw on the same map.
   double wrong_now = 0.0, wrong_instead = 0.0;
-  bool feasible = false;  ///< with it every compared pixel is right
+  bool feasible = false;                    ///< with it every compared pixel is right
   std::optional<AdvisedSetting> with = {};  ///< what is to be set together with it
   std::vector<AdvisedSetting> layers =
       {};  ///< the same of the layers after the first, where each has its own
@@ -68,7 +68,8 @@ struct Judged {
   std::vector<Agreement> agreement;  ///< after what was mended
   std::vector<Mended> mended;
   std::optional<Identified> identified;
-  bool advice_sought = false;  ///< other biases were tried; where none is worth advising `advice` is empty all the same
+  bool advice_sought =
+      false;  ///< other biases were tried; where none is worth advising `advice` is empty all the same
   std::vector<Advice> advice;
   std::vector<std::string> notes;
   /// With a map: the share of the compared pixels whose V5 is V6; of a map without filter all but those on

@@ -155,7 +155,8 @@ bool Advisor::fill(const Candidate& candidate, Advice& advice) const {
   advice = candidate.advice;
   advice.wrong_now = light_.error.wrong_fraction, advice.mean_now = light_.error.mean_absolute;
   advice.wrong_instead = left.wrong_fraction, advice.mean_instead = left.mean_absolute;
-  advice.feasible = left.wrong_fraction == 0.0, advice.about = candidate.about || left.unexplained + left.of_kernel > exactly;
+  advice.feasible = left.wrong_fraction == 0.0,
+  advice.about = candidate.about || left.unexplained + left.of_kernel > exactly;
   const double least = std::min(left.wrong_fraction, left.mean_absolute);
   if (left.unexplained > std::max(exactly, too_much * least)) return false;
   const double factor = advice.about ? 1.0 + off_by : 1.0;

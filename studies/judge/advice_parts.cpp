@@ -116,7 +116,8 @@ GoodConstant good_filtered_constant(const ConstantSearch& search, const TestedRe
     tries.left = search.redrawing.redraw(record, tries.constants, pixels);
     if (round == 1) break;
     const std::size_t best = tries.best(), last = tries.constants.size() - 1;
-    const double from = tries.constants[best > 0 ? best - 1 : 0], to = tries.constants[std::min(best + 1, last)];
+    const double from = tries.constants[best > 0 ? best - 1 : 0],
+                 to = tries.constants[std::min(best + 1, last)];
     for (int k = 1; k < between; ++k) tries.constants.push_back(from + (to - from) * k / between);
     std::sort(tries.constants.begin(), tries.constants.end());
   }
@@ -213,9 +214,8 @@ double filtered_texels(const ConstantSearch& search, const std::vector<LayerCons
   TestedRecord record = search.redrawing.as_drawn();
   std::vector<double> texels{0.0};
   for (const LayerConstant& layer : layers)
-    texels.push_back(
-        (good_filtered_constant(search, record, layer.face).stored + layer.beside) * layer.range /
-        layer.texel_world);
+    texels.push_back((good_filtered_constant(search, record, layer.face).stored + layer.beside) *
+                     layer.range / layer.texel_world);
   double best = 0.0, least = infinity;
   for (const double t : texels) {
     const double tried = rounded_to_three(t);

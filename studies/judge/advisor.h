@@ -19,7 +19,8 @@ class Advisor {
         light_(light),
         casters_(casters),
         redrawing_(in, drawn, light, drawn_constant),
-        search_{in, drawn.options.map.bias, light, redrawing_, test().unit_world, drawn_constant / test().unit_world} {}
+        search_{in,         drawn.options.map.bias, light,
+                redrawing_, test().unit_world,      drawn_constant / test().unit_world} {}
 
   std::vector<Advice> advise() {
     if (!redrawing_.is_known()) return {};
@@ -46,7 +47,7 @@ class Advisor {
     using Stores = raster::CapturedTest::Stores;
     const bool stored = test().stores == Stores::depths || test().unit_world != 1.0;
     const double described = record().bias_constant_world / test().unit_world;
-    return {"bias.constant_depth", described, instead, stored ? "stored depth" : "world units",
+    return {"bias.constant_depth", described,           instead, stored ? "stored depth" : "world units",
             test().unit_world,     record().texel_world};
   }
   void propose_on_receivers();
@@ -65,7 +66,8 @@ class Advisor {
   const CasterBiases& casters_;
   Redrawing redrawing_;
   ConstantSearch search_;
-  std::vector<Candidate> candidates_;  ///< the simplest first, each likely to leave clearly less than those before it
+  std::vector<Candidate>
+      candidates_;  ///< the simplest first, each likely to leave clearly less than those before it
 };
 
 }  // namespace gnomon::compare

@@ -315,8 +315,8 @@ std::vector<float> with_caster_bias(const raster::ShadowMap& map, const CasterBi
       };
       double stored = double{map.depth[i]} - offset(bias);
       if (const double by = instead.constant_world - bias.constant_world; by != 0.0) {
-        const double along = glm::dot(texel_ray(view, face, column + 0.5, row + 0.5).direction,
-                                      view.face(face).forward);
+        const double along =
+            glm::dot(texel_ray(view, face, column + 0.5, row + 0.5).direction, view.face(face).forward);
         stored = stored_from_depth(view, face, row + 0.5,
                                    depth_from_stored(view, face, row + 0.5, stored) + by * along);
       }

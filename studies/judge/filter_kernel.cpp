@@ -84,7 +84,9 @@ void FilterKernel::weigh(const Vec2& within, std::vector<double>& weights) const
 
 std::vector<FilterKernel> kernels_of_reach(double radius) {
   std::vector<FilterKernel> out;
-  const auto is_alike = [radius](double reach) { return reach <= 1.6 * radius + 1.0 && reach >= 0.4 * radius; };
+  const auto is_alike = [radius](double reach) {
+    return reach <= 1.6 * radius + 1.0 && reach >= 0.4 * radius;
+  };
   for (const double spacing : {1.0, 0.5, 1.5, 2.0})
     for (const int side : {1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 13})
       for (const Shape shape : {Shape::taps, Shape::linear_taps}) {

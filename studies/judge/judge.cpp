@@ -215,9 +215,9 @@ void finish(Judging& in, Comparison& out) {
     const TimedStage advising("advice");
     judged->advice_sought = advice_holds(test, other) && !content.is_main_cause(light);
     if (judged->advice_sought)
-      judged->advice = give_advice(frame, out.raster, light, in.casters,
-                                   other && other->of_constant ? other->constant_world
-                                                               : record.bias_constant_world);
+      judged->advice =
+          give_advice(frame, out.raster, light, in.casters,
+                      other && other->of_constant ? other->constant_world : record.bias_constant_world);
     for (Advice& advice : judged->advice)
       advice.in_engine =
           settings_in_engine(judged->engine, advice, in.scene.lights[in.light].type, record, in.world);

@@ -18,10 +18,11 @@ struct MomentSetting {
 
 std::vector<MomentSetting> settings_of_moments(raster::Technique technique) {
   using raster::CapturedMoments, raster::Technique;
-  const MomentSetting reduction{"filter.light_bleeding_reduction",
-                                "share of the light",
-                                {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8},
-                                [](CapturedMoments& m) -> double& { return m.filter.light_bleeding_reduction; }};
+  const MomentSetting reduction{
+      "filter.light_bleeding_reduction",
+      "share of the light",
+      {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8},
+      [](CapturedMoments& m) -> double& { return m.filter.light_bleeding_reduction; }};
   const MomentSetting variance{"filter.minimum_variance",
                                "square of stored depth",
                                {0.0, 1e-7, 3e-7, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3},
@@ -72,9 +73,8 @@ void Advisor::try_exponents(double& least, std::optional<Candidate>& best) {
     moments.filter.esm_exponent = moments.filter.evsm_positive_exponent = exponents.positive;
     moments.filter.evsm_negative_exponent = exponents.negative;
     moments.texels = maps.texels(moments);
-    return [made = std::make_shared<raster::CapturedMoments>(std::move(moments))](raster::LightRecord& record) {
-      record.captured->test->moments = *made;
-    };
+    return [made = std::make_shared<raster::CapturedMoments>(std::move(moments))](
+               raster::LightRecord& record) { record.captured->test->moments = *made; };
   };
   const WarpExponents now{present.technique == raster::Technique::esm ? present.filter.esm_exponent
                                                                       : present.filter.evsm_positive_exponent,

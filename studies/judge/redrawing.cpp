@@ -18,7 +18,7 @@ using raster::LightRecord;
 
 /// By how many roundings of a place a lookup may be off: onto a neighbour's side of a texel's border.
 constexpr std::array<Vec2, 5> lookup_shifts{Vec2(0, 0), Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)};
-constexpr double light_rounding = 0.02;  ///< five steps of eight bits
+constexpr double light_rounding = 0.02;   ///< five steps of eight bits
 constexpr double of_like_kernels = 0.25;  ///< what filters differ by that are known in kind alone
 constexpr double kernel_is_known = 0.01, kernel_is_alike = 0.15;  ///< mean differences of partly lit pixels
 constexpr std::size_t most_sampled = 10000, most_fitted = 1000, most_told = 24;
@@ -137,8 +137,8 @@ void Redrawing::fit_kernel() {
     for (std::size_t i = 0; i < partly.size(); i += step) {
       read(drawn_, partly[i], 0, reading);
       if (!reading.known) continue;
-      errors[k] += std::abs(light(drawn_.own, reading, constant_world_) -
-                            double{light_.rungs[6].data[partly[i]]});
+      errors[k] +=
+          std::abs(light(drawn_.own, reading, constant_world_) - double{light_.rungs[6].data[partly[i]]});
       ++count;
     }
     errors[k] /= static_cast<double>(std::max<std::size_t>(1, count));
@@ -180,7 +180,8 @@ void Redrawing::doubt_neighbours() {
       for (int i = std::max(0, x - reach); i <= std::min(size.width - 1, x + reach); ++i) {
         const std::size_t at = asked.index(i, j);
         around += asked.data[at];
-        if (doubted.data[at] != 0 && std::abs(light_.rungs[6].data[at] - drawn) <= float(light_rounding)) ++alike;
+        if (doubted.data[at] != 0 && std::abs(light_.rungs[6].data[at] - drawn) <= float(light_rounding))
+          ++alike;
       }
     if (alike > share * around) pixel.explained = false;
   });
@@ -234,8 +235,8 @@ bool Redrawing::read_layer(const LightRecord& record, std::uint32_t index, int s
     const double slope = bias.slope == 0.0 ? 0.0
                                            : bias.slope * texel_depth_slope(record.map.view, lookup->at,
                                                                             lookup->position, point.normal);
-    reading.moments.push_back(
-        {moments_between(record, lookup->at), number_of(record, slope, *lookup), lookup->cosine, share, face});
+    reading.moments.push_back({moments_between(record, lookup->at), number_of(record, slope, *lookup),
+                               lookup->cosine, share, face});
     return true;
   }
   const auto add = [&](const BiasedLookup& at, const std::optional<double>& depth, double weight) {
@@ -300,7 +301,8 @@ std::vector<Redrawn> Redrawing::redraw(const TestedRecord& record, const std::ve
   std::vector<std::size_t> counts(parts, 0);
   parallel_for(parts, [&](std::size_t part) {
     Reading reading = empty_reading();
-    for (std::size_t i = part * pixels_at_a_time; i < std::min(pixels_.size(), (part + 1) * pixels_at_a_time); ++i) {
+    for (std::size_t i = part * pixels_at_a_time; i < std::min(pixels_.size(), (part + 1) * pixels_at_a_time);
+         ++i) {
       const Pixel& pixel = pixels_[i];
       if (!is_asked(pixel, i, pixels)) continue;
       ++counts[part];

@@ -60,9 +60,9 @@ class Redrawing {
  private:
   struct Pixel {
     std::uint32_t index = 0;
-    float now = 0.0f;         ///< the light that the test as described makes
-    std::uint8_t shift = 0;   ///< by which rounding moves the lookup (shifts)
-    bool explained = false;   ///< the picture shows what the test draws
+    float now = 0.0f;        ///< the light that the test as described makes
+    std::uint8_t shift = 0;  ///< by which rounding moves the lookup (shifts)
+    bool explained = false;  ///< the picture shows what the test draws
   };
   struct Tap {
     double gap = 0.0, weight = 0.0;

@@ -24,10 +24,25 @@ using compare::StoredDepth;
 /// A figure that is said as it is holds within a tenth of a percent, one that is said to be "about" so within a fifth.
 constexpr double exactly = 1e-3, about = 0.2;
 
-enum class Kind { hard, pcf3, pcf5, linear, poisson, turned, cascades, vsm, esm, evsm, msm, cube, spot, count };
-constexpr const char* kind_names[] = {"hard",     "pcf 3x3", "pcf 5x5", "pcf, linear", "Poisson", "Poisson, turned",
-                                      "cascades", "vsm",     "esm",     "evsm",        "msm",     "cube",
-                                      "spot"};
+enum class Kind {
+  hard,
+  pcf3,
+  pcf5,
+  linear,
+  poisson,
+  turned,
+  cascades,
+  vsm,
+  esm,
+  evsm,
+  msm,
+  cube,
+  spot,
+  count
+};
+constexpr const char* kind_names[] = {
+    "hard", "pcf 3x3", "pcf 5x5", "pcf, linear", "Poisson", "Poisson, turned", "cascades", "vsm",
+    "esm",  "evsm",    "msm",     "cube",        "spot"};
 
 class Random {
  public:
@@ -49,8 +64,10 @@ Scene random_scene(Random& random, Kind kind) {
   std::vector<Mesh> meshes{floor_mesh(4, 4)};
   const std::size_t boxes = 2 + random.below(4);
   for (std::size_t i = 0; i < boxes; ++i) {
-    const double x = random.between(-2.0, 2.0), z = random.between(-2.0, 2.0), y = random.one_of({0.0, 0.0, 0.4});
-    const double width = random.between(0.1, 0.9), height = random.between(0.2, 1.2), depth = random.between(0.1, 0.9);
+    const double x = random.between(-2.0, 2.0), z = random.between(-2.0, 2.0),
+                 y = random.one_of({0.0, 0.0, 0.4});
+    const double width = random.between(0.1, 0.9), height = random.between(0.2, 1.2),
+                 depth = random.between(0.1, 0.9);
     meshes.push_back(box_mesh({x, y, z}, {x + width, y + height, z + depth}));
   }
   const double to_x = random.between(-1.0, 1.0), to_z = random.between(-1.0, 1.0);
@@ -148,8 +165,9 @@ void choose_filter(Random& random, Engine& engine) {
 Engine random_engine(unsigned seed) {
   Random random(seed);
   const auto kind = static_cast<Kind>(seed % static_cast<unsigned>(Kind::count));
-  raster::MapOptions map = hard_map(random.one_of({128, 256, 512}),
-                                    kind == Kind::cascades ? raster::Technique::csm : raster::Technique::hard);
+  raster::MapOptions map =
+      hard_map(random.one_of({128, 256, 512}),
+               kind == Kind::cascades ? raster::Technique::csm : raster::Technique::hard);
   map.bias = {.constant = 0.0, .unit = raster::BiasUnit::world};
   Engine engine{kind, draw_scene(random_scene(random, kind), {160, 96}, map), {}};
   engine.capture = self_capture(engine.drawn, folder_for("advice-" + std::to_string(seed)), {.map = true});
@@ -163,10 +181,8 @@ Engine random_engine(unsigned seed) {
   engine.capture.bias = bias;
   choose_filter(random, engine);
   if (random.below(5) < 2)
-    engine.elsewhere = {static_cast<int>(random.below(120)),
-                        static_cast<int>(40 + random.below(40)),
-                        static_cast<int>(8 + random.below(20)),
-                        static_cast<int>(4 + random.below(10)),
+    engine.elsewhere = {static_cast<int>(random.below(120)), static_cast<int>(40 + random.below(40)),
+                        static_cast<int>(8 + random.below(20)), static_cast<int>(4 + random.below(10)),
                         random.one_of({0.0f, 0.0f, 1.0f})};
   engine.draw(engine.capture);
   return engine;
@@ -175,11 +191,16 @@ Engine random_engine(unsigned seed) {
 /// Sets what an advice names, by the capture's own keys.
 void take(const AdvisedSetting& one, Capture& capture) {
   const std::string& key = one.setting;
-  if (key == "bias.constant_depth") capture.bias->constant_depth = one.instead;
-  else if (key == "bias.normal_offset_world") capture.bias->normal_offset_world = one.instead;
-  else if (key == "filter.light_bleeding_reduction") capture.filter->light_bleeding_reduction = one.instead;
-  else if (key == "filter.minimum_variance") capture.filter->minimum_variance = one.instead;
-  else if (key == "filter.moment_bias") capture.filter->moment_bias = one.instead;
+  if (key == "bias.constant_depth")
+    capture.bias->constant_depth = one.instead;
+  else if (key == "bias.normal_offset_world")
+    capture.bias->normal_offset_world = one.instead;
+  else if (key == "filter.light_bleeding_reduction")
+    capture.filter->light_bleeding_reduction = one.instead;
+  else if (key == "filter.minimum_variance")
+    capture.filter->minimum_variance = one.instead;
+  else if (key == "filter.moment_bias")
+    capture.filter->moment_bias = one.instead;
   else if (key.starts_with("map[") && key.ends_with("].bias.constant_depth")) {
     const auto layer = static_cast<std::size_t>(std::stoul(key.substr(4)));
     compare::CapturedBias bias = *capture.bias;
@@ -216,8 +237,10 @@ struct Row {
 void check_promise(double promised, double drawn, const Advice& advice, Row& row, const std::string& what) {
   const double off = std::abs(promised - drawn);
   const double allowed = advice.about ? std::max(exactly, about * std::max(promised, drawn)) : exactly;
-  if (!advice.about) row.off = std::max(row.off, off);
-  else if (off > exactly) row.off_share = std::max(row.off_share, off / std::max(promised, drawn));
+  if (!advice.about)
+    row.off = std::max(row.off, off);
+  else if (off > exactly)
+    row.off_share = std::max(row.off_share, off / std::max(promised, drawn));
   row.broken += off > allowed ? 1 : 0;
   EXPECT_LE(off, allowed) << what << ": promised " << promised << ", drawn " << drawn;
 }
@@ -244,8 +267,8 @@ void check_capture(unsigned seed, std::map<Kind, Row>& table) {
     check_promise(*advice.mean_instead, left.mean, advice, row, what + ", mean");
     const bool worse = left.wrong > now.wrong || left.mean > now.mean;
     row.worse += worse ? 1 : 0;
-    EXPECT_FALSE(worse) << what << "; drawn " << left.wrong << " wrong of " << now.wrong << ", mean " << left.mean
-                        << " of " << now.mean;
+    EXPECT_FALSE(worse) << what << "; drawn " << left.wrong << " wrong of " << now.wrong << ", mean "
+                        << left.mean << " of " << now.mean;
     row.before += now.mean, row.after += left.mean;
   }
 }
@@ -256,8 +279,8 @@ TEST(JudgeAdvice, IsWhatIsDrawnWithIt) {
   std::map<Kind, Row> table;
   for (unsigned seed = first; seed < first + count; ++seed) check_capture(seed, table);
   Row all;
-  fmt::print("{:16} {:>8} {:>7} {:>5} {:>5} {:>9} {:>9} {:>6} {:>5} {:>8} {:>8}\n", "test", "captures", "advised",
-             "exact", "about", "most off", "by share", "broken", "worse", "before", "after");
+  fmt::print("{:16} {:>8} {:>7} {:>5} {:>5} {:>9} {:>9} {:>6} {:>5} {:>8} {:>8}\n", "test", "captures",
+             "advised", "exact", "about", "most off", "by share", "broken", "worse", "before", "after");
   const auto print = [](const char* name, const Row& r) {
     fmt::print("{:16} {:8} {:7} {:5} {:5} {:8.3f}% {:8.1f}% {:6} {:5} {:7.2f}% {:7.2f}%\n", name, r.captures,
                r.advised, r.exact, r.approximate, 100.0 * r.off, 100.0 * r.off_share, r.broken, r.worse,

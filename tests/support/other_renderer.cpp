@@ -75,7 +75,8 @@ class OtherRenderer {
   template <class Lit>
   float averaged(std::size_t layer, const Vec3& ndc, const Lit& lit) const {
     if (filter_.taps.empty()) return float(lit(ndc));
-    const Vec2 size(texels_[layer].size.width, texels_[layer].size.height), own = (0.5 * Vec2(ndc) + 0.5) * size;
+    const Vec2 size(texels_[layer].size.width, texels_[layer].size.height),
+        own = (0.5 * Vec2(ndc) + 0.5) * size;
     const auto at = [&](const Vec2& texels) { return lit(Vec3(2.0 * texels / size - 1.0, ndc.z)); };
     // One turn for each pixel, as noise would give it.
     const double angle = filter_.turned ? 1e4 * (own.x + 1.7 * own.y) : 0.0;
@@ -84,11 +85,11 @@ class OtherRenderer {
       const Vec2 place = own + Vec2(std::cos(angle) * tap.x - std::sin(angle) * tap.y,
                                     std::sin(angle) * tap.x + std::cos(angle) * tap.y);
       const Vec2 corner = glm::floor(place - 0.5) + 0.5, share = place - corner;
-      sum += !filter_.linear ? at(place)
-                             : (1.0 - share.y) * ((1.0 - share.x) * at(corner) +
-                                                  share.x * at(corner + Vec2(1.0, 0.0))) +
-                                   share.y * ((1.0 - share.x) * at(corner + Vec2(0.0, 1.0)) +
-                                              share.x * at(corner + Vec2(1.0, 1.0)));
+      sum += !filter_.linear
+                 ? at(place)
+                 : (1.0 - share.y) * ((1.0 - share.x) * at(corner) + share.x * at(corner + Vec2(1.0, 0.0))) +
+                       share.y * ((1.0 - share.x) * at(corner + Vec2(0.0, 1.0)) +
+                                  share.x * at(corner + Vec2(1.0, 1.0)));
     }
     return float(sum / double(filter_.taps.size()));
   }
