@@ -215,6 +215,20 @@ TEST(Verdict, OffersAnotherRenderersSettingOnlyForAGain) {
       << c.verdict();
 }
 
+TEST(Verdict, SaysAboutOfAnEstimateForAnotherRenderer) {
+  Case c(100000, {1600, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  auto judged = std::make_shared<Judged>();
+  judged->advice = {Advice{{"bias.constant_depth", 0.0, 0.5, "stored depth"}, 0.016, 0.002, false}};
+  judged->advice[0].about = true;
+  c.made->comparison.judged = judged;
+  EXPECT_NE(c.verdict().find(" Try bias.constant_depth 0.5 instead of 0: about 0.2 % wrong."),
+            std::string::npos)
+      << c.verdict();
+  // A smaller share of wrong pixels for a larger mean error is no gain.
+  judged->advice[0].mean_now = 0.016, judged->advice[0].mean_instead = 0.017;
+  EXPECT_EQ(c.verdict().find("Try "), std::string::npos) << c.verdict();
+}
+
 TEST(Verdict, AsksForAKindOfBiasByItsOptions) {
   Case c(100000, {4000, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   c.light.best_bias.feasible = true;
