@@ -147,7 +147,7 @@ bool changes_nothing(const Advice& advice) {
 bool Advisor::fill(const Candidate& candidate, Advice& advice) const {
   // Figures are good to a fifth, or said as they are where hardly anything can be off; none are said that hang on what is not
   // explained.
-  constexpr double off_by = 0.2, exactly = 5e-4, too_much = 0.5;
+  constexpr double off_by = 0.2, exactly = 5e-4;
   if (changes_nothing(candidate.advice)) return false;
   TestedRecord tested = redrawing_.as_drawn();
   tested.change(candidate.change);
@@ -158,7 +158,7 @@ bool Advisor::fill(const Candidate& candidate, Advice& advice) const {
   advice.feasible = left.wrong_fraction == 0.0,
   advice.about = candidate.about || left.unexplained + left.of_kernel > exactly;
   const double least = std::min(left.wrong_fraction, left.mean_absolute);
-  if (left.unexplained > std::max(exactly, too_much * least)) return false;
+  if (left.unexplained > std::max(exactly, least)) return false;
   const double factor = advice.about ? 1.0 + off_by : 1.0;
   return is_worth_advising(
       {factor * left.wrong_fraction, factor * left.mean_absolute, factor * left.mean_absolute},

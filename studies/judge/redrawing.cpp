@@ -163,7 +163,7 @@ void Redrawing::look_at_picture() {
 /// alike is not explained either.
 void Redrawing::doubt_neighbours() {
   constexpr int reach = 3;
-  constexpr double share = 0.25;
+  constexpr double share = 0.15;  // at a corner of what is drawn so a third is, of which half agrees
   Image<char> asked(in_.capture.size, 0), doubted(in_.capture.size, 0);
   for (const Pixel& pixel : pixels_) {
     asked.data[pixel.index] = 1;

@@ -44,12 +44,13 @@ TEST(JudgeAdvice, LowersANormalOffsetThatIsTooLarge) {
   const JudgeOutcome judged = picture.judged();
   ASSERT_TRUE(judged.result) << reason(judged);
   const std::vector<compare::Advice>& advice = judged.result->judged->advice;
-  ASSERT_EQ(advice.size(), 2U);
-  ASSERT_TRUE(advice[1].with.has_value()) << "what is set together is one line with one figure";
-  EXPECT_EQ(advice[1].with->setting, "bias.constant_depth");
-  EXPECT_EQ(advice[1].setting, "bias.normal_offset_world");
-  EXPECT_LT(advice[1].instead, 0.15);
-  EXPECT_LT(advice[1].wrong_instead, 0.5 * judged.result->lights[0].error.wrong_fraction);
+  ASSERT_FALSE(advice.empty());
+  const compare::Advice& pair = advice.back();
+  ASSERT_TRUE(pair.with.has_value()) << "what is set together is one line with one figure";
+  EXPECT_EQ(pair.with->setting, "bias.constant_depth");
+  EXPECT_EQ(pair.setting, "bias.normal_offset_world");
+  EXPECT_LT(pair.instead, 0.15);
+  EXPECT_LT(pair.wrong_instead, 0.5 * judged.result->lights[0].error.wrong_fraction);
   EXPECT_NE(compare::verdict_on(*judged.result, judged.result->lights[0])
                 .headline()
                 .find("bias.normal_offset_world"),
@@ -58,7 +59,7 @@ TEST(JudgeAdvice, LowersANormalOffsetThatIsTooLarge) {
   picture.draw_with(advised(picture.capture, advice));
   const JudgeOutcome again = picture.judged();
   ASSERT_TRUE(again.result) << reason(again);
-  EXPECT_NEAR(again.result->lights[0].error.wrong_fraction, advice[1].wrong_instead, 2e-4);
+  EXPECT_NEAR(again.result->lights[0].error.wrong_fraction, pair.wrong_instead, 2e-4);
 }
 
 // The same numbers by the names of the engine that drew, which its own name says, or --engine.
