@@ -66,7 +66,7 @@ TEST(JudgeOwnTest, AStrengthIsToldAndTakenOut) {
 
 // Half a percent of the picture is dark for another reason: the bias is advised on all the same.
 TEST(JudgeOwnTest, AContactShadowTakesNoAdviceAway) {
-  Engine engine("contact", 0.002);
+  Engine engine("contact", 0.0);
   const JudgeOutcome plain = engine.judged();
   ASSERT_TRUE(plain.result) << reason(plain);
   std::size_t darkened = 0;
@@ -77,7 +77,7 @@ TEST(JudgeOwnTest, AContactShadowTakesNoAdviceAway) {
         darkened += v > 0.5f ? 1 : 0, v = 0.0f;
       }
   });
-  ASSERT_GT(darkened, 100U);
+  ASSERT_GT(darkened, 50U);  // where acne has not darkened it
   const JudgeOutcome judged = engine.judged();
   ASSERT_TRUE(judged.result) << reason(judged);
   EXPECT_NE(notes_in(judged).find("is not the one that was drawn in"), std::string::npos) << notes_in(judged);
