@@ -238,7 +238,7 @@ std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view 
                                                                const World& world) {
   std::vector<std::pair<std::string, double>> out;
   const TunedEngine* known = engine_of_renderer(engine);
-  if (known == nullptr) return out;
+  if (known == nullptr || advice.setting.starts_with("filter.")) return out;
   const bool in_texels = advice.texels_of_each && known->constant_in_texels;
   if (!advice.layers.empty() && !in_texels) return out;
   const auto now = units_with(advice, &AdvisedSetting::now, light, record, world);

@@ -215,7 +215,7 @@ std::vector<std::string> described_test_notes(const DescribedTest& test,
         grouped(test.not_drawn - test.drawn_darker),
         !advice_holds(test, other) ? "no bias is advised"
         : other                    ? "advice starts from the bias as described"
-                                   : "the bias is advised on by all others");
+                                   : "advice leaves them as they were drawn");
     if (other)
       note +=
           fmt::format("; if {}, it is the one drawn in {} of the pixels", other->what, percent(other->share));

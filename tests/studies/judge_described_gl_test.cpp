@@ -186,7 +186,7 @@ TEST(JudgeDescribed, WhatIsNotSaidIsUnexplained) {
   picture.capture.bias->normal_offset_world = 0.0;
   const JudgeOutcome judged = picture.judged();
   expect_other_test(
-      judged, "the wrong ones among them are unexplained, and the bias is advised on by all others", true);
+      judged, "the wrong ones among them are unexplained, and advice leaves them as they were drawn", true);
   EXPECT_GT(count_of(judged, compare::Label::unexplained), 20U);
 }
 
