@@ -25,7 +25,7 @@ constexpr float dark_share = 0.02f;
 constexpr std::size_t few_differ = 50;
 /// A pixel differs by a fiftieth, or by twice what 19 of 20 pixels that cannot differ do.
 constexpr double least_drop = 0.02;
-constexpr std::size_t most_fitted = 20000;
+constexpr std::size_t most_in_a_fit = 20000;
 /// Visibilities up to this count as full shadow; half of the step to a comparison of 2 x 2 with one lit.
 constexpr double full_shadow_up_to = 0.125;
 /// Of the pixels that differ so many are in full shadow, or how dark that is remains unknown.
@@ -222,9 +222,9 @@ double noise_of(std::vector<double> drops) {
 }
 
 std::vector<LitPixel> thinned(const std::vector<LitPixel>& all) {
-  if (all.size() <= most_fitted) return all;
+  if (all.size() <= most_in_a_fit) return all;
   std::vector<LitPixel> out;
-  for (std::size_t i = 0; i < most_fitted; ++i) out.push_back(all[i * all.size() / most_fitted]);
+  for (std::size_t i = 0; i < most_in_a_fit; ++i) out.push_back(all[i * all.size() / most_in_a_fit]);
   return out;
 }
 
