@@ -151,6 +151,7 @@ struct Detachment {
 struct BiasCurvePoint {
   double bias = 0.0;  ///< constant, as raster::LightRecord::bias_constant_world
   std::uint64_t false_shadow = 0, missed_shadow = 0;
+  double wrong_fraction = 0.0;  ///< by the rule for ties (wrong_share), as that of BestBias
 };
 
 /// The constant bias with the fewest wrong pixels, all else as rendered, and whether one can be right
@@ -267,7 +268,8 @@ struct TerminatorCount {
 /// Counts compared pixels whose lookup falls beside the map, or beyond its depths where it holds nothing.
 struct OutsideMap {
   std::uint64_t receivers = 0;
-  std::uint64_t shadowed = 0;  ///< of them those truly in shadow, for the larger part
+  std::uint64_t shadowed = 0;    ///< of them those truly in shadow, for the larger part
+  std::uint64_t drawn_dark = 0;  ///< of them those that are drawn in shadow, for the larger part
 };
 
 /// Describes the compared pixels that look up one cascade.

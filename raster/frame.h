@@ -108,6 +108,11 @@ struct CapturedTest {
   /// World units that 1 of a stored number counts for; gaps and constant bias are differences of stored
   /// numbers times this, as the renderer itself tests.
   double unit_world = 1.0;
+  /// World units that 1 of a stored number counts for at so far from the light.
+  struct UnitAt {
+    double distance = 0.0, world = 1.0;
+  };
+  std::array<UnitAt, 2> units{};  ///< at the nearest and the farthest receiver; alike where it is one length
   double normal_offset_world = 0.0;  ///< >= 0, along the receiver's normal
   /// By which the offset is multiplied; `none`: it has one length at every angle.
   AngleForm normal_offset_angle = AngleForm::none;
@@ -156,6 +161,7 @@ struct CapturedPicture {
   /// How its map is tested. None: the map is not known; the record's holds nothing, and no technique is known to have
   /// drawn the picture.
   std::optional<CapturedTest> test;
+  std::vector<std::string_view> said{};  ///< MapSetting::name of the filter's settings that its capture says
 };
 
 /// One light's records, per pixel. Only where a primitive is visible; elsewhere visibility is 1, the rest 0.

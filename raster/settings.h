@@ -23,6 +23,10 @@ constexpr std::string_view group_title(SettingGroup group) {
   return titles[static_cast<std::size_t>(group)];
 }
 
+/// The order in which a panel has the groups.
+inline constexpr SettingGroup panel_groups[] = {SettingGroup::map, SettingGroup::bias, SettingGroup::filter,
+                                                SettingGroup::cascades, SettingGroup::window};
+
 /// A number of this unit. The slider's ends lie within the range; what lies beyond them can be typed.
 struct NumberSetting {
   double (*get)(const MapOptions&);
@@ -72,8 +76,9 @@ struct ListSetting {
   bool ascending = false;  ///< each number is above the one before
 };
 
-/// A constant of Bias with its unit.
+/// A constant of Bias with its unit. The slider counts texels, whatever the unit.
 struct ConstantBiasSetting {
+  static constexpr OptionRange slider{0.0, 10.0};
   double Bias::*constant;
   BiasUnit Bias::*unit;
   bool may_be_automatic;

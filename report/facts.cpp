@@ -11,6 +11,7 @@
 #include "compare/measure/reduced.h"
 #include "compare/result/judged.h"
 #include "compare/result/layout.h"
+#include "compare/result/map_words.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
@@ -45,23 +46,14 @@ Json lesson_facts(const Comparison& c) {
   return lessons;
 }
 
-/// "pcf shadows, map 1024 × 1024 d32f, bias 0.012 (0.5 texel), slope bias 1"
+/// "pcf shadows, map 1024 × 1024, d32f, bias 0.012 (0.5 texels; a texel is 0.024 wide), slope bias 1"
 std::string map_words(const Comparison& c) {
   const raster::MapOptions& map = c.raster.options.map;
   if (!c.raster.has_known_map()) return "a shadow whose map is not known";
   const std::string_view how = c.judged && c.judged->identified ? "inferred: " : "";
-  std::string text = fmt::format("{}{} shadows, map {}\u202f\u00d7\u202f{}", how,
-                                 technique_name(map.technique), map.size, map.size);
-  if (!compares_depths(map.technique)) return text;
-  text += fmt::format(" {}", depth_format_name(map.depth_format));
-  if (!draws_bias(c)) return text + ", shader of --shader-dir";
-  if (c.lights.size() == 1) {
-    const double bias = drawn_record(c, c.lights[0]).bias_constant_world,
-                 texel = c.lights[0].bias_texel_world;
-    text += fmt::format(", bias {}", plain_number(bias));
-    if (texel > 0.0) text += fmt::format(" ({})", texels_text(bias / texel));
-  }
-  return text + beside_constant(map);
+  return fmt::format("{}{} shadows, map {}\u202f\u00d7\u202f{}", how, technique_name(map.technique), map.size,
+                     map.size) +
+         map_details(c, c.lights.size() == 1 ? &c.lights[0] : nullptr);
 }
 
 Json depth_facts(const PageInput& in, std::size_t index) {

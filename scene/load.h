@@ -1,6 +1,6 @@
-// Scene files: the project's own JSON (scene/files/scene.schema.json), glTF 2.0 / GLB, OBJ+MTL and PLY, and
-// the built-in scenes by name. The format is told by the extension (.json .gltf .glb .obj .ply, and what assimp makes glTF of: .stl .fbx .dae .3ds .x3d .3mf); a name
-// without one is a built-in scene.
+// Scene files: the project's own JSON (scene/files/scene.schema.json), glTF 2.0 / GLB, OBJ+MTL, PLY and what assimp makes glTF
+// of, and the built-in scenes by name. The format is told by the extension (scene_formats); a name without one is a built-in
+// scene.
 #pragma once
 
 #include <optional>
@@ -36,6 +36,16 @@ struct LoadOptions {
 /// ErrorKind::usage when the file has no such camera. ErrorKind::graphics (resources) when there is not
 /// enough memory.
 Expected<Scene> load_scene(const std::string& path_or_name, const LoadOptions& options = {});
+
+/// A format that load_scene() reads.
+struct SceneFormat {
+  std::string_view extension;  ///< ".glb", in lower case
+  bool by_assimp = false;      ///< by way of glTF, which assimp makes of it
+};
+/// All of them, those by way of assimp last.
+std::vector<SceneFormat> scene_formats();
+/// ".json .gltf .glb .obj .ply .stl ...": all of them, or those alone that are, or are not, read by way of assimp.
+std::string extensions_text(std::optional<bool> by_assimp = std::nullopt);
 
 /// What a scene file asks for: an option of the command line without its dashes ("map-size"), and its value.
 struct SceneSetting {

@@ -218,6 +218,8 @@ void add_capture_options(CLI::App& app, CaptureOptions& o) {
   Capture& c = o.given;
   add_text(app, "--renderer", "NAME", "who drew it [default the capture's]", o, c.renderer);
   add_text(app, "--renderer-version", "TEXT", "its version [default the capture's]", o, c.version);
+  add_named<compare::RendererKind>(app, "--renderer-kind", "how it makes shadows",
+                                   compare::renderer_kind_names, o, [&c](auto v) { c.kind = v; });
   add_text(app, "--scene", "SCENE", "what it loaded [default the capture's]", o, c.scene);
   add_text(app, "--camera", "NAME", "name or number, from 0 [default the capture's]", o, c.camera);
   add_text(
@@ -255,6 +257,7 @@ Expected<Capture> with_options(Capture capture, const CaptureOptions& o) {
     if (!(given.*field).empty()) capture.*field = given.*field;
   if (given.size.pixels() > 0) capture.size = given.size;
   if (given.strength) capture.strength = given.strength;
+  if (given.kind) capture.kind = given.kind;
   if (const auto set = set_settings(capture, o.settings); !set) return fail(set.error());
   if (given.depth) {
     compare::CapturedDepth& depth = capture.depth ? *capture.depth : capture.depth.emplace();

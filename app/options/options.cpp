@@ -10,6 +10,7 @@
 #include "app/session.h"
 #include "compare/result/figures.h"
 #include "scene/files/path_status.h"
+#include "scene/load.h"
 #include "scene/shapes/tessellate.h"
 
 namespace gnomon::app {
@@ -55,9 +56,9 @@ void add_scene(CLI::App& command, SceneArgument& scene) {
       "is faster and takes more memory; the results are the same. auto takes what gnomon plan says");
   command
       .add_option("SCENE", scene.name,
-                  "a scene file (.json .gltf .glb .obj .ply; .stl .fbx .dae .3ds .x3d .3mf by way of "
-                  "assimp), or the name of a built-in scene or lesson "
-                  "(gnomon scenes)")
+                  fmt::format("a scene file ({}; {} by way of assimp), or the name of a built-in scene or "
+                              "lesson (gnomon scenes)",
+                              extensions_text(false), extensions_text(true)))
       ->required();
   command.parse_complete_callback([&] { scene.settings = use_of_settings(command); });
 }

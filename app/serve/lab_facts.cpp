@@ -55,8 +55,11 @@ Json times_json(const ShadowTimeWords& times) {
 
 std::string lab_facts(const LabOptions& options, bool worker) {
   Json settings = Json::array(), techniques = Json::array(), pictures = Json::array(), shown = Json::array(),
-       scenes = Json::array(), lessons = Json::array();
-  for (const raster::MapSetting& row : raster::map_settings()) settings.push_back(setting_facts(row));
+       scenes = Json::array(), lessons = Json::array(), extensions = Json::array();
+  for (const SceneFormat& format : scene_formats()) extensions.push_back(format.extension);
+  for (const raster::SettingGroup group : raster::panel_groups)
+    for (const raster::MapSetting& row : raster::map_settings())
+      if (row.group == group) settings.push_back(setting_facts(row));
   for (const raster::TechniqueTraits& traits : raster::all_technique_traits())
     techniques.push_back({{"name", traits.name}, {"for_suns", traits.lights.has(LightType::directional)}});
   for (std::size_t i = 0; i < picture_count; ++i) {
@@ -83,7 +86,8 @@ std::string lab_facts(const LabOptions& options, bool worker) {
                       {"pictures", pictures},
                       {"presets", shown},
                       {"scenes", scenes},
-                      {"lessons", lessons}};
+                      {"lessons", lessons},
+                      {"extensions", extensions}};
   return facts.dump();
 }
 

@@ -26,7 +26,7 @@ struct ControlFacts {
   }
   void operator()(const raster::ListSetting& s) const { out["control"] = "text", out["unit"] = s.unit; }
   void operator()(const raster::ConstantBiasSetting& s) const {
-    out["control"] = "bias", out["unit"] = "texels", out["from"] = 0.0, out["to"] = 10.0;
+    out["control"] = "bias", out["unit"] = "texels", out["from"] = s.slider.min, out["to"] = s.slider.max;
     out["automatic"] = s.may_be_automatic;
   }
 };

@@ -43,16 +43,12 @@ void find_proof(const GapLists& gaps, BestBias& best) {
 
 BiasCurvePoint GapLists::at(double bias) const {
   const auto b = static_cast<float>(bias);
-  return {bias, count_above(lit, b), shadowed.size() - count_above(shadowed, b)};
+  const std::uint64_t too_dark = count_above(lit, b), too_light = shadowed.size() - count_above(shadowed, b);
+  return {bias, too_dark, too_light, wrong_fraction(too_dark + too_light)};
 }
 
 double GapLists::wrong_fraction(std::uint64_t wrong) const {
   return wrong_share(wrong, ties, count());
-}
-
-double GapLists::wrong_fraction_at(double bias) const {
-  const BiasCurvePoint point = at(bias);
-  return wrong_fraction(point.false_shadow + point.missed_shadow);
 }
 
 std::uint64_t count_ties(const Image<float>& truth, const Image<Label>& labels) {

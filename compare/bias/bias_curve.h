@@ -19,9 +19,9 @@ struct GapLists {
   /// Returns the share of wrong pixels where so many of the lists are wrong; ties count one half.
   double wrong_fraction(std::uint64_t wrong) const;
 
-  /// Exact counts at a constant bias (rounded to float, as the shader has it).
+  /// Exact counts at a constant bias (rounded to float, as the shader has it), and the share with its ties.
   BiasCurvePoint at(double bias) const;
-  double wrong_fraction_at(double bias) const;
+  double wrong_fraction_at(double bias) const { return at(bias).wrong_fraction; }
 };
 
 /// Compared pixels of which exactly half the light is seen.

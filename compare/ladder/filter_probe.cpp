@@ -196,12 +196,6 @@ namespace {
 using raster::FilterKernel;
 using raster::Technique;
 
-/// Tells whether a filter's setting is neither its kind nor how it takes the receiver's depth.
-bool is_parameter(const raster::MapSetting& setting) {
-  return setting.group == raster::SettingGroup::filter && setting.name != "filter-kernel" &&
-         setting.name != "filter-plane";
-}
-
 // The square of texels around the receiver's own, or around the receiver.
 double pcf_reach(const raster::FilterOptions& filter) {
   switch (filter.kernel) {
@@ -230,14 +224,6 @@ double filter_reach_texels(const raster::MapOptions& map, double level) {
   if (!raster::uses_moments(map.technique)) return 0.0;
   const double side = std::exp2(std::ceil(level));
   return map.filter.blur_radius_texels + side + 0.5 * (side - 1.0);
-}
-
-std::string filter_text(const raster::MapOptions& map) {
-  if (filter_kind(map) == "none") return "";
-  std::string text(filter_kind(map));
-  for (const raster::MapSetting& setting : raster::map_settings())
-    if (is_parameter(setting) && raster::reads(map, setting)) text += ", " + setting_words(setting, map);
-  return text;
 }
 
 namespace {

@@ -24,7 +24,7 @@ bool shadowed_within_reach(const LadderInput& input, std::size_t pixel);
 /// texels that they read. `lower` knows what the rays through most of these centres meet.
 double true_average(const LowerClimb& lower, const LadderInput& input, std::size_t pixel);
 
-// The filter of a technique as files and pages tell it: its kind, how far it reaches, and its parameters in words.
+// The filter of a technique: its kind, and how far it reaches. Its words are compare/result/map_words.h's.
 
 /// "none", pcf's kernels, "penumbra" (pcss) or "moments".
 std::string_view filter_kind(const raster::MapOptions& map);
@@ -33,9 +33,6 @@ std::string_view filter_kind(const raster::MapOptions& map);
 /// For pcss that is the most it can be. `level`: the mipmap level that is read; a texel of it averages 2^level, rounded up,
 /// texels on a side, and its neighbours are read too.
 double filter_reach_texels(const raster::MapOptions& map, double level = 0.0);
-
-/// "moments, blur radius 2, ...": one line for a person; empty for none.
-std::string filter_text(const raster::MapOptions& map);
 
 // Light bleeding: what a filter of moments lets through deep inside a shadow, where no average of comparisons
 // would.

@@ -109,12 +109,13 @@ Expected<void> LightSums::finish_theory() {
 namespace {
 
 /// Adds the compared pixels of some rows that lie outside the map; `outside` of the drawing may be empty.
-void add_outside(const Image<std::uint8_t>& outside, const Image<Label>& labels, const Image<float>& truth,
-                 OutsideMap& out) {
+void add_outside(const Image<std::uint8_t>& outside, const Image<Label>& labels,
+                 const std::array<Image<float>, rung_count>& rungs, OutsideMap& out) {
   for (std::size_t i = 0; i < outside.data.size(); ++i) {
     if (outside.data[i] == 0 || !is_compared(labels.data[i])) continue;
     ++out.receivers;
-    if (truth.data[i] < 0.5f) ++out.shadowed;
+    if (rungs.front().data[i] < 0.5f) ++out.shadowed;
+    if (rungs.back().data[i] < 0.5f) ++out.drawn_dark;
   }
 }
 
@@ -146,7 +147,7 @@ Expected<Image<float>> LightSums::add_pixels(const LadderInput& in, const Climb&
     const TerminatorCount here = count_terminator(in, labels);
     map_.terminator.dark += here.dark, map_.terminator.unlit += here.unlit;
   }
-  add_outside(in.record().outside_map, labels, climb.rungs.front(), outside_);
+  add_outside(in.record().outside_map, labels, climb.rungs, outside_);
   if (const auto lookups = count_lookups(in.drawn, in.record(), labels))
     lookups_ = lookups_.value_or(0) + *lookups;
   if (options_.perceptual) {

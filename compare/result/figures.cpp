@@ -217,6 +217,7 @@ constexpr Figure rows[] = {
 
     {"outside_map.receivers", "pixels", at<&L::outside, &OutsideMap::receivers>()},
     {"outside_map.shadowed", "pixels", at<&L::outside, &OutsideMap::shadowed>(), less},
+    {"outside_map.drawn_dark", "pixels", at<&L::outside, &OutsideMap::drawn_dark>()},
 
     {"terminator.dark", "pixels", at<&L::terminator, &TerminatorCount::dark>()},
     {"terminator.unlit", "pixels", at<&L::terminator, &TerminatorCount::unlit>()},

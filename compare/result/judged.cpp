@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "compare/result/map_words.h"
 #include "compare/result/number_text.h"
 #include "compare/result/output_parts.h"
 
@@ -37,6 +38,7 @@ std::string ladder_text(const Comparison& c) {
         "that of its own map, matrix and bias; the test (V5) is what was drawn on {} of the pixels",
         percent(j.biased_is_drawn));
   if (j.identified) return "inferred: that of the nearest setting of Gnomon's own, up to what was drawn";
+  if (j.traces) return "that of its rays: no map; where Gnomon's own rays from nearby places find the cause";
   return "light size, and one step unexplained: the capture has no map";
 }
 
@@ -44,6 +46,7 @@ std::string ladder_text(const Comparison& c) {
 std::string length_text(const AdvisedSetting& one) {
   if (!(one.unit_world > 0.0)) return {};
   const double world = one.instead * one.unit_world;
+  if (const std::string two = two_lengths(one.units, one.instead); !two.empty()) return "; " + two;
   std::string text = one.unit == "world units" ? "" : fmt::format("; {:.3g} world units", world);
   if (one.texel_world > 0.0)
     text += fmt::format("{}{:.3g} texels", text.empty() ? "; " : ", ", world / one.texel_world);

@@ -1,10 +1,13 @@
 // What a comparison says beyond the rest when another renderer drew the picture.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "raster/frame.h"
 
 namespace gnomon::compare {
 
@@ -39,6 +42,8 @@ struct AdvisedSetting {
   std::string unit;  ///< "stored depth", "world units"
   /// World units in one of the unit, and in a texel of the layer; 0: the setting is no length.
   double unit_world = 0.0, texel_world = 0.0;
+  /// What one of the unit is at the nearest and the farthest receiver, where it is no single length.
+  std::array<raster::CapturedTest::UnitAt, 2> units = {};
 };
 struct Advice : AdvisedSetting {
   /// Shares of all compared pixels, those outside the map among them: of what was drawn, and of what the filter and test that
@@ -59,13 +64,25 @@ struct Advice : AdvisedSetting {
   bool about = false;
 };
 
+/// Light of something else in both pictures of a ratio (ambient light, a sky), found and undone.
+struct OtherLight {
+  double full_shadow =
+      1.0;  ///< the share of its light that a full shadow takes from a pixel, median over those that differ
+  std::uint64_t pixels = 0;  ///< that differ clearly
+  double agree = 0.0;        ///< the share of them that is in full shadow as the others are
+  std::string read_as;       ///< "linear numbers", "sRGB", ...
+};
+
 struct Judged {
   std::string capture;  ///< its path; empty when options said it
   std::string renderer, version;
   std::string engine;  ///< EngineUnit::engine whose settings the renderer has; empty: not known
   std::vector<std::pair<std::string, std::string>> settings;
   bool has_map = false, has_positions = false, of_ratio = false;
-  std::vector<Agreement> agreement;  ///< after what was mended
+  bool traces = false;                      ///< its renderer traces rays: what is wrong is no map's
+  std::optional<OtherLight> other_light{};  ///< of a ratio
+  std::string next{};                       ///< what to do, one sentence, where no setting is advised
+  std::vector<Agreement> agreement;         ///< after what was mended
   std::vector<Mended> mended;
   std::optional<Identified> identified;
   bool advice_sought =
@@ -76,6 +93,7 @@ struct Judged {
   /// the borders of texels.
   double biased_is_drawn = 0.0;
   double unit_world = 0.0;  ///< world units that 1 of the map's stored numbers counts for
+  std::array<raster::CapturedTest::UnitAt, 2> units{};  ///< as of CapturedTest
 };
 
 struct Comparison;

@@ -6,6 +6,7 @@
 
 #include "compare/result/number_text.h"
 #include "compare/result/output_parts.h"
+#include "compare/result/summary_page.h"
 #include "compare/result/text_layout.h"
 
 namespace gnomon::compare {
@@ -28,8 +29,12 @@ double depth_seen(const World& world, const Camera& camera) {
   return farthest > 0.0 ? farthest : 2.0 * to_target;
 }
 
-/// Of a window that was given: which casters it lacks.
+/// Of another renderer's map its size; of a window that was given which casters it lacks.
 std::string casters_words(const Comparison& c, const LightView& view) {
+  const LightFace& face = view.face(0);
+  if (c.raster.lights.front().captured)
+    return fmt::format("The capture's map is {} x {}.", plain_number(2.0 * face.half_extent.x),
+                       plain_number(2.0 * face.half_extent.y));
   if (c.raster.options.map.window.empty()) return "The map was fitted to hold the casters.";
   const WindowCasters casters = window_casters(*c.world, view);
   if (casters.inside == casters.count())
@@ -57,10 +62,12 @@ std::string receivers_words(const LightComparison& light) {
   const OutsideMap& outside = light.outside;
   if (light.pixels.compared == 0) return {};
   if (outside.receivers == 0) return "All that is seen lies in it.";
-  std::string text = fmt::format("{} of what is seen lies outside it, drawn as lit; ",
-                                 share_words(outside.receivers, light.pixels.compared));
-  return text + (outside.shadowed == 0 ? std::string("no shadow falls there.")
-                                       : fmt::format("{} is shadow that is lost.",
+  const std::string text = fmt::format("{} of what is seen lies outside it, ",
+                                       share_words(outside.receivers, light.pixels.compared));
+  if (outside.drawn_dark > 0)
+    return text + fmt::format("{} of it drawn as shadow.", counted(outside.drawn_dark, "pixel"));
+  return text + (outside.shadowed == 0 ? std::string("drawn as lit; no shadow falls there.")
+                                       : fmt::format("drawn as lit; {} is shadow that is lost.",
                                                      share_words(outside.shadowed, light.pixels.compared)));
 }
 

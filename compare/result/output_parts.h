@@ -33,9 +33,10 @@ inline bool draws_bias(const Comparison& c) {
   const auto& custom = c.raster.custom_shader;
   return compares_depths(c) && (!custom || custom->reads_bias);
 }
-/// Without the map there are two steps: light size, and all the rest. Casters of another renderer's map are one more.
+/// Without the map there are two steps: light size, and all the rest, unless rays were traced. Casters of another renderer's
+/// map are one more.
 inline std::size_t known_steps(const Comparison& c) {
-  if (!c.raster.has_known_map()) return 2;
+  if (!c.raster.has_known_map() && !(c.judged && c.judged->traces)) return 2;
   return c.judged && c.judged->has_map ? cause_count + 1 : cause_count;
 }
 inline std::string_view step_name(const Comparison& c, Cause cause) {

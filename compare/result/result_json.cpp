@@ -72,6 +72,14 @@ Json identified_json(const Identified& i) {
 
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 
+Json other_light_json(const std::optional<OtherLight>& other) {
+  if (!other) return nullptr;
+  return {{"full_shadow", number(other->full_shadow)},
+          {"pixels", other->pixels},
+          {"agree", number(other->agree)},
+          {"read_as", other->read_as}};
+}
+
 // Of a picture that another renderer drew.
 Json judged_json(const Judged& j) {
   Json mended = Json::array(), advice = Json::array();
@@ -113,10 +121,14 @@ Json judged_json(const Judged& j) {
           {"map", j.has_map},
           {"positions", j.has_positions},
           {"ratio", j.of_ratio},
+          {"traces", j.traces},
+          {"other_light", other_light_json(j.other_light)},
           {"agreement", agreement_json(j.agreement)},
           {"mended", std::move(mended)},
           {"biased_is_drawn", j.has_map ? number(j.biased_is_drawn) : Json(nullptr)},
           {"unit_world", j.has_map ? number(j.unit_world) : Json(nullptr)},
+          {"unit_world_range",
+           j.has_map ? Json{number(j.units[0].world), number(j.units[1].world)} : Json(nullptr)},
           {"identified", j.identified ? identified_json(*j.identified) : Json(nullptr)},
           {"advice", std::move(advice)},
           {"notes", j.notes}};

@@ -6,6 +6,7 @@
 #include "compare/ladder/labels.h"
 #include "compare/result/engine_units.h"
 #include "compare/result/judged.h"
+#include "compare/result/map_words.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/result_parts.h"
@@ -48,11 +49,13 @@ void add_setting(Json& json, const raster::MapSetting& setting, const raster::Ma
     value = raster::setting_text(setting, map);
 }
 
-Json filter_json(const raster::MapOptions& map) {
-  Json json{{"kind", filter_kind(map)}, {"radius_texels", filter_reach_texels(map)}};
-  for (const raster::MapSetting& setting : raster::map_settings())
-    if (setting.group == raster::SettingGroup::filter && raster::reads(map, setting))
-      add_setting(json, setting, map);
+Json filter_json(const raster::RasterFrame& drawn) {
+  const raster::MapOptions& map = drawn.options.map;
+  Json json{{"kind", shown_filter_kind(drawn)}, {"radius_texels", filter_reach_texels(map)}};
+  for (const raster::MapSetting* setting : filter_settings(drawn)) add_setting(json, *setting, map);
+  const auto& captured = drawn.lights.front().captured;
+  if (captured && captured->test && captured->test->moments.minimum_variance > 0.0)
+    json["minimum_variance"] = number(captured->test->moments.minimum_variance);
   return json;
 }
 
@@ -175,7 +178,8 @@ Json map_json(const Comparison& c, const LightComparison& light) {
             {"size", known ? Json(record.map.view.size) : Json(nullptr)},
             {"inferred", c.judged && c.judged->identified.has_value()},
             {"faces", record.map.view.face_count},
-            {"depth_format", depth_format_name(record.map.format)},
+            {"depth_format", record.captured ? Json(nullptr) : Json(depth_format_name(record.map.format))},
+            {"stores", known ? Json(record.captured ? stored_text(record) : "depths") : Json(nullptr)},
             {"cull", cull_name(map.cull)},
             {"bias", bias_json(c, light)},
             {"custom_shader", custom_shader_json(c.raster)},
@@ -183,7 +187,7 @@ Json map_json(const Comparison& c, const LightComparison& light) {
             {"window", window_json(c, light)},
             {"cascades", cascades_json(map, record.map.view)},
             {"warp", number(record.map.view.face(0).warp * record.map.view.face(0).half_extent.y)},
-            {"filter", filter_json(map)},
+            {"filter", filter_json(c.raster)},
             {"texel_world", block_json("map.texel_world", light)}};
   if (record.external) json["hybrid"] = hybrid_json(*record.external);
   return json;
@@ -230,7 +234,8 @@ Json bias_curve_json(const LightComparison& light) {
     json.push_back({{"bias", number(p.bias)},
                     {"bias_texels", number(p.bias / light.bias_texel_world)},
                     {"false_shadow", p.false_shadow},
-                    {"missed_shadow", p.missed_shadow}});
+                    {"missed_shadow", p.missed_shadow},
+                    {"wrong_fraction", number(p.wrong_fraction)}});
   return json;
 }
 

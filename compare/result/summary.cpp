@@ -5,12 +5,12 @@
 #include <algorithm>
 
 #include "compare/ladder/budget.h"
-#include "compare/ladder/filter_probe.h"
 #include "compare/ladder/labels.h"
 #include "compare/result/engine_units.h"
 #include "compare/result/figures.h"
 #include "compare/result/judged.h"
 #include "compare/result/layout.h"
+#include "compare/result/map_words.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
 #include "compare/result/output_parts.h"
@@ -28,21 +28,12 @@ namespace {
 
 std::string map_line(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
-  const raster::MapOptions& map = c.raster.options.map;
-  const double texel = light.bias_texel_world;
   if (!c.raster.has_known_map()) return "not known";
-  std::string text =
-      fmt::format("{}{}, {} x {}{} texels", c.judged && c.judged->identified ? "inferred: " : "",
-                  technique_name(map.technique), record.map.view.size, record.map.view.size,
-                  record.map.view.face_count > 1 ? fmt::format(" x {}", record.map.view.face_count) : "");
-  if (!compares_depths(map.technique)) return text;
-  text += fmt::format(", {}", depth_format_name(record.map.format));
-  if (!draws_bias(c)) return text + ", shader of --shader-dir";
-  text += fmt::format(", bias {}", plain_number(record.bias_constant_world));
-  if (texel > 0.0)
-    text += fmt::format(" ({}; a texel is {} wide)", texels_text(record.bias_constant_world / texel),
-                        plain_number(texel));
-  return text + beside_constant(map);
+  return fmt::format("{}{}, {} x {}{} texels", c.judged && c.judged->identified ? "inferred: " : "",
+                     technique_name(c.raster.options.map.technique), record.map.view.size,
+                     record.map.view.size,
+                     record.map.view.face_count > 1 ? fmt::format(" x {}", record.map.view.face_count) : "") +
+         map_details(c, &light);
 }
 
 /// Where the map lies; empty where that is for the technique to say, or not known.
@@ -195,7 +186,7 @@ void add_light(SummaryPage& page, const Comparison& c, const LightComparison& li
   if (const std::string window = window_line(c, light); !window.empty()) page.field("window", window);
   if (const std::string words = window_words(c, light); !words.empty())
     page.field(window_line(c, light).empty() ? "window" : "", words);
-  const std::string filter = filter_text(c.raster.options.map);
+  const std::string filter = filter_text(c.raster);
   if (!filter.empty()) page.field("filter", filter);
   if (const auto& external = drawn_record(c, light).external) page.field("hybrid", hybrid_line(*external));
   page.field("pixels", pixels_line(light.pixels));
@@ -232,8 +223,7 @@ void add_figures_in_short(SummaryPage& page, const Comparison& c, const LightCom
   page.blank();
   if (c.lights.size() > 1) page.paragraph(one_line(light_of(c, light).name));
   page.field("map", map_line(c, light));
-  if (const std::string filter = filter_text(c.raster.options.map); !filter.empty())
-    page.field("filter", filter);
+  if (const std::string filter = filter_text(c.raster); !filter.empty()) page.field("filter", filter);
   if (light.pixels.compared > 0) {
     page.field("wrong", wrong_line(light.error));
     page.field("labels", labels_line(light));

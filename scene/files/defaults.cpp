@@ -221,8 +221,9 @@ Aabb bounds_to_frame(const Scene& scene) {
   return bounds;
 }
 
-std::string made_note(const std::vector<std::string>& made) {
-  return fmt::format("Made, as the file has none: {}.", fmt::join(made, ", "));
+/// `why`: LoadedFile::why_none.
+std::string made_note(const std::vector<std::string>& made, const std::string& why) {
+  return fmt::format("Made, as {}: {}.", why, fmt::join(made, ", "));
 }
 
 /// Makes up what a scene lacks, from where its parts lie.
@@ -257,8 +258,8 @@ class Maker {
     if (std::string ground = add_ground(scene_, bounds_); !ground.empty()) made_.push_back(std::move(ground));
   }
 
-  void add_note(bool with_camera) {
-    std::string note = made_note(made_);
+  void add_note(bool with_camera, const std::string& why) {
+    std::string note = made_note(made_, why);
     if (with_camera) note += " " + casting_words();
     scene_.notes.push_back(std::move(note));
   }
@@ -328,9 +329,9 @@ Scene add_defaults(LoadedFile loaded) {
     Maker maker(scene, framed_aspect);
     if (!loaded.has_camera) maker.add_camera();
     if (needs_light) maker.add_light(loaded.is_model);
-    maker.add_note(!loaded.has_camera);
+    maker.add_note(!loaded.has_camera, needs_light ? loaded.why_none : LoadedFile{}.why_none);
   } else if (needs_light) {
-    scene.notes.push_back(made_note({add_sun(scene, loaded.is_model)}));
+    scene.notes.push_back(made_note({add_sun(scene, loaded.is_model)}, loaded.why_none));
   }
   if (scene.materials.empty()) scene.materials.push_back(model_material("default"));
   note_open_glass(scene);

@@ -14,7 +14,6 @@ namespace gnomon {
 namespace {
 
 constexpr double longest_s = 300.0;  // on a busy machine; its processor time is limited besides
-constexpr std::array foreign{".stl", ".fbx", ".dae", ".3ds", ".x3d", ".3mf"};
 
 struct Hint {
   std::string_view extension, text;
@@ -108,10 +107,6 @@ Expected<std::string> converted(std::string_view bytes, const std::string& file)
 
 }  // namespace
 
-bool is_foreign(std::string_view extension) {
-  return std::ranges::find(foreign, extension) != foreign.end();
-}
-
 std::string_view foreign_hint(std::string_view extension) {
   const auto found = std::ranges::find(hints, extension, &Hint::extension);
   return found == std::end(hints) ? std::string_view() : found->text;
@@ -129,6 +124,7 @@ Expected<LoadedFile> read_foreign(std::string_view bytes, const std::string& fil
                              "Read by way of glTF, which assimp made of it: the file's lights are left out, "
                              "and what glTF's materials do not "
                              "know.");
+  loaded->why_none = "lights of such files are not read";
   return loaded;
 }
 

@@ -41,6 +41,8 @@ struct LoadedFile {
   bool has_camera = false;             ///< the scene's camera is one of them
   std::vector<LoadedPath> paths{};     ///< of a glTF file only where LoadOptions asks for them
   FileNames names{};
+  /// Why a light is made up, where the scene has none.
+  std::string why_none = "the file has none";
   bool is_model = false;  ///< a bare model: geometry that brings no world around it (glTF, OBJ, PLY)
 };
 
@@ -64,8 +66,6 @@ Expected<LoadedFile> read_ply(std::string_view bytes, const std::string& file);
 /// Chooses by the extension; `bytes` are the file's.
 Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string& path,
                                        const LoadOptions& options, IncludeState& includes);
-/// A list for messages, those that are read by way of glTF (read_foreign) last: ".json .gltf .glb .obj .ply .stl ...".
-std::string_view known_extensions();
 
 /// A JSON scene that is not in a file of its own: built-in scenes, and what is yet to be written. Errors as of
 /// load_scene().
@@ -80,9 +80,6 @@ Vec4f linear_color(const Vec3f& srgb, float alpha);
 Material model_material(std::string name, bool has_colors = false);
 
 // Models in formats that the project does not read itself: assimp, in a process of its own, makes glTF of them.
-
-/// Whether read_foreign() reads it: .stl .fbx .dae .3ds .x3d .3mf.
-bool is_foreign(std::string_view extension);
 
 /// What to do about a format that is not read at all (".blend": export it from there as .glb); empty for others.
 std::string_view foreign_hint(std::string_view extension);

@@ -22,6 +22,33 @@
 namespace gnomon {
 namespace {
 
+struct FormatInput {
+  std::string_view bytes;
+  const std::string& path;
+  std::string folder;
+  const LoadOptions& options;
+  IncludeState& includes;
+};
+struct FormatRow : SceneFormat {
+  Expected<LoadedFile> (*read)(const FormatInput&);
+};
+using In = const FormatInput&;
+constexpr auto by_gltf = [](In in) { return read_gltf(in.bytes, in.path, in.folder, in.options); };
+constexpr auto by_assimp = [](In in) { return read_foreign(in.bytes, in.path, in.folder, in.options); };
+/// Every format that is read, and how.
+constexpr FormatRow formats[] = {
+    {{".json"}, [](In in) { return read_json_scene(in.bytes, in.path, in.folder, in.options, in.includes); }},
+    {{".gltf"}, by_gltf},
+    {{".glb"}, by_gltf},
+    {{".obj"}, [](In in) { return read_obj(in.bytes, in.path, in.folder, in.options); }},
+    {{".ply"}, [](In in) { return read_ply(in.bytes, in.path); }},
+    {{".stl", true}, by_assimp},
+    {{".fbx", true}, by_assimp},
+    {{".dae", true}, by_assimp},
+    {{".3ds", true}, by_assimp},
+    {{".x3d", true}, by_assimp},
+    {{".3mf", true}, by_assimp}};
+
 std::size_t camera_index(const std::vector<NamedCamera>& cameras, const std::string& wanted) {
   for (std::size_t i = 0; i < cameras.size(); ++i)
     if (cameras[i].name == wanted) return i;
@@ -124,7 +151,7 @@ Error unknown_name(const std::string& name) {
                 kind == FileKind::folder
                     ? std::string("is a folder, not a file")
                     : fmt::format("the file's format is told by its extension, and it has none (allowed {})",
-                                  known_extensions())};
+                                  extensions_text())};
     error.file = name;
     return error;
   }
@@ -175,23 +202,27 @@ std::vector<SceneSetting> scene_settings(const std::string& path_or_name) {
   return out;
 }
 
-std::string_view known_extensions() {
-  return ".json .gltf .glb .obj .ply .stl .fbx .dae .3ds .x3d .3mf";
+std::vector<SceneFormat> scene_formats() {
+  return {std::begin(formats), std::end(formats)};
+}
+
+std::string extensions_text(std::optional<bool> by_assimp) {
+  std::string text;
+  for (const SceneFormat& format : formats)
+    if (by_assimp.value_or(format.by_assimp) == format.by_assimp)
+      text += fmt::format("{}{}", text.empty() ? "" : " ", format.extension);
+  return text;
 }
 
 Expected<LoadedFile> read_by_extension(std::string_view bytes, const std::string& path,
                                        const LoadOptions& options, IncludeState& includes) {
   const std::string extension = lower_extension(path);
-  const std::string folder = folder_of(path);
-  if (extension == ".json") return read_json_scene(bytes, path, folder, options, includes);
-  if (extension == ".gltf" || extension == ".glb") return read_gltf(bytes, path, folder, options);
-  if (extension == ".obj") return read_obj(bytes, path, folder, options);
-  if (extension == ".ply") return read_ply(bytes, path);
-  if (is_foreign(extension)) return read_foreign(bytes, path, folder, options);
+  for (const FormatRow& format : formats)
+    if (format.extension == extension) return format.read({bytes, path, folder_of(path), options, includes});
   const std::string_view hint = foreign_hint(extension);
   Error error{ErrorKind::bad_input,
               fmt::format("unknown extension (got \"{}\", allowed {}){}{}", printable(extension),
-                          known_extensions(), hint.empty() ? "" : "; ", hint)};
+                          extensions_text(), hint.empty() ? "" : "; ", hint)};
   error.file = path;
   return fail(std::move(error));
 }

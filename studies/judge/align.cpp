@@ -11,6 +11,11 @@ namespace {
 /// Right captures agree on more than 0.98 of each (the rest are a rasterizer's own pixels along edges); half a
 /// pixel off leaves 0.7 to 0.85 of the silhouettes and none of the positions.
 constexpr double least_geometry = 0.93;
+/// Are shares of silhouettes that are edges of a picture with other light in it: some have the colour of what is behind
+/// them. Below the second it is another view.
+constexpr double least_edges = 0.75, no_edges = 0.5;
+/// A suspect's view without background, or with half of the silhouettes, proves nothing by those that agree.
+constexpr double least_kind = 0.05, least_outlines = 0.5;
 /// A suspect must agree clearly better, and undo most of what did not agree; more of it where shadows alone tell, since
 /// a picture that is some pixels off agrees a little better under many a wrong view.
 constexpr double least_gain = 0.03, most_left = 0.5, most_left_alone = 1.0 / 3.0;
@@ -59,15 +64,23 @@ struct Found {
   std::size_t lit = 0;            // samples
 };
 
+bool proves_nothing(const Evidence& suspected, const Evidence& now) {
+  const bool by_outlines = !suspected.positions && !suspected.depths;
+  return by_outlines &&
+         (suspected.least_kind < least_kind ||
+          static_cast<double>(suspected.outlines) < least_outlines * static_cast<double>(now.outlines));
+}
+
 /// The suspect that agrees best; of alike ones the one whose shadows do.
 std::optional<Found> best_suspect(const EvidenceInput& in, const Samples& samples,
                                   const std::vector<Suspect>& suspects, bool geometric, bool all) {
+  const Evidence now = gather(in, samples, {});
   std::optional<Found> best;
   for (const Suspect& suspect : suspects) {
     if (all ? !suspect.by_shadows : suspect.geometric != geometric) continue;
     const Evidence evidence = gather(in, samples, suspect);
     const auto share = share_of(evidence, geometric);
-    if (!share) continue;
+    if (!share || (geometric && proves_nothing(evidence, now))) continue;
     const Found found{suspect, *share, evidence.visibility, evidence.lit};
     const bool alike = best && std::abs(found.share - best->share) < 0.002;
     const bool better = !best || (alike ? found.shadows.value_or(0.0) > best->shadows.value_or(0.0) + 0.002
@@ -126,6 +139,8 @@ class Aligner {
 
  private:
   EvidenceInput input() const { return {in_.tracer, in_.light, pictures_, sight_, map_}; }
+  /// Of a ratio that holds other light, in which nothing is black.
+  bool by_edges() const { return !samples_.neighbours.empty(); }
   Evidence shadow_evidence();
   Expected<void> check_geometry();
   Expected<void> check_shadows();
@@ -136,6 +151,7 @@ class Aligner {
   Expected<void> mend(const Mended& mended, const Suspect& suspect);
   Expected<void> mend_shadows(const Found& found, double before, bool alone);
   Expected<void> doubt_shadows(double share, bool alone);
+  Expected<void> doubt_edges(double share);
 
   const AlignInput& in_;
   Scene& scene_;
@@ -176,11 +192,13 @@ Expected<void> Aligner::mend(const Mended& mended, const Suspect& suspect) {
 Expected<void> Aligner::check_geometry() {
   const auto now = gather(input(), samples_, {}).geometry();
   if (now) judged_.agreement = {*now};
-  if (!now || now->share >= least_geometry) return {};
+  const double least = by_edges() ? least_edges : least_geometry;
+  if (!now || now->share >= least) return {};
   const auto best = best_suspect(input(), samples_, suspects_, true, false);
-  const bool likely = best && best->share >= least_geometry && mends(now->share, best->share);
-  if (likely && !at_chance(best->shadows))
+  const bool likely = best && best->share >= least && mends(now->share, best->share);
+  if (likely && (by_edges() || !at_chance(best->shadows)))
     return mend({best->suspect.what, now->what, now->share, best->share}, best->suspect);
+  if (by_edges()) return doubt_edges(now->share);
   return capture_error(
       in_.capture, "",
       fmt::format(
@@ -192,6 +210,22 @@ Expected<void> Aligner::check_geometry() {
                  : "",
           judged_.of_ratio ? "; the two pictures of a ratio show this light alone, without ambient light"
                            : ""));
+}
+
+/// Silhouettes that are no edges of the picture, and no suspect that mends it: colours that are alike, fog, or another view.
+Expected<void> Aligner::doubt_edges(double share) {
+  const std::string words = fmt::format("{} of the scene's silhouettes are edges of the unshadowed picture",
+                                        hundredths_of_percent(share));
+  if (share < no_edges)
+    return capture_error(in_.capture, "",
+                         fmt::format("only {}, and no usual difference of conventions mends that: is it this "
+                                     "scene, seen from this camera?",
+                                     words));
+  judged_.notes.push_back(
+      fmt::format("{}: the others have the colour of what lies behind them, or the view is a "
+                  "little off",
+                  words));
+  return {};
 }
 
 /// Where the light, turned, lights nothing, the picture is as dark as any picture without light. One that is lit in

@@ -168,6 +168,8 @@ Expected<void> check_capture(const Capture& capture) {
   if (!capture.position.empty() && capture.depth) return wrong("depth", "cannot stand beside position");
   if (capture.depth)
     if (const auto sound = check_depth(capture); !sound) return sound;
+  if (capture.kind == RendererKind::ray_tracer && !capture.map.empty())
+    return wrong("map", "is not of a ray tracer, which `renderer.kind` says this renderer is");
   return check_map(capture);
 }
 

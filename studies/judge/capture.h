@@ -50,6 +50,9 @@ constexpr bool has_moments(FilterName kind) {
 }
 inline constexpr std::array<std::string_view, 3> filter_read_names{"nearest", "linear_depths", "moments"};
 inline constexpr std::array<std::string_view, 2> select_names{"view_z", "distance"};
+/// How its renderer makes shadows. A ray tracer has no map.
+enum class RendererKind : std::uint8_t { rasterizer, ray_tracer };
+inline constexpr std::array<std::string_view, 2> renderer_kind_names{"rasterizer", "ray_tracer"};
 inline constexpr std::array<std::string_view, 7> filter_names{"none", "pcf",  "pcss", "vsm",
                                                               "esm",  "evsm", "msm"};
 
@@ -127,6 +130,7 @@ struct CapturedFilter {
 struct Capture {
   std::string path;  ///< of the capture; empty when options alone say it
   std::string renderer, version;
+  std::optional<RendererKind> kind{};
   std::vector<std::pair<std::string, std::string>> settings;
   std::string scene;          ///< file or built-in scene
   std::string camera, light;  ///< name, or place in the list from 0; empty: the first, the only one

@@ -170,10 +170,19 @@ void count_differences(const ColorImage& shadowed, const ColorImage& unshadowed,
   }
 }
 
+bool has_eight_bits(const ColorImage& picture) {
+  const auto is_step = [](float v) {
+    const float steps = 255.0f * v;
+    return std::abs(steps - std::round(steps)) < 1e-3f;
+  };
+  return std::all_of(picture.data.begin(), picture.data.end(),
+                     [&](const Vec3f& c) { return is_step(c.x) && is_step(c.y) && is_step(c.z); });
+}
+
 Expected<void> read_ratio(const Capture& capture, CapturedPictures& out) {
   auto shadowed = read_colour(capture, capture.shadowed, "shadowed");
   if (!shadowed) return fail(shadowed.error());
-  const auto unshadowed = read_colour(capture, capture.unshadowed, "unshadowed");
+  auto unshadowed = read_colour(capture, capture.unshadowed, "unshadowed");
   if (!unshadowed) return fail(unshadowed.error());
   const float brightest = brightest_of(*unshadowed);
   if (!(brightest > 0.0f)) return picture_error(capture.unshadowed, "unshadowed", "is black all over");
@@ -184,13 +193,12 @@ Expected<void> read_ratio(const Capture& capture, CapturedPictures& out) {
       out.visibility.data[i] = std::clamp(sum(shadowed->data[i]) / light, 0.0f, 1.0f);
   }
   count_differences(*shadowed, *unshadowed, out);
-  out.ratio = true;
-  out.color = std::move(*shadowed);
+  out.ratio = true, out.eight_bits = has_eight_bits(*shadowed) && has_eight_bits(*unshadowed);
+  out.color = std::move(*shadowed), out.unshadowed = std::move(*unshadowed);
   return {};
 }
 
-/// Divides out what else darkens the picture. Where that leaves next to nothing the picture does not tell.
-Expected<void> divide_out(const Capture& capture, CapturedPictures& out) {
+Expected<void> read_also(const Capture& capture, CapturedPictures& out) {
   ImageSize size = capture.size;
   const auto also = read_single_channel(capture, capture.also, "also", visibility_names, size);
   if (!also) return fail(also.error());
@@ -200,12 +208,9 @@ Expected<void> divide_out(const Capture& capture, CapturedPictures& out) {
     return picture_error(
         capture.also, "also",
         fmt::format("values beyond their range (got {:.4g} to {:.4g}, allowed 0 to 1)", *low, *high));
-  for (std::size_t i = 0; i < out.visibility.data.size(); ++i) {
-    const bool tells = also->values[i] >= least_also;
-    if (!tells) out.reached.data[i] = 0;
-    float& v = out.visibility.data[i];
-    v = tells ? std::min(1.0f, v / also->values[i]) : 1.0f;
-  }
+  out.also = Image<float>(capture.size);
+  out.also.data = also->values;
+  divide_by_also(out);
   return {};
 }
 
@@ -321,12 +326,21 @@ Expected<CapturedPictures> read_pictures(const Capture& capture, bool orthograph
   const auto read = capture.visibility.empty() ? read_ratio(capture, out) : read_visibility(capture, out);
   if (!read) return fail(read.error());
   if (!capture.also.empty())
-    if (const auto divided = divide_out(capture, out); !divided) return fail(divided.error());
+    if (const auto also = read_also(capture, out); !also) return fail(also.error());
   if (!capture.position.empty())
     if (const auto positions = read_positions(capture, out); !positions) return fail(positions.error());
   if (capture.depth)
     if (const auto depths = read_depths(capture, orthographic, out); !depths) return fail(depths.error());
   return out;
+}
+
+void divide_by_also(CapturedPictures& out) {
+  for (std::size_t i = 0; i < out.also.data.size(); ++i) {
+    const bool tells = out.also.data[i] >= least_also;
+    if (!tells) out.reached.data[i] = 0;
+    float& v = out.visibility.data[i];
+    v = tells ? std::min(1.0f, v / out.also.data[i]) : 1.0f;
+  }
 }
 
 Expected<Channel> read_layer_numbers(const Capture& capture, std::size_t layer, ImageSize& size) {

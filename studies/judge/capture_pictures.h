@@ -15,10 +15,14 @@ struct CapturedPictures {
   Image<std::uint8_t> reached;  ///< 1 where the light arrives without shadows, as far as the pictures tell
   /// 1 where something was drawn. Empty: the pictures do not tell.
   Image<std::uint8_t> drawn;
-  bool ratio = false;  ///< visibility is shadowed over unshadowed
+  bool ratio = false;        ///< visibility is shadowed over unshadowed
+  bool other_light = false;  ///< of a ratio: both pictures hold light of something else (other_light.h)
+  bool eight_bits = false;   ///< of a ratio: all numbers are multiples of 1/255
   /// Counts, for a ratio, pixels where the picture with shadows is clearly brighter or darker than the one without.
   std::size_t brighter = 0, darker = 0;
-  ColorImage color;  ///< linear; grey where the capture has no colours
+  ColorImage color;  ///< linear; grey where the capture has no colours; of a ratio the picture with shadows
+  ColorImage unshadowed;  ///< of a ratio
+  Image<float> also;      ///< what else darkens the picture; empty: nothing
   /// Depth along the camera's forward axis or distance, whichever the capture gives, or positions; one of
   /// them or none is not empty. 0 where nothing was drawn.
   Image<Vec3> position;
@@ -39,6 +43,9 @@ Expected<ImageSize> layer_size(const Capture& capture, std::size_t layer);
 /// than wanted, or with values that are not finite or not in their range. `orthographic`: the camera, whose depth buffer goes
 /// evenly from near to far.
 Expected<CapturedPictures> read_pictures(const Capture& capture, bool orthographic);
+
+/// Divides the visibility by what else darkens the picture. Where that leaves next to nothing the picture does not tell.
+void divide_by_also(CapturedPictures& pictures);
 
 /// All channels of a layer's picture.
 Expected<ChannelImage> read_layer(const Capture& capture, std::size_t layer);

@@ -94,9 +94,13 @@ std::string CaptureReader::name_or_place(const JsonNode& node) {
 }
 
 void CaptureReader::read_renderer(const JsonNode& node) {
-  const JsonObject object(node, {"name", "version", "settings"});
+  const JsonObject object(node, {"name", "version", "kind", "settings"});
   if (const auto name = object.require("name")) out_.renderer = text(*name);
   out_.version = object.string("version");
+  if (const auto kind = object.find("kind")) {
+    since_2(*kind, "kind");
+    out_.kind = static_cast<RendererKind>(kind->as_choice(choices(renderer_kind_names)));
+  }
   const auto settings = object.find("settings");
   if (!settings) return;
   if (!settings->is(JsonValue::Type::object)) settings->wrong("wrong type", "an object");

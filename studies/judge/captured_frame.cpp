@@ -6,6 +6,7 @@
 #include "compare/truth/texel_groups.h"
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
+#include "studies/judge/captured_moments.h"
 #include "studies/judge/stored_depths.h"
 
 namespace gnomon::compare {
@@ -24,24 +25,52 @@ raster::MapOptions map_options(const Capture& capture, int size) {
   map.filter.blur_radius_texels = static_cast<int>(std::ceil(filter.radius_texels - 0.5));
   map.filter.receiver_plane = map.filter.mipmaps = false;
   map.filter.light_bleeding_reduction = 0.0;
+  if (!reads_moments(capture)) return map;
+  const raster::FilterOptions said = moments_of(capture).filter;
+  map.filter.light_bleeding_reduction = said.light_bleeding_reduction;
+  map.filter.esm_exponent = said.esm_exponent, map.filter.moment_bias = said.moment_bias;
+  map.filter.evsm_positive_exponent = said.evsm_positive_exponent;
+  map.filter.evsm_negative_exponent = said.evsm_negative_exponent;
   return map;
 }
 
-/// World units of distance that 1 of a stored number counts for, at the middle of the receivers.
-double unit_world(const raster::ShadowMap& map, const raytrace::RayTracedFrame& traced) {
+/// Of the filter's settings by name those that the capture says; what is not said is the schema's default.
+std::vector<std::string_view> said_settings(const Capture& capture) {
+  if (!capture.filter) return {};
+  const CapturedFilter& filter = *capture.filter;
+  std::vector<std::string_view> said{"filter-radius", "search-radius", "blur-radius"};
+  if (!reads_moments(capture)) return said;
+  said.insert(said.end(), {"bleeding-reduction", "esm-exponent", "evsm-exponent", "moment-bias"});
+  if (filter.exponents.size() > 1) said.emplace_back("evsm-negative-exponent");
+  return said;
+}
+
+using UnitAt = raster::CapturedTest::UnitAt;
+
+/// World units of distance that 1 of a stored depth counts for: at the nearest, the middle and the farthest receiver.
+std::array<UnitAt, 3> units_of_depth(const raster::ShadowMap& map, const raytrace::RayTracedFrame& traced) {
   const LightView& view = map.view;
-  if (view.projection == LightProjection::orthographic)
-    return view.face(0).far_depth - view.face(0).near_depth;
+  const double n = view.face(0).near_depth, f = view.face(0).far_depth;
+  std::array<UnitAt, 3> out;
+  if (view.projection == LightProjection::orthographic) {
+    out.fill({n, f - n});
+    return out;
+  }
   std::vector<double> depths;
-  for (std::size_t i = 0; i < traced.receiver.data.size(); i += 61)
-    if (traced.receiver.data[i].primitive != no_id)
-      depths.push_back(project_to_texel(view, traced.receiver.data[i].position).depth);
-  if (depths.empty()) return 1.0;
+  double nearest = infinity, farthest = n;
+  for (std::size_t i = 0; i < traced.receiver.data.size(); i += 61) {
+    if (traced.receiver.data[i].primitive == no_id) continue;
+    const TexelCoordinate at = project_to_texel(view, traced.receiver.data[i].position);
+    depths.push_back(std::max(at.depth, n));
+    if (!at.inside || at.depth > f) continue;
+    nearest = std::min(nearest, depths.back()), farthest = std::max(farthest, depths.back());
+  }
+  if (depths.empty()) return out;
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
-  const double z = std::max(*middle, view.face(0).near_depth);
-  const double n = view.face(0).near_depth, f = view.face(0).far_depth;
-  return z * z * (f - n) / (n * f);
+  const std::array<double, 3> at{std::min(nearest, farthest), *middle, farthest};
+  for (std::size_t i = 0; i < at.size(); ++i) out[i] = {at[i], at[i] * at[i] * (f - n) / (n * f)};
+  return out;
 }
 
 raster::BiasRounding rounding_of(const LightView& view, const World& world) {
@@ -148,7 +177,11 @@ void fill_test(const FrameInput& in, const CapturedMap& map, raster::CapturedTes
   test.stores = map.stored == StoredDepth::linear_z ? Stores::linear_z
                 : is_linear(map.stored)             ? Stores::distances
                                                     : Stores::depths;
-  test.unit_world = test.stores == Stores::depths ? unit_world(record.map, in.traced) : map.unit_world;
+  test.units.fill({0.0, map.unit_world}), test.unit_world = map.unit_world;
+  if (test.stores == Stores::depths) {
+    const std::array<UnitAt, 3> units = units_of_depth(record.map, in.traced);
+    test.units = {units.front(), units.back()}, test.unit_world = units[1].world;
+  }
   test.parts = map.parts;
   if (in.capture.filter) test.read = in.capture.filter->read;
   test.moments = map.moments;
@@ -171,7 +204,7 @@ void fill_test(const FrameInput& in, const CapturedMap& map, raster::CapturedTes
 void fill_light(const FrameInput& in, const CapturedMap* captured, raster::RasterFrame& frame,
                 raster::LightRecord& record) {
   raster::MapOptions& map = frame.options.map;
-  record.captured.emplace();
+  record.captured.emplace().said = said_settings(in.capture);
   record.texel_world = raster::texel_world(record.map.view, in.world);
   record.rounding = rounding_of(record.map.view, in.world);
   record.rounding_world = raster::rounding_world(record.rounding, record.map.view, in.world);

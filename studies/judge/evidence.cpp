@@ -25,12 +25,11 @@ bool tells_drawn(const CapturedPictures& pictures) {
   return !pictures.drawn.data.empty() || pictures.ratio;
 }
 
-/// Irradiance of what faces the light; 0 else.
-double light_on(const Light& light, const raytrace::SurfacePoint& point) {
-  const LightAtPoint at = light_at(light, point.position);
-  const double most = std::max({at.irradiance.x, at.irradiance.y, at.irradiance.z});
-  return most * std::max(0.0, glm::dot(point.normal, at.to_light));
-}
+/// Of a ratio that holds other light: pairs of neighbours that are looked at, and by how much of the brightest two colours
+/// differ at an edge. Lit by a third of the brightest light and not lit at all are two colours.
+constexpr std::size_t most_neighbours = 16000;
+constexpr float edge_of_brightest = 0.03f;
+constexpr double clearly_lit = 1.0 / 3.0;
 
 struct Tally {
   std::size_t agree = 0, count = 0;
@@ -45,7 +44,8 @@ struct Tally {
 };
 
 struct Tallies {
-  Tally places, depths, border, lit, shadowed;
+  Tally places, depths, border, lit, shadowed, edges;
+  std::size_t border_seen = 0;  // of the border's samples those where Gnomon sees something
   float darkest = 1.0f, lightest = 0.0f;
 
   void show(float visibility) {
@@ -53,6 +53,7 @@ struct Tallies {
   }
   Tallies& operator+=(const Tallies& o) {
     places += o.places, depths += o.depths, border += o.border, lit += o.lit, shadowed += o.shadowed;
+    edges += o.edges, border_seen += o.border_seen;
     darkest = std::min(darkest, o.darkest), lightest = std::max(lightest, o.lightest);
     return *this;
   }
@@ -66,10 +67,13 @@ class Gatherer {
     if (suspect.view) sight_.view = *suspect.view;
     light_ = in.tracer.world().scene->lights[in.light];
     if (suspect.light_turned) light_.direction = -light_.direction;
+    for (const Vec3f& c : in.pictures.unshadowed.data)
+      least_edge_ = std::max(least_edge_, edge_of_brightest * (c.x + c.y + c.z));
   }
 
   void grid(std::uint32_t pixel, Tallies& out) const;
   void border(std::uint32_t pixel, Tallies& out) const;
+  void neighbours(std::pair<std::uint32_t, std::uint32_t> pixels, Tallies& out) const;
 
  private:
   struct Shown {
@@ -96,6 +100,7 @@ class Gatherer {
   Sight sight_;
   Light light_;
   double brightest_;
+  float least_edge_ = 0.0f;
 };
 
 Gatherer::Shown Gatherer::look(std::uint32_t pixel) const {
@@ -167,8 +172,26 @@ void Gatherer::border(std::uint32_t pixel, Tallies& out) const {
   const bool masked = !in_.pictures.drawn.data.empty();
   if (!masked && hit && is_faint(shown.point, reached)) return;
   const bool captured = masked ? drawn(pixel) : in_.pictures.reached.data[pixel] != 0;
+  const bool seen = masked ? hit : reached;
   ++out.border.count;
-  out.border.agree += captured == (masked ? hit : reached) ? 1 : 0;
+  out.border_seen += seen ? 1 : 0;
+  out.border.agree += captured == seen ? 1 : 0;
+}
+
+/// Where the scene has a silhouette against its background, or a lit surface beside an unlit one, the picture without
+/// shadows has an edge.
+void Gatherer::neighbours(std::pair<std::uint32_t, std::uint32_t> pixels, Tallies& out) const {
+  const Shown a = look(pixels.first), b = look(pixels.second);
+  const bool hit_a = a.point.primitive != no_id, hit_b = b.point.primitive != no_id;
+  if (hit_a == hit_b) {
+    if (!hit_a) return;
+    const auto [less, more] = std::minmax(light_on(light_, a.point), light_on(light_, b.point));
+    if (less > 0.0 || more < clearly_lit * brightest_) return;
+  }
+  const Vec3f difference =
+      glm::abs(in_.pictures.unshadowed.data[pixels.first] - in_.pictures.unshadowed.data[pixels.second]);
+  ++out.edges.count;
+  out.edges.agree += difference.x + difference.y + difference.z > least_edge_ ? 1 : 0;
 }
 
 template <class Is>
@@ -195,7 +218,23 @@ void thin_out(std::vector<std::uint32_t>& pixels) {
   pixels.resize(most_samples);
 }
 
+/// Neighbours along whole rows and whole columns, both spread evenly.
+void add_neighbours(const ImageSize& size, std::vector<std::pair<std::uint32_t, std::uint32_t>>& out) {
+  const auto w = static_cast<std::uint32_t>(size.width), h = static_cast<std::uint32_t>(size.height);
+  const auto step = static_cast<std::uint32_t>(2 * size.pixels() / most_neighbours + 1);
+  for (std::uint32_t y = step / 2; y < h; y += step)
+    for (std::uint32_t x = 0; x + 1 < w; ++x) out.emplace_back(y * w + x, y * w + x + 1);
+  for (std::uint32_t x = step / 2; x < w; x += step)
+    for (std::uint32_t y = 0; y + 1 < h; ++y) out.emplace_back(y * w + x, (y + 1) * w + x);
+}
+
 }  // namespace
+
+double light_on(const Light& light, const raytrace::SurfacePoint& point) {
+  const LightAtPoint at = light_at(light, point.position);
+  const double most = std::max({at.irradiance.x, at.irradiance.y, at.irradiance.z});
+  return most * std::max(0.0, glm::dot(point.normal, at.to_light));
+}
 
 Samples choose_samples(const EvidenceInput& in, const raytrace::RayTracedFrame& frame) {
   Samples out;
@@ -210,6 +249,10 @@ Samples choose_samples(const EvidenceInput& in, const raytrace::RayTracedFrame& 
   for (const std::uint32_t i : out.grid)
     if (frame.receiver.data[i].primitive != no_id)
       out.brightest = std::max(out.brightest, light_on(light, frame.receiver.data[i]));
+  if (!masked && in.pictures.other_light) {
+    add_neighbours(in.pictures.reached.size, out.neighbours);
+    return out;
+  }
   const Image<std::uint8_t>& captured = masked ? in.pictures.drawn : in.pictures.reached;
   add_border(
       captured.size, [&](std::size_t i) { return captured.data[i] != 0; }, out.border);
@@ -227,21 +270,30 @@ Samples choose_samples(const EvidenceInput& in, const raytrace::RayTracedFrame& 
 Evidence gather(const EvidenceInput& in, const Samples& samples, const Suspect& suspect) {
   const Gatherer gatherer(in, suspect, samples.brightest);
   constexpr std::size_t block = 512;
-  const std::size_t count = samples.grid.size() + samples.border.size();
+  const std::size_t outlines = samples.grid.size() + samples.border.size();
+  const std::size_t count = outlines + samples.neighbours.size();
   std::vector<Tallies> parts((count + block - 1) / block);
   parallel_for(parts.size(), [&](std::size_t p) {
     for (std::size_t i = p * block; i < std::min(count, (p + 1) * block); ++i) {
       if (i < samples.grid.size())
         gatherer.grid(samples.grid[i], parts[p]);
-      else
+      else if (i < outlines)
         gatherer.border(samples.border[i - samples.grid.size()], parts[p]);
+      else
+        gatherer.neighbours(samples.neighbours[i - outlines], parts[p]);
     }
   });
   Tallies sum;
   for (const Tallies& part : parts) sum += part;
   Evidence out;
   out.positions = sum.places.share(), out.depths = sum.depths.share();
-  if (sum.border.count >= least_border) out.silhouettes = sum.border.share();
+  const Tally& outline = samples.neighbours.empty() ? sum.border : sum.edges;
+  out.outlines = outline.count;
+  if (outline.count >= least_border) out.silhouettes = outline.share();
+  if (sum.border.count > 0) {
+    const double seen = static_cast<double>(sum.border_seen) / static_cast<double>(sum.border.count);
+    out.least_kind = std::min(seen, 1.0 - seen);
+  }
   out.lit = sum.lit.count, out.shadowed = sum.shadowed.count;
   out.darkest = sum.darkest, out.lightest = sum.lightest;
   // Half for the lit ones and half for the shadowed, however few they are.

@@ -15,10 +15,14 @@ struct EvidenceInput {
   const LightView* map = nullptr;  ///< shadows are asked of places within it alone; null: everywhere
 };
 
+/// Irradiance of what faces the light; 0 else.
+double light_on(const Light& light, const raytrace::SurfacePoint& point);
+
 /// Pixels of the capture, by index: a grid over it, and the borders of what was drawn (by the capture, and by
-/// Gnomon, as it is).
+/// Gnomon, as it is). Of a ratio that holds other light, in which nothing is black, neighbours on rows and columns.
 struct Samples {
   std::vector<std::uint32_t> grid, border;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;
   double brightest = 0.0;  ///< irradiance on the grid's surfaces
 };
 Samples choose_samples(const EvidenceInput& input, const raytrace::RayTracedFrame& frame);
@@ -26,7 +30,11 @@ Samples choose_samples(const EvidenceInput& input, const raytrace::RayTracedFram
 /// Shares in [0, 1]; none where the capture does not tell.
 struct Evidence {
   std::optional<double> positions, depths, silhouettes, visibility;
-  std::size_t lit = 0, shadowed = 0;      ///< samples of visibility
+  std::size_t lit = 0, shadowed = 0;  ///< samples of visibility
+  /// Of silhouettes: samples, and the lesser share of those that Gnomon sees as something and those as nothing. A view in
+  /// which all are something, or of few silhouettes, agrees with any picture.
+  std::size_t outlines = 0;
+  double least_kind = 0.5;
   float darkest = 1.0f, lightest = 0.0f;  ///< of the picture at these
 
   /// By positions, depths or silhouettes, the first that there is: its name and share.

@@ -14,7 +14,9 @@
 #include "studies/judge/caster_bias.h"
 #include "studies/judge/described_test.h"
 #include "studies/judge/map_content.h"
+#include "studies/judge/other_light.h"
 #include "studies/judge/own_test.h"
+#include "studies/judge/traced_rays.h"
 #include "studies/tune/engines.h"
 
 namespace gnomon::compare {
@@ -116,6 +118,18 @@ void undo_strength(Judging& in, const raytrace::RayTracedFrame& traced, Judged& 
   stretch_to_full_shadow(1.0 - *capture.strength, visibility);
 }
 
+/// Of a ratio that holds other light: the visibility that is in it. With a strength that the capture says the ratio is
+/// enough.
+Expected<void> undo_rest(Judging& in, const raytrace::RayTracedFrame& traced, Judged& judged) {
+  if (!in.pictures.other_light || in.capture.strength) return {};
+  const auto found = undo_other_light(in.capture, in.scene.lights[in.light], traced, in.pictures);
+  if (!found) return fail(found.error());
+  judged.other_light = *found;
+  if (!judged.other_light) return {};
+  for (std::string& note : other_light_notes(*judged.other_light)) judged.notes.push_back(std::move(note));
+  return {};
+}
+
 /// A strength of the shadow is undone before anything is measured, as the capture says it, or as the test finds it.
 Expected<bool> believe_own_test(Judging& in, const Comparison& c, Judged& judged) {
   undo_strength(in, c.raytraced, judged);
@@ -136,10 +150,13 @@ Expected<void> trace_truth(Judging& in, Comparison& out, Judged& judged) {
   options.size = in.capture.size;
   in.sight.view = make_view(in.scene.camera, in.capture.size);
   out.raytraced = raytrace::trace_frame(in.tracer, out.plan, in.scene.camera, {&in.light, 1}, options);
+  if (in.pictures.ratio)
+    in.pictures.other_light = holds_other_light(in.pictures, out.raytraced, in.scene.lights[in.light]);
   const auto geometry = align_geometry(align_input(in, out), in.scene, in.sight, in.pictures, judged);
   if (!geometry) return fail(geometry.error());
   if (const auto late = read_late_map(in, geometry->place_from_captured, out, judged); !late) return late;
   trace_again(in, options, *geometry, out);
+  if (const auto undone = undo_rest(in, out.raytraced, judged); !undone) return undone;
   const auto believed = believe_own_test(in, out, judged);
   if (!believed) return fail(believed.error());
   AlignInput shadows = align_input(in, out);
@@ -182,6 +199,7 @@ Judged describe_capture(const Capture& capture, const TunedEngine* engine) {
   judged.has_map = !capture.map.empty();
   judged.has_positions = !capture.position.empty() || capture.depth.has_value();
   judged.of_ratio = capture.visibility.empty();
+  judged.traces = capture.kind == RendererKind::ray_tracer;
   return judged;
 }
 
@@ -199,7 +217,7 @@ void finish(Judging& in, Comparison& out) {
   if (judged->has_map) {
     const raster::LightRecord& record = out.raster.lights.front();
     judged->biased_is_drawn = biased_is_drawn(light);
-    judged->unit_world = record.captured->test->unit_world;
+    judged->unit_world = record.captured->test->unit_world, judged->units = record.captured->test->units;
     const FrameInput frame = frame_input(in, out);
     const auto note = [&](std::vector<std::string> notes) {
       for (std::string& one : notes) judged->notes.push_back(std::move(one));
@@ -218,9 +236,17 @@ void finish(Judging& in, Comparison& out) {
       judged->advice =
           give_advice(frame, out.raster, light, in.casters,
                       other && other->of_constant ? other->constant_world : record.bias_constant_world);
-    for (Advice& advice : judged->advice)
+    for (Advice& advice : judged->advice) {
+      if (advice.unit == "stored depth") advice.units = judged->units;
+      if (advice.with && advice.with->unit == "stored depth") advice.with->units = judged->units;
       advice.in_engine =
           settings_in_engine(judged->engine, advice, in.scene.lights[in.light].type, record, in.world);
+    }
+  }
+  if (judged->traces) {
+    const TracedFinding found = label_traced_rays(frame_input(in, out), light);
+    for (std::string& one : traced_notes(found)) judged->notes.push_back(std::move(one));
+    judged->next = traced_advice(found, light);
   }
   if (!judged->has_map) forget_texels(light);
   out.judged = std::move(judged);

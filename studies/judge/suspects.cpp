@@ -228,6 +228,7 @@ void undo(const Suspect& suspect, CapturedPictures& pictures, Sight& sight) {
   flip(suspect.flip_x, suspect.flip_y, pictures.visibility);
   flip(suspect.flip_x, suspect.flip_y, pictures.reached);
   flip(suspect.flip_x, suspect.flip_y, pictures.color);
+  flip(suspect.flip_x, suspect.flip_y, pictures.unshadowed);
   if (!suspect.visibility_only) {
     flip(suspect.flip_x, suspect.flip_y, pictures.drawn);
     flip(suspect.flip_x, suspect.flip_y, pictures.position);

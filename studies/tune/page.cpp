@@ -75,10 +75,9 @@ void add_line(const FamilyResult& family, std::size_t place, Json& list) {
   const Attempt& a = family.attempt();
   if (a.curve.size() < 2 || !(a.texel_world > 0.0)) return;
   Json texels = Json::array(), shares = Json::array();
-  const auto compared = static_cast<double>(std::max<std::uint64_t>(a.compared, 1));
   for (const BiasCurvePoint& p : a.curve) {
     texels.push_back(number(p.bias / a.texel_world));
-    shares.push_back(number(static_cast<double>(p.false_shadow + p.missed_shadow) / compared));
+    shares.push_back(number(p.wrong_fraction));
   }
   list.push_back({{"family", place},
                   {"size", a.size},

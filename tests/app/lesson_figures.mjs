@@ -16,7 +16,7 @@ const until = (page, id, key, value) => page.waitForFunction(([i, k, v]) => docu
 export const operate = {
   async bias(page, figure, id, program) {
     const light = result(program, figure), said = page.locator(`${id} .bias-counts`);
-    for (const { bias, bias_texels: _, ...wanted } of [3, 17, 60].map((i) => light.bias_curve[i])) {
+    for (const { bias, bias_texels: _, wrong_fraction: __, ...wanted } of [3, 17, 60].map((i) => light.bias_curve[i])) {
       await page.locator(`${id} input[type=number]`).fill(String(bias));
       await page.keyboard.press("Enter");
       await page.waitForFunction(([i, b]) => document.querySelector(`${i} .bias-counts`).dataset.bias === b, [id, String(bias)]);

@@ -205,6 +205,7 @@ TEST(BestBias, EqualsBruteForce) {
     }
     std::sort(gaps.lit.begin(), gaps.lit.end());
     std::sort(gaps.shadowed.begin(), gaps.shadowed.end());
+    gaps.ties = next() % 3;
     std::uint64_t least = 1000;
     for (double b = 0.0; b < 20.0; b += 0.5) {
       std::uint64_t wrong = 0;
@@ -212,9 +213,13 @@ TEST(BestBias, EqualsBruteForce) {
       for (const float g : gaps.shadowed) wrong += !(g > static_cast<float>(b));
       const BiasCurvePoint point = gaps.at(b);
       EXPECT_EQ(point.false_shadow + point.missed_shadow, wrong);
+      EXPECT_DOUBLE_EQ(point.wrong_fraction,
+                       (double(wrong) + 0.5 * double(gaps.ties)) / double(gaps.count()));
       least = std::min(least, wrong);
     }
-    EXPECT_DOUBLE_EQ(find_best_bias(gaps).wrong_fraction, double(least) / 24.0);
+    const BestBias best = find_best_bias(gaps);
+    EXPECT_DOUBLE_EQ(best.wrong_fraction, (double(least) + 0.5 * double(gaps.ties)) / double(gaps.count()));
+    EXPECT_DOUBLE_EQ(best.wrong_fraction, gaps.at(best.constant_world).wrong_fraction);
   }
 }
 

@@ -73,9 +73,8 @@ EXERCISES = {
     "a file format": [  # nine numbers a line, a triangle
         ("scene/files/formats.h", "Expected<LoadedFile> read_ply(", BEFORE,
          "Expected<LoadedFile> read_tri(std::string_view text, const std::string& file, const LoadOptions& options);\n"),
-        ("scene/files/load.cpp", '".json .gltf .glb .obj .ply ', AFTER, ".tri "),
-        ("scene/files/load.cpp", '  if (extension == ".ply") return read_ply(bytes, path);\n', AFTER,
-         '  if (extension == ".tri") return read_tri(bytes, path, options);\n'),
+        ("scene/files/load.cpp", '    {{".ply"}, [](In in) { return read_ply(in.bytes, in.path); }},\n', AFTER,
+         '    {{".tri"}, [](In in) { return read_tri(in.bytes, in.path, in.options); }},\n'),
         ("scene/files/files.cmake", "files/ply/ply.cpp", AFTER, " files/tri.cpp"),
         ("scene/files/tri.cpp", None, None,
          '// Triangles as nine numbers each, separated by blanks.\n#include <sstream>\n\n#include "scene/files/formats.h"\n\nnamespace gnomon {\n\n'

@@ -112,5 +112,25 @@ TEST_F(Gltf, HiddenNodesAreNotShown) {
   EXPECT_EQ(loaded(b).instances.size(), 1u);
 }
 
+TEST_F(Gltf, ALightThatIsNotUsedIsNotDenied) {
+  Builder b = simple();
+  b.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({{{"type", "directional"}}});
+  b.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  const std::size_t node = b.json["nodes"].size() - 1;
+  const auto says = [&](const std::string& why) {
+    const Scene scene = loaded(b);
+    EXPECT_FALSE(test::has_note(scene, "the file has none")) << why;
+    return test::has_note(scene, "Made, as " + why);
+  };
+  EXPECT_TRUE(says("no node that is shown has one of the file's lights"));
+  b.json["scenes"][0]["nodes"].push_back(node);
+  EXPECT_EQ(loaded(b).lights[0].name.find("sun"), std::string::npos) << "it is used";
+  b.json["nodes"][node]["extensions"]["KHR_node_visibility"]["visible"] = false;
+  EXPECT_TRUE(says("the file hides its lights"));
+  b.json["nodes"][node]["extensions"].erase("KHR_node_visibility");
+  b.json["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] = "laser";
+  EXPECT_TRUE(says("none of the file's lights can be used"));
+}
+
 }  // namespace
 }  // namespace gnomon::gltf_test

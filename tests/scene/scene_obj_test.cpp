@@ -142,6 +142,17 @@ TEST(Obj, FullTransparencyIsReadAsOpaque) {
   EXPECT_TRUE(test::has_note(*scene, "Material 'meshlab': Tr 1 is read as opaque"));
 }
 
+TEST(Obj, AMaterialThatIsNowhereIsSoughtInNamedFiles) {
+  const TemporaryFolder folder;
+  folder.put("a.mtl", "newmtl red\nKd 1 0 0\n");
+  const auto scene =
+      load_text(folder, "mtllib a.mtl\n" + std::string(quad) + "usemtl red\nf 1 2 3\nusemtl blue\nf 1 3 4\n");
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_TRUE(test::has_note(*scene, "The material 'blue' is not in a.mtl; its faces are neutral grey."));
+  const auto alone = load_text(folder, std::string(quad) + "usemtl blue\nf 1 2 3\n");
+  EXPECT_TRUE(test::has_note(*alone, "The material 'blue' is named, and no material library was read"));
+}
+
 TEST(Obj, WhatIsSkippedIsNoted) {
   const TemporaryFolder folder;
   const auto scene = load_text(

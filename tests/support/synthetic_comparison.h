@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "compare/comparison.h"
+#include "compare/ladder/budget.h"
 
 namespace gnomon::compare {
 
@@ -196,9 +197,10 @@ inline LightComparison make_light(std::uint32_t index) {
   light.detachment = {133, 0.021, 0.055};
   for (int i = 0; i <= 64; ++i) {
     const double bias = -0.02 + 0.0025 * i;
-    light.bias_curve.push_back(
-        {bias, static_cast<std::uint64_t>(9000.0 / (1.0 + std::exp(120.0 * (bias - 0.02)))),
-         static_cast<std::uint64_t>(4000.0 / (1.0 + std::exp(-60.0 * (bias - 0.08))))});
+    const auto too_dark = static_cast<std::uint64_t>(9000.0 / (1.0 + std::exp(120.0 * (bias - 0.02)))),
+               too_light = static_cast<std::uint64_t>(4000.0 / (1.0 + std::exp(-60.0 * (bias - 0.08))));
+    light.bias_curve.push_back({bias, too_dark, too_light,
+                                wrong_share(too_dark + too_light, light.error.ties, light.pixels.compared)});
   }
   light.best_bias = {0.045, 0.011, false, 0.093, 0.021, 213, 97};
   light.texel_world = {0.041, 0.052, 0.078};

@@ -72,6 +72,23 @@ TEST(ViewStatus, LightsThatTheCommandCannotTurnAreNamed) {
   EXPECT_EQ(other_turned_lights(state), std::vector<std::string>{"sun"});
 }
 
+// Whatever a bias has beside its constant stands in the settings' table, the casters' own bias too.
+TEST(ViewStatus, LineHasEveryPartOfABias) {
+  ViewState state = two_light_state();
+  raster::MapOptions& map = state.setup.map;
+  const raster::MapOptions plain = map;
+  for (const raster::MapSetting& setting : raster::map_settings()) {
+    if (setting.group != raster::SettingGroup::bias || setting.name == "bias") continue;
+    map = plain, map.bias = {0.02, raster::BiasUnit::world};
+    const bool is_switch = std::holds_alternative<raster::SwitchSetting>(setting.kind);
+    ASSERT_TRUE(raster::set_setting(setting, map, is_switch ? "on" : "0.5")) << setting.name;
+    const std::string line = status_line(state, {0.02, 0.01, 12.0, {}}, "fence");
+    std::string title(setting.title);
+    title.front() = static_cast<char>(std::tolower(title.front()));
+    EXPECT_NE(line.find(title), std::string::npos) << setting.name << ": " << line;
+  }
+}
+
 TEST(ViewStatus, LineHasBiasInBothUnitsAndSaysWhatIsStale) {
   ViewState state = two_light_state();
   state.setup.map.bias = {0.02, raster::BiasUnit::world};

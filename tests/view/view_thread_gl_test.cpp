@@ -71,7 +71,8 @@ TEST(FrozenCamera, KeepsTheMapsWhereTheyAre) {
   EXPECT_NE(laid(), own);
 }
 
-// By the labels of the pixels. Nothing can cast a shadow on the acne floor: it shows acne alone.
+// By the labels of the pixels. Nothing can cast a shadow on the acne floor: it shows acne alone. What the wires' filter lets
+// through is blur, and no leak.
 TEST(ViewPresets, ShowTheirArtifactOnEveryScene) {
   for (const std::string scene :
        {"fence", "acne-floor", "floating-box", "thin-wall", "wires", "sphere-plane", "penumbra"}) {
@@ -81,7 +82,10 @@ TEST(ViewPresets, ShowTheirArtifactOnEveryScene) {
     for (const Preset& preset : presets()) {
       const auto shown = shown_by(lab, state, preset);
       const double share = shown_share(preset, shown->outcome->comparison.lights[0]);
-      const bool casts = scene != "acne-floor" || &preset == &presets()[0];
+      const bool is_leak = &preset == &presets()[3];
+      const bool casts =
+          (scene != "acne-floor" || &preset == &presets()[0]) && !(scene == "wires" && is_leak);
+      if (is_leak) EXPECT_EQ(preset.labels.size(), 1u) << "the share said is that of the label in the table";
       EXPECT_EQ(share > (preset.lost_share > 0.0 ? 0.01 : 0.001), casts)
           << preset.title << " on " << scene << ": " << share;
       state.revision += 10;  // the next order is a newer one

@@ -46,21 +46,20 @@ void scale(const Plot& plot, const Ink& ink) {
 }
 
 void line(const Plot& plot, const compare::LightComparison& light, ImU32 ink,
-          std::uint64_t (*count)(const compare::BiasCurvePoint&)) {
+          double (*share)(const compare::BiasCurvePoint&, double compared)) {
+  const auto compared = double(std::max<std::uint64_t>(1, light.pixels.compared));
   std::vector<ImVec2> points;
   for (const compare::BiasCurvePoint& point : light.bias_curve)
-    points.push_back(plot.at(
-        point.bias, double(count(point)) / double(std::max<std::uint64_t>(1, light.pixels.compared))));
+    points.push_back(plot.at(point.bias, share(point, compared)));
   ImGui::GetWindowDrawList()->AddPolyline(points.data(), static_cast<int>(points.size()), ink, 0,
                                           0.13f * ImGui::GetFontSize());
 }
 
 /// The largest share of wrong pixels that the plot shows, so that its curve fills it.
 double most_share(const compare::LightComparison& light) {
-  std::uint64_t most = 1;
-  for (const compare::BiasCurvePoint& point : light.bias_curve)
-    most = std::max(most, point.false_shadow + point.missed_shadow);
-  return 1.05 * double(most) / double(std::max<std::uint64_t>(1, light.pixels.compared));
+  double most = 1.0 / double(std::max<std::uint64_t>(1, light.pixels.compared));
+  for (const compare::BiasCurvePoint& point : light.bias_curve) most = std::max(most, point.wrong_fraction);
+  return 1.05 * most;
 }
 
 /// `line`: of the words above the curves, from below.
@@ -114,9 +113,11 @@ void curve_panel(PanelContext& context) {
   draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, context.ink.paper);
   draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   scale(plot, context.ink);
-  line(plot, light, context.ink.text, [](const auto& p) { return p.false_shadow + p.missed_shadow; });
-  line(plot, light, colour(compare::missed_shadow_colour), [](const auto& p) { return p.missed_shadow; });
-  line(plot, light, colour(compare::false_shadow_colour), [](const auto& p) { return p.false_shadow; });
+  line(plot, light, context.ink.text, [](const auto& p, double) { return p.wrong_fraction; });
+  line(plot, light, colour(compare::missed_shadow_colour),
+       [](const auto& p, double compared) { return double(p.missed_shadow) / compared; });
+  line(plot, light, colour(compare::false_shadow_colour),
+       [](const auto& p, double compared) { return double(p.false_shadow) / compared; });
   mark(plot, light.best_bias.constant_world, context.ink.good, "best", 1);
   mark(plot, context.shown.live.bias_world, context.ink.accent, "now", 0);
   draw.PopClipRect();

@@ -148,7 +148,7 @@ struct RowControl {
     if (!constant.may_be_automatic) return casters_constant(constant, live.texel_world);
     title_of(row, "texels");
     double texels = bias_texels(map.bias, live.bias_world, live.texel_world);
-    bool changed = slider(Note(row), texels, 0.0, 10.0, false);
+    bool changed = slider(Note(row), texels, constant.slider.min, constant.slider.max, false);
     if (changed) set_bias_texels(map.bias, texels, live.texel_world);
     faint(fmt::format("= {:.4g} world units along the ray", live.bias_world));
     changed |= unit();
@@ -161,7 +161,7 @@ struct RowControl {
     const bool in_texels = unit == raster::BiasUnit::texel;
     title_of(row, "texels");
     double texels = in_texels || !(texel_world > 0.0) ? value : value / texel_world;
-    if (!slider(Note(row), texels, 0.0, 10.0, false)) return false;
+    if (!slider(Note(row), texels, constant.slider.min, constant.slider.max, false)) return false;
     value = texels, unit = raster::BiasUnit::texel;
     return true;
   }
@@ -401,9 +401,7 @@ std::uint32_t colour(const glm::u8vec3& c) {
 void settings_panel(PanelContext& context) {
   raster::MapOptions map = context.state.setup.map;
   bool changed = technique(context, map);
-  using Group = raster::SettingGroup;
-  for (const Group of : {Group::map, Group::bias, Group::filter, Group::cascades, Group::window})
-    changed |= group(context, map, of);
+  for (const raster::SettingGroup of : raster::panel_groups) changed |= group(context, map, of);
   if (changed && raster::check_map_options(map)) context.ask(Change{SetMap{map}});
   lights(context);
   film(context);

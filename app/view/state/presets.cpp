@@ -27,7 +27,7 @@ using compare::Label;
 constexpr Label acne_labels[] = {Label::acne, Label::stored_depth};
 constexpr Label panning_labels[] = {Label::peter_panning};
 constexpr Label aliasing_labels[] = {Label::aliasing, Label::missed_feature, Label::false_feature};
-constexpr Label leak_labels[] = {Label::light_leak, Label::blur};
+constexpr Label leak_labels[] = {Label::light_leak};
 
 constexpr Preset preset_table[] = {
     {"Show acne", "no bias at all: surfaces shadow themselves, in stripes that follow the texels",

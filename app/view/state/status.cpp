@@ -9,23 +9,20 @@
 #include "app/options/options.h"
 #include "app/options/values.h"
 #include "compare/result/number_text.h"
+#include "compare/result/option_names.h"
 #include "raster/settings.h"
 
 namespace gnomon::app {
 
 namespace {
 
-std::string bias_words(const raster::Bias& bias, const Readings& readings) {
+std::string bias_words(const raster::MapOptions& map, const Readings& readings) {
+  const raster::Bias& bias = map.bias;
   const double texels = bias.unit == raster::BiasUnit::texel ? bias.constant
                         : readings.texel_world > 0.0         ? readings.bias_world / readings.texel_world
                                                              : 0.0;
-  std::string text = fmt::format("bias {:.4g} = {:.4g} texel", readings.bias_world, texels);
-  if (bias.slope != 0.0) text += fmt::format(" + {:.4g} slope", bias.slope);
-  if (bias.normal_offset_texels != 0.0)
-    text += fmt::format(", normal offset {:.4g} texel", bias.normal_offset_texels);
-  if (bias.receiver_plane) text += ", receiver plane";
-  if (bias.adaptive) text += ", adaptive bias";
-  return text;
+  return fmt::format("bias {:.4g} = {:.4g} texel", readings.bias_world, texels) +
+         compare::beside_constant(map);
 }
 
 std::string compared_words(const std::optional<Readings::Compared>& compared) {
@@ -89,7 +86,7 @@ std::string status_line(const ViewState& state, const Readings& readings, const 
   std::string text = fmt::format("{} | {}", scene, picture_name(state.picture));
   if (state.given.lights.size() > 1) text += fmt::format(" | {}", state.light_name());
   text += fmt::format(" | {} {}² | {}", raster::technique_name(state.setup.map.technique),
-                      state.setup.map.size, bias_words(state.setup.map.bias, readings));
+                      state.setup.map.size, bias_words(state.setup.map, readings));
   if (state.setup.map_camera) text += " | map's camera frozen";
   return text + fmt::format(" | live {} | {}", compare::milliseconds(readings.raster_ms),
                             compared_words(readings.compared));

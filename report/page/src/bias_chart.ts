@@ -37,12 +37,12 @@ function biasTicks(scale: Scale, unit: number, below: number, name: string): Mar
 const axes = (scale: Scale, texel: number): Markup => markup`${niceTicks(0, scale.most, 4).map((v) => markup`<line class="grid" x1="${left}" x2="${plotRight}" y1="${fixed(scale.y(v))}" y2="${
   fixed(scale.y(v))}"/>${label(left - 8, scale.y(v) + 4, "tick end", `${general(100 * v, 3)} %`)}`)}${biasTicks(scale, 1, 20, "bias, world units")}${texel > 0 && biasTicks(scale, texel, 46, "bias, texels")}`;
 
-type Curve = readonly [kind: string, name: string, count: (p: BiasPoint) => number];
-const curves: readonly Curve[] = [["total", "all wrong", (p) => p.false_shadow + p.missed_shadow], ["false", "false shadow", (p) => p.false_shadow], ["missed", "missed shadow", (p) => p.missed_shadow]];
+type Curve = readonly [kind: string, name: string, share: (p: BiasPoint, compared: number) => number];
+const curves: readonly Curve[] = [["total", "all wrong", (p) => p.wrong_fraction], ["false", "false shadow", (p, compared) => p.false_shadow / compared], ["missed", "missed shadow", (p, compared) => p.missed_shadow / compared]];
 
 // Names at the curves' right ends, moved apart so that they do not overlap.
 function curveNames(last: BiasPoint, scale: Scale, compared: number): Markup {
-  const names = [curves[0]!, curves[2]!, curves[1]!].map(([kind, name, count]) => ({ kind, name, y: scale.y(count(last) / compared) })).sort((a, b) => a.y - b.y);
+  const names = [curves[0]!, curves[2]!, curves[1]!].map(([kind, name, share]) => ({ kind, name, y: scale.y(share(last, compared)) })).sort((a, b) => a.y - b.y);
   for (let i = 1; i < names.length; ++i) names[i]!.y = Math.max(names[i]!.y, names[i - 1]!.y + 16);
   const excess = Math.max(0, names.at(-1)!.y - plotBottom);
   return markup`${names.map(({ kind, name, y }) => label(plotRight + 8, y - excess + 4, `name ${kind}`, name))}`;
@@ -68,14 +68,14 @@ function marks(best: number, used: number, scale: Scale): Markup {
   return markup`${vertical(at, "best")}${note(at, isRight, "best")}${Math.abs(at - drawn) >= 1 && markup`${vertical(drawn, "used")}${note(drawn, !isRight, "used")}`}`;
 }
 
-/** Wrong pixels against the constant bias: false shadow, missed shadow and their sum; null where there is no curve. */
+/** Wrong pixels against the constant bias: false shadow, missed shadow, and both with half of the ties; null where there is no curve. */
 export function biasChart(light: BiasCurve, id: string): Markup | null {
   const { bias_curve: curve, best_bias: best, pixels: { compared }, map: { bias } } = light, first = curve[0], last = curve.at(-1);
   if (!first || !last || curve.length < 2 || compared === 0 || !(last.bias > first.bias)) return null;
-  const highest = Math.max(...curve.map(curves[0]![2])) / compared, scale = new Scale(first.bias, last.bias, highest > 0 ? 1.05 * highest : nothingWrong);
+  const highest = Math.max(...curve.map((p) => p.wrong_fraction)), scale = new Scale(first.bias, last.bias, highest > 0 ? 1.05 * highest : nothingWrong);
   return markup`<svg class="chart" viewBox="0 0 ${width} ${height}" role="img" aria-labelledby="${id}-title ${id}-desc" data-left="${left}" data-right="${plotRight}" data-top="${top}" data-bottom="${
     plotBottom}" data-from="${scale.from}" data-to="${scale.to}"><title id="${id}-title">Wrong pixels at every constant bias</title><desc id="${id}-desc">${description(light)}</desc>${
-    feasibleInterval(best, scale)}${axes(scale, bias.texel_world)}${curves.map(([kind, , count]) =>
-    markup`<polyline class="curve ${kind}" points="${curve.map((p) => `${fixed(scale.x(p.bias))},${fixed(scale.y(count(p) / compared))}`).join(" ")}"/>`)}${
+    feasibleInterval(best, scale)}${axes(scale, bias.texel_world)}${curves.map(([kind, , share]) =>
+    markup`<polyline class="curve ${kind}" points="${curve.map((p) => `${fixed(scale.x(p.bias))},${fixed(scale.y(share(p, compared)))}`).join(" ")}"/>`)}${
     marks(best.constant_world, bias.constant_world ?? best.constant_world, scale)}${curveNames(last, scale, compared)}</svg>`;
 }

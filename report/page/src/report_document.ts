@@ -46,6 +46,7 @@ export interface BiasPoint {
   bias: number;
   false_shadow: number;
   missed_shadow: number;
+  wrong_fraction: number;
 }
 
 export interface BestBias {

@@ -87,6 +87,7 @@ class SceneBuilder {
     if (ranged_)
       note("The range of lights is not used: their light falls off with the squared distance alone.");
     meshes_.add_notes(scene_);
+    if (scene_.lights.empty() && !model_.lights.empty()) loaded_.why_none = why_no_light();
     const Aabb bounds = loaded_.cameras.empty() ? Aabb{} : scene_bounds(scene_);
     for (std::size_t i = 0; i < loaded_.cameras.size(); ++i) {
       place_target(loaded_.cameras[i].camera, bounds);
@@ -102,6 +103,24 @@ class SceneBuilder {
   };
 
   void note(std::string text) { scene_.notes.push_back(std::move(text)); }
+
+  /// Of lights that the file has and the scene has not. What was skipped has a note of its own.
+  std::string why_no_light() const {
+    if (skipped_light_) return "none of the file's lights can be used";
+    return hides_light_ ? "the file hides its lights (KHR_node_visibility)"
+                        : "no node that is shown has one of the file's lights";
+  }
+
+  bool has_light_below(std::size_t node) const {
+    std::vector<std::size_t> stack{node};
+    while (!stack.empty()) {
+      const gltf::Node& one = model_.nodes[stack.back()];
+      stack.pop_back();
+      if (one.light >= 0) return true;
+      stack.insert(stack.end(), one.children.begin(), one.children.end());
+    }
+    return false;
+  }
 
   // The default scene, or the first, or every node without a parent.
   std::vector<std::size_t> roots() {
@@ -125,7 +144,10 @@ class SceneBuilder {
       const Visit visit = stack.back();
       stack.pop_back();
       const gltf::Node& node = model_.nodes[visit.node];
-      if (!node.visible) continue;  // KHR_node_visibility: nor is what is below it
+      if (!node.visible) {  // KHR_node_visibility: nor is what is below it
+        hides_light_ = hides_light_ || has_light_below(visit.node);
+        continue;
+      }
       const Mat4 world = visit.world_from_parent * local_matrix(node);
       if (node.mesh >= 0)
         if (const auto added = add_mesh(node, visit.node, world); !added) return added;
@@ -262,9 +284,9 @@ class SceneBuilder {
     else if (from.type == "spot")
       light.type = LightType::spot;
     else if (from.type != "directional")
-      return note(fmt::format("A light of unknown type '{}' was skipped.", from.type));
+      return skip_light(fmt::format("A light of unknown type '{}' was skipped.", from.type));
     const Vec3 direction = Vec3(world * Vec4(0.0, 0.0, -1.0, 0.0));
-    if (!(glm::length(direction) > 0.0)) return note("A light whose node flattens it was skipped.");
+    if (!(glm::length(direction) > 0.0)) return skip_light("A light whose node flattens it was skipped.");
     light.direction = unit_vector(direction);
     light.position = Vec3(world[3]);
     light.intensity = Vec3f(from.color * from.intensity);
@@ -275,6 +297,11 @@ class SceneBuilder {
     light_names_.insert(light.name);
     carried_.lights.push_back(at);
     scene_.lights.push_back(std::move(light));
+  }
+
+  void skip_light(std::string why) {
+    skipped_light_ = true;
+    note(std::move(why));
   }
 
   void set_cone(Light& light, const gltf::Light& from) {
@@ -318,7 +345,7 @@ class SceneBuilder {
   std::set<std::string> light_names_;
   std::map<std::string, int> next_number_;  // behind a light's name that is taken
   int flattened_ = 0;
-  bool ranged_ = false;
+  bool ranged_ = false, hides_light_ = false, skipped_light_ = false;
   ShadowVariants shadow_variants_;
 };
 

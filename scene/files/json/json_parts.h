@@ -23,6 +23,7 @@ struct SceneReader {
   std::map<std::string, std::uint32_t> textures{};        ///< of files, by what was asked for
   std::map<std::uint32_t, std::uint32_t> plain_meshes{};  ///< copies without triangle_materials
   ShadowVariants shadow_variants{};
+  std::string why_none{};  ///< of what is included; empty: nothing to say
 
   bool failed() const { return errors.first.has_value(); }
   /// Passes on an error that another file or a generator made; one without a file gets this node's position.

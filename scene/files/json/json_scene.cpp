@@ -85,7 +85,12 @@ void read_include(SceneReader& reader, const JsonNode& node, bool with_lights) {
   auto loaded = read_by_extension(*bytes, path, reader.options, reader.includes);
   if (!loaded) return reader.adopt(node, loaded.error());
   note_unused_settings(loaded->scene, loaded->has_camera, path, reader.scene.notes);
-  if (!with_lights) loaded->scene.lights.clear();
+  if (loaded->scene.lights.empty() && loaded->why_none != LoadedFile{}.why_none)
+    reader.why_none = loaded->why_none;
+  if (!with_lights && !loaded->scene.lights.empty()) {
+    reader.why_none = "the included lights are left out";
+    loaded->scene.lights.clear();
+  }
   const MergeOffsets offsets = merge_scene(reader.scene, std::move(loaded->scene), true);
   adopt_names(reader, node, std::move(loaded->names), offsets);
 }
@@ -253,6 +258,7 @@ Expected<LoadedFile> read_json_scene(std::string_view text, const std::string& f
   loaded.cameras = read_top(reader, JsonNode(errors, document->root, ""), loaded.paths);
   loaded.has_camera = !loaded.cameras.empty();
   loaded.names = std::move(reader.names);
+  if (!reader.why_none.empty()) loaded.why_none = reader.why_none;
   includes.open.pop_back();
   if (errors.first) return fail(std::move(*errors.first));
   return loaded;

@@ -1,6 +1,6 @@
 #include "scene/files/obj/obj_text.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <charconv>
@@ -243,7 +243,11 @@ class ObjReader {
     const std::string name(trimmed(line));
     material_ = libraries_.find(name);
     if (material_ < 0) material_ = libraries_.find(std::string(next_word(line)));
-    if (material_ < 0) out_.warnings.insert(fmt::format("material [ '{}' ] not found in .mtl", name));
+    if (material_ < 0)
+      out_.warnings.insert(fmt::format("The material '{}' {}; its faces are neutral grey.", printable(name),
+                                       libraries_read_.empty()
+                                           ? "is named, and no material library was read"
+                                           : fmt::format("is not in {}", fmt::join(libraries_read_, ", "))));
   }
 
   /// The first of the names that can be used.

@@ -43,6 +43,7 @@ export interface LabFacts {
   presets: { title: string; what: string }[];
   scenes: Named[];
   lessons: Named[];
+  extensions: string[];  // of files that are scenes: ".glb"
 }
 
 export interface LightPose {

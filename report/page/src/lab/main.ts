@@ -117,7 +117,7 @@ class Lab {
     try {
       const names = [];
       for (const file of files) names.push(await this.engine.take(file));
-      const scene = names.find((name) => /\.(json|gltf|glb|obj|ply|stl|fbx|dae|3ds|x3d|usd[acz]?)$/i.test(name)) ?? names[0]!;
+      const scene = names.find((name) => facts.extensions.some((extension) => name.toLowerCase().endsWith(extension))) ?? names[0]!;
       this.files.add(scene);
       this.offer(scene);
       this.go({ scene, options });

@@ -23,8 +23,6 @@ function isRead({ readers }: SettingFacts, values: Record<string, string>): bool
   return readers.techniques.includes(values.technique!) && (values.technique !== "pcf" || readers.kernels.includes(values["filter-kernel"] ?? readers.kernels[0]!));
 }
 
-const groups = ["Map", "Bias", "Filter", "Cascades", "Window"];  // as the lab's window has them
-
 export class SettingsPanel {
   private readonly rows = new Map<string, Row>();
   private readonly groups = new Map<string, HTMLFieldSetElement>();
@@ -34,7 +32,7 @@ export class SettingsPanel {
   constructor(root: HTMLElement, private readonly facts: SettingFacts[], private readonly changed: (options: Options) => void) {
     const technique = facts.find(({ name }) => name === "technique");
     if (technique) root.append(this.rowOf(technique).element);
-    for (const setting of [...facts].sort((a, b) => groups.indexOf(a.group) - groups.indexOf(b.group))) {
+    for (const setting of facts) {
       if (setting.name === "technique") continue;
       let group = this.groups.get(setting.group);
       if (!group) {
