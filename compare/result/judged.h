@@ -71,6 +71,8 @@ struct Judged {
   bool advice_sought =
       false;  ///< other biases were tried; where none is worth advising `advice` is empty all the same
   std::vector<Advice> advice;
+  /// What mends most of the error, as a sentence, where that is no bias: it stands in the advice's place.
+  std::string cure;
   std::vector<std::string> notes;
   /// With a map: the share of the compared pixels whose V5 is V6; of a map without filter all but those on
   /// the borders of texels.

@@ -6,6 +6,7 @@
 #include "compare/truth/texel_groups.h"
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
+#include "studies/judge/outside_map.h"
 #include "studies/judge/stored_depths.h"
 
 namespace gnomon::compare {
@@ -44,11 +45,15 @@ double unit_world(const raster::ShadowMap& map, const raytrace::RayTracedFrame& 
   return z * z * (f - n) / (n * f);
 }
 
-raster::BiasRounding rounding_of(const LightView& view, const World& world) {
+/// Returns what floats leave open where the picture's receivers stand: a triangle that reaches absurdly far, and is not seen,
+/// tells nothing of them.
+raster::BiasRounding rounding_of(const LightView& view, const FrameInput& in) {
   // As of Gnomon's own shaders (raster::bias_rounding), but positions are floats in the world's own frame.
-  double reach = glm::length(view.origin);
-  const Aabb& box = world.finite_bounds;
-  if (!box.empty()) reach += glm::length(box.center()) + 0.5 * box.diagonal();
+  double farthest = 0.0;
+  for (const SurfacePoint& point : in.traced.receiver.data)
+    if (point.primitive != no_id) farthest = std::max(farthest, glm::length(point.position));
+  const double reach = glm::length(view.origin) + farthest;
+  const Aabb& box = in.world.finite_bounds;
   return {.float_world = 8.0 * std::exp2(-24.0) * reach,
           .stored_step = std::exp2(-24),
           .adaptive_epsilon_world = raster::adaptive_epsilon * (box.empty() ? reach : box.diagonal())};
@@ -173,7 +178,7 @@ void fill_light(const FrameInput& in, const CapturedMap* captured, raster::Raste
   raster::MapOptions& map = frame.options.map;
   record.captured.emplace();
   record.texel_world = raster::texel_world(record.map.view, in.world);
-  record.rounding = rounding_of(record.map.view, in.world);
+  record.rounding = rounding_of(record.map.view, in);
   record.rounding_world = raster::rounding_world(record.rounding, record.map.view, in.world);
   if (captured == nullptr) return fill_record(in, map.bias, record);
   raster::CapturedTest& test = record.captured->test.emplace();
@@ -237,6 +242,8 @@ void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRe
     record.distance.data[i] = static_cast<float>(at.distance);
     record.outside_map.data[i] = at.inside && looks_up ? 0 : 1;
     if (!record.has_known_map()) return;
+    if (looks_up && lies_beyond_depths(record, bias, light, point, i))
+      record.texel_uv.data[i] = Vec2f(-1.0f), record.outside_map.data[i] = 1;
     record.gap.data[i] =
         static_cast<float>(biased_gap(record, bias, light_at(light, point.position).to_light, point, i));
   });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compare/ladder/moments.h"
 #include "compare/result/number_text.h"
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
@@ -34,19 +35,20 @@ double clamped(double offset, double clamp) {
 /// A surface in a texel, as the map's own numbers.
 struct Held {
   double depth = 0.0, stored = 0.0, slope = 0.0;
+  double step = 0.0;  ///< of the map's format there
 };
 
 class FaceReader {
  public:
   FaceReader(const StoredDepths& depths, const LightView& view, int face)
-      : depths_(depths), view_(view), face_(face), step_(depths.format_step()) {}
+      : depths_(depths), view_(view), face_(face) {}
 
   std::optional<Held> held(const SurfaceOnRay& surface, TexelKey key) const {
     const LightFace& face = view_.face(face_);
     if (!(surface.depth > face.near_depth && surface.depth < face.far_depth)) return std::nullopt;
     if (!std::isfinite(surface.stored_slope)) return std::nullopt;
     return Held{surface.depth, stored_from_depth(view_, face_, key.row() + 0.5, surface.depth),
-                surface.stored_slope};
+                surface.stored_slope, depths_.step(key, surface.depth)};
   }
   double moved(const Held& held, TexelKey key, const CapturedCasterBias& bias) const {
     double stored = held.stored;
@@ -62,14 +64,13 @@ class FaceReader {
                     view_.face(face_).forward);
   }
   double slack(const Held& held, double offset) const {
-    return 1.5 * step_ + of_arithmetic + of_places * held.slope + of_offset * std::abs(offset);
+    return 1.5 * held.step + of_arithmetic + of_places * held.slope + of_offset * std::abs(offset);
   }
 
  private:
   const StoredDepths& depths_;
   const LightView& view_;
   int face_;
-  double step_;
 };
 
 /// A texel whose first surface is known, and by how much the map's number is off it.
@@ -222,6 +223,13 @@ class TexelMender {
         return Unmoved{stored - offset(*held, key), held->slope};
     return among_all(key, stored);
   }
+  /// Of an empty texel: the first surface, where the bias moves that to the far end, whose number is that of nothing drawn.
+  std::optional<Unmoved> pushed_out(TexelKey key) const {
+    const auto first = depths_.first(key);
+    const auto held = first ? reader_.held(*first, key) : std::nullopt;
+    if (!held || behind(*held, key, view_.reversed ? 0.0 : 1.0) < -slack(*held, key)) return std::nullopt;
+    return Unmoved{held->stored, held->slope};
+  }
 
  private:
   double offset(const Held& held, TexelKey key) const {
@@ -270,6 +278,8 @@ CasterBiases take_out_caster_bias(const FrameInput& in, const std::vector<Captur
   out.faces = given;
   const auto moves = [](const CapturedCasterBias& bias) { return bias.moves(); };
   if (std::none_of(given.begin(), given.end(), moves)) {
+    // Averages lie behind the nearest of what they are taken of (Jensen's inequality), which no caster's bias makes.
+    if (reads_moments(record)) return {};
     out.faces.assign(static_cast<std::size_t>(map.view.face_count), {});
     for (int face = 0; face < map.view.face_count; ++face)
       if (const auto bias = find_bias(depths, map, face))
@@ -285,9 +295,10 @@ CasterBiases take_out_caster_bias(const FrameInput& in, const std::vector<Captur
     const TexelMender mender(depths, map.view, face, bias);
     for (int column = 0; column < map.view.size; ++column) {
       const TexelKey key = TexelKey::pack(face, column, row);
-      if (depths.is_empty(key)) continue;
+      const bool empty = depths.is_empty(key);
       const std::size_t i = map.texel_index(face, column, row);
-      const auto unmoved = mender.unmoved(key);
+      const auto unmoved = empty ? mender.pushed_out(key) : mender.unmoved(key);
+      if (empty && !unmoved) continue;
       const double constant = away_from_light(map.view) * clamped(bias.constant, bias.clamp);
       const double stored = unmoved ? unmoved->stored : double{map.depth[i]} - constant;
       unbiased[i] = static_cast<float>(std::clamp(stored, 0.0, 1.0));
