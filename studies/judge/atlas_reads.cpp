@@ -101,8 +101,7 @@ class AtlasReader {
 
 }  // namespace
 
-AtlasReads label_atlas_reads(const FrameInput& in, const raster::RasterFrame& drawn,
-                                           LightComparison& light) {
+AtlasReads label_atlas_reads(const FrameInput& in, const raster::RasterFrame& drawn, LightComparison& light) {
   const bool filters = drawn.options.map.technique == raster::Technique::pcf;
   if (in.facts.atlas.empty() || !filters || !(drawn.options.map.filter.radius_texels > 0.0)) return {};
   const AtlasReader reader(in, drawn);
@@ -123,13 +122,15 @@ AtlasReads label_atlas_reads(const FrameInput& in, const raster::RasterFrame& dr
   const auto wrong = std::count_if(found.begin(), found.end(),
                                    [&](std::uint32_t i) { return is_wrong(rungs_at(light.rungs, i)); });
   AtlasReads out;
-  out.notes = {fmt::format(
-      "in {} pixels with an error the filter reads beyond its layer's part of the atlas, where a neighbour's depths "
-      "are: clamp its reads to the part, or leave a border of {:.0f} texels",
-      grouped(found.size()), border)};
+  out.notes = {
+      fmt::format("in {} pixels with an error the filter reads beyond its layer's part of the atlas, where a "
+                  "neighbour's depths "
+                  "are: clamp its reads to the part, or leave a border of {:.0f} texels",
+                  grouped(found.size()), border)};
   if (2 * static_cast<std::uint64_t>(wrong) > light.error.wrong)
-    out.cure = fmt::format("Clamp the filter's reads to the layer's part of the atlas, or leave a border of {:.0f} texels.",
-                           border);
+    out.cure = fmt::format(
+        "Clamp the filter's reads to the layer's part of the atlas, or leave a border of {:.0f} texels.",
+        border);
   return out;
 }
 

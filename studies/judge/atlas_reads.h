@@ -16,6 +16,7 @@ struct AtlasReads {
 
 /// Labels errors of filters that their layer's own texels would not make, and that its neighbours' in the picture make, as
 /// outside the map.
-AtlasReads label_atlas_reads(const FrameInput& input, const raster::RasterFrame& drawn, LightComparison& light);
+AtlasReads label_atlas_reads(const FrameInput& input, const raster::RasterFrame& drawn,
+                             LightComparison& light);
 
 }  // namespace gnomon::compare

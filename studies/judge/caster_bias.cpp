@@ -77,6 +77,10 @@ class FaceReader {
 struct Point {
   TexelKey key;
   Held held;
+  std::vector<Held>
+      behind{};  ///< further surfaces on the ray, of which the bias may leave one nearer than the first
+  double stored = 0.0;
+  bool empty = false;
   double off = 0.0;       ///< stored numbers, away from the light
   double world = 0.0;     ///< the same along the ray
   bool as_it_is = false;  ///< the map holds one of the scene's surfaces there, unmoved
@@ -89,8 +93,7 @@ std::vector<Point> look_at(const StoredDepths& depths, const FaceReader& reader,
   std::vector<std::optional<Point>> points(keys.size());
   parallel_for(keys.size(), [&](std::size_t i) {
     const TexelKey key = keys[i];
-    if (depths.is_empty(key)) return;
-    const std::vector<SurfaceOnRay> all = depths.all(key);
+    const std::vector<SurfaceOnRay> all = depths.all(key, 4);
     const auto surface =
         std::find_if(all.begin(), all.end(), [backs](const SurfaceOnRay& s) { return !backs || !s.front; });
     if (surface == all.end()) return;
@@ -101,9 +104,18 @@ std::vector<Point> look_at(const StoredDepths& depths, const FaceReader& reader,
       const auto one = reader.held(s, key);
       return one && std::abs(stored - one->stored) <= reader.slack(*one, 0.0);
     };
-    points[i] = Point{key, *held, away_from_light(view) * (stored - held->stored),
-                      (depths.depth(key) - held->depth) / reader.along(key),
-                      std::any_of(all.begin(), all.end(), holds)};
+    std::vector<Held> behind;
+    for (auto next = surface + 1; next != all.end(); ++next)
+      if (const auto one = reader.held(*next, key); one && (!backs || !next->front)) behind.push_back(*one);
+    const bool empty = depths.is_empty(key);
+    points[i] = Point{key,
+                      *held,
+                      std::move(behind),
+                      stored,
+                      empty,
+                      away_from_light(view) * (stored - held->stored),
+                      empty ? 0.0 : (depths.depth(key) - held->depth) / reader.along(key),
+                      !empty && std::any_of(all.begin(), all.end(), holds)};
   });
   std::vector<Point> out;
   for (const auto& point : points)
@@ -114,16 +126,28 @@ std::vector<Point> look_at(const StoredDepths& depths, const FaceReader& reader,
 template <class Value>
 double median_of(const std::vector<Point>& points, const Value& value) {
   std::vector<double> values;
-  for (const Point& p : points) values.push_back(value(p));
+  for (const Point& p : points)
+    if (!p.empty) values.push_back(value(p));
+  if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
+/// The map holds the nearest of the surfaces once they are moved, or of a renderer that casts rays the first one; one at the far
+/// end is nothing drawn.
 bool is_explained(const FaceReader& reader, const LightView& view, const Point& p,
                   const CapturedCasterBias& bias) {
-  const double offset = away_from_light(view) * (reader.moved(p.held, p.key, bias) - p.held.stored);
-  return std::abs(p.off - offset) <= reader.slack(p.held, offset);
+  const auto is_stored = [&](const Held& held, double moved) {
+    return std::abs(p.stored - moved) <= reader.slack(held, moved - held.stored);
+  };
+  const Held* nearest = &p.held;
+  double moved = reader.moved(p.held, p.key, bias);
+  if (is_stored(p.held, moved)) return true;
+  for (const Held& held : p.behind)
+    if (const double next = reader.moved(held, p.key, bias); away_from_light(view) * (next - moved) < 0.0)
+      nearest = &held, moved = next;
+  return is_stored(*nearest, moved);
 }
 
 double explained(const FaceReader& reader, const LightView& view, const std::vector<Point>& points,
@@ -135,6 +159,8 @@ double explained(const FaceReader& reader, const LightView& view, const std::vec
 /// Lines off = constant + slope * m through two points each, which are taken all over the slopes that there are: a surface
 /// of another slope than most is among them, however small.
 std::vector<CapturedCasterBias> lines_through(std::vector<Point> points) {
+  std::erase_if(points, [](const Point& p) { return p.empty; });
+  if (points.empty()) return {};
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.held.slope < b.held.slope; });
   constexpr std::size_t places = 24;
@@ -156,7 +182,7 @@ CapturedCasterBias refined(const FaceReader& reader, const LightView& view, cons
                            const CapturedCasterBias& line) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (const Point& p : points) {
-    if (!is_explained(reader, view, p, line)) continue;
+    if (p.empty || !is_explained(reader, view, p, line)) continue;
     n += 1.0, x += p.held.slope, y += p.off, xx += p.held.slope * p.held.slope, xy += p.held.slope * p.off;
   }
   const double spread = n * xx - x * x;

@@ -209,9 +209,10 @@ std::vector<std::string> far_places_notes(const FrameInput& in, const raster::Li
       for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(point.position[axis]));
   const double spacing = farthest > 0.0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0.0;
   if (spacing < coarse_texels * record.texel_world) return {};
-  return {fmt::format("places of 32 bits lie {:.2g} world units apart so far from the origin ({:.3g}), {:.2g} texels "
-                      "of the map: move the origin nearer, or work with places relative to the camera",
-                      spacing, farthest, spacing / record.texel_world)};
+  return {fmt::format(
+      "places of 32 bits lie {:.2g} world units apart so far from the origin ({:.3g}), {:.2g} texels "
+      "of the map: move the origin nearer, or work with places relative to the camera",
+      spacing, farthest, spacing / record.texel_world)};
 }
 
 std::vector<std::string> described_test_notes(const DescribedTest& test,

@@ -48,12 +48,14 @@ std::vector<std::string> far_triangle_notes(const World& world, const raytrace::
   const auto most = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) * 99 / 100);
   std::nth_element(sorted.begin(), most, sorted.end());
   const double limit = absurd * std::max(*most, seen.diagonal());
-  const auto count = std::count_if(reaches.begin(), reaches.end(), [limit](double reach) { return reach > limit; });
+  const auto count =
+      std::count_if(reaches.begin(), reaches.end(), [limit](double reach) { return reach > limit; });
   if (count == 0) return {};
-  return {fmt::format("{} of {} triangles ({}) reach{} absurdly far, up to {:.3g} world units in '{}': a corner is "
-                      "broken there; lengths are measured by the others",
-                      grouped(static_cast<std::uint64_t>(count)), grouped(reaches.size()),
-                      percent(double(count) / double(reaches.size())), count == 1 ? "es" : "", farthest, name)};
+  return {fmt::format(
+      "{} of {} triangles ({}) reach{} absurdly far, up to {:.3g} world units in '{}': a corner is "
+      "broken there; lengths are measured by the others",
+      grouped(static_cast<std::uint64_t>(count)), grouped(reaches.size()),
+      percent(double(count) / double(reaches.size())), count == 1 ? "es" : "", farthest, name)};
 }
 
 }  // namespace gnomon::compare

@@ -217,7 +217,9 @@ void finish(Judging& in, Comparison& out) {
     note(far_places_notes(frame, record));
     note(no_shadow_notes(light, record));
     note(caster_bias_notes(in.casters, record));
-    note(format_notes(in.facts.format, record.captured->test->unit_world));
+    const bool even = record.map.view.projection == LightProjection::orthographic ||
+                      record.captured->test->stores != raster::CapturedTest::Stores::depths;
+    note(format_notes(in.facts.format, even ? record.captured->test->unit_world : 0.0));
     const auto turned = test.is_drawn() ? find_turned_map(frame, out.raster, light) : std::nullopt;
     if (turned) note({turned_map_note(*turned, light)}), judged->cure = turned_map_cure(*turned);
     const bool described = advice_holds(test, other) && !turned;

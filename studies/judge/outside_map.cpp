@@ -60,7 +60,7 @@ struct Reach {
 };
 
 Reach farthest_reach(const FrameInput& in, const LightComparison& light, const raster::LightRecord& record,
-               const std::vector<std::size_t>& wrong) {
+                     const std::vector<std::size_t>& wrong) {
   std::array<std::size_t, LightView::most_faces> by_face{};
   for (const std::size_t i : wrong) ++by_face[record.face.data[i]];
   Reach out;
@@ -200,7 +200,7 @@ void find_lit_depths(const FrameInput& in, raster::RasterFrame& frame, MapFacts&
 }
 
 OutsideFindings find_outside_map(const FrameInput& in, const LightComparison& light,
-                            const raster::LightRecord& record) {
+                                 const raster::LightRecord& record) {
   const WrongOutside wrong = sort_wrong(in, light, record);
   const LightView& view = record.map.view;
   OutsideFindings out;

@@ -26,6 +26,6 @@ struct OutsideFindings {
   std::string cure;
 };
 OutsideFindings find_outside_map(const FrameInput& input, const LightComparison& light,
-                            const raster::LightRecord& record);
+                                 const raster::LightRecord& record);
 
 }  // namespace gnomon::compare

@@ -63,9 +63,10 @@ std::vector<std::string> format_notes(const StoredFormat& format, double unit_wo
     const double most = std::round(1.0 / format.step);
     const auto* found = std::find_if(std::begin(usual_formats), std::end(usual_formats),
                                      [most](const WholeNumbers& f) { return f.most == most; });
-    return {fmt::format("the map's depths are multiples of 1/{:.0f}: {} bits, steps of {:.2g} world units",
-                        most, found->bits == 8 ? "eight" : std::to_string(found->bits),
-                        format.step * unit_world)};
+    const std::string steps =
+        unit_world > 0.0 ? fmt::format(", steps of {:.2g} world units", format.step * unit_world) : "";
+    return {fmt::format("the map's depths are multiples of 1/{:.0f}: {} bits{}", most,
+                        found->bits == 8 ? "eight" : std::to_string(found->bits), steps)};
   }
   if (format.step < half_floats) return {};
   return {fmt::format("the map's depths are {}",

@@ -19,7 +19,7 @@ StoredFormat find_format(std::vector<float> numbers);
 double step_near(const StoredFormat& format, double number);
 
 /// "the map's depths are multiples of 1/255: eight bits, steps of 0.03 world units"; nothing of floats and what is hardly
-/// coarser. `unit_world`: world units in 1 of the numbers.
+/// coarser. `unit_world`: world units in 1 of the numbers; 0: not the same everywhere.
 std::vector<std::string> format_notes(const StoredFormat& format, double unit_world);
 
 }  // namespace gnomon::compare

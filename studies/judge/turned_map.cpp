@@ -21,21 +21,22 @@ struct KindOfTurn {
   MapTurn turn;
   const char* how;
 };
-constexpr std::array<KindOfTurn, 8> map_turns{{{{}, ""},
-                                     {{false, true, false}, "mirrored left to right"},
-                                     {{false, false, true}, "upside down"},
-                                     {{false, true, true}, "turned by half a turn"},
-                                     {{true, false, false}, "transposed, its columns for its rows,"},
-                                     {{true, true, false}, "turned by a quarter"},
-                                     {{true, false, true}, "turned by a quarter"},
-                                     {{true, true, true}, "mirrored along its diagonal"}}};
+constexpr std::array<KindOfTurn, 8> map_turns{
+    {{{}, ""},
+     {{false, true, false}, "mirrored left to right"},
+     {{false, false, true}, "upside down"},
+     {{false, true, true}, "turned by half a turn"},
+     {{true, false, false}, "transposed, its columns for its rows,"},
+     {{true, true, false}, "turned by a quarter"},
+     {{true, false, true}, "turned by a quarter"},
+     {{true, true, true}, "mirrored along its diagonal"}}};
 
 /// Texels that one way of reading explains and another does not, before anything is said; and of those the share that may
 /// speak against it.
 constexpr std::size_t few_turned = 16;
 constexpr double few_against = 0.25;
 constexpr double most_of_map = 0.7;  ///< holds the scene once it is turned
-constexpr int turn_texels = 96;        ///< texels looked at of each face
+constexpr int turn_texels = 96;      ///< texels looked at of each face
 /// What a bias of casters, an average of depths and a step of the format leave of the right depth: a share of the depths' range,
 /// and halves of what the depth changes by over a texel.
 constexpr double loose_range = 0.005, loose_slope = 4.0;
@@ -101,7 +102,7 @@ class TurnReader {
 
  private:
   std::array<bool, map_turns.size()> held_by(TexelKey key, const raster::CapturedTest::Part& part,
-                                         bool loose) const {
+                                             bool loose) const {
     const auto first = stored_.first(key);
     const LightFace& face = view_.face(key.face());
     const bool empty = !first || first->depth >= face.far_depth;
@@ -148,7 +149,8 @@ std::vector<std::size_t> find_turns(const TurnReader& reader, int faces, bool lo
   if (const auto turn = all.best()) return std::vector<std::size_t>(scores.size(), *turn);
   std::vector<std::size_t> turns;
   bool any = false;
-  for (const TurnScore& score : scores) turns.push_back(score.best().value_or(0)), any = any || turns.back() != 0;
+  for (const TurnScore& score : scores)
+    turns.push_back(score.best().value_or(0)), any = any || turns.back() != 0;
   return any ? turns : std::vector<std::size_t>();
 }
 

@@ -230,7 +230,8 @@ TEST(JudgeDescribed, CoarseDepthsAreAMatterOfPrecision) {
     });
     picture.draw_with(enough_bias);
     const JudgeOutcome judged = picture.judged();
-    EXPECT_NE(notes_of(judged).find("the map's depths are multiples of 1/255: eight bits"), std::string::npos);
+    EXPECT_NE(notes_of(judged).find("the map's depths are multiples of 1/255: eight bits"),
+              std::string::npos);
     ASSERT_TRUE(judged.result) << reason(judged);
     EXPECT_GT(20 * count_of(judged, compare::Label::stored_depth), 19 * judged.result->lights[0].error.wrong);
     EXPECT_EQ(count_of(judged, compare::Label::unexplained), 0U);

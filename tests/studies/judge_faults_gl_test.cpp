@@ -11,6 +11,7 @@
 #include "compare/ladder/labels.h"
 #include "compare/truth/columns.h"
 #include "scene/files/pictures/image_io.h"
+#include "studies/judge/stored_format.h"
 #include "tests/support/capture_support.h"
 
 namespace gnomon::test {
@@ -107,7 +108,7 @@ class Renderer {
       for (int row = 0; row < n; ++row)
         for (int column = 0; column < n; ++column)
           image.channels[0].values[std::size_t(row * n + column)] =
-              static_cast<float>(std::clamp(numbers(met_by(world, tracer, column, row)), 0.0, 1.0));
+              static_cast<float>(std::clamp(nearest(world, tracer, column, row, numbers), 0.0, 1.0));
     });
   }
   void change_map(const std::function<void(std::vector<float>&, int)>& change) {
@@ -153,19 +154,29 @@ class Renderer {
   std::vector<float> sound;  ///< the picture without the fault
 
  private:
-  std::optional<Met> met_by(const World& world, const raytrace::Tracer& tracer, int column, int row) const {
+  /// The nearest of the numbers of all that the texel's ray meets, as a depth test keeps it.
+  double nearest(const World& world, const raytrace::Tracer& tracer, int column, int row,
+                 const Numbers& numbers) const {
     const Ray ray = compare::caster_ray(world, view(), 0, column + 0.5, row + 0.5);
-    const auto hit = tracer.closest_hit(ray, raytrace::Sides::casting);
-    if (!hit) return std::nullopt;
+    double least = numbers(std::nullopt);
+    compare::visit_hits(
+        ray, [&](const Ray& rest) { return tracer.closest_hit(rest, raytrace::Sides::casting); },
+        [&](const raytrace::Hit& hit) {
+          least = std::min(least, numbers(met_by(world, ray, hit)));
+          return true;
+        });
+    return least;
+  }
+  Met met_by(const World& world, const Ray& ray, const raytrace::Hit& hit) const {
     const LightFace& face = view().face(0);
     const double range = face.far_depth - face.near_depth;
-    const Vec3 normal = outward_normal(world, hit->primitive, ray.at(hit->t));
+    const Vec3 normal = outward_normal(world, hit.primitive, ray.at(hit.t));
     const Vec2 texel = 2.0 * face.half_extent / double(view().size);
     const double facing = std::abs(glm::dot(normal, face.forward));
     const double u = std::abs(glm::dot(normal, face.right)) * texel.x,
                  v = std::abs(glm::dot(normal, face.up)) * texel.y;
-    return Met{(glm::dot(ray.at(hit->t) - view().origin, face.forward) - face.near_depth) / range,
-               std::max(u, v) / std::max(1e-6, facing) / range};
+    return {(glm::dot(ray.at(hit.t) - view().origin, face.forward) - face.near_depth) / range,
+            std::max(u, v) / std::max(1e-6, facing) / range};
   }
 
   Compared drawn_;
@@ -256,14 +267,16 @@ void make_neighbours(Renderer& r, Dice&) {
   const double bias = r.capture().bias->constant_depth;
   const auto filtered = [&](const Vec3& place, bool clamps) {
     const Vec3 clip(layer * Vec4(place, 1.0));
-    const double u = (0.5 * clip.x + 0.5) * n, v = (0.5 * clip.y + 0.5) * n, z = halves ? 0.5 * clip.z + 0.5 : clip.z;
+    const double u = (0.5 * clip.x + 0.5) * n, v = (0.5 * clip.y + 0.5) * n,
+                 z = halves ? 0.5 * clip.z + 0.5 : clip.z;
     if (u < 0.0 || v < 0.0 || u >= n || v >= n) return 1.0f;
     float lit = 0.0f;
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i) {
         const int x = int(u) + i, y = std::clamp(int(v) + j, 0, n - 1);
         const bool beyond = x >= n && !clamps;
-        lit += z - bias > double{beyond ? 0.1f : own[std::size_t(y * n + std::clamp(x, 0, n - 1))]} ? 0.0f : 1.0f;
+        lit += z - bias > double{beyond ? 0.1f : own[std::size_t(y * n + std::clamp(x, 0, n - 1))]} ? 0.0f
+                                                                                                    : 1.0f;
       }
     return lit / 9.0f;
   };
@@ -271,11 +284,6 @@ void make_neighbours(Renderer& r, Dice&) {
   r.change_picture([&](const Vec3& place, float) { return filtered(place, true); });
   r.sound = read_channels(r.capture().visibility)->channels[0].values;
   r.change_picture([&](const Vec3& place, float) { return filtered(place, false); });
-}
-
-float half_float(double v) {
-  const double step = std::ldexp(1.0, std::ilogb(v) - 10);
-  return static_cast<float>(std::floor(v / step) * step);
 }
 
 const std::vector<Fault>& faults() {
@@ -298,11 +306,6 @@ const std::vector<Fault>& faults() {
       {"eight bits, rounded", Label::stored_depth, false,
        [](Renderer& r, Dice&) { round_map(r, [](double v) { return std::round(255.0 * v) / 255.0; }); }, 0.95,
        "multiples of 1/255: eight bits"},
-      {"16 bits, no bias", Label::stored_depth, false,
-       [](Renderer& r, Dice&) { round_map(r, [](double v) { return std::floor(65535.0 * v) / 65535.0; }); },
-       0.0, "multiples of 1/65535: 16 bits"},
-      {"half floats", Label::stored_depth, false, [](Renderer& r, Dice&) { round_map(r, half_float); }, 0.0,
-       "half floats"},
       {"mirrored", Label::unexplained, false, [](Renderer& r, Dice&) { turn_map(r, true, false, false); },
        0.95, "mirrored left to right"},
       {"upside down", Label::unexplained, false, [](Renderer& r, Dice&) { turn_map(r, false, true, false); },
@@ -369,6 +372,9 @@ void judge_fault(const Fault& fault, std::uint64_t seed, Row& row) {
   for (std::size_t i = 0; i < sound.size(); ++i) {
     const Label label = light.labels.data[i];
     if (!compare::has_cause(label) || !compare::is_wrong(compare::rungs_at(light.rungs, i))) continue;
+    // One that the texel's centre has wrong was right by accident (docs/labels.md).
+    const bool by_accident = std::abs(light.rungs[2].data[i] - light.rungs[0].data[i]) > 0.5f;
+    if (by_accident && label != Label::outside_map) continue;
     if (std::abs(sound[i] - light.rungs[0].data[i]) <= 0.5f) ++named[static_cast<std::size_t>(label) - 1];
   }
   const std::uint64_t all = std::accumulate(named.begin(), named.end(), std::uint64_t{0});
@@ -404,9 +410,72 @@ TEST(JudgeFaults, AreNamedInRandomCaptures) {
                          compare::label_text(fault.label).name, row.all(), 100.0 * row.recall(fault.label),
                          others, row.said, row.captures);
     EXPECT_TRUE(row.all() == 0 || row.recall(fault.label) >= fault.recall) << fault.name << ": " << others;
+    EXPECT_GT(row.captures, 0U) << fault.name;
     EXPECT_EQ(row.said, row.captures) << fault.name;
   }
-  fmt::print("{}", table);
+  const std::string text =
+      "| fault | label | pixels | so called | others | said |\n|---|---|--:|--:|---|--:|\n" + table +
+      fmt::format("\n{} random captures of each fault.\n", captures);
+  fmt::print("{}", text);
+  if (const char* path = std::getenv("GNOMON_FAULTS_FILE"))
+    write_between_marks(path, "table of faults", text);
+}
+
+std::string notes_of_judged(const JudgeOutcome& judged) {
+  return judged.result ? fmt::format("{}", fmt::join(judged.result->judged->notes, "\n")) : reason(judged);
+}
+
+// Averages of depths lie behind the nearest of them, which is no offset of casters.
+TEST(JudgeFaults, AreNoneOfASoundMapNorOfItsMoments) {
+  using compare::FilterName;
+  const compare::CapturedFilter filters[] = {
+      {},
+      {.kind = FilterName::esm, .radius_texels = 2.5, .exponents = {40.0}},
+      {.kind = FilterName::evsm, .radius_texels = 2.5, .exponents = {15.0}}};
+  for (const compare::CapturedFilter& filter : filters) {
+    Dice dice(7);
+    Renderer renderer(random_scene(dice, true), dice);
+    renderer.draw_map(renderer.scene(), as_it_is);
+    renderer.capture().filter = filter;
+    if (filter.kind != FilterName::none) store_moments(renderer.capture());
+    renderer.draw();
+    const JudgeOutcome judged = renderer.judged();
+    ASSERT_TRUE(judged.result) << reason(judged);
+    EXPECT_EQ(notes_of_judged(judged), "");
+    for (std::size_t k = static_cast<std::size_t>(Label::caster_bias); k <= compare::class_count; ++k)
+      EXPECT_EQ(judged.result->lights[0].classes[k - 1], 0U) << label_name(static_cast<Label>(k));
+  }
+}
+
+std::vector<float> numbers_of(const std::function<double(double)>& stored) {
+  std::vector<float> out;
+  Dice dice(3);
+  for (int k = 0; k < 400; ++k) out.push_back(static_cast<float>(stored(dice.between(0.2, 0.9))));
+  return out;
+}
+
+TEST(JudgeFormats, AreToldByWhatNumbersHaveInCommon) {
+  for (const double most : {255.0, 256.0, 1023.0, 4095.0, 65535.0, 65536.0, 255.0 * 255.0}) {
+    const auto format =
+        compare::find_format(numbers_of([=](double v) { return std::floor(most * v) / most; }));
+    EXPECT_FALSE(format.floating) << most;
+    EXPECT_EQ(format.step, 1.0 / most) << "also where the numbers are truncated";
+  }
+  const auto halves = compare::find_format(numbers_of([](double v) {
+    const double step = std::ldexp(1.0, std::ilogb(v) - 10);
+    return step * std::floor(v / step);
+  }));
+  EXPECT_TRUE(halves.floating);
+  EXPECT_EQ(halves.step, 0x1p-11);
+  EXPECT_EQ(compare::step_near(halves, 0.3), 0x1p-12);
+  EXPECT_EQ(compare::format_notes(halves, 1.0),
+            std::vector<std::string>{"the map's depths are half floats: eleven bits"});
+  const auto floats = compare::find_format(numbers_of([](double v) { return v; }));
+  EXPECT_EQ(floats.step, 0x1p-24);
+  EXPECT_TRUE(compare::format_notes(floats, 1.0).empty());
+  // Two floors at even depths tell nothing.
+  const auto level = compare::find_format(numbers_of([](double v) { return v < 0.5 ? 0.25 : 0.5; }));
+  EXPECT_EQ(level.step, 0x1p-24);
 }
 
 }  // namespace
