@@ -37,6 +37,12 @@ float texel_depth_slope(Texel at, vec3 n) {
   return 0.5 * (abs(high.x - low.x) + abs(high.y - low.y));
 }
 
+// What rounding may do to the receiver's plane and to what a texel stores: so much nearer the plane is taken, or it would
+// shadow itself.
+float plane_rounding(ivec3 texel, float stored) {
+  return light.rounding.x + abs(depth_from_stored(texel, stored + light.rounding.y) - depth_from_stored(texel, stored));
+}
+
 struct ShadowTest {
   Texel own;     // the receiver's own texel, before any offset
   Texel at;      // where the map is looked up: after the normal offset
@@ -74,8 +80,7 @@ ShadowTest shadow_test_from_cascade(int first, vec3 position, vec3 normal, vec3 
   vec3 n = to_face(at.face, normal);
 #endif
 #ifdef RECEIVER_PLANE
-  receiver = plane_depth(at, n, vec2(texel.xy) + 0.5 - at.uv);
-  receiver -= light.rounding.x + abs(depth_from_stored(texel, stored + light.rounding.y) - depth_from_stored(texel, stored));
+  receiver = plane_depth(at, n, vec2(texel.xy) + 0.5 - at.uv) - plane_rounding(texel, stored);
 #endif
 #ifdef ADAPTIVE_BIAS
   // Where the light ray through the texel's centre meets the receiver's plane before the receiver, the map may hold that.

@@ -32,10 +32,10 @@ struct Tap {
   float occluder;  // infinite where nothing is stored
 };
 
-// The receiver's depth seen from a texel's centre so many texels away.
-float receiver_depth(Comparison c, vec2 offset_texels) {
+// The receiver's depth seen from a texel's centre so many texels away; `texel` and what it stores say how it rounds.
+float receiver_depth(Comparison c, vec2 offset_texels, ivec3 texel, float stored) {
 #if defined(RECEIVER_PLANE)
-  return plane_depth(c.at, c.n, offset_texels);
+  return plane_depth(c.at, c.n, offset_texels) - plane_rounding(texel, stored);
 #elif defined(ADAPTIVE_BIAS)
   return c.at.local.z - max(0.0, c.at.local.z - plane_depth(c.at, c.n, offset_texels)) - light.rounding.z;
 #else
@@ -52,7 +52,8 @@ float depth_or_infinite(ivec3 texel, float stored) {
 }
 
 Tap tap_on_face(Comparison c, ivec2 texel, float stored) {
-  return Tap(receiver_depth(c, vec2(texel) + 0.5 - c.at.uv), depth_or_infinite(ivec3(texel, c.at.face), stored));
+  ivec3 at = ivec3(texel, c.at.face);
+  return Tap(receiver_depth(c, vec2(texel) + 0.5 - c.at.uv, at, stored), depth_or_infinite(at, stored));
 }
 
 #ifdef CUBE
@@ -71,8 +72,8 @@ Tap tap_beyond_edge(Comparison c, ivec2 texel) {
   vec3 ray = to_face(c.at.face, light.right[at.z].xyz * centre.x + light.up[at.z].xyz * centre.y +
                                     light.forward[at.z].xyz);
   COUNT_LOOKUPS(1);
-  return Tap(receiver_depth(c, (ray.xy / ray.z - own) / extent),
-             depth_or_infinite(at, texelFetch(depth_map, at, 0).r) * ray.z);
+  float stored = texelFetch(depth_map, at, 0).r;
+  return Tap(receiver_depth(c, (ray.xy / ray.z - own) / extent, at, stored), depth_or_infinite(at, stored) * ray.z);
 }
 #endif
 

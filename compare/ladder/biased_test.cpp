@@ -225,6 +225,10 @@ std::optional<double> unbiased_caster(const raster::LightRecord& record, raytrac
   return caster_in(record.map.true_depth(), record.map, key);
 }
 
+bool is_moved_out(const raster::LightRecord& record, raytrace::TexelKey key) {
+  return !record.map.unbiased.empty() && unbiased_caster(record, key) && !stored_caster(record, key);
+}
+
 double caster_offset(const raster::LightRecord& record, raytrace::TexelKey key) {
   if (record.map.unbiased.empty()) return 0.0;
   const auto moved = stored_caster(record, key), own = unbiased_caster(record, key);

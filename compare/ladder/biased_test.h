@@ -51,6 +51,8 @@ std::optional<double> compared_caster(const raster::LightRecord& record, const B
 std::optional<double> unbiased_caster(const raster::LightRecord& record, raytrace::TexelKey key);
 /// By how much the casters' own bias moved what a texel stores, depth along forward; 0 where either map stores nothing.
 double caster_offset(const raster::LightRecord& record, raytrace::TexelKey key);
+/// Whether the casters' own bias moved what a texel holds to the far plane, where its number is that of nothing drawn.
+bool is_moved_out(const raster::LightRecord& record, raytrace::TexelKey key);
 /// The gap to a caster at a depth along forward on the light ray through the looked-up texel's centre.
 double gap_before(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
                   const BiasedLookup& lookup, double caster_depth);

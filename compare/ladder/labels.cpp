@@ -156,8 +156,10 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      Cause::sampling,
      "cascades",  // wine (Tol)
      "the depth map does not reach this far",
-     "The surface lies outside the part of the scene that the map covers.",
-     "A map fitted to the whole scene."},
+     "The surface lies outside the part of the scene that the map covers: beside its window, or before or "
+     "behind "
+     "its depths.",
+     "A map fitted to the whole scene, or light for what lies outside."},
     {"custom_shader",
      "custom shader",
      "C",

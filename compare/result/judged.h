@@ -81,13 +81,14 @@ struct Judged {
   bool has_map = false, has_positions = false, of_ratio = false;
   bool traces = false;                      ///< its renderer traces rays: what is wrong is no map's
   std::optional<OtherLight> other_light{};  ///< of a ratio
-  std::string next{};                       ///< what to do, one sentence, where no setting is advised
   std::vector<Agreement> agreement;         ///< after what was mended
   std::vector<Mended> mended;
   std::optional<Identified> identified;
   bool advice_sought =
       false;  ///< other biases were tried; where none is worth advising `advice` is empty all the same
   std::vector<Advice> advice;
+  /// What mends most of the error, as a sentence, where that is no bias: it stands in the advice's place.
+  std::string cure{};
   std::vector<std::string> notes;
   /// With a map: the share of the compared pixels whose V5 is V6; of a map without filter all but those on
   /// the borders of texels.

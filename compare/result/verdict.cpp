@@ -151,7 +151,7 @@ std::string left_by_advice(const Advice& advice, const LightComparison& light, c
 // Of another renderer's picture, in that renderer's own units; no option of Gnomon's own can be set there. First comes
 // the constant alone, and where another setting does clearly better that one and the constant beside it.
 std::string judged_advice(const Judged& judged, const LightComparison& light, const Figure& measure) {
-  if (judged.advice.empty()) return judged.next;
+  if (!judged.cure.empty() || judged.advice.empty()) return judged.cure;
   const Advice& last = judged.advice.back();
   const bool mean = &measure == find_measure("mean");
   if (!mean && !measure.measure.by_halves)

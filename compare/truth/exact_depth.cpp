@@ -80,7 +80,7 @@ std::optional<double> gap_to_exact(const LowerClimb& lower, const LadderInput& i
   const auto depth = reads_paraboloids(in.record()) ? exact_depth_of_paraboloid(in, *lookup)
                                                     : exact_depth(lower, in, group, lookup->key);
   if (!depth) return std::nullopt;
-  if (std::isinf(*depth)) return -infinity;
+  if (std::isinf(*depth) || is_moved_out(in.record(), lookup->key)) return -infinity;
   return gap_before_exact(in, *lookup, in.traced.receiver.data[pixel],
                           *depth + caster_offset(in.record(), lookup->key));
 }

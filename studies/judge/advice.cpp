@@ -181,27 +181,6 @@ std::vector<Advice> Advisor::drawn_again() {
   return out;
 }
 
-namespace {
-
-/// How far receivers reach that the picture shows, across a parallel map's window.
-std::string window_words(const FrameInput& in, const LightComparison& light, const LightView& view) {
-  const LightFace& face = view.face(0);
-  Vec2 reach(0.0);
-  for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
-    if (!is_compared(light.labels.data[i])) continue;
-    const Vec3 place = in.traced.receiver.data[i].position - view.origin;
-    const Vec2 at(glm::dot(place, face.right), glm::dot(place, face.up));
-    reach = glm::max(reach, glm::abs(at - face.center));
-  }
-  return fmt::format(
-      "a window of {:.3g} x {:.3g} world units about the same middle (now {:.3g} x {:.3g}) holds all that "
-      "the picture shows",
-      2.0 * std::max(reach.x, face.half_extent.x), 2.0 * std::max(reach.y, face.half_extent.y),
-      2.0 * face.half_extent.x, 2.0 * face.half_extent.y);
-}
-
-}  // namespace
-
 std::vector<Advice> give_advice(const FrameInput& in, const raster::RasterFrame& drawn,
                                 const LightComparison& light, const CasterBiases& casters,
                                 double drawn_constant) {
@@ -247,19 +226,6 @@ std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view 
     if (instead[i].engine == engine && instead[i].value && instead[i].value != now[i].value)
       out.emplace_back(instead[i].setting, *instead[i].value);
   return out;
-}
-
-std::vector<std::string> outside_map_notes(const FrameInput& in, const LightComparison& light,
-                                           const raster::LightRecord& record) {
-  const std::uint64_t outside = light.classes[static_cast<std::size_t>(Label::outside_map) - 1];
-  if (2 * outside <= light.error.wrong || outside == 0) return {};
-  const LightView& view = record.map.view;
-  const bool parallel = view.projection == LightProjection::orthographic && view.face_count == 1;
-  return {fmt::format(
-      "{} of {} wrong pixels lie outside the map, where no bias changes anything: {}light what lies "
-      "outside",
-      grouped(outside), grouped(light.error.wrong),
-      parallel ? window_words(in, light, view) + ", or " : std::string())};
 }
 
 }  // namespace gnomon::compare

@@ -24,8 +24,4 @@ std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view 
                                                                const raster::LightRecord& record,
                                                                const World& world);
 
-/// Where most wrong pixels lie outside the map: what helps.
-std::vector<std::string> outside_map_notes(const FrameInput& input, const LightComparison& light,
-                                           const raster::LightRecord& record);
-
 }  // namespace gnomon::compare

@@ -7,6 +7,7 @@
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
 #include "studies/judge/captured_moments.h"
+#include "studies/judge/outside_map.h"
 #include "studies/judge/stored_depths.h"
 
 namespace gnomon::compare {
@@ -73,11 +74,15 @@ std::array<UnitAt, 3> units_of_depth(const raster::ShadowMap& map, const raytrac
   return out;
 }
 
-raster::BiasRounding rounding_of(const LightView& view, const World& world) {
+/// Returns what floats leave open where the picture's receivers stand: a triangle that reaches absurdly far, and is not seen,
+/// tells nothing of them.
+raster::BiasRounding rounding_of(const LightView& view, const FrameInput& in) {
   // As of Gnomon's own shaders (raster::bias_rounding), but positions are floats in the world's own frame.
-  double reach = glm::length(view.origin);
-  const Aabb& box = world.finite_bounds;
-  if (!box.empty()) reach += glm::length(box.center()) + 0.5 * box.diagonal();
+  double farthest = 0.0;
+  for (const SurfacePoint& point : in.traced.receiver.data)
+    if (point.primitive != no_id) farthest = std::max(farthest, glm::length(point.position));
+  const double reach = glm::length(view.origin) + farthest;
+  const Aabb& box = in.world.finite_bounds;
   return {.float_world = 8.0 * std::exp2(-24.0) * reach,
           .stored_step = std::exp2(-24),
           .adaptive_epsilon_world = raster::adaptive_epsilon * (box.empty() ? reach : box.diagonal())};
@@ -206,7 +211,7 @@ void fill_light(const FrameInput& in, const CapturedMap* captured, raster::Raste
   raster::MapOptions& map = frame.options.map;
   record.captured.emplace().said = said_settings(in.capture);
   record.texel_world = raster::texel_world(record.map.view, in.world);
-  record.rounding = rounding_of(record.map.view, in.world);
+  record.rounding = rounding_of(record.map.view, in);
   record.rounding_world = raster::rounding_world(record.rounding, record.map.view, in.world);
   if (captured == nullptr) return fill_record(in, map.bias, record);
   raster::CapturedTest& test = record.captured->test.emplace();
@@ -270,6 +275,8 @@ void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRe
     record.distance.data[i] = static_cast<float>(at.distance);
     record.outside_map.data[i] = at.inside && looks_up ? 0 : 1;
     if (!record.has_known_map()) return;
+    if (looks_up && lies_beyond_depths(record, bias, light, point, i))
+      record.texel_uv.data[i] = Vec2f(-1.0f), record.outside_map.data[i] = 1;
     record.gap.data[i] =
         static_cast<float>(biased_gap(record, bias, light_at(light, point.position).to_light, point, i));
   });

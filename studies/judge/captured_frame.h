@@ -3,12 +3,22 @@
 
 #include "studies/judge/captured_map.h"
 #include "studies/judge/receivers.h"
+#include "studies/judge/stored_format.h"
 
 namespace gnomon::compare {
 
 /// A renderer's floats place a receiver that far from where doubles do, texels; and the last bits of a depth between 1/2 and 1,
 /// with those of the matrix that made it.
 inline constexpr double lookup_rounding_texels = 0.02, lookup_rounding_stored = 0x1p-22;
+
+/// What a capture does not say of its map and is found in its numbers and its picture.
+struct MapFacts {
+  StoredFormat format{};
+  std::vector<LayerTexels> atlas{};  ///< CapturedMap::atlas
+  /// Receivers that the renderer lights whatever the map holds: those behind the far plane; those whose depth of -1 to 1 lies
+  /// below 0.
+  bool lights_behind = false, lights_nearer_half = false;
+};
 
 struct FrameInput {
   const Capture& capture;
@@ -19,6 +29,7 @@ struct FrameInput {
   const raytrace::RayTracedFrame& traced;
   const Image<std::uint8_t>& elsewhere;  ///< Retraced::elsewhere
   double exposure = 1.0;                 ///< of both pictures
+  const MapFacts& facts;
 };
 
 /// `map`: the capture's, or none. A pixel that the capture shows otherwise than Gnomon (other surface, nothing,

@@ -119,21 +119,6 @@ std::optional<std::string> not_of_light(const MatrixFace& face, std::size_t face
 
 namespace {
 
-/// A layer's texels in its picture: rows from the bottom, and mirrored where the matrix was.
-struct LayerTexels {
-  CapturedRect rect;
-  RowOrder rows = RowOrder::top_down;
-  bool mirrored = false;
-  int picture_width = 0;
-
-  std::size_t at(int u, int v) const {
-    const int y = rect.y + (rows == RowOrder::top_down ? rect.height - 1 - v : v);
-    const int x = rect.x + (mirrored ? rect.width - 1 - u : u);
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_width) +
-           static_cast<std::size_t>(x);
-  }
-};
-
 /// The matrix of the layer alone, whose own runs over the whole picture.
 Mat4 clip_of_rect(const CapturedLayer& layer, ImageSize picture) {
   const CapturedRect& rect = *layer.rect;
@@ -145,19 +130,6 @@ Mat4 clip_of_rect(const CapturedLayer& layer, ImageSize picture) {
   rect_from_picture[0][0] = scale.x, rect_from_picture[1][1] = scale.y;
   rect_from_picture[3][0] = -scale.x * middle.x, rect_from_picture[3][1] = -scale.y * middle.y;
   return rect_from_picture * *layer.clip_from_world;
-}
-
-/// A distance or a depth along the axis, world units, as the view's stored depth; what lies beyond its far plane, and 0, is
-/// nothing.
-float stored_of_linear(const LightView& view, StoredDepth stored, int face, int u, int v, double value) {
-  const float nothing = view.reversed ? 0.0f : 1.0f;
-  if (!(value > 0.0) || !std::isfinite(value)) return nothing;
-  const bool distance = stored == StoredDepth::distance;
-  const double to_depth =
-      distance ? glm::dot(texel_ray(view, face, u + 0.5, v + 0.5).direction, view.face(face).forward) : 1.0;
-  // A cube's corner lies that much farther than its far plane; a number that is kept may round beyond it.
-  if (value > view.face(face).far_depth * (distance ? 1.7321 : 1.0)) return nothing;
-  return static_cast<float>(stored_from_depth(view, face, v + 0.5, value * to_depth));
 }
 
 Expected<LayerNumbers> read_numbers(const Capture& capture, std::size_t i, const CapturedMap& map) {
@@ -172,15 +144,16 @@ Expected<LayerNumbers> read_numbers(const Capture& capture, std::size_t i, const
 Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored, int face, CapturedMap& out) {
   const CapturedLayer& layer = capture.map[i];
   const std::string field = fmt::format("map[{}].depth", i);
-  const auto numbers = read_numbers(capture, i, out);
+  auto numbers = read_numbers(capture, i, out);
   if (!numbers) return fail(numbers.error());
   const ImageSize size = numbers->size;
   const auto wrong = [&](std::string reason) { return capture_error(capture, field, std::move(reason)); };
   raster::ShadowMap& map = out.map;
   const raster::CapturedTest::Part& part = out.parts[static_cast<std::size_t>(face)];
-  const LayerTexels texels{layer.rect.value_or(CapturedRect{0, 0, size.width, size.height}), *layer.rows,
-                           mirrored, size.width};
+  const LayerTexels texels{
+      layer.rect.value_or(CapturedRect{0, 0, size.width, size.height}), *layer.rows, mirrored, size, {}};
   const bool linear = is_linear(out.stored);
+  const std::size_t step = std::max<std::size_t>(1, map.depth.size() / 65536);
   std::size_t bad = 0, beyond = 0;
   for (int v = 0; v < part.height; ++v)
     for (int u = 0; u < part.width; ++u) {
@@ -194,7 +167,13 @@ Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored,
       map.depth[index] = linear ? stored_of_linear(map.view, out.stored, face, column, row,
                                                    linear_world(layer.range, double{value}))
                                 : value;
+      if (index % step == 0 && holds_caster(map.view, double{map.depth[index]}))
+        out.captured_numbers.push_back(value);
     }
+  if (layer.rect && numbers->moments.empty()) out.atlas.resize(capture.map.size());
+  if (!out.atlas.empty())
+    out.atlas[static_cast<std::size_t>(face)] = texels,
+    out.atlas[static_cast<std::size_t>(face)].numbers = std::move(numbers->values);
   if (bad > 0) return wrong(fmt::format("{} texels are not finite numbers", bad));
   if (beyond > 0)
     return wrong(fmt::format("{} texels lie beyond 0 to 1; minus_one_to_one stores (z/w + 1)/2", beyond));
@@ -257,6 +236,24 @@ Expected<std::vector<int>> order_faces(const Capture& capture, const std::vector
 }
 
 }  // namespace
+
+std::size_t LayerTexels::at(int u, int v) const {
+  const int y = rect.y + (rows == RowOrder::top_down ? rect.height - 1 - v : v);
+  const int x = rect.x + (mirrored ? rect.width - 1 - u : u);
+  if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) return none;
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x);
+}
+
+float stored_of_linear(const LightView& view, StoredDepth stored, int face, int u, int v, double value) {
+  const float nothing = view.reversed ? 0.0f : 1.0f;
+  if (!(value > 0.0) || !std::isfinite(value)) return nothing;
+  const bool distance = stored == StoredDepth::distance;
+  const double to_depth =
+      distance ? glm::dot(texel_ray(view, face, u + 0.5, v + 0.5).direction, view.face(face).forward) : 1.0;
+  // A cube's corner lies that much farther than its far plane; a number that is kept may round beyond it.
+  if (value > view.face(face).far_depth * (distance ? 1.7321 : 1.0)) return nothing;
+  return static_cast<float>(stored_from_depth(view, face, v + 0.5, value * to_depth));
+}
 
 double linear_world(const std::optional<Vec2>& range, double stored) {
   if (!range) return stored;

@@ -7,10 +7,25 @@
 
 namespace gnomon::compare {
 
+/// A layer's texels in its picture: rows from the bottom, and mirrored where the matrix was. Places beyond the layer are those
+/// of its neighbours.
+struct LayerTexels {
+  CapturedRect rect;
+  RowOrder rows = RowOrder::top_down;
+  bool mirrored = false;
+  ImageSize picture{};
+  std::vector<float> numbers{};  ///< the picture's; kept of an atlas alone
+
+  static constexpr std::size_t none = ~std::size_t{0};  ///< beyond the picture
+  std::size_t at(int u, int v) const;
+};
+
 struct CapturedMap {
-  raster::ShadowMap map;  ///< `primitive` holds no_id all over
+  raster::ShadowMap map;           ///< `primitive` holds no_id all over
+  std::vector<LayerTexels> atlas;  ///< by face, where layers are parts of a picture; else empty
   StoredDepth stored = StoredDepth::zero_to_one;
-  double unit_world = 1.0;  ///< where is_linear(stored): world units in one of the stored numbers
+  std::vector<float> captured_numbers;  ///< some of the layers' own, of texels that hold a caster
+  double unit_world = 1.0;              ///< where is_linear(stored): world units in one of the stored numbers
   std::vector<CapturedCasterBias> caster_bias;          ///< by face
   std::vector<raster::CapturedTest::Part> parts;        ///< by face: where its layer lies; empty: all over it
   std::vector<CapturedBias> bias;                       ///< by face
@@ -28,6 +43,10 @@ Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const
 
 /// The capture with matrices and lengths of the scene's world in the place of its own; places are not touched.
 Capture in_world_of_scene(Capture capture, const Mat3& scene_from_captured);
+
+/// A distance or a depth along the axis, world units, as the view's stored depth; what lies beyond its far plane, and 0, is
+/// nothing.
+float stored_of_linear(const LightView& view, StoredDepth stored, int face, int u, int v, double value);
 
 /// Returns the world units that a stored number stands for where is_linear(); 0 of the far end of a range, where nothing was drawn.
 double linear_world(const std::optional<Vec2>& range, double stored);

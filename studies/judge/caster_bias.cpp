@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compare/ladder/moments.h"
 #include "compare/result/number_text.h"
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
@@ -34,19 +35,20 @@ double clamped(double offset, double clamp) {
 /// A surface in a texel, as the map's own numbers.
 struct Held {
   double depth = 0.0, stored = 0.0, slope = 0.0;
+  double step = 0.0;  ///< of the map's format there
 };
 
 class FaceReader {
  public:
   FaceReader(const StoredDepths& depths, const LightView& view, int face)
-      : depths_(depths), view_(view), face_(face), step_(depths.format_step()) {}
+      : depths_(depths), view_(view), face_(face) {}
 
   std::optional<Held> held(const SurfaceOnRay& surface, TexelKey key) const {
     const LightFace& face = view_.face(face_);
     if (!(surface.depth > face.near_depth && surface.depth < face.far_depth)) return std::nullopt;
     if (!std::isfinite(surface.stored_slope)) return std::nullopt;
     return Held{surface.depth, stored_from_depth(view_, face_, key.row() + 0.5, surface.depth),
-                surface.stored_slope};
+                surface.stored_slope, depths_.step(key, surface.depth)};
   }
   double moved(const Held& held, TexelKey key, const CapturedCasterBias& bias) const {
     double stored = held.stored;
@@ -62,20 +64,23 @@ class FaceReader {
                     view_.face(face_).forward);
   }
   double slack(const Held& held, double offset) const {
-    return 1.5 * step_ + of_arithmetic + of_places * held.slope + of_offset * std::abs(offset);
+    return 1.5 * held.step + of_arithmetic + of_places * held.slope + of_offset * std::abs(offset);
   }
 
  private:
   const StoredDepths& depths_;
   const LightView& view_;
   int face_;
-  double step_;
 };
 
 /// A texel whose first surface is known, and by how much the map's number is off it.
 struct Point {
   TexelKey key;
   Held held;
+  std::vector<Held>
+      behind{};  ///< further surfaces on the ray, of which the bias may leave one nearer than the first
+  double stored = 0.0;
+  bool empty = false;
   double off = 0.0;       ///< stored numbers, away from the light
   double world = 0.0;     ///< the same along the ray
   bool as_it_is = false;  ///< the map holds one of the scene's surfaces there, unmoved
@@ -88,8 +93,7 @@ std::vector<Point> look_at(const StoredDepths& depths, const FaceReader& reader,
   std::vector<std::optional<Point>> points(keys.size());
   parallel_for(keys.size(), [&](std::size_t i) {
     const TexelKey key = keys[i];
-    if (depths.is_empty(key)) return;
-    const std::vector<SurfaceOnRay> all = depths.all(key);
+    const std::vector<SurfaceOnRay> all = depths.all(key, 4);
     const auto surface =
         std::find_if(all.begin(), all.end(), [backs](const SurfaceOnRay& s) { return !backs || !s.front; });
     if (surface == all.end()) return;
@@ -100,9 +104,18 @@ std::vector<Point> look_at(const StoredDepths& depths, const FaceReader& reader,
       const auto one = reader.held(s, key);
       return one && std::abs(stored - one->stored) <= reader.slack(*one, 0.0);
     };
-    points[i] = Point{key, *held, away_from_light(view) * (stored - held->stored),
-                      (depths.depth(key) - held->depth) / reader.along(key),
-                      std::any_of(all.begin(), all.end(), holds)};
+    std::vector<Held> behind;
+    for (auto next = surface + 1; next != all.end(); ++next)
+      if (const auto one = reader.held(*next, key); one && (!backs || !next->front)) behind.push_back(*one);
+    const bool empty = depths.is_empty(key);
+    points[i] = Point{key,
+                      *held,
+                      std::move(behind),
+                      stored,
+                      empty,
+                      away_from_light(view) * (stored - held->stored),
+                      empty ? 0.0 : (depths.depth(key) - held->depth) / reader.along(key),
+                      !empty && std::any_of(all.begin(), all.end(), holds)};
   });
   std::vector<Point> out;
   for (const auto& point : points)
@@ -113,16 +126,28 @@ std::vector<Point> look_at(const StoredDepths& depths, const FaceReader& reader,
 template <class Value>
 double median_of(const std::vector<Point>& points, const Value& value) {
   std::vector<double> values;
-  for (const Point& p : points) values.push_back(value(p));
+  for (const Point& p : points)
+    if (!p.empty) values.push_back(value(p));
+  if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
+/// The map holds the nearest of the surfaces once they are moved, or of a renderer that casts rays the first one; one at the far
+/// end is nothing drawn.
 bool is_explained(const FaceReader& reader, const LightView& view, const Point& p,
                   const CapturedCasterBias& bias) {
-  const double offset = away_from_light(view) * (reader.moved(p.held, p.key, bias) - p.held.stored);
-  return std::abs(p.off - offset) <= reader.slack(p.held, offset);
+  const auto is_stored = [&](const Held& held, double moved) {
+    return std::abs(p.stored - moved) <= reader.slack(held, moved - held.stored);
+  };
+  const Held* nearest = &p.held;
+  double moved = reader.moved(p.held, p.key, bias);
+  if (is_stored(p.held, moved)) return true;
+  for (const Held& held : p.behind)
+    if (const double next = reader.moved(held, p.key, bias); away_from_light(view) * (next - moved) < 0.0)
+      nearest = &held, moved = next;
+  return is_stored(*nearest, moved);
 }
 
 double explained(const FaceReader& reader, const LightView& view, const std::vector<Point>& points,
@@ -134,6 +159,8 @@ double explained(const FaceReader& reader, const LightView& view, const std::vec
 /// Lines off = constant + slope * m through two points each, which are taken all over the slopes that there are: a surface
 /// of another slope than most is among them, however small.
 std::vector<CapturedCasterBias> lines_through(std::vector<Point> points) {
+  std::erase_if(points, [](const Point& p) { return p.empty; });
+  if (points.empty()) return {};
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.held.slope < b.held.slope; });
   constexpr std::size_t places = 24;
@@ -155,7 +182,7 @@ CapturedCasterBias refined(const FaceReader& reader, const LightView& view, cons
                            const CapturedCasterBias& line) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (const Point& p : points) {
-    if (!is_explained(reader, view, p, line)) continue;
+    if (p.empty || !is_explained(reader, view, p, line)) continue;
     n += 1.0, x += p.held.slope, y += p.off, xx += p.held.slope * p.held.slope, xy += p.held.slope * p.off;
   }
   const double spread = n * xx - x * x;
@@ -222,6 +249,13 @@ class TexelMender {
         return Unmoved{stored - offset(*held, key), held->slope};
     return among_all(key, stored);
   }
+  /// Of an empty texel: the first surface, where the bias moves that to the far end, whose number is that of nothing drawn.
+  std::optional<Unmoved> pushed_out(TexelKey key) const {
+    const auto first = depths_.first(key);
+    const auto held = first ? reader_.held(*first, key) : std::nullopt;
+    if (!held || behind(*held, key, view_.reversed ? 0.0 : 1.0) < -slack(*held, key)) return std::nullopt;
+    return Unmoved{held->stored, held->slope};
+  }
 
  private:
   double offset(const Held& held, TexelKey key) const {
@@ -270,6 +304,8 @@ CasterBiases take_out_caster_bias(const FrameInput& in, const std::vector<Captur
   out.faces = given;
   const auto moves = [](const CapturedCasterBias& bias) { return bias.moves(); };
   if (std::none_of(given.begin(), given.end(), moves)) {
+    // Averages lie behind the nearest of what they are taken of (Jensen's inequality), which no caster's bias makes.
+    if (reads_moments(record)) return {};
     out.faces.assign(static_cast<std::size_t>(map.view.face_count), {});
     for (int face = 0; face < map.view.face_count; ++face)
       if (const auto bias = find_bias(depths, map, face))
@@ -285,9 +321,10 @@ CasterBiases take_out_caster_bias(const FrameInput& in, const std::vector<Captur
     const TexelMender mender(depths, map.view, face, bias);
     for (int column = 0; column < map.view.size; ++column) {
       const TexelKey key = TexelKey::pack(face, column, row);
-      if (depths.is_empty(key)) continue;
+      const bool empty = depths.is_empty(key);
       const std::size_t i = map.texel_index(face, column, row);
-      const auto unmoved = mender.unmoved(key);
+      const auto unmoved = empty ? mender.pushed_out(key) : mender.unmoved(key);
+      if (empty && !unmoved) continue;
       const double constant = away_from_light(map.view) * clamped(bias.constant, bias.clamp);
       const double stored = unmoved ? unmoved->stored : double{map.depth[i]} - constant;
       unbiased[i] = static_cast<float>(std::clamp(stored, 0.0, 1.0));

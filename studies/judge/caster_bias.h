@@ -22,7 +22,8 @@ struct CasterBiases {
 
 /// Fills `record.map.unbiased` where casters were moved; `given`: by face what the capture says. A texel holds the surface on
 /// the ray through its centre whose depth, so moved, is nearest to the stored one, and without the bias the first surface that
-/// was not moved to before that.
+/// was not moved to before that; an empty one the first surface, where the bias moves that to the far end. In maps of moments none
+/// is looked for.
 CasterBiases take_out_caster_bias(const FrameInput& input, const std::vector<CapturedCasterBias>& given,
                                   raster::LightRecord& record);
 

@@ -31,7 +31,9 @@ class Checker {
     using raster::Technique;
     const bool compares =
         map_.technique == Technique::pcf || map_.technique == Technique::pcss || is_hard() || reads_between_;
-    reach_ = compares ? lookup_rounding_texels + (is_hard() ? 0.0 : map_.filter.radius_texels) : infinity;
+    // Far from the origin a receiver's floats lie that far apart, in whatever a renderer works out of them.
+    place_ = lookup_rounding_texels + record_.rounding.float_world / record_.texel_world;
+    reach_ = compares ? place_ + (is_hard() ? 0.0 : map_.filter.radius_texels) : infinity;
   }
 
   bool may_draw(std::size_t pixel, float visibility, bool any_cascade) const;
@@ -61,14 +63,14 @@ class Checker {
   const Light& light_;
   double slack_;  // world units
   bool reads_between_;
-  double reach_ = 0.0;
+  double place_ = 0.0, reach_ = 0.0;  // texels
 };
 
 /// Whether what is read between texels draws it, at the place or as far from it as rounding goes.
 bool Checker::read_between_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const {
   for (const Vec2& off : {Vec2(0, 0), Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)}) {
     BiasedLookup there = lookup;
-    there.at.u += lookup_rounding_texels * off.x, there.at.v += lookup_rounding_texels * off.y;
+    there.at.u += place_ * off.x, there.at.v += place_ * off.y;
     if (draws(lookup, normal, compared_caster(record_, there), lit)) return true;
   }
   return false;
@@ -197,6 +199,20 @@ DescribedTest check_described_test(const FrameInput& in, const raster::RasterFra
       out.by_another_layer += checker.may_draw(i, light.rungs[6].data[i], true) ? 1 : 0;
   if (!unexplained.empty()) mark_unexplained(unexplained, light);
   return out;
+}
+
+std::vector<std::string> far_places_notes(const FrameInput& in, const raster::LightRecord& record) {
+  constexpr double coarse_texels = 0.1;
+  double farthest = 0.0;
+  for (const SurfacePoint& point : in.traced.receiver.data)
+    if (point.primitive != no_id)
+      for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(point.position[axis]));
+  const double spacing = farthest > 0.0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0.0;
+  if (spacing < coarse_texels * record.texel_world) return {};
+  return {fmt::format(
+      "places of 32 bits lie {:.2g} world units apart so far from the origin ({:.3g}), {:.2g} texels "
+      "of the map: move the origin nearer, or work with places relative to the camera",
+      spacing, farthest, spacing / record.texel_world)};
 }
 
 std::vector<std::string> described_test_notes(const DescribedTest& test,

@@ -28,6 +28,10 @@ struct DescribedTest {
 DescribedTest check_described_test(const FrameInput& input, const raster::RasterFrame& drawn,
                                    LightComparison& light);
 
+/// Where receivers stand so far from the world's origin that floats of their places are coarse against the map's texels: by how
+/// much two of them differ.
+std::vector<std::string> far_places_notes(const FrameInput& input, const raster::LightRecord& record);
+
 /// A usual mistake in the description with which it is the test that was drawn.
 struct OtherTest {
   std::string what;    ///< "`rows` of the map is the other one"

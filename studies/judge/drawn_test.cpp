@@ -107,7 +107,7 @@ class Search {
     if (by_fronts && (!by_fronts_ || bias_.slope != 0.0 || bias_.receiver_plane)) return;
     const FrameInput turned{in_.capture,   in_.pictures, in_.world,
                             in_.tracer,    in_.camera,   by_fronts ? *by_fronts_ : in_.traced,
-                            in_.elsewhere, in_.exposure};
+                            in_.elsewhere, in_.exposure, in_.facts};
     fill_record(turned, bias_, record);
     const Fit fit = fit_of(record, light_);
     if (!fits(fit, now_) || (best_ && best_->share >= fit.drawn - clearly)) return;

@@ -10,13 +10,18 @@
 #include "scene/light.h"
 #include "studies/judge/advice.h"
 #include "studies/judge/align.h"
+#include "studies/judge/atlas_reads.h"
 #include "studies/judge/captured_frame.h"
 #include "studies/judge/caster_bias.h"
 #include "studies/judge/described_test.h"
+#include "studies/judge/far_triangles.h"
 #include "studies/judge/map_content.h"
 #include "studies/judge/other_light.h"
+#include "studies/judge/outside_map.h"
 #include "studies/judge/own_test.h"
+#include "studies/judge/stored_format.h"
 #include "studies/judge/traced_rays.h"
+#include "studies/judge/turned_map.h"
 #include "studies/tune/engines.h"
 
 namespace gnomon::compare {
@@ -35,13 +40,14 @@ struct Judging {
   Sight sight{};
   Image<std::uint8_t> elsewhere{};
   CasterBiases casters{};
+  MapFacts facts{};
 
   const LightView* view() const { return map ? &map->map.view : nullptr; }
 };
 
 FrameInput frame_input(const Judging& in, const Comparison& c) {
-  return {in.capture,      in.pictures, in.world,     in.tracer,
-          in.scene.camera, c.raytraced, in.elsewhere, c.exposure};
+  return {in.capture,  in.pictures,  in.world,   in.tracer, in.scene.camera,
+          c.raytraced, in.elsewhere, c.exposure, in.facts};
 }
 
 AlignInput align_input(const Judging& in, const Comparison& c) {
@@ -225,13 +231,26 @@ void finish(Judging& in, Comparison& out) {
     const DescribedTest test = check_described_test(frame, out.raster, light);
     const auto other = test.is_drawn() ? std::nullopt : find_drawn_test(frame, out.raster, light);
     note(described_test_notes(test, other));
+    note(far_triangle_notes(in.world, out.raytraced));
+    note(far_places_notes(frame, record));
     note(no_shadow_notes(light, record));
     note(caster_bias_notes(in.casters, record));
-    const MapContent content = label_map_content(frame, out.raster, light, advice_holds(test, other));
+    const bool even = record.map.view.projection == LightProjection::orthographic ||
+                      record.captured->test->stores != raster::CapturedTest::Stores::depths;
+    note(format_notes(in.facts.format, even ? record.captured->test->unit_world : 0.0));
+    const auto turned = test.is_drawn() ? find_turned_map(frame, out.raster, light) : std::nullopt;
+    if (turned) note({turned_map_note(*turned, light)}), judged->cure = turned_map_cure(*turned);
+    const bool described = advice_holds(test, other) && !turned;
+    const MapContent content = label_map_content(frame, out.raster, light, described);
     note(map_content_notes(content, record));
-    note(outside_map_notes(frame, light, record));
+    const AtlasReads atlas = label_atlas_reads(frame, out.raster, light);
+    note(atlas.notes);
+    const OutsideFindings outside = find_outside_map(frame, light, record);
+    note(outside.notes);
+    for (const std::string& cure : {atlas.cure, outside.cure})
+      if (judged->cure.empty()) judged->cure = cure;
     const TimedStage advising("advice");
-    judged->advice_sought = advice_holds(test, other) && !content.is_main_cause(light);
+    judged->advice_sought = described && !content.is_main_cause(light);
     if (judged->advice_sought)
       judged->advice =
           give_advice(frame, out.raster, light, in.casters,
@@ -246,7 +265,7 @@ void finish(Judging& in, Comparison& out) {
   if (judged->traces) {
     const TracedFinding found = label_traced_rays(frame_input(in, out), light);
     for (std::string& one : traced_notes(found)) judged->notes.push_back(std::move(one));
-    judged->next = traced_advice(found, light);
+    judged->cure = traced_advice(found, light);
   }
   if (!judged->has_map) forget_texels(light);
   out.judged = std::move(judged);
@@ -257,12 +276,17 @@ Expected<void> take_frame(Judging& in, Comparison& out) {
   const std::vector<CapturedCasterBias> given =
       in.map ? in.map->caster_bias : std::vector<CapturedCasterBias>{};
   const FrameInput input = frame_input(in, out);
+  if (in.map) in.facts.atlas = std::move(in.map->atlas);
+  // Averages have the bits of sums, not those of depths.
+  if (in.map && in.map->moments.texels.empty())
+    in.facts.format = find_format(std::move(in.map->captured_numbers));
   auto frame = make_frame(input, std::move(in.map));
   in.map.reset();
   if (!frame) return fail(frame.error());
   out.raster = std::move(*frame);
   raster::LightRecord& record = out.raster.lights.front();
   if (!record.has_known_map()) return {};
+  find_lit_depths(input, out.raster, in.facts);
   in.casters = take_out_caster_bias(input, given, record);
   find_culling(input, out.raster);
   return {};

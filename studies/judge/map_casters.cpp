@@ -1,5 +1,6 @@
 #include "studies/judge/map_casters.h"
 
+#include "compare/ladder/moments.h"
 #include "scene/base/parallel.h"
 
 namespace gnomon::compare {
@@ -14,7 +15,27 @@ constexpr double nearly_all = 0.8;    ///< share of texels that a bias of caster
 constexpr double moved_share = 0.25;  ///< foreign depths for each texel of an object that was moved
 constexpr double bias_slack = 0.1;    ///< of the depth that a bias moves a caster by
 
+bool any_masked(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& m) { return m.alpha_mode == AlphaMode::mask; });
+}
+
+Scene without_masks(Scene scene) {
+  for (Material& m : scene.materials) m.alpha_mode = AlphaMode::opaque;
+  return scene;
+}
+
 }  // namespace
+
+Unmasked::Unmasked(const World& masked)
+    : scene(without_masks(*masked.scene)), world(make_world(scene)), tracer(world, raytrace::Accel::bvh) {}
+
+MapCasters::MapCasters(const FrameInput& in, const raster::RasterFrame& drawn)
+    : in_(in),
+      map_(drawn.options.map),
+      record_(drawn.lights.front()),
+      stored_(in, record_),
+      unmasked_(any_masked(*in.world.scene) ? std::make_unique<Unmasked>(in.world) : nullptr) {}
 
 CasterTexel MapCasters::look(TexelKey key) const {
   CasterTexel t{key, stored_.all(key)};
@@ -25,7 +46,20 @@ CasterTexel MapCasters::look(TexelKey key) const {
   if (!t.empty) t.depth = stored_.depth(key);
   for (std::size_t k = 1; !t.held && k < t.surfaces.size() && !t.stored; ++k)
     if (stored_.is_stored(key, t.surfaces[k].depth, half * t.surfaces[k].across)) t.stored = k;
+  if (unmasked_ != nullptr) look_for_hole(t);
   return t;
+}
+
+/// The hole before the first surface whose depth the map holds; else the first one. The first surface's own depth at the texel's
+/// centre is no hole's, and one of a place beside it is.
+void MapCasters::look_for_hole(CasterTexel& t) const {
+  for (const SurfaceOnRay& s : stored_.all(unmasked_->tracer, t.key)) {
+    if (t.has_first() && s.depth >= t.first().depth) break;
+    if (!t.hole) t.hole = s;
+    if (t.held_at_centre || !stored_.is_stored(t.key, s.depth, half * s.across)) continue;
+    t.hole = s, t.fills_hole = true;
+    break;
+  }
 }
 
 void MapCasters::look_at(std::vector<TexelKey> keys) {
@@ -44,20 +78,24 @@ void MapCasters::judge_objects() {
   std::map<std::uint32_t, std::vector<const CasterTexel*>> by_object;
   std::vector<const CasterTexel*> whole;
   for (const CasterTexel& t : texels_) {
-    foreign_ += t.is_foreign() && (!t.has_first() || t.depth < t.first().depth) ? 1 : 0;
+    if (t.hole) ++holes_[object(*t.hole)].texels, holes_[object(*t.hole)].held += t.fills_hole ? 1 : 0;
     if (!t.has_first()) continue;
     const auto count = [&](Share& share) { ++share.texels, share.held += t.held ? 1 : 0; };
     count(all_), count(objects_[object(t.first())]), count(t.first().front ? fronts_ : backs_);
     whole.push_back(&t), by_object[object(t.first())].push_back(&t);
   }
-  if (all_.of_held() < half) find_bias(whole, whole_bias_);
+  const bool averaged = reads_moments(record_);  // which lies behind the nearest depth
+  if (!averaged && all_.of_held() < half) find_bias(whole, whole_bias_);
   for (const auto& [number, group] : by_object) {
     std::optional<CasterLine> bias;
-    if (objects_[number].of_held() < half) find_bias(group, bias);
+    if (!averaged && objects_[number].of_held() < half) find_bias(group, bias);
     if (bias) object_bias_[number] = *bias;
   }
-  for (const CasterTexel& t : texels_)
-    if (t.has_first() && is_biased(t)) ++biased_[object(t.first())];
+  for (const CasterTexel& t : texels_) {
+    const bool biased = is_biased(t);
+    if (biased && t.has_first()) ++biased_[object(t.first())];
+    foreign_ += t.is_foreign() && !biased && !t.fills_hole ? 1 : 0;
+  }
 }
 
 /// The line through depths that no surface of the scene has, those farthest off it left out step by step.
@@ -91,12 +129,22 @@ void MapCasters::find_bias(const std::vector<const CasterTexel*>& group,
     nearest.resize(count);
     kept = std::move(nearest);
   }
-  out = line;
-  const auto explained = std::count_if(group.begin(), group.end(), [&](const CasterTexel* t) {
+  const auto is_explained = [&](const CasterTexel* t) {
     return t->is_foreign() && std::abs(t->depth - t->first().depth - line.at(t->first())) <=
                                   bias_slack * (t->depth - t->first().depth);
-  });
-  if (double(explained) < nearly_all * double(points.size())) out.reset();
+  };
+  // What the bias moves behind another surface, or to the far plane, is not seen in the map.
+  const auto is_hidden = [&](const CasterTexel* t) {
+    const double moved = t->first().depth + (1.0 + bias_slack) * line.at(t->first());
+    if (t->empty) return moved >= record_.map.view.face(t->key.face()).far_depth;
+    return t->stored && t->surfaces[*t->stored].depth <= moved;
+  };
+  const auto explained = std::count_if(group.begin(), group.end(), is_explained);
+  const auto hidden = std::count_if(group.begin(), group.end(), is_hidden);
+  // An object that moved leaves a strip of its place empty, and fills another.
+  if (double(explained) >= nearly_all * double(points.size()) &&
+      double(explained + hidden) >= nearly_all * double(group.size()))
+    out = line;
 }
 
 const CasterLine* MapCasters::bias_of(std::uint32_t object) const {
@@ -105,9 +153,18 @@ const CasterLine* MapCasters::bias_of(std::uint32_t object) const {
   return found == object_bias_.end() ? nullptr : &found->second;
 }
 
+/// The bias moves the first surface to the far plane, so that nothing is drawn.
+bool MapCasters::is_pushed_out(const CasterTexel& t) const {
+  const CasterLine* bias = t.has_first() ? bias_of(object(t.first())) : nullptr;
+  const LightFace& face = record_.map.view.face(t.key.face());
+  return bias != nullptr && t.first().depth < face.far_depth &&
+         t.first().depth + (1.0 + bias_slack) * bias->at(t.first()) >= face.far_depth;
+}
+
 /// The map holds one of the texel's surfaces as the bias moves it, or what lies before the first one so moved.
 bool MapCasters::is_biased(const CasterTexel& t) const {
-  if (t.empty || t.held_at_centre) return false;
+  if (t.empty) return is_pushed_out(t);
+  if (t.held_at_centre) return false;
   const auto moved = [&](const SurfaceOnRay& s) {
     const CasterLine* bias = bias_of(object(s));
     return bias != nullptr ? bias->at(s) : 0.0;
@@ -139,44 +196,21 @@ bool MapCasters::is_culled(const CasterTexel& t) const {
   return !m.double_sided && backs_.of_held() < hardly_any && fronts_.of_held() >= half;
 }
 
-/// The map holds a triangle where its alpha mask has a hole.
+/// The map fills a hole of an object's mask here, and at half of all of its holes.
 bool MapCasters::is_masked_out(const CasterTexel& t) const {
-  if (t.empty) return false;
-  const Ray ray = stored_.ray(t.key);
-  const LightView& view = record_.map.view;
-  const Vec3& forward = view.face(t.key.face()).forward;
-  for (const WorldPart& part : in_.world.parts) {
-    for (std::uint32_t k = 0; k < part.triangle_count(); ++k) {
-      if (in_.world.scene->materials[part.material_of(k)].alpha_mode != AlphaMode::mask) continue;
-      const auto corners = part.corners(k);
-      const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-      const double facing = glm::dot(normal, ray.direction);
-      if (facing == 0.0) continue;
-      const Vec3 place = ray.at(glm::dot(normal, corners[0] - ray.origin) / facing);
-      bool inside = true;
-      for (std::size_t c = 0; c < 3; ++c)
-        inside = inside &&
-                 glm::dot(normal, glm::cross(corners[(c + 1) % 3] - corners[c], place - corners[c])) >= 0.0;
-      if (!inside) continue;
-      const double depth = glm::dot(place - view.origin, forward);
-      const double slope =
-          texel_world_size(view, t.key.face(), depth) * glm::length(normal) / std::abs(facing);
-      if (stored_.is_stored(t.key, depth, half * slope)) return true;
-    }
-  }
-  return false;
+  return t.fills_hole && holes_.at(object(*t.hole)).of_held() >= half;
 }
 
 /// Returns the label of a caster that the map does not hold at its place.
 Label MapCasters::missing_label(const CasterTexel& t) const {
   const Share& own = objects_.at(object(t.first()));
   const auto lacking = double(own.texels - own.held);
-  const bool elsewhere = own.of_held() < half && double(foreign_) >= moved_share * lacking;
-  return elsewhere ? Label::moved_caster : Label::missing_caster;
+  return double(foreign_) >= moved_share * lacking ? Label::moved_caster : Label::missing_caster;
 }
 
 std::optional<Label> MapCasters::label_of(TexelKey key, bool false_shadow) const {
   const CasterTexel& t = texel(key);
+  if (is_masked_out(t)) return Label::ignored_alpha;
   if (is_biased(t)) return Label::caster_bias;
   const bool lacks_object = t.has_first() && objects_.at(object(t.first())).of_held() < half;
   if (t.held_at_centre || (t.held && !lacks_object) || holds_other_side(t)) return std::nullopt;
@@ -185,7 +219,6 @@ std::optional<Label> MapCasters::label_of(TexelKey key, bool false_shadow) const
   const bool nearer = !t.empty && (!t.has_first() || t.depth < t.first().depth);
   if (!nearer && lacks_object) return is_biased_object(t.first()) ? Label::caster_bias : missing_label(t);
   if (stored_.holds_neighbours(key)) return Label::aliasing;
-  if (nearer && is_masked_out(t)) return Label::ignored_alpha;
   if (nearer) return Label::moved_caster;
   if (!t.has_first()) return std::nullopt;
   return false_shadow ? Label::moved_caster : missing_label(t);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,10 @@ struct CasterTexel {
   bool held = false;                   ///< the map holds the scene's depth
   bool held_at_centre = false;
   std::optional<std::size_t> stored{};  ///< the surface whose depth the map holds instead
-  double depth = infinity;              ///< as stored
+  std::optional<SurfaceOnRay>
+      hole{};  ///< the hole of a mask before the first surface whose depth the map holds, or has not
+  bool fills_hole = false;  ///< it holds that
+  double depth = infinity;  ///< as stored
   bool empty = false;
 
   bool has_first() const { return !surfaces.empty(); }
@@ -37,11 +41,18 @@ struct CasterLine {
   double at(const SurfaceOnRay& surface) const { return constant + scale * surface.across; }
 };
 
+/// The scene as a map's pass draws it that does not test alpha.
+struct Unmasked {
+  explicit Unmasked(const World& masked);
+  Scene scene;
+  World world;
+  raytrace::Tracer tracer;
+};
+
 /// The map's texels that were looked at, and what they tell of each object.
 class MapCasters {
  public:
-  MapCasters(const FrameInput& in, const raster::RasterFrame& drawn)
-      : in_(in), map_(drawn.options.map), record_(drawn.lights.front()), stored_(in, record_) {}
+  MapCasters(const FrameInput& in, const raster::RasterFrame& drawn);
 
   /// Looks at these texels and at a grid over the map.
   void look_at(std::vector<raytrace::TexelKey> keys);
@@ -68,6 +79,7 @@ class MapCasters {
     double of_held() const { return texels > 0 ? double(held) / double(texels) : 1.0; }
   };
   CasterTexel look(raytrace::TexelKey key) const;
+  void look_for_hole(CasterTexel& t) const;
   std::uint32_t object(const SurfaceOnRay& s) const { return in_.world.object_of(s.primitive); }
   bool is_clipped(const SurfaceOnRay& s, raytrace::TexelKey key) const {
     const LightFace& face = record_.map.view.face(key.face());
@@ -83,15 +95,19 @@ class MapCasters {
     return map_.cull != raster::Cull::none && t.stored && object(t.surfaces[*t.stored]) == object(t.first());
   }
   bool is_masked_out(const CasterTexel& t) const;
+  bool is_pushed_out(const CasterTexel& t) const;
   Label missing_label(const CasterTexel& t) const;
 
   const FrameInput& in_;
   const raster::MapOptions& map_;
   const raster::LightRecord& record_;
   StoredDepths stored_;
-  std::vector<CasterTexel> texels_;  ///< ascending by key
+  std::unique_ptr<Unmasked> unmasked_;  ///< null: no material has a mask
+  std::vector<CasterTexel> texels_;     ///< ascending by key
   Share all_, fronts_, backs_;
   std::map<std::uint32_t, Share> objects_;
+  std::map<std::uint32_t, Share>
+      holes_;  ///< texels of each object's holes, and those of them that the map fills
   std::size_t foreign_ = 0;
   std::optional<CasterLine> whole_bias_;
   std::map<std::uint32_t, CasterLine> object_bias_;

@@ -4,6 +4,7 @@
 #include "raytrace/shading/picture.h"
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
+#include "studies/judge/far_triangles.h"
 
 namespace gnomon::compare {
 namespace {
@@ -84,7 +85,9 @@ Retraced retrace(const raytrace::Tracer& tracer, const Sight& sight, const Captu
                  bool everywhere, const raytrace::RaytraceOptions& options, raytrace::RayTracedFrame& frame) {
   const TimedStage stage("capture's places");
   const World& world = tracer.world();
-  const double scene = world.finite_bounds.empty() ? 0.0 : world.finite_bounds.diagonal();
+  constexpr double unseen = 10.0;  // times what is seen: beyond that a triangle reaches absurdly far
+  const double all = world.finite_bounds.empty() ? 0.0 : world.finite_bounds.diagonal();
+  const double scene = std::min(all, unseen * seen_diagonal(frame));
   const Retracer retracer{tracer, sight, pictures, options, frame, reach_of_scene * scene};
   const ImageSize size = sight.view.size;
   Retraced out{Image<std::uint8_t>(size, 0)};

@@ -1,7 +1,6 @@
 #include "studies/judge/stored_depths.h"
 
 #include <algorithm>
-#include <bit>
 #include <tuple>
 
 #include "compare/ladder/biased_test.h"
@@ -13,37 +12,9 @@ namespace {
 
 constexpr double arithmetic =
     0x1p-22;  ///< of stored numbers: a matrix and a depth between 1/2 and 1, in floats
-constexpr double steps_allowed = 0.75;     ///< of the format; rounding takes half of one
+/// Steps of the format: rounding takes half of one, truncation all of it.
+constexpr double steps_allowed = 1.0;
 constexpr double scene_reach = 1.0 / 8.0;  ///< texels: a rasterizer's sample places are kept in 1/256 of one
-
-/// The step of whole numbers of so many bits, if that is what all values are.
-bool are_whole_numbers(const std::vector<float>& values, double most) {
-  return std::all_of(values.begin(), values.end(), [most](float v) {
-    const double scaled = most * double{v};
-    return std::abs(scaled - std::round(scaled)) < 0x1p-20 * most;
-  });
-}
-
-/// Returns the step of numbers between 1/2 and 1 that have no bits below those that all values have.
-double step_of_bits(const std::vector<float>& values) {
-  int zeros = 23;
-  for (const float v : values)
-    if (v != 0.0f) zeros = std::min(zeros, std::countr_zero(std::bit_cast<std::uint32_t>(v)));
-  return std::exp2(zeros - 24);
-}
-
-/// What the map's numbers have in common, each counted once in so many.
-double find_format_step(const raster::ShadowMap& map) {
-  std::vector<float> values;
-  const std::size_t step = std::max<std::size_t>(1, map.depth.size() / 65536);
-  for (std::size_t i = 0; i < map.depth.size(); i += step)
-    if (holds_caster(map.view, double{map.depth[i]})) values.push_back(map.depth[i]);
-  constexpr std::size_t few = 64;  // numbers tell nothing
-  if (values.size() < few) return 0x1p-24;
-  for (const double most : {255.0, 65535.0})
-    if (are_whole_numbers(values, most)) return 1.0 / most;
-  return step_of_bits(values);
-}
 
 }  // namespace
 
@@ -58,7 +29,21 @@ std::vector<raytrace::TexelKey> sampled_texels(const LightView& view, int face) 
 }
 
 StoredDepths::StoredDepths(const FrameInput& in, const raster::LightRecord& record)
-    : in_(in), record_(record), view_(record.map.view), format_step_(find_format_step(record.map)) {}
+    : in_(in), record_(record), view_(record.map.view) {}
+
+double StoredDepths::step(raytrace::TexelKey key, double depth) const {
+  const raster::CapturedTest& test = *record_.captured->test;
+  const LightFace& face = view_.face(key.face());
+  const double own = stored_from_depth(view_, key.face(), key.row() + 0.5, depth);
+  using Stores = raster::CapturedTest::Stores;
+  const StoredFormat& format = in_.facts.format;
+  if (test.stores == Stores::depths) return step_near(format, own);
+  const double along = test.stores == Stores::distances ? glm::dot(ray(key).direction, face.forward) : 1.0;
+  const double zero_world = in_.capture.map.front().range.value_or(Vec2(0.0)).x;
+  const double number = std::abs(depth / along - zero_world) / test.unit_world;
+  const double next = depth + step_near(format, number) * test.unit_world * along;
+  return std::abs(stored_from_depth(view_, key.face(), key.row() + 0.5, next) - own);
+}
 
 double StoredDepths::stored(raytrace::TexelKey key) const {
   return record_.map.true_depth()[record_.map.texel_index(key.face(), key.column(), key.row())];
@@ -113,11 +98,16 @@ std::optional<SurfaceOnRay> StoredDepths::first(raytrace::TexelKey key, const Ve
 }
 
 std::vector<SurfaceOnRay> StoredDepths::all(raytrace::TexelKey key, std::size_t most) const {
+  return all(in_.tracer, key, most);
+}
+
+std::vector<SurfaceOnRay> StoredDepths::all(const raytrace::Tracer& tracer, raytrace::TexelKey key,
+                                            std::size_t most) const {
   std::vector<SurfaceOnRay> out;
   const Vec2 place(key.column() + 0.5, key.row() + 0.5);
   const Ray from = ray(key);
   visit_hits(
-      from, [&](const Ray& rest) { return in_.tracer.closest_hit(rest, raytrace::Sides::casting); },
+      from, [&](const Ray& rest) { return tracer.closest_hit(rest, raytrace::Sides::casting); },
       [&](const raytrace::Hit& hit) {
         out.push_back(surface(from, hit, key.face(), place));
         return out.size() < most;
@@ -134,7 +124,8 @@ bool StoredDepths::is_stored(raytrace::TexelKey key, double depth, double slack)
                              std::clamp(d, face.near_depth, face.far_depth));
   };
   const auto [low, high] = std::minmax({number(depth - slack), number(depth + slack)});
-  const double allowed = steps_allowed * format_step_ + arithmetic;
+  const double allowed =
+      steps_allowed * step(key, std::clamp(depth, face.near_depth, face.far_depth)) + arithmetic;
   double least = stored(key), most = least;
   if (reads_moments(record_)) {
     const Interval own = averaged_depths(record_, key);

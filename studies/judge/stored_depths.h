@@ -25,8 +25,8 @@ class StoredDepths {
  public:
   StoredDepths(const FrameInput& input, const raster::LightRecord& record);
 
-  /// Smallest difference of stored numbers of the map's format, near 1.
-  double format_step() const { return format_step_; }
+  /// By how much stored numbers differ at least at this depth in the map's format.
+  double step(raytrace::TexelKey key, double depth) const;
   /// Without the casters' bias, once that was taken out.
   double stored(raytrace::TexelKey key) const;
   bool is_empty(raytrace::TexelKey key) const { return !holds_caster(view_, stored(key)); }
@@ -41,8 +41,11 @@ class StoredDepths {
   std::optional<SurfaceOnRay> first(raytrace::TexelKey key, const Vec2& off = Vec2(0.0)) const;
   /// All that it meets there, nearest first, at most so many.
   std::vector<SurfaceOnRay> all(raytrace::TexelKey key, std::size_t most = 12) const;
+  /// The same in a scene with other materials.
+  std::vector<SurfaceOnRay> all(const raytrace::Tracer& tracer, raytrace::TexelKey key,
+                                std::size_t most = 12) const;
 
-  /// Whether the stored number is this depth, but for `slack` (a depth), 3/4 of a step of the format and 2^-22 of
+  /// Whether the stored number is this depth, but for `slack` (a depth), a step of the format and 2^-22 of
   /// arithmetic. A depth before the near plane or behind the far one counts as one on it.
   bool is_stored(raytrace::TexelKey key, double depth, double slack) const;
   /// Whether the map holds the first surface of the texel's centre, or of a place within 1/8 texel of it.
@@ -57,7 +60,6 @@ class StoredDepths {
   const FrameInput& in_;
   const raster::LightRecord& record_;
   const LightView& view_;
-  double format_step_ = 0.0;
 };
 
 }  // namespace gnomon::compare

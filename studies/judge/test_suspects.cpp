@@ -9,6 +9,7 @@
 #include "scene/base/parallel.h"
 #include "studies/judge/captured_moments.h"
 #include "studies/judge/captured_paraboloids.h"
+#include "studies/judge/turned_map.h"
 
 namespace gnomon::compare {
 namespace {
@@ -31,15 +32,11 @@ void exchange_texels(LightRecord& record, std::size_t a, std::size_t b, std::siz
   if (!test_of(record).moments.texels.empty()) exchange(test_of(record).moments.texels);
 }
 
-bool turn_rows(LightRecord& record) {
-  if (!test_of(record).paraboloids.empty()) return false;  // add_paraboloid_suspects()
-  const raster::ShadowMap& map = record.map;
-  const int n = map.view.size;
-  for (int face = 0; face < map.view.face_count; ++face)
-    for (int row = 0; row < n / 2; ++row)
-      exchange_texels(record, map.texel_index(face, 0, row), map.texel_index(face, 0, n - 1 - row),
-                      static_cast<std::size_t>(n));
-  return true;
+bool turn_faces(LightRecord& record, const MapTurn& turn) {
+  bool turned = true;
+  for (int face = 0; face < record.map.view.face_count; ++face)
+    turned = turned && turn_face(turn, face, record);
+  return turned;
 }
 
 bool turn_sign(LightRecord& record) {
@@ -118,7 +115,11 @@ void add_conventions(const LightRecord& described, std::vector<TestSuspect>& out
     return out.back();
   };
   add("`rows` of the map is the other one", "the renderer reads its map upside down (v runs the other way)",
-      turn_rows);
+      [](LightRecord& record) { return turn_faces(record, {.rows = true}); });
+  add("the map's columns run the other way", "the renderer reads its map mirrored (u runs the other way)",
+      [](LightRecord& record) { return turn_faces(record, {.columns = true}); });
+  add("the map's columns are its rows", "the renderer reads its map with u and v exchanged",
+      [](LightRecord& record) { return turn_faces(record, {.transposed = true}); });
   add("`constant_depth` has the other sign (positive takes shadow away)",
       "the renderer applies its bias with the other sign", turn_sign)
       .of_constant = true;

@@ -180,6 +180,19 @@ TEST(JudgeDescribed, OffsetOfTheWrongSignOnBackFacesIsNamed) {
                     "if the renderer's normal offset has the wrong sign on back faces");
 }
 
+TEST(JudgeDescribed, MapReadMirroredIsTheRenderersDoing) {
+  OtherPicture picture("mirrored", enough_bias);
+  const auto mirror = [](ChannelImage& image) {
+    std::vector<float>& values = image.channels[0].values;
+    const auto n = static_cast<std::ptrdiff_t>(image.size.width);
+    for (auto row = values.begin(); row != values.end(); row += n) std::reverse(row, row + n);
+  };
+  spoil(picture.capture.map[0].depth, mirror);
+  picture.draw_with(enough_bias);
+  spoil(picture.capture.map[0].depth, mirror);
+  expect_other_test(picture.judged(), "if the renderer reads its map mirrored (u runs the other way)");
+}
+
 // A normal offset that the capture does not say moves edges by some pixels, and nothing usual explains it.
 TEST(JudgeDescribed, WhatIsNotSaidIsUnexplained) {
   OtherPicture picture("unsaid", {.constant_depth = 0.001, .normal_offset_world = 0.2});
@@ -207,17 +220,22 @@ TEST(JudgeDescribed, RightCapturesAreNotDoubted) {
 
 // ---- what the map holds ----
 
+// Rounded or truncated alike; what the numbers have in common is said.
 TEST(JudgeDescribed, CoarseDepthsAreAMatterOfPrecision) {
-  OtherPicture picture("coarse", enough_bias);
-  spoil(picture.capture.map[0].depth, [](ChannelImage& image) {
-    for (float& v : image.channels[0].values) v = std::round(255.0f * v) / 255.0f;
-  });
-  picture.draw_with(enough_bias);
-  const JudgeOutcome judged = picture.judged();
-  EXPECT_EQ(notes_of(judged), "");
-  ASSERT_TRUE(judged.result) << reason(judged);
-  EXPECT_GT(count_of(judged, compare::Label::stored_depth), 100U);
-  EXPECT_EQ(count_of(judged, compare::Label::unexplained), 0U);
+  for (const bool truncated : {false, true}) {
+    OtherPicture picture("coarse", enough_bias);
+    spoil(picture.capture.map[0].depth, [truncated](ChannelImage& image) {
+      for (float& v : image.channels[0].values)
+        v = (truncated ? std::floor(255.0f * v) : std::round(255.0f * v)) / 255.0f;
+    });
+    picture.draw_with(enough_bias);
+    const JudgeOutcome judged = picture.judged();
+    EXPECT_NE(notes_of(judged).find("the map's depths are multiples of 1/255: eight bits"),
+              std::string::npos);
+    ASSERT_TRUE(judged.result) << reason(judged);
+    EXPECT_GT(20 * count_of(judged, compare::Label::stored_depth), 19 * judged.result->lights[0].error.wrong);
+    EXPECT_EQ(count_of(judged, compare::Label::unexplained), 0U);
+  }
 }
 
 // ---- a map that covers a part of the picture ----

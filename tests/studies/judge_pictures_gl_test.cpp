@@ -289,7 +289,7 @@ TEST(RayTracers, SelfIntersectionIsNamedAndTheOffsetCuresIt) {
   EXPECT_NE(notes.find("self-intersection"), std::string::npos) << notes;
   EXPECT_NE(notes.find("places of 32 bits are 0.0078 apart"), std::string::npos) << notes;
   double offset = 0.0;
-  ASSERT_EQ(std::sscanf(c.judged->next.c_str(), "Start shadow rays %lf off", &offset), 1) << c.judged->next;
+  ASSERT_EQ(std::sscanf(c.judged->cure.c_str(), "Start shadow rays %lf off", &offset), 1) << c.judged->cure;
   const JudgeOutcome cured = judge(traced(drawn, "rays", offset), *drawn.scene);
   ASSERT_TRUE(cured.result) << reason(cured);
   EXPECT_EQ(cured.result->lights[0].error.wrong, 0u) << "offset " << offset;
@@ -318,7 +318,7 @@ TEST(RayTracers, AShadowOfSomethingElseStaysUnexplained) {
   ASSERT_TRUE(judged.result) << reason(judged);
   ASSERT_GT(judged.result->lights[0].error.wrong, 100u);
   EXPECT_EQ(labelled(*judged.result, Label::acne), 0u);
-  EXPECT_EQ(judged.result->judged->next, "");
+  EXPECT_EQ(judged.result->judged->cure, "");
 }
 
 }  // namespace

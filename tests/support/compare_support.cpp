@@ -1,5 +1,8 @@
 #include "tests/support/compare_support.h"
 
+#include <fstream>
+#include <iterator>
+
 #include "tests/support/small_scenes.h"
 
 namespace gnomon::test {
@@ -38,6 +41,16 @@ compare::CompareOptions test_options(ImageSize size, int map_size, double bias_w
   options.raytrace.picture = false;
   options.perceptual = false;
   return options;
+}
+
+void write_between_marks(const std::string& path, const std::string& name, const std::string& text) {
+  std::ifstream in(path);
+  std::string file{std::istreambuf_iterator<char>(in), {}};
+  const std::string from = "<!-- " + name + " -->\n", to = "<!-- end of the " + name + " -->";
+  const std::size_t start = file.find(from), end = file.find(to);
+  ASSERT_TRUE(start != file.npos && end != file.npos) << path << " lacks the marks";
+  file.replace(start + from.size(), end - start - from.size(), text);
+  std::ofstream(path) << file;
 }
 
 double acne_fraction(double a, double b, double bias) {

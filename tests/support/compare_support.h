@@ -26,6 +26,9 @@ Compared run_comparison(Scene scene, const compare::CompareOptions& options,
 /// Options for a test: untimed, one map, the given image size, without what `perceptual` adds.
 compare::CompareOptions test_options(ImageSize size, int map_size, double bias_world = 0.0);
 
+/// Puts a text into a file, between the marks `<!-- NAME -->` and `<!-- end of the NAME -->`, each a line of its own.
+void write_between_marks(const std::string& path, const std::string& name, const std::string& text);
+
 /// P(a U1 + b U2 > bias) for independent U1, U2 uniform on (-1, 1): the acne fraction of a plane whose depth
 /// changes by a and b over half a texel (docs/design.md, section 3).
 double acne_fraction(double a, double b, double bias);
