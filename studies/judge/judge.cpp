@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compare/result/engines.h"
 #include "compare/result/number_text.h"
 #include "scene/base/stages.h"
 #include "scene/exposure.h"
@@ -15,7 +16,6 @@
 #include "studies/judge/described_test.h"
 #include "studies/judge/map_content.h"
 #include "studies/judge/own_test.h"
-#include "studies/tune/engines.h"
 
 namespace gnomon::compare {
 namespace {
