@@ -197,7 +197,8 @@ struct BiasKind {
   double from = 0.0, to = 0.0;  ///< settings from `from` on and below `to` are hardly worse, too
 };
 
-/// What a map of another size would leave, all else as drawn: an estimate (ladder/other_sizes.h).
+/// What a map of another size would leave, all else as drawn: an estimate (ladder/other_sizes.h), which tells what is worth
+/// a drawing.
 struct OtherMapSize {
   int size = 0;                                      ///< texels on a side
   double mean_absolute = 0.0, standard_error = 0.0;  ///< as ErrorStats::mean_absolute; of the estimate
@@ -356,6 +357,12 @@ struct MachineInfo {
 
 struct Judged;
 
+/// A setting beside the one compared that was drawn, so that it can be advised (advice/tried.h).
+struct TriedSetting {
+  raster::MapOptions map;
+  std::vector<LightFigures> lights;  ///< as RasterFrame::lights; pixels, error and edges alone
+};
+
 struct Comparison {
   const World* world = nullptr;
   /// Another renderer's picture and map stand in `raster` (compare/result/judged.h); null: Gnomon's own.
@@ -371,6 +378,7 @@ struct Comparison {
   /// Stands for the receivers of a picture in bands, which are not kept; else empty.
   Image<SeenSurface> seen;
   std::vector<LightComparison> lights;
+  std::vector<TriedSetting> tried;  ///< empty where nothing was worth a drawing, and where none was made
   ViewErrors views;
   const Figure* measure = &wrong_and_mean();  ///< what errors are counted in, where the user chose
   std::optional<Threshold> fail_above;        ///< what the errors were held against

@@ -19,6 +19,7 @@
 #include "app/process/machine.h"
 #include "app/session.h"
 #include "app/strongest_lights.h"
+#include "compare/advice/tried.h"
 #include "compare/measure/reduced.h"
 #include "compare/result/figures.h"
 #include "compare/result/places.h"
@@ -67,6 +68,28 @@ std::string folder_of_rows(const CompareCommand& command) {
                         : std::filesystem::absolute(folder).parent_path().string();
 }
 
+/// Draws the picture in one piece with other options of the map, for numbers alone. A map that the memory does not hold is an
+/// error.
+compare::Redraw redraw_of(const CompareCommand& command, const LoadedScene& loaded,
+                          const std::vector<std::uint32_t>& lights,
+                          std::unique_ptr<raster::Renderer>& renderer) {
+  return [&](const raster::MapOptions& map) -> Expected<raster::RasterFrame> {
+    raster::RasterOptions options =
+        compare::drawing_options(command.setting.options.raster, command.setting.options.raytrace);
+    options.map = map, options.runs = 0, options.shadow_cost = false, options.map_contents = false;
+    const auto bytes = compare_bytes(*loaded.scene, lights, options.size, wants_page(command));
+    const double map_bytes = bytes_per_texel * std::pow(double(map.size), 2.0);
+    const auto fits = check_memory(command.memory, options.size, bytes, graphics_bytes + map_bytes);
+    if (!fits) return fail(fits.error());
+    if (!renderer) {
+      auto made = make_renderer(command.backend, loaded, command.shader_folder);
+      if (!made) return fail(made.error());
+      renderer = std::move(*made);
+    }
+    return renderer->render(options, lights);
+  };
+}
+
 /// What the drawing needs is let go before the rest is compared, and the hierarchy is made before it is asked for: memory
 /// that one of them frees the next one takes.
 Expected<Compared> compare_picture(const CompareCommand& command, const LoadedScene& loaded,
@@ -86,7 +109,12 @@ Expected<Compared> compare_picture(const CompareCommand& command, const LoadedSc
   auto bands = plan_bands(command.memory, raster.size, bytes, raster::most_pixels(**renderer, raster.map));
   if (!bands) return fail(bands.error());
   compare::Plan plan = compare::plan_of(tracer, lights, options);
+  const Stopwatch joining;
+  const raytrace::Topology topology(*loaded.world);
+  plan.topology = &topology;
   compare::FrameSource frames = compare::frames_of(tracer, **renderer, lights, options);
+  Compared out;
+  out.comparison.topology_ms = joining.elapsed_ms();
   plan.bands = std::move(*bands);
   if (plan.bands.size() > 1) {
     plan.folder = folder_of_rows(command), plan.page = wants_page(command), plan.aov = command.output.aov;
@@ -101,11 +129,13 @@ Expected<Compared> compare_picture(const CompareCommand& command, const LoadedSc
       return drawn;
     };
   }
-  Compared out;
-  out.comparison.command = command.command_line;
+  out.comparison.command = command.command_line, out.comparison.measure = command.output.measure;
   auto parts = compare::measure(out.comparison, plan, frames, progress);
   if (!parts) return fail(parts.error());
   out.parts = std::move(*parts);
+  if (plan.bands.size() > 1) return out;
+  progress("trying what may help", 0.9);
+  compare::try_settings(out.comparison, plan, redraw_of(command, loaded, lights, *renderer));
   return out;
 }
 
@@ -154,7 +184,6 @@ Expected<Compared> render_and_compare(const CompareCommand& command, const Loade
   comparison.seed = command.seed;
   comparison.machine = machine_info();
   comparison.fail_above = command.output.fail_above;
-  comparison.measure = command.output.measure;
   comparison.load_ms = loaded.load_ms;
   comparison.peak_memory_bytes = peak_memory_bytes();
   return compared;

@@ -167,7 +167,7 @@ Expected<Bench> make_bench(const TuneCommand& command, LoadedScene& loaded,
   if (!renderer) return fail(renderer.error());
   const auto sizes = choose_sizes(command, (*renderer)->info().max_map_size);
   if (!sizes) return fail(sizes.error());
-  auto fitting = fitting_families(families, *loaded.scene, setting->compared);
+  auto fitting = fitting_families(families, *loaded.scene, setting->compared, command.engine);
   if (!fitting) return fail(fitting.error());
   Bench bench{loaded, std::move(*renderer), *loaded.scene, std::move(*fitting), std::move(*setting), {}};
   if (command.asked.is_filmed()) {

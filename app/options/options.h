@@ -15,10 +15,10 @@
 #include "app/outputs/heatmap.h"
 #include "app/outputs/run_files.h"
 #include "compare/compare.h"
+#include "compare/result/engines.h"
 #include "raytrace/frame.h"
 #include "scene/base/expected.h"
 #include "studies/sweep/engine.h"
-#include "studies/tune/engines.h"
 
 namespace CLI {
 class App;

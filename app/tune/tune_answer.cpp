@@ -208,10 +208,7 @@ std::string own_units(const TuneAnswer& answer) {
     if (unit.engine == engine)
       text += unit.value ? fmt::format("  {} {}\n", unit.setting, compare::plain_number(*unit.value))
                          : fmt::format("  {}: no number, {}\n", unit.setting, unit.formula);
-  const std::string by_formula = compare::settings_text(derived.units, engine);
-  return by_formula.empty()
-             ? text
-             : text + paragraph(fmt::format("Worked out from the map alone: {}.", by_formula), 2);
+  return text;
 }
 
 std::string untried_text(const TuneAnswer& answer) {

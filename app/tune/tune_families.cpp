@@ -28,6 +28,25 @@ std::vector<Values> default_kinds() {
           {{"receiver-plane", "on"}}, {{"adaptive-bias", "on"}}, {{"cull", "front"}}};
 }
 
+/// What an engine can be told: its own kinds of bias, beside a constant where it has one, with what its filters need.
+std::vector<Values> kinds_of(const compare::TunedEngine& engine) {
+  using compare::BiasPart;
+  const bool constant = engine.has(BiasPart::constant);
+  std::vector<Values> kinds;
+  const auto add = [&](const char* option, std::initializer_list<const char*> values) {
+    for (const char* value : values) {
+      kinds.push_back({{option, value}});
+      if (!constant) kinds.back().insert(kinds.back().begin(), {"bias", "0"});
+    }
+  };
+  if (constant) add("bias", {"1texel"});
+  if (engine.has(BiasPart::slope))
+    add(engine.offsets_casters ? "caster-slope-bias" : "slope-bias", {"1", "2", "4"});
+  if (engine.has(BiasPart::normal_offset)) add("normal-offset", {"1", "2", "4"});
+  if (engine.front_faces_culled) add("cull", {"front"});
+  return kinds;
+}
+
 /// Maps of moments and of depths between two surfaces are made so that no bias beside a constant is needed.
 bool needs_no_kind(raster::Technique technique) {
   const raster::MapContents contents = raster::traits_of(technique).contents;
@@ -48,15 +67,16 @@ std::string option_words(std::string option, const std::string& value) {
 }
 
 /// The options that say what kind of bias it is.
-constexpr std::array<const char*, 5> kind_options{"slope-bias", "normal-offset", "receiver-plane",
-                                                  "adaptive-bias", "cull"};
+constexpr std::array<const char*, 6> kind_options{"slope-bias",     "caster-slope-bias", "normal-offset",
+                                                  "receiver-plane", "adaptive-bias",     "cull"};
 
 std::string family_name(const Values& values, const Values& fixed, raster::Technique technique, bool filmed) {
   std::string name;
   bool kind = std::any_of(kind_options.begin(), kind_options.end(),
                           [&](const char* option) { return is_named(fixed, option); });
   for (const auto& [option, value] : values) {
-    if (option == "bias") continue;  // the tuner finds it
+    if (option == "bias" || option == "filter-plane")
+      continue;  // the tuner finds it; no engine's filter has one
     kind = kind || option != "technique";
     name += (name.empty() ? "" : ", ") + (option == "technique" ? value : option_words(option, value));
   }
@@ -67,16 +87,16 @@ std::string family_name(const Values& values, const Values& fixed, raster::Techn
 }
 
 /// Everything fixed, with the values of one family that its technique reads.
-Expected<OptionFamily> make_family(Values values, const Values& fixed, bool filmed) {
+Expected<OptionFamily> make_family(Values values, const Values& fixed, bool filmed, bool keeps_bias) {
   Values all = fixed;
   all.insert(all.end(), values.begin(), values.end());
   const Values read = values_read(all);
   std::erase_if(values, [&](const auto& entry) { return !is_named(read, entry.first); });
   const auto parsed = parse_setting(read);
   if (!parsed) return fail(parsed.error());
-  return OptionFamily{
-      {family_name(values, fixed, parsed->options.raster.map.technique, filmed), parsed->options.raster.map},
-      std::move(values)};
+  return OptionFamily{{family_name(values, fixed, parsed->options.raster.map.technique, filmed),
+                       parsed->options.raster.map, keeps_bias},
+                      std::move(values)};
 }
 
 // What differs in the constant bias alone is one family: the tuner finds that.
@@ -108,7 +128,10 @@ Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, b
   for (const compare::Axis& axis : grid->axes())
     if (axis.name != "map-size") axes.push_back(axis);
   if (!is_given(fixed, *grid, "technique")) axes.insert(axes.begin(), {"technique", tuned_techniques()});
-  std::vector<Values> kinds = filmed ? still_kinds() : default_kinds();
+  std::vector<Values> kinds = filmed              ? still_kinds()
+                              : engine != nullptr ? kinds_of(*engine)
+                                                  : default_kinds();
+  const bool keeps_bias = engine != nullptr && !engine->has(compare::BiasPart::constant);
   const std::span<const char* const> said =
       filmed ? std::span<const char* const>(still_options) : std::span<const char* const>(kind_options);
   bool kinds_given = filmed;
@@ -124,7 +147,9 @@ Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, b
       for (std::size_t k = 0; k < axes.size(); ++k)
         values.emplace_back(axes[k].name, product->value(k, cell));
       values.insert(values.end(), kind.begin(), kind.end());
-      auto family = make_family(std::move(values), fixed, filmed);
+      if (engine != nullptr && !is_given(fixed, *grid, "filter-plane"))
+        values.emplace_back("filter-plane", "off");
+      auto family = make_family(std::move(values), fixed, filmed, keeps_bias);
       if (!family) return fail(family.error());
       const auto sound = raster::check_map_options(family->tuned.map);
       if (!sound) unsound = sound.error();
@@ -158,7 +183,8 @@ std::string technique_limits() {
 /// Without the techniques that have no map for a light compared.
 Expected<std::vector<OptionFamily>> fitting_families(const std::vector<OptionFamily>& families,
                                                      const Scene& scene,
-                                                     const std::vector<std::uint32_t>& lights) {
+                                                     const std::vector<std::uint32_t>& lights,
+                                                     const compare::TunedEngine* engine) {
   std::vector<OptionFamily> out;
   for (const OptionFamily& family : families) {
     const bool drawn = std::all_of(lights.begin(), lights.end(), [&](std::uint32_t light) {
@@ -166,6 +192,18 @@ Expected<std::vector<OptionFamily>> fitting_families(const std::vector<OptionFam
     });
     if (drawn) out.push_back(family);
   }
+  const bool had_maps = !out.empty();
+  if (engine != nullptr)
+    std::erase_if(out, [&](const OptionFamily& family) {
+      return !std::ranges::all_of(lights, [&](std::uint32_t light) {
+        return engine->draws(family.tuned.map, scene.lights[light].type);
+      });
+    });
+  if (had_maps && out.empty())
+    return fail(ErrorKind::usage,
+                fmt::format("--engine {}: of a {} light no bias of {}'s is known as a number "
+                            "(docs/engine-units.md)",
+                            engine->key, light_type_name(scene.lights[lights.front()].type), engine->name));
   // Under lights without size it is the hard test, which is tried by its own name.
   const bool sizeless = std::none_of(lights.begin(), lights.end(),
                                      [&](std::uint32_t light) { return has_size(scene.lights[light]); });

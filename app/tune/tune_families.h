@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/sweep/axes.h"
-#include "studies/tune/engines.h"
+#include "compare/result/engines.h"
 #include "studies/tune/tune.h"
 
 namespace gnomon::app {
@@ -32,9 +32,10 @@ bool is_given(const OptionValues& fixed, const compare::Grid& grid, const std::s
 Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, bool filmed = false,
                                                   const compare::TunedEngine* engine = nullptr);
 
-/// Without the techniques that have no map for a light compared.
+/// Without the techniques that have no map for a light compared, and without what the engine cannot be told of it.
 Expected<std::vector<OptionFamily>> fitting_families(const std::vector<OptionFamily>& families,
                                                      const Scene& scene,
-                                                     const std::vector<std::uint32_t>& lights);
+                                                     const std::vector<std::uint32_t>& lights,
+                                                     const compare::TunedEngine* engine = nullptr);
 
 }  // namespace gnomon::app

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "compare/advice/rule.h"
 #include "compare/bias/bias_curve.h"
 #include "compare/result/figures.h"
 #include "compare/result/number_text.h"
@@ -12,8 +13,6 @@
 
 namespace gnomon::compare {
 namespace {
-
-constexpr double clear_gain_of_kinds = 0.05;  // of the wrong pixels, so as to be worth another bias
 
 bool is_tiny(double texel, double bias) {
   return bias < 0.01 * texel;
@@ -55,19 +54,10 @@ std::string beside_drawn(const raster::Bias& drawn) {
   return drawn.receiver_plane ? " beside the receiver's plane" : " beside the adaptive bias";
 }
 
-// Where the pixels happen to lie changes a count of wrong ones by about its square root. The best of many biases gains
-// as much by that alone.
-bool is_beyond_chance(double fraction, double than, const LightComparison& light) {
-  const double wrong = than * static_cast<double>(light.pixels.compared);
-  const double gain = wrong - fraction * static_cast<double>(light.pixels.compared);
-  return gain > 2.0 * std::sqrt(wrong);
-}
-
-// A gain that no figure shows is none to a reader, nor is one that only rounding or chance shows.
+// A gain that no figure shows is none to a reader.
 bool is_clearly_better(double fraction, double than, const LightComparison& light) {
-  return fraction < (1.0 - clear_gain_of_kinds) * than &&
-         left_text(fraction, light, wrong_and_mean()) != left_text(than, light, wrong_and_mean()) &&
-         (fraction == 0.0 || is_beyond_chance(fraction, than, light));
+  return is_worth_advising({fraction, fraction, fraction}, {than, than, than}, light.pixels.compared) &&
+         left_text(fraction, light, wrong_and_mean()) != left_text(than, light, wrong_and_mean());
 }
 
 // Whether the drawing has the slope bias already, and nothing else beside its constant: then only that one changes.
@@ -131,12 +121,23 @@ BiasAdvice advice_of_kinds(const LightComparison& light, const raster::MapOption
   return advice;
 }
 
+/// More pixels come right than a bias has a part in: it lifts shadows off their casters, which texels that lie elsewhere had
+/// put there.
+bool lifts_more_than_it_mends(double fraction, const LightComparison& light) {
+  double mendable = 0.0;
+  for (const Label label :
+       {Label::acne, Label::stored_depth, Label::peter_panning, Label::light_leak, Label::caster_bias})
+    mendable += static_cast<double>(light.classes[static_cast<std::size_t>(label) - 1]);
+  const double gain = light.error.wrong_fraction - fraction;
+  return gain * static_cast<double>(light.pixels.compared) > mendable;
+}
+
 BiasAdvice advice_of_constants(const LightComparison& light, const raster::MapOptions& drawn,
                                const Figure& measure) {
-  const BestBias::Setting best = light.best_bias.advised();
+  const LikelyBias best = likeliest_bias(light, drawn);
+  if (lifts_more_than_it_mends(best.wrong_fraction, light)) return {};
   if (is_clearly_better(best.wrong_fraction, light.error.wrong_fraction, light))
-    return try_bias(with_three_digits(with_constant(drawn, best.constant_world, light.bias_texel_world)),
-                    left_text(best.wrong_fraction, light, measure), light, drawn);
+    return try_bias(best.bias, left_text(best.wrong_fraction, light, measure), light, drawn);
   if (best.wrong_fraction > light.error.wrong_fraction) return {};
   return {.none = best.wrong_fraction == light.error.wrong_fraction
                       ? "No other constant bias does better."
@@ -144,6 +145,20 @@ BiasAdvice advice_of_constants(const LightComparison& light, const raster::MapOp
 }
 
 }  // namespace
+
+LikelyBias likeliest_bias(const LightComparison& light, const raster::MapOptions& drawn) {
+  if (!light.bias_kinds.empty()) {
+    const BiasKind& best = advised_kind(light, drawn.bias);
+    return {best.bias, best.wrong_fraction};
+  }
+  const BestBias::Setting best = light.best_bias.advised();
+  return {with_three_digits(with_constant(drawn, best.constant_world, light.bias_texel_world)),
+          best.wrong_fraction};
+}
+
+bool gaps_tell(const LightFigures& light, const Figure& measure) {
+  return counts_biases(light, measure) && light.error.fractional == 0;
+}
 
 bool counts_biases(const LightFigures& light, const Figure& measure) {
   return measure.measure.by_halves || (&measure == find_measure("mean") && light.error.fractional == 0);
@@ -174,7 +189,7 @@ bool names_both_bounds(const BestBias& best) {
 BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn, const Figure& measure) {
   const BestBias& best = light.best_bias;
   BiasAdvice advice;
-  if (light.error.wrong > 0)
+  if (light.error.wrong > 0 && gaps_tell(light, measure))
     advice = light.bias_kinds.empty() ? advice_of_constants(light, drawn, measure)
                                       : advice_of_kinds(light, drawn, measure);
   if (!best.feasible)

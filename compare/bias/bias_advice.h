@@ -14,12 +14,25 @@ struct BiasAdvice {
   std::string
       more{};  ///< what does as well, what a constant alone would leave, and why none is right everywhere
 };
-/// `drawn`: the options that the light was drawn with; `measure`: what is advised by, one that counts_biases.
+/// `drawn`: the options that the light was drawn with; `measure`: what is advised by, one that counts_biases. Where gaps do not
+/// tell all, it says only why none is right everywhere.
 BiasAdvice bias_advice(const LightComparison& light, const raster::MapOptions& drawn, const Figure& measure);
 
 /// Whether gaps tell what another bias leaves in this measure: they count the wrong pixels, whose share is the mean error
 /// where nothing is partly lit.
 bool counts_biases(const LightFigures& light, const Figure& measure);
+
+/// Tells whether gaps alone tell all that is asked of another bias: nothing is partly lit, so that the share of wrong pixels is
+/// the mean error, too.
+bool gaps_tell(const LightFigures& light, const Figure& measure);
+
+/// Is the bias that the verdict names if it is to be advised, and the share of wrong pixels that gaps tell of it.
+struct LikelyBias {
+  raster::Bias bias;
+  double wrong_fraction = 0.0;
+};
+/// Needs the bias curve.
+LikelyBias likeliest_bias(const LightComparison& light, const raster::MapOptions& drawn);
 
 /// "none wrong", "7 pixels wrong", "0.8 % wrong": a share of a light's compared pixels; where the mean error was asked
 /// for "mean error 0.8 %".

@@ -43,7 +43,8 @@ void find_proof(const GapLists& gaps, BestBias& best) {
 
 BiasCurvePoint GapLists::at(double bias) const {
   const auto b = static_cast<float>(bias);
-  const std::uint64_t too_dark = count_above(lit, b), too_light = shadowed.size() - count_above(shadowed, b);
+  const std::uint64_t too_dark = count_above(lit, b) + count_above(lit_by_lifting, b),
+                      too_light = shadowed.size() - count_above(shadowed, b);
   return {bias, too_dark, too_light, wrong_fraction(too_dark + too_light)};
 }
 
@@ -106,7 +107,7 @@ BestBias find_best_bias(const GapLists& gaps) {
   const float middle = best_start + 0.5f * (best_end - best_start);
   const float near_start = std::min(1.1f * best_start, middle);
   best.constant_world = near_start < best_end ? near_start : best_start;
-  best.wrong_fraction = gaps.wrong_fraction(least);
+  best.wrong_fraction = gaps.wrong_fraction(least + count_above(gaps.lit_by_lifting, best_start));
   best.feasible = least == 0;
   find_proof(gaps, best);
   return best;

@@ -13,9 +13,14 @@ namespace gnomon::compare {
 /// bias, and in neither list.
 struct GapLists {
   std::vector<float> lit, shadowed;
+  /// Lit pixels that are dark because their texel lies elsewhere: a bias that lights them has lifted the shadow off its caster.
+  /// They count, but no bias is the best one for their sake. Empty where nothing is advised from the lists.
+  std::vector<float> lit_by_lifting{};
   std::uint64_t lit_left_out = 0;  ///< lit pixels whose gap is not above 0, where they are not in the list
   std::uint64_t ties = 0;          ///< pixels of which half the light is seen
-  std::uint64_t count() const { return lit_left_out + lit.size() + shadowed.size() + ties; }
+  std::uint64_t count() const {
+    return lit_left_out + lit.size() + lit_by_lifting.size() + shadowed.size() + ties;
+  }
   /// Returns the share of wrong pixels where so many of the lists are wrong; ties count one half.
   double wrong_fraction(std::uint64_t wrong) const;
 

@@ -145,7 +145,11 @@ raster::MapOptions plain_options(const raster::MapOptions& drawn) {
 
 BiasRange good_range_of(const GapLists& gaps, const BestBias& best) {
   const auto count = static_cast<double>(gaps.count());
-  const double least = std::round(best.wrong_fraction * count - 0.5 * static_cast<double>(gaps.ties));
+  const auto at_best = static_cast<float>(best.constant_world);
+  const auto lit_above = gaps.lit.end() - std::upper_bound(gaps.lit.begin(), gaps.lit.end(), at_best);
+  const auto shadowed_to =
+      std::upper_bound(gaps.shadowed.begin(), gaps.shadowed.end(), at_best) - gaps.shadowed.begin();
+  const auto least = static_cast<double>(lit_above + shadowed_to);
   const auto allowed = static_cast<std::uint64_t>(least + std::max(few_pixels * count, few_wrong * least));
   auto lit = std::upper_bound(gaps.lit.begin(), gaps.lit.end(), 0.0f);
   auto shadowed = std::upper_bound(gaps.shadowed.begin(), gaps.shadowed.end(), 0.0f);
@@ -202,26 +206,36 @@ bool kinds_apply(const raster::RasterFrame& drawn, const raster::LightRecord& re
   return biases_follow_from_gaps(plain_options(drawn.options.map)) && !record.map.depth.empty();
 }
 
-KindSettings settings_of_kinds(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels) {
+KindSettings settings_of_kinds(const LadderInput& in, const std::array<Image<float>, rung_count>& rungs,
+                               const Image<Label>& labels) {
+  const Image<float>&truth = rungs[0], &at_texel = rungs[static_cast<std::size_t>(Rung::texel)];
   const raster::MapOptions map = plain_options(in.drawn.options.map);
   const std::vector<std::uint32_t> pixels = pixels_where(labels.data.size(), [&](std::size_t i) {
     return is_compared(labels.data[i]) && truth.data[i] != 0.5f;
   });
-  KindSettings out{gaps_of_kinds(in, map.bias, pixels), std::vector<char>(pixels.size()),
+  KindSettings out{gaps_of_kinds(in, map.bias, pixels), std::vector<PixelSide>(pixels.size()),
                    count_ties(truth, labels)};
   const double constant =
       raster::automatic_bias_world(in.record().rounding, in.record().map.view, in.world());
   for (const Kind kind : {slope, caster_slope}) make_slopes(kind, out.settings, constant);
-  for (std::size_t i = 0; i < pixels.size(); ++i) out.lit[i] = truth.data[pixels[i]] > 0.5f ? 1 : 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (truth.data[pixels[i]] < 0.5f)
+      out.sides[i] = PixelSide::shadowed;
+    else
+      out.sides[i] = at_texel.data[pixels[i]] < 0.5f ? PixelSide::lit_by_lifting : PixelSide::lit;
+  }
   return out;
 }
 
-void append_to_lists(const std::vector<float>& settings, const std::vector<char>& lit, GapLists& lists) {
+void append_to_lists(const std::vector<float>& settings, const std::vector<PixelSide>& sides,
+                     GapLists& lists) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    if (lit[i] != 0 && !(settings[i] > 0.0f))
+    if (sides[i] == PixelSide::shadowed)
+      lists.shadowed.push_back(settings[i]);
+    else if (!(settings[i] > 0.0f))
       ++lists.lit_left_out;
     else
-      (lit[i] != 0 ? lists.lit : lists.shadowed).push_back(settings[i]);
+      (sides[i] == PixelSide::lit ? lists.lit : lists.lit_by_lifting).push_back(settings[i]);
   }
 }
 

@@ -24,7 +24,7 @@ BestBias find_advised_bias(const GapLists& gaps, double unit_world = 1.0);
 double short_number_in(double from, double to);
 
 /// What kinds are compared by, of the pixels of some rows. `settings`: of each kind, for each compared pixel the setting
-/// from which on it is lit, in the order of the pixels, and which of them are truly lit; ties (GapLists) are counted.
+/// from which on it is lit, in the order of the pixels, and which side each is on; ties (GapLists) are counted.
 /// `caster_slope` can be tried where the casters were drawn with one.
 enum KindOfBias : std::size_t {
   plain,
@@ -35,16 +35,21 @@ enum KindOfBias : std::size_t {
   caster_slope,
   kind_count
 };
+/// What a pixel is in truth, and of a lit one whether a bias mends it (GapLists).
+enum class PixelSide : std::uint8_t { shadowed, lit, lit_by_lifting };
+inline constexpr std::size_t side_count = 3;
 struct KindSettings {
   std::array<std::vector<float>, kind_count> settings;
-  std::vector<char> lit;
+  std::vector<PixelSide> sides;
   std::uint64_t ties = 0;
 };
 /// Whether kinds can be compared on this map.
 bool kinds_apply(const raster::RasterFrame& drawn, const raster::LightRecord& record);
-KindSettings settings_of_kinds(const LadderInput& in, const Image<float>& truth, const Image<Label>& labels);
+KindSettings settings_of_kinds(const LadderInput& in, const std::array<Image<float>, rung_count>& rungs,
+                               const Image<Label>& labels);
 /// Lists of one kind from its settings; the lit ones that no setting harms are only counted.
-void append_to_lists(const std::vector<float>& settings, const std::vector<char>& lit, GapLists& lists);
+void append_to_lists(const std::vector<float>& settings, const std::vector<PixelSide>& sides,
+                     GapLists& lists);
 /// From sorted lists.
 BiasKind kind_of_bias(KindOfBias kind, const LadderInput& in, const GapLists& lists);
 /// The best first.

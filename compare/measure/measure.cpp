@@ -187,7 +187,11 @@ FrameSource frames_of(const raytrace::Tracer& tracer, raster::Renderer& renderer
   return {draw, trace};
 }
 
-LightFigures measure_ends(const LadderInput& in, const Figure& measure) {
+LightFigures measure_ends(const LadderInput& in, std::initializer_list<const Figure*> measures) {
+  const auto needs = [&](FigureNeeds what) {
+    return std::any_of(measures.begin(), measures.end(),
+                       [&](const Figure* one) { return one->needs == what; });
+  };
   LightFigures light;
   const Image<Label> labels = sort_pixels(in);
   const Image<Label> climbed = labels_climbed(in, labels);
@@ -203,14 +207,14 @@ LightFigures measure_ends(const LadderInput& in, const Figure& measure) {
   light.pixels.uncertain_by_samples = count_pixels(climbed).compared - light.pixels.compared;
   light.error = sums.terms().error();
   const PictureRows all{0, labels.size.height};
-  if (measure.needs == FigureNeeds::perception) {
+  if (needs(FigureNeeds::perception)) {
     Perception perception;
     FinishedMaps maps;
     perception.add({truth, drawn, labels, climbed}, 0, all, all.count, maps);
     perception.write_to(light.error);
   }
   light.edges.rms_texels = std::numeric_limits<double>::quiet_NaN();
-  if (measure.needs == FigureNeeds::edges) {
+  if (needs(FigureNeeds::edges)) {
     EdgeSums edges;
     add_edges({in.drawn, in.record(), in.traced.receiver, truth, climbed, in.world()}, all, edges);
     light.edges = edges.stats();

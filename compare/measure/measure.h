@@ -3,6 +3,7 @@
 // (tests/compare/compare_bands_gl_test.cpp).
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 
 #include "compare/ladder/ladder.h"
@@ -35,8 +36,8 @@ FrameSource frames_of(const raytrace::Tracer& tracer, raster::Renderer& renderer
 
 // The figures of a drawing that is not climbed.
 
-/// What `measure` needs of one light of a whole picture; figures that cost more are left NaN.
-LightFigures measure_ends(const LadderInput& input, const Figure& measure);
+/// What `measures` need of one light of a whole picture; figures that cost more are left NaN.
+LightFigures measure_ends(const LadderInput& input, std::initializer_list<const Figure*> measures);
 
 // Where the images of a picture go while it is measured: into the comparison, or of a picture in bands to the disk.
 

@@ -183,15 +183,17 @@ Expected<void> LightSums::add_lists(const LadderInput& in, const Climb& climb) {
       return gaps_[lit ? 1 : 0].append(options_.spill, gaps_where(in.record(), truth, climb.labels, lit));
     });
   KindSettings found;
-  if (has_kinds_) found = settings_of_kinds(in, truth, climb.labels);
+  if (has_kinds_) found = settings_of_kinds(in, climb.rungs, climb.labels);
   for (std::size_t k = 0; has_kinds_ && k < kind_count; ++k)
     steps.emplace_back([this, &found, k]() -> Expected<void> {
       GapLists lists;
-      append_to_lists(found.settings[k], found.lit, lists);
+      append_to_lists(found.settings[k], found.sides, lists);
       kinds_left_out_[k] += lists.lit_left_out;
-      if (const auto added = kinds_[k][0].append(options_.spill, std::move(lists.shadowed)); !added)
-        return added;
-      return kinds_[k][1].append(options_.spill, std::move(lists.lit));
+      std::array<std::vector<float>*, side_count> sides{&lists.shadowed, &lists.lit, &lists.lit_by_lifting};
+      for (std::size_t side = 0; side < side_count; ++side)
+        if (const auto added = kinds_[k][side].append(options_.spill, std::move(*sides[side])); !added)
+          return added;
+      return {};
     });
   return run_all(steps);
 }
@@ -225,14 +227,16 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
 
 namespace {
 
-Expected<GapLists> sorted_lists(std::array<NumberList<float>, 2>& files, std::uint64_t ties) {
+/// `files`: by PixelSide, of which the last may be missing.
+Expected<GapLists> sorted_lists(std::span<NumberList<float>> files, std::uint64_t ties) {
   GapLists lists;
   lists.ties = ties;
-  for (const bool lit : {false, true}) {
-    auto numbers = files[lit ? 1 : 0].take();
+  const std::array<std::vector<float>*, side_count> sides{&lists.shadowed, &lists.lit, &lists.lit_by_lifting};
+  for (std::size_t side = 0; side < files.size(); ++side) {
+    auto numbers = files[side].take();
     if (!numbers) return fail(numbers.error());
     sort_numbers(std::span(*numbers));
-    (lit ? lists.lit : lists.shadowed) = std::move(*numbers);
+    *sides[side] = std::move(*numbers);
   }
   return lists;
 }

@@ -95,7 +95,7 @@ class LightSums {
   MapMeasures map_;
   std::array<NumberList<float>, 2> gaps_;  ///< of shadowed and of lit pixels
   std::uint64_t ties_ = 0;                 ///< in neither (GapLists)
-  std::array<std::array<NumberList<float>, 2>, kind_count> kinds_;
+  std::array<std::array<NumberList<float>, side_count>, kind_count> kinds_;
   std::array<std::uint64_t, kind_count> kinds_left_out_{};
 };
 

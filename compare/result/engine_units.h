@@ -8,17 +8,11 @@
 
 #include "compare/bias/derived_bias.h"
 #include "compare/comparison.h"
+#include "compare/result/engines.h"
 #include "raster/frame.h"
 #include "scene/scene.h"
 
 namespace gnomon::compare {
-
-struct EngineUnit {
-  std::string_view engine;      ///< "three.js"
-  std::string_view setting;     ///< "shadow.bias"
-  std::optional<double> value;  ///< none: it cannot be derived exactly
-  std::string formula;  ///< in the symbols of docs/engine-units.md; without a value, why there is none
-};
 
 /// What a record's light and map make of a bias (its slope, its normal offset and `constant_world`).
 std::vector<EngineUnit> engine_units(const raster::Bias& bias, double constant_world, LightType light,
@@ -44,9 +38,6 @@ nlohmann::ordered_json derived_bias_json(const DerivedForEngines& bias);
 /// Names and values for a terminal: on each layer the constant drawn with and the derived one, each as length, in texels and
 /// as stored depth.
 std::vector<std::pair<std::string, std::string>> layer_lines(const DerivedForEngines& bias);
-
-/// "shadow_bias 0.02, shadow_normal_bias 0.71": those of an engine that have a number.
-std::string settings_text(const std::vector<EngineUnit>& units, std::string_view engine);
 
 /// [{engine, setting, value, formula}], alike in result.json and in the tuner's answer.
 nlohmann::ordered_json engine_units_json(const std::vector<EngineUnit>& units);

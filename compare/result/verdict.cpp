@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "compare/advice/candidates.h"
 #include "compare/advice/rule.h"
+#include "compare/advice/tried.h"
 #include "compare/bias/bias_advice.h"
 #include "compare/bias/bias_curve.h"
 #include "compare/ladder/labels.h"
@@ -15,7 +17,6 @@
 #include "compare/result/number_text.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/text_layout.h"
-#include "raster/technique_traits.h"
 
 namespace gnomon::compare {
 namespace {
@@ -74,29 +75,6 @@ std::string uncertain_part(const PixelCounts& p) {
       p.uncertain == 1 ? "is" : "are");
 }
 
-// Most of the error is that a light with size was taken for its centre: no filter makes up for most of that, and no other
-// step or label stands for more of the error.
-bool lacks_light_size(const raster::RasterFrame& drawn, const LightComparison& light) {
-  if (drawn.custom_shader || raster::traits_of(drawn.options.map.technique).soft) return false;
-  const auto step = [&](Cause cause) { return light.budget[static_cast<std::size_t>(cause)]; };
-  const double shrunk = step(Cause::light_size).absolute_mean, error = light.error.mean_absolute;
-  if (light.error.fractional == 0 || shrunk < 0.5 * error || error < 0.5 * shrunk) return false;
-  const double biased =  // what the bias leaves of the map's acne, or adds
-      step(Cause::slope).signed_mean + step(Cause::precision).signed_mean + step(Cause::bias).signed_mean;
-  const double others =
-      std::max({step(Cause::filter).absolute_mean, step(Cause::sampling).absolute_mean, std::abs(biased)});
-  const double by_size = light.class_errors[static_cast<std::size_t>(Label::light_size) - 1];
-  return shrunk > others &&
-         by_size >= *std::max_element(light.class_errors.begin(), light.class_errors.end());
-}
-
-std::string soft_technique_advice() {
-  std::string options;
-  for (const raster::TechniqueTraits& t : raster::all_technique_traits())
-    if (t.soft) options += fmt::format("{}--technique {}", options.empty() ? "" : " or ", t.name);
-  return fmt::format("Try {}: the error is mostly the light's size, which no bias mends.", options);
-}
-
 /// "Shadow error: mean FLIP 0.078; 4.7 % of the pixels wrong, mostly aliasing."
 std::string measured_part(const LightComparison& light, const Figure& measure) {
   const double figure = measure.of(light);
@@ -137,15 +115,16 @@ std::string instead_text(const Setting& one) {
   return fmt::format("{} {:.4g} instead of {:.4g}", one.setting, one.instead, one.now);
 }
 
-// "about 1.2 % on average, 0.3 % wrong", "none wrong": what the advice for another renderer leaves.
-std::string left_by_advice(const Advice& advice, const LightComparison& light, const Figure& measure) {
-  const double mean = advice.mean_instead.value_or(advice.wrong_instead);
-  const std::string about = advice.about ? "about " : "";
-  if (&measure == find_measure("mean"))
-    return fmt::format(fmt::runtime(measure.measure.said), about + percent(mean));
-  const std::string wrong = left_text(advice.wrong_instead, light, measure);
-  if (measure.measure.by_halves && &measure != &wrong_and_mean()) return about + wrong;
-  return about + (light.error.fractional > 0 ? percent(mean) + " on average, " : "") + wrong;
+// "about 1.2 % on average, 0.3 % wrong", "none wrong", "mean FLIP 0.078": what an advice leaves of a light. `partly_lit`:
+// something is, now or then.
+std::string left_words(const Left& left, bool about, bool partly_lit, const LightComparison& light,
+                       const Figure& measure) {
+  const std::string guess = about ? "about " : "";
+  if (!measure.measure.by_halves)
+    return fmt::format(fmt::runtime(measure.measure.said), guess + figure_text(measure, left.measured));
+  const std::string wrong = left_text(left.wrong_fraction, light, measure);
+  const bool in_the_mean = partly_lit && &measure == &wrong_and_mean();
+  return guess + (in_the_mean ? percent(left.mean_absolute) + " on average, " : "") + wrong;
 }
 
 // Of another renderer's picture, in that renderer's own units; no option of Gnomon's own can be set there. First comes
@@ -159,10 +138,9 @@ std::string judged_advice(const Judged& judged, const LightComparison& light, co
   const double mean_now = last.mean_now.value_or(last.wrong_now),
                mean_instead = last.mean_instead.value_or(last.wrong_instead);
   const bool by_wrong = !mean && (&measure != &wrong_and_mean() || light.error.fractional == 0);
-  if (!is_worth_advising({last.wrong_instead, mean_instead, by_wrong ? last.wrong_instead : mean_instead},
-                         {last.wrong_now, mean_now, by_wrong ? last.wrong_now : mean_now},
-                         light.pixels.compared))
-    return {};
+  const Left left{last.wrong_instead, mean_instead, by_wrong ? last.wrong_instead : mean_instead};
+  const Left now{last.wrong_now, mean_now, by_wrong ? last.wrong_now : mean_now};
+  if (!is_worth_advising(left, now, light.pixels.compared)) return {};
   std::string settings;
   if (last.instead != last.now) settings = instead_text(last);
   if (last.with && last.with->instead != last.with->now)
@@ -172,45 +150,24 @@ std::string judged_advice(const Judged& judged, const LightComparison& light, co
   if (last.texels_of_each)
     settings = fmt::format("a bias of {:.3g} texels on each layer, {}", *last.texels_of_each, settings);
   if (const std::string own = in_engine_text(judged, last); !own.empty()) settings += " (" + own + ")";
-  return fmt::format("Try {}: {}.", settings, left_by_advice(last, light, measure));
+  return fmt::format("Try {}: {}.", settings,
+                     left_words(left, last.about, light.error.fractional > 0, light, measure));
 }
 
-/// "about 2.6 % wrong", "mean error about 2.6 %": what an estimate of the mean error leaves.
-std::string about_text(double error, const LightComparison& light, const Figure& measure) {
-  const std::string about = "about " + percent(error);
-  if (&measure == find_measure("mean")) return fmt::format(fmt::runtime(measure.measure.said), about);
-  return about + (light.error.fractional > 0 ? " on average" : " wrong");
+std::string try_text(const Comparison& c, const LightComparison& light, TriedKind kind) {
+  const TriedSetting* tried = best_tried(c, light, kind);
+  if (tried == nullptr) return {};
+  const LightFigures& left = left_of(*tried, light);
+  const bool partly_lit = left.error.fractional + light.error.fractional > 0;
+  const std::string leaves = left_words(left_by(left, *c.measure), false, partly_lit, light, *c.measure);
+  if (kind == TriedKind::smaller_map)
+    return fmt::format("A map of {0} would do (--map-size {0}): its shadow edges are off by {1} pixel, {2}.",
+                       tried->map.size, plain_number(rounded_to_three(left.edges.rms_pixels)), leaves);
+  return fmt::format("Try {}: {}.", changed_arguments(tried->map, asked_options(c)), leaves);
 }
 
-// Estimates are of the mean error, which is the share of wrong pixels where nothing is partly lit.
-bool counts_sizes(const LightComparison& light, const Figure& measure) {
-  return &measure == &wrong_and_mean() || &measure == find_measure("mean") ||
-         (measure.measure.by_halves && light.error.fractional == 0);
-}
-
-// A map of another size is worth a sentence where the error falls by a fifth, by more than the estimate may be off; or,
-// where there is hardly an error, the smallest that leaves hardly one.
-std::string size_advice(const LightComparison& light, int drawn_size, const Figure& measure) {
-  if (!counts_sizes(light, measure)) return {};
-  constexpr double hardly_an_error = 0.005, clear_gain = 0.2, sure = 2.0;
-  const double error = light.error.mean_absolute;
-  for (const OtherMapSize& other : light.other_sizes) {
-    const bool smaller = other.size < drawn_size;
-    const double at_most = other.mean_absolute + sure * other.standard_error;
-    if (smaller && at_most < hardly_an_error)
-      return fmt::format("A map of {0} would do (--map-size {0}: {1}).", other.size,
-                         about_text(other.mean_absolute, light, measure));
-    if (!smaller && error >= hardly_an_error && at_most < (1.0 - clear_gain) * error)
-      return fmt::format("Try --map-size {}: {}.", other.size,
-                         about_text(other.mean_absolute, light, measure));
-  }
-  return {};
-}
-
-// Most of what is wrong lies outside a window that was given, where neither a bias nor texels help.
-std::string window_advice(const Comparison& c, const LightComparison& light) {
+std::string window_advice(const LightComparison& light) {
   const std::uint64_t outside = light.classes[static_cast<std::size_t>(Label::outside_map) - 1];
-  if (c.raster.options.map.window.empty() || 2 * outside <= light.error.wrong) return {};
   return fmt::format("Give the light a larger window: {} of the pixels miss their shadow outside it.",
                      percent(static_cast<double>(outside) / static_cast<double>(light.pixels.compared)));
 }
@@ -226,10 +183,19 @@ std::string untold(const LightComparison& light, const Figure& measure) {
 
 // What other biases would do follows from the gaps of a hard test alone.
 BiasAdvice advised_bias(const Comparison& c, const LightComparison& light) {
-  if (!biases_follow_from_gaps(c.raster)) return {};
-  if (counts_biases(light, *c.measure)) return bias_advice(light, c.raster.options.map, *c.measure);
-  return {.none = fmt::format("Only a drawing tells what another bias does to the {}.",
-                              measure_words(*c.measure))};
+  if (!biases_follow_from_gaps(c.raster) || !counts_biases(light, *c.measure)) return {};
+  return bias_advice(light, c.raster.options.map, *c.measure);
+}
+
+/// Everything that helps, one sentence for each.
+std::string what_helps(const Comparison& c, const LightComparison& light, const BiasAdvice& bias) {
+  if (lacks_light_size(c.raster, light))
+    return joined_sentences(
+        {try_text(c, light, TriedKind::other), "The error is mostly the light's size, which no bias mends."});
+  if (lacks_window(c, light)) return window_advice(light);
+  return joined_sentences({try_text(c, light, TriedKind::smaller_map),
+                           try_text(c, light, TriedKind::larger_map),
+                           bias.best.empty() ? try_text(c, light, TriedKind::other) : bias.best});
 }
 
 }  // namespace
@@ -247,15 +213,11 @@ Verdict verdict_on(const Comparison& c, const LightComparison& light) {
     return {.error = nothing_compared(light.pixels, c.world->scene->lights[light.light].type)};
   const std::string error = error_part(light, *c.measure), uncertain = uncertain_part(light.pixels);
   if (c.judged) return {error, judged_advice(*c.judged, light, *c.measure), uncertain, uncertain};
-  const bool told = counts_sizes(light, *c.measure) || counts_biases(light, *c.measure);
-  std::string cause = lacks_light_size(c.raster, light) ? soft_technique_advice() : window_advice(c, light);
-  if (!told || !cause.empty())
-    return {error, joined_sentences({cause, told ? std::string() : untold(light, *c.measure)}), uncertain,
-            uncertain};
   const BiasAdvice bias = advised_bias(c, light);
-  const int size = drawn_record(c, light).map.view.size;
-  const std::string better = joined_sentences({size_advice(light, size, *c.measure), bias.best});
-  return {error, better.empty() ? bias.none : better, uncertain, joined_sentences({uncertain, bias.more})};
+  const bool told = counts_biases(light, *c.measure) || !c.tried.empty() || c.measure == find_measure("mean");
+  std::string better = what_helps(c, light, bias);
+  if (better.empty()) better = told ? bias.none : untold(light, *c.measure);
+  return {error, better, uncertain, joined_sentences({uncertain, bias.more})};
 }
 
 }  // namespace gnomon::compare

@@ -6,9 +6,9 @@
 
 #include "compare/advice/rule.h"
 #include "compare/result/engine_units.h"
+#include "compare/result/engines.h"
 #include "compare/result/number_text.h"
 #include "studies/judge/advisor.h"
-#include "studies/tune/engines.h"
 
 namespace gnomon::compare {
 namespace {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compare/result/engines.h"
 #include "compare/result/number_text.h"
 #include "scene/base/stages.h"
 #include "scene/exposure.h"
@@ -22,7 +23,6 @@
 #include "studies/judge/stored_format.h"
 #include "studies/judge/traced_rays.h"
 #include "studies/judge/turned_map.h"
-#include "studies/tune/engines.h"
 
 namespace gnomon::compare {
 namespace {

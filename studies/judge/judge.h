@@ -3,9 +3,9 @@
 #pragma once
 
 #include "compare/compare.h"
+#include "compare/result/engines.h"
 #include "compare/result/judged.h"
 #include "studies/judge/capture.h"
-#include "studies/tune/engines.h"
 
 namespace gnomon::compare {
 

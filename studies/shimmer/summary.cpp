@@ -79,7 +79,7 @@ std::string shimmer_sentence(const Shimmer& shimmer, const ShimmerLight& light) 
   return fmt::format("{}: a point flips {} times a second ({} flips of {} points in {} frames){}",
                      what_flickers(most), plain_number(flips_per_receiver_second(shimmer.options, light)),
                      grouped(total.flips), grouped(light.receivers), shimmer.options.time.frames,
-                     snap_would_help(shimmer, light, most) ? ". Try --snap." : ".");
+                     snap_would_help(shimmer, light, most) ? "; --snap keeps the map's texels still." : ".");
 }
 
 std::string shimmer_table(const Shimmer& shimmer) {

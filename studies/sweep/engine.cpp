@@ -204,7 +204,7 @@ Expected<double> Engine::Impl::time_drawing(const Setting& setting) {
 std::vector<LightFigures> Engine::Impl::figures(const Figure& measure) const {
   std::vector<LightFigures> out;
   for (std::size_t i = 0; i < comparison.raster.lights.size(); ++i)
-    out.push_back(measure_ends(input(comparison.raster, i), measure));
+    out.push_back(measure_ends(input(comparison.raster, i), {&measure}));
   return out;
 }
 

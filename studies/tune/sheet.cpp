@@ -170,7 +170,7 @@ Expected<Attempt> attempt_at(Engine& engine, const Setting& base, const TuneFami
   setting.raster.runs = 0;
   const auto probe = engine.probe(setting, goal.measure());
   if (!probe) return fail(probe.error());
-  if (probe->best && !probe->custom_shader) attempt.bias = probe->bias_at_best;
+  if (probe->best && !probe->custom_shader && !family.keeps_bias) attempt.bias = probe->bias_at_best;
   return attempt;
 }
 

@@ -169,8 +169,8 @@ Expected<Attempt> Tuner::attempt_by_trial(const TuneFamily& family, int size) {
 
 Expected<Attempt> Tuner::attempt(const TuneFamily& family, int size) {
   // What a bias does to flips does not follow from one drawing: they are counted with the family's own.
-  const bool own_bias =
-      !raster::compares_depths(family.map.technique) || options_.goal.measure().needs == FigureNeeds::film;
+  const bool own_bias = family.keeps_bias || !raster::compares_depths(family.map.technique) ||
+                        options_.goal.measure().needs == FigureNeeds::film;
   if (own_bias) return draw(family, size, family.map.bias, nullptr);
   return biases_follow_from_gaps(family.map) ? attempt_from_gaps(family, size)
                                              : attempt_by_trial(family, size);

@@ -40,6 +40,7 @@ struct TuneGoal {
 struct TuneFamily {
   std::string name;  ///< as people say it: "slope bias 1"
   raster::MapOptions map;
+  bool keeps_bias = false;  ///< its constant stays as it is: an engine has none
 };
 
 /// What a drawing costs; the milliseconds of map and shading where none is given. One that does not depend on

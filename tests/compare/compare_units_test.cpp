@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "compare/advice/rule.h"
 #include "compare/bias/bias_curve.h"
 #include "compare/bias/bias_kinds.h"
 #include "compare/ladder/budget.h"
@@ -189,8 +190,65 @@ TEST(EngineUnits, AreThoseOfTheTable) {
   EXPECT_DOUBLE_EQ(value("Godot", "shadow_bias"), 50.0);
   EXPECT_DOUBLE_EQ(value("Bevy", "shadow_depth_bias"), 0.5);
   EXPECT_DOUBLE_EQ(value("Babylon.js", "bias"), 0.005);
+  EXPECT_DOUBLE_EQ(value("PlayCanvas", "shadowBias"), 0.1);
+  EXPECT_DOUBLE_EQ(value("PlayCanvas", "normalOffsetBias"), 0.5);
   EXPECT_DOUBLE_EQ(value("polygon offset", "factor"), 1.0);
   EXPECT_DOUBLE_EQ(value("polygon offset", "units"), 0.005 * 16777216.0);
+}
+
+// What has no number in an engine's settings is not tried for it, nor a filter that follows the receiver's plane.
+TEST(Engines, DrawOnlyWhatTheyCanBeTold) {
+  const auto draws = [](std::string_view engine, raster::Technique technique, raster::Bias bias,
+                        LightType light = LightType::directional) {
+    raster::MapOptions map;
+    map.technique = technique, map.bias = bias, map.filter.receiver_plane = false;
+    return find_engine(engine)->draws(map, light);
+  };
+  using enum raster::Technique;
+  const raster::Bias constant{.constant = 1.0, .unit = raster::BiasUnit::texel};
+  const raster::Bias none{.constant = 0.0, .unit = raster::BiasUnit::world};
+  raster::Bias of_casters = none, moved = none, constant_and_moved = constant;
+  of_casters.caster_slope = 2.0, moved.normal_offset_texels = constant_and_moved.normal_offset_texels = 1.0;
+  EXPECT_FALSE(draws("playcanvas", pcf, constant));
+  EXPECT_FALSE(draws("playcanvas", pcf, none));
+  EXPECT_TRUE(draws("playcanvas", pcf, of_casters));
+  EXPECT_FALSE(draws("playcanvas", pcss, of_casters)) << "inert there";
+  EXPECT_TRUE(draws("playcanvas", pcss, moved));
+  EXPECT_TRUE(draws("godot", pcf, constant_and_moved));
+  EXPECT_FALSE(draws("godot", pcf, constant, LightType::spot));
+  EXPECT_FALSE(draws("godot3", csm, constant));
+  EXPECT_TRUE(draws("filament", vsm, constant));
+  EXPECT_FALSE(draws("filament", pcf, constant_and_moved));
+  EXPECT_FALSE(draws("bevy", pcf, constant_and_moved, LightType::spot));
+  raster::MapOptions plane;
+  plane.technique = pcf, plane.bias = constant;
+  EXPECT_FALSE(find_engine("godot")->draws(plane));
+  EXPECT_EQ(engine_of_renderer("Godot 3 (RenderDoc)")->key, "godot3");
+}
+
+// Lit pixels that only a lifted shadow would mend choose no bias, and count as wrong.
+TEST(BestBias, LiftsNoShadowForTexelsThatLieElsewhere) {
+  GapLists gaps{{0.1f, 0.2f}, {500.0f}};
+  gaps.lit_by_lifting = {20.0f, 30.0f};
+  const BestBias best = find_best_bias(gaps);
+  EXPECT_LT(best.constant_world, 1.0);
+  EXPECT_DOUBLE_EQ(best.wrong_fraction, 2.0 / 5.0);
+  EXPECT_EQ(smallest_good_range(gaps).from, 0.2f);
+  EXPECT_DOUBLE_EQ(gaps.wrong_fraction_at(0.15), 3.0 / 5.0);
+  EXPECT_DOUBLE_EQ(gaps.wrong_fraction_at(25.0), 1.0 / 5.0);
+}
+
+TEST(AdviceRule, AsksForAClearGainThatHarmsNothing) {
+  constexpr std::uint64_t pixels = 100000;
+  const Left now{0.02, 0.03, 0.03};
+  EXPECT_TRUE(is_worth_advising({0.02, 0.02, 0.02}, now, pixels));
+  EXPECT_FALSE(is_worth_advising({0.0201, 0.02, 0.0201}, now, pixels)) << "worse in the share";
+  EXPECT_FALSE(is_worth_advising({0.001, 0.0301, 0.001}, now, pixels)) << "worse in the mean";
+  EXPECT_FALSE(is_worth_advising({0.02, 0.029, 0.029}, now, pixels)) << "hardly less";
+  EXPECT_FALSE(is_worth_advising({0.0, 0.0, std::nan("")}, now, pixels)) << "not known";
+  const Left one{1e-5, 1e-5, 1e-5}, five{5e-5, 5e-5, 5e-5};
+  EXPECT_FALSE(is_worth_advising({0.0, 0.0, 0.0}, one, pixels)) << "chance";
+  EXPECT_TRUE(is_worth_advising({0.0, 0.0, 0.0}, five, pixels));
 }
 
 // Against counting one by one, on many random lists with ties.

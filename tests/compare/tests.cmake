@@ -30,3 +30,7 @@ gnomon_test(compare_bands_gl_test TIMEOUT 900
 gnomon_test(outputs_test
   SOURCES outputs_text_test.cpp outputs_time_difference_test.cpp outputs_verdict_test.cpp outputs_tune_page_test.cpp outputs_json_test.cpp outputs_figures_test.cpp outputs_pictures_test.cpp outputs_flip_test.cpp
   LIBS gnomon::studies nlohmann_json::nlohmann_json OpenImageIO::OpenImageIO TBB::tbb)
+
+# What compare and tune advise, taken and drawn again (CONTRIBUTING.md has the long form).
+add_test(NAME advice_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_SOURCE_DIR}/tools/advice.py" $<TARGET_FILE:gnomon_program> 24)
+set_tests_properties(advice_test PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77)

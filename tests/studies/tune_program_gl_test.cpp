@@ -109,7 +109,8 @@ TEST_F(TuneProgram, AsksForOneEngineAndWithinATime) {
         << family["command"];
   EXPECT_NE(said().find("shadow_normal_bias"), std::string::npos) << said();
   EXPECT_EQ(said().find("three.js"), std::string::npos) << said();
-  EXPECT_NE(said().find("Worked out from the map alone: shadow_bias"), std::string::npos) << said();
+  const std::string_view setting = "\n  shadow_bias ";
+  EXPECT_EQ(said().find(setting), said().rfind(setting)) << "one answer: " << said();
   EXPECT_GT(answer["engine_units"][0]["derived_bias"]["constant_texels"], 1.0 / 16.0);
   EXPECT_EQ(answer["untried"].size(), 0u);
   const std::string text = said();
@@ -123,6 +124,29 @@ TEST_F(TuneProgram, AsksForOneEngineAndWithinATime) {
   EXPECT_EQ(first["untried"].size(), answer["others"].size());
   EXPECT_NE(said().find("Not tried within 1e-09 s"), std::string::npos) << said();
   EXPECT_EQ(run({"tune", "floating-box", "--max-error", "5%", "--engine", "quake"}), 2);
+}
+
+// PlayCanvas has no constant: its polygon offset and its normal offset alone are tried, and the command draws what was promised.
+TEST_F(TuneProgram, AsksAnEngineOnlyForWhatItCanBeTold) {
+  const std::string json = (root / "answer.json").string();
+  const Words asked{"tune",    "floating-box", "--size", "96x54",  "--max-error", "5%",       "--map-size",
+                    "256,512", "--runs",       "1",      "--json", json,          "--engine", "playcanvas"};
+  ASSERT_EQ(run(asked), 0) << said();
+  const nlohmann::json answer = nlohmann::json::parse(bytes_of(json));
+  std::vector<nlohmann::json> families(answer["others"].begin(), answer["others"].end());
+  families.push_back(answer);
+  for (const nlohmann::json& family : families) {
+    const nlohmann::json& options = family["options"];
+    EXPECT_EQ(options["bias"], "0") << family["command"];
+    EXPECT_TRUE(options.contains("caster-slope-bias") || options.contains("normal-offset"))
+        << family["command"];
+    EXPECT_TRUE(family["technique"] != "pcf" || options["filter-plane"] == "off") << family["command"];
+  }
+  EXPECT_NE(said().find("In PlayCanvas"), std::string::npos) << said();
+  EXPECT_EQ(said().find("no number"), std::string::npos) << said();
+  // Of a point light no constant of Unity's is known as a number.
+  EXPECT_EQ(run({"tune", "penumbra", "--max-error", "5%", "--engine", "unity"}), 2);
+  EXPECT_NE(said().find("--engine unity: of a point light"), std::string::npos) << said();
 }
 
 // One page to print: the answer and its rivals, each with its worst place beside the truth, its figures and its settings.
