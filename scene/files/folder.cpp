@@ -110,7 +110,10 @@ Expected<Folder> Folder::entered(const std::string& name) const {
 
 Expected<Folder> Folder::below(const std::string& names) const {
   auto folder = entered(".");
-  if (!folder) return folder;
+  if (!folder) {
+    folder.error().file = path_;
+    return folder;
+  }
   folder->path_ = path_;
   for (std::size_t at = 0; at < names.size();) {
     const std::size_t end = std::min(names.find('/', at), names.size());

@@ -10,6 +10,7 @@
 #include "report/pixels/packing.h"
 #include "report/shell.h"
 #include "scene/files/encodings.h"
+#include "scene/files/folder.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
@@ -85,13 +86,15 @@ Expected<void> remove_files(const std::string& folder,
                             const std::function<bool(const std::string&)>& unwanted) {
   const auto names = names_if_there(folder, ErrorKind::cannot_write);
   if (!names) return fail(names.error());
+  if (names->empty()) return {};
+  const auto opened = Folder::at(folder);
+  if (!opened) return fail(opened.error());
   for (const std::string& name : *names) {
     if (!unwanted(name)) continue;
-    const std::string path = folder + "/" + name;
-    const auto plain = is_plain_file(path, ErrorKind::cannot_write);
-    if (!plain) return fail(plain.error());
-    if (!*plain) continue;
-    if (auto gone = remove_path(path); !gone) return gone;
+    const auto found = opened->find(name);
+    if (!found) return fail(found.error());
+    if (!*found || !S_ISREG((*found)->st_mode)) continue;  // a link is nobody's leftover
+    if (auto gone = remove_path(opened->path_of(name)); !gone) return gone;
   }
   return {};
 }

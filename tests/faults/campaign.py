@@ -280,8 +280,9 @@ class Campaign:
         (self.folder / "outside").mkdir()
         for name in ("hook", *(name.rsplit("/", 1)[-1] for name in base if name.startswith("out/"))):
             (self.folder / "outside" / (name or "hook")).write_bytes(planted.MINE)
-        removed = self.make_room(plant, base) if plant.name.startswith("linked") else []
-        stays = plant.put(self.folder, command, base)
+        own = {name: content for name, content in base.items() if name not in FOREIGN}
+        removed = self.make_room(plant, own) if plant.name.startswith("linked") else []
+        stays = plant.put(self.folder, command, own)
         if stays is None:
             return
         before = planted.tree(self.folder)
@@ -320,7 +321,7 @@ class Campaign:
             return found + [("crashes", f"ended with {code}: {said.strip()[-160:]}")]
         if code != command.code and not (plant.refusable and code == 4):
             found.append(("exit codes", f"exit code {code}: {said.strip()[-200:]}"))
-        if code == 4 and not any(why in said for why in ("link", "differs from")):
+        if code == 4 and not any(why in said for why in ("link", "differs from", "left as it is")):
             found.append(("exit codes", f"refused without the reason: {said.strip()[-200:]}"))
         if plant.refused and code == command.code and not command.resumes:
             found.append(("foreign", "a link was taken for a folder"))

@@ -49,10 +49,9 @@ def coming_processes():
 def plant_lists(folder, _command, _base):
     """Lists of an unfinished publication, as older versions believed them: a way out by name, and one by a link."""
     for i, name in enumerate(staged_names(1) + staged_names(2)):
-        put(folder / name / ".publishing", b"7 7 ../outside/hook\0" if i < 2 else b"7 7 l/hook\0")
-        put(folder / name / ".replaced/l/hook", HOOK)
-        put(folder / name / ".replaced/../hook", HOOK)
-        put(folder / name / ".outside/hook", HOOK)
+        put(folder / name / ".publishing", b"7 7 ../outside/new\0" if i < 2 else b"7 7 l/new\0")
+        put(folder / name / ".replaced/l/new", HOOK)
+        put(folder / name / "outside/new", HOOK)
     (folder / "out/l").symlink_to("../outside")
     return ["out/l"]
 
@@ -131,7 +130,7 @@ def plant_linked_files(folder, command, base):
         return None
     (folder / "out").mkdir(exist_ok=True)
     for name in names:
-        (folder / name).symlink_to("../outside/hook")
+        (folder / name).symlink_to("../outside/" + name.split("/")[1])
     return []
 
 
