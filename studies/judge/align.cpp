@@ -14,7 +14,8 @@ constexpr double least_geometry = 0.93;
 /// Are shares of silhouettes that are edges of a picture with other light in it: some have the colour of what is behind
 /// them. Below the second it is another view.
 constexpr double least_edges = 0.75, no_edges = 0.5;
-/// A suspect's view without background, or with half of the silhouettes, proves nothing by those that agree.
+/// A suspect's view without background, or with half of the silhouettes, proves nothing by those that agree, unless its
+/// shadows do.
 constexpr double least_kind = 0.05, least_outlines = 0.5;
 /// A suspect must agree clearly better, and undo most of what did not agree; more of it where shadows alone tell, since
 /// a picture that is some pixels off agrees a little better under many a wrong view.
@@ -66,7 +67,8 @@ struct Found {
 
 bool proves_nothing(const Evidence& suspected, const Evidence& now) {
   const bool by_outlines = !suspected.positions && !suspected.depths;
-  return by_outlines &&
+  const bool by_shadows = suspected.visibility && *suspected.visibility >= good_shadows;
+  return by_outlines && !by_shadows &&
          (suspected.least_kind < least_kind ||
           static_cast<double>(suspected.outlines) < least_outlines * static_cast<double>(now.outlines));
 }
