@@ -28,14 +28,15 @@ Scene floor_scene(const Light& light, bool as_plane) {
 }
 
 double shadowed_share(const Drawn& drawn) {
-  std::size_t inside = 0, shadowed = 0;
+  std::size_t inside = 0;
+  double shadowed = 0.0;
   for (std::size_t i = 0; i < drawn.light().gap.data.size(); ++i) {
     if (drawn.frame.primitive.data[i] == no_id || !(drawn.light().gap.data[i] > -infinity)) continue;
     ++inside;
-    shadowed += drawn.light().visibility.data[i] < 1.0f ? 1 : 0;
+    shadowed += 1.0 - double{drawn.light().visibility.data[i]};
   }
   EXPECT_GT(inside, 20000u);
-  return double(shadowed) / double(inside);
+  return shadowed / double(inside);
 }
 
 struct PlaneCase {
