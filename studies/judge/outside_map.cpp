@@ -46,7 +46,9 @@ struct LitCount {
   std::size_t all = 0, lit = 0;
   void add(bool is_lit) { ++all, lit += is_lit ? 1 : 0; }
   bool is_nearly_all() const { return all >= few_told && double(lit) >= nearly_all_lit * double(all); }
-  bool is_hardly_any() const { return all >= few_told && double(lit) <= (1.0 - nearly_all_lit) * double(all); }
+  bool is_hardly_any() const {
+    return all >= few_told && double(lit) <= (1.0 - nearly_all_lit) * double(all);
+  }
 };
 
 TexelCoordinate place_of(const raster::LightRecord& record, const Vec3& position, std::size_t pixel) {
