@@ -72,7 +72,7 @@ std::string folder_of_rows(const CompareCommand& command) {
 /// error.
 compare::Redraw redraw_of(const CompareCommand& command, const LoadedScene& loaded,
                           const std::vector<std::uint32_t>& lights,
-                          std::unique_ptr<raster::Renderer>& renderer) {
+                          std::unique_ptr<raster::Renderer>& renderer, Console& console) {
   return [&](const raster::MapOptions& map) -> Expected<raster::RasterFrame> {
     raster::RasterOptions options =
         compare::drawing_options(command.setting.options.raster, command.setting.options.raytrace);
@@ -82,7 +82,7 @@ compare::Redraw redraw_of(const CompareCommand& command, const LoadedScene& load
     const auto fits = check_memory(command.memory, options.size, bytes, graphics_bytes + map_bytes);
     if (!fits) return fail(fits.error());
     if (!renderer) {
-      auto made = make_renderer(command.backend, loaded, command.shader_folder);
+      auto made = make_renderer(command.backend, loaded, console, command.shader_folder);
       if (!made) return fail(made.error());
       renderer = std::move(*made);
     }
@@ -135,7 +135,7 @@ Expected<Compared> compare_picture(const CompareCommand& command, const LoadedSc
   out.parts = std::move(*parts);
   if (plan.bands.size() > 1) return out;
   progress("trying what may help", 0.9);
-  compare::try_settings(out.comparison, plan, redraw_of(command, loaded, lights, *renderer));
+  compare::try_settings(out.comparison, plan, redraw_of(command, loaded, lights, *renderer, console));
   return out;
 }
 
