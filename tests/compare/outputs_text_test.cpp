@@ -179,7 +179,8 @@ TEST(Summary, BeginsWithVerdictAdviceAndPlace) {
   const std::string text = summary_in_short(made->comparison, "Report: out/report.html", false);
   std::string expected;
   for (const std::string& sentence : {joined_sentences({verdict.error, verdict.uncertain}), verdict.advice})
-    for (const std::string& line : wrapped(sentence, 80)) expected += line + "\n";
+    if (!sentence.empty())
+      for (const std::string& line : wrapped(sentence, 80)) expected += line + "\n";
   expected += "Report: out/report.html\n";
   EXPECT_EQ(text.substr(0, expected.size()), expected);
   EXPECT_NE(text.find("\n  labels    "), std::string::npos) << text;
