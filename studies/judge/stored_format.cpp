@@ -46,9 +46,14 @@ StoredFormat find_format(std::vector<float> numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   if (numbers.size() < few_numbers) return {};
+  // Half floats above 2^-6 are multiples of 1/65536 as well, but those of 16 bits have longer significands.
+  const bool are_half_floats = step_of_bits(numbers) >= 0x1p-11;
+  const auto may_be = [&](double most) {
+    return !is_power_of_two(most) ||
+           (numbers.size() >= few_of_binary && (most <= 2048.0 || !are_half_floats));
+  };
   for (const auto& [most, bits] : usual_formats)
-    if ((numbers.size() >= few_of_binary || !is_power_of_two(most)) && are_whole_numbers(numbers, most))
-      return {1.0 / most, false};
+    if (may_be(most) && are_whole_numbers(numbers, most)) return {1.0 / most, false};
   return numbers.size() < few_of_binary ? StoredFormat{} : StoredFormat{step_of_bits(numbers), true};
 }
 
