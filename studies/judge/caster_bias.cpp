@@ -134,6 +134,13 @@ double median_of(const std::vector<Point>& points, const Value& value) {
   return *middle;
 }
 
+/// Whether the map holds the first surface, moved: others behind it have another slope, and tell nothing of a line.
+bool is_first_moved(const FaceReader& reader, const LightView& view, const Point& p,
+                    const CapturedCasterBias& bias) {
+  const double offset = away_from_light(view) * (reader.moved(p.held, p.key, bias) - p.held.stored);
+  return std::abs(p.off - offset) <= reader.slack(p.held, offset);
+}
+
 /// The map holds the nearest of the surfaces once they are moved, or of a renderer that casts rays the first one; one at the far
 /// end is nothing drawn.
 bool is_explained(const FaceReader& reader, const LightView& view, const Point& p,
@@ -182,7 +189,7 @@ CapturedCasterBias refined(const FaceReader& reader, const LightView& view, cons
                            const CapturedCasterBias& line) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (const Point& p : points) {
-    if (p.empty || !is_explained(reader, view, p, line)) continue;
+    if (p.empty || !is_first_moved(reader, view, p, line)) continue;
     n += 1.0, x += p.held.slope, y += p.off, xx += p.held.slope * p.held.slope, xy += p.held.slope * p.off;
   }
   const double spread = n * xx - x * x;
