@@ -325,8 +325,8 @@ Expected<std::optional<StagedFolder>> StagedFolder::hold(const std::string& fold
   if (!made) return give_up(made.error());
   if (made->st_uid != owner)
     return fail(Error{ErrorKind::cannot_write, "belongs to another user", opened->path()});
-  return StagedFolder(std::unique_ptr<Held>(
-      new Held{folder, std::move(*around), name, std::move(*opened), std::move(*lock), owner, beside}));
+  return StagedFolder(std::make_unique<Held>(
+      Held{folder, std::move(*around), name, std::move(*opened), std::move(*lock), owner, beside}));
 }
 
 Expected<void> StagedFolder::seal(std::span<const std::string> inputs) {
