@@ -155,7 +155,7 @@ class Checks:
             if engine and "--engine" in str(refused):
                 return
             raise
-        options = {"--" + name: value for name, value in answer["options"].items()}
+        options = options_of(answer["command"])
         options.pop("--size", None)
         _, after = self.program.compare(scene, options)
         errors = after["error"]
