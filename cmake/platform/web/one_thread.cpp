@@ -1,6 +1,7 @@
 // The loops of scene/base/parallel.h and what runs beside them, where there is one thread: a page starts others only under
 // headers that a plain host does not send.
 #include <algorithm>
+#include <utility>
 
 #include "scene/base/interruptible.h"
 #include "scene/base/parallel.h"
@@ -47,9 +48,9 @@ int threads_in_use() {
 
 void limit_loops(int) {}
 
-// Nothing new is heard of before a turn is over.
+// Nothing new is heard of before a turn is over: the work is never left, and who asks afterwards is told as elsewhere.
 
-Interruptible::Interruptible(std::function<bool()>) : around_(nullptr) {}
+Interruptible::Interruptible(std::function<bool()> ends) : ends_(std::move(ends)), around_(nullptr) {}
 Interruptible::~Interruptible() = default;
 ShareOf::ShareOf(const Interruptible*) : before_(nullptr) {}
 ShareOf::~ShareOf() = default;
