@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <span>
 
 #include "compare/ladder/moments.h"
 #include "compare/result/number_text.h"
@@ -157,25 +158,50 @@ bool is_explained(const FaceReader& reader, const LightView& view, const Point& 
   return is_stored(*nearest, moved);
 }
 
+/// The share of the points that the rule explains; 0 where that is no more than `at_least`.
 double explained(const FaceReader& reader, const LightView& view, const std::vector<Point>& points,
-                 const CapturedCasterBias& bias) {
-  const auto is = [&](const Point& p) { return is_explained(reader, view, p, bias); };
-  return double(std::count_if(points.begin(), points.end(), is)) / double(points.size());
+                 const CapturedCasterBias& bias, double at_least) {
+  const double most_left = (1.0 - at_least) * double(points.size());
+  double left = 0.0;
+  for (const Point& p : points)
+    if (!is_explained(reader, view, p, bias) && ++left >= most_left) return 0.0;
+  return 1.0 - left / double(points.size());
 }
 
-/// Lines off = constant + slope * m through two points each, which are taken all over the slopes that there are: a surface
-/// of another slope than most is among them, however small.
-std::vector<CapturedCasterBias> lines_through(std::vector<Point> points) {
+/// Points that tell a line: some all over the surfaces, and some of each of the slopes that most texels have, however few have a
+/// second one. Of those the middle may be hidden behind what lies after it, so that two beside it are taken, too.
+std::vector<Point> telling_points(std::vector<Point> points) {
   std::erase_if(points, [](const Point& p) { return p.empty; });
   if (points.empty()) return {};
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.held.slope < b.held.slope; });
-  constexpr std::size_t places = 24;
+  constexpr std::size_t places = 24, most_slopes = 8;
+  std::vector<Point> out;
+  for (std::size_t i = 0; i < places; ++i) out.push_back(points[i * (points.size() - 1) / (places - 1)]);
+  using Group = std::span<Point>;
+  std::vector<Group> groups;
+  for (std::size_t first = 0, i = 1; i <= points.size(); ++i) {
+    if (i < points.size() && points[i].held.slope <= 1.05 * points[first].held.slope) continue;
+    groups.push_back(Group(points).subspan(first, i - first)), first = i;
+  }
+  std::sort(groups.begin(), groups.end(), [](Group a, Group b) { return a.size() > b.size(); });
+  groups.resize(std::min(groups.size(), most_slopes));
+  for (const Group& group : groups) {
+    std::sort(group.begin(), group.end(), [](const Point& a, const Point& b) { return a.off < b.off; });
+    for (const std::size_t sixth : {1U, 3U, 5U}) out.push_back(group[group.size() * sixth / 6]);
+  }
+  std::sort(out.begin(), out.end(),
+            [](const Point& a, const Point& b) { return a.held.slope < b.held.slope; });
+  return out;
+}
+
+/// Lines off = constant + slope * m through two of the telling points each.
+std::vector<CapturedCasterBias> lines_through(const std::vector<Point>& points) {
+  const std::vector<Point> telling = telling_points(points);
   std::vector<CapturedCasterBias> lines;
-  for (std::size_t i = 0; i < places; ++i)
-    for (std::size_t j = i + 1; j < places; ++j) {
-      const Point &a = points[i * (points.size() - 1) / (places - 1)],
-                  &b = points[j * (points.size() - 1) / (places - 1)];
+  for (std::size_t i = 0; i < telling.size(); ++i)
+    for (std::size_t j = i + 1; j < telling.size(); ++j) {
+      const Point &a = telling[i], &b = telling[j];
       const double spread = b.held.slope - a.held.slope;
       if (!(spread > 0.05 * b.held.slope)) continue;
       const double slope = (b.off - a.off) / spread;
@@ -204,10 +230,10 @@ struct Explained {
 };
 
 Explained best_of(const FaceReader& reader, const LightView& view, const std::vector<Point>& points,
-                  const std::vector<CapturedCasterBias>& rules) {
-  Explained best;
+                  const std::vector<CapturedCasterBias>& rules, Explained best = {}) {
   for (const CapturedCasterBias& rule : rules)
-    if (const double share = explained(reader, view, points, rule); share > best.share) best = {rule, share};
+    if (const double share = explained(reader, view, points, rule, best.share); share > best.share)
+      best = {rule, share};
   return best;
 }
 
@@ -223,7 +249,7 @@ std::optional<CapturedCasterBias> find_rule(const FaceReader& reader, const Ligh
        {.constant_world = median_of(points, [](const Point& p) { return p.world; })},
        {.slope = median_of(points,
                            [](const Point& p) { return p.held.slope > 0.0 ? p.off / p.held.slope : 0.0; })}});
-  const Explained two = best_of(reader, view, points, lines_through(points));
+  const Explained two = best_of(reader, view, points, lines_through(points), one);
   const double gain = (two.share - one.share) * double(points.size());
   if (two.share >= nearly_every && gain >= few_more && 1.0 - two.share < much_of_rest * (1.0 - one.share))
     return refined(reader, view, points, two.rule);
