@@ -26,7 +26,6 @@ void print_data(std::string_view text) {
   const std::string plain =
       plain_lines(text, stdout_takes_colour() ? std::span<const std::string_view>(styles)
                                               : std::span<const std::string_view>());
-  std::fflush(stdout);
   for (std::string_view rest = plain; !rest.empty() && !data_is_lost;) {
     const ssize_t written = uninterrupted([&] { return ::write(STDOUT_FILENO, rest.data(), rest.size()); });
     if (written < 0)
@@ -37,7 +36,7 @@ void print_data(std::string_view text) {
 }
 
 bool data_reached_stdout() {
-  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && !data_is_lost;
+  return !data_is_lost;
 }
 
 void print_error(const std::string& text) {

@@ -208,10 +208,14 @@ std::vector<std::pair<std::string, std::string>> map_values(const MapOptions& ma
 }
 
 std::vector<std::string> map_arguments(const MapOptions& map) {
+  return words_of(map_values(map));
+}
+
+std::vector<std::string> words_of(const std::vector<std::pair<std::string, std::string>>& values) {
   std::vector<std::string> words;
-  for (const auto& [name, value] : map_values(map)) {
+  for (const auto& [name, value] : values) {
     if (is_flag(*find_setting(name))) {
-      words.push_back("--" + name);
+      words.push_back("--" + name + (value == "off" ? "=false" : ""));
     } else if (value.starts_with('-')) {  // joined, so as not to look like an option
       words.push_back(fmt::format("--{}={}", name, value));
     } else {
@@ -223,7 +227,6 @@ std::vector<std::string> map_arguments(const MapOptions& map) {
 }
 
 std::string bias_arguments(const Bias& bias, const MapOptions& drawn) {
-  const bool asked = drawn.bias != default_bias(drawn);  // then what is not needed is set back
   MapOptions none, wanted;
   none.bias = Bias{.constant = 0.0, .unit = BiasUnit::world};
   wanted.bias = bias;
@@ -233,7 +236,7 @@ std::string bias_arguments(const Bias& bias, const MapOptions& drawn) {
     const auto is_set = [&](const MapOptions& map) {
       return setting_text(setting, map) != setting_text(setting, none);
     };
-    if (!is_set(wanted) && !(asked && is_set(drawn))) continue;
+    if (!is_set(wanted) && !(is_set(drawn) && reads(drawn, setting))) continue;
     text += is_flag(setting) ? fmt::format("--{}{} ", setting.name, is_set(wanted) ? "" : "=false")
                              : fmt::format("--{} {} ", setting.name, setting_text(setting, wanted));
   }

@@ -84,9 +84,10 @@ RunFiles inputs_of(const compare::Capture& capture) {
 
 std::string name_of(const std::string& path) {
   const std::filesystem::path file(path);
-  const bool generic = file.stem() == "capture" && file.parent_path().has_filename();
-  return generic ? std::filesystem::weakly_canonical(file).parent_path().filename().string()
-                 : file.stem().string();
+  if (file.stem() != "capture" || !file.parent_path().has_filename()) return file.stem().string();
+  std::error_code unknown;  // the current folder: then the path as it was given
+  const auto whole = std::filesystem::absolute(file, unknown);
+  return (unknown ? file : whole).lexically_normal().parent_path().filename().string();
 }
 
 Expected<void> make_captures(std::vector<std::string>& captures, bool alone, CaptureOptions& options,

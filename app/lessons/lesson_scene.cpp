@@ -12,6 +12,8 @@
 
 #include "app/options/map_options.h"
 #include "app/options/shimmer_options.h"
+#include "app/sweep/axes.h"
+#include "raster/settings.h"
 #include "report/lessons.h"
 #include "scene/files/json/json_reader.h"
 #include "scene/files/path_status.h"
@@ -23,6 +25,15 @@ namespace {
 
 bool is_of_bias(const raster::MapSetting& setting) {
   return setting.group == raster::SettingGroup::bias;
+}
+
+bool is_of_bias(const std::string& option) {
+  const raster::MapSetting* setting = raster::find_setting(option);
+  return setting != nullptr && is_of_bias(*setting);
+}
+
+bool names_option(const OptionValues& values, std::string_view name) {
+  return std::any_of(values.begin(), values.end(), [&](const auto& entry) { return entry.first == name; });
 }
 
 struct LessonSetting {
@@ -100,6 +111,19 @@ std::string technique_of_scene(const std::string& path_or_name) {
   return usual_technique();
 }
 
+/// What a lesson or a scene file asks of the shadow map, by the names of options; a switch is "on".
+OptionValues map_settings_of(const std::string& path_or_name, const std::optional<LessonCommand>& lesson) {
+  OptionValues asked;
+  if (lesson) {
+    for (const auto& [option, value] : lesson->settings)
+      if (is_map_setting(option)) asked.emplace_back(option.substr(2), value.value_or("on"));
+  } else {
+    for (const SceneSetting& setting : scene_settings(path_or_name))
+      asked.emplace_back(setting.option, setting.value);
+  }
+  return asked;
+}
+
 /// Looks for settings only where they matter for the technique that is asked for: a scene's need a look at its file.
 template <class Technique>
 SettingsUse use_of_settings(const CLI::App& command, const Technique& technique) {
@@ -153,6 +177,28 @@ std::string settings_note(const SceneArgument& scene) {
   if (scene.settings == SettingsUse::sought)
     return note + "; the map's options among these are sought, not taken";
   return note + ", where no option given here says otherwise";
+}
+
+OptionValues settled_values(const std::string& path_or_name, OptionValues values) {
+  const auto drawn = parse_setting(values);
+  if (!drawn) return values;
+  const raster::MapOptions& map = drawn->options.raster.map;
+  const auto lesson = find_lesson(path_or_name);
+  const std::string technique(raster::technique_name(map.technique));
+  if ((lesson ? technique_of(*lesson) : technique_of_scene(path_or_name)) != technique) {
+    if (!names_option(values, "technique")) values.emplace_back("technique", technique);
+    return values;  // what is for another technique is left out
+  }
+  const bool biased =
+      std::any_of(values.begin(), values.end(), [](const auto& entry) { return is_of_bias(entry.first); });
+  for (const auto& [name, value] : map_settings_of(path_or_name, lesson)) {
+    const raster::MapSetting* setting = raster::find_setting(name);
+    if (setting == nullptr || names_option(values, name) || !raster::reads_setting(map, name)) continue;
+    if (!lesson && biased && is_of_bias(*setting)) continue;  // as in add_scene_settings()
+    if (std::string text = raster::setting_text(*setting, map); text != value)
+      values.emplace_back(name, std::move(text));
+  }
+  return values;
 }
 
 Expected<std::map<std::string, Error>> add_scene_settings(CLI::App& command) {

@@ -4,6 +4,8 @@
 
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/outputs/run_files.h"
 
@@ -24,6 +26,12 @@ std::string settings_note(const SceneArgument& scene);
 
 /// "--bias 0": what a scene file asks for; empty for others.
 std::string scene_settings_text(const std::string& path_or_name);
+
+/// Options by name, as compare's command line has them; a switch is "on" or "off".
+using OptionValues = std::vector<std::pair<std::string, std::string>>;
+/// Returns the values, which name one technique at most, and beside them those that a lesson or a scene file would set
+/// otherwise: a command with all of them draws what `values` alone draw.
+OptionValues settled_values(const std::string& path_or_name, OptionValues values);
 
 /// Gives a parsed command the settings that its scene file asks for (scene/load.h): those of the shadow map's
 /// options that it knows and was not given. None when it was given another technique, as below; no bias where it

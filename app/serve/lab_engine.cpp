@@ -264,8 +264,9 @@ LabMoment LabEngine::wait(std::uint64_t after, std::chrono::milliseconds most) {
 std::vector<std::string> LabEngine::compare_words(const LabMoment& moment) const {
   std::vector<std::string> words{"compare"};
   if (!moment.shown->scene) return words;
+  const SceneArgument& scene = moment.shown->scene->argument;
   for (const auto& part :
-       {moment.shown->scene->argument.plain_words(), setting_words(moment.state, moment.options)})
+       {scene.plain_words(), setting_words(moment.state, moment.options, scene.name)})
     words.insert(words.end(), part.begin(), part.end());
   return words;
 }

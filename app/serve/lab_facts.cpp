@@ -102,7 +102,7 @@ std::string lab_reading(const LabMoment& moment, const std::vector<std::string>&
   std::string command = "gnomon";
   for (const std::string& word : compare_words) command += " " + shell_quoted(word);
   out.update({{"scene", {{"name", shown.scene->name}, {"lights", lights}}},
-              {"words", setting_words(state, moment.options)},
+              {"words", setting_words(state, moment.options, shown.scene->argument.name)},
               {"command", command},
               {"size", {{"width", state.setup.size.width}, {"height", state.setup.size.height}}},
               {"camera", pose_json(current_camera(state))},

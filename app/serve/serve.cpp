@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <cstdio>
-
 #include "app/console.h"
 #include "app/process/interrupt.h"
 #include "app/serve/lab_engine.h"
@@ -22,7 +20,6 @@ Expected<ExitCode> run_serve(const ServeOptions& options) {
   const auto server = LabServer::open(options.place, **engine, options, folder.path());
   if (!server) return fail(server.error());
   print_data(fmt::format("{}\n", (*server)->url()));
-  std::fflush(stdout);
   console.message("open this address in a browser; it is the only key to the lab. Ctrl+C ends it.");
   (*server)->run();
   return ExitCode::done;

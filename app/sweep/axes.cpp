@@ -112,7 +112,7 @@ std::string setting_arguments(const Values& values) {
   std::string text;
   for (const auto& [name, value] : values) {
     if (is_switch(name))
-      text += value == "on" ? " --" + name : "";
+      text += " --" + name + (value == "on" ? "" : "=false");
     else if (value.starts_with('-'))
       text += fmt::format(" --{}={}", name, shell_quoted(value));
     else
@@ -224,11 +224,11 @@ std::vector<std::string> SweepOptions::axes_without_effect(const compare::Grid& 
 }
 
 Expected<SettingOptions> SweepOptions::parse_cell(const compare::Grid& grid, std::size_t cell) const {
-  return parse_setting(values_read(cell_values(grid, cell)));
+  return parse_setting(read_values(grid, cell));
 }
 
-std::string SweepOptions::cell_arguments(const compare::Grid& grid, std::size_t cell) const {
-  return setting_arguments(values_read(cell_values(grid, cell)));
+Values SweepOptions::read_values(const compare::Grid& grid, std::size_t cell) const {
+  return values_read(cell_values(grid, cell));
 }
 
 }  // namespace gnomon::app

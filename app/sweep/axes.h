@@ -43,8 +43,9 @@ class SweepOptions {
   Expected<SettingOptions> parse_cell(const compare::Grid& grid, std::size_t cell) const;
   /// The axes that have no effect on a cell: its technique does not read them.
   std::vector<std::string> axes_without_effect(const compare::Grid& grid, std::size_t cell) const;
-  /// " --map-size 512 --bias 0.01": what compare would be given for that cell, without what has no effect.
-  std::string cell_arguments(const compare::Grid& grid, std::size_t cell) const;
+  /// What compare would be given for that cell, without what has no effect.
+  std::vector<std::pair<std::string, std::string>> read_values(const compare::Grid& grid,
+                                                               std::size_t cell) const;
 
  private:
   struct Given {

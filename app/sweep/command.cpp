@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "app/lessons/lesson_scene.h"
 #include "compare/result/figures.h"
 #include "compare/result/option_names.h"
 #include "scene/base/option_text.h"
@@ -95,7 +96,9 @@ void set_runs(const SweepCommand& command, compare::CompareOptions& options) {
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {
   const bool filmed = command.asked.is_filmed();
   std::string text = (filmed ? "gnomon shimmer " : "gnomon compare ") + command.scene.words() +
-                     camera_argument(command) + command.options.cell_arguments(plan.grid, cell);
+                     camera_argument(command) +
+                     setting_arguments(
+                         settled_values(command.scene.name, command.options.read_values(plan.grid, cell)));
   text += filmed ? film_arguments(command.asked.film)
                  : measure_argument(*command.asked.measure) + exposure_argument(command);
   text += filmed ? std::string() : view_arguments(command.views, command.asked.film, false);

@@ -97,7 +97,7 @@ Json family_json(const TuneAnswer& answer, std::size_t i) {
   const compare::FamilyResult& family = answer.result.families[i];
   const compare::Attempt& attempt = attempt_of(family);
   Json options = Json::object();
-  for (const auto& [name, value] : answer_values(answer.question.fixed, answer.families[i], attempt))
+  for (const auto& [name, value] : answer.values(i, attempt))
     options[name] = value;
   Json json{{"command", answer.line(i)},
             {"technique", options.value("technique", std::string("hard"))},
@@ -133,6 +133,10 @@ OptionValues answer_values(const OptionValues& fixed, const OptionFamily& family
   return values_read(values);
 }
 
+OptionValues TuneAnswer::values(std::size_t family, const compare::Attempt& attempt) const {
+  return settled_values(question.scene.name, answer_values(question.fixed, families[family], attempt));
+}
+
 std::string TuneAnswer::line(std::size_t family) const {
   return line(family, attempt_of(result.families[family]));
 }
@@ -144,7 +148,7 @@ std::string TuneAnswer::line(std::size_t family, const compare::Attempt& attempt
   const bool filmed = question.asked.is_filmed();
   return (filmed ? "gnomon shimmer " : "gnomon compare ") + question.scene.words() +
          option("--camera", question.camera) +
-         setting_arguments(answer_values(question.fixed, families[family], attempt)) +
+         setting_arguments(values(family, attempt)) +
          (filmed ? film_arguments(question.asked.film)
                  : measure_argument(*question.asked.measure) +
                        view_arguments(question.views, question.asked.film, false)) +

@@ -43,6 +43,8 @@ struct TuneAnswer {
   const std::vector<OptionFamily>& families;
   const compare::TuneResult& result;
 
+  /// The options of an attempt of the family, with those that set back what the scene asks for.
+  OptionValues values(std::size_t family, const compare::Attempt& attempt) const;
   /// gnomon compare SCENE …, or gnomon shimmer SCENE …, at a family's answer.
   std::string line(std::size_t family) const;
   /// Writes the line of another attempt of the family.

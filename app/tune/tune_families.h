@@ -6,13 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "app/lessons/lesson_scene.h"
 #include "app/sweep/axes.h"
 #include "compare/result/engines.h"
 #include "studies/tune/tune.h"
 
 namespace gnomon::app {
-
-using OptionValues = std::vector<std::pair<std::string, std::string>>;
 
 /// A family and the options that make it.
 struct OptionFamily {

@@ -112,15 +112,14 @@ void Viewer::save_scene() {
 }
 
 void Viewer::copy_command() {
-  const std::string command = compare_command(state_, options_, shown_->scene->argument.words());
+  const std::string command = compare_command(state_, options_, shown_->scene->argument);
   window_->copy(command);
   print_command();
   note("copied: " + command);
 }
 
 void Viewer::print_command() const {
-  print_data(compare_command(state_, options_, shown_->scene->argument.words()) + "\n");
-  std::fflush(stdout);
+  print_data(compare_command(state_, options_, shown_->scene->argument) + "\n");
   if (state_.setup.map_camera)
     console_.note("the map's camera is frozen; the command line lays the map for the view's own");
   for (const std::string& light : other_turned_lights(state_))
@@ -149,7 +148,8 @@ void Viewer::write_report() {
     if (!*taken) break;
   }
   auto job = Job::start("writing the report to " + folder,
-                        job_words("compare", {"-o", folder, "--quiet"}, setting_words(state_, options_)));
+                        job_words("compare", {"-o", folder, "--quiet"},
+                                  setting_words(state_, options_, shown_->scene->argument.name)));
   if (!job) return note(job.error());
   job_ = std::move(*job);
   job_tunes_ = false;

@@ -1,6 +1,5 @@
 #include "scene/files/folder.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/file.h>
@@ -148,24 +147,8 @@ Expected<struct stat> Folder::itself() const {
 
 Expected<std::vector<std::string>> Folder::names() const {
   const int descriptor = open_for_reading(*this);
-  DIR* const opened = descriptor < 0 ? nullptr : ::fdopendir(descriptor);
-  if (opened == nullptr) {
-    const int why = errno;
-    if (descriptor >= 0) ::close(descriptor);
-    return failed_in(path_, "cannot be listed", why);
-  }
-  const std::unique_ptr<DIR, int (*)(DIR*)> list(opened, ::closedir);
-  std::vector<std::string> names;
-  for (;;) {
-    errno = 0;
-    const dirent* const entry = ::readdir(list.get());
-    if (entry == nullptr) break;
-    const std::string_view name = entry->d_name;
-    if (name != "." && name != "..") names.emplace_back(name);
-  }
-  if (errno != 0) return failed_in(path_, "cannot be listed", errno);
-  std::sort(names.begin(), names.end());
-  return names;
+  if (descriptor < 0) return failed_in(path_, "cannot be listed", errno);
+  return names_in_open(descriptor, path_, ErrorKind::cannot_write);
 }
 
 Expected<void> Folder::flush() const {

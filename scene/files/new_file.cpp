@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <charconv>
 #include <optional>
+#include <utility>
 
 #include "scene/base/interrupted.h"
 #include "scene/files/path_status.h"
@@ -40,9 +41,9 @@ template <class Use>
 int NewFile::with_temporary_name(const Use& use) {
   constexpr int most = 1000;  // names that somebody has taken before
   for (int taken = 0;; ++taken) {
-    const std::string name = temporary_name(name_);
+    std::string name = temporary_name(name_);
     const int result = use(name.c_str());
-    if (result >= 0) temporary_ = name;
+    if (result >= 0) temporary_ = std::move(name);  // needs no memory: the file is there already
     if (result >= 0 || errno != EEXIST || taken == most) return result;
   }
 }

@@ -1,14 +1,20 @@
 #include "scene/files/path_status.h"
 
+#include <dirent.h>
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include "scene/base/interrupted.h"
 
 namespace gnomon {
 namespace {
@@ -68,14 +74,33 @@ FileKind file_kind_or_none(const std::string& path) {
   return file_kind(path).value_or(FileKind::none);
 }
 
-Expected<std::vector<std::string>> names_in(const std::string& folder, ErrorKind error) {
+// Not by std::filesystem's iterators: they end the program where they get no memory.
+Expected<std::vector<std::string>> names_in_open(int descriptor, const std::string& folder, ErrorKind error) {
+  DIR* const opened = ::fdopendir(descriptor);
+  if (opened == nullptr) {
+    const int why = errno;
+    ::close(descriptor);
+    return failed_call(error, folder, cannot_list, why);
+  }
+  const std::unique_ptr<DIR, int (*)(DIR*)> list(opened, ::closedir);
   std::vector<std::string> names;
-  std::error_code why;
-  for (fs::directory_iterator entry(folder, why), end; !why && entry != end; entry.increment(why))
-    names.push_back(entry->path().filename().string());
-  if (why) return path_error(error, folder, cannot_list, why);
+  for (;;) {
+    errno = 0;
+    const dirent* const entry = ::readdir(list.get());
+    if (entry == nullptr) break;
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") names.emplace_back(name);
+  }
+  if (errno != 0) return failed_call(error, folder, cannot_list, errno);
   std::sort(names.begin(), names.end());
   return names;
+}
+
+Expected<std::vector<std::string>> names_in(const std::string& folder, ErrorKind error) {
+  const int descriptor =
+      uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+  if (descriptor < 0) return failed_call(error, folder, cannot_list, errno);
+  return names_in_open(descriptor, folder, error);
 }
 
 Expected<std::vector<std::string>> names_if_there(const std::string& folder, ErrorKind error) {
@@ -85,14 +110,22 @@ Expected<std::vector<std::string>> names_if_there(const std::string& folder, Err
 }
 
 Expected<std::vector<std::string>> files_below(const std::string& folder, ErrorKind error) {
+  const auto names = names_in(folder, error);
+  if (!names) return names;
   std::vector<std::string> files;
-  std::error_code why;
-  for (fs::recursive_directory_iterator entry(folder, why), end; !why && entry != end; entry.increment(why)) {
-    const bool deeper = entry->symlink_status(why).type() == fs::file_type::directory;
-    if (why) break;
-    if (!deeper) files.push_back(entry->path().lexically_relative(folder).generic_string());
+  for (const std::string& name : *names) {
+    const std::string path = folder + "/" + name;
+    std::error_code why;
+    const bool deeper = fs::symlink_status(path, why).type() == fs::file_type::directory;
+    if (why) return path_error(error, path, cannot_look, why);
+    if (!deeper) {
+      files.push_back(name);
+      continue;
+    }
+    const auto below = files_below(path, error);
+    if (!below) return below;
+    for (const std::string& file : *below) files.push_back(name + "/" + file);
   }
-  if (why) return path_error(error, folder, cannot_list, why);
   std::sort(files.begin(), files.end());
   return files;
 }

@@ -91,6 +91,7 @@ Expected<void> StagedFiles::publish(StagedFolder* folder, const std::string& las
   for (Place& place : places_) parts.push_back({&place.staged, {}});
   if (folder != nullptr) parts.push_back({folder, last});
   if (auto moved = StagedFolder::publish(parts); !moved) return moved;
+  made_.clear();
   for (const FileText& file : direct_)
     if (auto written = write_file(file.path, file.bytes); !written) return written;
   return {};

@@ -3,10 +3,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/lessons/lesson_scene.h"
 #include "app/options/options.h"
 #include "app/options/shimmer_options.h"
 #include "app/sweep/command.h"
 #include "app/tune/tune_answer.h"
+#include "raster/settings.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gnomon::app {
 namespace {
@@ -41,6 +44,30 @@ TEST(RepeatedCommands, AnAnswerNamesItsBackend) {
   family.closest.reads_bias = false;
   const TuneAnswer answer{question, families, result};
   EXPECT_EQ(answer.line(0), "gnomon compare fence --map-size 64 --backend osmesa");
+}
+
+/// A command with these values draws what they alone draw: what the lesson, or the scene's file, would add is set back.
+TEST(RepeatedCommands, WhatTheSceneAsksForIsSetBack) {
+  const OptionValues constant{{"technique", "hard"}, {"bias", "0.06"}};
+  OptionValues settled = constant;
+  settled.emplace_back("normal-offset", "0");
+  EXPECT_EQ(settled_values("light-leaks", constant), settled) << "a lesson: --bias 0.02 --normal-offset 8";
+  EXPECT_EQ(settled_values("thin-wall", constant), constant) << "the scene alone asks for nothing";
+  EXPECT_EQ(settled_values("light-leaks", {{"technique", "pcf"}}), (OptionValues{{"technique", "pcf"}}))
+      << "the lesson's settings are of another technique";
+  EXPECT_EQ(settled_values("filtering", {{"map-size", "512"}}),
+            (OptionValues{{"map-size", "512"}, {"technique", "hard"}}))
+      << "the lesson would make it pcf";
+
+  const test::TemporaryFolder folder;
+  const std::string scene = folder.put("asks.json", R"({"schema": "gnomon/scene/1", "name": "asks",
+    "settings": {"technique": "pcf", "filter-radius": "3", "snap": "true", "slope-bias": "2"}})");
+  const OptionValues filtered{{"technique", "pcf"}, {"bias", "0.06"}};
+  const OptionValues set_back = settled_values(scene, filtered);
+  EXPECT_EQ(raster::words_of(set_back),
+            (std::vector<std::string>{"--technique", "pcf", "--bias", "0.06", "--filter-radius", "1.5",
+                                      "--snap=false"}))
+      << "a bias of any kind takes the place of the file's";
 }
 
 struct Asked {

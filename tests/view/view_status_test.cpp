@@ -15,7 +15,7 @@ TEST(ViewStatus, CommandSaysWhatDiffers) {
   LabOptions options;
   options.scene.name = "my scene.json";
   ViewState state = two_light_state();
-  EXPECT_EQ(compare_command(state, options, options.scene.words()),
+  EXPECT_EQ(compare_command(state, options, options.scene),
             "gnomon compare 'my scene.json' --size 1280x720 --map-size 1024 --bias auto --slope-bias 1 "
             "--light sun");
   carry_out(state, OrbitTo{-30.0, 20.5});
@@ -25,7 +25,7 @@ TEST(ViewStatus, CommandSaysWhatDiffers) {
   carry_out(state, SetMapOption{"slope-bias", "2"});
   carry_out(state, NextCull{});
   options.exposure = std::optional<double>(1.5);
-  EXPECT_EQ(compare_command(state, options, options.scene.words()),
+  EXPECT_EQ(compare_command(state, options, options.scene),
             "gnomon compare 'my scene.json' --size 1280x720 --map-size 1024 --bias=-0.25 --slope-bias 2 "
             "--cull front "
             "--light lamp --camera-orbit=-30,20.5 --camera-distance 5 --light-azimuth 45 --light-elevation 0 "

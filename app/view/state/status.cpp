@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "app/lessons/lesson_scene.h"
 #include "app/options/options.h"
 #include "app/options/values.h"
 #include "compare/result/number_text.h"
@@ -136,12 +137,13 @@ ImageSize with_at_most(const ImageSize& size, double most) {
 
 }  // namespace
 
-std::vector<std::string> setting_words(const ViewState& state, const LabOptions& options) {
+std::vector<std::string> setting_words(const ViewState& state, const LabOptions& options,
+                                       const std::string& scene) {
   Words words;
   add_if(words, !options.camera.empty(), "--camera", options.camera);
   add_if(words, options.tessellate > 0, "--tessellate", std::to_string(options.tessellate));
   add_if(words, true, "--size", size_text(state.setup.size));
-  const Words of_map = raster::map_arguments(state.setup.map);
+  const Words of_map = raster::words_of(settled_values(scene, raster::map_values(state.setup.map)));
   words.insert(words.end(), of_map.begin(), of_map.end());
   add_truth(words, state, options);
   if (options.exposure)
@@ -157,9 +159,9 @@ std::vector<std::string> tuning_words(const ViewState& state, const LabOptions& 
   return words;
 }
 
-std::string compare_command(const ViewState& state, const LabOptions& options, const std::string& scene) {
-  std::string text = "gnomon compare " + scene;
-  for (const std::string& word : setting_words(state, options))
+std::string compare_command(const ViewState& state, const LabOptions& options, const SceneArgument& scene) {
+  std::string text = "gnomon compare " + scene.words();
+  for (const std::string& word : setting_words(state, options, scene.name))
     text += fmt::format(" {}", shell_quoted(word));
   return text;
 }

@@ -43,10 +43,11 @@ ShadowTimeWords shadow_time_words(const Snapshot& shown, const ViewState& state)
 std::string status_line(const ViewState& state, const Readings& readings, const std::string& scene);
 
 /// "gnomon compare SCENE --size ... ": what differs from the defaults and, always, size, map size and bias.
-/// `scene`: SceneArgument::words().
-std::string compare_command(const ViewState& state, const LabOptions& options, const std::string& scene);
-/// Returns the words of the setting without "gnomon compare SCENE", each by itself and not quoted.
-std::vector<std::string> setting_words(const ViewState& state, const LabOptions& options);
+std::string compare_command(const ViewState& state, const LabOptions& options, const SceneArgument& scene);
+/// Returns the words of the setting without "gnomon compare SCENE", each by itself and not quoted; `scene` is the path or
+/// name in its place, whose own settings they set back.
+std::vector<std::string> setting_words(const ViewState& state, const LabOptions& options,
+                                       const std::string& scene);
 
 /// The tuner draws no more pixels than these: its answer hardly depends on them, its time does.
 inline constexpr double tuned_pixels = 480 * 270;
