@@ -265,8 +265,7 @@ std::vector<std::string> LabEngine::compare_words(const LabMoment& moment) const
   std::vector<std::string> words{"compare"};
   if (!moment.shown->scene) return words;
   const SceneArgument& scene = moment.shown->scene->argument;
-  for (const auto& part :
-       {scene.plain_words(), setting_words(moment.state, moment.options, scene.name)})
+  for (const auto& part : {scene.plain_words(), setting_words(moment.state, moment.options, scene.name)})
     words.insert(words.end(), part.begin(), part.end());
   return words;
 }

@@ -95,10 +95,9 @@ void set_runs(const SweepCommand& command, compare::CompareOptions& options) {
 
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {
   const bool filmed = command.asked.is_filmed();
-  std::string text = (filmed ? "gnomon shimmer " : "gnomon compare ") + command.scene.words() +
-                     camera_argument(command) +
-                     setting_arguments(
-                         settled_values(command.scene.name, command.options.read_values(plan.grid, cell)));
+  std::string text =
+      (filmed ? "gnomon shimmer " : "gnomon compare ") + command.scene.words() + camera_argument(command) +
+      setting_arguments(settled_values(command.scene.name, command.options.read_values(plan.grid, cell)));
   text += filmed ? film_arguments(command.asked.film)
                  : measure_argument(*command.asked.measure) + exposure_argument(command);
   text += filmed ? std::string() : view_arguments(command.views, command.asked.film, false);

@@ -97,8 +97,7 @@ Json family_json(const TuneAnswer& answer, std::size_t i) {
   const compare::FamilyResult& family = answer.result.families[i];
   const compare::Attempt& attempt = attempt_of(family);
   Json options = Json::object();
-  for (const auto& [name, value] : answer.values(i, attempt))
-    options[name] = value;
+  for (const auto& [name, value] : answer.values(i, attempt)) options[name] = value;
   Json json{{"command", answer.line(i)},
             {"technique", options.value("technique", std::string("hard"))},
             {"options", options},
@@ -147,8 +146,7 @@ std::string TuneAnswer::line(std::size_t family, const compare::Attempt& attempt
   };
   const bool filmed = question.asked.is_filmed();
   return (filmed ? "gnomon shimmer " : "gnomon compare ") + question.scene.words() +
-         option("--camera", question.camera) +
-         setting_arguments(values(family, attempt)) +
+         option("--camera", question.camera) + setting_arguments(values(family, attempt)) +
          (filmed ? film_arguments(question.asked.film)
                  : measure_argument(*question.asked.measure) +
                        view_arguments(question.views, question.asked.film, false)) +

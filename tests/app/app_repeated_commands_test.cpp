@@ -64,9 +64,8 @@ TEST(RepeatedCommands, WhatTheSceneAsksForIsSetBack) {
     "settings": {"technique": "pcf", "filter-radius": "3", "snap": "true", "slope-bias": "2"}})");
   const OptionValues filtered{{"technique", "pcf"}, {"bias", "0.06"}};
   const OptionValues set_back = settled_values(scene, filtered);
-  EXPECT_EQ(raster::words_of(set_back),
-            (std::vector<std::string>{"--technique", "pcf", "--bias", "0.06", "--filter-radius", "1.5",
-                                      "--snap=false"}))
+  EXPECT_EQ(raster::words_of(set_back), (std::vector<std::string>{"--technique", "pcf", "--bias", "0.06",
+                                                                  "--filter-radius", "1.5", "--snap=false"}))
       << "a bias of any kind takes the place of the file's";
 }
 

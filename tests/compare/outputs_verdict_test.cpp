@@ -270,9 +270,10 @@ TEST(Verdict, AsksForAKindOfBiasByItsOptions) {
   kind.name = "normal offset", kind.wrong_fraction = 0.01;
   const std::pair<raster::Bias, std::string> cases[] = {
       {{.constant = 0.4, .unit = raster::BiasUnit::world, .normal_offset_texels = 1.0},
-       " Try --normal-offset 1 --bias 0.4 (32 texels): 1.0 % wrong."},
-      {{.constant = 0.0, .unit = raster::BiasUnit::world}, " Try --bias 0: 1.0 % wrong."},
-      {{.constant = 0.0, .unit = raster::BiasUnit::texel}, " Try --bias 0texel: 1.0 % wrong."}};
+       " Try --slope-bias 0 --normal-offset 1 --bias 0.4 (32 texels): 1.0 % wrong."},
+      {{.constant = 0.0, .unit = raster::BiasUnit::world}, " Try --slope-bias 0 --bias 0: 1.0 % wrong."},
+      {{.constant = 0.0, .unit = raster::BiasUnit::texel},
+       " Try --slope-bias 0 --bias 0texel: 1.0 % wrong."}};
   for (const auto& [bias, words] : cases) {
     kind.bias = bias;
     c.light.bias_kinds = {kind};
