@@ -110,7 +110,7 @@ void capture_ratio(const Compared& drawn, const std::vector<float>& visibility, 
   write(out.shadowed, out.size, dark), write(out.unshadowed, out.size, lit);
 }
 
-/// A number of the camera's depth buffer (docs/judge.md).
+/// A number of the camera's depth buffer (docs/capture.md).
 double buffer_value(const compare::CapturedDepth& depth, bool orthographic, double along_axis,
                     double along_ray) {
   const double n = depth.near.value_or(0.0), z = along_axis;
