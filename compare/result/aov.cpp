@@ -1,4 +1,4 @@
-// The EXR file of per-pixel numbers (docs/design.md, section 6). Where the pixel shows no surface every channel is
+// The EXR file of per-pixel numbers (docs/manual/aov.md). Where the pixel shows no surface every channel is
 // 0 except R,G,B (the background), the ladder (1: lit) and class.V, cause.V, object.V and primitive.V (-1). gap.V is
 // not finite where the receiver's texel holds nothing or its bias has no bound (LightRecord::gap). Ids are exact up to
 // 2^24, as far as 32-bit floats count.

@@ -52,7 +52,7 @@ inline constexpr double edge_scale_texels = 4.0, detachment_scale_texels = 16.0;
 /// perspective map); cube faces in two rows, +x -x +y above -y +z -z.
 Rgb8Image depth_map_picture(const raster::ShadowMap& map);
 
-/// The EXR channels of docs/design.md, section 6, of each light in its own place.
+/// The EXR channels of docs/manual/aov.md, of each light in its own place.
 Expected<void> write_aov(const Comparison& comparison, std::span<const std::string> places);
 
 // The time budget of a run in the words of the outputs: every stage with its wall-clock and its processor

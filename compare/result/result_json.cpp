@@ -1,4 +1,4 @@
-// result.json: every number of a comparison under the keys of docs/design.md, section 6
+// result.json: every number of a comparison under the keys of its schema
 // (compare/result/result.schema.json). Conventions: a time is {median, runs[]} in ms, median null when it was
 // not timed; fractions and means are over compared pixels; a number that is not finite is written as null,
 // which the schema allows only where it has a meaning.
