@@ -106,6 +106,11 @@ double least_share_before(const Averages& b, double x) {
   const double m0 = b[0] - x, m1 = b[1] - x * b[0], m2 = b[2] - x * b[1], m3 = b[3] - x * b[2];
   // p + q z + z^2 with moments against (z - x): [m0 m1; m1 m2] (p, q) = -(m2, m3)
   const double det = m0 * m2 - m1 * m1;
+  // Of one point, or of two of which x is one, the other alone may lie before it.
+  if (std::abs(det) <= 1e-15 * (std::abs(m0 * m2) + m1 * m1)) {
+    const double other = m0 != 0.0 ? m1 / m0 : x;
+    return other < x ? m0 / (other - x) : 0.0;
+  }
   const double p = (-m2 * m2 + m1 * m3) / det, q = (-m0 * m3 + m1 * m2) / det;
   const double root = std::sqrt(std::max(0.25 * q * q - p, 0.0));
   const double low = -0.5 * q - root, high = -0.5 * q + root;

@@ -146,8 +146,8 @@ bool changes_nothing(const Advice& advice) {
 /// Draws a candidate again; false where it is not worth a sentence.
 bool Advisor::fill(const Candidate& candidate, Advice& advice) const {
   // Figures are good to a fifth, or said as they are where hardly anything can be off; none are said that hang on what is not
-  // explained.
-  constexpr double off_by = 0.2, exactly = 5e-4;
+  // explained, or on which of the filters that fit the picture alike draws.
+  constexpr double off_by = 0.2, of_spread = 0.1, exactly = 5e-4;
   if (changes_nothing(candidate.advice)) return false;
   TestedRecord tested = redrawing_.as_drawn();
   tested.change(candidate.change);
@@ -159,6 +159,11 @@ bool Advisor::fill(const Candidate& candidate, Advice& advice) const {
   advice.about = candidate.about || left.unexplained + left.of_kernel > exactly;
   const double least = std::min(left.wrong_fraction, left.mean_absolute);
   if (left.unexplained > std::max(exactly, least)) return false;
+  const auto is_told = [&](double figure, double spread) {
+    return spread <= std::max(exactly, of_spread * figure);
+  };
+  if (!is_told(left.wrong_fraction, left.wrong_spread) || !is_told(left.mean_absolute, left.mean_spread))
+    return false;
   const double factor = advice.about ? 1.0 + off_by : 1.0;
   return is_worth_advising(
       {factor * left.wrong_fraction, factor * left.mean_absolute, factor * left.mean_absolute},

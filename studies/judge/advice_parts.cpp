@@ -99,7 +99,7 @@ struct Tries {
     std::size_t out = 0;
     for (std::size_t i = 1; i < left.size(); ++i)
       if (may_be(i) > may_be(out) ||
-          (may_be(i) == may_be(out) && left[i].mean_absolute < left[out].mean_absolute))
+          (may_be(i) == may_be(out) && left[i].most_mean() < left[out].most_mean()))
         out = i;
     return out;
   }
@@ -122,18 +122,18 @@ GoodConstant good_filtered_constant(const ConstantSearch& search, const TestedRe
     std::sort(tries.constants.begin(), tries.constants.end());
   }
   const std::size_t best = tries.best();
-  const double enough = hardly_more(tries.left[best].mean_absolute);
+  const double enough = hardly_more(tries.left[best].most_mean());
   const auto is_good = [&](std::size_t i) {
-    return tries.may_be(i) == tries.may_be(best) && tries.left[i].mean_absolute <= enough;
+    return tries.may_be(i) == tries.may_be(best) && tries.left[i].most_mean() <= enough;
   };
   std::size_t first = best, last = best;
   while (first > 0 && is_good(first - 1)) --first;
   while (last + 1 < tries.constants.size() && is_good(last + 1)) ++last;
   for (std::size_t i = first; i <= last; ++i)
-    if (tries.constants[i] == present) return {search.now, tries.left[i].mean_absolute};
+    if (tries.constants[i] == present) return {search.now, tries.left[i].most_mean()};
   const double unit = search.unit_world;
   return {short_number_within(tries.constants[first] / unit, tries.constants[last] / unit),
-          tries.left[best].mean_absolute};
+          tries.left[best].most_mean()};
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ GoodConstant ConstantSearch::best_beside(TestedRecord& record, int face) const {
 
 double ConstantSearch::left_at(TestedRecord& record, double stored) const {
   if (!redrawing.compares_once())
-    return redrawing.redraw(record, {stored * unit_world}, {.sample = true}).front().mean_absolute;
+    return redrawing.redraw(record, {stored * unit_world}, {.sample = true}).front().most_mean();
   fill_record(in, bias, record.own);
   return try_constants(record.own, light).wrong_at(stored * unit_world);
 }

@@ -59,21 +59,43 @@ void weigh_disc(const FilterKernel& kernel, const Vec2& within, std::vector<doub
 }  // namespace
 
 int FilterKernel::reach() const {
-  switch (shape) {
-    case Shape::one:
-      return 0;
-    case Shape::taps:
-      return static_cast<int>(std::ceil(0.5 * (side - 1) * spacing));
-    case Shape::linear_taps:
-      return static_cast<int>(std::ceil(0.5 * (side - 1) * spacing + 0.5));
-    case Shape::tent:
-    case Shape::disc:
-      break;
-  }
-  return static_cast<int>(std::ceil(radius));
+  const auto of_shape = [this] {
+    switch (shape) {
+      case Shape::one:
+        return 0.0;
+      case Shape::taps:
+        return 0.5 * (side - 1) * spacing;
+      case Shape::linear_taps:
+        return 0.5 * (side - 1) * spacing + 0.5;
+      case Shape::tent:
+      case Shape::disc:
+        break;
+    }
+    return radius;
+  };
+  return static_cast<int>(std::ceil(std::max(of_shape(), rim_radius)));
+}
+
+double FilterKernel::half_width() const {
+  const double square = 0.5 * side * spacing + (shape == Shape::linear_taps ? 0.5 : 0.0);
+  return std::max(radius > 0.0 ? radius : square, rim_radius);
 }
 
 void FilterKernel::weigh(const Vec2& within, std::vector<double>& weights) const {
+  weigh_shape(within, weights);
+  if (rim_share == 0.0) return;
+  constexpr int rim_places = 32;
+  for (double& weight : weights) weight *= 1.0 - rim_share;
+  for (int k = 0; k < rim_places; ++k) {
+    const double angle = 2.0 * pi * k / rim_places;
+    const Vec2 texel =
+        glm::floor(within + rim_radius * Vec2(std::cos(angle), std::sin(angle))) + double(reach());
+    weights[static_cast<std::size_t>(static_cast<int>(texel.y) * width() + static_cast<int>(texel.x))] +=
+        rim_share / rim_places;
+  }
+}
+
+void FilterKernel::weigh_shape(const Vec2& within, std::vector<double>& weights) const {
   if (shape == Shape::disc) return weigh_disc(*this, within, weights);
   thread_local std::vector<double> across, up;
   weigh_axis(*this, within.x, across), weigh_axis(*this, within.y, up);

@@ -20,13 +20,20 @@ struct FilterKernel {
   Shape shape = Shape::one;
   int side = 1;
   double spacing = 1.0, radius = 0.0;  ///< texels
+  double rim_radius = 0.0,
+         rim_share = 0.0;  ///< so much of the weight lies on a circle about the place, texels
 
   /// Returns how far from the place along an axis a texel can lie that is read.
   int reach() const;
+  /// Returns how far from the place the filter itself reaches, texels.
+  double half_width() const;
   int width() const { return 2 * reach() + 1; }  ///< texels, the place's own in the middle
   /// Sets the weights of the texels around a place, row by row, which add up to 1. `within`: the place in its own texel, in
   /// [0, 1) along both axes.
   void weigh(const Vec2& within, std::vector<double>& weights) const;
+
+ private:
+  void weigh_shape(const Vec2& within, std::vector<double>& weights) const;
 };
 
 /// Returns the kernels to be tried of a filter that is said to reach so far, the usual ones first.

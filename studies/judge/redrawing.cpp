@@ -17,17 +17,9 @@ using raster::CapturedTest;
 using raster::LightRecord;
 
 /// By how many roundings of a place a lookup may be off: onto a neighbour's side of a texel's border.
-constexpr std::array<Vec2, 5> lookup_shifts{Vec2(0, 0), Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)};
-constexpr double light_rounding = 0.02;   ///< five steps of eight bits
-constexpr double of_like_kernels = 0.25;  ///< what filters differ by that are known in kind alone
-constexpr double kernel_is_known = 0.01, kernel_is_alike = 0.15;  ///< mean differences of partly lit pixels
-constexpr std::size_t most_sampled = 10000, most_fitted = 1000, most_told = 24;
-constexpr std::size_t few_partly_lit = 50;
-constexpr std::size_t pixels_at_a_time = 256;
-
-bool is_partly_lit(double light) {
-  return light > light_rounding && light < 1.0 - light_rounding;
-}
+constexpr std::array<Vec2, Redrawing::shift_count> lookup_shifts{Vec2(0, 0), Vec2(-1, -1), Vec2(1, -1),
+                                                                 Vec2(-1, 1), Vec2(1, 1)};
+constexpr std::size_t most_sampled = 10000, most_told = 24;
 
 /// Returns the receiver's number as moments are stored, its slope bias taken off.
 double number_of(const LightRecord& record, double slope_world, const BiasedLookup& lookup) {
@@ -75,13 +67,17 @@ Redrawing::Redrawing(const FrameInput& in, const raster::RasterFrame& drawn, con
   slack_world_ = record.rounding_world + lookup_rounding_stored * record.captured->test->unit_world;
   reads_moments_ = reads_moments(record);
   take_layers();
+  Fit& fit = fits_.emplace_back();
   for (std::uint32_t i = 0; i < light.labels.data.size(); ++i)
-    if (is_compared(light.labels.data[i])) pixels_.push_back({.index = i});
-  sample_step_ = std::max<std::size_t>(1, pixels_.size() / most_sampled);
+    if (is_compared(light.labels.data[i])) fit.pixels.push_back({.index = i});
+  fit.step = std::max<std::size_t>(1, fit.pixels.size() / most_sampled);
   const bool once = drawn.options.map.technique == raster::Technique::hard || reads_moments_ ||
                     record.captured->test->read == CapturedTest::Read::linear_depths;
   if (!once) fit_kernel();
-  if (known_) look_at_picture();
+  if (!known_) return;
+  look_outside();
+  look_at_picture(fits_.front());
+  for (std::size_t k = 1; k < fits_.size(); ++k) look_at_sample(fits_[k]);
 }
 
 /// Which layers' tests are mixed, and how much of it has faded.
@@ -120,90 +116,6 @@ void Redrawing::take_layers() {
     fill_record(in_, bias, *drawn_.next);
   }
   fill_record(in_, bias, drawn_.own);
-}
-
-/// The kernel that comes nearest to the picture where it is partly lit. Hardly any such pixels tell its kind alone.
-void Redrawing::fit_kernel() {
-  std::vector<FilterKernel> kernels = kernels_of_reach(frame_.options.map.filter.radius_texels);
-  if (reads_paraboloids(drawn_.own)) kernels = {{FilterKernel::Shape::taps, 1}};
-  std::vector<std::uint32_t> partly;
-  for (const Pixel& pixel : pixels_)
-    if (is_partly_lit(double{light_.rungs[6].data[pixel.index]})) partly.push_back(pixel.index);
-  const std::size_t step = std::max<std::size_t>(1, partly.size() / most_fitted);
-  std::vector<double> errors(kernels.size(), 0.0);
-  parallel_for(kernels.size(), [&](std::size_t k) {
-    Reading reading{.kernel = kernels[k]};
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < partly.size(); i += step) {
-      read(drawn_, partly[i], 0, reading);
-      if (!reading.known) continue;
-      errors[k] +=
-          std::abs(light(drawn_.own, reading, constant_world_) - double{light_.rungs[6].data[partly[i]]});
-      ++count;
-    }
-    errors[k] /= static_cast<double>(std::max<std::size_t>(1, count));
-  });
-  const auto best = std::min_element(errors.begin(), errors.end());
-  kernel_ = kernels[static_cast<std::size_t>(best - errors.begin())];
-  kernel_error_ = *best, exact_ = kernel_error_ < kernel_is_known && partly.size() >= few_partly_lit;
-  known_ = kernel_error_ < kernel_is_alike;
-}
-
-void Redrawing::look_at_picture() {
-  parallel_for((pixels_.size() + pixels_at_a_time - 1) / pixels_at_a_time, [&](std::size_t part) {
-    Reading reading = empty_reading();
-    for (std::size_t i = part * pixels_at_a_time; i < std::min(pixels_.size(), (part + 1) * pixels_at_a_time);
-         ++i)
-      pixels_[i] = look_at(pixels_[i].index, reading);
-  });
-  doubt_neighbours();
-}
-
-/// Where something else draws, the test agrees by chance on many pixels: what lies among unexplained pixels that are drawn
-/// alike is not explained either.
-void Redrawing::doubt_neighbours() {
-  constexpr int reach = 3;
-  constexpr double share = 0.15;  // at a corner of what is drawn so a third is, of which half agrees
-  Image<char> asked(in_.capture.size, 0), doubted(in_.capture.size, 0);
-  for (const Pixel& pixel : pixels_) {
-    asked.data[pixel.index] = 1;
-    doubted.data[pixel.index] = pixel.explained ? 0 : 1;
-  }
-  const ImageSize size = in_.capture.size;
-  parallel_for(pixels_.size(), pixels_at_a_time, [&](std::size_t k) {
-    Pixel& pixel = pixels_[k];
-    if (!pixel.explained) return;
-    const int x = static_cast<int>(pixel.index) % size.width, y = static_cast<int>(pixel.index) / size.width;
-    const float drawn = light_.rungs[6].data[pixel.index];
-    int around = 0, alike = 0;
-    for (int j = std::max(0, y - reach); j <= std::min(size.height - 1, y + reach); ++j)
-      for (int i = std::max(0, x - reach); i <= std::min(size.width - 1, x + reach); ++i) {
-        const std::size_t at = asked.index(i, j);
-        around += asked.data[at];
-        if (doubted.data[at] != 0 && std::abs(light_.rungs[6].data[at] - drawn) <= float(light_rounding))
-          ++alike;
-      }
-    if (alike > share * around) pixel.explained = false;
-  });
-}
-
-/// A pixel on a texel's border may be drawn by the neighbour: of the places that rounding reaches, the first that explains it.
-Redrawing::Pixel Redrawing::look_at(std::uint32_t index, Reading& reading) const {
-  const double drawn = double{light_.rungs[6].data[index]};
-  Pixel out{.index = index};
-  for (std::size_t shift = 0; shift < lookup_shifts.size() && !out.explained; ++shift) {
-    read(drawn_, index, static_cast<int>(shift), reading);
-    if (!reading.known) return out;
-    const double now = light(drawn_.own, reading, constant_world_);
-    const double low = light(drawn_.own, reading, constant_world_ - slack_world_);
-    const double high = light(drawn_.own, reading, constant_world_ + slack_world_);
-    const double off = exact_ ? light_rounding : std::max(of_like_kernels, 4.0 * kernel_error_);
-    if (shift == 0) out.now = static_cast<float>(now);
-    if (drawn < low - off || drawn > high + off) continue;
-    out.explained = true, out.shift = static_cast<std::uint8_t>(shift);
-    out.now = static_cast<float>(exact_ ? std::clamp(drawn, low, high) : now);
-  }
-  return out;
 }
 
 void Redrawing::read(const TestedRecord& record, std::uint32_t index, int shift, Reading& reading) const {
@@ -278,41 +190,43 @@ double Redrawing::light(const LightRecord& record, const Reading& reading, doubl
 }
 
 /// What a pixel shows once the test makes `light` of it.
-double Redrawing::redrawn_light(const Pixel& pixel, double light, Redrawn& sum) const {
+double Redrawing::redrawn_light(const Pixel& pixel, double light, double kernel_error, Redrawn& sum) const {
   const double drawn = double{light_.rungs[6].data[pixel.index]}, now = double{pixel.now};
   if (!pixel.explained)
     return sum.unexplained += std::min(std::abs(light - now), std::abs(light - drawn)), drawn;
   const double changed = std::clamp(drawn + light - now, 0.0, 1.0);
   if (exact_) return sum.unexplained += std::min(std::abs(light - now), std::abs(drawn - now)), changed;
   if (!is_partly_lit(light)) return light;
-  sum.of_kernel += kernel_error_;
+  sum.of_kernel += kernel_error;
   return is_partly_lit(now) ? changed : light;
 }
 
-bool Redrawing::is_asked(const Pixel& pixel, std::size_t place, const Pixels& pixels) const {
-  if (pixels.sample && place % sample_step_ != 0) return false;
+bool Redrawing::is_asked(const Fit& fit, std::size_t place, const Pixels& pixels) const {
+  const Pixel& pixel = fit.pixels[place];
+  if (pixels.sample && place % fit.step != 0) return false;
   return pixels.face < 0 || drawn_.own.face.data[pixel.index] == pixels.face;
 }
 
-std::vector<Redrawn> Redrawing::redraw(const TestedRecord& record, const std::vector<double>& constants,
-                                       const Pixels& pixels) const {
-  const std::size_t parts = (pixels_.size() + pixels_at_a_time - 1) / pixels_at_a_time;
+std::vector<Redrawn> Redrawing::redraw(const Fit& fit, const TestedRecord& record,
+                                       const std::vector<double>& constants, const Pixels& pixels) const {
+  const std::vector<Pixel>& all = fit.pixels;
+  const std::size_t parts = (all.size() + pixels_at_a_time - 1) / pixels_at_a_time;
   std::vector<std::vector<Redrawn>> sums(parts, std::vector<Redrawn>(constants.size()));
   std::vector<std::size_t> counts(parts, 0);
   parallel_for(parts, [&](std::size_t part) {
-    Reading reading = empty_reading();
-    for (std::size_t i = part * pixels_at_a_time; i < std::min(pixels_.size(), (part + 1) * pixels_at_a_time);
+    Reading reading{.kernel = fit.kernel};
+    for (std::size_t i = part * pixels_at_a_time; i < std::min(all.size(), (part + 1) * pixels_at_a_time);
          ++i) {
-      const Pixel& pixel = pixels_[i];
-      if (!is_asked(pixel, i, pixels)) continue;
+      const Pixel& pixel = all[i];
+      if (!is_asked(fit, i, pixels)) continue;
       ++counts[part];
       const double truth = double{light_.rungs[0].data[pixel.index]};
       read(record, pixel.index, pixel.shift, reading);
       for (std::size_t k = 0; k < constants.size(); ++k) {
         Redrawn& sum = sums[part][k];
-        const double shown = reading.known
-                                 ? redrawn_light(pixel, light(record.own, reading, constants[k]), sum)
-                                 : double{light_.rungs[6].data[pixel.index]};
+        const double made = reading.known ? light(record.own, reading, constants[k]) : outside_light_;
+        if (!reading.known && !outside_is_told_) sum.unexplained += 1.0;
+        const double shown = redrawn_light(pixel, made, fit.error, sum);
         const double off = std::abs(static_cast<float>(shown) - truth);
         sum.mean_absolute += off, sum.wrong_fraction += off > 0.5 ? 1.0 : off == 0.5 ? 0.5 : 0.0;
       }
@@ -329,6 +243,28 @@ std::vector<Redrawn> Redrawing::redraw(const TestedRecord& record, const std::ve
   return out;
 }
 
+std::vector<Redrawn> Redrawing::redraw(const TestedRecord& record, const std::vector<double>& constants,
+                                       const Pixels& pixels) const {
+  std::vector<Redrawn> out = redraw(fits_.front(), record, constants, pixels);
+  if (!pixels.sample) {
+    const std::vector<Redrawn> sampled = redraw(record, constants, {.sample = true, .face = pixels.face});
+    for (std::size_t k = 0; k < out.size(); ++k)
+      out[k].wrong_spread = sampled[k].wrong_spread, out[k].mean_spread = sampled[k].mean_spread;
+    return out;
+  }
+  for (std::size_t other = 1; other < fits_.size(); ++other) {
+    const std::vector<Redrawn> alike = redraw(fits_[other], record, constants, pixels);
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      const auto spread = [&](double Redrawn::*figure) {
+        return std::abs(alike[k].*figure - out[k].*figure);
+      };
+      out[k].wrong_spread = std::max(out[k].wrong_spread, spread(&Redrawn::wrong_fraction));
+      out[k].mean_spread = std::max(out[k].mean_spread, spread(&Redrawn::mean_absolute));
+    }
+  }
+  return out;
+}
+
 Redrawn Redrawing::redraw(const TestedRecord& record, double constant_world) const {
   return redraw(record, std::vector<double>{constant_world}, Pixels{}).front();
 }
@@ -338,11 +274,16 @@ std::vector<double> Redrawing::telling_constants(const TestedRecord& record, con
   for (int k = -4; reads_moments_ && k <= 2; ++k)
     for (const double sign : {-1.0, 1.0}) out.push_back(sign * std::ldexp(record.own.texel_world, k));
   std::array<std::vector<double>, 2> gaps;  // of lit pixels, and of shadowed ones
-  Reading reading = empty_reading();
-  for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    if (reads_moments_ || !is_asked(pixels_[i], i, pixels)) continue;
-    read(record, pixels_[i].index, pixels_[i].shift, reading);
-    const bool shadowed = light_.rungs[0].data[pixels_[i].index] < 0.5f;
+  // The widest filter meets the farthest of them.
+  const auto by_width = [](const Fit& a, const Fit& b) {
+    return a.kernel.half_width() < b.kernel.half_width();
+  };
+  const Fit& fit = *std::max_element(fits_.begin(), fits_.end(), by_width);
+  Reading reading{.kernel = fit.kernel};
+  for (std::size_t i = 0; i < fit.pixels.size(); ++i) {
+    if (reads_moments_ || !is_asked(fit, i, pixels)) continue;
+    read(record, fit.pixels[i].index, fit.pixels[i].shift, reading);
+    const bool shadowed = light_.rungs[0].data[fit.pixels[i].index] < 0.5f;
     for (const Tap& tap : reading.taps)
       if (reading.known && std::isfinite(tap.gap)) gaps[shadowed ? 1 : 0].push_back(tap.gap);
   }

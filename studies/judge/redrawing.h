@@ -18,6 +18,10 @@ struct Redrawn {
   /// Means of how far pixels that change may be off what is drawn: those that the description does not explain, and those whose
   /// filter is known in kind alone.
   double unexplained = 0.0, of_kernel = 0.0;
+  /// By how much the two figures differ at most from those of other filters that fit the picture alike.
+  double wrong_spread = 0.0, mean_spread = 0.0;
+
+  double most_mean() const { return mean_absolute + mean_spread; }
 };
 
 /// Is the record of a test with other numbers, and that of the layers that take over where two blend.
@@ -34,6 +38,8 @@ struct TestedRecord {
 
 class Redrawing {
  public:
+  static constexpr std::size_t shift_count = 5;  ///< places of a lookup that rounding reaches
+
   /// `drawn`: the capture's frame; `constant_world`: the constant that it was drawn with. All parts must outlive this.
   Redrawing(const FrameInput& in, const raster::RasterFrame& drawn, const LightComparison& light,
             double constant_world);
@@ -41,7 +47,9 @@ class Redrawing {
   /// Tells whether the filter is known well enough to draw anything again.
   bool is_known() const { return known_; }
   /// Tells whether each lookup compares once, so that every constant follows from the gaps.
-  bool compares_once() const { return kernel_.shape == FilterKernel::Shape::one && !reads_moments_; }
+  bool compares_once() const {
+    return fits_.front().kernel.shape == FilterKernel::Shape::one && !reads_moments_;
+  }
   const TestedRecord& as_drawn() const { return drawn_; }
 
   /// Which pixels are looked at: all that are compared, or a sample of some 10,000; of one face alone, or of all (below 0).
@@ -64,6 +72,13 @@ class Redrawing {
     std::uint8_t shift = 0;  ///< by which rounding moves the lookup (shifts)
     bool explained = false;  ///< the picture shows what the test draws
   };
+  /// A filter that comes near to the picture, and what it makes of the pixels.
+  struct Fit {
+    FilterKernel kernel{};
+    double error = 0.0;           ///< of partly lit pixels, mean
+    std::vector<Pixel> pixels{};  ///< of the best one all, of others a sample
+    std::size_t step = 1;         ///< from one pixel of a sample to the next
+  };
   struct Tap {
     double gap = 0.0, weight = 0.0;
   };
@@ -83,18 +98,25 @@ class Redrawing {
     void clear() { known = true, lit = 0.0, taps.clear(), moments.clear(); }
   };
 
-  Reading empty_reading() const { return {.kernel = kernel_}; }
+  static constexpr double light_rounding = 0.02;  ///< five steps of eight bits
+  static constexpr std::size_t pixels_at_a_time = 256;
+  static bool is_partly_lit(double light) { return light > light_rounding && light < 1.0 - light_rounding; }
   void take_layers();
+  std::vector<Fit> tried_kernels() const;
   void fit_kernel();
-  void look_at_picture();
-  void doubt_neighbours();
-  Pixel look_at(std::uint32_t index, Reading& reading) const;
+  void look_outside();
+  void look_at_picture(Fit& fit) const;
+  void look_at_sample(Fit& fit) const;
+  void doubt_neighbours(Fit& fit) const;
+  Pixel look_at(std::uint32_t index, double kernel_error, Reading& reading) const;
   void read(const TestedRecord& record, std::uint32_t index, int shift, Reading& reading) const;
   bool read_layer(const raster::LightRecord& record, std::uint32_t index, int shift, double share,
                   Reading& reading) const;
   double light(const raster::LightRecord& record, const Reading& reading, double constant_world) const;
-  double redrawn_light(const Pixel& pixel, double light, Redrawn& sum) const;
-  bool is_asked(const Pixel& pixel, std::size_t place, const Pixels& pixels) const;
+  double redrawn_light(const Pixel& pixel, double light, double kernel_error, Redrawn& sum) const;
+  std::vector<Redrawn> redraw(const Fit& fit, const TestedRecord& record,
+                              const std::vector<double>& constants_world, const Pixels& pixels) const;
+  bool is_asked(const Fit& fit, std::size_t place, const Pixels& pixels) const;
 
   const FrameInput& in_;
   const raster::RasterFrame& frame_;
@@ -103,10 +125,9 @@ class Redrawing {
   TestedRecord drawn_;
   Image<float> next_share_, faded_;  ///< by pixel, in [0, 1]; empty where nothing blends, or fades
   bool reads_moments_ = false, known_ = true, exact_ = true;
-  FilterKernel kernel_{};
-  double kernel_error_ = 0.0;  ///< of partly lit pixels, mean
-  std::size_t sample_step_ = 1;
-  std::vector<Pixel> pixels_;
+  double outside_light_ = 1.0;  ///< what is drawn outside the map
+  bool outside_is_told_ = false;
+  std::vector<Fit> fits_;  ///< the best one first
 };
 
 }  // namespace gnomon::compare

@@ -20,7 +20,7 @@ gnomon_test(judge_advice_gl_test TIMEOUT 900 SOURCES judge_advice_gl_test.cpp LI
 gnomon_test(judge_pictures_gl_test SOURCES judge_pictures_gl_test.cpp judge_words_gl_test.cpp
   LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_test(judge_keys_gl_test SOURCES judge_keys_gl_test.cpp LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
-gnomon_test(judge_faults_gl_test SOURCES judge_faults_gl_test.cpp LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
+gnomon_test(judge_faults_gl_test SOURCES judge_faults_gl_test.cpp judge_places_gl_test.cpp LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_test(judge_bad_captures_test SOURCES judge_bad_captures_test.cpp judge_schema_test.cpp judge_several_test.cpp LIBS gnomon::studies fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_test(judge_identify_gl_test
   SOURCES judge_identify_gl_test.cpp

@@ -197,8 +197,9 @@ class OtherRenderer {
     for (double& one : b) one = (1.0 - bias) * one + bias * 0.5;
     const double d2 = b[1] - b[0] * b[0], l32 = (b[2] - b[0] * b[1]) / d2;
     const double d3 = b[3] - b[1] * b[1] - l32 * l32 * d2;
-    const double c2 = (x * x - b[1] - l32 * (x - b[0])) / d3, c1 = (x - b[0]) / d2 - l32 * c2;
-    const double c0 = 1.0 - b[0] * c1 - b[1] * c2;
+    // What the paper divides by d3 is not divided by it here: that is 0 of a texel that holds one of its two ends alone.
+    const double c2 = x * x - b[1] - l32 * (x - b[0]), c1 = d3 * (x - b[0]) / d2 - l32 * c2;
+    const double c0 = d3 - b[0] * c1 - b[1] * c2;
     const double root = std::sqrt(std::max(0.25 * c1 * c1 / (c2 * c2) - c0 / c2, 0.0));
     const double low = -0.5 * c1 / c2 - root, high = -0.5 * c1 / c2 + root;
     if (x <= low) return 1.0;
