@@ -50,7 +50,7 @@ void weigh_disc(const FilterKernel& kernel, const Vec2& within, std::vector<doub
       const Vec2 off(place(i), place(j));
       if (glm::dot(off, off) > 1.0) continue;
       const Vec2 texel = glm::floor(within + kernel.radius * off) + double(reach);
-      weights[static_cast<std::size_t>(static_cast<int>(texel.y) * width + static_cast<int>(texel.x))] += 1.0;
+      weights[static_cast<std::size_t>(texel.y * width + texel.x)] += 1.0;
       all += 1.0;
     }
   for (double& weight : weights) weight /= all;
@@ -90,8 +90,7 @@ void FilterKernel::weigh(const Vec2& within, std::vector<double>& weights) const
     const double angle = 2.0 * pi * k / rim_places;
     const Vec2 texel =
         glm::floor(within + rim_radius * Vec2(std::cos(angle), std::sin(angle))) + double(reach());
-    weights[static_cast<std::size_t>(static_cast<int>(texel.y) * width() + static_cast<int>(texel.x))] +=
-        rim_share / rim_places;
+    weights[static_cast<std::size_t>(texel.y * width() + texel.x)] += rim_share / rim_places;
   }
 }
 

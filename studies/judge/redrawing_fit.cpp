@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/ladder/budget.h"
+#include "compare/ladder/paraboloids.h"
 #include "scene/base/parallel.h"
 #include "studies/judge/redrawing.h"
 

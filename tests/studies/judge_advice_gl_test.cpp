@@ -20,7 +20,6 @@ using compare::Advice;
 using compare::AdvisedSetting;
 using compare::Capture;
 using compare::FilterName;
-using compare::StoredDepth;
 
 /// A figure that is said as it is holds within a tenth of a percent, one that is said to be "about" so within a fifth.
 constexpr double exactly = 1e-3, about = 0.2;
@@ -92,7 +91,8 @@ struct Elsewhere {
     spoil(capture.visibility, [&](ChannelImage& image) {
       for (int y = top; y < std::min(top + height, image.size.height); ++y)
         for (int x = left; x < std::min(left + width, image.size.width); ++x)
-          image.channels[0].values[static_cast<std::size_t>(y * image.size.width + x)] = value;
+          image.channels[0]
+              .values[static_cast<std::size_t>(y) * std::size_t(image.size.width) + std::size_t(x)] = value;
     });
   }
 };
@@ -300,7 +300,7 @@ TEST(JudgeAdvice, IsWhatIsDrawnWithIt) {
     all.before += row.before, all.after += row.after, all.of_bleeding += row.of_bleeding;
   }
   print("all", all);
-  if (only == nullptr) EXPECT_GT(all.of_bleeding, 0U) << "moments have a setting of their own";
+  EXPECT_TRUE(only != nullptr || all.of_bleeding > 0) << "moments have a setting of their own";
   EXPECT_GT(3 * all.advised, all.captures) << "where there is much to gain, something is advised";
 }
 
