@@ -162,7 +162,8 @@ Expected<void> write_and_seal(WrittenOutputs& written, const Names& places) {
   if (auto sealed = written.staged.seal(written.inputs); !sealed) return sealed;
   writing.end();
   const std::string late = with_times();
-  for (const std::string& place : places) {
+  for (const std::string& staged : places) {
+    const std::string place = written.also.sealed_place(staged);
     auto amended = late.size() == early.size()
                        ? write_over_end(place, std::string_view(late).substr(written.result.rfind("\n}")))
                        : write_file(place, late);

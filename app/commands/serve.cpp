@@ -29,7 +29,11 @@ void add_serve(CLI::App& program, Invocation& invocation) {
   app->add_option("--listen", options->place.address,
                   "address to listen at; another than the default lets others on the network try to reach it "
                   "[an address; default 127.0.0.1]")
-      ->type_name("ADDRESS");
+      ->type_name("ADDRESS")
+      ->check([](const std::string& text) {
+        return text.empty() ? std::string("an empty address would be all of them; 0.0.0.0 says so")
+                            : std::string();
+      });
   add_backend(*app, options->backend);
   add_threads(*app, options->threads, "threads of the ray tracer and of Mesa's software rasterizer");
   add_quiet(*app, options->quiet);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <limits.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -16,6 +17,7 @@
 #include "scene/files/links.h"
 #include "scene/files/new_file.h"
 #include "scene/files/path_status.h"
+#include "scene/files/write_file.h"
 
 namespace gnomon {
 namespace {
@@ -92,11 +94,73 @@ Folder::~Folder() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
+bool is_planted(const struct stat& folder, const struct stat& thing) {
+  constexpr mode_t open_to_all = S_ISVTX | S_IWOTH;
+  return (folder.st_mode & open_to_all) == open_to_all && thing.st_uid != ::geteuid() &&
+         thing.st_uid != folder.st_uid;
+}
+
+namespace {
+
+Expected<void> refuse_if_planted(const Folder& folder, const std::string& name, const struct stat& thing) {
+  const auto around = folder.itself();
+  if (!around) return fail(around.error());
+  if (!is_planted(*around, thing)) return {};
+  return fail(Error{ErrorKind::cannot_write,
+                    "belongs to another user, in a folder where anybody may write: choose another name or "
+                    "folder",
+                    folder.path_of(name)});
+}
+
+}  // namespace
+
+Expected<void> refuse_planted(const Folder& folder, const std::string& name) {
+  const auto found = folder.find(name);
+  if (!found) return fail(found.error());
+  return *found ? refuse_if_planted(folder, name, **found) : Expected<void>{};
+}
+
+Expected<std::optional<std::string>> Folder::link_target(const std::string& name) const {
+  const Descriptor link(
+      uninterrupted([&] { return ::openat(descriptor_, name.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC); }));
+  struct stat status = {};
+  if (link.number() < 0 || ::fstat(link.number(), &status) != 0 || !S_ISLNK(status.st_mode))
+    return std::optional<std::string>();
+  if (auto fine = refuse_if_planted(*this, name, status); !fine) return fail(fine.error());
+  std::string target(PATH_MAX, '\0');
+  const ssize_t length = ::readlinkat(link.number(), "", target.data(), target.size());
+  if (length < 0) return failed_in(path_of(name), "cannot be looked at", errno);
+  target.resize(static_cast<std::size_t>(length));
+  return std::optional(std::move(target));
+}
+
+// By one name after another, so that nobody changes a link between the look at it and the step through it.
 Expected<Folder> Folder::at(const std::string& path) {
-  const std::string& shown = path.empty() ? "." : path;
-  const int descriptor = open_folder(AT_FDCWD, shown.c_str(), 0);
-  if (descriptor < 0) return failed_in(shown, "cannot open the folder", errno);
-  return Folder(shown, descriptor);
+  constexpr int most_links = 40;  // as the system has it
+  const std::string shown = path.empty() ? "." : path;
+  const auto opened = [&](const char* start) { return open_folder(AT_FDCWD, start, 0); };
+  std::string rest = shown;
+  Folder folder(shown, opened(rest.starts_with('/') ? "/" : "."));
+  for (int links = 0; folder.descriptor_ >= 0 && !rest.empty();) {
+    const std::size_t end = std::min(rest.find('/'), rest.size());
+    const std::string name = rest.substr(0, end);
+    rest.erase(0, end + 1);
+    if (name.empty()) continue;
+    const int next = open_folder(folder.descriptor_, name.c_str(), O_NOFOLLOW);
+    if (next >= 0) {
+      folder = Folder(shown, next);
+      continue;
+    }
+    const int why = errno;
+    const auto link = folder.link_target(name);
+    if (!link) return fail(link.error());
+    if (!*link) return failed_in(shown, "cannot open the folder", why);
+    if (++links > most_links) return failed_in(shown, "cannot open the folder", ELOOP);
+    rest = **link + "/" + rest;
+    if (rest.starts_with('/')) folder = Folder(shown, opened("/"));
+  }
+  if (folder.descriptor_ < 0) return failed_in(shown, "cannot open the folder", errno);
+  return folder;
 }
 
 Expected<Folder> Folder::entered(const std::string& name) const {

@@ -16,7 +16,7 @@ namespace gnomon {
 /// All errors are ErrorKind::cannot_write.
 class Folder {
  public:
-  /// Opens the folder at a path that a user named: links on the way to it are followed.
+  /// Opens the folder at a path that a user named. Links on the way to it are followed, but none that is planted().
   static Expected<Folder> at(const std::string& path);
   /// Opens the folder "a/b" in this one ("": this one again). A link on the way is an error, whatever it leads to.
   Expected<Folder> below(const std::string& names) const;
@@ -31,6 +31,8 @@ class Folder {
 
   /// Returns what is known of a name in it, of a link itself; none where nothing is there.
   Expected<std::optional<struct stat>> find(const std::string& name) const;
+  /// Tells where the link of that name leads; none where it is no link. Error: it is planted (is_planted()).
+  Expected<std::optional<std::string>> link_target(const std::string& name) const;
   /// Returns what is known of the folder itself.
   Expected<struct stat> itself() const;
   Expected<std::vector<std::string>> names() const;
@@ -43,6 +45,13 @@ class Folder {
   std::string path_;
   int descriptor_ = -1;
 };
+
+/// Whether somebody else may have put the thing there for others to stumble over: the folder is one in which all may write and
+/// nobody may remove another's (sticky, as /tmp), and the thing belongs neither to the user nor to the folder's owner. Linux has
+/// the same rule where fs.protected_symlinks and fs.protected_fifos are on (man 5 proc).
+bool is_planted(const struct stat& folder, const struct stat& thing);
+/// Refuses what is planted by that name in the folder; nothing there is fine.
+Expected<void> refuse_planted(const Folder& folder, const std::string& name);
 
 /// "a/b" of "a/b/c", "" of "c".
 std::string folder_part(const std::string& name);

@@ -86,6 +86,12 @@ Expected<void> StagedFiles::seal() {
   return {};
 }
 
+std::string StagedFiles::sealed_place(const std::string& place) const {
+  for (const Finish& file : finishes_)
+    if (file.staged == place) return file.named;
+  return place;
+}
+
 Expected<void> StagedFiles::publish(StagedFolder* folder, const std::string& last) {
   std::vector<StagedFolder::Part> parts;
   for (Place& place : places_) parts.push_back({&place.staged, {}});

@@ -34,6 +34,8 @@ class StagedFiles {
   Expected<void> write(const FileText& file, const StagedFolder* folder = nullptr);
   /// Waits until the disk has them all.
   Expected<void> seal();
+  /// Where the file of a place that place_of() returned lies once all are sealed.
+  std::string sealed_place(const std::string& place) const;
   /// Publishes them, and with them a sealed folder whose last file is `last`.
   Expected<void> publish(StagedFolder* folder = nullptr, const std::string& last = {});
   /// Writes some, seals and publishes all of them with a folder, in which no file may take the place of one of `inputs`.

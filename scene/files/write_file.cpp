@@ -113,10 +113,20 @@ Expected<std::string> follow_link(const std::string& path) {
   const auto there = is_there(path, ErrorKind::cannot_write);
   if (!there) return fail(there.error());
   if (!*there) return path;
-  std::error_code error;
-  const fs::path target = fs::canonical(path, error);
-  if (error) return failed_call(ErrorKind::cannot_write, path, "cannot follow it", error.value());
-  return target.string();
+  constexpr int most_links = 40;  // as the system has it
+  std::string at = path;
+  for (int links = 0; links <= most_links; ++links) {
+    const std::string around = fs::path(at).parent_path().string(), name = fs::path(at).filename().string();
+    if (name.empty() || name == "." || name == "..") return at;  // a folder
+    const auto folder = Folder::at(around);
+    if (!folder) return fail(folder.error());
+    if (auto fine = refuse_planted(*folder, name); !fine) return fail(fine.error());
+    const auto target = folder->link_target(name);
+    if (!target) return fail(target.error());
+    if (!*target) return at;
+    at = (fs::path(around) / **target).string();
+  }
+  return failed_call(ErrorKind::cannot_write, path, "cannot follow it", ELOOP);
 }
 
 Expected<void> write_file(const std::string& path, std::string_view bytes) {

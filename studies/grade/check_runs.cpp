@@ -100,10 +100,8 @@ std::vector<std::string> CheckRuns::words_of(const Run& run, const std::string& 
   if (!run.function.empty())
     return {"shaders", "--call", run.function, "--json", answers_file(folder), "--quiet"};
   std::vector<std::string> words = {"compare", run.scene};
-  for (const auto& [name, value] : run.options) {
-    words.push_back("--" + name);
-    if (!value.empty()) words.push_back(value);
-  }
+  for (const auto& [name, value] : run.options)
+    words.push_back(value.empty() ? "--" + name : fmt::format("--{}={}", name, value));
   // No page: a student's own takes figures and pictures.
   words.insert(words.end(),
                {"--technique", rubric_->technique, "--threads", "1", "-o", folder, "--no-report", "--quiet"});

@@ -10,6 +10,7 @@
 #include "compare/comparison.h"
 #include "compare/result/figures.h"
 #include "raster/programs/shader_folder.h"
+#include "raster/settings.h"
 #include "raster/technique_traits.h"
 #include "scene/base/option_text.h"
 #include "scene/files/json/json_reader.h"
@@ -28,10 +29,39 @@ constexpr NumberRange pixels_range{0.0, 1e9, false, false, true};
 
 const std::vector<std::string_view> kinds = {"draws", "at_most", "equals", "time", "answers"};
 
-/// Options that a rubric may not set: the grader decides what is written, and with which shaders.
-const std::vector<std::string_view> kept_options = {"output",    "json",    "shader-dir",     "aov",
-                                                    "technique", "quiet",   "trace",          "fail-above",
-                                                    "no-report", "threads", "timed-as-judged"};
+/// Options of compare that a rubric may set besides those of the shadow map. What is read besides the scene, what is written,
+/// and with which shaders, whoever grades decides.
+const std::vector<std::string_view> picture_options = {"accel",
+                                                       "backend",
+                                                       "camera",
+                                                       "camera-distance",
+                                                       "camera-height",
+                                                       "camera-orbit",
+                                                       "camera-target",
+                                                       "camera-up",
+                                                       "exposure",
+                                                       "instances",
+                                                       "light",
+                                                       "light-azimuth",
+                                                       "light-distance",
+                                                       "light-elevation",
+                                                       "light-size",
+                                                       "max-lights",
+                                                       "measure",
+                                                       "memory",
+                                                       "min-contribution",
+                                                       "precision",
+                                                       "runs",
+                                                       "samples",
+                                                       "seed",
+                                                       "size",
+                                                       "tessellate",
+                                                       "time"};
+
+bool may_set(const std::string& option) {
+  if (raster::find_setting(option) != nullptr) return option != "technique";
+  return std::find(picture_options.begin(), picture_options.end(), option) != picture_options.end();
+}
 
 std::vector<std::string_view> measure_names() {
   std::vector<std::string_view> names;
@@ -83,8 +113,7 @@ Run read_run(const JsonNode& node, const std::string& folder) {
   }
   for (const JsonMember& member : options->value().members) {
     const JsonNode value(node.errors(), member.value, options->path() + "." + member.key);
-    if (std::find(kept_options.begin(), kept_options.end(), member.key) != kept_options.end())
-      value.error("is not for a rubric to set");
+    if (!may_set(member.key)) value.error("is not for a rubric to set");
     run.options.emplace_back(member.key, value.as_string());
   }
   return run;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <functional>
 #include <optional>
+#include <regex>
 
 #include "report/pixels/packing.h"
 #include "report/shell.h"
@@ -172,6 +173,29 @@ Expected<void> discard_sweep(const std::string& folder) {
       return gone;
   }
   return {};
+}
+
+// A page that is too large to hold the data loads the file as a script: whatever else stood in it would be run.
+bool is_cell_data(std::size_t cell, std::string_view file) {
+  static const std::regex head(
+      R"(\{"width":\d{1,6},"height":\d{1,6},"truth":"[0-9a-z-]{0,64}","classes":\{"bytes":1,"from":"nothing","data":")");
+  constexpr std::size_t longest_head = 256;
+  constexpr std::string_view end = "\"}}";
+  const std::string_view data = data_in_file(file);
+  const std::string start(data.substr(0, longest_head));
+  std::smatch found;
+  if (!std::regex_search(start, found, head, std::regex_constants::match_continuous)) return false;
+  std::string_view packed = data.substr(static_cast<std::size_t>(found.length()));
+  if (!packed.ends_with(end)) return false;
+  packed.remove_suffix(end.size());
+  const auto ends_text = [](char c) { return c < ' ' || c > '~' || c == '"' || c == '\\'; };
+  return std::none_of(packed.begin(), packed.end(), ends_text) &&
+         file == data_file({cell_name(cell), std::string(data)});
+}
+
+Error not_cell_data(const std::string& path) {
+  return {ErrorKind::bad_input, "is no data of that cell as a sweep writes it, and a page would run it",
+          path};
 }
 
 std::string cell_data_file(std::size_t cell, const Image<std::uint8_t>& codes, const std::string& truth) {

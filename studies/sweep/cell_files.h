@@ -52,6 +52,10 @@ Expected<void> remove_strays(const std::string& folder, std::span<const std::siz
 /// there; cannot_write where a file is no sweep's, and nothing is removed then.
 Expected<void> discard_sweep(const std::string& folder);
 
+/// Whether a file's text is what cell_data_file() may have written for that cell, to the last byte.
+bool is_cell_data(std::size_t cell, std::string_view file);
+/// ErrorKind::bad_input: somebody has changed the file at `path`.
+Error not_cell_data(const std::string& path);
 /// The text of a cell's data file.
 std::string cell_data_file(std::size_t cell, const Image<std::uint8_t>& codes, const std::string& truth);
 

@@ -1,16 +1,20 @@
-
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/stat.h>
 
+#include <cerrno>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
-#include "scene/files/path_status.h"
-#include "scene/files/read_file.h"
+#include "scene/base/interrupted.h"
+#include "scene/files/folder.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 #include "studies/sweep/cell_files.h"
 #include "studies/sweep/journal.h"
+#include "studies/sweep/own_files.h"
 #include "studies/sweep/page.h"
 
 namespace gnomon::compare {
@@ -34,13 +38,43 @@ Expected<void> add_shard(const std::string& folder, const SweepLines& shard, Cel
   return {};
 }
 
-/// Where nothing is there is nothing to copy: not every cell has pictures.
-Expected<void> copy_if_there(const std::string& from, const std::string& to) {
-  const auto there = is_there(from);
-  if (!there) return fail(there.error());
-  if (!*there) return {};
-  const auto bytes = read_file(from);
-  return bytes ? write_file(to, *bytes) : fail(bytes.error());
+/// Reads a plain file of a shard through no link, which somebody else may have put there to have a file of the user's copied.
+/// None: it is not there, as not every cell has pictures. `name` is below the shard. Errors are ErrorKind::bad_input.
+Expected<std::optional<std::string>> read_of_shard(const std::string& shard, const std::string& name) {
+  const auto named = [&](Error error) {
+    error.kind = ErrorKind::bad_input;
+    return fail(std::move(error));
+  };
+  auto folder = Folder::at(shard);
+  if (!folder) return named(folder.error());
+  if (const std::string around = folder_part(name); !around.empty()) {
+    const auto there = folder->find(around);
+    if (!there) return named(there.error());
+    if (!*there) return std::optional<std::string>();
+    auto below = folder->below(around);
+    if (!below) return named(below.error());
+    *folder = std::move(*below);
+  }
+  const std::string last = last_part(name), path = shard + "/" + name;
+  const auto found = folder->find(last);
+  if (!found) return named(found.error());
+  if (!*found) return std::optional<std::string>();
+  const Descriptor file(uninterrupted([&] {
+    return ::openat(folder->descriptor(), last.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  }));
+  if (S_ISLNK((*found)->st_mode))
+    return fail(Error{ErrorKind::bad_input, "is a link, and a shard's files are its own", path});
+  if (file.number() < 0) return failed_call(ErrorKind::bad_input, path, "cannot be opened", errno);
+  if (!S_ISREG((*found)->st_mode)) return fail(Error{ErrorKind::bad_input, "is no plain file", path});
+  auto text = text_of_open(file.number(), path, ErrorKind::bad_input);
+  return text ? Expected<std::optional<std::string>>(std::move(*text)) : fail(text.error());
+}
+
+/// `name`: in the shard as in the whole.
+Expected<void> copy_if_there(const std::string& shard, const std::string& name, const std::string& target) {
+  const auto bytes = read_of_shard(shard, name);
+  if (!bytes) return fail(bytes.error());
+  return *bytes ? write_file(target + "/" + name, **bytes) : Expected<void>{};
 }
 
 /// The ray-traced pictures, whose names tell them apart.
@@ -48,22 +82,20 @@ Expected<void> copy_truths(const std::string& folder, const std::string& target)
   const auto names = truths_in(folder);
   if (!names) return fail(names.error());
   for (const std::string& name : *names)
-    if (auto copied = copy_if_there(cells_folder(folder) + "/" + name, cells_folder(target) + "/" + name);
-        !copied)
-      return copied;
+    if (auto copied = copy_if_there(folder, "cells/" + name, target); !copied) return copied;
   return {};
 }
 
 Expected<void> copy_pictures(const Cell& cell, std::size_t index, const std::string& target) {
-  const std::string from = cells_folder(cell.folder) + "/" + cell_name(index),
-                    to = cells_folder(target) + "/" + cell_name(index);
-  const std::vector<std::pair<std::string, std::string>> files{
-      {thumbnail_path(cell.folder, index), thumbnail_path(target, index)},
-      {from + ".js", to + ".js"},
-      {from + ".png", to + ".png"}};
-  for (const auto& [source, copy] : files)
-    if (auto copied = copy_if_there(source, copy); !copied) return copied;
-  return {};
+  const std::string name = cell_name(index);
+  for (const std::string& picture : {"thumbnails/" + name + ".png", "cells/" + name + ".png"})
+    if (auto copied = copy_if_there(cell.folder, picture, target); !copied) return copied;
+  const std::string file = "cells/" + name + ".js";
+  const auto data = read_of_shard(cell.folder, file);
+  if (!data) return fail(data.error());
+  if (!*data) return {};
+  if (!is_cell_data(index, **data)) return fail(not_cell_data(cell.folder + "/" + file));
+  return write_file(target + "/" + file, **data);
 }
 
 /// The cells in the order of the sweep, as a journal takes them.
@@ -94,7 +126,7 @@ Expected<void> write_whole(const Cells& cells, const Lines& lines, const SweepHe
     if (auto copied = copy_pictures(cell, index, target); !copied) return copied;
   for (const std::string& folder : folders) {
     if (auto copied = copy_truths(folder, target); !copied) return copied;
-    if (auto copied = copy_if_there(ray_points_path(folder), ray_points_path(target)); !copied) return copied;
+    if (auto copied = copy_if_there(folder, "ray_tracer.json", target); !copied) return copied;
   }
   return {};
 }

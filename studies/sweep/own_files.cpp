@@ -10,6 +10,7 @@
 
 #include "scene/base/interrupted.h"
 #include "scene/files/path_status.h"
+#include "scene/files/write_file.h"
 #include "studies/sweep/cell_files.h"
 #include "studies/sweep/sweep_line.h"
 
@@ -66,28 +67,35 @@ Expected<OwnFile> OwnFile::open(const std::string& folder, std::string_view name
   if (::fstat(file.descriptor_, &status) != 0)
     return failed_call(ErrorKind::cannot_write, file.path_, "cannot be looked at", errno);
   if (!S_ISREG(status.st_mode)) return not_a_sweeps(file.path_, "is no plain file");
-  return file;
+  if (status.st_nlink == 1) return file;
+  const auto text = file.text();
+  if (!text) return fail(text.error());
+  if (auto copied = write_file_in(folder, std::string(name), *text); !copied) return fail(copied.error());
+  return open(folder, name, make);
 }
 
 OwnFile::~OwnFile() {
   if (is_open()) ::close(descriptor_);
 }
 
-Expected<std::string> OwnFile::text() const {
-  if (!is_open()) return std::string();
+Expected<std::string> text_of_open(int descriptor, const std::string& path, ErrorKind error) {
   struct stat status {};
-  if (::fstat(descriptor_, &status) != 0)
-    return failed_call(ErrorKind::cannot_write, path_, "cannot be looked at", errno);
+  if (::fstat(descriptor, &status) != 0) return failed_call(error, path, "cannot be looked at", errno);
   std::string text(static_cast<std::size_t>(status.st_size), '\0');
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t count =
-        ::pread(descriptor_, text.data() + done, text.size() - done, static_cast<off_t>(done));
+        ::pread(descriptor, text.data() + done, text.size() - done, static_cast<off_t>(done));
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0)
-      return failed_call(ErrorKind::cannot_write, path_, "cannot be read", count < 0 ? errno : EIO);
+    if (count <= 0) return failed_call(error, path, "cannot be read", count < 0 ? errno : EIO);
     done += static_cast<std::size_t>(count);
   }
-  if (!begins_as_own(name_, text)) return not_a_sweeps(path_, "holds something else");
+  return text;
+}
+
+Expected<std::string> OwnFile::text() const {
+  if (!is_open()) return std::string();
+  auto text = text_of_open(descriptor_, path_, ErrorKind::cannot_write);
+  if (text && !begins_as_own(name_, *text)) return not_a_sweeps(path_, "holds something else");
   return text;
 }
 

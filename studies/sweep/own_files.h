@@ -27,7 +27,8 @@ bool begins_as_own(std::string_view name, std::string_view text);
 /// A file of a sweep that is open, for as long as this lives. It is the folder's own plain file.
 class OwnFile {
  public:
-  /// Opens it for reading and writing, and makes it where it is not there if `make`; else is_open() is false then.
+  /// Opens it for reading and writing, and makes it where it is not there if `make`; else is_open() is false then. A file that has
+  /// other names (hard links) is copied first, so that they keep what they hold.
   static Expected<OwnFile> open(const std::string& folder, std::string_view name, bool make);
   OwnFile(OwnFile&& other) noexcept
       : path_(std::move(other.path_)),
@@ -58,6 +59,9 @@ Expected<void> check_own_files(const std::string& folder, bool has_sweep);
 /// The number of cells of the sweep that lies in the folder; none where none does. What it was asked for may have been changed
 /// by hand, for it is not read on.
 Expected<std::optional<std::size_t>> cells_of_sweep(const std::string& folder);
+
+/// Reads all of an open plain file; `path` is its name for messages.
+Expected<std::string> text_of_open(int descriptor, const std::string& path, ErrorKind error);
 
 /// Refuses the path: "it is left as it is, and a sweep needs another folder".
 tl::unexpected<Error> not_a_sweeps(const std::string& path, std::string_view what);

@@ -49,6 +49,7 @@ Expected<std::map<std::size_t, CellPictures>> read_pictures(const std::string& f
          drawing = read_if_there(name + ".png");
     for (const auto* file : {&thumbnail, &data, &drawing})
       if (!*file) return fail(file->error());
+    if (!data->empty() && !is_cell_data(cell.cell, *data)) return fail(not_cell_data(name + ".js"));
     CellPictures found{std::move(*thumbnail), std::string(data_in_file(*data)), std::move(*drawing)};
     if (!found.thumbnail.empty()) pictures[cell.cell] = std::move(found);
   }
