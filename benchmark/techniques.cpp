@@ -64,6 +64,7 @@ void add_rays(const compare::Comparison& comparison, TechniqueTable& table) {
   table.rays_ms = 0.0;
   for (const raytrace::LightTruth& light : comparison.raytraced.lights)
     table.rays_ms += light.exact_times().median();
+  table.tree_ms = comparison.raytraced.structure.median();
 }
 
 double shadows_ms(const TechniqueRow& row) {
@@ -140,16 +141,16 @@ std::string markdown(std::span<const TechniqueTable> tables, const std::string& 
       "the map, and what looking it up adds to the same shading without shadows (last of the times, the "
       "picture's own), against the rays. Under a light that stands still the lookups alone remain on the "
       "map's side; where the runs do not tell them from nothing, their interval stands. Both sides are timed "
-      "warm, as often as each other. A "
-      "software rasterizer's times are not a GPU's; texels, lookups and bytes hold everywhere.\n",
-      command);
+      "warm, as often as each other. {}\n",
+      command, compare::software_note);
   for (const TechniqueTable& table : tables) {
     text += fmt::format(
         "\n## {}\n\n{} x {} pixels, maps of {}² texels. The exact shadows of the same pixels take {:.1f} "
-        "ms.\n\n| technique | wrong | % | "
+        "ms, where casters move {:.1f} ms with their tree.\n\n| technique | wrong | % | "
         "mostly | mean error | map ms | lookups ms | shadows ms | picture ms | Mtexels | lookups a pixel | "
         "MiB |\n|---|---:|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|\n",
-        one_line(table.scene), table.size.width, table.size.height, table.map_size, table.rays_ms);
+        one_line(table.scene), table.size.width, table.size.height, table.map_size, table.rays_ms,
+        table.rays_ms + table.tree_ms);
     for (const TechniqueRow& row : table.rows) text += markdown_row(row);
   }
   return text;
@@ -157,10 +158,10 @@ std::string markdown(std::span<const TechniqueTable> tables, const std::string& 
 
 std::string text_table(const TechniqueTable& table) {
   std::string text = fmt::format(
-      "{}: {}x{} pixels, maps of {} texels; exact shadows take {:.1f} ms\n"
+      "{}: {}x{} pixels, maps of {} texels; exact shadows take {:.1f} ms, where casters move {:.1f} ms with their tree\n"
       "{:<13}{:>9}{:>8} {:<14}{:>9}{:>8}{:>9}{:>8}{:>8}\n",
-      one_line(table.scene), table.size.width, table.size.height, table.map_size, table.rays_ms, "technique",
-      "wrong", "%", "mostly", "error", "map ms", "lookups", "a pixel", "MiB");
+      one_line(table.scene), table.size.width, table.size.height, table.map_size, table.rays_ms,
+      table.rays_ms + table.tree_ms, "technique", "wrong", "%", "mostly", "error", "map ms", "lookups", "a pixel", "MiB");
   for (const TechniqueRow& row : table.rows) {
     text += row.refused.empty()
                 ? fmt::format("{:<13}{:>9}{:>8.3f} {:<14}{:>9.5f}{:>8.1f}{:>9}{:>8}{:>8}\n", row.technique,

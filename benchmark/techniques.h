@@ -33,6 +33,7 @@ struct TechniqueTable {
   std::vector<TechniqueRow> rows;
   /// Exact shadows of the same pixels: the lights' structures and the rays, which are what the truth costs.
   double rays_ms = 0.0;
+  double tree_ms = 0.0;  ///< what casters that move have the rays build anew
 };
 
 /// Draws with every technique and the options of `base`.

@@ -18,6 +18,7 @@
 #include "raster/frame.h"
 #include "raytrace/frame.h"
 #include "raytrace/tracer.h"
+#include "scene/base/time_difference.h"
 #include "scene/base/timing.h"
 #include "scene/effects.h"
 #include "scene/image.h"
@@ -280,6 +281,15 @@ struct CascadeFigures {
   Budget budget{};
 };
 
+/// What the shadows of a frame take on both sides, milliseconds, by what has moved since the last one
+/// (result/shadow_cost.h).
+struct ShadowCosts {
+  struct Sides {
+    TimeDifference map, rays;  ///< map: of the hybrid what it has in its place
+  };
+  Sides nothing_moves, light_moves, casters_move;
+};
+
 /// Every number of one light; result/figures.cpp has a row for each.
 struct LightFigures {
   PixelCounts pixels;
@@ -297,6 +307,7 @@ struct LightFigures {
   std::array<double, 3> texel_world{};    ///< min, median, max over compared receivers
   std::optional<std::uint64_t> lookups;   ///< LightRecord::lookups of the compared pixels; none: not counted
   RayWork ray_work;                       ///< nothing where not counted
+  std::optional<ShadowCosts> shadow_costs;  ///< made when it is written; none: not timed
 };
 
 struct LightComparison : LightFigures {
@@ -353,6 +364,9 @@ inline std::array<float, rung_count> rungs_at(const std::array<Image<float>, run
 struct MachineInfo {
   std::string cpu, os;
   int cores = 0;
+  /// Threads that ran or waited for a core, this program's included, the mean of the last minute; none where the system does
+  /// not say.
+  std::optional<double> load = std::nullopt;
 };
 
 struct Judged;
@@ -383,7 +397,7 @@ struct Comparison {
   const Figure* measure = &wrong_and_mean();  ///< what errors are counted in, where the user chose
   std::optional<Threshold> fail_above;        ///< what the errors were held against
   double exposure = 1.0;                      ///< linear factor applied to both pictures before sRGB encoding
-  double load_ms = 0.0, accel_build_ms = 0.0, topology_ms = 0.0, report_ms = 0.0, total_ms = 0.0;
+  double load_ms = 0.0, topology_ms = 0.0, report_ms = 0.0, total_ms = 0.0;
   std::uint64_t peak_memory_bytes = 0;
 };
 

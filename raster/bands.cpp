@@ -67,6 +67,7 @@ void add_costs(const RasterFrame& band, RasterFrame& sum) {
     if (first) append_light(part, light);
     light.shade_pass.add_part(part.shade_pass);
     light.unshadowed_pass.add_part(part.unshadowed_pass);
+    light.strips.insert(light.strips.end(), part.strips.begin(), part.strips.end());
     if (part.external) add_external(*part.external, light.external);
   }
 }

@@ -10,6 +10,7 @@
 
 #include "raster/external_visibility.h"
 #include "raster/options.h"
+#include "scene/base/time_difference.h"
 #include "scene/base/timing.h"
 #include "scene/image.h"
 #include "scene/light_map/light_view.h"
@@ -194,6 +195,7 @@ struct LightRecord {
   /// RasterOptions::shadow_cost: run by run beside shade_pass, the same shading by a shader that looks nothing
   /// up and takes every receiver for lit. What shade_pass takes beyond it is the shadows'.
   Times unshadowed_pass;
+  std::vector<TimedStrip> strips;  ///< the two strip by strip, which were shaded in turn (beyond_part)
   double first_map_ms =
       0.0;  ///< the map's memory, what is compiled for it, and its first run, in map_pass too; 0: not timed
   /// What each pixel's visibility took of the map: texels compared, or filtered reads of moments.

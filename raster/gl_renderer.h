@@ -81,6 +81,7 @@ class GlRenderer final : public Renderer {
   Expected<void> span(const Job& job, const Pass& pass);
   Expected<void> span_shading(const Job& job, const MapJob& map_job);
   Expected<void> time_camera(Job& job);
+  std::vector<PictureRows> strips_in_turn() const;
   Expected<void> time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
                               LightRecord& record);
   /// Times shading as RasterOptions::timed_as_judged asks for.

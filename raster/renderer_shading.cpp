@@ -1,6 +1,7 @@
 // The timed drawing: shading with and without shadows, and what is read back of it (renderer_passes.cpp: maps).
 #include <algorithm>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "raster/gl/context.h"
@@ -155,8 +156,18 @@ std::optional<double> GlRenderer::take_kept_time(const Job& job, const MapJob& m
   return same ? std::optional(kept->ms) : std::nullopt;
 }
 
-/// Each run draws the light with its shadows, and where RasterOptions::shadow_cost asks for it once more without them, so
-/// that both have the same moments of the machine, and now the one and now the other first.
+/// What is shaded in turn. A strip of llvmpipe's tiles keeps each of its threads busy; to a GPU the picture is one.
+std::vector<PictureRows> GlRenderer::strips_in_turn() const {
+  constexpr int tile = 64, tiles_of_each = 8;
+  const ImageSize size = shading_.size();
+  if (!draws_in_software(info_.renderer)) return {shading_.all_rows()};
+  const int across = (size.width + tile - 1) / tile;
+  const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return bands_of(size, tile * ((tiles_of_each * threads + across - 1) / across));
+}
+
+/// Each run draws the light with its shadows, and where RasterOptions::shadow_cost asks for it once more without them, strip
+/// by strip, so that both have the same moments of the machine, and now the one and now the other first.
 Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
                                         LightRecord& record) {
   const RasterOptions& options = job.options;
@@ -176,28 +187,46 @@ Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const V
         if (auto drawn = draw(with_shadows); !drawn) return drawn;
     return {};
   };
-  const auto draw = [&](bool with_shadows) {
-    return shading_.draw_light(buffers_, with_shadows ? shadowed : plain, !job.first_light);
+  const auto draw = [&](bool with_shadows, const PictureRows& rows) {
+    return shading_.draw_light(buffers_, with_shadows ? shadowed : plain, !job.first_light, rows);
   };
+  const auto draw_all = [&](bool with_shadows) { return draw(with_shadows, shading_.all_rows()); };
   if (auto found = find_external(asked); !found) return found;
   const Pass both_orders = [&]() -> Expected<void> {
-    if (auto ok = in_turn(false, draw); !ok) return ok;
-    return in_turn(true, draw);
+    if (auto ok = in_turn(false, draw_all); !ok) return ok;
+    return in_turn(true, draw_all);
   };
   if (auto ok = warm_up(both_orders); !ok) return ok;
-  const Pass pass = [&] {
-    return in_turn(record.shade_pass.runs.size() % 2 != 0, [&](bool with_shadows) -> Expected<void> {
-      const Stopwatch watch;
-      if (with_shadows)
-        if (auto found = find_external(asked); !found) return found;
-      if (auto drawn = draw(with_shadows); !drawn) return drawn;
-      (*gl_)->Finish();
-      (with_shadows ? record.shade_pass : record.unshadowed_pass)
-          .runs.push_back(seen_ms + watch.elapsed_ms());
-      return {};
-    });
+  const auto strips = options.shadow_cost ? strips_in_turn() : std::vector{shading_.all_rows()};
+  std::vector<TimedStrip> timed(strips.size());
+  const Pass pass = [&]() -> Expected<void> {
+    bool plain_first = record.shade_pass.runs.size() % 2 != 0;
+    for (std::size_t i = 0; i < strips.size(); ++i, plain_first = !plain_first) {
+      const auto drawn = in_turn(plain_first, [&](bool with_shadows) -> Expected<void> {
+        const Stopwatch watch;
+        if (with_shadows && i == 0)
+          if (auto found = find_external(asked); !found) return found;
+        if (auto ok = draw(with_shadows, strips[i]); !ok) return ok;
+        (*gl_)->Finish();
+        (with_shadows ? timed[i].whole : timed[i].part).runs.push_back(watch.elapsed_ms());
+        return {};
+      });
+      if (!drawn) return drawn;
+    }
+    const auto add_run = [&](Times& sum, Times TimedStrip::* pass_of) {
+      double ms = seen_ms;
+      for (const TimedStrip& strip : timed) ms += (strip.*pass_of).runs.back();
+      sum.runs.push_back(ms);
+    };
+    add_run(record.shade_pass, &TimedStrip::whole);
+    if (options.shadow_cost) add_run(record.unshadowed_pass, &TimedStrip::part);
+    return {};
   };
-  return repeat("shading runs", options, record.shade_pass, options.shadow_cost ? subtracted_runs : 1, pass);
+  if (auto ok = repeat("shading runs", options, record.shade_pass, options.shadow_cost ? subtracted_runs : 1, pass);
+      !ok)
+    return ok;
+  if (options.shadow_cost) record.strips = std::move(timed);
+  return {};
 }
 
 Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const VisibilityRequest& request,

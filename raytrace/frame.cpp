@@ -225,6 +225,7 @@ RayTracedFrame trace_band(const Tracer& tracer, const EffectPlan& plan, const Ca
     frame.rays.soft_shadow += truth.soft_rays;
     frame.rays.soft_shadow_asked += truth.soft_rays_asked;
   }
+  if (rows.first == 0) frame.structure = time_structure(tracer, whole.runs);
   if (!at_centres) frame.rays.primary = options.size.pixels();
   if (options.picture && !options.stop.stop_requested()) {
     frame.color = ColorImage(options.size);
@@ -242,6 +243,7 @@ void add_costs(const RayTracedFrame& band, RayTracedFrame& sum) {
   sum.rays += band.rays;
   sum.rays.interior = interior;
   sum.primary_rays.add_part(band.primary_rays);
+  if (sum.structure.runs.empty()) sum.structure = band.structure;
   sum.picture_ms += band.picture_ms;
   sum.non_finite += band.non_finite;
   if (sum.lights.empty()) sum.lights.resize(band.lights.size());

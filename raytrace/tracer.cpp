@@ -202,6 +202,7 @@ std::string_view precision_name(Precision precision) {
 }
 
 struct Tracer::Impl {
+  Accel accel = Accel::bvh;
   Structures structures;
   AccelStats stats;
 };
@@ -209,6 +210,7 @@ struct Tracer::Impl {
 Tracer::Tracer(const World& world, Accel accel, Precision precision) : impl_(std::make_unique<Impl>()) {
   const TimedStage stage("build");
   const Stopwatch watch;
+  impl_->accel = accel;
   impl_->structures = make_structures(world, accel, precision);
   // The textbook's hits may lie outside the boxes, so that the tree decides with them: all rays go through the same one.
   if (precision == Precision::fast) prepare_single_rays(*this);
@@ -235,6 +237,9 @@ Precision Tracer::precision() const {
 const AccelStats& Tracer::stats() const {
   return impl_->stats;
 }
+Accel Tracer::accel() const {
+  return impl_->accel;
+}
 const Structures& Tracer::structures() const {
   return impl_->structures;
 }
@@ -245,6 +250,28 @@ void prepare_single_rays(const Tracer& tracer) {
 std::uint64_t single_ray_bytes(const Tracer& tracer) {
   const Structures& s = tracer.structures();
   return s.wide != nullptr ? s.wide->bytes() : 0;
+}
+
+namespace {
+
+/// What single rays go through is made with the rest where the precision is fast, else when it is asked for.
+double structure_ms(const Tracer& tracer) {
+  const Structures& s = tracer.structures();
+  const bool apart = s.wide != nullptr && s.precision != Precision::fast;
+  return tracer.stats().build_ms + (apart ? s.wide->collapse_ms() : 0.0);
+}
+
+}  // namespace
+
+Times time_structure(const Tracer& tracer, int most) {
+  Times times{{structure_ms(tracer)}};
+  const TimedStage stage("build repeats", TimedStage::Inner::included);
+  while (times_again(times, most, usual_enough_ms)) {
+    const Tracer again(tracer.world(), tracer.accel(), tracer.precision());
+    if (single_ray_bytes(tracer) > 0) prepare_single_rays(again);
+    times.runs.push_back(structure_ms(again));
+  }
+  return times;
 }
 
 std::optional<Hit> counted_closest_hit(const Tracer& tracer, const Ray& ray, WorkCounts& work) {

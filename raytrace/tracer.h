@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 
+#include "scene/base/timing.h"
 #include "scene/light.h"
 #include "scene/math.h"
 #include "scene/world.h"
@@ -146,6 +147,7 @@ class Tracer {
 
   const World& world() const;
   Precision precision() const;
+  Accel accel() const;
   const AccelStats& stats() const;
   /// For this room's own algorithms (visibility): raytrace/kernels.h.
   const Structures& structures() const;
@@ -163,6 +165,11 @@ void prepare_single_rays(const Tracer& tracer);
 
 /// Bytes that it holds; 0: it has not been made.
 std::uint64_t single_ray_bytes(const Tracer& tracer);
+
+/// What making all that the tracer has by now took, as often as passes are timed (times_again): what casters that move make
+/// anew, since nothing is refitted. The structure is made again beside the tracer's own, so one that takes long is made but
+/// once, whatever `most` runs are asked for.
+Times time_structure(const Tracer& tracer, int most);
 
 /// Do what Tracer::closest_hit() and occluded() with counts do, but through what single rays go through when it has been
 /// made: boxes of children and triangles of leaves tested in floats, and planes.

@@ -118,6 +118,13 @@ Json rung_facts() {
   return list;
 }
 
+Json situation_facts() {
+  Json list = Json::array();
+  for (const ShadowSituation& one : shadow_situations())
+    list.push_back({{"key", one.key}, {"words", one.words}, {"made", one.made}});
+  return list;
+}
+
 Json report_facts(const PageInput& in) {
   const Comparison& c = in.comparison;
   Json lights = Json::array();
@@ -131,6 +138,7 @@ Json report_facts(const PageInput& in) {
              {"reduced", reduced_words(c)},
              {"peak_memory_bytes", c.peak_memory_bytes},
              {"software_note", software_note},
+             {"shadow_situations", situation_facts()},
              {"light_facts", std::move(lights)}};
   if (c.judged) facts["judged"] = judged_lines(c);
   if (in.introduction != nullptr) facts["tune"] = Json::parse(in.introduction->facts);

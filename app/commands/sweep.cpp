@@ -122,7 +122,7 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
       "{} cell{} drawn{}; ray traced {}", work.renders, work.renders == 1 ? "" : "s",
       work.derived > 0 ? fmt::format(", {} more derived from these drawings", work.derived) : std::string(),
       work.truths == 1 ? std::string("once") : fmt::format("{} times", work.truths)));
-  return {};
+  return time_rounds(run, journal);
 }
 
 ExitCode announce(const SweepCommand& command, const compare::Headline& headline) {
@@ -215,7 +215,7 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
                                 plan->cells.size() == 1 ? " is" : "s are"));
   if (auto measured = measure_ray_tracer(command, *plan, *loaded, selection, console); !measured)
     return fail(measured.error());
-  if (journal->size() < plan->cells.size()) {
+  if (!has_all_rounds(command, *journal, plan->cells.size())) {
     if (auto filled = fill(command, *plan, *loaded, selection, *journal, console); !filled)
       return fail(filled.error());
   }
@@ -299,8 +299,8 @@ void add_options(CLI::App& app, SweepCommand& command) {
   add_run_options(app, command);
   add_shader_dir(app, command.shader_folder);
   add_runs(app, command.runs,
-           fmt::format("{}, of rays no further one once those made took {:g} ms together", usual_runs,
-                       usual_enough_ms)
+           fmt::format("{}, of cells in rounds; of rays no further one once those made took {:g} ms together",
+                       usual_runs, usual_enough_ms)
                .c_str());
   add_quiet(app, command.quiet);
 }

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -40,9 +41,20 @@ double available_addresses() {
 
 }  // namespace
 
+namespace {
+
+/// The first number of /proc/loadavg.
+std::optional<double> load_of_last_minute() {
+  std::ifstream file("/proc/loadavg");
+  double load = 0.0;
+  return file >> load ? std::optional(load) : std::nullopt;
+}
+
+}  // namespace
+
 compare::MachineInfo machine_info() {
   return {field_of("/proc/cpuinfo", "model name", ':'), field_of("/etc/os-release", "PRETTY_NAME", '='),
-          static_cast<int>(std::thread::hardware_concurrency())};
+          static_cast<int>(std::thread::hardware_concurrency()), load_of_last_minute()};
 }
 
 std::uint64_t peak_memory_bytes() {

@@ -18,7 +18,7 @@ class App;
 
 namespace gnomon::app {
 
-/// From /proc/cpuinfo and /etc/os-release; "unknown" where they do not say.
+/// From /proc/cpuinfo, /etc/os-release and, the load at this moment, /proc/loadavg; "unknown" where they do not say.
 compare::MachineInfo machine_info();
 
 /// The most memory that the process has held at a time so far.

@@ -89,8 +89,12 @@ const compare::Figure& view_measure(const SweepCommand& command) {
 }
 
 void set_runs(const SweepCommand& command, compare::CompareOptions& options) {
-  options.raster.runs = options.raytrace.runs = command.runs.value_or(usual_runs);
+  options.raster.runs = options.raytrace.runs = rounds_of(command);
   options.raytrace.enough_ms = command.runs ? never_enough_ms : usual_enough_ms;
+}
+
+int rounds_of(const SweepCommand& command) {
+  return command.runs.value_or(usual_runs);
 }
 
 std::string compare_command(const SweepCommand& command, const Plan& plan, std::size_t cell) {

@@ -63,6 +63,7 @@ const compare::Figure& view_measure(const SweepCommand& command);
 /// How often each pass of a cell is timed: three times where nothing else is asked for, since cells are ranked; of rays no
 /// further time once those made took long enough.
 void set_runs(const SweepCommand& command, compare::CompareOptions& options);
+int rounds_of(const SweepCommand& command);
 
 /// What a film's objects are loaded by.
 inline StageSource stage_source(const SweepCommand& command) {

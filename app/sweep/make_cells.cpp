@@ -7,11 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/process/interrupt.h"
+#include "app/process/machine.h"
 #include "compare/result/output_parts.h"
 #include "scene/base/stages.h"
 #include "scene/base/threads.h"
 #include "scene/base/timing.h"
 #include "studies/sweep/cell_files.h"
+#include "studies/sweep/rounds.h"
 
 namespace gnomon::app {
 namespace {
@@ -61,19 +63,24 @@ Expected<void> apply_lights(SweepRun& run, const SettingOptions& options) {
   return {};
 }
 
-Expected<MadeCell> make_cell(SweepRun& run, std::size_t index) {
-  const Stopwatch watch;
-  const std::size_t cell = run.plan.cells[index];
-  TimedStage reading("settings");
+/// The setting of a cell, each of whose passes is run once a round.
+Expected<compare::Setting> setting_of(SweepRun& run, std::size_t cell) {
+  const TimedStage reading("settings");
   auto options = run.command.options.parse_cell(run.plan.grid, cell);
   if (!options) return fail(options.error());
   set_runs(run.command, options->options);
+  options->options.raster.runs = std::min(options->options.raster.runs, 1);
   options->options.raytrace.seed = run.command.seed;
   options->options.raster.shadow_cost = true;
   if (const auto taken = apply_lights(run, *options); !taken) return fail(taken.error());
-  auto setting = resolve_setting(*options, run.given, *run.loaded.world);
+  return resolve_setting(*options, run.given, *run.loaded.world);
+}
+
+Expected<MadeCell> make_cell(SweepRun& run, std::size_t index) {
+  const Stopwatch watch;
+  const std::size_t cell = run.plan.cells[index];
+  const auto setting = setting_of(run, cell);
   if (!setting) return fail(setting.error());
-  reading.end();
   const auto compared = run.engine.compare(*setting, compare::Detail::numbers);
   if (!compared) return fail(compared.error());
   compare::Comparison& comparison = **compared;
@@ -83,8 +90,11 @@ Expected<MadeCell> make_cell(SweepRun& run, std::size_t index) {
   const TimedStage stage("records");
   MadeCell made;
   const auto without_effect = json_names(run.command.options.axes_without_effect(run.plan.grid, cell));
+  const int once = std::exchange(comparison.raster.options.runs, rounds_of(run.command));
   made.line = compare::line_json(comparison, axis_values(run.plan.grid, cell), without_effect);
-  made.times = compare::cell_times_json(comparison, cell, run.engine.last_was_derived(), watch.elapsed_ms());
+  comparison.raster.options.runs = once;
+  made.times = compare::cell_times_json(
+      comparison, cell, {run.engine.last_was_derived(), watch.elapsed_ms(), run.engine.shown_view()});
   if (run.pictured.take(cell, comparison, run.engine.last_was_derived()))
     made.pictures = run.pictures.pictures(cell, comparison);
   return made;
@@ -132,7 +142,39 @@ class CellQueue {
   std::size_t writing_ = 0;
 };
 
+/// All cells once more, for their times alone: the machine's slow moments then fall on none of them alone.
+Expected<void> time_round(SweepRun& run, int round, compare::Journal& journal) {
+  const std::size_t all = run.plan.cells.size(), before = static_cast<std::size_t>(round) * all;
+  run.engine.begin_round();
+  for (std::size_t i = 0; i < all; ++i) {
+    if (journal.times_size() > before + i) continue;
+    run.console.progress(fmt::format("times, round {}, cell {} of {}", round + 1, i + 1, all),
+                         double(i) / double(all));
+    const std::size_t cell = run.plan.cells[i];
+    const auto setting = setting_of(run, cell);
+    if (!setting) return fail(setting.error());
+    const auto timed = run.engine.time_again(*setting, journal.view_of(i));
+    if (!timed) return fail(timed.error());
+    const TimedStage stage("records");
+    const OutputGuard whole_lines;
+    if (auto added = journal.append_round(compare::round_json(**timed, cell, machine_info())); !added)
+      return added;
+  }
+  return {};
+}
+
 }  // namespace
+
+bool has_all_rounds(const SweepCommand& command, const compare::Journal& journal, std::size_t cells) {
+  const auto rounds = static_cast<std::size_t>(std::max(1, rounds_of(command)));
+  return journal.size() == cells && journal.times_size() == rounds * cells;
+}
+
+Expected<void> time_rounds(SweepRun& run, compare::Journal& journal) {
+  for (int round = 1; round < rounds_of(run.command); ++round)
+    if (auto timed = time_round(run, round, journal); !timed) return timed;
+  return journal.finish_rounds();
+}
 
 Expected<void> make_cells(SweepRun& run, compare::Journal& journal) {
   const Stopwatch watch;

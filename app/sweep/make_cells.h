@@ -74,7 +74,11 @@ struct SweepRun {
 Expected<void> look_from_views(const SweepCommand& command, const LoadedScene& loaded, const Scene& given,
                                compare::Engine& engine, Console& console);
 
-/// All cells that the journal does not have yet.
+/// All cells that the journal does not have yet, drawn once.
 Expected<void> make_cells(SweepRun& run, compare::Journal& journal);
+/// Draws all cells as often again as passes are run, in rounds, as far as the journal does not have them yet.
+Expected<void> time_rounds(SweepRun& run, compare::Journal& journal);
+/// Whether the journal has all cells and all rounds of their times.
+bool has_all_rounds(const SweepCommand& command, const compare::Journal& journal, std::size_t cells);
 
 }  // namespace gnomon::app

@@ -132,7 +132,6 @@ Expected<std::unique_ptr<BandedParts>> measure(Comparison& out, const Plan& plan
   out.threads = threads_in_use();
   out.plan = plan_effects(*world.scene);
   out.precision = plan.tracer.precision();
-  out.accel_build_ms = plan.tracer.stats().build_ms;
   out.lights.assign(plan.lights.size(), {});
   for (std::size_t i = 0; i < plan.lights.size(); ++i) out.lights[i].light = plan.lights[i];
   std::optional<raytrace::Topology> joined;

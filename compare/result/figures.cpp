@@ -69,6 +69,17 @@ double compared(const L& light) {
   return double(light.pixels.compared);
 }
 
+/// Of what shadows cost: milliseconds, not made where not timed.
+template <auto situation, auto side, auto part>
+constexpr FigurePlace cost() {
+  return {.get = [](const L& light) {
+            if (!light.shadow_costs) return not_made;
+            const TimeDifference& ms = (*light.shadow_costs).*situation.*side;
+            return ms.timed() ? ms.*part : not_made;
+          },
+          .optional = true};
+}
+
 double edge_count(const L& light) {
   return double(light.edges.edges);
 }
@@ -112,6 +123,9 @@ constexpr auto edges = &L::edges;
 constexpr auto detachment = &L::detachment;
 constexpr auto bleeding = &L::bleeding;
 constexpr auto soft = &L::penumbra;
+using C = ShadowCosts;
+using Sides = ShadowCosts::Sides;
+using T = TimeDifference;
 using enum Better;
 using Kind = Pooling::Kind;
 constexpr Pooling none{}, sum{Kind::sum}, same{Kind::same};
@@ -279,6 +293,25 @@ constexpr Figure rows[] = {
     {"ray_tests.rays", "rays", at<&L::ray_work, &RayWork::rays>()},
     {"ray_tests.boxes_per_ray", "boxes", {tests_per_ray<&RayWork::boxes>}},
     {"ray_tests.primitives_per_ray", "primitives", {tests_per_ray<&RayWork::primitives>}},
+
+    {"times_ms.shadows.nothing_moves_map", "ms", cost<&C::nothing_moves, &Sides::map, &T::median>(), less},
+    {"times_ms.shadows.nothing_moves_map_low", "ms", cost<&C::nothing_moves, &Sides::map, &T::low>(), less},
+    {"times_ms.shadows.nothing_moves_map_high", "ms", cost<&C::nothing_moves, &Sides::map, &T::high>(), less},
+    {"times_ms.shadows.nothing_moves_rays", "ms", cost<&C::nothing_moves, &Sides::rays, &T::median>(), less},
+    {"times_ms.shadows.nothing_moves_rays_low", "ms", cost<&C::nothing_moves, &Sides::rays, &T::low>(), less},
+    {"times_ms.shadows.nothing_moves_rays_high", "ms", cost<&C::nothing_moves, &Sides::rays, &T::high>(), less},
+    {"times_ms.shadows.light_moves_map", "ms", cost<&C::light_moves, &Sides::map, &T::median>(), less},
+    {"times_ms.shadows.light_moves_map_low", "ms", cost<&C::light_moves, &Sides::map, &T::low>(), less},
+    {"times_ms.shadows.light_moves_map_high", "ms", cost<&C::light_moves, &Sides::map, &T::high>(), less},
+    {"times_ms.shadows.light_moves_rays", "ms", cost<&C::light_moves, &Sides::rays, &T::median>(), less},
+    {"times_ms.shadows.light_moves_rays_low", "ms", cost<&C::light_moves, &Sides::rays, &T::low>(), less},
+    {"times_ms.shadows.light_moves_rays_high", "ms", cost<&C::light_moves, &Sides::rays, &T::high>(), less},
+    {"times_ms.shadows.casters_move_map", "ms", cost<&C::casters_move, &Sides::map, &T::median>(), less},
+    {"times_ms.shadows.casters_move_map_low", "ms", cost<&C::casters_move, &Sides::map, &T::low>(), less},
+    {"times_ms.shadows.casters_move_map_high", "ms", cost<&C::casters_move, &Sides::map, &T::high>(), less},
+    {"times_ms.shadows.casters_move_rays", "ms", cost<&C::casters_move, &Sides::rays, &T::median>(), less},
+    {"times_ms.shadows.casters_move_rays_low", "ms", cost<&C::casters_move, &Sides::rays, &T::low>(), less},
+    {"times_ms.shadows.casters_move_rays_high", "ms", cost<&C::casters_move, &Sides::rays, &T::high>(), less},
 };
 
 /// No key of its own.

@@ -72,10 +72,14 @@ std::string on_one_line(const nlohmann::ordered_json& json);
 std::string result_line(const Comparison& comparison, const AxisValues& axes);
 /// The object "axes" of that line, as its JSON text.
 std::string axes_text(const AxisValues& axes);
-/// Returns the times that belong to a cell's line. `derived`: made from the gaps of the last drawn frame, whose times
-/// these are; `cell_ms`: what making the cell took.
-nlohmann::ordered_json cell_times_json(const Comparison& comparison, std::size_t cell, bool derived,
-                                       double cell_ms);
+/// How a cell was made.
+struct CellMade {
+  bool derived = false;  ///< from the gaps of the last drawn frame, whose times are the cell's
+  double ms = 0.0;       ///< what making it took
+  std::size_t view = 0;  ///< of those that it is judged from, the one whose times these are
+};
+/// Returns the times that belong to a cell's line.
+nlohmann::ordered_json cell_times_json(const Comparison& comparison, std::size_t cell, const CellMade& made);
 
 // The channels of a comparison's EXR files, of a whole picture or of some of its rows.
 

@@ -170,7 +170,7 @@ Json result_object(const Comparison& c, double report_ms, double total_ms) {
             {"costs", costs_json(c)},
             {"times_ms",
              {{"load", one_time_json(c.load_ms)},
-              {"accel_build", one_time_json(c.accel_build_ms)},
+              {"accel_build", times_json(c.raytraced.structure)},
               {"primary_rays", times_json(c.raytraced.primary_rays)},
               {"picture", one_time_json(c.raytraced.picture_ms)},
               {"upload", one_time_json(c.raster.upload_ms)},
@@ -190,6 +190,7 @@ void drop_times(Json& json) {
       if (member.is_structured()) drop_times(member);
       continue;
     }
+    member.erase("shadows"), member.erase("shading_strips");
     for (auto& time : member) time = time.contains("low") ? difference_json({}) : times_json({});
   }
 }
@@ -224,7 +225,10 @@ Json scene_json(const World& world) {
 }
 
 Json machine_json(const MachineInfo& machine) {
-  return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}};
+  return {{"cpu", machine.cpu},
+          {"cores", machine.cores},
+          {"os", machine.os},
+          {"load", load_json(machine)}};
 }
 
 Json context_json(const raster::ContextInfo& context) {
@@ -256,6 +260,7 @@ std::string result_json(const Comparison& c, double report_ms, double total_ms) 
 Json line_json(const Comparison& c, const AxisValues& axes, const std::vector<std::string>& no_effect) {
   Json json = result_object(c, 0.0, 0.0);
   drop_times(json);
+  json["machine"]["load"] = nullptr;
   if (c.judged) json["judged"] = judged_json(*c.judged);
   json["axes"] = axes_object(axes);
   if (!no_effect.empty()) json["no_effect"] = no_effect;
@@ -274,7 +279,7 @@ std::string axes_text(const AxisValues& axes) {
   return axes_object(axes).dump();
 }
 
-Json cell_times_json(const Comparison& c, std::size_t cell, bool derived, double cell_ms) {
+Json cell_times_json(const Comparison& c, std::size_t cell, const CellMade& made) {
   Json lights = Json::array();
   for (const LightComparison& light : c.lights) {
     Json entry = Json::object();
@@ -283,8 +288,12 @@ Json cell_times_json(const Comparison& c, std::size_t cell, bool derived, double
     lights.push_back(std::move(entry));
   }
   return {{"cell", cell},
-          {"derived", derived},
-          {"cell_ms", number(cell_ms)},
+          {"derived", made.derived},
+          {"cell_ms", number(made.ms)},
+          {"view", made.view},
+          {"hybrid", c.raster.options.map.technique == raster::Technique::hybrid},
+          {"load", load_json(c.machine)},
+          {"accel_build", times_json(c.raytraced.structure)},
           {"primary_rays", times_json(c.raytraced.primary_rays)},
           {"picture", one_time_json(c.raytraced.picture_ms)},
           {"lights", std::move(lights)}};

@@ -313,6 +313,10 @@ Json light_times_json(const Comparison& c, const LightComparison& light) {
             {"id_map", times_json({})},  // nothing is drawn for it any more
             {"classify", times_json(light.classify)}};
   if (truth.is_soft()) json["soft_shadow_rays"] = times_json(truth.soft_shadow_rays);
+  json["shading_strips"] = strips_json(drawn.strips);
+  LightFigures figures;
+  figures.shadow_costs = shadow_costs(shadow_parts(c, light));
+  if (figures.shadow_costs) json["shadows"] = block_json("times_ms.shadows", figures);
   return json;
 }
 

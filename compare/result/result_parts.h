@@ -41,6 +41,18 @@ inline Json vector3(const Vec3& v) {
   return Json::array({number(v.x), number(v.y), number(v.z)});
 }
 
+/// The runs of each strip, pass by pass.
+inline Json strips_json(const std::vector<TimedStrip>& strips) {
+  Json json = Json::array();
+  for (const TimedStrip& strip : strips)
+    json.push_back({{"shade_pass", strip.whole.runs}, {"unshadowed_pass", strip.part.runs}});
+  return json;
+}
+
+inline Json load_json(const MachineInfo& machine) {
+  return machine.load ? number(*machine.load) : Json(nullptr);
+}
+
 Json scene_json(const World& world);
 Json machine_json(const MachineInfo& machine);
 Json context_json(const raster::ContextInfo& context);

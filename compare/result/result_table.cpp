@@ -110,13 +110,13 @@ std::string ResultTable::add(std::size_t cell, const Json& line, const Json& tim
     Named row{{"cell", std::to_string(cell)}};
     add_flat(row, "axes", line.value("axes", Json::object()));
     if (line.contains("no_effect")) row.emplace_back("no_effect", joined(line.at("no_effect")));
-    for (const char* key : {"derived", "cell_ms"})
+    for (const char* key : {"derived", "cell_ms", "load"})
       if (times.is_object() && times.contains(key)) row.emplace_back(key, scalar_text(times.at(key)));
     add_light(row, line, light);
     if (times.is_object() && times.contains("lights")) {
       Json own = times.at("lights").at(index), all = times;
       own.erase("light");
-      for (const char* key : {"cell", "derived", "cell_ms", "lights", "checksum"}) all.erase(key);
+      for (const char* key : {"cell", "derived", "cell_ms", "load", "view", "hybrid", "lights", "checksum"}) all.erase(key);
       add_flat(row, "times_ms", own);
       add_flat(row, "times_ms", all);
     }

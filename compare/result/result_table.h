@@ -2,7 +2,7 @@
 // sweep.jsonl with its line of times. Columns are the keys of result.json joined with '_' ("error_wrong",
 // "map_bias_slope", "budget_filter_signed", "times_ms_map_pass_median"). A sweep has before them "cell" (from
 // 0), the axes ("axes_map_size"), the axes that have no effect there ("no_effect"), and with its times
-// "derived" and "cell_ms". RFC 4180: lines end with CR LF; a value that a row has not is empty.
+// "derived", "cell_ms" and "load". RFC 4180: lines end with CR LF; a value that a row has not is empty.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -2,23 +2,84 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
+
+#include "compare/result/number_text.h"
+#include "compare/result/output_parts.h"
 #include "raster/technique_traits.h"
 
 namespace gnomon::compare {
 
 TimeDifference shadow_lookups(const raster::LightRecord& drawn) {
-  return beyond_part(drawn.shade_pass, drawn.unshadowed_pass);
-}
-
-TimeDifference map_and_lookups(const raster::LightRecord& drawn) {
-  TimeDifference sum = shadow_lookups(drawn);
-  if (sum.timed()) sum += drawn.map_pass.median();
-  return sum;
+  return drawn.strips.empty() ? beyond_part(drawn.shade_pass, drawn.unshadowed_pass)
+                              : beyond_part(drawn.strips);
 }
 
 Times standing_rays(const raytrace::LightTruth& truth) {
   return truth.is_soft() ? truth.soft_shadow_rays
                          : beyond_part(truth.shadow_rays, truth.light_structure).pairs;
+}
+
+ShadowParts& ShadowParts::operator+=(const ShadowParts& other) {
+  map += other.map, lookups += other.lookups, rays += other.rays;
+  if (!tree.timed()) tree = other.tree;
+  hybrid = hybrid || other.hybrid;
+  return *this;
+}
+
+ShadowParts shadow_parts(const Comparison& c, const LightComparison& light) {
+  const raster::LightRecord& drawn = drawn_record(c, light);
+  return {.map = with_spread(drawn.map_pass),
+          .lookups = shadow_lookups(drawn),
+          .rays = with_spread(standing_rays(true_record(c, light))),
+          .tree = with_spread(c.raytraced.structure),
+          .hybrid = c.raster.options.map.technique == raster::Technique::hybrid};
+}
+
+namespace {
+
+/// Not timed where one of both is not.
+TimeDifference sum_of(TimeDifference a, const TimeDifference& b) {
+  if (!a.timed() || !b.timed()) return {};
+  a += b;
+  a.told = a.low > 0.0;
+  return a;
+}
+
+constexpr std::array situations{
+    ShadowSituation{"nothing_moves", "nothing moves", "the map looked up; rays",
+                    &ShadowCosts::nothing_moves},
+    ShadowSituation{"light_moves", "light or camera moves", "the map drawn and looked up; rays",
+                    &ShadowCosts::light_moves},
+    ShadowSituation{"casters_move", "casters move", "the map drawn and looked up; the tree built, rays",
+                    &ShadowCosts::casters_move}};
+
+}  // namespace
+
+std::optional<ShadowCosts> shadow_costs(const ShadowParts& parts) {
+  if (!parts.lookups.timed() || !parts.rays.timed()) return std::nullopt;
+  ShadowCosts costs;
+  costs.nothing_moves = {parts.lookups, parts.rays};
+  costs.light_moves = {sum_of(parts.map, parts.lookups), parts.rays};
+  costs.casters_move = {parts.hybrid ? sum_of(costs.light_moves.map, parts.tree) : costs.light_moves.map,
+                        sum_of(parts.rays, parts.tree)};
+  return costs;
+}
+
+std::span<const ShadowSituation> shadow_situations() {
+  return situations;
+}
+
+std::string sides_text(const ShadowCosts::Sides& sides, bool hybrid) {
+  return fmt::format("{} by the {}, {} by rays", milliseconds(sides.map), hybrid ? "hybrid" : "map",
+                     milliseconds(sides.rays));
+}
+
+std::vector<std::string> shadow_cost_lines(const ShadowCosts& costs, bool hybrid) {
+  std::vector<std::string> lines;
+  for (const ShadowSituation& one : shadow_situations())
+    lines.push_back(fmt::format("{}: {}", one.words, sides_text(costs.*one.sides, hybrid)));
+  return lines;
 }
 
 bool is_software(const raster::ContextInfo& context) {

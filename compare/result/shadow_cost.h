@@ -1,6 +1,8 @@
-// What shadows cost apart from what the picture costs, on both sides: the map and its lookups against the
-// light's structure and its rays.
+// What shadows cost apart from what the picture costs, on both sides and on the same footing: the map and its lookups against
+// the tracer's structure and its rays. What has moved since the last frame says which of them a frame makes anew.
 #pragma once
+
+#include <array>
 
 #include "compare/comparison.h"
 #include "scene/base/time_difference.h"
@@ -10,13 +12,38 @@ namespace gnomon::compare {
 /// What shading takes beyond the same shading without shadows. Not timed where RasterOptions::shadow_cost did not ask for
 /// it.
 TimeDifference shadow_lookups(const raster::LightRecord& drawn);
-/// What a frame's shadows take in which something has moved: the map and its lookups.
-TimeDifference map_and_lookups(const raster::LightRecord& drawn);
 /// The exact shadow of a light whose structure stands, run by run (ms): all but LightTruth::light_structure.
 Times standing_rays(const raytrace::LightTruth& truth);
 
+/// What the costs of all situations are sums of.
+struct ShadowParts {
+  TimeDifference map, lookups, rays;
+  TimeDifference tree;  ///< which all lights share
+  bool hybrid = false;  ///< the sheets stand for the map, and ask the tree, too
+  /// Adds another light's.
+  ShadowParts& operator+=(const ShadowParts& other);
+};
+ShadowParts shadow_parts(const Comparison& comparison, const LightComparison& light);
+/// None where lookups or rays are not timed. Without a tree's time that of moving casters is not timed.
+std::optional<ShadowCosts> shadow_costs(const ShadowParts& parts);
+
+/// A row of what has moved, and what each side then makes.
+struct ShadowSituation {
+  std::string_view key;    ///< of figures and JSON: "casters_move"
+  std::string_view words;  ///< "casters move"
+  std::string_view made;   ///< "map drawn and looked up; tree built, rays"
+  ShadowCosts::Sides ShadowCosts::* sides;
+};
+std::span<const ShadowSituation> shadow_situations();
+/// "8.1 ms (5 to 12 ms) by the map, 23 ms by rays"
+std::string sides_text(const ShadowCosts::Sides& sides, bool hybrid);
+/// "casters move: 8.1 ms by the map, 64 ms by rays", for each situation.
+std::vector<std::string> shadow_cost_lines(const ShadowCosts& costs, bool hybrid);
+
+/// What a time on such a rasterizer is worth.
 inline constexpr std::string_view software_note =
-    "a software rasterizer's times are not a GPU's; texels, lookups, rays and tests hold everywhere";
+    "One side is a generic software rasterizer, the other is vectorised for this question; what holds on a "
+    "GPU are texels, lookups, rays and boxes.";
 
 /// Mesa's software rasterizers, by the name that OpenGL gives.
 bool is_software(const raster::ContextInfo& context);

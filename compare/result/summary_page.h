@@ -49,7 +49,7 @@ std::string counted(std::uint64_t count, std::string_view noun);
 /// "12 ms", "not timed".
 std::string median_text(const Times& times);
 
-/// Adds what the shadows took, in two lines.
+/// Adds what the shadows take, by what has moved, and the work that is the same on every machine.
 void add_time_in_short(SummaryPage& page, const Comparison& comparison, const LightComparison& light);
 /// Adds what the time bought: an approximation by the map, or the exact answer by rays.
 void add_times(SummaryPage& page, const Comparison& comparison, const LightComparison& light);

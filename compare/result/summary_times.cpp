@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "compare/result/number_text.h"
 #include "compare/result/output_parts.h"
@@ -21,29 +22,14 @@ std::string exact_shadows_line(const raytrace::LightTruth& truth) {
                             grouped(truth.soft_rays_asked), truth.samples, median_text(truth.shadow_rays));
 }
 
-// What is left of the shading when the picture without shadows is taken from it.
-std::string lookups_text(const TimeDifference& lookups, bool hybrid) {
-  if (!lookups.timed()) return "lookups not timed";
-  return milliseconds(lookups) + (hybrid ? " for the rest" : " to look it up") +
-         (lookups.told ? "" : ", which these runs do not tell from nothing");
-}
-
-// The shadows' part of a frame on both sides, and of one in which nothing that the light sees has moved.
-void add_shadow_cost(SummaryPage& page, const Comparison& c, const LightComparison& light) {
-  const raster::LightRecord& drawn = drawn_record(c, light);
-  const raytrace::LightTruth& truth = true_record(c, light);
-  if (drawn.unshadowed_pass.runs.empty()) return;
-  const TimeDifference lookups = shadow_lookups(drawn);
-  const bool hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
-  page.field("shadows", fmt::format("without the picture: {} for the {}, {}; by rays {}, with nothing made "
-                                    "for the light",
-                                    median_text(drawn.map_pass), hybrid ? "sheets" : "map",
-                                    lookups_text(lookups, hybrid), median_text(standing_rays(truth))));
-  page.field("", fmt::format("where light and casters stand still: {} against {}", milliseconds(lookups),
-                             median_text(standing_rays(truth))));
-  page.field("picture",
-             fmt::format("without shadows: {} to shade it, {} for primary rays",
-                         median_text(drawn.unshadowed_pass), median_text(c.raytraced.primary_rays)));
+// The shadows' part of a frame on both sides, by what has moved.
+void add_shadow_costs(SummaryPage& page, std::string_view name, const Comparison& c,
+                      const LightComparison& light) {
+  const ShadowParts parts = shadow_parts(c, light);
+  const auto costs = shadow_costs(parts);
+  if (!costs) return;
+  for (const std::string& line : shadow_cost_lines(*costs, parts.hybrid))
+    page.field(std::exchange(name, ""), line);
 }
 
 // What does not depend on the machine.
@@ -80,8 +66,12 @@ void add_times(SummaryPage& page, const Comparison& c, const LightComparison& li
     page.field("time", fmt::format("the map: {}, and {} to shade the picture with it",
                                    median_text(drawn.map_pass), median_text(drawn.shade_pass)));
   page.field(c.judged ? "time" : "", exact_shadows_line(true_record(c, light)));
-  add_shadow_cost(page, c, light);
-  if (!c.judged) page.field("work", work_line(c, light));
+  add_shadow_costs(page, "shadows", c, light);
+  if (c.judged) return;
+  if (!drawn.unshadowed_pass.runs.empty())
+    page.field("picture", fmt::format("without shadows: {} to shade it, {} for primary rays",
+                                    median_text(drawn.unshadowed_pass), median_text(c.raytraced.primary_rays)));
+  page.field("work", work_line(c, light));
 }
 
 void add_once(SummaryPage& page, const Comparison& c) {
@@ -92,20 +82,17 @@ void add_once(SummaryPage& page, const Comparison& c) {
       fmt::format("{} to upload the scene, {} to make memory for the maps and draw them first; "
                   "{} to build the tracer's hierarchy",
                   milliseconds(c.raster.upload_ms), first_map > 0.0 ? milliseconds(first_map) : "not timed",
-                  milliseconds(c.accel_build_ms)));
+                  median_text(c.raytraced.structure)));
   page.field("", fmt::format("for the comparison alone: {} to join triangles, {} to read back",
                              milliseconds(c.topology_ms), milliseconds(c.raster.read_back_ms)));
   if (is_software(c.raster.context)) page.field("", std::string(software_note));
 }
 
 void add_time_in_short(SummaryPage& page, const Comparison& c, const LightComparison& light) {
-  const raster::LightRecord& drawn = drawn_record(c, light);
-  const std::string exact = exact_shadows_line(true_record(c, light));
-  if (c.judged || drawn.unshadowed_pass.runs.empty()) return page.field("time", exact);
-  const bool hybrid = c.raster.options.map.technique == raster::Technique::hybrid;
-  page.field("time", fmt::format("shadows by the {}: {}, and {}", hybrid ? "hybrid" : "map",
-                                 median_text(drawn.map_pass), lookups_text(shadow_lookups(drawn), hybrid)));
-  page.field("", exact);
+  if (c.judged || drawn_record(c, light).unshadowed_pass.runs.empty())
+    return page.field("time", exact_shadows_line(true_record(c, light)));
+  add_shadow_costs(page, "time", c, light);
+  page.field("work", work_line(c, light));
 }
 
 }  // namespace gnomon::compare

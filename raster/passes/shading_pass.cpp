@@ -180,6 +180,11 @@ Expected<void> ShadingPass::draw_shapes(const WorldBuffers& buffers, const View&
 
 Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePermutation& permutation,
                                        bool trial) {
+  return draw_light(world, permutation, trial, all_rows());
+}
+
+Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePermutation& permutation,
+                                       bool trial, const PictureRows& rows) {
   const Gl& gl = *gl_;
   const auto program = programs_->shade(permutation);
   if (!program) return fail(program.error());
@@ -214,7 +219,7 @@ Expected<void> ShadingPass::draw_light(const WorldBuffers& world, const ShadePer
     gl->ClearNamedFramebufferfv(target.id(), GL_COLOR, shaders::visibility_output, &unwritten.x);
   }
   (*program)->use();
-  draws_nothing ? gl->DrawArrays(GL_TRIANGLES, 0, 3) : fill(gl, drawn);
+  draws_nothing ? gl->DrawArrays(GL_TRIANGLES, 0, 3) : fill(gl, drawn, rows);
   return {};
 }
 

@@ -26,6 +26,9 @@ class ShadingPass {
   /// Adds a light to the picture, or with `trial`, to an image that nobody reads (for timing). What it records goes
   /// where the next drawing of a light records.
   Expected<void> draw_light(const WorldBuffers& world, const ShadePermutation& permutation, bool trial);
+  /// Does so in some of the rows that are shaded, counted from the first of these.
+  Expected<void> draw_light(const WorldBuffers& world, const ShadePermutation& permutation, bool trial,
+                            const PictureRows& rows);
   /// What draw_visibility() took for this view, by those who timed it.
   Times& times(const WorldBuffers& world, const View& view);
 
@@ -33,6 +36,8 @@ class ShadingPass {
   /// Returns the size of what is shaded.
   ImageSize size() const { return {size_.width, rows_.count}; }
   const PictureRows& rows() const { return rows_; }
+  /// All of them, as draw_light() counts them.
+  PictureRows all_rows() const { return {0, rows_.count}; }
   void read_color(ColorImage& out) const;
   /// Reads the positions of everything that the visibility buffer shows, in world space.
   std::vector<Vec3> read_positions(const World& world, const View& view) const;

@@ -4,6 +4,7 @@
 
 #include "raytrace/bvh/wide_tree.h"
 #include "scene/base/parallel.h"
+#include "scene/base/timing.h"
 
 namespace gnomon::raytrace {
 
@@ -11,8 +12,12 @@ namespace gnomon::raytrace {
 void WideOnDemand::collapse(const Bvh& bvh, const World& world) {
   if (begun_.exchange(true)) return;
   try {
-    run_isolated(
-        [&] { ready_.store(collapse_bvh(bvh, world, plain_).release(), std::memory_order_release); });
+    run_isolated([&] {
+      const Stopwatch watch;
+      const WideTree* tree = collapse_bvh(bvh, world, plain_).release();
+      collapse_ms_ = watch.elapsed_ms();
+      ready_.store(tree, std::memory_order_release);
+    });
   } catch (const std::bad_alloc&) {  // not tried again: the default hierarchy answers every ray
   } catch (...) {                    // given up with the work around it: the next work begins again
     begun_ = false;

@@ -122,6 +122,8 @@ class WideOnDemand {
   /// Collapses now, unless it has been or is being done.
   void collapse(const Bvh& bvh, const World& world);
   std::uint64_t bytes() const;
+  /// What collapsing took; 0: it has not been done.
+  double collapse_ms() const { return collapse_ms_; }
 
  private:
   const WideTree* count_ray(const Bvh& bvh, const World& world);
@@ -135,6 +137,7 @@ class WideOnDemand {
   std::array<RayCount, 16> counts_;
   std::atomic<std::uint64_t> rays_{0};  ///< of them what has been told
   std::atomic<bool> begun_{false};
+  std::atomic<double> collapse_ms_{0.0};
 };
 
 // How the wide tree's nodes and leaves are written: boxes in bytes that hold what they stand for, corners in

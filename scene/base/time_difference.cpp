@@ -1,7 +1,13 @@
 #include "scene/base/time_difference.h"
 
+#include <cmath>
+#include <limits>
+#include <numeric>
+
 namespace gnomon {
 namespace {
+
+constexpr std::size_t least_runs = 3;  ///< that say something of their spread
 
 struct TimeRange {
   double low = 0.0, high = 0.0;
@@ -14,6 +20,15 @@ TimeRange quartiles(std::vector<double> values) {
   return {values[outside], values[values.size() - 1 - outside]};
 }
 
+/// The range of some runs' times: `alone_ms`, of which a quarter counts where the runs are too few to tell.
+TimeRange interval(const Times& runs, double alone_ms) {
+  const double middle = runs.median(), off = single_run_share * alone_ms;
+  if (runs.runs.size() < least_runs) return {middle - off, middle + off};
+  const TimeRange inner = quartiles(runs.runs);
+  const double spread = inner.high - inner.low;
+  return {inner.low - spread, inner.high + spread};
+}
+
 Times run_by_run(const Times& of, const Times& part) {
   Times out;
   for (std::size_t i = 0; i < std::min(of.runs.size(), part.runs.size()); ++i)
@@ -21,15 +36,38 @@ Times run_by_run(const Times& of, const Times& part) {
   return out;
 }
 
-constexpr std::size_t least_runs = 3;
+constexpr std::size_t no_run = std::numeric_limits<std::size_t>::max();
 
-// `pairs` is not empty.
-TimeRange interval_in_turn(const Times& pairs, const Times& shorter) {
-  const double middle = pairs.median(), off = single_run_share * shorter.median();
-  if (pairs.runs.size() < least_runs) return {middle - off, middle + off};
-  const TimeRange inner = quartiles(pairs.runs);
-  const double spread = inner.high - inner.low;
-  return {inner.low - spread, inner.high + spread};
+double least_without(const Times& times, std::size_t left_out) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < times.runs.size(); ++i)
+    if (i != left_out) least = std::min(least, times.runs[i]);
+  return least;
+}
+
+double difference_of_least(std::span<const TimedStrip> strips, std::size_t left_out) {
+  double sum = 0.0;
+  for (const TimedStrip& strip : strips)
+    sum += least_without(strip.whole, left_out) - least_without(strip.part, left_out);
+  return sum;
+}
+
+/// The standard error of difference_of_least(), by leaving out one run after the other.
+double jackknife_error(std::span<const TimedStrip> strips, std::size_t runs) {
+  std::vector<double> without;
+  for (std::size_t i = 0; i < runs; ++i) without.push_back(difference_of_least(strips, i));
+  const auto count = static_cast<double>(runs);
+  const double mean = std::accumulate(without.begin(), without.end(), 0.0) / count;
+  double squares = 0.0;
+  for (const double one : without) squares += (one - mean) * (one - mean);
+  return std::sqrt((count - 1.0) / count * squares);
+}
+
+/// Run by run over all strips; of a strip that was run less often, no more than its runs.
+TimedStrip sum_of(std::span<const TimedStrip> strips) {
+  TimedStrip sum;
+  for (const TimedStrip& strip : strips) sum.whole.add_part(strip.whole), sum.part.add_part(strip.part);
+  return sum;
 }
 
 }  // namespace
@@ -51,21 +89,39 @@ TimeDifference& TimeDifference::operator+=(double ms) {
   return *this;
 }
 
-TimeDifference beyond_part(const Times& whole, const Times& part) {
+TimeDifference beyond_part(std::span<const TimedStrip> strips) {
+  constexpr double errors = 2.0;
+  const TimedStrip all = sum_of(strips);
   TimeDifference out;
-  out.pairs = run_by_run(whole, part);
+  out.pairs = run_by_run(all.whole, all.part);
   if (!out.timed()) return out;
-  const TimeRange found = interval_in_turn(out.pairs, part);
-  out.low = std::max(0.0, found.low);
-  out.high = std::max({0.0, found.high, -out.pairs.least()});
-  out.median = std::clamp(out.pairs.median(), out.low, out.high);
+  const std::size_t runs = out.pairs.runs.size();
+  const bool few = runs < least_runs;
+  const double found = few ? out.pairs.median() : difference_of_least(strips, no_run);
+  const double off = few ? single_run_share * all.part.median() : errors * jackknife_error(strips, runs);
+  out.low = std::max(0.0, found - off);
+  out.high = std::max({0.0, found + off, -found});
+  out.median = std::clamp(found, out.low, out.high);
   out.told = out.low > 0.0;
+  return out;
+}
+
+TimeDifference beyond_part(const Times& whole, const Times& part) {
+  const TimedStrip one{whole, part};
+  return beyond_part(std::span(&one, 1));
+}
+
+TimeDifference with_spread(const Times& pass) {
+  TimeDifference out{.pairs = pass};
+  if (!out.timed()) return out;
+  const TimeRange range = interval(pass, pass.median());
+  out.low = std::max(0.0, range.low), out.median = pass.median(), out.high = range.high, out.told = true;
   return out;
 }
 
 bool clearly_faster(const Times& a, const Times& b, bool in_turn) {
   if (a.runs.empty() || b.runs.empty()) return false;
-  if (in_turn) return interval_in_turn(run_by_run(b, a), a).low > 0.0;
+  if (in_turn) return interval(run_by_run(b, a), a.median()).low > 0.0;
   if (std::min(a.runs.size(), b.runs.size()) < least_runs)
     return b.median() - a.median() > single_run_share * a.median();
   return quartiles(b.runs).low > quartiles(a.runs).high;

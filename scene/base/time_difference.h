@@ -2,14 +2,14 @@
 // less, asks here, so that every view says the same.
 #pragma once
 
+#include <span>
+
 #include "scene/base/timing.h"
 
 namespace gnomon {
 
-/// The milliseconds that a pass takes beyond another one, with the interval that their runs leave them. The interval
-/// reaches from the lower to the upper quartile of the differences (of three from the least to the greatest), and as far
-/// again to either side as the quartiles lie apart: of three runs that is Student's interval of 95 %. Fewer say nothing of
-/// their spread: a difference of theirs is taken to be off by a quarter of the shorter pass (single_run_share).
+/// Milliseconds with the interval that the runs leave them: of what a pass takes beyond another one (beyond_part), or of a
+/// pass itself (with_spread).
 struct TimeDifference {
   Times
       pairs;  ///< run by run, as measured: below 0 where what else the machine did was more than the difference
@@ -26,10 +26,24 @@ struct TimeDifference {
 /// What a single time may be off by on a busy machine, as a share of it.
 inline constexpr double single_run_share = 0.25;
 
-/// Subtracts a part of a pass that was run in turn with it: the i-th run of the one beside the i-th of the other. A part
-/// takes no more than the whole, so nothing of the interval lies below 0; where pairs do, it reaches up as far as these
-/// reach down.
+/// A strip of a picture whose two passes were run in turn: the i-th run of the one beside the i-th of the other.
+struct TimedStrip {
+  Times whole, part;
+};
+
+/// Subtracts a part of a pass from it, strip by strip. What else the machine does can only add, so the difference is that of
+/// the least times of each strip. Its interval reaches to either side by twice the standard error that leaving out one run
+/// after the other tells (Efron and Tibshirani 1993, "An Introduction to the Bootstrap", section 11.2). Fewer than three runs
+/// say nothing of their spread: they are taken to be off by a quarter of the shorter pass (single_run_share). A part takes no
+/// more than the whole, so nothing of the interval lies below 0; where the difference does, it reaches up as far as that
+/// reaches down.
+TimeDifference beyond_part(std::span<const TimedStrip> strips);
+/// Does so for passes that were run in one piece.
 TimeDifference beyond_part(const Times& whole, const Times& part);
+
+/// The median of a pass with an interval from the lower to the upper quartile of its runs (of three from the least to the
+/// greatest), and as far again to either side; of fewer than three runs a quarter of it to either side.
+TimeDifference with_spread(const Times& pass);
 
 /// Whether `a` takes less time than `b` by more than their runs leave open; as fast are two of which neither does.
 /// `in_turn`: their runs were made side by side, and are compared so; else every run of the one with every run of the other.

@@ -106,7 +106,7 @@ JudgedRow judged_row(const std::string& name, const Comparison& c) {
 void JudgedSet::add(const std::string& name, const Comparison& comparison) {
   const Json line = line_json(comparison, {{"capture", name}});
   lines += on_one_line(line);
-  table.add(rows.size(), line, cell_times_json(comparison, rows.size(), false, comparison.total_ms));
+  table.add(rows.size(), line, cell_times_json(comparison, rows.size(), {.ms = comparison.total_ms}));
   rows.push_back(judged_row(name, comparison));
 }
 

@@ -45,6 +45,13 @@ void add_gaps(const LadderInput& in, double scale, GapLists& gaps) {
   }
 }
 
+/// Whether `other` shows, and takes, what was drawn for `drawn`, but for its constant bias. A shader of the user's need not
+/// compare with the bias at all.
+bool derives_from(const Setting& drawn, const Setting& other, const raster::RasterFrame& frame) {
+  return frame.replaced_shaders.empty() && biases_follow_from_gaps(other.raster.map) &&
+         same_but_bias(drawn.raster, other.raster);
+}
+
 double raster_ms(const raster::RasterFrame& frame) {
   double sum = 0.0;
   for (const raster::LightRecord& light : frame.lights)
@@ -167,9 +174,7 @@ Expected<void> Engine::Impl::measure() {
 
 Expected<void> Engine::Impl::compare(const Setting& setting, Detail detail) {
   trace(setting);
-  // A shader of the user's need not compare with the bias at all.
-  derived = drawn_for && comparison.raster.replaced_shaders.empty() &&
-            biases_follow_from_gaps(setting.raster.map) && same_but_bias(drawn_for->raster, setting.raster);
+  derived = drawn_for && derives_from(*drawn_for, setting, comparison.raster);
   if (!derived) {
     if (auto drawn = draw(setting); !drawn) return drawn;
     table.clear();
@@ -199,6 +204,18 @@ Expected<double> Engine::Impl::time_drawing(const Setting& setting) {
   bare.raster.analysis = false;
   if (auto drawn = draw_alone(bare); !drawn) return fail(drawn.error());
   return raster_ms(comparison.raster);
+}
+
+Expected<void> Engine::Impl::time_again(const Setting& setting) {
+  if (timed_for && same_truth(*timed_for, setting) && derives_from(*timed_for, setting, comparison.raster))
+    return {};
+  scene.camera = setting.camera, scene.lights = setting.lights;
+  timed_for.reset();
+  Setting bare = setting;
+  bare.raster.analysis = false;
+  if (auto drawn = draw_alone(bare); !drawn) return drawn;
+  timed_for = setting;
+  return {};
 }
 
 std::vector<LightFigures> Engine::Impl::figures(const Figure& measure) const {
@@ -315,6 +332,17 @@ Expected<double> Engine::time_drawing(const Setting& setting) {
     sum += *ms;
   }
   return sum / static_cast<double>(impls_.size());
+}
+
+Expected<const std::vector<raster::LightRecord>*> Engine::time_again(const Setting& setting, std::size_t view) {
+  const std::size_t seen = std::min(view, impls_.size() - 1);
+  Impl& impl = *impls_[seen];
+  if (auto timed = impl.time_again(posed(setting, seen)); !timed) return fail(timed.error());
+  return &impl.comparison.raster.lights;
+}
+
+void Engine::begin_round() {
+  for (const auto& impl : impls_) impl->timed_for.reset();
 }
 
 bool Engine::last_was_derived() const {

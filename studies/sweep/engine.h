@@ -103,6 +103,14 @@ class Engine {
   /// Draws at a setting for Probe::raster_ms alone. A comparison that stood before is no longer valid.
   Expected<double> time_drawing(const Setting& setting);
 
+  /// Draws at a setting for its times alone, from the view whose times compare() gave (shown_view), and gives each light's;
+  /// valid until the next call. Settings one after the other that differ in their constant bias alone share one drawing
+  /// until begin_round(). A comparison that stood before is no longer valid.
+  Expected<const std::vector<raster::LightRecord>*> time_again(const Setting& setting, std::size_t view);
+  void begin_round();
+  /// Of those that the last comparison was judged from, the one that it shows; 0 without views.
+  std::size_t shown_view() const { return shown_; }
+
   /// The last comparison in small, `width` pixels wide (or as wide as the picture, if that is less): the
   /// ray-traced picture in grey with false shadow and missed shadow of any light compared in their two
   /// colours.

@@ -37,6 +37,7 @@ struct Engine::Impl {
   std::unique_ptr<raytrace::Tracer>& tracer;
   Comparison comparison;
   std::optional<Setting> truth_of, drawn_for;
+  std::optional<Setting> timed_for;  ///< by time_again(), whose drawing the comparison holds
   /// The drawing that the lower climbs were made from, and one climb per light compared.
   std::unique_ptr<raster::RasterFrame> lower_frame;
   std::vector<std::unique_ptr<LowerClimb>> lower;
@@ -66,6 +67,7 @@ struct Engine::Impl {
   Expected<void> compare(const Setting& setting, Detail detail);
   Expected<Probe> probe(const Setting& setting, const Figure& measure);
   Expected<double> time_drawing(const Setting& setting);
+  Expected<void> time_again(const Setting& setting);
   /// Gaps that sort themselves, the best of all biases, and what the drawing would be wrong by with it.
   void add_gaps_of(Probe& probe, double texel_world, bool scales) const;
   void add_figures_at(const raster::Bias& bias, const Figure& measure, Probe& probe);

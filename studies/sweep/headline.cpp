@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compare/result/number_text.h"
+#include "compare/result/shadow_cost.h"
 
 namespace gnomon::compare {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 HeadlineItem item(std::string title, const CellSummary& cell, const Figure& measure) {
   std::string figures = figure_words(cell.figures, measure);
   if (std::isfinite(cell.raster_ms)) figures += ", " + milliseconds(cell.raster_ms);
-  if (cell.shadows.timed()) figures += fmt::format(", {} of it for shadows", milliseconds(cell.shadows));
   return {std::move(title), cell.cell, axes_words(cell), std::move(figures)};
 }
 
@@ -70,6 +70,24 @@ void add_limit(const std::vector<CellSummary>& cells, const Threshold& limit, He
 
 }  // namespace
 
+namespace {
+
+// Why no cell is named for its time; empty where no time was taken.
+std::string why_no_time(const std::vector<CellSummary>& cells) {
+  if (!std::isfinite(cells.front().raster_ms)) return {};
+  return share_one_drawing(cells) ? "All cells come from one drawing, so none is best for time"
+                                  : "No cell is best for time, since fewer than three runs have no spread";
+}
+
+// What the shadows of the cell with the least error take on both sides.
+void add_costs(const CellSummary& cell, Headline& out) {
+  if (!cell.costs) return;
+  for (const std::string& line : shadow_cost_lines(*cell.costs, cell.technique == "hybrid"))
+    out.items.push_back({fmt::format("Shadows of cell {}, {}", cell.cell, line), {}, {}, {}});
+}
+
+}  // namespace
+
 std::string axes_words(const CellSummary& cell) {
   std::string out;
   for (const auto& [name, value] : cell.axes)
@@ -101,17 +119,21 @@ Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector
     const auto least = std::min_element(cells.begin(), cells.end(),
                                         [](const auto& a, const auto& b) { return a.error() < b.error(); });
     out.items.push_back(item("Least " + error, *least, measure));
+    if (std::string why = why_no_time(cells); !why.empty()) out.items.push_back({std::move(why), {}, {}, {}});
+    add_costs(*least, out);
     return out;
   }
   const std::size_t fastest = front.front(), best = front.back();
   if (fastest == best) {
     out.items.push_back(item("Best for " + error + " and for time", cells[best], measure));
+    add_costs(cells[best], out);
     return out;
   }
   out.items.push_back(item("Best for " + error, cells[best], measure));
   out.items.push_back(item(time_title(cells, fastest), cells[fastest], measure));
   out.items.push_back(item("Best for both (least product of " + error + " and time)",
                            cells[balanced(cells, front)], measure));
+  add_costs(cells[best], out);
   return out;
 }
 

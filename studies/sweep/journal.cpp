@@ -16,6 +16,7 @@
 #include "scene/files/read_file.h"
 #include "scene/files/write_file.h"
 #include "studies/sweep/cell_files.h"
+#include "studies/sweep/rounds.h"
 
 namespace gnomon::compare {
 namespace {
@@ -187,21 +188,26 @@ Expected<GoodLines> read_lines(const OwnFile& line_file, const OwnFile& time_fil
   GoodLines found{whole_lines(*bytes), whole_lines(*bytes_of_times), false};
   const auto good = count_good(line_file.path(), found.lines, axes);
   if (!good) return fail(good.error());
-  // Times are written first: a line without times cannot be, but a surplus of times can.
+  // Times are written first: a line without times cannot be, but a surplus of times can. Of all cells it is further rounds.
   const std::size_t keep = std::min(*good, found.times.size());
-  if (auto fine = check_seals(time_file.path(), found.times, keep); !fine) return fail(fine.error());
+  const std::size_t keep_times = keep == axes.size() && keep > 0 ? found.times.size() : keep;
+  if (auto fine = check_seals(time_file.path(), found.times, keep_times); !fine) return fail(fine.error());
   if (auto fine = check_rest(line_file, "sweep.jsonl", *bytes, found.lines, keep); !fine)
     return fail(fine.error());
-  if (auto fine = check_rest(time_file, "sweep_times.jsonl", *bytes_of_times, found.times, keep); !fine)
+  if (auto fine = check_rest(time_file, "sweep_times.jsonl", *bytes_of_times, found.times, keep_times); !fine)
     return fail(fine.error());
   found.lines.resize(keep);
-  found.times.resize(keep);
+  found.times.resize(keep_times);
   found.torn = size_of_lines(found.lines) != bytes->size();
   return found;
 }
 
+/// `cells`: of every line that there will be; `rounds`: the lines of times.
 Expected<void> fill_table(const std::string& folder, ResultTable& table, std::span<const std::size_t> cells,
-                          const std::vector<std::string>& lines, const std::vector<std::string>& times) {
+                          const std::vector<std::string>& lines, const std::vector<std::string>& rounds) {
+  const auto joined = joined_rounds(rounds, cells.size());
+  if (!joined) return bad_line(path_in(folder, "sweep_times.jsonl"), 0, joined.error().reason);
+  const std::vector<std::string>& times = *joined;
   for (std::size_t i = 0; i < lines.size(); ++i) try {
       table.add(cells[i], parsed(lines[i]), parsed(times[i]));
     } catch (const Json::exception&) {
@@ -211,6 +217,19 @@ Expected<void> fill_table(const std::string& folder, ResultTable& table, std::sp
           "the sweep anew)");
     }
   return {};
+}
+
+/// 0 in what sweeps without views wrote.
+std::size_t view_of_times(const Json& times) {
+  return times.is_object() ? times.value("view", std::size_t{0}) : 0;
+}
+
+/// Whether lines of times beyond the first round are another one, which begins with the first cell; else the last is of a
+/// cell whose line is not there yet.
+bool has_further_round(const std::vector<std::string>& times, std::size_t cells) {
+  if (cells == 0 || times.size() <= cells) return false;
+  const Json first = parsed(times.front()), next = parsed(times[cells]);
+  return first.is_object() && next.is_object() && first.value("cell", Json()) == next.value("cell", Json());
 }
 
 std::string all_of_lines(const std::vector<std::string>& lines) {
@@ -282,6 +301,8 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
   journal.size_ = found->lines.size();
   if (journal.size_ > 0) journal.drawer_ = drawer_of_line(parsed(found->lines.front()));
   journal.torn_ = found->torn;
+  journal.times_size_ = found->times.size();
+  for (std::size_t i = 0; i < journal.size_; ++i) journal.views_.push_back(view_of_times(parsed(found->times[i])));
   if (auto cut = (*lines)->cut(size_of_lines(found->lines)); !cut) return fail(cut.error());
   if (auto cut = (*times)->cut(size_of_lines(found->times)); !cut) return fail(cut.error());
   journal.line_file_ = std::move(*lines);
@@ -306,8 +327,26 @@ Expected<void> Journal::append(const Json& line, const Json& times) {
   if (auto written = time_file_->append(sealed(on_one_line(times))); !written) return written;
   if (auto written = line_file_->append(sealed(on_one_line(line))); !written) return written;
   if (size_ == 0) drawer_ = drawer_of_line(line);
+  views_.push_back(view_of_times(times));
+  ++times_size_;
   const std::string rows = table_.add(cells_[size_++], line, times);
   return rows.empty() ? write_table() : table_file_->append(rows);
+}
+
+Expected<void> Journal::append_round(const Json& times) {
+  if (auto written = time_file_->append(sealed(on_one_line(times))); !written) return written;
+  ++times_size_;
+  return {};
+}
+
+Expected<void> Journal::finish_rounds() {
+  const auto lines = line_file_->own.text(), times = time_file_->own.text();
+  if (!lines) return fail(lines.error());
+  if (!times) return fail(times.error());
+  table_ = {};
+  if (auto filled = fill_table(line_file_->path, table_, cells_, whole_lines(*lines), whole_lines(*times)); !filled)
+    return filled;
+  return write_table();
 }
 
 Expected<SweepLines> read_sweep(const std::string& folder) {
@@ -316,17 +355,20 @@ Expected<SweepLines> read_sweep(const std::string& folder) {
   if (!header) return fail(header.error());
   sweep.header = std::move(*header);
   const auto lines = read_file(path_in(folder, "sweep.jsonl")),
-             times = read_file(path_in(folder, "sweep_times.jsonl"));
+             rounds = read_file(path_in(folder, "sweep_times.jsonl"));
   if (!lines) return fail(lines.error());
-  if (!times) return fail(times.error());
-  sweep.lines = whole_lines(*lines), sweep.times = whole_lines(*times);
+  if (!rounds) return fail(rounds.error());
+  sweep.lines = whole_lines(*lines), sweep.rounds = whole_lines(*rounds);
   if (auto fine = check_seals(path_in(folder, "sweep.jsonl"), sweep.lines, sweep.lines.size()); !fine)
     return fail(fine.error());
-  if (sweep.times.size() < sweep.lines.size())
-    return bad_line(path_in(folder, "sweep_times.jsonl"), sweep.times.size() + 1, "a line is missing");
-  sweep.times.resize(sweep.lines.size());
-  if (auto fine = check_seals(path_in(folder, "sweep_times.jsonl"), sweep.times, sweep.times.size()); !fine)
+  if (sweep.rounds.size() < sweep.lines.size())
+    return bad_line(path_in(folder, "sweep_times.jsonl"), sweep.rounds.size() + 1, "a line is missing");
+  if (!has_further_round(sweep.rounds, sweep.lines.size())) sweep.rounds.resize(sweep.lines.size());
+  if (auto fine = check_seals(path_in(folder, "sweep_times.jsonl"), sweep.rounds, sweep.rounds.size()); !fine)
     return fail(fine.error());
+  auto times = joined_rounds(sweep.rounds, sweep.lines.size());
+  if (!times) return bad_line(path_in(folder, "sweep_times.jsonl"), 0, times.error().reason);
+  sweep.times = std::move(*times);
   return sweep;
 }
 

@@ -4,7 +4,8 @@
 //   sweep.jsonl        one result per line (result.schema.json with `axes`), without times: the same sweep gives the
 //                      same bytes, however often it was interrupted
 //   sweep.csv          the same numbers and the times as a table (result_table.h)
-//   sweep_times.jsonl  the times of each line of sweep.jsonl, in the same order
+//   sweep_times.jsonl  the times of each line of sweep.jsonl, in the same order, and once all lines are there, those of
+//                      every further round of the cells (rounds.h)
 // A line is appended with one write() and reaches the system before the next cell begins; what a crash leaves
 // of a torn last line is cut off when the folder is opened again, and its cell is made again.
 #pragma once
@@ -38,7 +39,7 @@ Expected<void> check_takes_sweep(const std::string& folder, const SweepHeader& h
                                  const std::vector<std::string>& axes);
 
 /// The files of a finished sweep, all but its pictures and its page, as a journal that got all these lines leaves them.
-/// Lines and times are sealed; `cells` as for Journal::open().
+/// Lines and times, of all rounds, are sealed; `cells` as for Journal::open().
 Expected<void> write_sweep(const std::string& folder, const SweepHeader& header,
                            const std::vector<std::size_t>& cells, const std::vector<std::string>& lines,
                            const std::vector<std::string>& times);
@@ -61,11 +62,19 @@ class Journal {
   std::size_t size() const { return size_; }
   /// What drew the first of them (drawer_of_line); empty where there is none.
   const std::string& drawer() const { return drawer_; }
+  /// Lines of times, of all rounds.
+  std::size_t times_size() const { return times_size_; }
+  /// The view that a cell's times are of; 0 without views.
+  std::size_t view_of(std::size_t place) const { return views_[place]; }
   /// A torn or surplus line was cut off on opening.
   bool was_torn() const { return torn_; }
 
   /// Appends a cell, sealed. Both are objects.
   Expected<void> append(const nlohmann::ordered_json& line, const nlohmann::ordered_json& times);
+  /// Appends the times of a further round, sealed, in the order of the cells; all cells are there.
+  Expected<void> append_round(const nlohmann::ordered_json& times);
+  /// Writes the table once more, with the times of all rounds.
+  Expected<void> finish_rounds();
 
  private:
   Journal() = default;
@@ -74,7 +83,8 @@ class Journal {
   std::unique_ptr<File> line_file_, time_file_, table_file_;
   ResultTable table_;
   std::vector<std::size_t> cells_;
-  std::size_t size_ = 0;
+  std::size_t size_ = 0, times_size_ = 0;
+  std::vector<std::size_t> views_;
   std::string drawer_;
   bool torn_ = false;
 };
@@ -82,7 +92,9 @@ class Journal {
 /// The whole lines of a shard's or a finished sweep's folder. Errors are ErrorKind::bad_input.
 struct SweepLines {
   SweepHeader header;
-  std::vector<std::string> lines, times;
+  std::vector<std::string> lines;
+  std::vector<std::string> times;   ///< one for each line, of all rounds together
+  std::vector<std::string> rounds;  ///< as they stand in the file
 };
 Expected<SweepLines> read_sweep(const std::string& folder);
 

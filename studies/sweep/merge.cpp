@@ -23,7 +23,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Cell {
-  std::string line, times, folder;
+  std::string line, folder;
+  std::vector<std::string> rounds;  ///< of its times
 };
 using Cells = std::map<std::size_t, Cell>;
 
@@ -32,7 +33,14 @@ Expected<void> add_shard(const std::string& folder, const SweepLines& shard, Cel
   if (!summaries) return fail(summaries.error());
   for (std::size_t i = 0; i < shard.lines.size(); ++i) {
     const std::size_t cell = (*summaries)[i].cell;
-    if (!cells.emplace(cell, Cell{shard.lines[i], shard.times[i], folder}).second)
+    std::vector<std::string> rounds;
+    for (std::size_t k = i; k < shard.rounds.size(); k += shard.lines.size())
+      rounds.push_back(shard.rounds[k]);
+    if (!cells.empty() && cells.begin()->second.rounds.size() != rounds.size())
+      return fail(ErrorKind::usage,
+                  fmt::format("{}: cell {} was timed more or less often than others: a shard is not finished",
+                              folder, cell));
+    if (!cells.emplace(cell, Cell{shard.lines[i], folder, std::move(rounds)}).second)
       return fail(ErrorKind::usage, fmt::format("{}: cell {} is in another shard too", folder, cell));
   }
   return {};
@@ -110,8 +118,9 @@ Lines lines_of(const Cells& cells) {
     all.cells.push_back(index);
     all.axes.push_back(axes_of_line(Json::parse(cell.line, nullptr, false)));
     all.lines.push_back(cell.line);
-    all.times.push_back(cell.times);
   }
+  for (std::size_t round = 0; !cells.empty() && round < cells.begin()->second.rounds.size(); ++round)
+    for (const auto& [index, cell] : cells) all.times.push_back(cell.rounds[round]);
   return all;
 }
 

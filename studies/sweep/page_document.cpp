@@ -8,15 +8,37 @@
 
 #include "compare/result/option_names.h"
 #include "compare/result/result_parts.h"
+#include "compare/result/shadow_cost.h"
+#include "report/page.h"
 #include "studies/sweep/headline.h"
 #include "studies/sweep/page.h"
 
 namespace gnomon::compare {
 namespace {
 
-Json shadows_json(const TimeDifference& shadows) {
-  if (!shadows.timed()) return Json::array();
-  return {number(shadows.low), number(shadows.median), number(shadows.high)};
+Json range_json(const TimeDifference& ms) {
+  return ms.timed() ? Json{number(ms.low), number(ms.median), number(ms.high)} : Json(nullptr);
+}
+
+/// By situation: what the map's side takes, and the rays'.
+Json costs_json(const std::optional<ShadowCosts>& costs) {
+  if (!costs) return nullptr;
+  Json json = Json::object();
+  for (const ShadowSituation& one : shadow_situations()) {
+    const ShadowCosts::Sides& sides = *costs.*one.sides;
+    json[std::string(one.key)] = {{"map", range_json(sides.map)}, {"rays", range_json(sides.rays)}};
+  }
+  return json;
+}
+
+/// The least and the most load of the machine; null where it is not known.
+Json load_range(const std::vector<CellSummary>& cells) {
+  std::vector<double> known;
+  for (const CellSummary& cell : cells)
+    if (std::isfinite(cell.load)) known.push_back(cell.load);
+  if (known.empty()) return nullptr;
+  const auto [least, most] = std::minmax_element(known.begin(), known.end());
+  return {number(*least), number(*most)};
 }
 
 /// "1.2 %", "1.6 texels"; of films "0.012 flips per receiver and second".
@@ -64,8 +86,7 @@ Json cell_json(const SweepPageInput& in, const CellSummary& cell, bool on_front)
             {"raster_ms", number(cell.raster_ms)},
             {"rays_ms", number(cell.rays_ms)},
             {"exact_shadow_ms", number(cell.exact_shadow_ms)},
-            {"shadows_ms", shadows_json(cell.shadows)},
-            {"shadows_told", cell.shadows.told},
+            {"shadows_ms", costs_json(cell.costs)},
             {"derived", cell.derived},
             {"pictures", is_pictured && !pictures->second.data.empty()},
             {"drawn", is_pictured && !pictures->second.drawing.empty()}};
@@ -108,6 +129,8 @@ std::string sweep_document(const SweepPageInput& in) {
               {"columns", columns_json(in.cells.front())},
               {"headline", headline_json(sweep_headline(in.cells, front, in.limit))},
               {"front", std::move(best)},
+              {"situations", situation_facts()},
+              {"load", load_range(in.cells)},
               {"rays", Json::parse(ray_points_json(in.rays)).at("points")},
               {"reference_samples", reference_samples},
               {"cells", std::move(cells)}}

@@ -6,6 +6,7 @@
 
 #include "compare/result/result_parts.h"
 #include "scene/base/parallel.h"
+#include "studies/sweep/rounds.h"
 
 namespace gnomon::compare {
 namespace {
@@ -50,31 +51,23 @@ Times times_of(const Json& times) {
   return {times.at("runs").get<std::vector<double>>()};
 }
 
-TimeDifference shadows_of(const Json& light) {
-  const Json& lookups = light.at("shadow_lookups");
-  TimeDifference out;
-  if (!lookups.contains("low")) {  // sweeps made before have none
-    out = beyond_part(times_of(light.at("shade_pass")), times_of(light.at("unshadowed_pass")));
-  } else if (out.pairs = times_of(lookups); out.timed()) {
-    out.low = number(lookups.at("low")), out.median = number(lookups.at("median"));
-    out.high = number(lookups.at("high")), out.told = out.low > 0.0;
-  }
-  return out.timed() ? out += number(light.at("map_pass").at("median")) : out;
-}
-
 void add_times(const Json& times, CellSummary& sum) {
   sum.cell = times.at("cell").get<std::size_t>();
   sum.derived = times.at("derived").get<bool>();
   sum.rays_ms = number(times.at("primary_rays").at("median"));
+  sum.load = number(times.value("load", Json()));
+  std::optional<ShadowParts> parts;
   for (const Json& light : times.at("lights")) {
+    const ShadowParts own = read_shadow_parts(light, times);
+    parts ? *parts += own : parts.emplace(own);
     sum.rays_ms += number(light.at("exact_shadows").at("median"));
     sum.exact_shadow_ms += number(light.at("exact_shadows").at("median"));
-    sum.shadows += shadows_of(light);
     for (const char* pass : {"map_pass", "shade_pass"}) {
       sum.raster_ms += number(light.at(pass).at("median"));
       if (const Times times = times_of(light.at(pass)); !times.runs.empty()) sum.raster.add_part(times);
     }
   }
+  if (parts) sum.costs = shadow_costs(*parts);
 }
 
 /// What --measure asked for; a configuration without it, or with a film, has none.
@@ -124,7 +117,17 @@ Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep) {
 }
 
 bool clearly_faster(const CellSummary& a, const CellSummary& b) {
-  return gnomon::clearly_faster(a.raster, b.raster, false);
+  return a.tells_time() && b.tells_time() && gnomon::clearly_faster(a.raster, b.raster, false);
+}
+
+bool share_one_drawing(const std::vector<CellSummary>& cells) {
+  const auto same_but_bias = [&](const CellSummary& cell) {
+    return std::ranges::equal(cell.axes, cells.front().axes, [](const auto& a, const auto& b) {
+      return a.first == b.first && (a.second == b.second || a.first == "bias");
+    });
+  };
+  return cells.size() > 1 && std::ranges::any_of(cells, &CellSummary::derived) &&
+         std::ranges::all_of(cells, same_but_bias);
 }
 
 namespace {
@@ -146,9 +149,10 @@ std::size_t least_cost(const std::vector<CellSummary>& cells, Iterator first, It
 }  // namespace
 
 std::vector<std::size_t> pareto_front(const std::vector<CellSummary>& cells) {
+  if (share_one_drawing(cells)) return {};
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < cells.size(); ++i)
-    if (std::isfinite(cells[i].raster_ms)) order.push_back(i);
+    if (cells[i].tells_time()) order.push_back(i);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return cells[a].error() < cells[b].error(); });
   std::vector<std::size_t> front;

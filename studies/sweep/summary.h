@@ -32,10 +32,11 @@ struct CellSummary {
   /// Median times of camera and shadow rays, all lights: what the truth costs.
   double rays_ms = 0.0;
   Times raster;  ///< its runs: the i-th of every map and shading pass together
-  /// What shadows add to the picture, all lights: the map and its lookups, not timed where sweep_times.jsonl does not have
-  /// it, and the exact shadows' rays.
-  TimeDifference shadows;
+  std::optional<ShadowCosts> costs;  ///< of all lights together
+  double load = std::numeric_limits<double>::quiet_NaN();  ///< of the machine, the most of its runs
   double exact_shadow_ms = 0.0;
+  /// Fewer runs have no spread, and a time without one is not held against another.
+  bool tells_time() const { return std::isfinite(raster_ms) && raster.runs.size() >= subtracted_runs; }
   bool derived = false;  ///< the times are those of the drawing that it was made from
   /// In measure(): by default the share of wrong pixels or the mean error, whichever is more, which are equal of yes-or-no
   /// shadows. With films what they are about: flips per receiver and second.
@@ -47,13 +48,16 @@ struct CellSummary {
 /// a takes less time than b by more than their runs leave open (time_difference.h).
 bool clearly_faster(const CellSummary& a, const CellSummary& b);
 
+/// They differ in the constant bias alone, and were worked out from one drawing, so that they have one time.
+bool share_one_drawing(const std::vector<CellSummary>& cells);
+
 /// From a line of sweep.jsonl and its line of sweep_times.jsonl. Errors are ErrorKind::bad_input.
 Expected<CellSummary> summarise(std::string_view line, std::string_view times);
 Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep);
 
 /// Indices of the cells worth having for error against time, cheapest first: those that are clearly faster
 /// than every cell with a smaller error. Of cells with equal errors, the one with the fewest texels and then
-/// the fewest bytes among those that none of them is clearly faster than. Untimed cells are on no front.
+/// the fewest bytes among those that none of them is clearly faster than. Cells whose time has no spread (tells_time) are on no front, nor are those of one drawing.
 std::vector<std::size_t> pareto_front(const std::vector<CellSummary>& cells);
 
 }  // namespace gnomon::compare

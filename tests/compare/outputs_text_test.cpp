@@ -105,12 +105,52 @@ TEST(ShadowCost, IsWhatIsLeftRunByRun) {
   EXPECT_FALSE(shadow_lookups(drawn).timed());
   drawn.unshadowed_pass.runs = {8.0, 13.0};
   EXPECT_EQ(shadow_lookups(drawn).pairs.runs, (std::vector<double>{2.0, -1.0}));
-  drawn.map_pass.runs = {4.0};
-  EXPECT_EQ(map_and_lookups(drawn).median, shadow_lookups(drawn).median + 4.0);
   raytrace::LightTruth truth;
   truth.shadow_rays.runs = {9.0};
   truth.light_structure.runs = {4.0};
   EXPECT_EQ(standing_rays(truth).runs, (std::vector<double>{5.0}));
+}
+
+ShadowParts parts_of(double map, double lookups, double rays, double tree) {
+  const auto told = [](double ms) { return with_spread({{ms, ms, ms}}); };
+  return {.map = told(map), .lookups = told(lookups), .rays = told(rays), .tree = told(tree)};
+}
+
+TEST(ShadowCost, EachSideMakesWhatHasMoved) {
+  const auto costs = shadow_costs(parts_of(107.0, 8.0, 23.0, 41.0));
+  ASSERT_TRUE(costs);
+  EXPECT_EQ(shadow_cost_lines(*costs, false),
+            (std::vector<std::string>{"nothing moves: 8 ms by the map, 23 ms by rays",
+                                      "light or camera moves: 115 ms by the map, 23 ms by rays",
+                                      "casters move: 115 ms by the map, 64 ms by rays"}));
+}
+
+TEST(ShadowCost, TheHybridAsksTheTreeToo) {
+  ShadowParts parts = parts_of(5.0, 4.0, 23.0, 41.0);
+  parts.hybrid = true;
+  EXPECT_EQ(shadow_cost_lines(*shadow_costs(parts), true).back(),
+            "casters move: 50 ms by the hybrid, 64 ms by rays");
+}
+
+TEST(ShadowCost, SpreadsAddUpAndLightsShareTheTree) {
+  ShadowParts parts = parts_of(10.0, 1.0, 20.0, 40.0);
+  parts.rays = with_spread({{20.0, 21.0, 22.0}}), parts.tree = with_spread({{40.0}});
+  const auto one = shadow_costs(parts);
+  EXPECT_EQ(one->casters_move.rays.low, 18.0 + 30.0);
+  EXPECT_EQ(one->casters_move.rays.median, 21.0 + 40.0);
+  EXPECT_EQ(one->casters_move.rays.high, 24.0 + 50.0);
+  parts += parts_of(10.0, 1.0, 5.0, 40.0);
+  EXPECT_EQ(shadow_costs(parts)->casters_move.rays.median, 21.0 + 5.0 + 40.0);
+  EXPECT_EQ(shadow_costs(parts)->casters_move.map.median, 22.0);
+}
+
+TEST(ShadowCost, WithoutATreesTimeThatOfMovingCastersIsNotTimed) {
+  ShadowParts parts = parts_of(10.0, 1.0, 20.0, 40.0);
+  parts.tree = {};
+  EXPECT_EQ(shadow_cost_lines(*shadow_costs(parts), false).back(),
+            "casters move: 11 ms by the map, not timed by rays");
+  parts.lookups = {};
+  EXPECT_FALSE(shadow_costs(parts));
 }
 
 // A filter as wide as a shadow's stripes leaves grey: nothing is wrong by more than one half, and nothing
@@ -263,7 +303,7 @@ TEST(CellSummary, WeighsEdgesByTheirNumber) {
   std::vector<LightComparison>& lights = made->comparison.lights;
   lights[0].edges = {10, 0.0, 4.0, 4.0}, lights[1].edges = {}, lights[2].edges = {30, 0.0, 2.0, 2.0};
   const auto cell = summarise(result_line(made->comparison, {{"map_size", "64"}}),
-                              on_one_line(cell_times_json(made->comparison, 0, false, 1.0)));
+                              on_one_line(cell_times_json(made->comparison, 0, {.ms = 1.0})));
   ASSERT_TRUE(cell) << cell.error().message();
   EXPECT_EQ(cell->figures.edges.edges, 40u);
   EXPECT_NEAR(cell->figures.edges.rms_texels, std::sqrt((10.0 * 16.0 + 30.0 * 4.0) / 40.0), 1e-12);

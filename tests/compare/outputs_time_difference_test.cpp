@@ -7,21 +7,48 @@
 namespace gnomon {
 namespace {
 
-TEST(TimeDifference, HoldsStudentsIntervalOfThreeRuns) {
+TEST(TimeDifference, IsThatOfTheLeastTimesAndReachesTwoStandardErrors) {
   const TimeDifference d = beyond_part({{54.0, 56.0, 55.0}}, {{50.0, 50.0, 50.0}});
-  EXPECT_EQ(d.median, 5.0);
-  EXPECT_EQ(d.low, 2.0) << "the least of 4, 5 and 6, less what they spread";
-  EXPECT_EQ(d.high, 8.0);
+  EXPECT_EQ(d.median, 4.0);
+  EXPECT_NEAR(d.low, 4.0 - 4.0 / 3.0, 1e-12) << "without the least of them 5, else 4";
+  EXPECT_NEAR(d.high, 4.0 + 4.0 / 3.0, 1e-12);
   EXPECT_TRUE(d.told);
+}
+
+// Each run has a strip in which the machine did something else, so that no two whole runs agree.
+TEST(TimeDifference, StripsTellWhatWholeRunsDoNot) {
+  const std::vector<TimedStrip> strips{{{{12.0, 52.0, 12.0}}, {{10.0, 10.1, 10.0}}},
+                                       {{{42.0, 12.1, 12.0}}, {{10.0, 10.0, 70.0}}},
+                                       {{{12.0, 12.0, 12.2}}, {{90.0, 10.0, 10.0}}}};
+  const TimeDifference d = beyond_part(strips);
+  EXPECT_NEAR(d.median, 6.0, 1e-9);
+  EXPECT_TRUE(d.told);
+  EXPECT_LT(d.high - d.low, 1.0);
+  Times whole, part;
+  for (const TimedStrip& strip : strips) whole.add_part(strip.whole), part.add_part(strip.part);
+  EXPECT_EQ(d.pairs.runs.size(), 3u);
+  EXPECT_EQ(d.pairs.runs, beyond_part(whole, part).pairs.runs) << "as measured, over all strips";
+  EXPECT_FALSE(beyond_part(whole, part).told);
+  EXPECT_FALSE(beyond_part(std::span<const TimedStrip>()).timed());
+}
+
+TEST(TimeDifference, APassHasASpread) {
+  const TimeDifference three = with_spread({{10.0, 12.0, 11.0}}), one = with_spread({{8.0}});
+  EXPECT_EQ(three.low, 8.0) << "the least, less what they spread";
+  EXPECT_EQ(three.median, 11.0);
+  EXPECT_EQ(three.high, 14.0);
+  EXPECT_EQ(one.low, 6.0) << "a single run may be off by a quarter";
+  EXPECT_EQ(one.high, 10.0);
+  EXPECT_FALSE(with_spread({}).timed());
 }
 
 TEST(TimeDifference, IsNeverBelowNothing) {
   for (const std::vector<double>& part :
-       {std::vector{250.0, 81.0, 80.0}, std::vector{250.0, 251.0, 252.0}, std::vector{85.0, 91.0, 88.0}}) {
+       {std::vector{90.0, 91.0, 99.0}, std::vector{250.0, 251.0, 252.0}, std::vector{85.0, 91.0, 88.0}}) {
     const TimeDifference d = beyond_part({{88.0, 90.0, 87.0}}, {part});
     EXPECT_EQ(d.low, 0.0);
     EXPECT_GE(d.median, 0.0);
-    EXPECT_GE(d.high, -d.pairs.least()) << "what made it less than nothing can make it more";
+    EXPECT_GE(d.high, Times{part}.least() - 87.0) << "what made it less than nothing can make it more";
     EXPECT_FALSE(d.told);
   }
 }
@@ -44,10 +71,10 @@ TEST(TimeDifference, SumsOfSeveralLightsAreToldWhereEachIs) {
   sum += beyond_part({{54.0, 56.0, 55.0}}, {{50.0, 50.0, 50.0}});
   EXPECT_TRUE(sum.told);
   sum += 10.0;
-  EXPECT_EQ(sum.median, 15.0);
+  EXPECT_EQ(sum.median, 14.0);
   sum += beyond_part({{50.0, 51.0, 49.0}}, {{50.0, 50.0, 50.0}});
   EXPECT_FALSE(sum.told);
-  EXPECT_EQ(sum.low, 12.0);
+  EXPECT_NEAR(sum.low, 14.0 - 4.0 / 3.0, 1e-12);
 }
 
 TEST(ClearlyFaster, NeitherIsWhereTheRunsOverlap) {
@@ -63,8 +90,8 @@ TEST(ClearlyFaster, NeitherIsWhereTheRunsOverlap) {
 
 TEST(TimeDifference, IsSaidWithItsIntervalOrAsTheIntervalAlone) {
   using compare::milliseconds;
-  EXPECT_EQ(milliseconds(beyond_part({{54.0, 56.0, 55.0}}, {{50.0, 50.0, 50.0}})), "5 ms (2 to 8 ms)");
-  EXPECT_EQ(milliseconds(beyond_part({{60.0, 62.0, 64.0}}, {{60.0, 60.0, 60.0}})), "0 to 8 ms");
+  EXPECT_EQ(milliseconds(beyond_part({{54.0, 56.0, 55.0}}, {{50.0, 50.0, 50.0}})), "4 ms (2.7 to 5.3 ms)");
+  EXPECT_EQ(milliseconds(beyond_part({{60.0, 62.0, 64.0}}, {{60.0, 60.0, 60.0}})), "0 to 2.7 ms");
   EXPECT_EQ(milliseconds(beyond_part({{55.0, 55.0, 55.0}}, {{50.0, 50.0, 50.0}})), "5 ms");
   EXPECT_EQ(milliseconds(TimeDifference{}), "not timed");
 }

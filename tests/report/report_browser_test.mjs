@@ -194,10 +194,14 @@ async function checkCaptures() {
   await checkAccessibility(join(folder, "captures"));
 }
 
-// Times of several lights are added up; what only the rounding of sums leaves is written as 0.
+// What shadows cost is said by what has moved; what only the rounding of sums leaves is written as 0.
 async function checkSums() {
   const three = await open("three");
-  assert.match(await three.locator("#overview figcaption").first().textContent(), /36 ms for the maps, 93 ms to shade with them/);
+  const costs = await three.locator("#overview .shadow-costs > div").allTextContents();
+  assert.equal(costs.length, 3);
+  assert.match(costs[0], /^Shadows, .*, nothing moves.* by the map, .* by rays$/);
+  assert.match(costs[2], /casters move.* by the map, .* by rays$/);
+  assert.equal(await three.locator("#cost").getByText("casters move").count(), 3, "of each light");
   await close(three);
   const page = await open("cancelling"), sums = await page.locator("table:is(.budget, .ladder) tr.sum .n").allTextContents();
   assert.deepEqual(sums.filter((text) => text !== ""), ["0", "0"]);

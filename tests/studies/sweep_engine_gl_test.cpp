@@ -205,6 +205,15 @@ TEST(ShadowCost, IsTimedInTurnAndDrawsNothing) {
       EXPECT_EQ(record.unshadowed_pass.runs.size(), 2u);
       EXPECT_TRUE(without.raster.lights[i].unshadowed_pass.runs.empty());
       EXPECT_GT(record.first_map_ms, 0.0);
+      EXPECT_FALSE(record.strips.empty());
+      double sum = 0.0;
+      for (const TimedStrip& strip : record.strips) {
+        EXPECT_EQ(strip.part.runs.size(), 2u);
+        sum += strip.whole.runs.front() - strip.part.runs.front();
+      }
+      EXPECT_NEAR(sum, record.shade_pass.runs.front() - record.unshadowed_pass.runs.front(), 1e-6);
+      EXPECT_GE(with.raytraced.structure.runs.size(), 1u);
+      EXPECT_LE(with.raytraced.structure.runs.size(), 2u);
       EXPECT_EQ(with.raytraced.lights[i].shadow_rays.runs.size(), 2u);
       EXPECT_EQ(with.raytraced.lights[i].light_structure.runs.size(), 2u);
     }

@@ -27,13 +27,40 @@ TEST(ParetoFront, ATimeInsideTheNoiseIsNotWorthHaving) {
   EXPECT_EQ(pareto_front(cells), (Indices{1, 2}));
 }
 
-TEST(ParetoFront, OneRunMayBeOffByAQuarter) {
-  std::vector<CellSummary> cells{cell(0, 0.10, 9.0, 0.0, 64), cell(1, 0.05, 10.0, 0.0, 128)};
+TEST(ParetoFront, CellsWithoutASpreadAreOnNone) {
+  std::vector<CellSummary> cells{cell(0, 0.10, 9.0, 0.0, 64), cell(1, 0.05, 90.0, 0.0, 128)};
   EXPECT_EQ(pareto_front(cells), (Indices{0, 1})) << "three runs without any spread";
   for (CellSummary& c : cells) c.raster.runs.resize(1);
+  EXPECT_TRUE(pareto_front(cells).empty());
+  const std::vector<std::string> lines = sweep_headline(cells, pareto_front(cells), {}).lines();
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_TRUE(lines[0].starts_with("Least error: cell 1 ")) << lines[0];
+  EXPECT_EQ(lines[1], "No cell is best for time, since fewer than three runs have no spread.");
+}
+
+TEST(ParetoFront, CellsOfOneDrawingAreOnNone) {
+  std::vector<CellSummary> cells{cell(0, 0.10, 9.0, 0.0, 64), cell(1, 0.05, 9.0, 0.0, 64)};
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    cells[i].axes = {{"map_size", "64"}, {"bias", std::to_string(i)}};
+    cells[i].derived = i > 0;
+  }
+  EXPECT_TRUE(pareto_front(cells).empty());
+  const std::vector<std::string> lines = sweep_headline(cells, pareto_front(cells), {}).lines();
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[1], "All cells come from one drawing, so none is best for time.");
+  cells[1].axes[0].second = "128", cells[1].derived = false;
+  EXPECT_FALSE(share_one_drawing(cells));
   EXPECT_EQ(pareto_front(cells), (Indices{1}));
-  cells[0].raster_ms = 7.0, cells[0].raster.runs = {7.0};
-  EXPECT_EQ(pareto_front(cells), (Indices{0, 1}));
+}
+
+TEST(SweepHeadline, SaysWhatTheBestCellsShadowsCostOnBothSides) {
+  std::vector<CellSummary> cells{cell(0, 0.10, 10.0, 1.0, 64), cell(1, 0.02, 12.0, 1.0, 128)};
+  const TimeDifference map = with_spread({{4.0, 4.0, 4.0}}), rays = with_spread({{7.0, 7.0, 7.0}});
+  cells[1].costs = ShadowCosts{{map, rays}, {map, rays}, {map, {}}};
+  const std::vector<std::string> lines = sweep_headline(cells, pareto_front(cells), {}).lines();
+  ASSERT_EQ(lines.size(), 6u);
+  EXPECT_EQ(lines[3], "Shadows of cell 1, nothing moves: 4 ms by the map, 7 ms by rays.");
+  EXPECT_EQ(lines[5], "Shadows of cell 1, casters move: 4 ms by the map, not timed by rays.");
 }
 
 TEST(ParetoFront, OfEqualErrorsTheLeastCostCountsAndNotTheNoise) {

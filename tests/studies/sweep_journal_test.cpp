@@ -13,6 +13,7 @@
 
 #include "studies/sweep/cell_files.h"
 #include "studies/sweep/journal.h"
+#include "studies/sweep/rounds.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gnomon::compare {
@@ -97,6 +98,64 @@ TEST_F(JournalTest, ALineWithoutItsTimesIsMadeAgain) {
   auto journal = open();
   ASSERT_TRUE(journal);
   EXPECT_EQ(journal->size(), 1u);
+}
+
+/// The times of a cell, as they stand in a line of the first round.
+nlohmann::ordered_json timed(std::size_t cell, double ms) {
+  using Json = nlohmann::ordered_json;
+  const Json once{{"median", ms}, {"runs", {ms}}};
+  Json light{{"light", "sun"}};
+  for (const char* pass : {"map_pass", "shade_pass", "unshadowed_pass", "exact_shadows"}) light[pass] = once;
+  light["shading_strips"] = Json::array({{{"shade_pass", {ms}}, {"unshadowed_pass", {1.0}}}});
+  return {{"cell", cell}, {"load", ms}, {"accel_build", once}, {"lights", Json::array({light})}};
+}
+
+nlohmann::ordered_json further(std::size_t cell, double ms) {
+  raster::LightRecord drawn;
+  drawn.map_pass.runs = drawn.shade_pass.runs = {ms};
+  drawn.unshadowed_pass.runs = {1.0};
+  drawn.strips = {{{{ms}}, {{1.0}}}};
+  MachineInfo machine;
+  machine.load = ms;
+  return round_json({drawn}, cell, machine);
+}
+
+// Rounds of times follow the cells, and go on where they stopped, in a torn line, too.
+TEST_F(JournalTest, RoundsOfTimesGoOnWhereTheyStoppedAndAreJoined) {
+  const auto of = [](int cell) {
+    auto json = nlohmann::ordered_json::parse(line(cell));
+    json.erase("checksum");
+    return json;
+  };
+  {
+    auto journal = open();
+    ASSERT_TRUE(journal) << journal.error().message();
+    for (int cell = 0; cell < 3; ++cell) ASSERT_TRUE(journal->append(of(cell), timed(cell, 10.0 + cell)));
+    ASSERT_TRUE(journal->append_round(further(0, 20.0)));
+  }
+  write("sweep_times.jsonl", bytes("sweep_times.jsonl") + R"({"cell":1,"lo)");
+  auto journal = open();
+  ASSERT_TRUE(journal) << journal.error().message();
+  EXPECT_EQ(journal->size(), 3u);
+  EXPECT_EQ(journal->times_size(), 4u);
+  ASSERT_TRUE(journal->append_round(further(1, 21.0)));
+  ASSERT_TRUE(journal->append_round(further(2, 22.0)));
+  for (int cell = 0; cell < 3; ++cell) ASSERT_TRUE(journal->append_round(further(cell, 30.0 + cell)));
+  ASSERT_TRUE(journal->finish_rounds());
+  const auto sweep = read_sweep(folder);
+  ASSERT_TRUE(sweep) << sweep.error().message();
+  EXPECT_EQ(sweep->rounds.size(), 9u);
+  ASSERT_EQ(sweep->times.size(), 3u);
+  const auto second = nlohmann::json::parse(sweep->times[1]);
+  EXPECT_EQ(second["load"], 31.0) << "the most of its runs";
+  const nlohmann::json& light = second["lights"][0];
+  EXPECT_EQ(light["map_pass"]["runs"], (std::vector<double>{11.0, 21.0, 31.0}));
+  EXPECT_EQ(light["map_pass"]["median"], 21.0);
+  EXPECT_EQ(light["shading_strips"][0]["shade_pass"], (std::vector<double>{11.0, 21.0, 31.0}));
+  EXPECT_EQ(light["shadow_lookups"]["median"], 10.0) << "11 less 1, the least of each";
+  EXPECT_EQ(light["shadows"]["light_moves_map"], 31.0);
+  EXPECT_NE(bytes("sweep.csv").find("times_ms_shadows_light_moves_map"), std::string::npos);
+  EXPECT_NE(bytes("sweep.csv").find(",31.0,"), std::string::npos) << bytes("sweep.csv");
 }
 
 TEST_F(JournalTest, RefusesAnotherConfiguration) {

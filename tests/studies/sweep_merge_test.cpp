@@ -105,6 +105,32 @@ TEST_F(MergeTest, TakesAllThatTheShardsHold) {
   EXPECT_EQ(journal->size(), 4u);
 }
 
+TEST_F(MergeTest, RoundsOfTimesComeInTheOrderOfTheCells) {
+  const auto add_rounds = [&](int part, std::size_t rounds) {
+    const std::size_t first = part - 1;
+    std::ofstream file(shard(part) + "/sweep_times.jsonl", std::ios::binary | std::ios::app);
+    for (std::size_t round = 0; round < rounds; ++round)
+      for (const std::size_t cell : {first, first + 2})
+        file << sealed("{\"cell\":" + std::to_string(cell) +
+                       R"(,"load":null,"lights":[{"map_pass":[3],"shade_pass":[4],"unshadowed_pass":[1],"shading_strips":[]}]})" + "\n");
+  };
+  add_rounds(1, 2);
+  const auto unfinished = merge();
+  ASSERT_FALSE(unfinished);
+  EXPECT_NE(unfinished.error().message().find("a shard is not finished"), std::string::npos)
+      << unfinished.error().message();
+  add_rounds(2, 2);
+  const auto merged = merge();
+  ASSERT_TRUE(merged) << merged.error().message();
+  const auto sweep = read_sweep(files.file("out"));
+  ASSERT_TRUE(sweep) << sweep.error().message();
+  ASSERT_EQ(sweep->rounds.size(), 12u);
+  for (std::size_t i = 0; i < sweep->rounds.size(); ++i)
+    EXPECT_EQ(nlohmann::json::parse(sweep->rounds[i])["cell"], i % 4) << i;
+  EXPECT_EQ(nlohmann::json::parse(sweep->times[3])["lights"][0]["map_pass"]["runs"],
+            (std::vector<double>{1.0, 3.0, 3.0}));
+}
+
 /// Puts what nobody can look at, a link to itself, in the place of something.
 void make_unreadable(const std::string& path) {
   fs::remove_all(path);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
@@ -380,7 +381,7 @@ TEST_F(WholeSweep, TablesOfSweepAndCompareHaveOneSetOfColumns) {
   };
   std::set<std::string> sweep = columns(bytes_of(root / "whole/sweep.csv"));
   const std::set<std::string> one = columns(bytes_of(root / "one/result.csv"));
-  for (const char* own : {"cell", "axes_map_size", "axes_bias", "derived", "cell_ms"})
+  for (const char* own : {"cell", "axes_map_size", "axes_bias", "derived", "cell_ms", "load"})
     EXPECT_EQ(sweep.erase(own), 1u) << own;
   for (const std::string& name : sweep) EXPECT_EQ(one.count(name), 1u) << name << " is in sweep.csv alone";
   for (const char* timed : {"times_ms_map_pass_median", "times_ms_shade_pass_median",
@@ -393,16 +394,37 @@ TEST_F(SweepProgram, ShadowsAreTimedApartFromThePicture) {
   ASSERT_EQ(run(words("whole", {"--ray-tracer"})), 0) << said();
   const std::string page = bytes_of(root / "whole/report.html");
   std::istringstream stream(bytes_of(root / "whole/sweep_times.jsonl"));
+  int lines_of_times = 0;
   for (std::string line; std::getline(stream, line);) {
-    const nlohmann::json light = nlohmann::json::parse(line)["lights"][0];
-    EXPECT_EQ(light["shadow_lookups"]["runs"].size(), light["shade_pass"]["runs"].size());
-    EXPECT_EQ(light["shadow_lookups"]["runs"].size(), 3u);
-    const double map = light["map_pass"]["median"], lookups = light["shadow_lookups"]["median"];
-    EXPECT_GE(light["shadow_lookups"]["low"], 0.0);
-    EXPECT_LE(light["shadow_lookups"]["low"], lookups);
-    EXPECT_LE(lookups, light["shadow_lookups"]["high"]);
-    const std::string shadows = nlohmann::json(map + lookups).dump();
-    EXPECT_NE(page.find("," + shadows + ","), std::string::npos) << shadows;  // of low, median and high
+    const nlohmann::json cell = nlohmann::json::parse(line);
+    EXPECT_EQ(cell["cell"], lines_of_times++ % 12) << "all cells once, then all again";
+    EXPECT_GE(cell["load"], 0.0);
+    EXPECT_FALSE(cell["lights"][0]["shading_strips"].empty());
+  }
+  EXPECT_EQ(lines_of_times, 36);
+  std::istringstream table(bytes_of(root / "whole/sweep.csv"));
+  std::vector<std::map<std::string, std::string>> rows;
+  std::vector<std::string> heads;
+  for (std::string line; std::getline(table, line);) {
+    std::istringstream fields(line.substr(0, line.find('\r')));
+    std::vector<std::string> values;
+    for (std::string value; std::getline(fields, value, ',');) values.push_back(value);
+    if (heads.empty()) {
+      heads = values;
+      continue;
+    }
+    auto& row = rows.emplace_back();
+    for (std::size_t i = 0; i < values.size(); ++i) row[heads[i]] = values[i];
+  }
+  ASSERT_EQ(rows.size(), 12u);
+  for (auto& row : rows) {
+    const auto ms = [&](const std::string& key) { return std::stod(row.at("times_ms_shadows_" + key)); };
+    EXPECT_LE(ms("nothing_moves_map_low"), ms("nothing_moves_map"));
+    EXPECT_LE(ms("nothing_moves_map"), ms("nothing_moves_map_high"));
+    EXPECT_NEAR(ms("light_moves_map"), ms("nothing_moves_map") + std::stod(row.at("times_ms_map_pass_median")), 1e-6);
+    EXPECT_EQ(ms("light_moves_rays"), ms("nothing_moves_rays"));
+    EXPECT_NEAR(ms("casters_move_rays"), ms("light_moves_rays") + std::stod(row.at("times_ms_accel_build_median")), 1e-6);
+    EXPECT_NE(page.find("," + row.at("times_ms_shadows_light_moves_map") + ","), std::string::npos);
   }
   const nlohmann::json points = nlohmann::json::parse(bytes_of(root / "whole/ray_tracer.json"))["points"];
   EXPECT_FALSE(points.empty());

@@ -284,7 +284,7 @@ inline std::unique_ptr<Synthetic> make_synthetic(int lights = 1) {
   c.raytraced.primary_rays.runs = {140.5};
   c.raytraced.picture_ms = 61.0;
   c.exposure = 1.1;
-  c.load_ms = 3.5, c.accel_build_ms = 8.25, c.report_ms = 0.0, c.total_ms = 612.0;
+  c.load_ms = 3.5, c.raytraced.structure.runs = {8.25}, c.report_ms = 0.0, c.total_ms = 612.0;
   c.peak_memory_bytes = 187654321;
   return made;
 }

@@ -11,6 +11,7 @@
 #include "app/options/values.h"
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
+#include "compare/result/shadow_cost.h"
 #include "raster/settings.h"
 
 namespace gnomon::app {
@@ -30,11 +31,8 @@ std::string compared_words(const std::optional<Readings::Compared>& compared) {
   if (!compared) return "comparing…";
   std::string text = "wrong " + compare::percent(compared->wrong_fraction) + ", mean error " +
                      compare::percent(compared->mean_absolute);
-  if (!compared->current || compared->preview) return text + (compared->current ? " (preview)" : " (before)");
-  return text + fmt::format(" | map {}, shading {}, exact shadows {}",
-                            compare::milliseconds(compared->map_ms),
-                            compare::milliseconds(compared->shade_ms),
-                            compare::milliseconds(compared->exact_shadows_ms));
+  if (!compared->current) return text + " (before)";
+  return compared->preview ? text + " (preview)" : text;
 }
 
 using Words = std::vector<std::string>;
@@ -171,57 +169,53 @@ Readings readings_of(const Snapshot& shown, const ViewState& state) {
   const ComparisonOutcome* outcome = shown.outcome.get();
   if (outcome == nullptr) return out;
   const compare::LightComparison& light = outcome->comparison.lights.front();
-  const raster::LightRecord& drawn = outcome->comparison.raster.lights.front();
   out.compared = Readings::Compared{outcome->revision == state.revision,
                                     outcome->preview,
                                     light.error.wrong_fraction,
-                                    drawn.map_pass.median(),
-                                    drawn.shade_pass.median(),
-                                    outcome->comparison.raytraced.lights.front().exact_times().median(),
                                     light.error.mean_absolute};
   return out;
 }
 
 namespace {
 
-std::string once(double ms) {
-  return ms > 0.0 ? compare::milliseconds(ms) : "not timed yet";
+std::string clock_words(const ShadowTimes& times, const std::string& renderer) {
+  if (times.step_ms == 0.0)
+    return fmt::format("{} runs, by the processor: {} is no GPU.", times.map.runs.size(), renderer);
+  const std::string runs = fmt::format("{} runs of {} drawings, in steps of {}", times.map.runs.size(),
+                                       times.drawings, compare::milliseconds(times.step_ms));
+  if (times.by_device)
+    return fmt::format("Map and lookups by the clock of {}: {}. Rays on the processor.", renderer, runs);
+  return fmt::format(
+      "Map and lookups are a guess: no clock of {} is to be read here, and the processor's counts the wait "
+      "for the driver too; {}. Rays on the processor.",
+      renderer, runs);
 }
 
-void add_of_gpu(const ShadowTimes& times, const std::string& renderer, ShadowTimeWords& words) {
+compare::ShadowParts parts_of(const ShadowTimes& times, const compare::Comparison& comparison) {
   const Times& map = times.map;
-  words.rows = {
-      {"Shadow map drawn", compare::milliseconds({map, map.least(), map.median(), map.most(), true})},
-      {"Its lookups, beyond the picture without shadows", compare::milliseconds(times.lookups())},
-      {"Both, a frame", compare::milliseconds(times.map_and_lookups())}};
-  const std::string runs = fmt::format("{} runs of {} drawings, in steps of {}", map.runs.size(),
-                                       times.drawings, compare::milliseconds(times.step_ms));
-  words.of_device = times.by_device;
-  words.by =
-      times.by_device
-          ? fmt::format("Map and lookups by the clock of {}: {}. Rays on the processor.", renderer, runs)
-          : fmt::format(
-                "Map and lookups are a guess: no clock of {} is to be read here, and the processor's "
-                "counts the wait for the driver too; {}. Rays on the processor.",
-                renderer, runs);
+  return {.map = {map, map.least(), map.median(), map.most(), true},
+          .lookups = times.lookups(),
+          .rays = with_spread(comparison.raytraced.lights.front().exact_times()),
+          .tree = with_spread(comparison.raytraced.structure),
+          .hybrid = comparison.raster.options.map.technique == raster::Technique::hybrid};
 }
 
 }  // namespace
 
 ShadowTimeWords shadow_time_words(const Snapshot& shown, const ViewState& state) {
+  if (!shown.outcome) return ShadowTimeWords();
   ShadowTimeWords words;
-  const auto compared = readings_of(shown, state).compared;
-  if (!compared) return words;
+  words.by = "They are timed while nothing else is to be done.";
+  std::optional<compare::ShadowCosts> costs;
+  bool hybrid = false;
   if (const auto times = shown.shadow_times; times && times->revision == state.revision) {
-    add_of_gpu(*times, shown.renderer, words);
-  } else {
-    words.rows = {{"Shadow map drawn", once(compared->map_ms)},
-                  {"Picture shaded with it", once(compared->shade_ms)}};
-    words.by = raster::draws_in_software(shown.renderer)
-                   ? fmt::format("Drawn once, by the processor: {} is no GPU.", shown.renderer)
-                   : fmt::format("Drawn once by {}, with the wait for the driver.", shown.renderer);
+    const compare::ShadowParts parts = parts_of(*times, shown.outcome->comparison);
+    costs = compare::shadow_costs(parts), hybrid = parts.hybrid;
+    words.of_device = times->by_device, words.by = clock_words(*times, shown.renderer);
   }
-  words.rows.push_back({"Exact shadows by rays", once(compared->exact_shadows_ms)});
+  for (const compare::ShadowSituation& one : compare::shadow_situations())
+    words.rows.push_back({std::string(one.words),
+                          costs ? compare::sides_text(*costs.*one.sides, hybrid) : "not timed yet"});
   return words;
 }
 

@@ -19,15 +19,13 @@ struct Readings {
     bool current = false;  ///< of the state as it is now
     bool preview = false;
     double wrong_fraction = 0.0;
-    double map_ms = 0.0, shade_ms = 0.0;  ///< full size only; 0 in a preview
-    double exact_shadows_ms = 0.0;
     double mean_absolute = 0.0;  ///< mean error of visibility
   };
   std::optional<Compared> compared;
 };
 Readings readings_of(const Snapshot& shown, const ViewState& state);
 
-/// What the shadows took, in words: on the GPU (ShadowTimes) once that is known, else in the comparison.
+/// What the shadows take of a frame, by what has moved since the last one.
 struct ShadowTimeWords {
   struct Row {
     std::string name, time;
@@ -36,10 +34,10 @@ struct ShadowTimeWords {
   std::string by;          ///< by which clock, how often, in which steps
   bool of_device = false;  ///< by the GPU's own clock
 };
-/// Nothing before the first comparison.
+/// Nothing before the first comparison; its times are said once they are known (ShadowTimes).
 ShadowTimeWords shadow_time_words(const Snapshot& shown, const ViewState& state);
 
-/// Scene, view, technique, map size, bias in texels and world units, share of wrong pixels, times.
+/// Scene, view, technique, map size, bias in texels and world units, share of wrong pixels.
 std::string status_line(const ViewState& state, const Readings& readings, const std::string& scene);
 
 /// "gnomon compare SCENE --size ... ": what differs from the defaults and, always, size, map size and bias.

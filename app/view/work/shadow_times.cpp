@@ -17,21 +17,32 @@ constexpr double most_drawings = 100.0;
 
 }  // namespace
 
-TimeDifference ShadowTimes::map_and_lookups() const {
-  TimeDifference both = lookups();
-  both += map.median();
-  return both;
+void ShadowTimer::begin(std::uint64_t revision) {
+  if (now_.revision == revision) return;
+  now_ = {}, now_.revision = revision, asked_ = false, step_us_ = 0;
+}
+
+void ShadowTimer::take_run(std::uint64_t revision, const raster::LightRecord& drawn) {
+  if (knows(revision)) return;
+  begin(revision);
+  now_.map.runs.insert(now_.map.runs.end(), drawn.map_pass.runs.begin(), drawn.map_pass.runs.end());
+  now_.strips.resize(drawn.strips.size());
+  for (std::size_t i = 0; i < drawn.strips.size(); ++i) {
+    now_.strips[i].whole.runs.push_back(drawn.strips[i].whole.runs.front());
+    now_.strips[i].part.runs.push_back(drawn.strips[i].part.runs.front());
+  }
+  if (now_.map.runs.size() == subtracted_runs) known_ = std::make_shared<const ShadowTimes>(now_);
 }
 
 Expected<void> ShadowTimer::take_turn(std::uint64_t revision, raster::Renderer& renderer, const Draw& draw) {
-  if (known_ && known_->revision == revision) return {};
-  if (now_.revision != revision) now_ = {}, now_.revision = revision, asked_ = false, step_us_ = 0;
+  if (knows(revision)) return {};
+  begin(revision);
   if (asked_) {
     const std::optional<raster::ShadowSpans> spans = renderer.take_spans();
     if (!spans) return {};
     asked_ = false;
     take(*spans);
-    if (known_ && known_->revision == revision) return {};
+    if (knows(revision)) return {};
   }
   asked_ = true;
   return draw(std::max(1, now_.drawings));
@@ -50,8 +61,9 @@ void ShadowTimer::take(const raster::ShadowSpans& spans) {
   now_.by_device = spans.by_device;
   now_.step_ms = 1e-3 * static_cast<double>(step_us_);
   now_.map.runs.push_back(spans.map_ms / now_.drawings);
-  now_.shaded.runs.push_back(spans.shaded_ms / now_.drawings);
-  now_.unshadowed.runs.push_back(spans.unshadowed_ms / now_.drawings);
+  now_.strips.resize(1);
+  now_.strips.front().whole.runs.push_back(spans.shaded_ms / now_.drawings);
+  now_.strips.front().part.runs.push_back(spans.unshadowed_ms / now_.drawings);
   if (now_.map.runs.size() == wanted_runs) known_ = std::make_shared<const ShadowTimes>(now_);
 }
 

@@ -107,10 +107,21 @@ Expected<void> Studio::compare(const DrawOrder& order) {
   return started ? time_shadows(order) : started;
 }
 
-/// While nothing else is to be done. What draws in software is no GPU: the comparison's own times are all there is.
+/// One run.
+Expected<void> Studio::time_in_software(const DrawOrder& order) {
+  raster::RasterOptions options = raster_options(order.setup, order.setup.size);
+  options.runs = 1, options.shadow_cost = true;
+  const auto drawn = render(order.setup, options);
+  if (!drawn) return fail(drawn.error());
+  shadow_timer_.take_run(order.revision, drawn->lights.front());
+  return {};
+}
+
+/// While nothing else is to be done.
 Expected<void> Studio::time_shadows(const DrawOrder& order) {
-  if (raster::draws_in_software(renderer_->info().renderer) || worker_.busy()) return {};
+  if (worker_.busy() || shadow_timer_.knows(order.revision)) return {};
   if (!outcome_ || outcome_->preview || outcome_->revision != order.revision) return {};
+  if (raster::draws_in_software(renderer_->info().renderer)) return time_in_software(order);
   if (order.setup.map.technique == raster::Technique::hybrid) return {};
   return shadow_timer_.take_turn(order.revision, *renderer_, [&](int drawings) -> Expected<void> {
     raster::RasterOptions options = raster_options(order.setup, order.setup.size);

@@ -81,6 +81,7 @@ class Studio {
   Expected<raster::RasterFrame> render(const Setup& setup, const raster::RasterOptions& options);
   Expected<void> receive_outcome();
   Expected<void> start_next(const DrawOrder& order);
+  Expected<void> time_in_software(const DrawOrder& order);
   Expected<void> time_shadows(const DrawOrder& order);
   EffectPlan plan_of(const Setup& setup) const;
   void encode_live();

@@ -1,8 +1,8 @@
 // What a comparison cost: passes, shadows alone, every stage of the run, and the work that is the same on every machine.
 import { shareBar } from "./bars";
 import { keyed, keyedCount } from "./document";
-import { byteCount, grouped, milliseconds, timeDifference } from "./number_text";
-import { facts, lookupTimes, ofLight, result, timed, type LightResult, type Times } from "./report_document";
+import { byteCount, grouped, milliseconds } from "./number_text";
+import { facts, ofLight, result, shadowTime, timed, type LightResult, type Times } from "./report_document";
 import { markup, type Markup } from "./template";
 
 interface TimeRow {
@@ -36,33 +36,24 @@ class="n">${times.runs.length > 1 ? `${times.runs.length} runs` : times.runs.len
 `;
 }
 
-// The map and its lookups beside the light's structure and its rays.
+// What each side takes of a frame, by what has moved since the last one.
 function shadowRows(light: LightResult, i: number): Markup | null {
-  const { times_ms: times, shadow_samples: samples, map } = light;
-  if (times.unshadowed_pass!.runs.length === 0) return null;
-  const name = result.lights.length > 1 ? `${facts.light_facts[i]!.name}: ` : "", key = (pass: string): string => `lights.${i}.times_ms.${pass}`;
-  const side = (pass: string): Markup => timed(key(pass), times[pass]!);
-  const row = (what: string, how: string, raster: Markup | string, rays: Markup | string): Markup =>
-    markup`<tr><th scope="row">${name}${what}<small>${how}</small></th><td class="n">${raster}</td><td class="n">${rays}</td></tr>\n`;
-  const lookups = lookupTimes(light), drawn = times.map_pass!.median ?? 0;
-  const both = lookups && { ...lookups, low: lookups.low + drawn, median: lookups.median + drawn, high: lookups.high + drawn };
-  const structure = samples === undefined && (times.light_structure!.median ?? 0) > 0;
-  return markup`${row("what is made for the light", `${map.hybrid ? "the sheets" : "the map"}; rays ask the scene's own hierarchy`, side("map_pass"), structure ? side("light_structure") : "nothing")}${
-    row("asking it", "every frame, even where light and casters stand still", lookups ? keyed(`${key("shadow_lookups")}.median`, () => timeDifference(lookups)) : "not timed", side("exact_shadows_standing"))}${
-    row("both", "a frame in which something has moved", both ? timeDifference(both) : "not timed", side("exact_shadows"))}${
-    row("the picture without shadows", "shading, or primary rays", side("unshadowed_pass"), timed("times_ms.primary_rays", result.times_ms.primary_rays!))}`;
+  if (!light.times_ms.shadows) return null;
+  const name = result.lights.length > 1 ? `${facts.light_facts[i]!.name}: ` : "";
+  return markup`${facts.shadow_situations.map(({ key, words, made }) => markup`<tr><th scope="row">${name}${words}<small>${made}</small></th><td class="n">${
+    shadowTime(light, i, `${key}_map`)}</td><td class="n">${shadowTime(light, i, `${key}_rays`)}</td></tr>\n`)}`;
 }
 
 const oneTime = (name: string): Markup => keyed(`times_ms.${name}.median`, milliseconds);
 
 function shadowTable(): Markup {
-  const rows = result.lights.map(shadowRows), note = facts.software_note;
-  return markup`${rows.some((row) => row !== null) && markup`<table class="times"><caption>The shadows alone, without what the picture costs</caption><thead><tr><th scope="col">part</th><th
-scope="col" class="n">rasterizer</th><th scope="col"
-class="n">rays</th></tr></thead><tbody>
+  const rows = result.lights.map(shadowRows), by = result.lights.some(({ map }) => map.hybrid) ? "hybrid" : "map";
+  return markup`${rows.some((row) => row !== null) && markup`<table class="times"><caption>The shadows of a frame, without what the picture costs</caption><thead><tr><th scope="col">since the last frame</th><th
+scope="col" class="n">by the ${by}</th><th scope="col"
+class="n">by rays</th></tr></thead><tbody>
 ${rows}</tbody></table>
 `}<p class="hint">Before the first frame: ${oneTime("upload")} to upload the scene to the rasterizer, ${oneTime("accel_build")} to build the tracer’s hierarchy.${
-    result.timing.software_rasterizer && ` ${note.charAt(0).toUpperCase()}${note.slice(1)}.`}</p>
+    result.timing.software_rasterizer && ` ${facts.software_note}`}</p>
 `;
 }
 
@@ -80,6 +71,7 @@ const stageWords: Record<string, string> = {
   "shading with records": "the picture once more, with what each pixel looked up",
   "read-back": "fetching pictures and maps from OpenGL",
   build: "the ray tracer's hierarchy",
+  "build repeats": "the same again, where it takes no time to speak of",
   "soft shadow rays": "shadow rays to points all over the light",
   "ray-traced picture": "shading, reflection and refraction",
   topology: "which triangles hang together",

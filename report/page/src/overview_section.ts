@@ -2,9 +2,9 @@
 import { twoSidedBar } from "./bars";
 import { beyondRounding, keyed, keyedCount, keyedDecrease } from "./document";
 import { picture } from "./frame";
-import { milliseconds, signedNumber } from "./number_text";
+import { signedNumber } from "./number_text";
 import { isBeside } from "./parts";
-import { facts, result, stepName, timed, verdictBlock, type LightResult } from "./report_document";
+import { facts, ofLight, result, shadowTime, stepName, verdictBlock, type LightResult } from "./report_document";
 import { flowing, markup, type Markup } from "./template";
 
 /** The light whose labelled picture stands on the first screen: that with the most wrong pixels. */
@@ -16,28 +16,22 @@ export function labelFigure(i: number): Markup {
     result.lights.length > 1 && `, light ${facts.light_facts[i]!.name}`}: each error in the colour of its cause, as strong as it is; grey is right.</figcaption></figure>\n`;
 }
 
-// One light's time under its key, or the sum of several; `name`: of the one's, where it has another.
-function shadowTime(pass: string, name = pass): Markup {
-  if (result.lights.length === 1) return timed(`lights.0.times_ms.${name}`, result.lights[0]!.times_ms[name]!);
-  return markup`${milliseconds(result.lights.reduce((sum, { times_ms }) => sum + (times_ms[pass]!.median ?? 0), 0))}`;
-}
-
 function rasterCaption(): Markup {
-  const { lights, judged } = result, several = lights.length > 1;
+  const { lights, judged } = result;
   if (lights.length === 0) return markup`<b>Rasterizer</b>, shadow maps`;
   if (judged)
     return markup`<b>${judged.renderer.name}</b>${judged.renderer.version && ` ${judged.renderer.version}`}${
       judged.ratio ? ", with its shadow" : ": what it drew of the light, white lit and black shadowed"}`;
-  const hybrid = lights[0]!.map.technique === "hybrid";
-  return markup`<b>${hybrid ? "Hybrid" : "Rasterizer"}</b>, ${hybrid ? "sheets and rays" : `shadow map${several ? "s" : ""}`}: ${shadowTime("map_pass")} for the ${
-    hybrid ? "sheet" : "map"}${(several || hybrid) && "s"}, ${shadowTime("shade_pass")} to shade with ${several || hybrid ? "them" : "it"}`;
+  return lights[0]!.map.hybrid ? markup`<b>Hybrid</b>, sheets and rays` : markup`<b>Rasterizer</b>, shadow map${lights.length > 1 && "s"}`;
 }
 
-function raytracedCaption(): Markup {
-  const [first] = result.lights;
-  if (!first) return markup`<b>Ray tracer</b>, exact shadows`;
-  return markup`<b>Ray tracer</b>, exact shadows: ${shadowTime("exact_shadows", first.shadow_samples === undefined ? "shadow_rays" : "soft_shadow_rays")} for shadow rays, ${
-    timed("times_ms.primary_rays", result.times_ms.primary_rays!)} for primary rays`;
+// What the shadows of a frame take on both sides, of the light whose labels are shown.
+function shadowCostLine(): Markup | null {
+  const i = labelledLight(), light = result.lights[i];
+  if (!light?.times_ms.shadows) return null;
+  return markup`<dl class="shadow-costs">
+${facts.shadow_situations.map(({ key, words }) => markup`<div><dt>Shadows${ofLight(i)}, ${words}</dt><dd>${shadowTime(light, i, `${key}_map`)} by the ${light.map.hybrid ? "hybrid" : "map"}, ${shadowTime(light, i, `${key}_rays`)} by rays</dd></div>\n`)}</dl>
+`;
 }
 
 const simulates = (effect: string): boolean => result.effects.some((entry) => entry.effect === effect && entry.simulated);
@@ -112,7 +106,7 @@ export function overviewSection(): Markup {
   return markup`<section id="overview" aria-labelledby="title">
 <h1 id="title">${scene.name || "Scene without a name"}</h1>
 ${firstVerdict()}${viewsLine()}${settingLines()}<div class="${lights.length === 0 ? "pair" : "trio"}">
-${figure("raster", rasterCaption(), rasterRemark())}${figure("raytraced", raytracedCaption(), raytracedRemark())}${lights.length > 0 && labelFigure(labelledLight())}</div>
-${lights.map(card)}${lights.length === 0 && markup`<p class="verdict">The scene has no light: there is no shadow to compare.</p>\n`}</section>
+${figure("raster", rasterCaption(), rasterRemark())}${figure("raytraced", markup`<b>Ray tracer</b>, exact shadows`, raytracedRemark())}${lights.length > 0 && labelFigure(labelledLight())}</div>
+${shadowCostLine()}${lights.map(card)}${lights.length === 0 && markup`<p class="verdict">The scene has no light: there is no shadow to compare.</p>\n`}</section>
 `;
 }

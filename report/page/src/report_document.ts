@@ -1,7 +1,7 @@
 // The document of a comparison, result.json (compare/result/result.schema.json), and what the program says beside it
 // (../../facts.cpp).
 import { keyed, resultDocument } from "./document";
-import { milliseconds, percent, plainNumber, type TimeDifference } from "./number_text";
+import { milliseconds, percent, plainNumber, timeDifference } from "./number_text";
 import type { Vec3 } from "./light_view";
 import { pageData } from "./parts";
 import { flowing, markup, Markup } from "./template";
@@ -90,7 +90,7 @@ export interface LightResult {
   engine_units: Unit[];
   derived_bias: DerivedBias | null;
   lookups: { total: number | null };
-  times_ms: Record<string, Times> & { shadow_lookups: Times & { low: number | null; high: number | null } };
+  times_ms: Record<string, Times> & { shadows?: Record<string, number | null> };
   shadow_samples?: number;  // of a light with size
 }
 
@@ -117,7 +117,7 @@ export interface Result {
   version: string;
   size: { width: number; height: number };
   scene: { path: string; sha256: string; triangles: number; shapes: number; name: string; notes: string[] };
-  machine: { cpu: string; cores: number; os: string };
+  machine: { cpu: string; cores: number; os: string; load?: number | null };
   shaders: { replaced: string; sha256: string }[];
   effects: { effect: string; called_for: boolean; simulated: boolean; reason: string }[];
   timing: { software_rasterizer: boolean };
@@ -148,6 +148,13 @@ export interface LessonFacts {
   command: string;
 }
 
+/** What has moved since the last frame, and what each side then makes for the shadows. */
+export interface ShadowSituation {
+  key: string;
+  words: string;
+  made: string;
+}
+
 interface LightFacts {
   name: string;
   verdict: { headline: string; detail: string; whole: string };
@@ -169,6 +176,7 @@ export interface Facts {
   reduced: string;           // what the page leaves out of a large picture
   peak_memory_bytes: number;
   software_note: string;
+  shadow_situations: ShadowSituation[];
   light_facts: LightFacts[];
   judged?: [name: string, value: string][];
   tune?: TuneFacts;
@@ -189,9 +197,11 @@ export const timed = (key: string, { runs }: Times): Markup => (runs.length === 
 
 export const shareOf = (part: number, whole: number): string => percent(part / Math.max(whole, 1));
 
-/** What looking the map up adds to shading, or null where it was not timed. */
-export function lookupTimes({ times_ms: { shadow_lookups: { low, median, high, runs } } }: LightResult): TimeDifference | null {
-  return runs.length === 0 ? null : { low: low!, median: median!, high: high!, told: low! > 0 };
+/** A side's time in a situation ("casters_move_rays"), with its interval. */
+export function shadowTime({ times_ms: { shadows } }: LightResult, i: number, side: string): Markup {
+  const [low, median, high] = [`${side}_low`, side, `${side}_high`].map((key) => shadows?.[key] ?? null);
+  if (low === null || median === null || high === null) return markup`not timed`;
+  return keyed(`lights.${i}.times_ms.shadows.${side}`, () => timeDifference({ low: low!, median: median!, high: high!, told: low! > 0 }));
 }
 
 export function lessonDetails(name: string): Markup {

@@ -4,6 +4,7 @@ import { costSection } from "./cost_section";
 import { keyed, keyedCount } from "./document";
 import type { Section } from "./frame";
 import { lightSection } from "./light_section";
+import { plainNumber } from "./number_text";
 import { overviewSection } from "./overview_section";
 import { provenance, type Entry } from "./provenance";
 import { facts, plain, result } from "./report_document";
@@ -37,7 +38,8 @@ ${effects.map(({ effect, called_for, simulated, reason }) => markup`<tr class="$
 
 /** What stands between the program and OpenGL, and behind it. */
 const before = (): Entry[] => [["Threads and seed", markup`${keyedCount("threads")} and ${keyed("seed", String)}`],
-  ["Processor", `${result.machine.cpu}, ${result.machine.cores} cores`], ["System", result.machine.os]];
+  ["Processor", `${result.machine.cpu}, ${result.machine.cores} cores`], ["System", result.machine.os],
+  ["Load of the machine", typeof result.machine.load === "number" ? plainNumber(result.machine.load) : ""]];
 const after = (): Entry[] => [...result.shaders.map(({ replaced, sha256 }): Entry => ["Replaced shader", `${replaced}, SHA-256 ${sha256}`]),
   ["Exposure of both pictures", plain("exposure")]];
 

@@ -1,4 +1,6 @@
 // The document of a sweep's page (studies/sweep/page_document.cpp): its cells, each over all lights together.
+import type { ShadowSituation } from "./report_document";
+
 export interface SweepCell {
   cell: number;
   values: string[];     // by axis
@@ -22,12 +24,13 @@ export interface SweepCell {
   raster_ms: number | null;  // null: not timed
   rays_ms: number | null;
   exact_shadow_ms: number | null;
-  shadows_ms: [low: number, median: number, high: number] | [];  // empty: not timed
-  shadows_told: boolean;
+  shadows_ms: Record<string, { map: TimeRange | null; rays: TimeRange | null }> | null;  // by situation; null: not timed
   derived: boolean;    // made from the gaps of another cell's drawing
   pictures: boolean;
   drawn: boolean;      // has a drawing of its own
 }
+
+export type TimeRange = [low: number, median: number, high: number];
 
 export interface RayPoint {
   name: string;
@@ -70,6 +73,8 @@ export interface SweepResult {
   columns: FigureColumn[];
   headline: { title: string; cell: number | null; setting: string; figures: string }[];
   front: number[];  // cells worth having, cheapest first
+  situations: ShadowSituation[];
+  load: [least: number, most: number] | null;  // of the machine
   cells: SweepCell[];
   rays: RayPoint[];
   reference_samples: number;

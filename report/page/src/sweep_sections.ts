@@ -4,7 +4,7 @@ import type { Section } from "./frame";
 import { byteCount, grouped, milliseconds, percent, plainNumber, timeDifference } from "./number_text";
 import { isBeside } from "./parts";
 import { paretoChart, sizeChart } from "./sweep_charts";
-import { inWords, isFilmed, type Configuration, type RayPoint, type SweepCell, type SweepResult } from "./sweep_document";
+import { inWords, isFilmed, type Configuration, type RayPoint, type SweepCell, type SweepResult, type TimeRange } from "./sweep_document";
 import { flowing, markup, scrollRegion, type Markup } from "./template";
 import { viewerBlock } from "./viewer_block";
 
@@ -63,8 +63,8 @@ function cost(result: SweepResult): Markup {
   const { cells, rays } = result, pareto = paretoChart(result), sizes = sizeChart(result);
   return markup`<section id="cost" aria-labelledby="cost-title"><h2 id="cost-title">What accuracy costs</h2>
 ${pareto && markup`<h3>Error against time</h3>
-<figure>${scrollRegion("Error against time", pareto)}<figcaption>Each cell is a point and opens its pictures. Error: ${result.measure.words}. The line joins those that are faster than every cell with
-a smaller error, by more than the times' spread. ${rays.length > 0 ? "The diamonds are the ray tracer itself."
+<figure>${scrollRegion("Error against time", pareto)}<figcaption>Each cell is a point and opens its pictures. Error: ${result.measure.words}. ${result.front.length > 0 && `The line joins those that are faster than every cell with
+a smaller error, by more than the times' spread. `}${rays.length > 0 ? "The diamonds are the ray tracer itself."
   : `The diamond is the ray tracer, whose shadows are the truth here; ${milliseconds(cells[0]!.exact_shadow_ms ?? NaN)} of its time are its shadows.`}${
   cells.some(({ derived }) => derived) && " Cells that differ in the constant bias alone come from one drawing and share its time."}</figcaption></figure>
 `}${sizes && markup`<h3>Error against map size</h3>
@@ -82,6 +82,12 @@ interface Column {
 }
 const column = (name: string, value: Column["value"], text: (value: number) => string): Column => ({ name, value, text: (_, v) => text(v) });
 
+const rangeText = (range: TimeRange | null): string => {
+  if (!range) return "not timed";
+  const [low, median, high] = range;
+  return timeDifference({ low, median, high, told: low > 0 });
+};
+
 const forms = { count: grouped, percent, number: plainNumber };
 
 // The figures, those of pixels that are wrong before the rest, and then what it costs.
@@ -91,10 +97,8 @@ function columns(result: SweepResult): [before: Column[], after: Column[]] {
   return [
     figures.slice(0, kinds),
     [...figures.slice(kinds), column("time", (c) => c.raster_ms, milliseconds),
-      { name: "shadows alone", value: ({ shadows_ms }) => shadows_ms[1] ?? null, text: ({ shadows_ms, shadows_told: told }) => {
-        const [low, median, high] = shadows_ms as [number, number, number];
-        return timeDifference({ low, median, high, told });
-      } },
+      ...result.situations.map(({ key, words }): Column => ({ name: `shadows, ${words}`, value: ({ shadows_ms: times }) => times?.[key]?.map?.[1] ?? null,
+        text: ({ shadows_ms: times }) => `${rangeText(times![key]!.map)} by map, ${rangeText(times![key]!.rays)} by rays` })),
       column("texels drawn", (c) => c.map_texels, grouped), column("map memory", (c) => c.map_bytes, byteCount)],
   ];
 }
@@ -110,8 +114,8 @@ href="#cell-${cell.cell}">${cell.cell}</a>${cell.front && markup` <abbr title="w
     markup`<td class="n" data-sort="${cell.values[k]}">${cell.shown[k]}${cell.no_effect.includes(axis) && " (no effect)"}</td>`)}${before.map(number(cell))}<td>${cell.mostly}</td>${
     after.map(number(cell))}<td class="run"><code>${cell.command}</code></td></tr>\n`;
   return markup`<section id="cells" aria-labelledby="cells-title"><h2 id="cells-title">Cells</h2>
-<p class="hint">Each cell is one combination of settings. ★: worth having. Time is that of map and shading; shadows alone are the map
-and what looking it up adds to the same shading without shadows, with the interval that the runs leave it; errors of visibility are between 0 and 1.</p>
+<p class="hint">Each cell is one combination of settings. ★: worth having. Time is that of map and shading. Shadows are
+what they add to a frame, by what has moved since the last one: ${result.situations.map(({ words, made }) => `${words} (${made})`).join(", ")}. Errors of visibility are between 0 and 1.</p>
 <div class="scroll" role="region" tabindex="0" aria-label="Table of cells"><table class="cells"><thead><tr>${head("cell")}${axes.map((axis) => head(inWords(axis)))}${
   before.map(({ name }) => head(name))}${head("mostly", true)}${after.map(({ name }) => head(name))}${head("command", true)}</tr></thead><tbody>
 ${cells.map(row)}</tbody></table></div></section>
@@ -133,10 +137,10 @@ function settings({ scene, options, measure, film, axes = [], ...rest }: Configu
   ];
 }
 
-const provenance = ({ version, configuration }: SweepResult): Markup => markup`<section id="provenance" aria-labelledby="provenance-title"><h2
+const provenance = ({ version, configuration, load }: SweepResult): Markup => markup`<section id="provenance" aria-labelledby="provenance-title"><h2
 id="provenance-title">Where this comes from</h2>
 <dl class="provenance">
-${[["Program", `gnomon ${version}`], ...settings(configuration)].map(([name, value]) => markup`<div><dt>${name}</dt><dd>${value}</dd></div>\n`)}</dl>
+${[["Program", `gnomon ${version}`], ...settings(configuration), ...(load ? [["Load of the machine", load.map(plainNumber).join(" to ")] as [string, string]] : [])].map(([name, value]) => markup`<div><dt>${name}</dt><dd>${value}</dd></div>\n`)}</dl>
 <p class="save"><a class="button" href="sweep.csv">sweep.csv</a> <a class="button" href="sweep.jsonl">sweep.jsonl</a> <a class="button" href="sweep_times.jsonl">sweep_times.jsonl</a></p></section>
 `;
 
