@@ -158,10 +158,12 @@ std::string markdown(std::span<const TechniqueTable> tables, const std::string& 
 
 std::string text_table(const TechniqueTable& table) {
   std::string text = fmt::format(
-      "{}: {}x{} pixels, maps of {} texels; exact shadows take {:.1f} ms, where casters move {:.1f} ms with their tree\n"
+      "{}: {}x{} pixels, maps of {} texels; exact shadows take {:.1f} ms, where casters move {:.1f} ms with "
+      "their tree\n"
       "{:<13}{:>9}{:>8} {:<14}{:>9}{:>8}{:>9}{:>8}{:>8}\n",
       one_line(table.scene), table.size.width, table.size.height, table.map_size, table.rays_ms,
-      table.rays_ms + table.tree_ms, "technique", "wrong", "%", "mostly", "error", "map ms", "lookups", "a pixel", "MiB");
+      table.rays_ms + table.tree_ms, "technique", "wrong", "%", "mostly", "error", "map ms", "lookups",
+      "a pixel", "MiB");
   for (const TechniqueRow& row : table.rows) {
     text += row.refused.empty()
                 ? fmt::format("{:<13}{:>9}{:>8.3f} {:<14}{:>9.5f}{:>8.1f}{:>9}{:>8}{:>8}\n", row.technique,

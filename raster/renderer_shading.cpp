@@ -213,7 +213,7 @@ Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const V
       });
       if (!drawn) return drawn;
     }
-    const auto add_run = [&](Times& sum, Times TimedStrip::* pass_of) {
+    const auto add_run = [&](Times& sum, Times TimedStrip::*pass_of) {
       double ms = seen_ms;
       for (const TimedStrip& strip : timed) ms += (strip.*pass_of).runs.back();
       sum.runs.push_back(ms);
@@ -222,7 +222,8 @@ Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const V
     if (options.shadow_cost) add_run(record.unshadowed_pass, &TimedStrip::part);
     return {};
   };
-  if (auto ok = repeat("shading runs", options, record.shade_pass, options.shadow_cost ? subtracted_runs : 1, pass);
+  if (auto ok =
+          repeat("shading runs", options, record.shade_pass, options.shadow_cost ? subtracted_runs : 1, pass);
       !ok)
     return ok;
   if (options.shadow_cost) record.strips = std::move(timed);

@@ -95,7 +95,7 @@ struct RayTracedFrame {
   std::vector<LightTruth> lights;
   RayCounts rays;
   Times primary_rays;
-  Times structure;  ///< time_structure(), up to the shadow rays
+  Times structure;          ///< time_structure(), up to the shadow rays
   double picture_ms = 0.0;  ///< shading and secondary rays
   std::uint64_t non_finite =
       0;  ///< samples of the picture whose radiance was NaN or infinite; they are black

@@ -72,11 +72,12 @@ double compared(const L& light) {
 /// Of what shadows cost: milliseconds, not made where not timed.
 template <auto situation, auto side, auto part>
 constexpr FigurePlace cost() {
-  return {.get = [](const L& light) {
-            if (!light.shadow_costs) return not_made;
-            const TimeDifference& ms = (*light.shadow_costs).*situation.*side;
-            return ms.timed() ? ms.*part : not_made;
-          },
+  return {.get =
+              [](const L& light) {
+                if (!light.shadow_costs) return not_made;
+                const TimeDifference& ms = (*light.shadow_costs).*situation.*side;
+                return ms.timed() ? ms.*part : not_made;
+              },
           .optional = true};
 }
 
@@ -299,7 +300,8 @@ constexpr Figure rows[] = {
     {"times_ms.shadows.nothing_moves_map_high", "ms", cost<&C::nothing_moves, &Sides::map, &T::high>(), less},
     {"times_ms.shadows.nothing_moves_rays", "ms", cost<&C::nothing_moves, &Sides::rays, &T::median>(), less},
     {"times_ms.shadows.nothing_moves_rays_low", "ms", cost<&C::nothing_moves, &Sides::rays, &T::low>(), less},
-    {"times_ms.shadows.nothing_moves_rays_high", "ms", cost<&C::nothing_moves, &Sides::rays, &T::high>(), less},
+    {"times_ms.shadows.nothing_moves_rays_high", "ms", cost<&C::nothing_moves, &Sides::rays, &T::high>(),
+     less},
     {"times_ms.shadows.light_moves_map", "ms", cost<&C::light_moves, &Sides::map, &T::median>(), less},
     {"times_ms.shadows.light_moves_map_low", "ms", cost<&C::light_moves, &Sides::map, &T::low>(), less},
     {"times_ms.shadows.light_moves_map_high", "ms", cost<&C::light_moves, &Sides::map, &T::high>(), less},

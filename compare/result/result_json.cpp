@@ -225,10 +225,7 @@ Json scene_json(const World& world) {
 }
 
 Json machine_json(const MachineInfo& machine) {
-  return {{"cpu", machine.cpu},
-          {"cores", machine.cores},
-          {"os", machine.os},
-          {"load", load_json(machine)}};
+  return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"os", machine.os}, {"load", load_json(machine)}};
 }
 
 Json context_json(const raster::ContextInfo& context) {

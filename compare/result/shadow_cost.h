@@ -32,7 +32,7 @@ struct ShadowSituation {
   std::string_view key;    ///< of figures and JSON: "casters_move"
   std::string_view words;  ///< "casters move"
   std::string_view made;   ///< "map drawn and looked up; tree built, rays"
-  ShadowCosts::Sides ShadowCosts::* sides;
+  ShadowCosts::Sides ShadowCosts::*sides;
 };
 std::span<const ShadowSituation> shadow_situations();
 /// "8.1 ms (5 to 12 ms) by the map, 23 ms by rays"

@@ -69,8 +69,9 @@ void add_times(SummaryPage& page, const Comparison& c, const LightComparison& li
   add_shadow_costs(page, "shadows", c, light);
   if (c.judged) return;
   if (!drawn.unshadowed_pass.runs.empty())
-    page.field("picture", fmt::format("without shadows: {} to shade it, {} for primary rays",
-                                    median_text(drawn.unshadowed_pass), median_text(c.raytraced.primary_rays)));
+    page.field("picture",
+               fmt::format("without shadows: {} to shade it, {} for primary rays",
+                           median_text(drawn.unshadowed_pass), median_text(c.raytraced.primary_rays)));
   page.field("work", work_line(c, light));
 }
 

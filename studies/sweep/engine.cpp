@@ -334,7 +334,8 @@ Expected<double> Engine::time_drawing(const Setting& setting) {
   return sum / static_cast<double>(impls_.size());
 }
 
-Expected<const std::vector<raster::LightRecord>*> Engine::time_again(const Setting& setting, std::size_t view) {
+Expected<const std::vector<raster::LightRecord>*> Engine::time_again(const Setting& setting,
+                                                                     std::size_t view) {
   const std::size_t seen = std::min(view, impls_.size() - 1);
   Impl& impl = *impls_[seen];
   if (auto timed = impl.time_again(posed(setting, seen)); !timed) return fail(timed.error());

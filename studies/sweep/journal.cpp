@@ -302,7 +302,8 @@ Expected<Journal> Journal::open(const std::string& folder, const SweepHeader& he
   if (journal.size_ > 0) journal.drawer_ = drawer_of_line(parsed(found->lines.front()));
   journal.torn_ = found->torn;
   journal.times_size_ = found->times.size();
-  for (std::size_t i = 0; i < journal.size_; ++i) journal.views_.push_back(view_of_times(parsed(found->times[i])));
+  for (std::size_t i = 0; i < journal.size_; ++i)
+    journal.views_.push_back(view_of_times(parsed(found->times[i])));
   if (auto cut = (*lines)->cut(size_of_lines(found->lines)); !cut) return fail(cut.error());
   if (auto cut = (*times)->cut(size_of_lines(found->times)); !cut) return fail(cut.error());
   journal.line_file_ = std::move(*lines);
@@ -344,7 +345,8 @@ Expected<void> Journal::finish_rounds() {
   if (!lines) return fail(lines.error());
   if (!times) return fail(times.error());
   table_ = {};
-  if (auto filled = fill_table(line_file_->path, table_, cells_, whole_lines(*lines), whole_lines(*times)); !filled)
+  if (auto filled = fill_table(line_file_->path, table_, cells_, whole_lines(*lines), whole_lines(*times));
+      !filled)
     return filled;
   return write_table();
 }

@@ -27,8 +27,9 @@ std::vector<TimedStrip> read_strips(const Json& light) {
 
 TimeDifference read_lookups(const Json& light) {
   const std::vector<TimedStrip> strips = read_strips(light);
-  return strips.empty() ? beyond_part(read_times(light.at("shade_pass")), read_times(light.at("unshadowed_pass")))
-                        : beyond_part(strips);
+  return strips.empty()
+             ? beyond_part(read_times(light.at("shade_pass")), read_times(light.at("unshadowed_pass")))
+             : beyond_part(strips);
 }
 
 void append_runs(const Json& from, Json& to) {
@@ -40,6 +41,7 @@ void add_runs(const Json& round, Json& light) {
     append_runs(round.at(pass), light.at(pass).at("runs"));
     light.at(pass) = times_json(read_times(light.at(pass)));
   }
+  if (!light.contains("shading_strips")) return;
   Json& strips = light.at("shading_strips");
   for (std::size_t i = 0; i < strips.size(); ++i)
     for (const char* pass : {"shade_pass", "unshadowed_pass"})
@@ -70,7 +72,8 @@ std::string joined(const std::vector<const std::string*>& rounds) {
 
 }  // namespace
 
-Json round_json(const std::vector<raster::LightRecord>& lights, std::size_t cell, const MachineInfo& machine) {
+Json round_json(const std::vector<raster::LightRecord>& lights, std::size_t cell,
+                const MachineInfo& machine) {
   Json list = Json::array();
   for (const raster::LightRecord& light : lights)
     list.push_back({{"map_pass", light.map_pass.runs},
@@ -87,7 +90,8 @@ Expected<std::vector<std::string>> joined_rounds(const std::vector<std::string>&
       for (std::size_t k = i; k < times.size(); k += cells) rounds.push_back(&times[k]);
       out.push_back(rounds.size() == 1 ? times[i] : joined(rounds));
     } catch (const Json::exception& error) {
-      return fail(ErrorKind::bad_input, fmt::format("not the times of a sweep's cell {}: {}", i, error.what()));
+      return fail(ErrorKind::bad_input,
+                  fmt::format("not the times of a sweep's cell {}: {}", i, error.what()));
     }
   return out;
 }

@@ -59,7 +59,7 @@ void add_times(const Json& times, CellSummary& sum) {
   std::optional<ShadowParts> parts;
   for (const Json& light : times.at("lights")) {
     const ShadowParts own = read_shadow_parts(light, times);
-    parts ? *parts += own : parts.emplace(own);
+    parts ? * parts += own : parts.emplace(own);
     sum.rays_ms += number(light.at("exact_shadows").at("median"));
     sum.exact_shadow_ms += number(light.at("exact_shadows").at("median"));
     for (const char* pass : {"map_pass", "shade_pass"}) {

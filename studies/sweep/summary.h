@@ -31,7 +31,7 @@ struct CellSummary {
   double raster_ms = 0.0;
   /// Median times of camera and shadow rays, all lights: what the truth costs.
   double rays_ms = 0.0;
-  Times raster;  ///< its runs: the i-th of every map and shading pass together
+  Times raster;                      ///< its runs: the i-th of every map and shading pass together
   std::optional<ShadowCosts> costs;  ///< of all lights together
   double load = std::numeric_limits<double>::quiet_NaN();  ///< of the machine, the most of its runs
   double exact_shadow_ms = 0.0;

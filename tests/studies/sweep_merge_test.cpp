@@ -111,8 +111,10 @@ TEST_F(MergeTest, RoundsOfTimesComeInTheOrderOfTheCells) {
     std::ofstream file(shard(part) + "/sweep_times.jsonl", std::ios::binary | std::ios::app);
     for (std::size_t round = 0; round < rounds; ++round)
       for (const std::size_t cell : {first, first + 2})
-        file << sealed("{\"cell\":" + std::to_string(cell) +
-                       R"(,"load":null,"lights":[{"map_pass":[3],"shade_pass":[4],"unshadowed_pass":[1],"shading_strips":[]}]})" + "\n");
+        file << sealed(
+            "{\"cell\":" + std::to_string(cell) +
+            R"(,"load":null,"lights":[{"map_pass":[3],"shade_pass":[4],"unshadowed_pass":[1],"shading_strips":[]}]})" +
+            "\n");
   };
   add_rounds(1, 2);
   const auto unfinished = merge();

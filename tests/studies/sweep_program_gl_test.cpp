@@ -421,9 +421,11 @@ TEST_F(SweepProgram, ShadowsAreTimedApartFromThePicture) {
     const auto ms = [&](const std::string& key) { return std::stod(row.at("times_ms_shadows_" + key)); };
     EXPECT_LE(ms("nothing_moves_map_low"), ms("nothing_moves_map"));
     EXPECT_LE(ms("nothing_moves_map"), ms("nothing_moves_map_high"));
-    EXPECT_NEAR(ms("light_moves_map"), ms("nothing_moves_map") + std::stod(row.at("times_ms_map_pass_median")), 1e-6);
+    EXPECT_NEAR(ms("light_moves_map"),
+                ms("nothing_moves_map") + std::stod(row.at("times_ms_map_pass_median")), 1e-6);
     EXPECT_EQ(ms("light_moves_rays"), ms("nothing_moves_rays"));
-    EXPECT_NEAR(ms("casters_move_rays"), ms("light_moves_rays") + std::stod(row.at("times_ms_accel_build_median")), 1e-6);
+    EXPECT_NEAR(ms("casters_move_rays"),
+                ms("light_moves_rays") + std::stod(row.at("times_ms_accel_build_median")), 1e-6);
     EXPECT_NE(page.find("," + row.at("times_ms_shadows_light_moves_map") + ","), std::string::npos);
   }
   const nlohmann::json points = nlohmann::json::parse(bytes_of(root / "whole/ray_tracer.json"))["points"];

@@ -169,10 +169,8 @@ Readings readings_of(const Snapshot& shown, const ViewState& state) {
   const ComparisonOutcome* outcome = shown.outcome.get();
   if (outcome == nullptr) return out;
   const compare::LightComparison& light = outcome->comparison.lights.front();
-  out.compared = Readings::Compared{outcome->revision == state.revision,
-                                    outcome->preview,
-                                    light.error.wrong_fraction,
-                                    light.error.mean_absolute};
+  out.compared = Readings::Compared{outcome->revision == state.revision, outcome->preview,
+                                    light.error.wrong_fraction, light.error.mean_absolute};
   return out;
 }
 
@@ -214,8 +212,8 @@ ShadowTimeWords shadow_time_words(const Snapshot& shown, const ViewState& state)
     words.of_device = times->by_device, words.by = clock_words(*times, shown.renderer);
   }
   for (const compare::ShadowSituation& one : compare::shadow_situations())
-    words.rows.push_back({std::string(one.words),
-                          costs ? compare::sides_text(*costs.*one.sides, hybrid) : "not timed yet"});
+    words.rows.push_back(
+        {std::string(one.words), costs ? compare::sides_text(*costs.*one.sides, hybrid) : "not timed yet"});
   return words;
 }
 

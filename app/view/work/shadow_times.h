@@ -18,7 +18,8 @@ struct ShadowTimes {
   std::uint64_t revision = 0;  ///< of the state that was drawn
   bool by_device = false;  ///< by the GPU's own clock; else by the processor's, with the wait for the driver
   int drawings = 0;
-  double step_ms = 0.0;  ///< the clock's: every time of a run's drawings together is a multiple of it; 0: of the processor
+  double step_ms =
+      0.0;  ///< the clock's: every time of a run's drawings together is a multiple of it; 0: of the processor
   Times map;
   std::vector<TimedStrip> strips;  ///< the picture shaded, and shaded without shadows
 
