@@ -118,10 +118,11 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
   if (auto biases = bias_axis(plan.grid); !biases.empty()) engine.expect_biases(std::move(biases));
   if (auto made = make_cells(run, journal); !made) return made;
   const compare::EngineWork& work = engine.work();
-  console.message(fmt::format(
-      "{} cell{} drawn{}; ray traced {}", work.renders, work.renders == 1 ? "" : "s",
-      work.derived > 0 ? fmt::format(", {} more derived from these drawings", work.derived) : std::string(),
-      work.truths == 1 ? std::string("once") : fmt::format("{} times", work.truths)));
+  if (work.renders > 0)
+    console.message(fmt::format(
+        "{} cell{} drawn{}; ray traced {}", work.renders, work.renders == 1 ? "" : "s",
+        work.derived > 0 ? fmt::format(", {} more derived from these drawings", work.derived) : std::string(),
+        work.truths == 1 ? std::string("once") : fmt::format("{} times", work.truths)));
   return time_rounds(run, journal);
 }
 

@@ -48,7 +48,7 @@ const oneTime = (name: string): Markup => keyed(`times_ms.${name}.median`, milli
 
 function shadowTable(): Markup {
   const rows = result.lights.map(shadowRows), by = result.lights.some(({ map }) => map.hybrid) ? "hybrid" : "map";
-  return markup`${rows.some((row) => row !== null) && markup`<table class="times"><caption>The shadows of a frame, without what the picture costs</caption><thead><tr><th scope="col">since the last frame</th><th
+  return markup`${rows.some((row) => row !== null) && markup`<table class="times sides"><caption>The shadows of a frame, without what the picture costs</caption><thead><tr><th scope="col">since the last frame</th><th
 scope="col" class="n">by the ${by}</th><th scope="col"
 class="n">by rays</th></tr></thead><tbody>
 ${rows}</tbody></table>
