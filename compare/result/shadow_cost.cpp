@@ -31,7 +31,7 @@ ShadowParts shadow_parts(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
   return {.map = with_spread(drawn.map_pass),
           .lookups = shadow_lookups(drawn),
-          .rays = with_spread(standing_rays(true_record(c, light))),
+          .rays = with_spread(true_record(c, light).exact_times()),
           .tree = with_spread(c.raytraced.structure),
           .hybrid = c.raster.options.map.technique == raster::Technique::hybrid};
 }

@@ -17,18 +17,17 @@ namespace gnomon::compare {
 namespace {
 
 Json range_json(const TimeDifference& ms) {
-  return ms.timed() ? Json{number(ms.low), number(ms.median), number(ms.high)} : Json(nullptr);
+  if (!ms.timed()) return Json::array();
+  return {number(ms.low), number(ms.median), number(ms.high)};
 }
 
-/// By situation: what the map's side takes, and the rays'.
-Json costs_json(const std::optional<ShadowCosts>& costs) {
-  if (!costs) return nullptr;
-  Json json = Json::object();
+/// By situation, what the map's side takes, and the rays'; flat, for the page without scripts is a table of them.
+void add_costs(const std::optional<ShadowCosts>& costs, Json& cell) {
   for (const ShadowSituation& one : shadow_situations()) {
-    const ShadowCosts::Sides& sides = *costs.*one.sides;
-    json[std::string(one.key)] = {{"map", range_json(sides.map)}, {"rays", range_json(sides.rays)}};
+    const ShadowCosts::Sides sides = costs ? *costs.*one.sides : ShadowCosts::Sides();
+    cell[fmt::format("{}_map_ms", one.key)] = range_json(sides.map);
+    cell[fmt::format("{}_rays_ms", one.key)] = range_json(sides.rays);
   }
-  return json;
 }
 
 /// The least and the most load of the machine; null where it is not known.
@@ -86,10 +85,10 @@ Json cell_json(const SweepPageInput& in, const CellSummary& cell, bool on_front)
             {"raster_ms", number(cell.raster_ms)},
             {"rays_ms", number(cell.rays_ms)},
             {"exact_shadow_ms", number(cell.exact_shadow_ms)},
-            {"shadows_ms", costs_json(cell.costs)},
             {"derived", cell.derived},
             {"pictures", is_pictured && !pictures->second.data.empty()},
             {"drawn", is_pictured && !pictures->second.drawing.empty()}};
+  add_costs(cell.costs, json);
   json.update(named_figures(cell.figures, in_tables));
   return json;
 }

@@ -72,7 +72,8 @@ class SweepProgram : public ::testing::Test {
       std::size_t column = 0;
       for (std::string field; std::getline(fields, field, ','); ++column) {
         if (column >= kept.size())
-          kept.push_back(!field.starts_with("times_ms_") && field != "cell_ms" && field != "derived");
+          kept.push_back(!field.starts_with("times_ms_") && field != "cell_ms" && field != "derived" &&
+                         field != "load");
         if (kept[column]) out += field + ',';
       }
       out += '\n';

@@ -24,13 +24,16 @@ export interface SweepCell {
   raster_ms: number | null;  // null: not timed
   rays_ms: number | null;
   exact_shadow_ms: number | null;
-  shadows_ms: Record<string, { map: TimeRange | null; rays: TimeRange | null }> | null;  // by situation; null: not timed
   derived: boolean;    // made from the gaps of another cell's drawing
   pictures: boolean;
   drawn: boolean;      // has a drawing of its own
 }
 
-export type TimeRange = [low: number, median: number, high: number];
+/** Milliseconds; empty: not timed. */
+export type TimeRange = [low: number, median: number, high: number] | [];
+
+/** What one side's shadows of a cell take in a situation. */
+export const shadowRange = (cell: SweepCell, situation: string, side: "map" | "rays"): TimeRange => (cell as unknown as Record<string, TimeRange>)[`${situation}_${side}_ms`]!;
 
 export interface RayPoint {
   name: string;

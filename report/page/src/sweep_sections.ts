@@ -4,7 +4,7 @@ import type { Section } from "./frame";
 import { byteCount, grouped, milliseconds, percent, plainNumber, timeDifference } from "./number_text";
 import { isBeside } from "./parts";
 import { paretoChart, sizeChart } from "./sweep_charts";
-import { inWords, isFilmed, type Configuration, type RayPoint, type SweepCell, type SweepResult, type TimeRange } from "./sweep_document";
+import { inWords, isFilmed, shadowRange, type Configuration, type RayPoint, type SweepCell, type SweepResult, type TimeRange } from "./sweep_document";
 import { flowing, markup, scrollRegion, type Markup } from "./template";
 import { viewerBlock } from "./viewer_block";
 
@@ -82,11 +82,8 @@ interface Column {
 }
 const column = (name: string, value: Column["value"], text: (value: number) => string): Column => ({ name, value, text: (_, v) => text(v) });
 
-const rangeText = (range: TimeRange | null): string => {
-  if (!range) return "not timed";
-  const [low, median, high] = range;
-  return timeDifference({ low, median, high, told: low > 0 });
-};
+const rangeText = ([low, median, high]: TimeRange): string =>
+  (low === undefined ? "not timed" : timeDifference({ low, median: median!, high: high!, told: low > 0 }));
 
 const forms = { count: grouped, percent, number: plainNumber };
 
@@ -97,8 +94,8 @@ function columns(result: SweepResult): [before: Column[], after: Column[]] {
   return [
     figures.slice(0, kinds),
     [...figures.slice(kinds), column("time", (c) => c.raster_ms, milliseconds),
-      ...result.situations.map(({ key, words }): Column => ({ name: `shadows, ${words}`, value: ({ shadows_ms: times }) => times?.[key]?.map?.[1] ?? null,
-        text: ({ shadows_ms: times }) => `${rangeText(times![key]!.map)} by map, ${rangeText(times![key]!.rays)} by rays` })),
+      ...result.situations.map(({ key, words }): Column => ({ name: `shadows, ${words}`, value: (cell) => shadowRange(cell, key, "map")[1] ?? null,
+        text: (cell) => `${rangeText(shadowRange(cell, key, "map"))} by map, ${rangeText(shadowRange(cell, key, "rays"))} by rays` })),
       column("texels drawn", (c) => c.map_texels, grouped), column("map memory", (c) => c.map_bytes, byteCount)],
   ];
 }
