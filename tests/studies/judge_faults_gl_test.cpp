@@ -9,6 +9,7 @@
 #include <random>
 
 #include "compare/ladder/labels.h"
+#include "compare/ladder/moments.h"
 #include "compare/truth/columns.h"
 #include "scene/files/pictures/image_io.h"
 #include "studies/judge/stored_format.h"
@@ -445,6 +446,22 @@ TEST(JudgeFaults, AreNoneOfASoundMapNorOfItsMoments) {
     for (std::size_t k = static_cast<std::size_t>(Label::caster_bias); k <= compare::class_count; ++k)
       EXPECT_EQ(judged.result->lights[0].classes[k - 1], 0U) << label_name(static_cast<Label>(k));
   }
+}
+
+// A texel of one depth, or of two of which the receiver has one: the quadratic of their distribution has no solution.
+TEST(JudgeMoments, OfOneOrTwoDepthsHaveAShareBefore) {
+  const auto of = [](double share, double first, double second) {
+    std::array<double, 4> out{};
+    for (std::size_t k = 0; k < out.size(); ++k)
+      out[k] = share * std::pow(first, double(k + 1)) + (1.0 - share) * std::pow(second, double(k + 1));
+    return out;
+  };
+  EXPECT_EQ(compare::least_share_before(of(1.0, 0.5, 0.0), 0.75), 1.0);
+  EXPECT_EQ(compare::least_share_before(of(1.0, 0.5, 0.0), 0.25), 0.0);
+  EXPECT_EQ(compare::least_share_before(of(1.0, 0.5, 0.0), 0.5), 0.0);
+  EXPECT_NEAR(compare::least_share_before(of(0.25, 0.0, 1.0), 1.0), 0.25, 1e-12);
+  EXPECT_NEAR(compare::least_share_before(of(0.25, 0.0, 1.0), 0.5), 0.25, 1e-12);
+  EXPECT_EQ(compare::least_share_before(of(0.25, 0.0, 1.0), 0.0), 0.0);
 }
 
 std::vector<float> numbers_of(const std::function<double(double)>& stored) {
