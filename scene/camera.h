@@ -1,6 +1,6 @@
 // Pixel centres and camera matrices: one policy for both renderers.
 // Pixel (x, y) counts from the top left; its centre is (x + 1/2, y + 1/2). View space looks down -z, y up.
-// At depth z, along `forward` from the eye, a picture reaches half_x + z tan_half_x to either side: a pinhole camera has
+// At depth z, along `forward` from the eye, a picture reaches half_x + z tan_half_x to either side. A pinhole camera has
 // only the second part, an orthographic one only the first.
 #pragma once
 

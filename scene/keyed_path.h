@@ -1,5 +1,5 @@
-// Where a camera and lights stand over time, by keys: from a file of the project's own (schema gnomon/path/1), from the
-// "paths" of a scene, or from the animations of a glTF file.
+// Where a camera and lights stand over time, by keys. These come from a file of the project's own (schema
+// gnomon/path/1), from the "paths" of a scene, or from the animations of a glTF file.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>

@@ -1,8 +1,8 @@
-// The scene as both renderers draw it: triangles in world space, in double precision, with one numbering of
-// primitives: triangles 0 … T-1 (instance by instance), then shapes T … T+S-1. Objects are numbered the same
-// way: instances first, then shapes. Meshes are never copied. Where a mesh stands once, or is small, its
-// corners are moved into the world once (it is *flattened*); an instance that is *kept* has its corners computed
-// when they are asked for. Both ways give the same bits, so whoever asks for corners need not know which it is.
+// The scene as both renderers draw it: triangles in world space, in double precision. Primitives have one
+// numbering: triangles 0 … T-1 (instance by instance), then shapes T … T+S-1. Objects are numbered the same way:
+// instances first, then shapes. Meshes are never copied. Where a mesh stands once, or is small, its corners are
+// moved into the world once (it is *flattened*); an instance that is *kept* has its corners computed when they
+// are asked for. Both ways give the same bits, so whoever asks for corners need not know which it is.
 #pragma once
 
 #include <array>
@@ -28,8 +28,8 @@ struct WorldPart {
   Mat4 world_from_object{1.0};
   Mat3 normal_from_object{1.0};
   std::uint32_t first_vertex = 0, first_triangle = 0, material = 0;
-  /// Tells that the second and the third corner of every triangle change places, as they do in a mirrored instance with
-  /// single-sided materials, so that their front is again the side from which they run counter-clockwise.
+  /// Tells that the second and the third corner of every triangle change places. They do so in a mirrored instance with
+  /// single-sided materials. Their front is then again the side from which they run counter-clockwise.
   bool turned = false;
   Aabb bounds;  ///< of the triangles' corners, in the world
 
@@ -170,9 +170,9 @@ World make_world(const Scene& scene, const Mesh& mesh);
 std::vector<Vec3> positions_of(const World& world);
 std::vector<std::array<std::uint32_t, 3>> triangles_of(const World& world);
 
-/// Geometric normal of a primitive at a point on it, unit length: of a shape outwards, of a triangle by the
-/// right-hand rule (zero for a degenerate triangle), which says nothing about what is outside where a part is
-/// mirrored.
+/// Geometric normal of a primitive at a point on it, unit length. Of a shape it points outwards, of a
+/// triangle it follows the right-hand rule (zero for a degenerate triangle). That says nothing about what is
+/// outside where a part is mirrored.
 Vec3 geometric_normal(const World& world, std::uint32_t primitive, const Vec3& position);
 Vec3 geometric_normal(const std::array<Vec3, 3>& corners);
 /// Returns the normal that points out, but of a triangle to its front (scene/scene.h, shows_back), mirrored or not.

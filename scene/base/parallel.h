@@ -189,8 +189,8 @@ std::size_t first_where(std::size_t count, const Is& is) {
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
 }
 
-// A parallel loop inside another one is skipped, in part or whole, once the outer one is given up because an error
-// ended one of its threads: what the loop was to make is then not there. Who needs it asks here first.
+// An error that ends one thread of a parallel loop makes the loop give up. A parallel loop inside it is then
+// skipped, in part or whole. What that was to make is not there. Who needs it asks here first.
 
 /// Never seen outside: the outer loop already has the error that ends it.
 struct GivenUp : std::exception {

@@ -37,7 +37,7 @@ class MemoryFile {
 
   bool is_open() const { return number_ >= 0; }
   int number() const { return number_; }
-  /// Whoever has inherited the descriptor opens the file anew by this path.
+  /// Whoever has inherited the descriptor opens the file again by this path.
   std::string path() const { return fmt::format("/proc/self/fd/{}", number_); }
 
   bool write(std::string_view bytes) const {

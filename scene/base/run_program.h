@@ -20,9 +20,9 @@ struct ProgramStart {
 /// Runs a program of the PATH with these words, of which the first is its name, and waits for its end. What it says goes to
 /// the descriptor `output`, where messages go unless another is named: this program's stdout is for data. Signals reach it
 /// though this program's threads block some.
-/// It has no stdin, and is with all that it starts a process group of its own, which is ended when it takes longer than
-/// `longest_s` seconds, or when the work that waits for it is interrupted (interruptible.h). Returns its exit code, or 128 and the signal that ended it. ErrorKind::graphics: it cannot be
-/// started, it was ended.
+/// It has no stdin, and is with all that it starts a process group of its own. That is ended when it takes longer than
+/// `longest_s` seconds, or when the work that waits for it is interrupted (interruptible.h). Returns its exit code, or 128 and
+/// the signal that ended it. ErrorKind::graphics: it cannot be started, it was ended.
 Expected<int> run_program(std::vector<std::string> words, std::optional<double> longest_s = std::nullopt,
                           int output = 2, const ProgramStart& start = {});
 

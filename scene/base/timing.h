@@ -78,12 +78,12 @@ inline constexpr int usual_runs = 3;
 inline constexpr double usual_enough_ms = 25.0;
 inline constexpr double never_enough_ms = std::numeric_limits<double>::infinity();
 
-/// How often a pass that is subtracted from another one, or another one from it, is run whatever its runs took: a
-/// difference is known no better than its runs agree, and of fewer than three nobody can tell how well that is.
+/// How often a pass that is subtracted from another one, or another one from it, is run whatever its runs took. A
+/// difference is known no better than its runs agree. Of fewer than three nobody can tell how well that is.
 inline constexpr int subtracted_runs = 3;
 
-/// Whether there is to be another run after those in `made`: `most` in all, and beyond the first `least` of them only
-/// as long as all took less than `enough_ms` together.
+/// Whether there is to be another run after those in `made`. There are `most` in all. Beyond the first `least` there
+/// is another only as long as all took less than `enough_ms` together.
 inline bool times_again(const Times& made, int most, double enough_ms, int least = 1) {
   const double spent = std::accumulate(made.runs.begin(), made.runs.end(), 0.0);
   const int count = static_cast<int>(made.runs.size());

@@ -9,8 +9,8 @@ namespace gnomon {
 /// World-space bounds of all triangles and spheres; empty when the scene has only planes.
 Aabb scene_bounds(const Scene& scene);
 
-/// A camera that looks at the middle of the bounds from the front right and above, so near that everything is
-/// just in a picture of `aspect`, width by height, and in every wider one.
+/// A camera that looks at the middle of the bounds from the front right and above. It is so near that
+/// everything is just in a picture of `aspect`, width by height, and in every wider one.
 Camera default_camera(const Scene& scene, const Aabb& bounds, double aspect);
 
 /// From above, on the camera's left, and a little from its side.

@@ -1,5 +1,5 @@
-// Folders that are held open. A name in one is looked up from it and never through a link, so that nobody who plants a
-// link, or puts another folder in its place meanwhile, leads a write, a rename or a removal elsewhere.
+// Folders that are held open. A name in one is looked up from it and never through a link. Somebody may plant a link,
+// or put another folder in its place meanwhile. That leads no write, rename or removal elsewhere.
 #pragma once
 
 #include <sys/stat.h>
@@ -65,9 +65,9 @@ Expected<bool> make_folder_in(const Folder& folder, const std::string& name);
 /// What does not belong to `owner`, and what lies on another file system, stays, with the folders around it.
 Expected<void> remove_tree(const Folder& folder, const std::string& name, uid_t owner);
 
-/// Makes a file in the folder, without a name where the file system knows such, and returns what is known of it: whose the
-/// new files are there, and that files can be made. Nothing is left behind. It is an error when the umask takes from the
-/// user the right to read and write them.
+/// Makes a file in the folder, without a name where the file system knows such, and returns what is known of it. That
+/// tells whose the new files are there, and that files can be made. Nothing is left behind. It is an error when the umask
+/// takes from the user the right to read and write them.
 Expected<struct stat> try_new_file(const Folder& folder);
 /// The error that says so of a folder or file with such permissions.
 Expected<void> check_umask_leaves(mode_t needed, mode_t got, const std::string& path);

@@ -85,7 +85,7 @@ Material model_material(std::string name, bool has_colors = false);
 std::string_view foreign_hint(std::string_view extension);
 
 /// Reads the file by way of glTF. The program `assimp` (Debian: assimp-utils) gets two minutes of processor time, 4 GB of
-/// memory and no file but this one (scene/base/run_apart.h): what shows further files in its place is an error. What it cannot
+/// memory and no file but this one (scene/base/run_apart.h). What shows further files in its place is an error. What it cannot
 /// read is an error with its own words, that it is not there one of ErrorKind::bad_input. A note says what glTF by assimp
 /// lacks. `folder` is where its textures lie, which are read as those of a glTF file.
 Expected<LoadedFile> read_foreign(std::string_view bytes, const std::string& file, const std::string& folder,

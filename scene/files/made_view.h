@@ -10,8 +10,8 @@ namespace gnomon {
 
 inline constexpr ImageSize sketch_size{96, 54};
 
-/// A camera that looks at the middle of a box from `back`, the way from there to the eye, so near that the box is just in a
-/// picture of `aspect`, width by height, and in every wider one.
+/// A camera that looks at the middle of a box from `back`, the way from there to the eye. It is so near that the box is
+/// just in a picture of `aspect`, width by height, and in every wider one.
 Camera framed(const Aabb& box, const Vec3& back, double aspect = 4.0 / 3.0);
 
 /// Returns how much of the parts for which `counts(part)` holds the camera sees, as a share of what it would see of them with
@@ -35,8 +35,8 @@ struct Interior {
   std::vector<char> contents;  ///< by part: it stands in the room
 };
 
-/// None unless faces that lie flat near each of the six sides of `bounds`, or of all but one other than the floor, cover most
-/// of it, and these face inwards, or something shines inside, or something stands inside that cannot be seen from outside.
+/// None unless faces cover most of `bounds`. They must lie flat near each of its six sides, or of all but one other than the
+/// floor. And they must face inwards, or something must shine inside, or stand inside that cannot be seen from outside.
 std::optional<Interior> find_interior(const Scene& scene, const SceneParts& parts, const Aabb& bounds);
 
 struct MadeView {

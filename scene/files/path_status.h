@@ -1,6 +1,6 @@
-// What lies at a path, and what lies in a folder. "Nothing is there" and "nobody could look" are two answers here: the
-// second (no permission, a disk that does not answer, links in a circle) is an Error and is never taken for the first, as
-// it is by std::filesystem's questions when their std::error_code is dropped. tests/project/project_arrows_test.cpp keeps those
+// What lies at a path, and what lies in a folder. "Nothing is there" and "nobody could look" are two answers here. The second
+// (no permission, a disk that does not answer, links in a circle) is an Error and is never taken for the first.
+// std::filesystem's questions do that when their std::error_code is dropped. tests/project/project_arrows_test.cpp keeps those
 // questions in this file.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Finished files that move from a staged folder into one that has files already. What they replace is kept aside in the
-// staged folder until all is in its place, and memory alone knows what has moved: when a step fails, every step before it is
+// staged folder until all is in its place. Memory alone knows what has moved. When a step fails, every step before it is
 // undone. Nothing is written down for another process to believe. A process that is killed in between leaves a folder
 // without the file that shows a whole one, which is taken away first and put there last.
 #pragma once

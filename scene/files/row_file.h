@@ -1,5 +1,5 @@
-// Rows of numbers on the disk, for pictures that are made in bands and read again from their first row on: a file
-// without a name, which is gone with the object or the process.
+// Rows of numbers on the disk, for pictures that are made in bands and read again from their first row on. They
+// lie in a file without a name, which is gone with the object or the process.
 #pragma once
 
 #include <cstdint>

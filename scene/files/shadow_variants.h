@@ -1,4 +1,4 @@
-// Objects that cast no shadow, or receive none: what a file says of an instance or a shape becomes a material of its own, so that
+// Objects that cast no shadow, or receive none. What a file says of an instance or a shape becomes a material of its own. So
 // whoever knows a primitive's material knows it.
 #pragma once
 

@@ -1,14 +1,14 @@
 // A folder of outputs that appears whole: its files are written beside it and then renamed. A new folder appears by one
 // rename. Into one that exists its files move one by one, after all of them have reached the disk
-// (scene/files/publication.h): the last of them (the page) is taken away first and put back last, so that a folder which
-// has it is never a mixture. When a step fails, the older files come back. Processes that come at the same time take turns.
-// What else lies in the folder stays. Nobody waits until the disk has the new names too: after a cut of power the folder is
-// the old one or the new one.
+// (scene/files/publication.h). The last of them (the page) is taken away first and put back last. So a folder which has it
+// is never a mixture. When a step fails, the older files come back. Processes that come at the same time take turns. What
+// else lies in the folder stays. Nobody waits until the disk has the new names too: after a cut of power the folder is the
+// old one or the new one.
 //
 // A process that is killed between two renames leaves a folder without its page. No list on the disk says what it had moved,
-// for whoever can write a folder could write such a list as well: the next run writes all again. (To exchange the whole
-// folder by one rename, RENAME_EXCHANGE, would give it another inode and other permissions, would leave a shell that stands
-// in it in a deleted one, and would have to carry over what else lies there.)
+// for whoever can write a folder could write such a list as well. The next run writes all again. (The whole folder could be
+// exchanged by one rename, RENAME_EXCHANGE. That would give it another inode and other permissions, and leave a shell that
+// stands in it in a deleted one. What else lies there would have to be carried over.)
 #pragma once
 
 #include <sys/types.h>

@@ -20,14 +20,14 @@ namespace gnomon {
 /// signal.
 Expected<void> write_file(const std::string& path, std::string_view bytes);
 
-/// Writes likewise to the file `name` ("cells/1.png") in a folder, where the program itself chose that name: no link in the
+/// Writes likewise to the file `name` ("cells/1.png") in a folder, where the program itself chose that name. No link in the
 /// folder is followed, and one that has the file's name is replaced.
 Expected<void> write_file_in(const std::string& folder, const std::string& name, std::string_view bytes);
 /// Makes a folder in an output folder unless it is there, and checks that files can be written in it. A link of that name
 /// is an error. ErrorKind::cannot_write.
 Expected<void> make_output_subfolder(const std::string& folder, const std::string& name);
 
-/// Writes over the end of a file that write_file() wrote, in its place and without waiting for the disk: after
+/// Writes over the end of a file that write_file() wrote, in its place and without waiting for the disk. After
 /// a cut of power parts of the old end may stand there. ErrorKind::cannot_write.
 Expected<void> write_over_end(const std::string& path, std::string_view end);
 

@@ -1,7 +1,7 @@
 // The teapot that Martin Newell published in 1975 ("The Utilization of Procedure Models in Digital Image
-// Synthesis", PhD thesis, University of Utah): 32 bicubic Bezier patches, here in the symmetric form that his
-// table of 306 points repeats: rings of revolution, and the handle's and the spout's sections. Newell's units
-// and axes: z is up, the spout points to +x, the foot is at z = 0, the knob ends at 3.15.
+// Synthesis", PhD thesis, University of Utah): 32 bicubic Bezier patches. They are in the symmetric form that
+// his table of 306 points repeats: rings of revolution, and the handle's and the spout's sections. Newell's
+// units and axes: z is up, the spout points to +x, the foot is at z = 0, the knob ends at 3.15.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// Maps of a directional light that spend their texels where the camera needs them: cascades, one face for
+// Maps of a directional light that spend their texels where the camera needs them. Cascades have one face for
 // each slice of the view (Zhang, Sun, Xu, Lun 2006, "Parallel-Split Shadow Maps for Large-scale Virtual
-// Environments"), and a warp towards the eye (Wimmer, Scherzer, Purgathofer 2004, "Light Space Perspective
+// Environments"). A warp goes towards the eye (Wimmer, Scherzer, Purgathofer 2004, "Light Space Perspective
 // Shadow Maps").
 #pragma once
 
@@ -37,9 +37,9 @@ Expected<LightView> fit_cascades(const World& world, const Light& light, const C
 
 /// One face, warped by n_opt (section 4 of the paper). With the light along the view direction, and of an orthographic camera,
 /// whose texels are as large on the screen near as far, no warp.
-/// `snap`: all that the map depends on goes by steps, each of them outwards: a 64th of a turn, a quarter octave of
-/// warp and width, a 16th of the sides. Between two steps the map stands still in the world to the last bit, which is
-/// all that a warp allows: its texels differ in size, so that no way moves each of them onto another.
+/// `snap`: all that the map depends on goes by steps, each of them outwards. The steps are a 64th of a turn, a quarter octave
+/// of warp and width, a 16th of the sides. Between two steps the map stands still in the world to the last bit. A warp allows
+/// no more: its texels differ in size, so that no way moves each of them onto another.
 Expected<LightView> fit_warped(const World& world, const Light& light, const Camera& camera, double aspect,
                                int size, bool snap = false);
 

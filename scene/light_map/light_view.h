@@ -7,9 +7,10 @@
 // from `origin`; "distance" is measured along the light ray (equal to depth for an orthographic map).
 //
 // A face covers its own rectangle and range of depths (cascades), and an orthographic one may be *warped*
-// along up (Wimmer et al. 2004): with y measured from the face's centre, b its half extent along up and s its
-// warp, the map shows (x, y + s b^2) / (1 + s y), which keeps y = -b, b where they are and gives more texels
-// to the end where y is low. Light rays stay parallel; a texel's column is then a prism over a trapezium.
+// along up (Wimmer et al. 2004). Let y be measured from the face's centre, b be its half extent along up and
+// s its warp. The map then shows (x, y + s b^2) / (1 + s y). This keeps y = -b, b where they are and gives
+// more texels to the end where y is low. Light rays stay parallel; a texel's column is then a prism over a
+// trapezium.
 #pragma once
 
 #include <array>

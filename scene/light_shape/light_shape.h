@@ -1,10 +1,10 @@
 // What a light's shadow is cast from. A light's strength and direction at a surface are its centre's; its shape says which
 // share of it the surface sees. Disc and rectangle shine from both sides, as a point does.
 //
-// Each shape's file beside this one says all that is known of it: how its points are drawn, what body holds it, what box, and
-// what it is to a shader. A new shape is a struct here with its place in LightExtent, its file, its keys in
-// scene/files/scene.schema.json, and lines of shaders/technique/pcss.glsl where a shader looks up its points in a way of
-// their own. What is read, written, checked and turned follows from its measures.
+// Each shape's file beside this one says all that is known of it. It tells how its points are drawn, what body and what box
+// hold it, and what it is to a shader. A new shape is a struct here with its place in LightExtent, its file, and its keys
+// in scene/files/scene.schema.json. Where a shader looks up its points in a way of their own, there are lines of
+// shaders/technique/pcss.glsl, too. What is read, written, checked and turned follows from its measures.
 #pragma once
 
 #include <string_view>

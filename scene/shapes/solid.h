@@ -86,8 +86,8 @@ Vec3 solid_normal(const ShapeGeometry& solid, const Vec3& position);
 bool solid_contains(const ShapeGeometry& solid, const Vec3& position);
 
 /// Texture coordinates at a world point on the surface. Around the local z axis: u is the angle's share of a
-/// turn; v runs from the top (z = high) to the bottom by height, on an ellipsoid by the angle from the top,
-/// on a torus by the angle around the tube. Of an implicit surface: (x, y) across its box.
+/// turn; v runs from the top (z = high) to the bottom by height. On an ellipsoid v runs by the angle from the
+/// top, on a torus by the angle around the tube. Of an implicit surface: (x, y) across its box.
 Vec2 solid_uv(const ShapeGeometry& solid, const Vec3& position);
 
 /// The bounding box's reach from its centre along a world direction.

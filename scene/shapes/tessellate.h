@@ -16,15 +16,15 @@ inline constexpr int min_tessellation = 3, max_tessellation = 256;
 Scene tessellate_shapes(Scene scene, int n);
 
 /// Every infinite plane becomes a square mesh of the same name and material, around what is finite and the
-/// camera: its half side is the diagonal of the box around these. A note says where it ends.
+/// camera. Its half side is the diagonal of the box around these. A note says where it ends.
 Scene cut_planes(Scene scene);
 
 /// One shape; requires that it is no plane.
 Mesh tessellated(const Shape& shape, int n);
 
-// Triangles of an implicit surface: surface nets (Gibson 1998, "Constrained elastic surface nets", MICCAI),
-// in their plain dual form: one corner per grid cell that the surface passes through, one quad per grid edge
-// that it crosses.
+// Triangles of an implicit surface by surface nets (Gibson 1998, "Constrained elastic surface nets", MICCAI),
+// in their plain dual form. There is one corner per grid cell that the surface passes through, one quad per
+// grid edge that it crosses.
 
 /// Adds them, in world coordinates, with the function's gradients as normals. The box has n cells along each
 /// axis. A closed body is taken as max(f, distance to the box's faces) on a grid one cell wider, so that its

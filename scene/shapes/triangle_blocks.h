@@ -1,4 +1,4 @@
-// A loop over a world's triangles for who looks for the least or the largest of something: most blocks are left out, for
+// A loop over a world's triangles for who looks for the least or the largest of something. Most blocks are left out, for
 // their boxes show that they hold nothing better than what was found so far.
 #pragma once
 

@@ -1,5 +1,5 @@
-// A glTF or GLB file (glTF 2.0), read strictly: the container, the types of what we use, and every index, offset and
-// count are checked where they are read, so that a mistake has a place and nothing reads past a buffer.
+// A glTF or GLB file (glTF 2.0), read strictly. The container, the types of what we use, and every index, offset and
+// count are checked where they are read. So a mistake has a place and nothing reads past a buffer.
 //
 // The model holds what shapes and places meshes. What one reader alone asks for (buffers, images, materials, textures,
 // animations) stays in the JSON tree: gltf_data.h, gltf_materials.h, gltf_paths.cpp.

@@ -1,5 +1,5 @@
-// Transforms of a glTF file: of nodes, of the joints of skins in the pose that the nodes are stored in (glTF 2.0, section
-// 3.7.3), and of one node's many instances (EXT_mesh_gpu_instancing).
+// Transforms of a glTF file: of nodes, of the joints of skins, and of one node's many instances
+// (EXT_mesh_gpu_instancing). Joints are taken in the pose that the nodes are stored in (glTF 2.0, section 3.7.3).
 #pragma once
 
 #include <vector>

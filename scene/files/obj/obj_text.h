@@ -58,7 +58,7 @@ struct MaterialLibraries {
 std::string join_continued_lines(std::string_view bytes);
 
 /// Errors: a byte of 0, a coordinate that is not a finite number, an index that is 0 or out of range, a face
-/// of too many corners, and those of the libraries.
+/// of too many corners. Those of the libraries are errors, too.
 Expected<ObjText> parse_obj(std::string_view bytes, const std::string& file,
                             const MaterialLibraries& libraries);
 

@@ -1,4 +1,4 @@
-// Animated PNG (the PNG specification's third edition, 2025, chapters 4.9 and 11.3.6), 8 bits, true colour: every
+// Animated PNG (the PNG specification's third edition, 2025, chapters 4.9 and 11.3.6), 8 bits, true colour. Every
 // browser plays it, and programs that do not know of it show its first frame.
 #pragma once
 

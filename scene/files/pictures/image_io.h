@@ -1,6 +1,6 @@
-// Image files: PNG is written by libpng (png_encode.cpp), PNG and JPEG are read by the libraries made for them
-// (png_decode.cpp, jpeg_decode.cpp), EXR of the usual kinds is read and written here (exr_decode.h, exr_encode.h), everything else is
-// read by OpenImageIO (image_library.h). Writes are whole or not at all (write_file.h).
+// Image files. PNG is written by libpng (png_encode.cpp). PNG and JPEG are read by the libraries made for them (png_decode.cpp,
+// jpeg_decode.cpp). EXR of the usual kinds is read and written here (exr_decode.h, exr_encode.h). Everything else is read by
+// OpenImageIO (image_library.h). Writes are whole or not at all (write_file.h).
 #pragma once
 
 #include <span>

@@ -1,6 +1,7 @@
 // What of OpenImageIO the program uses, behind an interface: the library brings some two hundred others
 // along, whose loading takes longer than most pictures do. So it sits in a module of its own
-// (image_module.cpp) that is loaded when an image file is read that is none of PNG, JPEG and the usual kinds of EXR, and not before.
+// (image_module.cpp). That is loaded when an image file is read that is none of PNG, JPEG and the usual kinds of EXR, and not
+// before.
 #pragma once
 
 #include <cstdint>

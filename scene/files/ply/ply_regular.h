@@ -42,9 +42,9 @@ void size_vertices(Mesh& mesh, const VertexLayout& layout, std::size_t count);
 std::size_t read_regular_vertices(std::string_view data, const PlyElement& element, PlyEncoding encoding,
                                   const VertexLayout& layout, Mesh& mesh);
 
-/// Reads all faces of a mesh that has its vertices; the bytes that they take, or 0 and no triangles when one
-/// is not a triangle of these vertices, or rows are anything but a byte that says 3 and three indices of 32
-/// bits in the machine's order of bytes.
+/// Reads all faces of a mesh that has its vertices, and returns the bytes that they take. Each row must be a
+/// byte that says 3 and three indices of 32 bits in the machine's order of bytes. When rows are anything
+/// else, or one is not a triangle of these vertices, returns 0 and no triangles.
 std::size_t read_regular_faces(std::string_view data, const PlyElement& element, PlyEncoding encoding,
                                Mesh& mesh);
 
