@@ -12,11 +12,11 @@
 
 namespace gnomon::raster {
 
-/// From the next frame on render() makes these rows of the picture of RasterOptions::size, to the last bit as in
-/// the whole (of hybrid the pictures, not who decided each pixel); row 0 of a frame's images is rows->first.
-/// Nothing: whole pictures. Bands of one picture come from top to bottom, with the same options, lights and scene;
-/// what the first of them has drawn is kept for the others, and maps are timed by it alone. The renderer is one
-/// that Renderer::create made.
+/// From the next frame on render() makes these rows of the picture of RasterOptions::size. They are to the last
+/// bit as in the whole (of hybrid the pictures, not who decided each pixel). Row 0 of a frame's images is
+/// rows->first. Nothing: whole pictures. Bands of one picture come from top to bottom, with the same options,
+/// lights and scene; what the first of them has drawn is kept for the others, and maps are timed by it alone. The
+/// renderer is one that Renderer::create made.
 void set_rows(Renderer& renderer, const std::optional<PictureRows>& rows);
 
 /// Whether technique and options keep lists of pixels in blocks of limited size; then no band may have more pixels

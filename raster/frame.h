@@ -46,9 +46,9 @@ struct ShadowMap {
   }
 };
 
-/// World width of a texel of the map, as a bias in texels is measured: on a perspective map at the depth of
-/// the finite scene's centre, or halfway through the map (geometric mean) when the scene has no such centre
-/// before the light.
+/// World width of a texel of the map, as a bias in texels is measured. On a perspective map it is taken at
+/// the depth of the finite scene's centre. When the scene has no such centre before the light, it is taken
+/// halfway through the map (geometric mean).
 double texel_world(const LightView& view, const World& world);
 
 /// What a bias that follows the receiver's plane leaves to rounding, so that a plane does not shadow itself.
@@ -96,8 +96,8 @@ struct CapturedMoments {
   std::vector<Texel> texels{};  ///< as ShadowMap::depth, whose numbers are these texels' means
 };
 
-/// One half of a dual paraboloid map (Brabec, Annen and Seidel 2002, section 3): what lies from the light in the unit direction
-/// d, in the half's own axes, is looked up at d.xy / (1 + d.z), which runs from -1 to 1 where d.z >= 0.
+/// One half of a dual paraboloid map (Brabec, Annen and Seidel 2002, section 3). Let something lie from the light in the unit
+/// direction d, in the half's own axes. It is looked up at d.xy / (1 + d.z), which runs from -1 to 1 where d.z >= 0.
 struct CapturedParaboloid {
   Mat3 half_from_world{1.0};       ///< of directions: a turn, or one that mirrors
   int width = 0, height = 0;       ///< texels

@@ -40,27 +40,29 @@ enum class BiasUnit : std::uint8_t {
   automatic  ///< multiples of automatic_bias_world() (frame.h)
 };
 
-/// A hard test shadows a receiver iff its gap (distance to the light minus the stored distance, along the
-/// receiver's own light ray, in world units) exceeds constant + slope * (depth slope over the texel).
+/// A receiver's gap is its distance to the light minus the stored distance, along its own light ray, in world
+/// units. A hard test shadows it iff the gap exceeds constant + slope * (depth slope over the texel).
 struct Bias {
   double constant = 1.0;  ///< in `unit`; finite
   BiasUnit unit = BiasUnit::automatic;
-  /// Finite; in multiples of h_u |dz/du| + h_v |dz/dv| with h half a texel and z the depth of the receiver's
-  /// plane, taken as half the difference of that plane's depths across the texel: 1 leaves no acne on a
-  /// plane. Infinite where the plane is edge-on to a ray of the texel: such a receiver is lit.
+  /// Finite; in multiples of h_u |dz/du| + h_v |dz/dv|, with h half a texel and z the depth of the receiver's
+  /// plane. That is taken as half the difference of that plane's depths across the texel. 1 leaves no acne on
+  /// a plane. Infinite where the plane is edge-on to a ray of the texel: such a receiver is lit.
   double slope = 0.0;
   /// >= 0; the receiver is moved along its normal by this times the texel's world width times sin(angle
   /// between normal and light) (Holbein 2010).
   double normal_offset_texels = 0.0;
   bool receiver_plane = false;  ///< compare with the receiver's plane at the texel's centre (Isidoro 2006)
-  /// Dou et al. 2014, "Adaptive Depth Bias for Shadow Maps": less what the receiver's plane rises towards the
-  /// light between the receiver and the texel's centre, and less adaptive_epsilon of the scene's size.
+  /// Dou et al. 2014, "Adaptive Depth Bias for Shadow Maps". The gap is less by what the receiver's plane
+  /// rises towards the light between the receiver and the texel's centre. It is also less by adaptive_epsilon
+  /// of the scene's size.
   bool adaptive = false;
   /// Finite; along the light ray, in `caster_unit`: how much farther from the light the map's casters are stored.
   double caster_constant = 0.0;
   BiasUnit caster_unit = BiasUnit::world;  ///< world or texel
-  /// Finite; the casters are stored farther by this times the larger of |ds/du| and |ds/dv|, s the stored depth of their
-  /// plane and u, v in texels: the factor of glPolygonOffset, of Vulkan's and Direct3D's slope-scaled depth bias.
+  /// Finite; the casters are stored farther by this times the larger of |ds/du| and |ds/dv|. Here s is the stored depth
+  /// of their plane, and u, v are in texels. This is the factor of glPolygonOffset, of Vulkan's and Direct3D's
+  /// slope-scaled depth bias.
   double caster_slope = 0.0;
   /// The map's depths are not those of its casters.
   bool moves_casters() const { return caster_constant != 0.0 || caster_slope != 0.0; }
@@ -108,7 +110,7 @@ struct FilterOptions {
 inline constexpr double adaptive_epsilon = 1e-4;
 
 /// Is the bias of BiasUnit::automatic, in texels. Over a texel of width w a surface whose normal turns with a radius r
-/// leaves its tangent plane by (w/2)^2 / r at most, both axes together: a sixteenth of w where r is 4 w.
+/// leaves its tangent plane by (w/2)^2 / r at most, both axes together. Where r is 4 w, that is a sixteenth of w.
 inline constexpr double automatic_bias_texels = 1.0 / 16.0;
 
 struct MapOptions {
@@ -155,24 +157,24 @@ struct RasterOptions {
   MapOptions map;
   /// Timed repetitions of each pass, at most, after a warm-up, which draws the same with few triangles and into a corner
   /// of its images; 0: render once, untimed. What the camera sees is the same for all
-  /// lights, maps and techniques: it is timed `runs` times for a view, and at least usual_runs times; from then on its
+  /// lights, maps and techniques. It is timed `runs` times for a view, and at least usual_runs times. From then on its
   /// median is part of each time of shading. A frame with records takes the map of the last frame with records where it has
-  /// the same bits: bias, size and camera may differ, but not the point that depths are rounded from. A frame that hands its
-  /// map on takes only one that was handed on. With the map it takes the map pass's times. A picture alone that is not
-  /// timed takes the map as well.
+  /// the same bits. Bias, size and camera may differ, but not the point that depths are rounded from. A frame that hands its
+  /// map on takes only one that was handed on. With the map it takes the map pass's times. A picture alone that is not timed
+  /// takes the map as well.
   int runs = usual_runs;
-  /// A picture alone that is not timed: what its first light takes to shade is kept, and is the one run of the next frame with records
-  /// of the same light, camera, size and options. For who lets nothing else work meanwhile.
+  /// Of a picture alone that is not timed: what its first light takes to shade is kept. It is the one run of the next frame with
+  /// records of the same light, camera, size and options. For who lets nothing else work meanwhile.
   bool keep_time = false;
-  /// A picture alone that is not timed: its first light's map, shading and shading without shadows are drawn so often besides, and
-  /// what each takes on the device is what Renderer::take_spans() gives later. Not of Technique::hybrid.
+  /// Of a picture alone that is not timed: its first light's map, shading and shading without shadows are drawn so often besides.
+  /// Renderer::take_spans() later gives what each takes on the device. Not of Technique::hybrid.
   int span_drawings = 0;
   double enough_ms = never_enough_ms;  ///< no further run of a pass once those made took so long together
   /// Time the shading without shadows, too (LightRecord::unshadowed_pass), in turn; of each subtracted_runs at least.
   bool shadow_cost = false;
   /// analysis: the very program that draws the records is timed (in software in processor time, that of its threads
-  /// included; a run is the mean of so many drawings as take 100 ms), and every drawing has to give the same visibility,
-  /// so that nothing in a user's shader can tell a timed drawing from one that is judged. Takes longer than shading alone.
+  /// included; a run is the mean of so many drawings as take 100 ms). Every drawing has to give the same visibility, so
+  /// that nothing in a user's shader can tell a timed drawing from one that is judged. Takes longer than shading alone.
   bool timed_as_judged = false;
   bool analysis = true;  ///< also hand on the per-pixel records and the map (compare needs them)
   /// analysis: hand on the map's depths too (izb and hybrid always do).

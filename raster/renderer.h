@@ -44,8 +44,8 @@ class Renderer {
 };
 
 // Maps fitted to another camera than the one whose picture is drawn. The picture's pixels then show receivers that
-// stay where they are in the world, while each drawing has the map that the moving camera would get: V6 at fixed
-// receivers, by the very programs that draw the picture, and so without any reprojection (docs/shimmer.md).
+// stay where they are in the world, while each drawing has the map that the moving camera would get. This is V6 at
+// fixed receivers, by the very programs that draw the picture, and so without any reprojection (docs/shimmer.md).
 
 /// The camera that maps are fitted to. `shift` and `margin` are for a map that follows the camera by translation
 /// alone: the window fitted to `camera` is wider by `margin` on each side and then moved.

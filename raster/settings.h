@@ -1,7 +1,9 @@
-// Every choice about the shadow map, one row each: what it is called on the command line and in result.json, its unit, range
-// and default, which techniques read it, and what it does. The command line with its help, checks and completion, the
-// manual, the axes of sweeps, the panel of the lab, the commands that give a setting back, and result.json are made from
-// these rows. A new choice is a field in options.h and a row in settings.cpp.
+// Every choice about the shadow map, one row each. A row has its names on the command line and in result.json, unit, range
+// and default, which techniques read it, and what it does. From these rows are made:
+// - the command line with its help, checks and completion, and the manual
+// - the axes of sweeps and the panel of the lab
+// - the commands that give a setting back, and result.json
+// A new choice is a field in options.h and a row in settings.cpp.
 #pragma once
 
 #include <span>

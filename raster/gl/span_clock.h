@@ -9,9 +9,9 @@
 
 namespace gnomon::raster {
 
-/// Times one span of drawing after another: by the device's own clock where OpenGL has one (GL_TIME_ELAPSED; in a browser
-/// EXT_disjoint_timer_query_webgl2, whose answers come after the caller's turn), else by the processor's, from an idle device to an
-/// idle device, with what the driver and the way to it take.
+/// Times one span of drawing after another. Where OpenGL has a clock of the device's own, it is taken (GL_TIME_ELAPSED; in a
+/// browser EXT_disjoint_timer_query_webgl2, whose answers come after the caller's turn). Else the processor's clock is taken,
+/// from an idle device to an idle device. It counts what the driver and the way to it take, too.
 class SpanClock {
  public:
   /// Needs the context to be current, as all of it does.

@@ -1,6 +1,6 @@
-// The irregular z-buffer (shaders/izb/izb.glsl): lists of the pixels in each texel of a grid over the light's
-// view, then every triangle, sphere and solid against the pixels of the texels that it touches. Private to
-// raster.
+// The irregular z-buffer (shaders/izb/izb.glsl): it lists the pixels in each texel of a grid over the light's
+// view. Then it tests every triangle, sphere and solid against the pixels of the texels that it touches.
+// Private to raster.
 #pragma once
 
 #include <map>

@@ -22,8 +22,8 @@ bool fits_to_samples(const MapOptions& options);
 Expected<LightView> fit_map(const World& world, const Light& light, const Camera& camera, double aspect,
                             const MapOptions& options, std::span<const Vec3> visible);
 
-/// Widens the window of an orthographic map that is not warped by `margin` on each side, and moves that of any
-/// orthographic map across the light by `shift`, both in world units.
+/// Widens the window of an orthographic map that is not warped by `margin` on each side. Moves that of any
+/// orthographic map across the light by `shift`. Both are in world units.
 void move_window(const Vec3& shift, double margin, LightView& view);
 
 /// MapOptions::snap of an orthographic map of one face without a warp; of any other nothing.

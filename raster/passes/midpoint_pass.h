@@ -1,7 +1,7 @@
-// The midpoint map (Woo 1992, "The Shadow Depth Map Revisited", Graphics Gems III): each texel stores the
-// depth halfway between the first surface that its ray meets and the next one behind it, found by drawing the
-// map again without the first layer (depth peeling, Everitt 2001). Where nothing lies behind the first
-// surface, the map's far depth stands for it. Private to raster.
+// The midpoint map (Woo 1992, "The Shadow Depth Map Revisited", Graphics Gems III). Each texel stores the
+// depth halfway between the first surface that its ray meets and the next one behind it. That one is found by
+// drawing the map again without the first layer (depth peeling, Everitt 2001). Where nothing lies behind the
+// first surface, the map's far depth stands for it. Private to raster.
 #pragma once
 
 #include <map>

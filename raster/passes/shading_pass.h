@@ -1,6 +1,6 @@
-// The camera's passes: the visibility buffer (which primitive each pixel shows), then one full-screen pass
-// per light that works out the receiver, tests its shadow and adds its light (Burns and Hunt 2013). Private
-// to raster.
+// The camera's passes. First comes the visibility buffer (which primitive each pixel shows). Then one
+// full-screen pass per light works out the receiver, tests its shadow and adds its light (Burns and Hunt
+// 2013). Private to raster.
 #pragma once
 
 #include <memory>

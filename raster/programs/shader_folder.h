@@ -70,9 +70,10 @@ Expected<void> check_visibility(const Image<float>& visibility, const ShaderFold
 
 // Whether files of a shader folder decide the visibility that is drawn. Private to raster.
 
-/// The files of the folder that stand in for the technique's own, for what it is given (shade.frag, the test of depths
-/// in gap.glsl, the lookup in light.glsl and light_map.glsl, what fills the maps of moments) or for the irregular
-/// z-buffer's; none where all of these are the program's.
+/// The files of the folder that take the place of the program's: of the technique's own files, of the irregular
+/// z-buffer's, or of those that give the technique its input. The last are shade.frag, gap.glsl (the test of
+/// depths), light.glsl and light_map.glsl (the lookup), and what fills the maps of moments. None where all of these
+/// files are the program's.
 std::optional<CustomShader> custom_shader(const ShaderFolder& folder, const MapOptions& map,
                                           const Light& light);
 

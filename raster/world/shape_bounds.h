@@ -30,9 +30,9 @@ Projection face_projection(const LightView& view, int face);
 /// None when no part of the shape can be seen. A plane's rectangle ends at its horizon.
 std::optional<ClipRectangle> shape_bounds(const Projection& projection, const Shape& shape);
 
-/// The shape as seen from the projection's origin along its axes, worked out in double precision: a sphere's
-/// centre and radius, or a plane's unit normal n and the offset d of n . p = d. Of a
-/// solid nothing: see below.
+/// The shape as seen from the projection's origin along its axes, worked out in double precision. Of a sphere
+/// it is centre and radius, of a plane the unit normal n and the offset d of n . p = d. Of a solid nothing:
+/// see below.
 Vec4 shape_in_frame(const Vec3& origin, const LightFace& frame, const Shape& shape);
 
 /// Takes a place in that frame to the solid's own; requires a solid.

@@ -11,7 +11,7 @@
 
 namespace gnomon::raster {
 
-// Which boxes a clip matrix shows nothing of, so that what is in them need not be drawn (Assarsson and Möller 2000,
+// Which boxes a clip matrix shows nothing of. What is in them need not be drawn (Assarsson and Möller 2000,
 // "Optimized view frustum culling algorithms for bounding boxes", section 2). Private to raster.
 
 /// The sides of what a clip matrix shows: left, right, top, bottom, and what is behind a perspective's eye. The near and

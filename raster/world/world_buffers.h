@@ -1,6 +1,6 @@
 // The world on the device: vertices, triangles, shapes, materials. Positions are floats relative to a
-// *reference point* near the camera's eye, rounded from doubles, and every matrix is composed in double
-// precision, so that a scene far from the origin keeps its precision. The structs are the twins of
+// *reference point* near the camera's eye, rounded from doubles. Every matrix is composed in double
+// precision. So a scene far from the origin keeps its precision. The structs are the twins of
 // shaders/world.glsl, material.glsl and camera.glsl.
 #pragma once
 
@@ -58,8 +58,8 @@ static_assert(sizeof(MaterialData) == shaders::material_texel_count * sizeof(Vec
 /// The reference point for a camera: its eye, or the nearest point to it of the finite scene's box.
 Vec3 reference_point(const World& world, const Vec3& eye);
 
-/// The view that is drawn. An orthographic one's eye moves along its rays to where the world begins: what it sees is the same,
-/// and floats, which count depths from there, are as precise as the world is deep.
+/// The view that is drawn. An orthographic one's eye moves along its rays to where the world begins. What it sees is the same.
+/// Floats count depths from there, and so are as precise as the world is deep.
 View drawn_view(const World& world, const View& view);
 
 /// The near distance of a drawn view's reversed depth, of an orthographic one the far distance (scene/camera.h). A pinhole
@@ -123,7 +123,7 @@ class WorldBuffers {
   std::uint32_t most_ = all_triangles;
 };
 
-/// While it lives, few triangles are drawn, and into a corner of the images: what a device compiles or sets up at the
+/// While it lives, few triangles are drawn, and into a corner of the images. What a device compiles or sets up at the
 /// first use is there then, without the time of all. Programs, targets and state are those of the whole drawing.
 class SmallDrawing {
  public:
