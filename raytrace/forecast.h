@@ -28,8 +28,8 @@ struct SingleRayForecasts {
   int rows = 0;  ///< of the picture's pixels, that were traced; all of them where it is small
 };
 
-/// From some rows of the picture's own blocks: how many leaves a tile meets for each of its rays depends on how dense its
-/// pixels are, so that a coarse grid would not tell. `lights`: those whose centres are asked for.
+/// Forecasts from some rows of the picture's own blocks. How many leaves a tile meets for each of its rays depends on
+/// how dense its pixels are. So a coarse grid would not tell. `lights`: those whose centres are asked for.
 SingleRayForecasts forecast_single_rays(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
                                         std::span<const std::uint32_t> lights,
                                         const RaytraceOptions& options);

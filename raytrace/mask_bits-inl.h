@@ -27,9 +27,10 @@ HWY_INLINE unsigned mask_bits(D d, hn::Mask<D> mask) {
                   requires std::is_integral_v<decltype(mask.raw)>;
                 }) {  // AVX-512's registers of masks
     auto raw = mask.raw;
-    // GCC 12 may store such a register on the stack by an instruction that writes its 8 or 16 bits, and read 32 from there
-    // as the number that the mask was widened to: the upper bits are then whatever stood there before. A mask that passes
-    // through a general register is widened in it. tests/tools/mask_spills.py looks for such places in a program.
+    // GCC 12 may store such a register on the stack by an instruction that writes its 8 or 16 bits. It may then read 32
+    // from there as the number that the mask was widened to. The upper bits are then whatever stood there before. A mask
+    // that passes through a general register is widened in it. tests/tools/mask_spills.py looks for such places in a
+    // program.
     __asm__("" : "+r"(raw));
     return raw & ((1u << lanes) - 1);
   } else {

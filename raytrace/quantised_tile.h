@@ -8,8 +8,8 @@
 
 namespace gnomon::raytrace {
 
-/// A normal's components are whole numbers of a unit, which sixteen bits hold: to facing a light its direction matters, and
-/// what the rounding leaves open is asked of the receiver in double.
+/// A normal's components are whole numbers of a unit, which sixteen bits hold. Its direction matters for facing a light,
+/// and what the rounding leaves open is asked of the receiver in double.
 inline constexpr float normal_units = 32767.0f;
 /// What a component may be wrong by, in units: its rounding, and what the normal itself is wrong by in floats.
 inline constexpr double normal_error = 0.51;

@@ -1,7 +1,7 @@
 // What other rooms have of the tracer's tiles (packets/ is the tracer's own): what a picture's pixels show, in double and as
 // compact floats, and the hard shadows on it.
 //
-// The receivers may come from the rasterizer's visibility buffer: the rasterizer says which primitive a pixel shows, and the
+// The receivers may come from the rasterizer's visibility buffer. The rasterizer says which primitive a pixel shows. The
 // pixel's ray is intersected with that one alone, by the very kernels of the tracer. Where both renderers see the same
 // primitive, the point is the tracer's own, bit for bit. Where the ray just misses the primitive (the rasterizer's rounding
 // at an outline), the tracer's nearest hit stands in.

@@ -114,8 +114,8 @@ class Tracer {
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 
   /// The one ray-offset policy (raytrace/precision/ray_offset.h): a ray that leaves a surface point on the
-  /// side of `direction`, moved off the surface by the point's error bound so that it cannot meet the surface
-  /// it starts on.
+  /// side of `direction`. It is moved off the surface by the point's error bound, so that it cannot meet the
+  /// surface it starts on.
   Ray spawn_ray(const SurfacePoint& from, const Vec3& direction) const;
 
   /// From the point to the light's centre: unit direction, t is distance and ends strictly before the light
@@ -172,7 +172,7 @@ std::uint64_t single_ray_bytes(const Tracer& tracer);
 Times time_structure(const Tracer& tracer, int most);
 
 /// Do what Tracer::closest_hit() and occluded() with counts do, but through what single rays go through when it has been
-/// made: boxes of children and triangles of leaves tested in floats, and planes.
+/// made. That is boxes of children and triangles of leaves tested in floats, and planes.
 std::optional<Hit> counted_closest_hit(const Tracer& tracer, const Ray& ray, WorkCounts& work);
 bool counted_occluded(const Tracer& tracer, const Ray& ray, WorkCounts& work);
 

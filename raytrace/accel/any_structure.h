@@ -1,5 +1,5 @@
-// A structure is plain data with a build function, and a traverse() that has the contract of raytrace/bvh/traverse.h: it
-// reports every primitive that the ray may intersect before ray.t_max, near ones first as far as it can, some perhaps
+// A structure is plain data with a build function and a traverse(), which has the contract of raytrace/bvh/traverse.h.
+// It reports every primitive that the ray may intersect before ray.t_max, near ones first as far as it can, some perhaps
 // twice. Which structure it is, is decided once per ray and never inside.
 #pragma once
 

@@ -1,8 +1,8 @@
-// BSP tree with arbitrary planes (Fuchs, Kedem and Naylor 1980), for rays by the surface-area heuristic over
-// true polyhedral cells (Ize, Wald and Parker 2008, "Ray tracing with the BSP tree"). Planes tried: those of
-// the triangles, those through their edges at right angles to them, and axis-parallel ones. A primitive that
-// straddles a plane goes to both sides; one that lies in the plane goes below, and whoever comes as near to
-// the plane as rounding can tell looks on both sides.
+// BSP tree with arbitrary planes (Fuchs, Kedem and Naylor 1980). For rays it is built by the surface-area
+// heuristic over true polyhedral cells (Ize, Wald and Parker 2008, "Ray tracing with the BSP tree"). Planes
+// tried: those of the triangles, those through their edges at right angles to them, and axis-parallel ones. A
+// primitive that straddles a plane goes to both sides; one that lies in the plane goes below. Whoever comes
+// as near to the plane as rounding can tell looks on both sides.
 #pragma once
 
 #include "raytrace/accel/crossing.h"
@@ -37,8 +37,8 @@ struct BspTree {
 
 BspTree build_bsp(const CellItems& items);
 
-/// The ray as planes see it: the errors of its origin and its direction are put together to how far any of
-/// its points up to `reach` may be from where it seems to be, per axis.
+/// The ray as planes see it. The errors of its origin and its direction are put together. They make how far
+/// any of its points up to `reach` may be from where it seems to be, per axis.
 struct PlaneRay {
   std::array<double, 3> origin, direction, error;
   PlaneRay(const BoxRay& ray, double reach) {

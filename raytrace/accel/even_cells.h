@@ -1,7 +1,7 @@
-// What the space-dividing structures share when they are built: the primitives' boxes, whether a primitive
-// may reach into a box-shaped cell, and a budget that keeps the number of references bounded. A cell is
-// closed and so is a primitive; every test errs on the side of "may", so no structure loses a primitive in
-// a cell's wall. Separating axes: Akenine-Moeller 2001, "Fast 3D triangle-box overlap testing".
+// What the space-dividing structures share when they are built: the primitives' boxes, and whether a
+// primitive may reach into a box-shaped cell. A budget keeps the number of references bounded. A cell is
+// closed and so is a primitive; every test errs on the side of "may", so no structure loses a primitive in a
+// cell's wall. Separating axes: Akenine-Moeller 2001, "Fast 3D triangle-box overlap testing".
 #pragma once
 
 #include "raytrace/bvh/bvh.h"

@@ -1,8 +1,8 @@
 // Uniform grid, traversed by a 3D-DDA: Amanatides and Woo 1987, "A fast voxel traversal algorithm for ray
 // tracing". Here the DDA counts walls with integers and computes each wall's crossing afresh, so nothing
-// drifts, and it keeps the range of cells in which the ray may be: where the order of two crossings is in
-// ambiguity (a ray through an edge or a corner of cells), it passes through the cells on both sides. Where it
-// is not ambiguous, as nearly always, it steps from cell to cell.
+// drifts. It keeps the range of cells in which the ray may be. Where the order of two crossings is ambiguous
+// (a ray through an edge or a corner of cells), it passes through the cells on both sides. Where it is not
+// ambiguous, as nearly always, it steps from cell to cell.
 //
 // How many cells: about `density` per primitive, cube-shaped (Cleary and Wyvill 1988, "Analysis of an
 // algorithm for fast ray tracing using uniform space subdivision"). The textbook's rule is three cells per

@@ -1,7 +1,7 @@
 // The textbook's bounding-volume hierarchy: a binary tree, cut at the median object along the longest axis of
-// the box, leaves of about five (Shirley, Ashikhmin and Marschner, "Fundamentals of computer graphics",
-// section 12.3.2; Kay and Kajiya 1986). raytrace/bvh/bvh.h is the one to use; this one shows what the
-// surface-area heuristic and the wide nodes are worth.
+// the box, with leaves of about five. Sources: Shirley, Ashikhmin and Marschner, "Fundamentals of computer
+// graphics", section 12.3.2; Kay and Kajiya 1986. raytrace/bvh/bvh.h is the one to use; this one shows what
+// the surface-area heuristic and the wide nodes are worth.
 #pragma once
 
 #include "raytrace/accel/crossing.h"

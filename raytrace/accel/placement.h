@@ -1,12 +1,12 @@
 // A ray as the tree of a placed mesh sees it. The tree's boxes are in the mesh's own space, moved and scaled
-// by a power of two so that they lie in the cube [-1, 1]^3; the triangles that are tested are the world's. A
-// box may be passed over only when no point at which the world's arithmetic could find a hit lies in it, so
+// by a power of two so that they lie in the cube [-1, 1]^3. The triangles that are tested are the world's. A
+// box may be passed over only when no point at which the world's arithmetic could find a hit lies in it. So
 // the ray's origin enters as an interval that answers for every rounding between the two spaces.
 //
-// The bound. Let x = o + t d be where the world's test finds the hit, q' the point of the tree's space that
-// belongs to it, B = world_from_tree's linear part, N = tree_from_world, R = I - N B, c the world's place of
-// the tree's origin. World corners are B p' + c up to their rounding e, and c's own; the test itself is right
-// up to E (backward). So B q' = x - c + f with |f| <= 2 e + E, hence
+// The bound. Let x = o + t d be where the world's test finds the hit, and q' the point of the tree's space
+// that belongs to it. Let B = world_from_tree's linear part, N = tree_from_world, R = I - N B, and c the
+// world's place of the tree's origin. World corners are B p' + c up to their rounding e, and c's own; the
+// test itself is right up to E (backward). So B q' = x - c + f with |f| <= 2 e + E, hence
 //   q' = N (x - c) + N f + R q' = N (o + t0 d - c) + (t - t0) N d + N f + R q'
 // for any t0. The first two terms are computed; their rounding, N f and R q' make the interval. |q'| <= 1,
 // and t d never reaches further than the mesh: |t d| <= |o - c| + half + E. (After the running error analysis
@@ -63,8 +63,8 @@ inline PlacedRay::PlacedRay(const Placement& placement, const BoxRay& ray, doubl
     origin[a] = offset + advance;
     reach = std::max(reach, std::abs(offset) + std::abs(advance) + placement.half[a]);
   }
-  // In units of reach: 12 for the world's test, 3 for the difference and the advance, 3 each for N times the
-  // origin and, up to twice as far, the direction; the rest is to spare.
+  // In units of reach: 12 for the world's test and 3 for the difference and the advance. N times the origin
+  // and N times the direction, which reaches up to twice as far, take 3 each. The rest is to spare.
   constexpr double roundings = error_gamma(64);
   origin = placement.tree_from_world * origin;
   direction = placement.tree_from_world * direction;

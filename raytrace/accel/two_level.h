@@ -1,10 +1,10 @@
-// Two levels, for scenes that show the same mesh many times: one tree per distinct mesh, in the mesh's own
-// space and shared by all its instances, below one tree over the instances' boxes in the world (Rubin and
-// Whitted 1980, "A 3-dimensional representation for fast rendering of complex scenes"; Wald, Benthin and
-// Slusallek 2003, "Distributed interactive ray tracing of dynamic scenes"). The ray goes into the mesh's
-// space, with a bound on that step's rounding (raytrace/accel/placement.h), only to choose boxes; what it
-// intersects is decided among the world's triangles, as everywhere. They are read from the world, so that no
-// triangle is stored a second time.
+// Two levels, for scenes that show the same mesh many times. Each distinct mesh has one tree, in the mesh's
+// own space and shared by all its instances. Above these is one tree over the instances' boxes in the world.
+// Sources: Rubin and Whitted 1980, "A 3-dimensional representation for fast rendering of complex scenes";
+// Wald, Benthin and Slusallek 2003, "Distributed interactive ray tracing of dynamic scenes". The ray goes
+// into the mesh's space, with a bound on that step's rounding (raytrace/accel/placement.h), only to choose
+// boxes; what it intersects is decided among the world's triangles, as everywhere. They are read from the
+// world, so that no triangle is stored a second time.
 //
 // A mesh that stands alone, is small, or stands where it cannot be inverted (flattened) has a tree of its own
 // in the world's space. Shapes are single entries of the upper tree.

@@ -1,6 +1,6 @@
-// The bins of the hierarchy's builder (raytrace/bvh/bvh.cpp): boxes as rows of four floats, and where to
-// split them by the surface-area heuristic (Wald 2007, "On fast construction of SAH-based bounding volume
-// hierarchies"). All three axes are binned in one pass.
+// The bins of the hierarchy's builder (raytrace/bvh/bvh.cpp): boxes are rows of four floats. They are split
+// by the surface-area heuristic (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies").
+// All three axes are binned in one pass.
 #pragma once
 
 #include <algorithm>

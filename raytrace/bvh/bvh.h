@@ -1,8 +1,8 @@
-// Bounding-volume hierarchy over finite primitives: a binary tree by the surface-area heuristic (Wald 2007,
-// "On fast construction of SAH-based bounding volume hierarchies"), collapsed into nodes of four children
-// (Wald et al. 2008); its upper part splits runs of neighbours (raytrace/bvh/clusters.h). Boxes are floats
-// rounded outwards, primitives stay in double. The tree is the same for any number of threads; only the
-// numbers of its nodes may differ.
+// Bounding-volume hierarchy over finite primitives. It is a binary tree by the surface-area heuristic (Wald
+// 2007, "On fast construction of SAH-based bounding volume hierarchies"), collapsed into nodes of four
+// children (Wald et al. 2008). Its upper part splits runs of neighbours (raytrace/bvh/clusters.h). Boxes are
+// floats rounded outwards, primitives stay in double. The tree is the same for any number of threads; only
+// the numbers of its nodes may differ.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
-// Primitives sorted by the cells of a cubic grid over their centroids: the hierarchy's builder then splits
-// runs of neighbours instead of single primitives as long as ranges are large, and touches each primitive
-// only a few times (after Garanzha, Pantaleoni and McAllister 2011, "Simpler and faster HLBVH with work
-// queues", whose clusters are runs of equal Morton codes).
+// Primitives sorted by the cells of a cubic grid over their centroids. The hierarchy's builder then splits
+// runs of neighbours instead of single primitives as long as ranges are large. So it touches each primitive
+// only a few times. This is after Garanzha, Pantaleoni and McAllister 2011, "Simpler and faster HLBVH with
+// work queues", whose clusters are runs of equal Morton codes.
 #pragma once
 
 #include <span>

@@ -1,7 +1,7 @@
-// Kept instances in the hierarchy: one tree per mesh, in the mesh's own space, below a tree over the instances (Rubin
-// and Whitted 1980, "A 3-dimensional representation for fast rendering of complex scenes"). Rays, packets and shafts
-// stay in the world's space; the tree's boxes come to them, each as the box around it in the world. So whatever
-// traverses the hierarchy has one more kind of node to know, and no bound of its own to find.
+// Kept instances in the hierarchy. Each mesh has one tree, in the mesh's own space, below a tree over the instances
+// (Rubin and Whitted 1980, "A 3-dimensional representation for fast rendering of complex scenes"). Rays, packets and
+// shafts stay in the world's space; the tree's boxes come to them, each as the box around it in the world. So
+// whatever traverses the hierarchy has one more kind of node to know, and no bound of its own to find.
 #pragma once
 
 #include "raytrace/bvh/bvh.h"

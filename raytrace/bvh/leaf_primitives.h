@@ -1,6 +1,6 @@
 // The primitives of a hierarchy in leaf order. Triangles of neighbouring leaves share most of their corners, so these are
-// stored once for every few thousand leaves, and a triangle is three numbers of sixteen bits: of a closed mesh some 20
-// bytes for 72.
+// stored once for every few thousand leaves. A triangle is three numbers of sixteen bits. Of a closed mesh that is some
+// 20 bytes for 72.
 #pragma once
 
 #include <array>

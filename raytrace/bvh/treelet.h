@@ -1,6 +1,6 @@
 // The lower part of the hierarchy (raytrace/bvh/bvh.cpp): some hundreds of primitives that stay in the cache
-// while they are split, by bins as long as they are many and by sorting along each axis when they are few.
-// Compiled once per instruction set; the tree is the same for all.
+// while they are split. They are split by bins as long as they are many and by sorting along each axis when
+// they are few. Compiled once per instruction set; the tree is the same for all.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// What may lie between a point and a box: the leaves of the wide tree that a shaft of segments passes
-// (Haines and Wallace 1994, "Shaft culling for efficient ray-traced radiosity").
+// What may lie between a point and a box. These are the leaves of the wide tree that a shaft of segments
+// passes (Haines and Wallace 1994, "Shaft culling for efficient ray-traced radiosity").
 #pragma once
 
 #include <array>

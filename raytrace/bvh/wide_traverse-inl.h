@@ -175,9 +175,9 @@ HWY_INLINE bool place_ray(const WideInstance& instance, const Ray& given, const 
           prepare(*instance.mesh, numbers.numbers(), here, placed) > 0.0);
 }
 
-/// Goes through a tree with instances; `ray`: what prepare made of `given`, `frame_t`: what it returned. Verb: leaf(tree,
-/// leaf, ray, place) for every leaf of a mesh or of what is flattened, plainly(position in leaf order, ray) for every leaf
-/// primitive of an instance for which floats do not suffice; both return true to end.
+/// Goes through a tree with instances; `ray`: what prepare made of `given`, `frame_t`: what it returned. Calls leaf(tree,
+/// leaf, ray, place) for every leaf of a mesh or of what is flattened. Calls plainly(position in leaf order, ray) for
+/// every leaf primitive of an instance for which floats do not suffice. Both return true to end.
 template <class Verb, class Counts>
 HWY_NOINLINE WideTraversal traverse_instances(const WideTree& tree, const Ray& given,
                                               const TraversalLimits& limits, double frame_t, WideRay& ray,

@@ -1,7 +1,8 @@
 // The hierarchy as single rays traverse it: nodes of sixteen children and leaves of up to sixteen triangles
-// in float, collapsed from the default hierarchy (Wald et al. 2008, "Getting rid of packets") when enough
-// single rays have come to pay for it. The floats only say which triangles a ray surely misses; the doubles
-// decide. Sixteen, for a step down the tree waits for the step before: fewer are faster than narrow ones.
+// in float. It is collapsed from the default hierarchy (Wald et al. 2008, "Getting rid of packets") when
+// enough single rays have come to pay for it. The floats only say which triangles a ray surely misses; the
+// doubles decide. Sixteen, for a step down the tree waits for the step before: fewer are faster than narrow
+// ones.
 #pragma once
 
 #include <array>
@@ -141,8 +142,8 @@ class WideOnDemand {
 };
 
 // How the wide tree's nodes and leaves are written: boxes in bytes that hold what they stand for, corners in
-// sixteen bits (Ylitalo et al. 2017, "Efficient incoherent ray traversal on GPUs through compressed wide
-// BVHs", section 3.2; Benthin et al. 2018, "Compressed-leaf bounding volume hierarchies", section 3).
+// sixteen bits. Sources: Ylitalo et al. 2017, "Efficient incoherent ray traversal on GPUs through compressed
+// wide BVHs", section 3.2; Benthin et al. 2018, "Compressed-leaf bounding volume hierarchies", section 3.
 
 struct WideBox {
   static constexpr float inf = std::numeric_limits<float>::infinity();

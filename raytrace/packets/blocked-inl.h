@@ -1,6 +1,6 @@
 // One primitive against a vector of shadow rays (tile_state-inl.h). Along a ray, what the primitive's depth may be is an
-// interval: wholly behind the receiver it does not matter, wholly before it and inside all edges it surely blocks, and
-// between the two nobody knows.
+// interval. Wholly behind the receiver it does not matter. Wholly before it and inside all edges it surely blocks.
+// Between the two nobody knows.
 
 #if defined(GNOMON_RAYTRACE_PACKETS_BLOCKED_INL_H_) == \
     defined(HWY_TARGET_TOGGLE)  // once per instruction set: Highway's own pattern

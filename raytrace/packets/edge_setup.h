@@ -1,10 +1,9 @@
-// The world as seen from one point (the eye, a light) or along one direction (a sun): for a leaf
-// primitive the float numbers that let 16 rays at once be told *surely hit*, *surely missed* or *ambiguous*
-// with a handful of fused operations. Rays through a common origin are points d = (u, v, 1) of a projective
-// plane across their frame, rays along a common direction are points (u, v, 1) of the
-// plane across it: in both cases a triangle is three edge functions n_k·d and one depth function m·d. Every
-// error, of the floats and of the double kernels alike, enters the bounds, so that what is sure here is what
-// the double kernels say.
+// The world as seen from one point (the eye, a light) or along one direction (a sun). A leaf primitive has
+// float numbers for it. By these 16 rays at once are told *surely hit*, *surely missed* or *ambiguous* with a
+// handful of fused operations. Rays through a common origin are points d = (u, v, 1) of a projective plane
+// across their frame. Rays along a common direction are points (u, v, 1) of the plane across it. In both
+// cases a triangle is three edge functions n_k·d and one depth function m·d. Every error, of the floats and
+// of the double kernels alike, enters the bounds, so that what is sure here is what the double kernels say.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +39,8 @@ struct EdgeSetup {
   double slack = 0.0;    ///< world units by which boxes are widened against rounding
 };
 
-/// What says which packets a primitive may concern: a box of (u, v) that holds all rays that do not surely miss it,
-/// and a reciprocal depth that is not surely behind none of them.
+/// What says which packets a primitive may concern. It is a box of (u, v) that holds all rays that do not surely
+/// miss it, and a reciprocal depth that is not surely behind none of them.
 struct PrimitiveBounds {
   float u_min, u_max, v_min, v_max;  ///< infinite: not known; min above max: no ray
   float nearest;

@@ -44,9 +44,9 @@ struct ReceiverSource {
   void fill(const TileRect& rect, const LaneMask& asked, SurfacePoint* points) const;
 };
 
-// Receivers that a frame does not store: where only the picture is wanted, each tile's are found again from
-// the primitives that its pixels see, bit for bit as they were, and live no longer than the tile is worked
-// on. They are 96 bytes a pixel, which to clear and to page in takes longer than to find them twice.
+// Receivers that a frame does not store, where only the picture is wanted. Each tile's are found again from
+// the primitives that its pixels see, bit for bit as they were. They live no longer than the tile is worked
+// on. They are 96 bytes a pixel: to clear these and to page them in takes longer than to find them twice.
 
 struct UnstoredReceivers {
   HugeArray<TileHits> hits;  ///< by tile; empty: the receivers are stored

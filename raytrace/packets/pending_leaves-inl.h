@@ -18,8 +18,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 
-/// Leaves in the order in which they came. Of a leaf's triangle memory is asked in two steps, for where its corners are is
-/// read from memory, too: for the numbers of a run's corners when it comes, for the corners when the next run does.
+/// Leaves in the order in which they came. Memory is asked for a leaf's triangles in two steps, for where their corners
+/// are is read from memory, too. It is asked for the numbers of a run's corners when the run comes, and for the corners
+/// when the next run does.
 class PendingLeaves {
  public:
   explicit PendingLeaves(const Bvh& bvh) : bvh_(bvh) {}

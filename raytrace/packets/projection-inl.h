@@ -1,4 +1,4 @@
-// Where boxes and triangles lie in the plane of a common origin's or direction's rays, in floats: what needs no more of
+// Where boxes and triangles lie in the plane of a common origin's or direction's rays, in floats. What needs no more of
 // a primitive than which rays it may concern at all is spared its edge setup.
 
 #if defined(GNOMON_RAYTRACE_PACKETS_PROJECTION_INL_H_) == \
@@ -33,7 +33,7 @@ struct alignas(64) BoundsRows {
   }
 };
 
-/// Holds the lines through the edges of leaves' triangles, by rows: a ray at (u, v) surely misses where one of a triangle's
+/// Holds the lines through the edges of leaves' triangles, by rows. A ray at (u, v) surely misses where one of a triangle's
 /// u across + v down + constant is negative.
 struct alignas(64) EdgeLines {
   float across[3][run_size], down[3][run_size], constant[3][run_size];
@@ -196,9 +196,9 @@ class Projection {
     V size, area;  ///< of its bounds the longer side; twice, signed
     M wide;        ///< much wider than what is not known of it
   };
-  /// What the double kernels cannot tell from a triangle's rays are those within its edges moved out by 2^-41 of `reach`,
-  /// which is more than that beyond a sharp corner: less than a 16th of the triangle's size where the inscribed circle's
-  /// radius is 32 times it. Not wide: where that is not sure, and the box is to be taken.
+  /// The double kernels cannot tell from a triangle's rays those within its edges moved out by 2^-41 of `reach`. Beyond a
+  /// sharp corner that is more. It is less than a 16th of the triangle's size where the inscribed circle's radius is 32
+  /// times it. Not wide: where that is not sure, and the box is to be taken.
   Shape shape_of(const Bounds& bounds, const Corners& at) const {
     Shape shape;
     shape.size = hn::Max(hn::Sub(bounds.u_max, bounds.u_min), hn::Sub(bounds.v_max, bounds.v_min));

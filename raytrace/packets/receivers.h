@@ -22,8 +22,8 @@ struct ReceiverSinks {
 };
 
 /// Writes the receivers of a tile that lie on triangles and planes. Returns per packet the bits of those that it left
-/// alone: no triangle and no plane hit for sure, an edge function of zero, a ray whose largest component is not that of
-/// most of the tile's or has exponent 1. `rect`: the tile in the picture that is seen.
+/// alone. Such a ray hits no triangle and no plane for sure, or an edge function is zero. Or its largest component is
+/// not that of most of the tile's or has exponent 1. `rect`: the tile in the picture that is seen.
 LaneMask store_receivers(const Structures& s, const View& view, const TileRect& rect, const TileHits& hits,
                          const ReceiverSinks& sinks);
 

@@ -1,6 +1,6 @@
-// Shadow rays of up to 4 x 4 tiles in one traversal through the hierarchy, as view_block.h for the eye: a
-// primitive's numbers (edge_setup.h) are found when the traversal comes to it, tried on the packets that its
-// bounds touch, and forgotten. A light costs what lies between it and the receivers, whatever else the world holds.
+// Shadow rays of up to 4 x 4 tiles in one traversal through the hierarchy, as view_block.h for the eye. A
+// primitive's numbers (edge_setup.h) are found when the traversal comes to it, tried on the packets that its bounds
+// touch, and forgotten. A light costs what lies between it and the receivers, whatever else the world holds.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ struct ShadowTileRays {
 };
 
 /// `setup`: a direction's, or a framed point's. At most most_shadow_tiles. A tile that meets more leaves than its rays are
-/// worth is left to single rays, unless `at_any_cost`: then all its rays are ambiguous, and it says that it does not know
-/// what they may hit.
+/// worth is left to single rays, unless `at_any_cost`. All rays of a tile so left are ambiguous, and it says that it does
+/// not know what they may hit.
 void shadows_in_block(const Structures& structures, const EdgeSetup& setup,
                       std::span<const ShadowTileRays> tiles, bool at_any_cost = false);
 

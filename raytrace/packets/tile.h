@@ -1,6 +1,6 @@
-// 16 x 16 pixels' rays at once, as 16 packets of 16 (4 x 4 pixels each), against the world as seen from their
-// common origin or along their common direction. The answers are certain or withheld: whoever asks sends the
-// withheld rays to the double kernels.
+// The rays of 16 x 16 pixels at once, as 16 packets of 16 (4 x 4 pixels each). They meet the world as seen
+// from their common origin or along their common direction. The answers are certain or withheld: whoever asks
+// sends the withheld rays to the double kernels.
 #pragma once
 
 #include <array>

@@ -82,7 +82,7 @@ inline std::uint64_t meeting(const Packets& regions, std::size_t k, const Bounds
   return bits & ((std::uint64_t{1} << count) - 1);
 }
 
-/// Sixteen regions of the plane, each in one part or in two: a silhouette's rays start from two surfaces, and a
+/// Sixteen regions of the plane, each in one part or in two. A silhouette's rays start from two surfaces, and a
 /// rectangle around both would be met by all that lies between them.
 struct SplitRegions {
   Packets part[2];

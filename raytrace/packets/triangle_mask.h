@@ -1,4 +1,4 @@
-// Where rays of a common origin or direction meet the alpha mask of a triangle, in floats: its texture's coordinates
+// Where rays of a common origin or direction meet the alpha mask of a triangle, in floats. Its texture's coordinates
 // are quotients of linear functions on the plane of the rays (edge_setup.h).
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace gnomon::raytrace {
 
-/// A ray at (u + du, v + dv) that is surely inside the triangle meets, to within a texel, the lattice of texel centres (MaskCells)
-/// at x.(du, dv, 1) / w.(du, dv, 1) and y.(du, dv, 1) / w.(du, dv, 1).
+/// A ray at (u + du, v + dv) that is surely inside the triangle meets, to within a texel, the lattice of texel centres
+/// (MaskCells). The place is x.(du, dv, 1) / w.(du, dv, 1) and y.(du, dv, 1) / w.(du, dv, 1).
 struct TriangleMask {
   const MaskCells* cells = nullptr;  ///< null: that is not known
   float u, v;                        ///< of its first corner

@@ -1,6 +1,6 @@
-// A square of up to 4 x 4 tiles of a picture in one traversal through the hierarchy: a primitive's numbers
+// A square of up to 4 x 4 tiles of a picture in one traversal through the hierarchy. A primitive's numbers
 // (raytrace/packets/edge_setup.h) are found when the traversal comes to it, tried on the packets that its
-// bounds touch, and forgotten: nothing is sorted, nothing but hits is written to memory.
+// bounds touch, and forgotten. Nothing is sorted, nothing but hits is written to memory.
 #pragma once
 
 #include <span>

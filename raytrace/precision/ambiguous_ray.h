@@ -15,8 +15,8 @@ enum class Intersects : std::uint8_t { no, perhaps, surely };
 
 /// Crossings count in ray.t; from its end to `surely_out` they may count. `error`: of the origin, per axis of
 /// the world. `source_normal`: for a ray that leaves this solid, its normal there on the side the ray leaves
-/// to (else none). The start itself is no crossing, nor is that of a ray which starts on the solid within the error and
-/// clearly leaves its surface there, to whichever side: a solid that is the same surface in another description.
+/// to (else none). The start itself is no crossing. Nor is that of a ray which starts on the solid within the error and
+/// clearly leaves its surface there, to whichever side. Such a solid is the same surface in another description.
 Intersects intersects_solid(const RayFrame& ray, double surely_out, const Vec3& error,
                             const ShapeGeometry& solid, const Vec3* source_normal);
 
@@ -68,9 +68,9 @@ class AmbiguousRay {
   /// Any shape but a plane.
   Intersects intersects_shape(std::uint32_t id) const;
 
-  /// The ray surely leaves on the upper side of the tangent plane at its point, and nothing at or below that
-  /// plane (but for rounding) can be in its way: coplanar neighbours, coplanar duplicates, the far side of a
-  /// convex body. Not what is so near, or along so flat a ray, that the ray stays within that rounding all along it.
+  /// The ray surely leaves on the upper side of the tangent plane at its point. Nothing at or below that plane (but
+  /// for rounding) can be in its way: coplanar neighbours, coplanar duplicates, the far side of a convex body. Not
+  /// what is so near, or along so flat a ray, that the ray stays within that rounding all along it.
   bool below_horizon(std::uint32_t id) const;
   /// Nothing that lies wholly beyond the plane through the light, across the ray, can be in its way. The ray
   /// ends before the light by its own error bound; a body that the light touches from behind is told apart

@@ -1,6 +1,6 @@
 // Interval arithmetic: numbers known to lie between two doubles (Moore 1966, "Interval Analysis"), with every
 // result rounded outwards. The functions that expressions need (scene/shapes/expression.h) are here, and the
-// derivative of each, so that a function can be bounded together with its slope along a ray (Mitchell 1990,
+// derivative of each. So a function can be bounded together with its slope along a ray (Mitchell 1990,
 // "Robust ray intersection with interval arithmetic", Graphics Interface).
 //
 // `sure` says that the value exists and is continuous for all arguments; where it is not set (the root of a
@@ -174,9 +174,9 @@ inline Bounds hull(const Bounds& a, const Bounds& b) {
   if (b.is_empty()) return a;
   return {std::min(a.lo, b.lo), std::max(a.hi, b.hi), a.sure && b.sure};
 }
-/// A function's values on a stretch as its mean value form bounds them, too, where the bounds of its terms add up
-/// though the terms cancel (Moore, Kearfott and Cloud 2009, "Introduction to Interval Analysis", section 6.3).
-/// `middle`: its values at a place of the stretch; `offset`: of the stretch from there.
+/// Bounds a function's values on a stretch by its mean value form, too. That helps where the bounds of its terms
+/// add up though the terms cancel (Moore, Kearfott and Cloud 2009, "Introduction to Interval Analysis", section
+/// 6.3). `middle`: its values at a place of the stretch; `offset`: of the stretch from there.
 inline Bounds narrowed(const Slope& stretch, const Bounds& middle, const Bounds& offset) {
   if (!(stretch.value.sure && middle.sure)) return stretch.value;
   const Bounds mean = middle + stretch.change * offset;

@@ -1,7 +1,7 @@
 // Exact predicates: whether a line through given doubles intersects a triangle, without any rounding. Signs
-// come from doubles with a bound on their error where that decides, from exact numbers where it does not
-// (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric predicates",
-// section 4, for the filter's form).
+// come from doubles with a bound on their error where that decides, from exact numbers where it does not. For
+// the filter's form see Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust
+// geometric predicates", section 4.
 //
 // A triangle is closed: a line through an edge or a corner intersects both neighbours. A line in a triangle's
 // plane misses it.
@@ -42,8 +42,8 @@ class ExactArithmetic {
   /// Told of each hit that became the nearest: what a later one is compared with.
   void took(const Hit& hit) const { taken_ = hit.primitive == found_id_ ? found_ : Intersection{}; }
 
-  /// The t of the nearest hit as its triangle alone gives it: on the traversal it may have been moved to the
-  /// right side of another's, by which it would depend on the order of the traversal.
+  /// The t of the nearest hit as its triangle alone gives it. On the traversal it may have been moved to the
+  /// right side of another's. Then it would depend on the order of the traversal.
   double own_t(const Structures& s, const RayFrame& ray, const Hit& hit) const;
 
  private:

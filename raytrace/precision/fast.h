@@ -1,5 +1,5 @@
 // The textbook's arithmetic: floats throughout, Moeller and Trumbore 1997 for triangles, the naive quadratic
-// for spheres (other solids are hit in doubles here too), and an epsilon instead of error bounds. It is here
+// for spheres, and an epsilon instead of error bounds. Other solids are hit in doubles here too. It is here
 // to be compared with: HARD_CASES tells where each of these fails.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Visibility of a light's centre with the error bound's ambiguity made visible. Every test is made for the
-// whole box of origins that the surface point's error bound allows: a primitive hit from all of them is a
+// whole box of origins that the surface point's error bound allows. A primitive hit from all of them is a
 // sure hit, one hit from some only is ambiguous. A sure hit outweighs any number of ambiguous ones, so closed
 // meshes cast no uncertain shadow inside their outline.
 #pragma once
@@ -27,11 +27,11 @@ PointVisibility certified_visibility(const Structures& structures, const Surface
                                      LastBlocker* last = nullptr);
 
 // Whether a primitive blocks the way from a receiver to a light's centre, decided without rounding. The
-// receiver is the exact point that its record means: on a triangle the mean of the corners with the stored
-// weights, on a plane the foot of the stored position, on a sphere or a solid the stored position, which is
-// known within its bound alone: what lies there within that bound is left out before (AmbiguousRay). The way is the open
-// segment between the two points (to infinity for a directional light). Surfaces touched only at its ends do
-// not block it.
+// receiver is the exact point that its record means. On a triangle that is the mean of the corners with the stored
+// weights, on a plane the foot of the stored position. On a sphere or a solid it is the stored position, which is known
+// within its bound alone. What lies there within that bound is left out before (AmbiguousRay). The way is the open
+// segment between the two points (to infinity for a directional light). Surfaces touched only at its ends do not block
+// it.
 
 /// Whether a receiver on this primitive is known exactly: on a triangle or a plane. On a sphere or a solid its stored
 /// position is as good as any other within its bound.

@@ -1,8 +1,7 @@
-// What a ray runs in where bodies of glass touch, nest or overlap: the list of those that it has entered and
-// not left, and the priorities that say which of them is there (Schmidt and Budge 2002, "Simple Nested
-// Dielectrics in Ray Traced Images", JGT 7(2)). A surface where the medium does not change is no boundary:
-// the ray passes it as if it were not there. Of equal priorities the one entered last is there, so that plain
-// nesting needs none.
+// What a ray runs in where bodies of glass touch, nest or overlap. A list holds those that it has entered and
+// not left. Priorities say which of them is there (Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray
+// Traced Images", JGT 7(2)). A surface where the medium does not change is no boundary: the ray passes it as
+// if it were not there. Of equal priorities the one entered last is there, so that plain nesting needs none.
 #pragma once
 
 #include <array>

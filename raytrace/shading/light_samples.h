@@ -1,6 +1,6 @@
-// Rays from a surface point to a light with size, sampled as its shape says (scene/light_shape/), so that the share of the
-// rays that arrive is the share of the light's solid angle, or of its area, that the point sees. What lies below the point's
-// own horizon is not seen.
+// Rays from a surface point to a light with size, sampled as its shape says (scene/light_shape/). So the share of the rays
+// that arrive is the share of the light's solid angle, or of its area, that the point sees. What lies below the point's own
+// horizon is not seen.
 #pragma once
 
 #include <optional>
@@ -40,10 +40,10 @@ struct SampledVisibility {
   std::uint64_t rays = 0;       ///< cast for it
 };
 
-/// The standard error of the mean of stratified samples that are 0 or 1, in the order of StratifiedSquare:
-/// the points of four neighbouring strata (two by two) differ from the mean's trend by what one stratum's
-/// choice changes. Of fewer than 16 there are fewer than four such groups to tell by: the standard error of samples
-/// without strata, which is no smaller. Of one sample nothing can be told: 0.
+/// The standard error of the mean of stratified samples that are 0 or 1, in the order of StratifiedSquare. The
+/// points of four neighbouring strata (two by two) differ from the mean's trend by what one stratum's choice
+/// changes. Of fewer than 16 there are fewer than four such groups to tell by. It is then the standard error of
+/// samples without strata, which is no smaller. Of one sample nothing can be told: 0.
 double stratified_standard_error(std::span<const std::uint8_t> samples);
 
 /// Any unmasked surface occludes, glass too.

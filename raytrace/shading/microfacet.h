@@ -1,5 +1,5 @@
-// Rough mirrors and rough glass: GGX microfacets (Walter et al. 2007, "Microfacet Models for Refraction
-// through Rough Surfaces") whose visible normals are sampled (Heitz 2018, "Sampling the GGX Distribution of
+// Rough mirrors and rough glass are GGX microfacets (Walter et al. 2007, "Microfacet Models for Refraction
+// through Rough Surfaces"). Their visible normals are sampled (Heitz 2018, "Sampling the GGX Distribution of
 // Visible Normals", JCGT 7(4), listing 1). alpha is roughness squared. With visible normals a sample's weight
 // is the share of its outgoing direction that other facets do not hide, G1 (Smith; Heitz 2014, eq. 43): never
 // above 1, and 1 as alpha goes to 0. Light that facets would hand on to each other is lost, as in every

@@ -60,10 +60,10 @@ double solve_between(const AlongRay& f, double lo, double hi, double f_lo);
 /// Calls visit(s) for the roots in (lo, hi], ascending, until it returns true; returns whether it did.
 /// Marches in stretches that are doubled and halved as needed. A stretch has no root when f's bounds leave
 /// out 0; it has at most one, told by the signs at its ends, when the slope's bounds do (Mitchell 1990). What
-/// is left when a stretch is down to the rounding of f itself, or to 2^-44 of the whole, is a root, for f cannot
-/// be told from 0 there: a touch. So no root is skipped, except pairs closer than
-/// 2^-44 of the whole; a near miss may count as a touch only where rounding cannot tell. Poles are no roots.
-/// After max_stretches the rest counts as empty.
+/// is left when a stretch is down to the rounding of f itself, or to 2^-44 of the whole, is a root, a touch. For
+/// f cannot be told from 0 there. So no root is skipped, except pairs closer than 2^-44 of the whole; a near
+/// miss may count as a touch only where rounding cannot tell. Poles are no roots. After max_stretches the rest
+/// counts as empty.
 inline constexpr int max_stretches = 1 << 16;
 template <class Visit>
 bool isolate_roots(const AlongRay& f, double lo, double hi, const Visit& visit) {

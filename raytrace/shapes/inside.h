@@ -1,7 +1,7 @@
-// Which closed objects hold a point: spheres and solids by their own function, meshes by the odd-crossings
-// test (a point is inside when a ray from it crosses the mesh an odd number of times; Shimrat 1962,
-// "Algorithm 112: position of point relative to polygon"). A ray that comes upon an edge or a corner says
-// nothing sure, so another direction is tried.
+// Which closed objects hold a point. Spheres and solids are asked by their own function, meshes by the
+// odd-crossings test. A point is inside when a ray from it crosses the mesh an odd number of times (Shimrat
+// 1962, "Algorithm 112: position of point relative to polygon"). A ray that comes upon an edge or a corner
+// says nothing sure, so another direction is tried.
 //
 // Objects are numbered as in World::object_of. An open mesh, an open solid and a plane hold nothing.
 #pragma once

@@ -2,11 +2,11 @@
 //
 // Triangles: Woop, Benthin, Wald 2013, "Watertight ray/triangle intersection", JCGT 2(1). The corners are
 // moved to the ray's origin and sheared so that the ray is the z axis; what remains is whether the 2D origin
-// lies in a triangle. A corner is rounded the same way for every triangle that shares it, and the sign of
-// each edge function is exact for the rounded corners: rounding is monotone, so a difference of two rounded
-// products has the right sign or is zero, and zero is decided by the products' exact residuals. Hence closed
-// sets of triangles have no holes. A point exactly on an edge belongs to both triangles. (Products below
-// 1e-292 underflow: scenes smaller than 1e-146 are out of scope.)
+// lies in a triangle. A corner is rounded the same way for every triangle that shares it. The sign of each
+// edge function is exact for the rounded corners. Rounding is monotone, so a difference of two rounded
+// products has the right sign or is zero. Zero is decided by the products' exact residuals. Hence closed sets
+// of triangles have no holes. A point exactly on an edge belongs to both triangles. (Products below 1e-292
+// underflow: scenes smaller than 1e-146 are out of scope.)
 //
 // Spheres: Haines et al. 2019, "Precision improvements for ray/sphere intersection", Ray Tracing Gems,
 // chapter 7.
@@ -120,8 +120,8 @@ struct TriangleHit {
 
 /// Depth along kz at which the ray intersects the plane of a triangle that is much longer than wide; `z`, the
 /// mean of the corners' depths, for any other. The mean's weights are known to rounding of the length squared
-/// over twice the area, so that depths of a triangle of length L and width W are off by L^2 / W roundings.
-/// The plane's equation loses no more than L roundings if the normal is made from the two shorter edges.
+/// over twice the area. So depths of a triangle of length L and width W are off by L^2 / W roundings. The
+/// plane's equation loses no more than L roundings if the normal is made from the two shorter edges.
 inline double depth_in_plane(const RayFrame& ray, const LeafPrimitive& triangle, double z) {
   constexpr double stretched = 16.0;  // length over width from which the plane is better in any position
   const auto& v = triangle.v;
@@ -160,17 +160,17 @@ inline bool finish_triangle(const RayFrame& ray, const LeafPrimitive& triangle, 
 [[gnu::cold]] bool finish_edge_on(const RayFrame& ray, const LeafPrimitive& triangle, TriangleHit& hit);
 
 /// Whether the edge functions' sum may be little more than the rounding of a sheared triangle that reaches so far along
-/// the ray. A sheared coordinate has six roundings of at most width + depth, so that the sum is known to 2^-46 of
-/// width (width + depth), the width being that of the coordinates' largest; at some ten times that the weights are known
-/// to a tenth.
+/// the ray. A sheared coordinate has six roundings of at most width + depth. So the sum is known to 2^-46 of width
+/// (width + depth), the width being that of the coordinates' largest. At some ten times that the weights are known to a
+/// tenth.
 inline bool is_edge_on(const ShearedTriangle& s, double depth) {
   const double across = std::abs(s.x[0]) + std::abs(s.x[1]) + std::abs(s.x[2]);
   const double up = std::abs(s.y[0]) + std::abs(s.y[1]) + std::abs(s.y[2]), width = across + up;
   return std::abs(s.u + s.v + s.w) < 0x1p-43 * width * (width + depth);
 }
 
-/// An origin in the triangle's own plane is no hit, though the rounded t may be above 0 by some roundings of the corners'
-/// distances, such as that of an eye that is level with a floor.
+/// An origin in the triangle's own plane is no hit, such as that of an eye that is level with a floor. Yet the rounded t
+/// may be above 0 by some roundings of the corners' distances.
 inline bool intersect_triangle(const RayFrame& ray, const LeafPrimitive& triangle, TriangleHit& hit) {
   const ShearedTriangle s = shear(ray, triangle);
   if ((s.u < 0.0 || s.v < 0.0 || s.w < 0.0) && (s.u > 0.0 || s.v > 0.0 || s.w > 0.0)) return false;

@@ -1,9 +1,9 @@
 // One texel's column of light rays, and conservative tests of points, segments and triangles against it.
 //
 // Light space: x along right, y along up, z along forward from the view's origin, world units. The tests are
-// made in homogeneous coordinates h = (x, y, 1) of an orthographic map (x and y from its face's centre; a
-// warped face's h = (x, y + s b^2, 1 + s y), see scene/light_map/light_view.h) and (x, y, z) of a perspective one;
-// there a column is the convex cone of its four corners (x, y, 1), and an edge spans a cone with the light
+// made in homogeneous coordinates h = (x, y, 1) of an orthographic map, x and y from its face's centre. A warped
+// face has h = (x, y + s b^2, 1 + s y), see scene/light_map/light_view.h; a perspective map has (x, y, z). In
+// these coordinates a column is the convex cone of its four corners (x, y, 1). An edge spans a cone with the light
 // that needs no division and may reach behind it. "Surely" means: whatever rounding did to the corners, the
 // vertices and the map's grid.
 #pragma once

@@ -1,4 +1,4 @@
-// Which triangles hang together inside one texel's column of light rays: two do where the edge that they share (vertices
+// Which triangles hang together inside one texel's column of light rays. Two do where the edge that they share (vertices
 // welded by position) crosses the column and both face the same way. A *sheet* is all that hangs together so. Every
 // decision is conservative: rounding can only let an edge cross the column.
 #pragma once
@@ -45,10 +45,10 @@ class ColumnSheets {
 
 // The sheets of a solid (scene/shapes/solid.h), which may be several on one side when it is not convex.
 
-/// Two points of a solid's surface surely lie on one sheet of it: between the light rays through them the
-/// surface is hit once by each ray, near the chord from one to the other. A convex solid's points on the side
-/// that faces the light always do; of the others the proof is by interval arithmetic, and false may mean that
-/// none was found. The directions are those of the light rays through a and b.
+/// Whether two points of a solid's surface surely lie on one sheet of it. Between the light rays through them
+/// the surface is then hit once by each ray, near the chord from one to the other. A convex solid's points on
+/// the side that faces the light always do. Of the others the proof is by interval arithmetic, and false may
+/// mean that none was found. The directions are those of the light rays through a and b.
 bool hang_together(const ShapeGeometry& solid, const Vec3& a, const Vec3& b, const Vec3& direction_a,
                    const Vec3& direction_b);
 

@@ -10,9 +10,9 @@
 
 namespace gnomon::raytrace {
 
-/// Tells of each part whether it is flattened, or has a vertex where another part has one, or where another one of its own
-/// came to lie (then 1, else 0). A part may be said to touch something though it does not, when hashes of 64 bits are equal.
-/// `welded`: by mesh of the scene, of each vertex the lowest one at its place; of the meshes of kept parts alone.
+/// Tells of each part whether it is flattened, or has a vertex where another part has one or where another one of its own
+/// came to lie. It is then 1, else 0. A part may be said to touch something though it does not, when hashes of 64 bits are
+/// equal. `welded`: by mesh of the scene, of each vertex the lowest one at its place; of the meshes of kept parts alone.
 std::vector<char> parts_in_contact(const World& world, const std::vector<std::vector<std::uint32_t>>& welded);
 
 // A hash of a position by its exact bits.

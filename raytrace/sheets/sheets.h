@@ -1,10 +1,13 @@
 // Texels of a map, and which triangles share an edge. A *sheet* is a connected piece of equally facing triangles inside
-// the column of light rays of one texel: two triangles join where their shared edge (vertices welded by position) crosses
+// the column of light rays of one texel. Two triangles join where their shared edge (vertices welded by position) crosses
 // the column (sheets/column_sheets.h). A shape is a sheet of its own per side. A sheet that ends nowhere inside the column
-// covers it exactly once, so it cannot shadow itself: its projection along the rays is a proper local homeomorphism of a
-// connected surface onto a disc, hence a covering of degree one (hybrid/texel_bounds.h). It ends at an edge crossing the
-// column that is not shared by exactly two equally facing triangles, at an edge-on or degenerate triangle, at an
-// alpha-masked one, or at a vertex whose projected fan winds more than once.
+// covers it exactly once, so it cannot shadow itself. Its projection along the rays is a proper local homeomorphism of a
+// connected surface onto a disc. Hence it is a covering of degree one (hybrid/texel_bounds.h). A sheet ends in one of
+// these places:
+// - at an edge crossing the column that is not shared by exactly two equally facing triangles
+// - at an edge-on or degenerate triangle
+// - at an alpha-masked one
+// - at a vertex whose projected fan winds more than once
 #pragma once
 
 #include <cstdint>
