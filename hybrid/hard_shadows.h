@@ -2,12 +2,12 @@
 // they leave ambiguous is traced, tile by tile, through the tracer's packets. The visibilities are the tracer's own
 // wherever it is certain itself.
 //
-// When sheets pay. A ray costs the packets some 20 ns, less than a texel's sheets; so no sheets are worth
+// When sheets pay. A ray costs the packets some 20 ns, less than a texel's sheets. So no sheets are worth
 // their build for a single frame of a picture: they are, when the light stands still for a while. Who asks
 // for speed (Sheets::when_they_pay) therefore gets a new light traced, but for receivers beside the map,
-// which no map is needed for; and sheets once tracing has cost as much as they would have: by the rule of
-// Karlin et al. 1988 ("Competitive snoopy caching"), never more than twice the cheaper of the two. The
-// estimate counts triangles, texels and receivers, not milliseconds, so that runs repeat.
+// which no map is needed for. Sheets are built once tracing has cost as much as they would have. By the rule
+// of Karlin et al. 1988 ("Competitive snoopy caching") that costs never more than twice the cheaper of the
+// two. The estimate counts triangles, texels and receivers, not milliseconds, so that runs repeat.
 #pragma once
 
 #include "hybrid/light_sheets.h"

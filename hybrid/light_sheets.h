@@ -4,18 +4,19 @@
 // Proof that what is sure is right. Let C be the column of light rays through one texel and x a receiver in
 // it, on the surface of the scene. Every piece of surface that meets C is in C's list, for the list is made
 // conservatively; so x lies on a piece of it. A *sheet* is a connected part of equally facing triangles
-// inside C (raytrace/sheets/sheets.h); if no edge that ends it crosses C, then its projection along the rays onto
-// C's cross-section is a proper local homeomorphism (a branched one at vertices whose fan winds twice), hence
-// a covering of some degree d >= 1, the same over every point of the texel. It is counted over one point.
+// inside C (raytrace/sheets/sheets.h). Suppose that no edge that ends it crosses C. Then its projection along the
+// rays onto C's cross-section is a proper local homeomorphism (a branched one at vertices whose fan winds twice).
+// Hence it is a covering of some degree d >= 1, the same over every point of the texel. It is counted over one
+// point.
 //  - Surely shadowed: a sheet without boundary lies wholly nearer to the light than x. d >= 1, so x's own ray
 //    meets it, and before x.
 //  - Surely lit: the nearest sheet F has no boundary and degree 1, and all others lie wholly behind x. Then x
 //    cannot be on another one, so it is on F; and F meets x's ray once only, namely in x. Nothing else comes
 //    before x. So no query of x's own primitive is needed: its reciprocal depth alone decides.
-// Nothing in this depends on how fine the mesh is or how steep it stands, there is no bias, and rounding only
-// ever widens intervals and adds boundary, that is, adds "ambiguous". What is ambiguous is traced, so the result is
-// the ray-traced hard shadow at every pixel. An alpha-masked triangle is boundary everywhere; glass casts
-// shadows like any surface; facing-away receivers are not asked about.
+// Nothing in this depends on how fine the mesh is or how steep it stands, and there is no bias. Rounding only ever
+// widens intervals and adds boundary, that is, adds "ambiguous". What is ambiguous is traced, so the result is the
+// ray-traced hard shadow at every pixel. An alpha-masked triangle is boundary everywhere; glass casts shadows like
+// any surface; facing-away receivers are not asked about.
 //
 // Related: Hertel, Hormann and Westermann 2009, "A hybrid GPU rendering pipeline for alias-free hard shadows"
 // (conservative shadow maps: certain but for texels near edges, which are traced); Story 2015, "Hybrid ray
@@ -118,9 +119,9 @@ inline Certainty LightSheets::at(const Vec3& position, std::uint32_t primitive) 
                                                      at->reciprocal_depth);
 }
 
-// A picture tile's receivers against the sheets, eight at a time, from the compact floats: the texel and the
-// reciprocal depth of each in double, with all that the floats' rounding can do added to the errors. What floats leave
-// open is for LightSheets::at.
+// A picture tile's receivers against the sheets, eight at a time, from the compact floats. The texel and the
+// reciprocal depth of each are in double. All that the floats' rounding can do is added to the errors. What floats
+// leave open is for LightSheets::at.
 
 using raytrace::LaneMask;
 

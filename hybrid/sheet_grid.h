@@ -1,7 +1,7 @@
-// The map's grid as the sheets see it: texel coordinates u, v as quotients U / w of two linear functions of
-// the world position, and *reciprocal depth* n, which grows towards the light and is linear in (u, v) on every plane:
-// minus the depth of an orthographic map, 1 / depth of a perspective one. Along one light ray, whatever has
-// the larger reciprocal depth comes first. Tiles of 32 x 32 texels are built one by one.
+// The map's grid as the sheets see it. Texel coordinates u, v are quotients U / w of two linear functions of the
+// world position. *Reciprocal depth* n grows towards the light and is linear in (u, v) on every plane. It is minus
+// the depth of an orthographic map, 1 / depth of a perspective one. Along one light ray, whatever has the larger
+// reciprocal depth comes first. Tiles of 32 x 32 texels are built one by one.
 #pragma once
 
 #include <array>

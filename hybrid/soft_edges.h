@@ -1,9 +1,9 @@
 // Where the visibility of a light with size can change at all. Seen from one point x, the occluders between x
-// and the light's points change only across edges that fold or end a surface on the way (Laine et al. 2005,
-// "Soft shadow volumes for ray tracing"): where both triangles of an edge have the whole light on the same
-// side, a segment that sweeps over the edge meets one instead of the other. Such edges are left out; the
-// others, and triangles that hold more than their outline (alpha-masked, or touching the light), are kept in
-// a tree.
+// and the light's points change only across edges that fold or end a surface on the way. The source is Laine
+// et al. 2005, "Soft shadow volumes for ray tracing". Where both triangles of an edge have the whole light on
+// the same side, a segment that sweeps over the edge meets one instead of the other. Such edges are left out.
+// The others, and triangles that hold more than their outline (alpha-masked, or touching the light), are kept
+// in a tree.
 #pragma once
 
 #include "hybrid/light_facing.h"

@@ -4,12 +4,16 @@
 //
 // Proof. Let x be a receiver with the whole light above its horizon, and let the light's points be joined by
 // a path inside the light's convex hull. While l moves along it, the number of surfaces that the segment xl
-// meets changes only where the segment passes over the end of a surface or over an edge where it folds away
-// (as seen along xl both triangles lie on one side), where l crosses a surface, or, on a sphere, where the
-// segment touches its outline. None of them lies in the hull of x and the light when no edge of
-// hybrid/soft_edges.h meets it, no plane separates the light's corners, and every sphere is missed by all
-// segments or met by those to all corners (what a ball hides from x is convex). Then all points of the light
-// are seen, or none. Whatever is only nearly so counts as penumbra.
+// meets changes only in these places:
+// - where the segment passes over the end of a surface
+// - where it passes over an edge at which a surface folds away (as seen along xl both triangles lie on one
+//   side)
+// - where l crosses a surface
+// - on a sphere, where the segment touches its outline
+// None of them lies in the hull of x and the light under three conditions. No edge of hybrid/soft_edges.h
+// meets the hull. No plane separates the light's corners. Every sphere is missed by all segments or met by
+// those to all corners (what a ball hides from x is convex). Then all points of the light are seen, or none.
+// Whatever is only nearly so counts as penumbra.
 #pragma once
 
 #include "hybrid/hard_shadows.h"

@@ -4,9 +4,9 @@
 // inside a closed body, and has come in through its surface before. Of an open surface, two slabs of surely
 // different sign within its box have the surface between them.
 //
-// Where the function only falls (or only rises) along every ray from a slab without surface to one behind the
-// surface, each ray meets it there once: that part is a single sheet, which cannot shadow itself. So is the
-// near side of a convex body, and its far side.
+// The function may only fall (or only rise) along every ray from a slab without surface to one behind the
+// surface. Each ray then meets it there once. That part is a single sheet, which cannot shadow itself. So is
+// the near side of a convex body, and its far side.
 #pragma once
 
 #include <array>

@@ -3,17 +3,17 @@
 //
 // Pieces of one facing whose reciprocal depth intervals overlap form a group. Triangles that share an edge crossing
 // the column overlap there, so every sheet (raytrace/sheets/sheets.h) lies in one group. In a group that no boundary
-// edge crosses, the projection along the rays is a covering whose degree is the number of pieces over any one
-// point of the texel that lies on no edge. Degree 1: the group is one sheet without boundary and cannot
-// shadow itself. Degree >= 1: every ray of the column meets it. Degree 0: it lies beside the column, and only
-// rounding put it there. A group whose pieces' projections do not overlap cannot shadow itself either,
-// whatever edges it has: a single triangle, two that share an edge, a few that lie apart.
+// edge crosses, the projection along the rays is a covering. Its degree is the number of pieces over any one point
+// of the texel that lies on no edge. Degree 1: the group is one sheet without boundary and cannot shadow itself.
+// Degree >= 1: every ray of the column meets it. Degree 0: it lies beside the column, and only rounding put it
+// there. A group whose pieces' projections do not overlap cannot shadow itself either, whatever edges it has. That
+// may be a single triangle, two that share an edge, or a few that lie apart.
 //
 // Where groups are ambiguous, the sheets themselves are put together, by the edges that cross the column.
 //
 // Nothing changes when a linear function of the place in the texel is taken off all reciprocal depths alike. With
-// the slope of the nearest surface taken off, thin bodies seen at a grazing angle come apart: a wall's two
-// sides are then two groups, however deep the texel reaches along it.
+// the slope of the nearest surface taken off, thin bodies seen at a grazing angle come apart. A wall's two sides
+// are then two groups, however deep the texel reaches along it.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@
 
 namespace gnomon::hybrid {
 
-/// A receiver in the column, less the slope (per texel from the texel's centre), is surely lit if its
-/// reciprocal depth is above `lit_above`, surely shadowed if below `dark_below`, else ambiguous. Both at once is
+/// The slope (per texel from the texel's centre) is taken off the reciprocal depth of a receiver in the column.
+/// Above `lit_above` it is surely lit, below `dark_below` surely shadowed, else ambiguous. Both at once is
 /// impossible for a point on a surface.
 struct TexelBounds {
   float lit_above, dark_below;

@@ -1,5 +1,6 @@
-// Bounds of small parts of a tile's texels, of those alone that an ambiguous receiver has looked up: an open
-// hash table (Knuth, The Art of Computer Programming 3, section 6.4, algorithm L), at most half full.
+// Bounds of small parts of a tile's texels, of those alone that an ambiguous receiver has looked up. They lie
+// in an open hash table (Knuth, The Art of Computer Programming 3, section 6.4, algorithm L), at most half
+// full.
 #pragma once
 
 #include <cstddef>

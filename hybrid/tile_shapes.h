@@ -1,7 +1,7 @@
 // Planes and spheres as one tile of the map sees them. In texel coordinates and reciprocal depth a plane is linear
-// and a ball before the light stays convex (both maps are projective), so the near side of a sphere is a
-// concave function of (u, v) and its far side a convex one: over a texel they are bounded by the values at
-// its corners and at its centre.
+// and a ball before the light stays convex (both maps are projective). So the near side of a sphere is a concave
+// function of (u, v) and its far side a convex one. Over a texel they are bounded by the values at its corners and
+// at its centre.
 #pragma once
 
 #include <array>

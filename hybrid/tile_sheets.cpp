@@ -60,8 +60,8 @@ std::optional<Piece> piece_at(const TileTriangle& t, float x, float y, float hal
 
 constexpr float half_part = 0.5f / parts_per_side;
 
-/// False: no part in the square of 2 x half around (x, y) meets the triangle, neither in truth nor in floats: of the edge's
-/// value here and of its value at a part, rounded apart, no more than 2^-21 of their sizes is lost.
+/// Where it is false, no part in the square of 2 x half around (x, y) meets the triangle, neither in truth nor in floats.
+/// The edge's value here and its value at a part are rounded apart: by that no more than 2^-21 of their sizes is lost.
 bool may_intersect_parts(const TileTriangle& t, float x, float y, float half) {
   const float to_part = half - half_part;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -1,7 +1,7 @@
 // A triangle as one 32 x 32 tile of the map sees it: three edge functions and a reciprocal depth, linear over the
-// tile, in floats with all rounding given away (Olano and Greer 1997, "Triangle scan conversion using 2D
-// homogeneous coordinates": no division, so a triangle may reach behind the light). Edge functions are scaled
-// to |a| + |b| = 1: over a texel they change by at most one half from its centre.
+// tile. They are floats with all rounding given away. As in Olano and Greer 1997, "Triangle scan conversion using
+// 2D homogeneous coordinates", there is no division, so a triangle may reach behind the light. Edge functions are
+// scaled to |a| + |b| = 1: over a texel they change by at most one half from its centre.
 #pragma once
 
 #include <array>

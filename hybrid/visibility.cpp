@@ -74,7 +74,7 @@ class HybridVisibility final : public raster::ExternalVisibility, public raster:
     Times build, receivers_ms, shadow;
   };
 
-  /// What was half made when the work was left is made anew by the next one.
+  /// What was half made when the work was left is made again by the next one.
   template <class Work>
   Expected<void> whole_or_forgotten(const Work& work) {
     try {
