@@ -156,9 +156,9 @@ struct BiasCurvePoint {
 };
 
 /// The constant bias with the fewest wrong pixels, all else as rendered, and whether one can be right
-/// everywhere. When none can, the proof stands in the last four fields: `lit_pixels_above` truly lit pixels
-/// need a bias of at least needs_more_than, `shadowed_pixels_below` truly shadowed ones need less than
-/// needs_less_than, and no bias >= 0 satisfies both: needs_less_than <= needs_more_than, or needs_less_than <= 0.
+/// everywhere. When none can, the proof stands in the last four fields. `lit_pixels_above` truly lit pixels need
+/// a bias of at least needs_more_than. `shadowed_pixels_below` truly shadowed ones need less than
+/// needs_less_than. No bias >= 0 satisfies both: needs_less_than <= needs_more_than, or needs_less_than <= 0.
 struct BestBias {
   double constant_world = 0.0;
   double wrong_fraction = 0.0;

@@ -17,10 +17,10 @@ struct Left {
 };
 Left left_by(const LightFigures& drawn, const Figure& measure);
 
-/// Tells whether a setting that was drawn or evaluated is to be advised: it is worse neither in the share of wrong pixels nor in
-/// the mean error, and by the measure in use it leaves clearly less. Clearly is a twentieth less, which two digits show; and
-/// of `compared` pixels a gain of more than twice the square root of those wrong now: by so many a count changes where
-/// pixels happen to lie elsewhere, and the best of many settings gains as much by that alone.
+/// Tells whether a setting that was drawn or evaluated is to be advised. It must be worse neither in the share of wrong pixels
+/// nor in the mean error. By the measure in use it must leave clearly less. Clearly is a twentieth less, which two digits show.
+/// Of `compared` pixels the gain must also be more than twice the square root of those wrong now. By so many a count changes
+/// where pixels happen to lie elsewhere. The best of many settings gains as much by that alone.
 bool is_worth_advising(const Left& instead, const Left& now, std::uint64_t compared);
 
 }  // namespace gnomon::compare

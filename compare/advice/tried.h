@@ -15,14 +15,17 @@ inline constexpr std::size_t most_tried = 2;  ///< drawings of one comparison
 /// Draws the comparison's picture, untimed, with other options of the map.
 using Redraw = std::function<Expected<raster::RasterFrame>(const raster::MapOptions&)>;
 
-/// Fills Comparison::tried by what the light that is off most lacks: a larger or a smaller map, a bias whose figure no gaps
-/// tell, a parameter of moments, a soft technique. At most `most_tried` settings are drawn; where one cannot be, no further
-/// one is. Needs the images of a picture in one piece: in bands nothing is tried. `plan`: with its topology.
+/// Looks at the light that is off most, and fills Comparison::tried by what it lacks. That may be a larger or a smaller
+/// map, a bias whose figure no gaps tell, a parameter of moments, or a soft technique. At most `most_tried` settings are
+/// drawn; where one cannot be, no further one is. Needs the images of a picture in one piece: in bands nothing is tried.
+/// `plan`: with its topology.
 void try_settings(Comparison& comparison, const Plan& plan, const Redraw& redraw);
 
-/// Tells whether a light's shadow edges are as fine as the picture's pixels: off by less than half a pixel in the root mean
-/// square, with less than half a pixel of error along each pixel of true edge (features that the map lacks are part of it),
-/// and less than half a percent of error in the mean. How much ground lies around the shadows does not count in the first two.
+/// Tells whether a light's shadow edges are as fine as the picture's pixels. Three things must hold:
+/// - The edges are off by less than half a pixel in the root mean square.
+/// - There is less than half a pixel of error along each pixel of true edge. Features that the map lacks are part of it.
+/// - There is less than half a percent of error in the mean.
+/// How much ground lies around the shadows does not count in the first two.
 bool has_fine_edges(const LightFigures& light);
 
 /// Returns the tried setting of that kind that leaves least of a light by the comparison's measure, if it is to be advised

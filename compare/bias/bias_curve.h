@@ -1,5 +1,5 @@
-// One render, every bias: a hard test shadows a receiver iff its gap exceeds the bias, so the sorted gaps of
-// the truly lit and the truly shadowed pixels give the exact error of every constant bias.
+// One render tells of every bias. A hard test shadows a receiver iff its gap exceeds the bias. So the sorted
+// gaps of the truly lit and the truly shadowed pixels give the exact error of every constant bias.
 #pragma once
 
 #include <vector>
@@ -36,8 +36,8 @@ std::vector<float> gaps_where(const raster::LightRecord& record, const Image<flo
                               const Image<Label>& labels, bool lit);
 GapLists sort_gaps(const raster::LightRecord& record, const Image<float>& truth, const Image<Label>& labels);
 
-/// The bias >= 0 with the fewest wrong pixels: in the first interval between neighbouring gaps where the
-/// least is reached, a tenth above its start, or its middle where that comes first.
+/// The bias >= 0 with the fewest wrong pixels. It lies in the first interval between neighbouring gaps where
+/// the least is reached: a tenth above its start, or at its middle where that comes first.
 BestBias find_best_bias(const GapLists& gaps);
 
 /// `points` biases from 0 to four texels, or further where the current or the best bias lies beyond; both are

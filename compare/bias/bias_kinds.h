@@ -1,6 +1,6 @@
-// Which kind of bias suits a drawing: constant, slope, normal offset, receiver plane and adaptive, each tried
-// on the map as it was drawn with the double-precision twin of the hard test (biased_test.h), and each at the
-// smallest setting that is hardly wrong more often than its best.
+// Which kind of bias suits a drawing: constant, slope, normal offset, receiver plane or adaptive. Each is
+// tried on the map as it was drawn, with the double-precision twin of the hard test (biased_test.h). Each is
+// taken at the smallest setting that is hardly wrong more often than its best.
 #pragma once
 
 #include "compare/bias/bias_curve.h"

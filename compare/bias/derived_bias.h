@@ -1,9 +1,10 @@
 // A bias that follows from the map alone, so that an engine can work it out for each light and cascade without drawing.
-// Of a plane that the light meets at the angle t, a texel whose centre lies `reach` texels of width w away along both axes
-// is deeper by sqrt(2) reach w tan t at most. That is what a slope bias of 2 reach adds (raster::Bias::slope; the factor of
-// glPolygonOffset, too), and what a receiver gains that moves along its normal by sqrt(2) reach w sin t: w tan t times
-// sqrt(2) reach, for it moves towards the light by cos t of its way and along the plane by sin t (Holbein 2010). The constant
-// is left with rounding, and with what surfaces bend: a radius of 8 reach w leaves the tangent plane by reach w / 8.
+// Let the light meet a plane at the angle t, and let texels have the width w. A texel whose centre lies `reach` texels away
+// along both axes is deeper by sqrt(2) reach w tan t at most. That is what a slope bias of 2 reach adds (raster::Bias::slope;
+// the factor of glPolygonOffset, too). A receiver gains as much that moves along its normal by sqrt(2) reach w sin t. It
+// gains w tan t times sqrt(2) reach, for it moves towards the light by cos t of its way and along the plane by sin t (Holbein
+// 2010). The constant is left with rounding, and with what surfaces bend: a radius of 8 reach w leaves the tangent plane by
+// reach w / 8.
 #pragma once
 
 #include <optional>

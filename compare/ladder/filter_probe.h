@@ -14,14 +14,14 @@ namespace gnomon::compare {
 double pixel_reach_texels(const LadderInput& input, std::size_t pixel);
 
 /// Whether the receiver's tangent plane sees the light's centre, or is shadowed from it, anywhere in the
-/// square of texels that the filter reads: probed at 5 x 5 to 9 x 9 points, no farther apart than 1.5 texels
-/// while that suffices.
+/// square of texels that the filter reads. It is probed at 5 x 5 to 9 x 9 points, no farther apart than 1.5
+/// texels while that suffices.
 bool lit_within_reach(const LadderInput& input, std::size_t pixel);
 bool shadowed_within_reach(const LadderInput& input, std::size_t pixel);
 
 /// What pcf would draw if each of its comparisons were the truth about the receiver's tangent plane at the
-/// centre of the texel compared: probed at 9 x 9 points of its kernel. Of other filters the same over the square of
-/// texels that they read. `lower` knows what the rays through most of these centres meet.
+/// centre of the texel compared. It is probed at 9 x 9 points of its kernel. Of other filters the same over the
+/// square of texels that they read. `lower` knows what the rays through most of these centres meet.
 double true_average(const LowerClimb& lower, const LadderInput& input, std::size_t pixel);
 
 // The filter of a technique: its kind, and how far it reaches. Its words are compare/result/map_words.h's.

@@ -30,12 +30,13 @@ Cause step_of_label(Label label, const std::array<float, rung_count>& rungs);
 // Whether the caster behind a sampling error is thinner than a texel: whether its surface lies under none of
 // the texel centres nearby.
 
-/// Tells of a missed shadow at the sampling step whether some surface that stands between x and the light lies, before the
-/// receiver's tangent plane, on the light ray through one of the four texel centres around x.
+/// Asks of a missed shadow at the sampling step for some surface that stands between x and the light. Tells whether one
+/// lies before the receiver's tangent plane on the light ray through one of the four texel centres around x.
 bool missed_caster_is_known(const LadderInput& input, Column& column, const WrongPixel& wrong);
 
-/// Tells of a false shadow at the sampling step whether some surface that stands before the receiver's tangent plane on the
-/// ray through the texel's centre does so too at one of the three neighbouring centres on the side that lies away from x.
+/// Asks of a false shadow at the sampling step for surfaces before the receiver's tangent plane on the ray through the
+/// texel's centre. Tells whether one of them stands there, too, on the ray through a neighbouring centre. Three neighbours
+/// are asked: those on the side that lies away from x.
 bool false_caster_goes_on(const LadderInput& input, Column& column, const WrongPixel& wrong);
 
 }  // namespace gnomon::compare

@@ -37,8 +37,8 @@ struct LadderInput {
 /// half.
 Image<Label> sort_pixels(const LadderInput& input);
 
-/// The labels with `right` where only the samples of a light with size leave the truth open: these pixels
-/// are not compared, but climbed, so that pictures and widths have no holes there.
+/// The labels with `right` where only the samples of a light with size leave the truth open. These pixels are
+/// not compared, but climbed, so that pictures and widths have no holes there.
 Image<Label> labels_climbed(const LadderInput& input, const Image<Label>& labels);
 
 /// V0: the share of the light that the pixel's receiver sees; of a light without size, all or nothing.
@@ -78,13 +78,13 @@ Climb climb_up(const LowerClimb& lower, const LadderInput& input);
 /// Climbs the compared pixels (label `right` on entry) and labels the wrong ones.
 Climb climb(const LadderInput& input, Image<Label> sorted);
 
-/// Whether a pixel with an error is off at rung k, too: on the side of its error, by more than one half where it is wrong,
-/// else by more than half of its error.
+/// Whether a pixel with an error is off at rung k, too. That is so on the side of its error: by more than one half where
+/// it is wrong, else by more than half of its error.
 bool is_off_at(const std::array<float, rung_count>& rungs, std::size_t k);
 
-/// The step that put a pixel off. Of one too dark, the step at which it last came to be off (is_off_at). Of one too light
-/// the filter where V5 is right, else the step at which it first came to be off: what darkens it in between by accident,
-/// and is taken away again, is not what it lacks.
+/// The step that put a pixel off. Of one too dark it is the step at which it last came to be off (is_off_at). Of one too
+/// light it is the filter where V5 is right, else the step at which it first came to be off. What darkens it in between
+/// by accident, and is taken away again, is not what it lacks.
 Cause deciding_step(const std::array<float, rung_count>& rungs);
 
 // The shadow terminator: where a mesh's triangle and the smooth normal that shades it do not agree on whether they face the

@@ -1,5 +1,5 @@
-// Shadow maps of moments in double precision: a texel holds averages of functions of depth, and a bound of how much of what was
-// averaged lies before the receiver makes its light. The formulas are the papers'; the shaders' twin is shaders/technique.
+// Shadow maps of moments in double precision. A texel holds averages of functions of depth. The receiver's light is made of a
+// bound of how much of what was averaged lies before it. The formulas are the papers'; the shaders' twin is shaders/technique.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct BiasedLookup;
 /// equation 5). Their variance counts as `least_variance` at least, and as four roundings of floats.
 double chebyshev(double mean, double square, double x, double least_variance = 0.0);
 
-/// Returns the least that lies before x of numbers whose first four powers have these means: the three points of support
+/// Returns the least that lies before x of numbers whose first four powers have these means. The three points of support are
 /// solved for directly (Peters and Klein 2015, section 3.2), the weights by Cramer's rule. Not a number where all are one number.
 double least_share_before(const std::array<double, 4>& means, double x);
 

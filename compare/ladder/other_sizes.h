@@ -1,6 +1,6 @@
-// What maps of other sizes would leave, estimated by rays: some pixels spread over the picture are tested against the exact
-// depths at the texel centres of such a map, rounded as its format stores them, with the bias and the filter of the
-// drawing. Nothing is drawn for it, so that its time depends on neither triangles nor texels.
+// What maps of other sizes would leave, estimated by rays. Some pixels spread over the picture are tested, with the bias
+// and the filter of the drawing. They are tested against the exact depths at the texel centres of such a map, rounded as
+// its format stores them. Nothing is drawn for it, so that its time depends on neither triangles nor texels.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,9 @@
 
 namespace gnomon::compare {
 
-/// Whether a hard or averaged test of the nearest depths drew the light, whose answer follows from the texels' centres: no
-/// shader of the user's own, no culling, no bias of casters, no blended cascades, no filter whose taps are chosen by pixel.
+/// Whether a hard or averaged test of the nearest depths drew the light. Its answer follows from the texels' centres. So
+/// there is no shader of the user's own, no culling, no bias of casters, no blended cascades, and no filter whose taps are
+/// chosen by pixel.
 bool other_sizes_apply(const raster::RasterFrame& drawn, const raster::LightRecord& record);
 
 /// What a map of `size` texels a side, laid as the drawn one, would give a pixel's receiver: V6 in [0, 1]. Depths are

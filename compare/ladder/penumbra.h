@@ -12,13 +12,13 @@ namespace gnomon::compare {
 inline constexpr int penumbra_margin = 1032;  ///< rows above and below a row on which its widths depend
 inline constexpr int penumbra_rows_kept = 2 * penumbra_margin + most_spare_rows;
 
-/// At every pair of neighbouring pixels of one object between which the truth crosses one half, walks in the
-/// picture straight across the edge as it lies on the receiver (the truth's gradient over a 7x7 window) both
-/// ways, on the drawn shadow from its own crossing nearest to there: the penumbra is the way from a tenth to
-/// nine tenths visible, the umbra the way below a tenth beyond it, both in world units on the receiver.
-/// Visibility and receivers are taken between pixel centres, so that a width is not rounded to whole pixels;
-/// of an edge that is sharper than a pixel it is still 0.8 pixel. `labels`: labels_climbed().
-/// A picture comes in parts, each of whole rows, from the top. Keeps 36 bytes a pixel of at most
+/// Starts at every pair of neighbouring pixels of one object between which the truth crosses one half. Walks
+/// in the picture both ways, straight across the edge as it lies on the receiver (the truth's gradient over a
+/// 7x7 window). On the drawn shadow it walks from its own crossing nearest to there. The penumbra is the way
+/// from a tenth to nine tenths visible, the umbra the way below a tenth beyond it. Both are in world units on
+/// the receiver. Visibility and receivers are taken between pixel centres, so that a width is not rounded to
+/// whole pixels; of an edge that is sharper than a pixel it is still 0.8 pixel. `labels`: labels_climbed(). A
+/// picture comes in parts, each of whole rows, from the top. Keeps 36 bytes a pixel of at most
 /// penumbra_rows_kept rows and of what was added last.
 class PenumbraMeasure {
  public:

@@ -1,5 +1,5 @@
 // The one path from two renderers' frames to a comparison. A picture is measured band by band, and a picture in one piece
-// is one band: every number, every picture and every channel is the same to the last bit, however it is cut
+// is one band. Every number, every picture and every channel is the same to the last bit, however it is cut
 // (tests/compare/compare_bands_gl_test.cpp).
 #pragma once
 

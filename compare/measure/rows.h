@@ -1,5 +1,5 @@
 // The rows of a picture that are at hand at a time. What is measured at a row depends on rows above and below it
-// (edge_margin): of a picture in bands a window moves down the picture, a picture in one piece has them all.
+// (edge_margin). Of a picture in bands a window moves down the picture; a picture in one piece has them all.
 #pragma once
 
 #include <algorithm>

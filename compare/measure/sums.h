@@ -1,6 +1,6 @@
-// Everything that is said of one light, summed up as the rows of its picture come, from the top: sums go on from band to
-// band in the order of the rows, so that cutting a picture into bands changes no bit. Lists that grow long go to the
-// disk, and what depends on neighbouring rows is measured as soon as these are there.
+// Everything that is said of one light, summed up as the rows of its picture come, from the top. Sums go on from band to
+// band in the order of the rows. So cutting a picture into bands changes no bit. Lists that grow long go to the disk,
+// and what depends on neighbouring rows is measured as soon as these are there.
 #pragma once
 
 #include <optional>

@@ -8,11 +8,10 @@
 
 namespace gnomon::compare {
 
-/// At every true shadow edge between two neighbouring pixels of one object that are climbed (labels_climbed), walks along the edge's
-/// normal (the gradient of the truth over a 7x7 window) in half-pixel steps until the drawn shadow has its
-/// edge there; edges that are not found within 64 pixels are missing features, not displaced edges, and are
-/// left out. Offsets are > 0 where the drawn shadow is larger. Texel figures are distances between looked-up
-/// map positions, world figures between receivers.
+/// Starts at every true shadow edge between two neighbouring pixels of one object that are climbed (labels_climbed). Walks along
+/// the edge's normal (the gradient of the truth over a 7x7 window) in half-pixel steps until the drawn shadow has its edge there.
+/// Edges that are not found within 64 pixels are missing features, not displaced edges, and are left out. Offsets are > 0 where
+/// the drawn shadow is larger. Texel figures are distances between looked-up map positions, world figures between receivers.
 inline constexpr int edge_margin = 136;  ///< rows above and below a row on which its edges and offsets hang
 
 struct EdgeInput {
@@ -43,7 +42,7 @@ void add_edges(const EdgeInput& input, const PictureRows& rows, EdgeSums& sums);
 Image<float> edge_displacement_rows(const EdgeInput& input, const PictureRows& rows);
 
 /// Finds displacements for every constant bias of a hard test, where a pixel is drawn lit iff its gap does not exceed the
-/// bias: each walk is made once and keeps the pixels that can end it.
+/// bias. Each walk is made once and keeps the pixels that can end it.
 class EdgePaths {
  public:
   /// `labels`: which pixels are compared, and no more.

@@ -56,8 +56,9 @@ struct TunedEngine {
 
   /// Whether its settings tell this part of a bias, at least of a directional light.
   bool has(BiasPart part) const;
-  /// Whether the engine can be set to draw with these options, and told their bias in numbers for a light of this type: its
-  /// techniques and filters, which follow no receiver's plane, and of their biases the parts that it has.
+  /// Whether the engine can be set to draw with these options, and told their bias in numbers for a light of this type.
+  /// They must be its techniques and filters, which follow no receiver's plane. Of the biases they may use the parts that
+  /// it has.
   bool draws(const raster::MapOptions& map, LightType light) const;
   bool draws(const raster::MapOptions& map) const;  ///< for some light
 };

@@ -1,7 +1,7 @@
-// Every number that a comparison says of one light, one row each: its key in result.json, unit and words, which way is
-// better, how it is printed, and what it is of several lights together. The blocks of result.json and with them the columns
-// of CSV files, what sweeps read back from their lines and show, and the columns of the pages are made from these rows.
-// A new figure is a field of LightFigures and a row in figures.cpp.
+// Every number that a comparison says of one light, one row each. A row has the key in result.json, unit and words, which
+// way is better, how it is printed, and what it is of several lights together. The blocks of result.json are made from
+// these rows, and with them the columns of CSV files and of the pages. So is what sweeps read back from their lines and
+// show. A new figure is a field of LightFigures and a row in figures.cpp.
 #pragma once
 
 #include <cstdint>

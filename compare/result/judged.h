@@ -46,8 +46,8 @@ struct AdvisedSetting {
   std::array<raster::CapturedTest::UnitAt, 2> units = {};
 };
 struct Advice : AdvisedSetting {
-  /// Shares of all compared pixels, those outside the map among them: of what was drawn, and of what the filter and test that
-  /// are in use draw on the same map.
+  /// Shares of all compared pixels, those outside the map among them. One is of what was drawn, one of what the filter and
+  /// test that are in use draw on the same map.
   double wrong_now = 0.0, wrong_instead = 0.0;
   bool feasible = false;                    ///< with it every compared pixel is right
   std::optional<AdvisedSetting> with = {};  ///< what is to be set together with it

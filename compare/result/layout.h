@@ -10,8 +10,8 @@
 
 namespace gnomon::compare {
 
-/// Corners of what a camera sees as far as the scene's finite part reaches: four at the eye or, of an orthographic one, in
-/// the plane through it, then four far away, each in the order of corner_places.
+/// Corners of what a camera sees as far as the scene's finite part reaches. Four are at the eye or, of an orthographic
+/// one, in the plane through it. Then come four far away; each four are in the order of corner_places.
 std::array<Vec3, 8> camera_corners(const World& world, const Camera& camera, const ImageSize& size);
 
 /// Makes "camera" of result.json: the eye, and eight corners of what it sees as far as the scene's finite part reaches, in

@@ -40,9 +40,9 @@ Rgb8Image ssim_picture(const LightComparison& light);
 /// Shows who decided each pixel of the hybrid: the picture in grey, tinted where the sheets were sure, one plain colour
 /// where rays were cast. It needs the record's decisions.
 Rgb8Image decision_picture(const Comparison& comparison, const LightComparison& light);
-/// How far drawn shadow edges lie from the true ones, on the band between the two: from white (none) to the
-/// colours of false shadow (the drawn shadow is larger) and missed shadow (smaller) at edge_scale_texels and
-/// more. Grey: lit and shadowed, where no edge was measured. Needs the light's map.
+/// How far drawn shadow edges lie from the true ones, on the band between the two. The colours go from white
+/// (none) to those of false shadow (the drawn shadow is larger) and missed shadow (smaller) at
+/// edge_scale_texels and more. Grey: lit and shadowed, where no edge was measured. Needs the light's map.
 Rgb8Image edge_picture(const LightComparison& light);
 /// How far the drawn shadow starts from its caster, on the pixels that the bias lights there, on magma from
 /// 0 to detachment_scale_texels; black elsewhere. Needs the light's map.

@@ -1,5 +1,5 @@
-// Where errors lie in the scene, over several views: a grid of squares seen from above, in the plane of the world's x and z,
-// each with the errors of all pixels that show it. The page draws it (report/page/src/views_section.ts).
+// Where errors lie in the scene, over several views. It is a grid of squares seen from above, in the plane of the world's x
+// and z. Each has the errors of all pixels that show it. The page draws it (report/page/src/views_section.ts).
 #pragma once
 
 #include "compare/comparison.h"

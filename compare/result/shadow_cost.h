@@ -52,7 +52,8 @@ bool is_software(const raster::ContextInfo& context);
 /// does.
 std::optional<std::uint64_t> count_lookups(const raster::RasterFrame& frame, const raster::LightRecord& drawn,
                                            const Image<Label>& labels);
-/// Adds what rays of some thousand compared pixels, spread evenly over the picture, meet, as far as they begin in a part of it: the first of its pixels, and the pixels of the whole.
+/// Adds what rays of some thousand compared pixels meet, as far as they begin in a part of the picture. The pixels are spread
+/// evenly over it. Given are the first of the part's pixels, and the pixels of the whole.
 void add_ray_work(const raytrace::Tracer& tracer, const Light& light,
                   const Image<raytrace::SurfacePoint>& receivers, const Image<Label>& labels,
                   std::size_t first_pixel, std::size_t all_pixels, RayWork& sum);

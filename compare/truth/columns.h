@@ -22,10 +22,10 @@ struct TexelCentre {
 /// texel_ray(), but that of an orthographic map starts well before all casters, where its interval begins: no t is
 /// negative then, as single rays are traced fastest. They lie behind the near depth, unless that was given.
 Ray caster_ray(const World& world, const LightView& view, int face, double u, double v);
-/// The hits along a ray, nearest first, of which closest(ray) finds one; until visit(hit) is false, and no more than 64,
-/// for what is looked for is among the first few or not at all. Exact arithmetic compares a hit's exact place with where
-/// the ray starts, and its t is rounded: a ray that starts just behind it may meet it again, and then starts farther on,
-/// by steps that double.
+/// The hits along a ray, nearest first, of which closest(ray) finds one, until visit(hit) is false. There are no more
+/// than 64, for what is looked for is among the first few or not at all. Exact arithmetic compares a hit's exact place
+/// with where the ray starts, and its t is rounded. So a ray that starts just behind it may meet it again; it then
+/// starts farther on, by steps that double.
 template <class Closest, class Visit>
 void visit_hits(Ray ray, const Closest& closest, const Visit& visit) {
   constexpr int most_hits = 64;

@@ -10,9 +10,9 @@
 namespace gnomon::compare {
 
 /// Whether a stored depth is the exact one up to the rounding of the shaders' floats. Such a depth counts as
-/// exact: a floor that faces the light squarely has one depth all over, and the map's float of it may fall to
-/// either side, which no rasterizer that rounds both sides alike would see.
-/// Of averaged moments: whether the exact one is among those that may have been averaged.
+/// exact. A floor that faces the light squarely has one depth all over, and the map's float of it may fall to
+/// either side. No rasterizer that rounds both sides alike would see that. Of averaged moments: whether the
+/// exact one is among those that may have been averaged.
 inline bool is_exact(const LadderInput& input, raytrace::TexelKey key, double stored_depth,
                      double exact_depth) {
   const double rounding = input.record().rounding.float_world;
@@ -34,9 +34,9 @@ class UpperPixel {
   /// The gap of rung V5, in double precision (biased_test.h).
   double gap() const { return gap_; }
   /// The gap of V5 to the surface that the looked-up texel stores, at the exact depth at which the ray through
-  /// the texel's centre meets it: the ray's first hit, or with culling the stored one (stored_surface.h); -infinity
-  /// where the ray meets nothing. None where the depth is no surface's (midpoint), or with culling nothing is stored.
-  /// It is looked for when it is first asked for.
+  /// the texel's centre meets it. The surface is the ray's first hit, or with culling the stored one
+  /// (stored_surface.h). The gap is -infinity where the ray meets nothing. There is none where the depth is no
+  /// surface's (midpoint), or with culling nothing is stored. It is looked for when it is first asked for.
   const std::optional<double>& exact_gap();
 
   /// The gap of V5 to what the looked-up texel would store without the casters' bias; none where they have none.

@@ -33,8 +33,8 @@ class ShownMaterials {
   bool any_glass_ = false;
 };
 
-/// By pixel, the place in that list of what the map stores in the texel that the pixel looks up, where that is glass and
-/// not the pixel's own surface, else 0; empty where no material is glass.
+/// By pixel, the place in that list of what the map stores in the texel that the pixel looks up. It is 0 unless that is
+/// glass and not the pixel's own surface; empty where no material is glass.
 Image<std::uint32_t> stored_glass(const raytrace::Tracer& tracer, const raster::LightRecord& record,
                                   const raster::MapOptions& options,
                                   const Image<raytrace::SurfacePoint>& receivers);

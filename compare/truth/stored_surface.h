@@ -12,10 +12,10 @@ struct StoredSurface {
   double depth = infinity;  ///< of that, along the map's forward axis
 };
 
-/// Returns, of the surfaces on the centre's ray that culling leaves, the first whose depth is the stored one up to the map's
-/// rounding, else the one whose depth lies nearest to it, for an edge's rounded corners may leave it beside the ray; of a
-/// map of midpoints the first of all. It returns none where the texel is empty, or the ray meets nothing. What another
-/// renderer culls is not known: its map may store any side.
+/// Returns one of the surfaces on the centre's ray that culling leaves. It is the first whose depth is the stored one up to
+/// the map's rounding, else the one whose depth lies nearest to it. For an edge's rounded corners may leave the surface
+/// beside the ray. Of a map of midpoints it is the first of all. It returns none where the texel is empty, or the ray meets
+/// nothing. What another renderer culls is not known: its map may store any side.
 StoredSurface stored_surface(const raytrace::Tracer& tracer, const raster::LightRecord& record,
                              const raster::MapOptions& options, raytrace::TexelKey key);
 inline StoredSurface stored_surface(const LadderInput& in, raytrace::TexelKey key) {

@@ -29,7 +29,7 @@ class Surfaces {
 };
 
 /// Whether two neighbouring pixels see one smooth surface: the same shape, or triangles whose normals differ by 25
-/// degrees at most, and between which the surface does not bend more than these normals say: a table's top and the
+/// degrees at most. The surface between those must not bend more than these normals say. A table's top and the
 /// floor beyond its edge face the same way, but what connects them does not lie in their planes.
 bool on_smooth_surface(const raytrace::SurfacePoint& a, const raytrace::SurfacePoint& b, const World& world);
 
