@@ -27,8 +27,8 @@ std::string swatch(const glm::u8vec3& colour, std::string_view letter);
 /// "#d55e00"
 std::string hex_colour(std::uint8_t r, std::uint8_t g, std::uint8_t b);
 
-// What stands at the head of every page that the program writes, whatever it is about: a content-security policy, by which
-// nothing may be loaded, sent or run but the page's own style and script and its pictures.
+// What stands at the head of every page that the program writes, whatever it is about. It is a content-security policy. By
+// that nothing may be loaded, sent or run but the page's own style and script and its pictures.
 
 /// Whom a page asks that is no document.
 enum class LivePage : std::uint8_t {

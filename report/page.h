@@ -35,8 +35,9 @@ struct PageInput {
 /// pictures by their file names, are beside it.
 BuiltPage report_page(PageInput input, PageData& data, double max_mb);
 
-// What the page of a comparison knows beside its document: words and colours from the tables of labels, rungs, lessons and
-// settings, the sentences that the terminal says as well, and what only the writing of the page tells.
+// What the page of a comparison knows beside its document. These are words and colours from the tables of labels, rungs,
+// lessons and settings, and the sentences that the terminal says as well. It also knows what only the writing of the page
+// tells.
 
 /// Labels by their values, from uncertain on (page/src/report_document.ts: LabelFacts).
 nlohmann::ordered_json label_facts();

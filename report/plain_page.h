@@ -34,8 +34,8 @@ struct PlainPage {
 };
 
 /// HTML with the title, the pictures, links to the files, and tables of all values of the document. Numbers have their
-/// keys, as in the sections, <data value="4" data-key="lights.0.error.wrong">, but for those of lists, which have a table
-/// of their own, of which the first 100 rows are shown.
+/// keys, as in the sections: <data value="4" data-key="lights.0.error.wrong">. Those of lists have none: they have a
+/// table of their own, of which the first 100 rows are shown.
 std::string plain_page(const PlainPage& page);
 
 }  // namespace gnomon::compare

@@ -1,7 +1,7 @@
-// What every page has, whatever it is about: the built page (page/dist/page.html) with its style and script,
-// the content-security policy, the bar on top, and the data that the script reads. The data's large parts and
-// the pictures stand in the page itself, or, where it would grow too large, in files beside it, which work
-// from disk as well: pictures by <img>, data by <script> (a page from disk may fetch nothing).
+// What every page has, whatever it is about. It has the built page (page/dist/page.html) with its style and
+// script, the content-security policy, the bar on top, and the data that the script reads. The data's large
+// parts and the pictures stand in the page itself, or, where it would grow too large, in files beside it.
+// Those work from disk as well: pictures by <img>, data by <script> (a page from disk may fetch nothing).
 #pragma once
 
 #include <string>

@@ -1,8 +1,8 @@
-// Numbers are exact (labels, faces, decisions) or rounded to a step that is written beside them: map
-// positions to 1/256 texel downwards, so that the texel stays the same; visibilities to 1/25200 (exact for
-// filters of up to 7 x 7 samples); distances, depths and gaps to a power of two of about 2^-22 of the map's
-// depth range, a gap to the side on which it lies of every bias of the curve, so that what these biases draw
-// is exact.
+// Numbers are exact (labels, faces, decisions) or rounded to a step that is written beside them:
+// - Map positions go to 1/256 texel downwards, so that the texel stays the same.
+// - Visibilities go to 1/25200, which is exact for filters of up to 7 x 7 samples.
+// - Distances, depths and gaps go to a power of two of about 2^-22 of the map's depth range.
+// - A gap so rounded stays on its side of every bias of the curve. So what these biases draw is exact.
 #include "report/pixels/page_data.h"
 
 #include <fmt/core.h>

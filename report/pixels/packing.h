@@ -1,10 +1,10 @@
 // Arrays of integers as short text for the page. The page's twin is page/src/packed.ts.
 //
-// A number is taken modulo 2^(8 bytes). What is predicted of it is subtracted; what is left, read as signed,
-// is folded to 0, -1, 1, -2, 2, ... = 0, 1, 2, 3, 4, ..., so that small numbers of either sign have empty
-// high bytes. Then all lowest bytes, all second bytes and so on, compressed as one zlib stream (RFC 1950),
-// whose bits, lowest first, stand 13 by 13 in pairs of 91 characters that JSON and HTML take as they are (a
-// last rest of at most six in one character). That is a thirteenth shorter than base64.
+// A number is taken modulo 2^(8 bytes). What is predicted of it is subtracted. What is left, read as signed,
+// is folded to 0, -1, 1, -2, 2, ... = 0, 1, 2, 3, 4, .... So small numbers of either sign have empty high
+// bytes. Then come all lowest bytes, all second bytes and so on, compressed as one zlib stream (RFC 1950).
+// Its bits, lowest first, stand 13 by 13 in pairs of 91 characters that JSON and HTML take as they are. A
+// last rest of at most six stands in one character. That is a thirteenth shorter than base64.
 #pragma once
 
 #include <array>
