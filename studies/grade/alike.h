@@ -16,7 +16,7 @@ struct AlikePair {
   bool same_text = false;  ///< letter for letter
 };
 
-/// Returns the words of a shader in which names, layout, comments and preprocessor lines do not count: a name that is not among
+/// Returns the words of a shader in which names, layout, comments and preprocessor lines do not count. A name that is not among
 /// `known` (sorted) is "name", and every other word is as it stands.
 std::vector<std::string> plain_words(std::string_view shader, const std::vector<std::string>& known);
 
@@ -24,9 +24,9 @@ std::vector<std::string> plain_words(std::string_view shader, const std::vector<
 using Answer = std::string;
 
 /// Finds pairs that share at least four fifths of the shorter answer's own passages of eight words, the likest first, or have
-/// the very same text. A passage is an answer's own where it is not in `given` (what students begin with, and the program's own shaders)
-/// and, in a class of six or more, not in half of its answers; with fewer than twelve of them an answer is too short to
-/// say. After Schleimer, Wilkerson and Aiken, "Winnowing: Local Algorithms for Document Fingerprinting", SIGMOD 2003
+/// the very same text. A passage is an answer's own where it is not in `given` (what students begin with, and the program's own
+/// shaders). In a class of six or more it must not be in half of the answers either. With fewer than twelve of them an answer is
+/// too short to say. After Schleimer, Wilkerson and Aiken, "Winnowing: Local Algorithms for Document Fingerprinting", SIGMOD 2003
 /// (every passage is kept, for answers are short).
 std::vector<AlikePair> find_alike(const std::vector<Answer>& answers, const std::vector<std::string>& given);
 

@@ -158,7 +158,7 @@ class Grader {
     return judgement;
   }
 
-  /// Of several mistakes that draw a run alike the one that draws the others' runs alike, too.
+  /// Several mistakes may draw a run as the student did. Returns the one that draws the other runs so, too.
   Expected<std::size_t> most_likely(const Run& known, std::vector<std::size_t> mistakes) {
     for (const Run& run : beside(class_.rubric, known)) {
       if (mistakes.size() == 1) break;

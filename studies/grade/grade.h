@@ -1,5 +1,5 @@
-// Grades a class: every student's shaders against every check of a rubric. Each drawing is a process of its own (`gnomon compare`,
-// or `gnomon shaders --call` for a function, which anybody can repeat), so that nothing that a shader does reaches the grader.
+// Grades a class: every student's shaders against every check of a rubric. Each drawing is a process of its own, which anybody
+// can repeat: `gnomon compare`, or `gnomon shaders --call` for a function. So nothing that a shader does reaches the grader.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// Runs the program itself on what a stranger wrote: in a process of its own, with limits on processor time and memory, so
-// that nothing there can hang or crash the caller, and nothing that else happens on the machine decides how it ends.
+// Runs the program itself on what a stranger wrote, in a process of its own, with limits on processor time and memory. So
+// nothing there can hang or crash the caller. Nothing else that happens on the machine decides how it ends.
 #pragma once
 
 #include <cstdint>

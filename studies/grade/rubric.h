@@ -101,9 +101,12 @@ struct Student {
 /// Errors: no such folder, two students of one name (usage); none of the folders can be read (bad_input).
 Expected<std::vector<Student>> find_students(const std::vector<std::string>& paths);
 
-/// Why nothing of the folder is drawn with; empty where all is well: the folder or something in it is a link (which could
-/// name what is somebody else's), a shader is a folder, a pipe or a device, more than 4 MiB of shaders, a shader that is
-/// not to be handed in, or none that differs from the program's own.
+/// Why nothing of the folder is drawn with; empty where all is well. The reasons are:
+/// - The folder or something in it is a link, which could name what is somebody else's.
+/// - A shader is a folder, a pipe or a device.
+/// - There are more than 4 MiB of shaders.
+/// - A shader is not to be handed in.
+/// - None differs from the program's own.
 /// Error (bad input): what lies there cannot be read, so that nobody can tell what was handed in.
 Expected<std::string> refusal(const Student& student, const Rubric& rubric);
 

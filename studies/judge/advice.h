@@ -7,12 +7,12 @@
 
 namespace gnomon::compare {
 
-/// The constant that leaves least, below 0, too, and with the best constant beside it the best normal offset of a few,
-/// where that leaves clearly less: the present one, smaller ones, none among them, and larger ones; of layers one constant in
-/// texels, or one each. Where the casters have a bias the constant is theirs, and in place of normal offsets slopes of casters
-/// are tried, the map's depths moved accordingly. Each is drawn again with the filter (redrawing.h) over all compared pixels,
-/// and left out where it is not worth advising (compare/advice/rule.h): where none is, nothing is advised. `drawn_constant`: world
-/// units, of what was drawn, where that is not what the capture says.
+/// The constant that leaves least; it may be below 0. Beside it stands the best normal offset of a few, with its best constant,
+/// where that leaves clearly less. Tried are the present offset, smaller ones, none among them, and larger ones. Of layers it is
+/// one constant in texels, or one each. Where the casters have a bias the constant is theirs. In place of normal offsets slopes
+/// of casters are then tried, the map's depths moved accordingly. Each is drawn again with the filter (redrawing.h) over all
+/// compared pixels. What is not worth advising is left out (compare/advice/rule.h); where nothing is worth it, nothing is
+/// advised. `drawn_constant`: world units, of what was drawn, where that is not what the capture says.
 std::vector<Advice> give_advice(const FrameInput& input, const raster::RasterFrame& drawn,
                                 const LightComparison& light, const CasterBiases& casters,
                                 double drawn_constant);

@@ -26,8 +26,8 @@ TriedConstants try_constants(const raster::LightRecord& record, const LightCompa
 /// A constant that leaves hardly more than the best one: the present one if it does, else the one nearest to 0.
 struct GoodConstant {
   double stored = 0.0;  ///< in the map's own numbers
-  double left =
-      0.0;  ///< the mean error beside it, of single comparisons the share of wrong pixels; of a sample of filtered ones
+  /// What it leaves: of single comparisons the share of wrong pixels, else the mean error over a sample of the pixels.
+  double left = 0.0;
 };
 GoodConstant good_constant(const TriedConstants& tried, double unit_world, double now);
 

@@ -30,7 +30,7 @@ struct Aligned {
 /// suspect fits and `fix` is false, or nothing fits.
 Expected<Aligned> align_geometry(const AlignInput& input, Scene& scene, Sight& sight,
                                  CapturedPictures& pictures, Judged& judged);
-/// The same of the shadows, once the rest agrees and `frame` is of the sight.
+/// Does the same for the shadows, once the rest agrees. `frame` must then be traced from the sight.
 Expected<Aligned> align_shadows(const AlignInput& input, Scene& scene, Sight& sight,
                                 CapturedPictures& pictures, Judged& judged);
 
@@ -38,8 +38,8 @@ Expected<Aligned> align_shadows(const AlignInput& input, Scene& scene, Sight& si
 /// the captured world, named in `judged`. `error`: what is wrong with them as they are.
 Expected<Mat3> align_map(const AlignInput& input, const Error& error, const Light& light, Judged& judged);
 
-/// Tells of a ratio whether the picture with shadows is the one that is named as the one without, as it is where it is often
-/// brighter and hardly ever darker. An error without `fix`; with it the pictures are read again, in the other order.
+/// Tells of a ratio whether the picture with shadows is the one that is named as the one without. That is so where it is
+/// often brighter and hardly ever darker. An error without `fix`; with it the pictures are read again, in the other order.
 Expected<void> check_order(const Capture& capture, bool orthographic, bool fix, CapturedPictures& pictures,
                            Judged& judged);
 

@@ -30,8 +30,8 @@ struct CapturedPictures {
   bool depth_is_distance = false;
 };
 
-/// By the headers of all pictures and layers that the capture names, before anything is decoded: they are there, pictures have
-/// the capture's size, and the faces of a cube are square and of one size, and a layer lies within its
+/// Reads the headers of all pictures and layers that the capture names, before anything is decoded. They must be there, and
+/// pictures must have the capture's size. The faces of a cube must be square and of one size, and a layer must lie within its
 /// picture. Errors (bad input) name picture and field.
 Expected<void> check_picture_sizes(const Capture& capture);
 
@@ -39,9 +39,9 @@ Expected<void> check_picture_sizes(const Capture& capture);
 Expected<ImageSize> layer_picture_size(const Capture& capture, std::size_t layer);
 Expected<ImageSize> layer_size(const Capture& capture, std::size_t layer);
 
-/// Errors (bad input) name picture and field: a file that is missing, of another size, with more channels
-/// than wanted, or with values that are not finite or not in their range. `orthographic`: the camera, whose depth buffer goes
-/// evenly from near to far.
+/// Errors (bad input) name picture and field. A file is missing, is of another size, has more channels than wanted, or has
+/// values that are not finite or not in their range. `orthographic`: the camera, whose depth buffer goes evenly from near to
+/// far.
 Expected<CapturedPictures> read_pictures(const Capture& capture, bool orthographic);
 
 /// Divides the visibility by what else darkens the picture. Where that leaves next to nothing the picture does not tell.

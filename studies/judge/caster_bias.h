@@ -1,6 +1,6 @@
 // The bias that lies in a captured map: casters that were moved from the light while it was drawn (polygon offset, or depths
-// moved by a shader). It is the capture's, or is found where one rule moves nearly every texel's depth, and taken out of the
-// stored depths, so that it is charged to the ladder's bias step and can be advised on.
+// moved by a shader). It is the capture's, or is found where one rule moves nearly every texel's depth. It is taken out of
+// the stored depths. So it is charged to the ladder's bias step and can be advised on.
 #pragma once
 
 #include <string>
@@ -21,9 +21,9 @@ struct CasterBiases {
 };
 
 /// Fills `record.map.unbiased` where casters were moved; `given`: by face what the capture says. A texel holds the surface on
-/// the ray through its centre whose depth, so moved, is nearest to the stored one, and without the bias the first surface that
-/// was not moved to before that; an empty one the first surface, where the bias moves that to the far end. In maps of moments none
-/// is looked for.
+/// the ray through its centre whose depth, so moved, is nearest to the stored one. Without the bias it holds the first surface
+/// that was not moved to before that. An empty one holds the first surface, where the bias moves that to the far end. In maps of
+/// moments none is looked for.
 CasterBiases take_out_caster_bias(const FrameInput& input, const std::vector<CapturedCasterBias>& given,
                                   raster::LightRecord& record);
 

@@ -9,8 +9,8 @@ namespace gnomon::compare {
 
 struct DescribedTest {
   std::size_t compared = 0;  ///< pixels
-  /// Compared pixels that the described test does not draw as they were drawn, whatever rounding does, whichever texel
-  /// within the filter's reach decides, and whichever cascade that holds the place is looked up.
+  /// Compared pixels that the described test does not draw as they were drawn. That must hold whatever rounding does,
+  /// whichever texel within the filter's reach decides, and whichever cascade that holds the place is looked up.
   std::size_t not_drawn = 0;
   std::size_t drawn_darker = 0;  ///< of these; the others are drawn lighter than the test has them
   /// Texels to each side whose average of comparisons comes near to what is drawn of them; 0: none does, or none is looked for.

@@ -1,6 +1,6 @@
 // Which caster of the scene a captured map lacks, holds elsewhere or holds moved, told by what the rays through texels'
-// centres meet. What holds of a texel alone is told by it; whether an object is missing, moved or biased is told by all of
-// its texels that were looked at: a grid over the map, and those that wrong pixels look up.
+// centres meet. What holds of a texel alone is told by it. Whether an object is missing, moved or biased is told by all of
+// its texels that were looked at. These are a grid over the map, and those that wrong pixels look up.
 #pragma once
 
 #include <algorithm>

@@ -58,7 +58,7 @@ void Advisor::try_moment_settings(double& least, std::optional<Candidate>& best)
     }
 }
 
-/// Other exponents than the present ones, as far as the map can be made anew.
+/// Other exponents than the present ones, as far as the map can be made again.
 void Advisor::try_exponents(double& least, std::optional<Candidate>& best) {
   constexpr std::size_t most_texels = std::size_t{1} << 21;  // a ray for each
   constexpr double like_drawn = 0.1;

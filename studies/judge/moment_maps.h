@@ -1,5 +1,5 @@
-// Maps of moments as they would have been stored with other exponents: what the light meets first at each texel, warped anew
-// and averaged as the renderer averages.
+// Maps of moments as they would have been stored with other exponents. What the light meets first at each texel is warped
+// with them and averaged as the renderer averages.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // Two pictures of a ratio that hold more than the one light: ambient light, a sky, other lamps. What a full shadow takes is
-// then not all of a pixel's light, but a share that follows from the surface's angle and distance to the light, and that the
-// pixels which differ tell.
+// then not all of a pixel's light, but a share. It follows from the surface's angle and distance to the light. The pixels
+// which differ tell it.
 #pragma once
 
 #include "compare/result/judged.h"

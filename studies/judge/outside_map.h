@@ -11,12 +11,13 @@
 namespace gnomon::compare {
 
 /// Tells whether a receiver lies before or behind the depths of the layers that hold its place, and the map has no depth to
-/// compare it with: as for Gnomon's own maps it is outside then.
+/// compare it with. As for Gnomon's own maps it is outside then.
 bool lies_beyond_depths(const raster::LightRecord& record, const raster::Bias& bias, const Light& light,
                         const raytrace::SurfacePoint& receiver, std::size_t pixel);
 
-/// Finds what the picture tells of receivers that the renderer lights though its map shadows them: behind the far plane, or in
-/// the nearer half of depths of -1 to 1 that are tested from 0 on. They look nothing up then (CapturedTest::faces).
+/// Finds what the picture tells of receivers that the renderer lights though its map shadows them. They lie behind the far
+/// plane, or in the nearer half of depths of -1 to 1 that are tested from 0 on. They look nothing up then
+/// (CapturedTest::faces).
 void find_lit_depths(const FrameInput& input, raster::RasterFrame& frame, MapFacts& facts);
 
 /// What is found outside the map.

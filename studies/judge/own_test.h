@@ -1,5 +1,6 @@
-// What the test that a capture describes makes of its picture, before any convention is suspected: a renderer whose own map,
-// matrix and bias draw what the picture shows has no convention wrong, however little its shadows have to do with the truth.
+// What the test that a capture describes makes of its picture, before any convention is suspected. A renderer's own map,
+// matrix and bias may draw what the picture shows. Then it has no convention wrong, however little its shadows have to do
+// with the truth.
 #pragma once
 
 #include "compare/comparison.h"

@@ -14,8 +14,10 @@ bool is_recorded_frame(std::string_view path);
 
 /// Makes a capture of the frame's lights, capture.json and what it names, in a folder that is there. `light` counts from 1 as
 /// recorded_lights() does; empty takes all. Returns what was found of the frame, one sentence each: bias, matrix, light and
-/// camera with their residuals. Errors: ErrorKind::bad_input where no capture can be made of the frame, usage where `light` is no
-/// number, graphics where Python's module for RenderDoc is missing or the replay takes more than ten minutes or 16 GB.
+/// camera with their residuals. Errors:
+/// - ErrorKind::bad_input where no capture can be made of the frame
+/// - usage where `light` is no number
+/// - graphics where Python's module for RenderDoc is missing or the replay takes more than ten minutes or 16 GB
 Expected<std::vector<std::string>> capture_recorded_frame(const std::string& frame, const std::string& folder,
                                                           const std::string& light);
 

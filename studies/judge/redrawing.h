@@ -1,5 +1,5 @@
 // What another renderer would have drawn on its own map with other numbers in its test: rung V6 of a capture, evaluated in
-// double precision. What the description explains of the picture is drawn anew; what it does not explain stays as it was
+// double precision. What the description explains of the picture is drawn again; what it does not explain stays as it was
 // drawn, right or wrong.
 #pragma once
 
@@ -61,8 +61,8 @@ class Redrawing {
   std::vector<Redrawn> redraw(const TestedRecord& record, const std::vector<double>& constants_world,
                               const Pixels& pixels) const;
   Redrawn redraw(const TestedRecord& record, double constant_world) const;
-  /// Returns constants between which what is drawn changes, ascending, in world units: some of the gaps of lit pixels and of
-  /// shadowed ones, or where moments are read some parts and multiples of a texel.
+  /// Returns constants between which what is drawn changes, ascending, in world units. They are some of the gaps of lit
+  /// pixels and of shadowed ones. Where moments are read they are some parts and multiples of a texel.
   std::vector<double> telling_constants(const TestedRecord& record, const Pixels& pixels) const;
 
  private:

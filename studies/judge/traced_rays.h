@@ -1,5 +1,5 @@
-// What is wrong with the shadows of another ray tracer, which has no map: rays that start below their own surface
-// (self-intersection), rays that start beyond a caster (too large an offset), the shadow terminator. Gnomon's own rays from
+// What is wrong with the shadows of another ray tracer, which has no map. Rays may start below their own surface
+// (self-intersection) or beyond a caster (too large an offset). Or it is the shadow terminator. Gnomon's own rays from
 // places beside the receiver tell them apart.
 #pragma once
 

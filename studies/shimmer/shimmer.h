@@ -1,5 +1,5 @@
-// A film of one scene whose receivers, those that the first frame's pixels see, stay where they are while camera or
-// light move, and all that follows from it: flips, the temporal budget, the speed of edges (docs/shimmer.md).
+// A film of one scene whose receivers stay where they are while camera or light move. They are those that the first
+// frame's pixels see. From it follow flips, the temporal budget and the speed of edges (docs/shimmer.md).
 #pragma once
 
 #include <functional>

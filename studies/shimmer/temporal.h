@@ -1,10 +1,10 @@
-// What receivers that stay fixed in the world do from frame to frame. With T_k = (V_k' - V_k) - (V0' - V0), V and V'
-// being a rung in one frame and in the next, T_6 is the temporal error: what the drawn shadow did beyond what the true
-// one did. T_k+1 - T_k is the temporal step charged to cause k; the six sum to T_6. A flip is a receiver with
-// |T_6| > 1/2. Where it is drawn wrong at one end of the step, or at both, the flip has the label of the larger error
-// (deciding_step, ladder.h; of equal ones the later); where filters leave it less than one half wrong at both, that of
-// the step at which |T_k| last rose above one half. Sums are taken row by row and then over the rows in order, so that
-// they are the same for any number of threads.
+// What receivers that stay fixed in the world do from frame to frame. Let V and V' be a rung in one frame and in the
+// next, and T_k = (V_k' - V_k) - (V0' - V0). T_6 is the temporal error: what the drawn shadow did beyond what the true
+// one did. T_k+1 - T_k is the temporal step charged to cause k; the six sum to T_6. A flip is a receiver with |T_6| >
+// 1/2. Where it is drawn wrong at one end of the step, or at both, the flip has the label of the larger error
+// (deciding_step, ladder.h; of equal ones the later). Where filters leave it less than one half wrong at both, it has
+// that of the step at which |T_k| last rose above one half. Sums are taken row by row and then over the rows in order,
+// so that they are the same for any number of threads.
 #pragma once
 
 #include "compare/comparison.h"

@@ -1,5 +1,5 @@
 // Every constant bias of one drawing at once. A pixel is drawn lit from the bias on that reaches its gap, and
-// so is rung V5 from the double-precision gap on: along ascending biases a pixel passes through at most three
+// so is rung V5 from the double-precision gap on. Along ascending biases a pixel passes through at most three
 // states, each with its own label. Adding up where states begin and end gives every number of every bias in
 // one pass over the pixels, to the last bit those of a comparison of its own.
 #pragma once

@@ -43,9 +43,9 @@ bool is_cell_picture(std::string_view name);
 /// The paths of all files of such names there.
 Expected<std::vector<std::string>> cell_pictures_in(const std::string& folder);
 
-/// Removes what an interrupted sweep left: what a process that is no more had begun of the sweep's own files, and the
-/// pictures of the cells that are still to be made (`unfinished`, sorted). All other files stay, whatever their names
-/// end in. The folder must be this process's (journal.h).
+/// Removes what an interrupted sweep left. That is what a process that is no more had begun of the sweep's own files,
+/// and the pictures of the cells that are still to be made (`unfinished`, sorted). All other files stay, whatever
+/// their names end in. The folder must be this process's (journal.h).
 Expected<void> remove_strays(const std::string& folder, std::span<const std::size_t> unfinished);
 /// Removes the sweep that lies in the folder: its files (own_files.h), the pictures of as many cells as it has, and the ray-traced
 /// pictures, which are named after their contents. All other files stay. ErrorKind::usage while another process is at work

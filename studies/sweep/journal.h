@@ -48,9 +48,10 @@ Expected<void> write_sweep(const std::string& folder, const SweepHeader& header,
 class Journal {
  public:
   /// Makes the folder, or takes up the sweep that it holds. `axes`: of every line that this shard will have,
-  /// in order, as the text of their "axes" object. Errors: ErrorKind::usage when the folder holds another
-  /// configuration or another process is at work in it, bad_input for a line that is not this sweep's, cannot_write for a
-  /// file that is no sweep's (own_files.h); all of it is then as it was.
+  /// in order, as the text of their "axes" object. Errors:
+  /// - ErrorKind::usage when the folder holds another configuration or another process is at work in it
+  /// - bad_input for a line that is not this sweep's
+  /// - cannot_write for a file that is no sweep's (own_files.h); all of it is then as it was
   /// `cells`: the index of each line's cell in the whole sweep.
   static Expected<Journal> open(const std::string& folder, const SweepHeader& header,
                                 const std::vector<std::string>& axes, std::vector<std::size_t> cells);

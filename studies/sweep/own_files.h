@@ -1,6 +1,6 @@
 // Which files of a folder are a sweep's own. A sweep cuts, replaces and removes files by their names, so it first looks
-// whether they are what it writes: a plain file of the folder itself, no link, that begins as the sweep's do. What is not is
-// left as it is. Every error here is ErrorKind::cannot_write.
+// whether they are what it writes. Each must be a plain file of the folder itself, no link, that begins as the sweep's do.
+// What is not is left as it is. Every error here is ErrorKind::cannot_write.
 #pragma once
 
 #include <array>
@@ -50,9 +50,9 @@ class OwnFile {
   int descriptor_ = -1;
 };
 
-/// Looks whether all that a sweep would write over, cut or remove in the folder is a sweep's: no link lies in the place of one of
-/// its files, folders or pictures, and the files that it cuts begin as its own do. `has_sweep`: there is a sweep.json of one.
-/// Where there is none nor a line with its checksum, as a kill between two renames can leave it, those files are empty and
+/// Looks whether all that a sweep would write over, cut or remove in the folder is a sweep's. No link may lie in the place of one
+/// of its files, folders or pictures, and the files that it cuts must begin as its own do. `has_sweep`: there is a sweep.json of
+/// one. Where there is none nor a line with its checksum, as a kill between two renames can leave it, those files are empty and
 /// no pictures are there.
 Expected<void> check_own_files(const std::string& folder, bool has_sweep);
 

@@ -1,5 +1,6 @@
-// What the page of the tuner says before the comparison at the answer: the answer and what it was measured to give, what
-// accuracy costs, the runners-up with the reasons, how the error of each kind of bias depends on the bias.
+// What the page of the tuner says before the comparison at the answer. It says the answer and what it was measured to
+// give, what accuracy costs, and the runners-up with the reasons. It also says how the error of each kind of bias
+// depends on the bias.
 #pragma once
 
 #include <string>

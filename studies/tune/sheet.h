@@ -1,5 +1,5 @@
-// What the tuner found on one page to print: the answer and two rivals with as much memory for their maps, the place where
-// each errs most beside the truth, its figures, how sure they are, and the settings.
+// What the tuner found on one page to print: the answer and two rivals with as much memory for their maps. Each has the
+// place where it errs most beside the truth, its figures, how sure they are, and the settings.
 #pragma once
 
 #include <string>

@@ -1,18 +1,19 @@
 // The cheapest setting that is good enough, or the best one that is cheap enough, from far fewer drawings
 // than a grid.
 //
-// Each family (a technique with its kind of bias) is searched over map sizes: larger maps cost more and are
-// wrong less, so that the least size good enough, or the largest one cheap enough, is found by bisection. At
-// each size one drawing gives the error of every constant bias (bias_curve.h), and with it the best one;
-// where a technique's drawings do not tell that, the closed-form bias of its size and what hard shadows need
-// there are tried. A family is left as soon as it costs clearly more than the best so far without being good
-// enough, where its error levels off above the goal (a sampling error halves with every doubling of the map,
-// so that two sizes tell what is left without it; three have to agree), and at the size where a family like
-// it is good enough: biases change no cost. Exact techniques (izb, hybrid) are right at any size, and their
-// cost has a least size of its own: it is walked down to. The families that come close to the best are then
-// drawn at their own biases, in turn and several times over, and the least times decide, but for those that
-// lie within the spread: of them one that costs less whatever the machine is preferred. The winner is then
-// compared as its command would; where it is not good enough there, the next one takes its place.
+// Each family (a technique with its kind of bias) is searched over map sizes. Larger maps cost more and are
+// wrong less. So the least size good enough, or the largest one cheap enough, is found by bisection. At each
+// size one drawing gives the error of every constant bias (bias_curve.h), and with it the best one; where a
+// technique's drawings do not tell that, the closed-form bias of its size and what hard shadows need there
+// are tried. A family is left as soon as it costs clearly more than the best so far without being good
+// enough. It is also left where its error levels off above the goal. A sampling error halves with every
+// doubling of the map, so that two sizes tell what is left without it; three have to agree. And it is left at
+// the size where a family like it is good enough: biases change no cost. Exact techniques (izb, hybrid) are
+// right at any size, and their cost has a least size of its own: it is walked down to. The families that come
+// close to the best are then drawn at their own biases, in turn and several times over. The least times
+// decide, but for those that lie within the spread. Of them one that costs less whatever the machine is
+// preferred. The winner is then compared as its command would; where it is not good enough there, the next
+// one takes its place.
 #pragma once
 
 #include <array>
@@ -82,8 +83,8 @@ struct Attempt {
   bool custom_shader = false, reads_bias = true;
 };
 
-/// Whether `best` proves that no constant bias is right everywhere, which is an answer to goals that count wrong pixels:
-/// where a drawing tells the error of every bias, some shadowed pixels stand in the way.
+/// Whether `best` proves that no constant bias is right everywhere, which is an answer to goals that count wrong pixels.
+/// Where a drawing tells the error of every bias, some shadowed pixels stand in the way.
 inline bool has_proof(const Attempt& a, const Figure& measure) {
   return counts_biases(a.figures, measure) && !a.best.feasible && a.best.shadowed_pixels_below > 0;
 }
@@ -104,9 +105,9 @@ struct FamilyResult {
   double floor = 0.0;  ///< levels_off: the share of wrong pixels that no map size lessens, as estimated
   std::string like;    ///< no_smaller: that family's name
   std::vector<Attempt> tried;  ///< each size drawn, at its best bias, without curves
-  /// Names, for the winner, the families whose times lie within the spread of its own (and whose error is the same, where
-  /// the goal is a time), and tells whether it was preferred to the fastest of them for rendering fewer texels, taking fewer
-  /// bytes or casting fewer rays.
+  /// Names, for the winner, the families whose times lie within the spread of its own. Where the goal is a time, their error
+  /// must be the same, too. Tells whether the winner was preferred to the fastest of them for rendering fewer texels, taking
+  /// fewer bytes or casting fewer rays.
   std::vector<std::string> as_fast;
   bool by_cost = false;
   std::string why;  ///< why it lost, or won
@@ -145,8 +146,8 @@ struct TuneResult {
 /// Called before each drawing with the family and the size.
 using TuneProgress = std::function<void(const TuneFamily& family, int size, std::uint64_t renders)>;
 
-/// How many biases a technique is tried with whose gaps do not tell them, and which: multiples of the bias of
-/// its family, and of the best bias of hard shadows at the same size.
+/// How many biases a technique is tried with whose gaps do not tell them, and which. They are multiples of
+/// the bias of its family, and of the best bias of hard shadows at the same size.
 inline constexpr std::array<double, 2> tried_closed_forms{1.0, 0.25}, tried_of_hard{1.0, 2.0};
 
 /// `base` gives everything but the map's options; its runs say how often the best are drawn again.

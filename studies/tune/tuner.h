@@ -14,8 +14,8 @@ void set_figures(const std::vector<LightFigures>& lights, const Figure& measure,
 /// Whether an attempt meets the goal: where that is an error, with every light.
 bool is_good(const TuneGoal& goal, const Attempt& attempt);
 
-// What the spread of the times leaves open (ties.cpp): families that the times cannot tell from the best, and settings that
-// cost too much by no more than one time may be off.
+// What the spread of the times leaves open (ties.cpp). There are families that the times cannot tell from the best, and
+// settings that cost too much by no more than one time may be off.
 
 struct Ties {
   std::size_t chosen = 0;           ///< the family to prefer, an index
@@ -24,12 +24,12 @@ struct Ties {
 
 /// `best` is the one of `families` that comes first by error and least time, and has an answer whose times
 /// were measured. Another ties with it where that is not clearly faster (time_difference.h): they are as fast; where the goal is a time, its error has to be the same as well. Of these the one is chosen that
-/// renders no more texels, takes no more bytes and casts no more rays than `best`, and less of something:
-/// that holds on any machine.
+/// renders no more texels, takes no more bytes and casts no more rays than `best`, and less of something. That holds on any
+/// machine.
 Ties ties_with(std::size_t best, const std::vector<FamilyResult>& families, const TuneGoal& goal);
 
-/// Where the goal is a time: of every family the setting tried that errs least, where it errs less than the
-/// answer of `winner` and its one time lies over the limit by no more than such a time may be off.
+/// Where the goal is a time: of every family the setting tried that errs least. It must err less than the
+/// answer of `winner`. Its one time must lie over the limit by no more than such a time may be off.
 std::vector<JustOver> just_over_limit(std::size_t winner, const std::vector<FamilyResult>& families,
                                       const TuneGoal& goal);
 
