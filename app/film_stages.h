@@ -15,8 +15,8 @@ struct StageSource {
   std::string shader_folder;
 };
 
-/// Returns what loads the scene anew for each moment of its animation (FilmPlan::stage). What it gives has the errors of
-/// load_scene and make_renderer.
+/// Returns what loads the scene again for each moment of its animation (FilmPlan::stage). What it gives has the errors
+/// of load_scene and make_renderer.
 std::function<Expected<compare::FilmStage>(double seconds)> stages_of(StageSource source,
                                                                       std::string animation);
 

@@ -1,5 +1,5 @@
-// Scenes of very many lights: a comparison is made for the few that would light most of what the camera sees, so that
-// it ends in seconds and its page can be read. A single picture has all, unless it is asked for fewer.
+// In scenes of very many lights a comparison is made for the few that would light most of what the camera sees. So it
+// ends in seconds and its page can be read. A single picture has all, unless it is asked for fewer.
 #pragma once
 
 #include <cstdint>

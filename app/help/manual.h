@@ -1,5 +1,5 @@
-// What is made from the parser itself, so that it cannot drift from it: the text of --help, the manual page, the completion of
-// shells, and the chapters of docs/manual/ (the keys of result.json from its schema, the techniques from their table).
+// The text of --help, the manual page, the completion of shells, and the chapters of docs/manual/ are made from the parser
+// itself. So they cannot drift from it. The keys of result.json come from its schema, the techniques from their table.
 #pragma once
 
 #include <string>

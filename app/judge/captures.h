@@ -32,9 +32,9 @@ std::string name_of(const std::string& path);
 /// Every capture.json of a folder and of those directly below it, by name; an error (bad input) where there is none.
 Expected<std::vector<std::string>> captures_below(const std::string& folder);
 
-/// Makes captures of all recorded frames among `captures` and puts them in their place, beside their verdicts in `folder`, which
-/// gets its default where it is empty: "wall-capture" of "wall", "walls-captures/a" of "walls/a". `alone`: no others are judged
-/// beside them. The options' light is then a frame's, counted from 1, and taken away.
+/// Makes captures of all recorded frames among `captures` and puts them in their place. They lie beside their verdicts in
+/// `folder`. Where that is empty it gets its default: "wall-capture" of "wall", "walls-captures/a" of "walls/a". `alone`: no
+/// others are judged beside them. The options' light is then a frame's, counted from 1, and taken away.
 Expected<void> make_captures(std::vector<std::string>& captures, bool alone, CaptureOptions& options,
                              std::string& folder, Console& console);
 

@@ -1,5 +1,5 @@
-// A comparison as a live figure shows it: what `gnomon compare` would do with the same words, in a picture small enough
-// for a phone, as the parts of a page's data (report/pixels/page_data.h).
+// A comparison as a live figure shows it. It is what `gnomon compare` would do with the same words, in a picture small
+// enough for a phone. It comes as the parts of a page's data (report/pixels/page_data.h).
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -57,8 +57,8 @@ Json choice_facts(std::string_view name, std::string_view title, std::string_vie
 struct PageFigures::Row {
   std::string_view name;
   Expected<Json> (*make)(PageFigures& page, const LiveMark& mark);
-  /// Of the map, and "sizes": what the figure can be computed with anew. Where a constant bias is one, the slope is another: a bias that
-  /// is asked for takes the place of the default's slope.
+  /// Of the map, and "sizes": what the figure can be computed with again. Where a constant bias is one, the slope is another: a
+  /// bias that is asked for takes the place of the default's slope.
   Names settings{};
   Names scenes{};  ///< the same
 };

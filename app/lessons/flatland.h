@@ -1,5 +1,5 @@
-// A built-in scene cut by an upright plane, for the live figures in which light is dragged: what is left of the scene is a
-// flatland of line segments and circles, in which shadows are computed in the page.
+// A built-in scene cut by an upright plane, for the live figures in which light is dragged. What is left of the scene is a
+// flatland of line segments and circles. Its shadows are computed in the page.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -25,13 +25,16 @@ struct CutWindow {
 /// segments, planes one each, spheres circles, other solids segments of their meshes.
 nlohmann::ordered_json cut_world(const World& world, const CutPlane& plane, const CutWindow& window);
 
-/// The flatland of that name (boxes, wall, floor, leak, ball, disc): its cut, the window, the scene's name, and the first light as the
-/// plane sees it: {"direction": [x, y]} or {"position": [x, y]}, "radius" of its size. Error (internal): no such name.
+/// The flatland of that name (boxes, wall, floor, leak, ball, disc). It has its cut, the window, the scene's name, and the first
+/// light as the plane sees it. The light is {"direction": [x, y]} or {"position": [x, y]}, with the "radius" of its size. Error
+/// (internal): no such name.
 Expected<nlohmann::ordered_json> flatland(const std::string& name);
 
-/// The scene `whitted` cut by the upright plane through the centres of its glass and its mirror ball: a flatland, and
-/// "materials" [{name, mirror, transmission, ior}] of its circles, "least_share" of a pixel for which a ray is followed, and
-/// "fresnel" [{cosine, ratio, reflected}]: what the ray tracer computes.
+/// The scene `whitted` cut by the upright plane through the centres of its glass and its mirror ball. It is a flatland, and
+/// has besides:
+/// - "materials" [{name, mirror, transmission, ior}] of its circles
+/// - "least_share" of a pixel for which a ray is followed
+/// - "fresnel" [{cosine, ratio, reflected}]: what the ray tracer computes
 Expected<nlohmann::ordered_json> whitted_cut();
 
 }  // namespace gnomon::app::lessons

@@ -29,8 +29,8 @@ std::string scene_settings_text(const std::string& path_or_name);
 
 /// Options by name, as compare's command line has them; a switch is "on" or "off".
 using OptionValues = std::vector<std::pair<std::string, std::string>>;
-/// Returns the values, which name one technique at most, and beside them those that a lesson or a scene file would set
-/// otherwise: a command with all of them draws what `values` alone draw.
+/// Returns the values, which name one technique at most. Beside them it returns those that a lesson or a scene file
+/// would set otherwise. A command with all of them draws what `values` alone draw.
 OptionValues settled_values(const std::string& path_or_name, OptionValues values);
 
 /// Gives a parsed command the settings that its scene file asks for (scene/load.h): those of the shadow map's

@@ -22,7 +22,7 @@ struct LiveMark {
   std::string setting(std::string_view key) const;
 };
 
-/// Of "bias scene=acne-floor map-size=64".
+/// Reads what stands in a mark, such as "bias scene=acne-floor map-size=64".
 LiveMark read_mark(std::string_view text);
 
 struct LessonText {

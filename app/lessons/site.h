@@ -1,6 +1,6 @@
 // The lessons as a site: a page for each lesson, and index.html. Every page is one file that needs nothing but
-// itself: style, script, pictures and the data of its live figures are in it (report/shell.h), so that the
-// site works from disk, and a single lesson can be handed on.
+// itself: style, script, pictures and the data of its live figures are in it (report/shell.h). So the site
+// works from disk, and a single lesson can be handed on.
 #pragma once
 
 #include <functional>

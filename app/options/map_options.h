@@ -1,4 +1,4 @@
-// The command line's options of the shadow map, made from raster/settings.h: --help says whose an option is, and an option
+// The command line's options of the shadow map, made from raster/settings.h. --help says whose an option is. An option
 // that the technique does not read is refused rather than ignored.
 #pragma once
 

@@ -1,6 +1,6 @@
-// How one option is added to a command: its help says unit, range and default, taken from the same numbers
-// that the parser checks and the same field that it fills. CLI11 throws; what is thrown here is caught in
-// command_line.cpp and never leaves this room.
+// How one option is added to a command. Its help says unit, range and default. They are taken from the same
+// numbers that the parser checks and the same field that it fills. CLI11 throws; what is thrown here is
+// caught in command_line.cpp and never leaves this room.
 #pragma once
 
 #include <fmt/core.h>
@@ -112,8 +112,11 @@ void add_choice(CLI::App& command, const std::string& name, Enum& field,
 
 // What every command does with its options once they are bound.
 
-/// When the command is the one that was named: `finish` completes its map's options where it has a setting, `given`
-/// learns what was typed and `trace` the file of the stages where it asks for that, and the action is `run`.
+/// When the command is the one that was named:
+/// - `finish` completes its map's options where it has a setting.
+/// - `given` learns what was typed.
+/// - `trace` learns the file of the stages where it asks for that.
+/// - The action is `run`.
 template <class Command, class Run>
 void bind_run(CLI::App& app, Invocation& invocation, const std::shared_ptr<Command>& command, Run run) {
   app.callback([&, command, run] {  // not every command uses app

@@ -1,6 +1,6 @@
 // The options that several subcommands share, bound to the rooms' own option structs. Each says its unit, its
-// range and its default in --help, and the text is made from the same numbers that the parser checks and the
-// same fields that it fills, so that neither can drift.
+// range and its default in --help. That text is made from the same numbers that the parser checks and the
+// same fields that it fills. So neither can drift.
 #pragma once
 
 #include <functional>

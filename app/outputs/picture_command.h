@@ -1,6 +1,6 @@
-// What `gnomon raster` and `gnomon raytrace` have in common: they make one picture of a scene, as a PNG or as
-// an EXR with the renderer's records, and tell of it in JSON. In order: check_files, open_scene, the
-// renderer's own work, hand_out.
+// What `gnomon raster` and `gnomon raytrace` have in common. They make one picture of a scene and tell of it
+// in JSON. The picture is a PNG, or an EXR with the renderer's records. In order: check_files, open_scene,
+// the renderer's own work, hand_out.
 #pragma once
 
 #include <functional>

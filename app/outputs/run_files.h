@@ -1,4 +1,4 @@
-// What one call of the program reads and writes, so that nothing is lost: no output is also an input, no two
+// What one call of the program reads and writes. Nothing may be lost: no output is also an input, no two
 // outputs are one file, and every output can be written. Inputs known from the start are checked before
 // anything is read, those that only the scene file names before anything is written.
 #pragma once

@@ -1,7 +1,6 @@
-// SIGINT and SIGTERM end the process at once with 130 or 143, except while outputs are being written: those
-// are finished first, so that what stands in the output folder is always one whole result; programs that were started are
-// ended. Temporary folders are
-// removed before the process ends.
+// SIGINT and SIGTERM end the process at once with 130 or 143, except while outputs are being written. Those are finished
+// first, so that what stands in the output folder is always one whole result. Programs that were started are ended.
+// Temporary folders are removed before the process ends.
 #pragma once
 
 #include <list>

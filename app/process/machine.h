@@ -27,12 +27,12 @@ std::uint64_t peak_memory_bytes();
 /// What the machine could still give, bytes; infinite where it does not say.
 double available_memory();
 
-/// What an OpenGL context of Mesa takes of the address space besides pictures and maps, bytes (measured: below it
-/// Mesa and LLVM run out of memory, and not always with an error).
+/// What an OpenGL context of Mesa takes of the address space besides pictures and maps, bytes. It was measured:
+/// with less, Mesa and LLVM run out of memory, and not always with an error.
 inline constexpr double graphics_bytes = 480e6;
 
 /// ErrorKind::graphics when a picture of this size, and so many bytes besides, needs more memory than the machine
-/// or a limit (ulimit -v) has left, which would end the process without a word.
+/// or a limit (ulimit -v) has left. Without this error the process would end without a word.
 Expected<void> check_memory(ImageSize size, double bytes_per_pixel, double other_bytes = 0.0);
 
 // How much memory a picture may take, and into how many bands it is cut for that.
@@ -89,10 +89,10 @@ std::string bands_text(const ImageSize& size, const PictureBytes& bytes,
 Expected<void> check_memory(const MemoryLimit& limit, const ImageSize& size, const PictureBytes& bytes,
                             double other = 0.0);
 
-// Large pages for all that the process allocates. Where the system gives them only to those who ask (Linux's
-// transparent huge pages under "madvise"), glibc's allocator asks when its tunables say so before the process starts
-// (the GNU C Library manual, "Memory Allocation Tunables"). On virtual machines, where the first touch of a page is dear,
-// a whole comparison takes up to half the time with them.
+// Large pages for all that the process allocates. Some systems give them only to those who ask (Linux's transparent huge
+// pages under "madvise"). There glibc's allocator asks when its tunables say so before the process starts (the GNU C
+// Library manual, "Memory Allocation Tunables"). On virtual machines, where the first touch of a page is dear, a whole
+// comparison takes up to half the time with them.
 
 /// Starts the program once more with that tunable, before it has done anything else; returns where that is not needed or
 /// cannot be done. GLIBC_TUNABLES that are set already are the user's, and stay.
@@ -106,8 +106,8 @@ bool are_asked_for(std::string_view choices);
 // beforehand how many it can have (limit_threads() in session.h, image_library()); what it finds may have changed by the time
 // that they are started.
 
-/// To be called first. From here on, a thread that is refused where nothing else can be done ends the process with
-/// ErrorKind::graphics and one line, instead of an abort, an exception out of a library or a wait for ever.
+/// To be called first. From here on, a thread may be refused where nothing else can be done. The process then ends
+/// with ErrorKind::graphics and one line. Else it would abort, throw out of a library or wait for ever.
 void end_in_words_without_threads();
 
 }  // namespace gnomon::app

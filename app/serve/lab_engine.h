@@ -1,5 +1,5 @@
-// The lab without a window: an engine that is asked for a state by the words of a command line, draws and compares it beside
-// its callers, the newest wish first, and hands out what is there. Any number of threads may call it.
+// The lab without a window. The engine is asked for a state by the words of a command line. It draws and compares that
+// beside its callers, the newest wish first, and hands out what is there. Any number of threads may call it.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
-// What the lab's page knows beforehand and what it reads of one moment, as JSON text: the engine's side of what the page and
-// its engine say to each other (docs/lab.md, "The page and its engine").
+// What the lab's page knows beforehand and what it reads of one moment, as JSON text. It is the engine's side of what the
+// page and its engine say to each other (docs/lab.md, "The page and its engine").
 #pragma once
 
 #include <string>

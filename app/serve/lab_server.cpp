@@ -143,7 +143,7 @@ Expected<std::unique_ptr<LabServer>> LabServer::open(const ServerPlace& place, L
   return out;
 }
 
-/// Of every address of the machine none is better known than its own name for itself.
+/// Where the server listens at every address of the machine, the URL has the machine's own name for itself.
 std::string LabServer::url() const {
   const std::string& address = inside_->address;
   const bool any = address == "0.0.0.0" || address == "::";

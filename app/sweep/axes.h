@@ -1,6 +1,6 @@
 // The options of a sweep: those of `compare`, by the same names, each taking lists and ranges
-// (studies/sweep/axis.h). They are read off compare's own parser and every value is checked by it, so that
-// units, ranges and messages are the same and a new option is an axis by itself.
+// (studies/sweep/axis.h). They are read off compare's own parser and every value is checked by it. So units,
+// ranges and messages are the same, and a new option is an axis by itself.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ class App;
 namespace gnomon::app {
 
 /// What was given for each option, in the canonical order: what changes the truth first, then what changes
-/// the map, the constant bias last, so that cells which share work are neighbours.
+/// the map, the constant bias last. So cells that share work are neighbours.
 class SweepOptions {
  public:
   /// The techniques that are meant when none is named: hard, unless said otherwise here.

@@ -42,8 +42,8 @@ class CellPictureWriter {
   std::shared_ptr<TruthName> truth_;  ///< of that one
 };
 
-/// Chooses the cells that have pictures: of a few cells all, else those that were drawn, and of those worked out from a
-/// drawing the ones whose labels differ from the last pictured cell's by half of what is wrong there.
+/// Chooses the cells that have pictures: of a few cells all, else those that were drawn and some of those worked out
+/// from a drawing. Those are the ones whose labels differ from the last pictured cell's by half of what is wrong there.
 class PicturedCells {
  public:
   explicit PicturedCells(std::size_t cells) : cells_(cells) {}

@@ -15,10 +15,13 @@
 //   print                 the compare command, on stdout; print clipboard: what was copied last
 //   quit                  ends the program; so does the end of the script
 //
-// Keys: view NAME, size WxH (of the window), light NAME, light-azimuth DEG, light-elevation DEG, light-distance
-// D, light-size S, time-of-day HOURS, film NAME|off, film-time S, film-play on|off, camera-orbit AZIMUTH ELEVATION, camera-distance D, camera-height H, camera-target X Y Z, precision NAME;
-// layout NAME, pane N VIEW, swipe SHARE, zoom FACTOR, probe X Y, theme NAME, ui-scale FACTOR, and on or off for
-// panels, settings, results, help and large-type. A script is read and checked as a whole before the window opens.
+// Keys:
+// - view NAME, size WxH (of the window), layout NAME, pane N VIEW, swipe SHARE, zoom FACTOR, probe X Y
+// - light NAME, light-azimuth DEG, light-elevation DEG, light-distance D, light-size S, time-of-day HOURS
+// - film NAME|off, film-time S, film-play on|off
+// - camera-orbit AZIMUTH ELEVATION, camera-distance D, camera-height H, camera-target X Y Z
+// - precision NAME, theme NAME, ui-scale FACTOR, and on or off for panels, settings, results, help and large-type
+// A script is read and checked as a whole before the window opens.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What one comparison of the lab keeps for the next one of as large a picture: the rays' frame while camera, lights and precision
-// stay, and the lower climb while the map does, too. A bias that is dragged costs neither.
+// What one comparison of the lab keeps for the next one of as large a picture. The rays' frame is kept while camera, lights and
+// precision stay. The lower climb is kept while the map stays, too. A bias that is dragged costs neither.
 #pragma once
 
 #include <memory>

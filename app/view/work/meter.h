@@ -1,5 +1,5 @@
-// How quickly the window answers: its longest frame, and the time from a change of the setup to its picture, its
-// labels at a quarter of the size, and its labels in full.
+// How quickly the window answers. It measures the longest frame, and the time from a change of the setup to its
+// picture, its labels at a quarter of the size, and its labels in full.
 #pragma once
 
 #include <cstdint>

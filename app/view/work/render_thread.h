@@ -46,7 +46,7 @@ struct Snapshot {
     Error error;
   };
   std::optional<Failure> undrawable;    ///< this revision cannot be drawn
-  std::optional<Failure> incomparable;  ///< nor compared
+  std::optional<Failure> incomparable;  ///< this one cannot be compared
   std::optional<Error>
       unreadable;  ///< the scene or the shaders as they are now; the last good ones are shown
   bool opening = false;

@@ -1,5 +1,5 @@
-// Work beside its owner, one turn after another: on a thread of its own; where a program has one thread (a page), each time that that
-// calls take_turn().
+// Work beside its owner, one turn after another. It has a thread of its own. A program with one thread (a page) makes a turn each
+// time that the thread calls take_turn().
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
-// Ray tracing and comparing beside the window: one thread that has its own copy of the scene, so that the
-// window may move camera and light while it works. The newest request wins: one that is under way is given up when another
-// comes, unless it is uninterruptible: what is there within two seconds is finished, so that dragging shows something.
+// Ray tracing and comparing beside the window. One thread has its own copy of the scene, so that the window may move
+// camera and light while it works. The newest request wins: one that is under way is given up when another comes, unless
+// it is uninterruptible. What is there within two seconds is finished, so that dragging shows something.
 #pragma once
 
 #include <array>
