@@ -34,9 +34,10 @@ struct BenchRow {
   std::optional<BenchPeer> peer{};
   std::optional<double> goal{};  ///< of the ratio
 
-  /// Above 1: better than the peer; none where one of nothing is asked for.
+  /// Above 1: better than the peer; none without a peer, or where it would divide by 0.
   std::optional<double> ratio() const;
-  /// None without a peer or a goal. Where the ratio would be one of nothing the row is as good as can be.
+  /// Whether the ratio reaches the goal; none without a peer or a goal. True where the ratio would divide by 0: nothing
+  /// can be better.
   std::optional<bool> met() const;
 };
 

@@ -25,8 +25,8 @@ struct Agreement {
 };
 
 /// A floor, a box and loose triangles under one light of this type, for what must not change with the numbers that
-/// a scene is given in: coordinates are multiples of 1/64, so that sums with 1e7 and the middles of edges are exact,
-/// in floats, too.
+/// a scene is given in. Coordinates are multiples of 1/64. So sums with 1e7 and the middles of edges are exact, in
+/// floats, too.
 Scene invariant_scene(LightType type, Random random);
 
 /// The first light's drawn visibility against the ray tracer's.

@@ -22,7 +22,7 @@ int rational_order(const Vec3& origin, const Vec3& direction, const std::array<V
                    const std::array<Vec3, 3>& other);
 
 /// Whether any primitive of the world but the point's own triangle or plane meets the open segment from the
-/// point to a hard light (a directional one: the ray to infinity). Spheres and planes as they are given.
+/// point to a hard light. Of a directional one it is the ray to infinity. Spheres and planes as they are given.
 /// nullopt: the point lies on no triangle and no plane, or only a surface with holes or a solid may block the segment.
 std::optional<bool> rationally_shadowed(const World& world, const raytrace::SurfacePoint& point,
                                         const Light& light);

@@ -1,6 +1,6 @@
 // gnomon verify: the hard cases of rays and of depth maps, run on this machine. A case tries many rays
-// against an oracle that shares no code with the tracer (closed forms, 128-bit or exact arithmetic, the
-// topology of a closed mesh) and says how many were wrong and how large the worst error was. The numbers of
+// against an oracle that shares no code with the tracer: closed forms, 128-bit or exact arithmetic, or the
+// topology of a closed mesh. It says how many were wrong and how large the worst error was. The numbers of
 // the cases are fixed: other programs read them. Results depend on the seed and the number of rays alone,
 // never on threads.
 #pragma once

@@ -1,5 +1,5 @@
-// OpenGL 4.5 as raster/ calls it, over WebGL 2: objects named directly instead of bound, buffer textures (2D textures
-// fetch_width wide), vertices fetched by the shaders, depth and integers read back.
+// OpenGL 4.5 as raster/ calls it, over WebGL 2. Objects are named directly instead of bound, and buffer textures are
+// 2D textures fetch_width wide. The shaders fetch vertices; depth and integers are read back.
 #pragma once
 
 #include <memory>
