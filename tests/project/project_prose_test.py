@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Holds the sentences of the lab and of the grader to the one file in which they can be read through, prose.txt: a sentence that is
-new or changed is read there, by its author and in review, before it is a user's.
+new or changed is read there, by its author and in review, before it is a user's. Holds them and the sentences in headers' comments
+to a length that is understood at once.
   project_prose_test.py [--fix]     --fix writes the file"""
 import pathlib
 import re
@@ -10,10 +11,15 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 FOLDERS = ("app/view", "studies/grade")
 WORDS = 6  # from so many on it is a sentence
-MOST_WORDS = 30  # more must be read twice
+MOST_WORDS = 30  # more must be read twice; a sign of a formula is no word
+NO_ROOMS = ("tests", "build", "out")
 
 LITERALS = re.compile(r'(?:"(?:[^"\\\n]|\\.)*"\s*)+')
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
+# What stands before a comment, the comment's slashes, its text with the blanks in front.
+COMMENT = re.compile(r"""((?:'(?:[^'\\]|\\.)'|"(?:[^"\\]|\\.)*"|[^"/]|/(?!/))*)(//[/!]?<?)(.*)""")
+# After a full stop or a semicolon, unless it ends an abbreviation; between the columns of a table.
+SENTENCE_END = re.compile(r"(?<!\bal\.)(?<!\beq\.)(?<!\be\.g\.)(?<!\bi\.e\.)(?<=[.;!?])\s+|(?<=[.!?][)\"'`])\s+|\s{3,}")
 
 
 def sentences(source):
@@ -32,6 +38,41 @@ def prose():
     return "\n".join(parts)
 
 
+def comment_parts(source):
+    """Paragraphs, items of lists, and indented lines of formulas and tables, each with the line where it begins. Deeper lines go on
+    with an item, lines as deep with a paragraph."""
+    parts, marks, depth, deeper = [], None, 0, False
+    for number, line in enumerate(source.split("\n"), 1):
+        found = COMMENT.fullmatch(line)
+        code, slashes, text = found.groups() if found else ("", None, "")
+        indent, text = len(text) - len(text.lstrip()), text.strip()
+        goes_on = not code.strip() and slashes == marks and not text.startswith("- ")
+        if text and goes_on and (indent > depth if deeper else indent == depth):
+            parts[-1][1] += " " + text
+        elif text:
+            parts.append([number, text])
+            depth, deeper = indent, text.startswith("- ") or indent > 1
+        marks = slashes if text else None
+    return parts
+
+
+def word_count(sentence):
+    return sum(any(c.isalnum() for c in word) for word in sentence.split())
+
+
+def headers():
+    rooms = (folder for folder in ROOT.iterdir() if folder.name not in NO_ROOMS and folder.name[0] != ".")
+    return sorted(path for room in rooms for path in room.rglob("*.h") if "node_modules" not in path.parts)
+
+
+def long_sentences():
+    for path in headers():
+        for line, part in comment_parts(path.read_text(encoding="utf-8")):
+            for sentence in SENTENCE_END.split(part):
+                if word_count(sentence) > MOST_WORDS:
+                    yield f"{path.relative_to(ROOT)}:{line}: {word_count(sentence)} words: {sentence}"
+
+
 def main():
     golden, now = HERE / "prose.txt", prose()
     if "--fix" in sys.argv[1:]:
@@ -39,8 +80,9 @@ def main():
     problems = [] if golden.read_text(encoding="utf-8") == now else ["prose.txt differs: read what is new, then --fix"]
     for line in now.splitlines():
         for sentence in re.split(r"[.:;] ", line):
-            if len(sentence.split()) > MOST_WORDS:
+            if word_count(sentence) > MOST_WORDS:
                 problems.append(f"more than {MOST_WORDS} words: {sentence.strip()}")
+    problems += long_sentences()
     print("\n".join(problems) or "fine")
     return 1 if problems else 0
 
