@@ -38,7 +38,7 @@ class TileFrame {
  public:
   TileFrame(const SheetGrid& grid, int face, int tile_x, int tile_y);
 
-  /// False: it surely misses the tile. `corners`: on this face.
+  /// Returns false where the triangle surely misses the tile. `corners`: on this face.
   bool set_up(const std::array<ProjectedPoint, 3>& corners, TriangleFacing facing, TileTriangle& out) const;
   /// The triangle surely covers every texel of the tile, and no edge crosses it; or it may meet every texel, and each knows as
   /// little of it as the others, as of one that the light touches.

@@ -148,7 +148,7 @@ std::string bias_text(const Bias& bias);
 std::vector<std::pair<std::string, std::string>> map_values(const MapOptions& map);
 /// Returns the settings as words of a command line.
 std::vector<std::string> map_arguments(const MapOptions& map);
-/// The same for values by name; a switch is "on" or "off".
+/// Returns values by name as words of a command line; a switch is "on" or "off".
 std::vector<std::string> words_of(const std::vector<std::pair<std::string, std::string>>& values);
 /// "--slope-bias 1 --bias auto": what asks for a bias beside what asked for that of `drawn`, whose other parts are set back, since
 /// they may have been written out. The automatic constant is asked for, too, because a scene or a lesson may ask for another.

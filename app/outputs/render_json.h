@@ -29,11 +29,12 @@ std::string render_json(const RenderRecord& record, const raytrace::Tracer& trac
 /// Any command's --json, and whatever else goes to FILE|-: onto stdout for "-", into a file, whose folder is made where
 /// there is none, for any other path but "".
 Expected<void> hand_out_json(const std::string& path, const std::string& json);
-/// The same for several of a command's outputs, which appear together or not at all, and with `files`. What goes onto stdout
+/// Hands out several of a command's outputs, which appear together or not at all, and with `files`. What goes onto stdout
 /// comes when all others are in their places.
 Expected<void> publish_texts(const std::vector<FileText>& texts, StagedFiles& files);
-/// Those of the texts that go into files, and the others onto stdout.
+/// Returns those of the texts that go into files.
 std::vector<FileText> texts_for_files(const std::vector<FileText>& texts);
+/// Writes the others onto stdout.
 void print_texts(const std::vector<FileText>& texts);
 
 }  // namespace gnomon::app

@@ -53,7 +53,7 @@ struct Advice : AdvisedSetting {
   std::optional<AdvisedSetting> with = {};  ///< what is to be set together with it
   std::vector<AdvisedSetting> layers =
       {};  ///< the same of the layers after the first, where each has its own
-  /// Of `layers`: all constants are this many texels, each of its own layer.
+  /// The constant of every layer in its own texels, where that is one number.
   std::optional<double> texels_of_each = {};
   /// The whole advice as settings of the engine that drew, where it is known (engine_units.h).
   std::vector<std::pair<std::string, double>> in_engine = {};

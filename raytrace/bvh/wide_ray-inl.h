@@ -91,7 +91,7 @@ HWY_INLINE bool set_slabs(float r, float largest, WideRay& ray) {
   return (good & axes) == axes;
 }
 
-/// False: refused.
+/// Returns false where the ray is refused.
 HWY_INLINE bool set_interval(const Interval& t, double kernel_t, double beyond, WideRay& ray) {
   const double t_min = t.min * kernel_t, t_max = t.max * kernel_t;
   ray.least = static_cast<float>(t_min), ray.most = static_cast<float>(t_max);

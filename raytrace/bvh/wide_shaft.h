@@ -22,7 +22,7 @@ class ShaftLeaves {
  public:
   static constexpr std::size_t most = 24;
   std::span<const LeafRange> ranges() const { return {range_.data(), count_}; }
-  /// False: no room.
+  /// Returns false where there is no room.
   bool add(LeafRange range) {
     if (count_ == most) return false;
     range_[count_++] = range;
@@ -34,7 +34,7 @@ class ShaftLeaves {
   std::size_t count_ = 0;
 };
 
-/// False: not found, for there are too many, or the shaft is out of the floats' range, the world's or an instance's.
+/// Returns false where there are too many leaves, or the shaft is out of the floats' range, the world's or an instance's.
 bool leaves_in_shaft(const WideTree& tree, const Shaft& shaft, ShaftLeaves& found);
 
 }  // namespace gnomon::raytrace

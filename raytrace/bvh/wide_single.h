@@ -94,7 +94,7 @@ class Blockers {
   }
 
  private:
-  /// False: a ray that hits nothing.
+  /// Returns false where the ray hits nothing.
   bool is_ready() {
     if (!arithmetic_ && scale_ray(ray_, frame_)) shear_ray(frame_), arithmetic_.emplace(s_, frame_);
     return arithmetic_.has_value();

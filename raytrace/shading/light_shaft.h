@@ -27,7 +27,7 @@ class LightBlockers {
 
  private:
   friend LightBlockers find_light_blockers(const Tracer&, const SurfacePoint&, const Light&, int);
-  /// False: more than it pays to ask one by one.
+  /// Returns false where there are more than it pays to ask one by one.
   bool add(std::uint32_t leaf, bool placed);
 
   /// About as many as take a ray as long as all of the tree.

@@ -33,7 +33,8 @@ FileKind file_kind_or_none(const std::string& path);
 /// end.
 Expected<std::vector<std::string>> names_in(const std::string& folder,
                                             ErrorKind error = ErrorKind::bad_input);
-/// The same of a folder that was opened for reading, by its descriptor, which is closed; `folder` is its path for messages.
+/// Returns the names in a folder that was opened for reading, by its descriptor, which is closed. `folder` is its path for
+/// messages.
 Expected<std::vector<std::string>> names_in_open(int descriptor, const std::string& folder, ErrorKind error);
 /// Lists a folder that need not be there: it holds nothing then.
 Expected<std::vector<std::string>> names_if_there(const std::string& folder,

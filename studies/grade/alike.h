@@ -30,7 +30,7 @@ using Answer = std::string;
 /// (every passage is kept, for answers are short).
 std::vector<AlikePair> find_alike(const std::vector<Answer>& answers, const std::vector<std::string>& given);
 
-/// The same of what a class handed in for a rubric: nothing that is refused or cannot be read is like anything.
+/// Finds such pairs in what a class handed in for a rubric. Nothing that is refused or cannot be read is like anything.
 std::vector<AlikePair> find_alike(const std::vector<Student>& students, const Rubric& rubric);
 
 }  // namespace gnomon::grade

@@ -28,7 +28,7 @@ struct RunResult {
 
 /// Where the answers of a function are written.
 std::string answers_file(const std::string& folder);
-/// The same of the calls of a function.
+/// Reads the answers of a function's calls.
 Expected<RunResult> read_called(const Run& run, const std::string& folder);
 
 /// Errors: the folder holds no result of this version.
@@ -69,7 +69,7 @@ struct DrawnValues {
 /// Errors as count_different().
 Expected<DrawnValues> read_values(const Run& run, const RunResult& result);
 
-/// Of the same run, all three.
+/// All three are of the same run.
 Agreement compare_drawings(const DrawnValues& drawn, const DrawnValues& other, const DrawnValues& right);
 
 /// raster.png, raytrace.png and the labels' pictures that there are, by file name.

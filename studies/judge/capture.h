@@ -95,7 +95,7 @@ struct CapturedFade {
   bool by_distance = false;          ///< from the eye; else along the view's axis
 };
 
-/// Of a picture that several layers share: texels from its first column and row.
+/// Where a layer lies in a picture that several layers share: texels from its first column and row.
 struct CapturedRect {
   int x = 0, y = 0, width = 0, height = 0;
 };

@@ -35,8 +35,9 @@ struct CapturedPictures {
 /// picture. Errors (bad input) name picture and field.
 Expected<void> check_picture_sizes(const Capture& capture);
 
-/// Of a layer's picture, by its header; the layer's own: its rect, or all of it.
+/// The size of a layer's picture, by its header.
 Expected<ImageSize> layer_picture_size(const Capture& capture, std::size_t layer);
+/// The size of the layer itself: its rect, or all of its picture.
 Expected<ImageSize> layer_size(const Capture& capture, std::size_t layer);
 
 /// Errors (bad input) name picture and field. A file is missing, is of another size, has more channels than wanted, or has

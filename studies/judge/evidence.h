@@ -31,8 +31,8 @@ Samples choose_samples(const EvidenceInput& input, const raytrace::RayTracedFram
 struct Evidence {
   std::optional<double> positions, depths, silhouettes, visibility;
   std::size_t lit = 0, shadowed = 0;  ///< samples of visibility
-  /// Of silhouettes: samples, and the lesser share of those that Gnomon sees as something and those as nothing. A view in
-  /// which all are something, or of few silhouettes, agrees with any picture.
+  /// How many samples silhouettes have; the lesser of two shares of them: what Gnomon sees as something, and as nothing. A
+  /// view in which all are something, or of few silhouettes, agrees with any picture.
   std::size_t outlines = 0;
   double least_kind = 0.5;
   float darkest = 1.0f, lightest = 0.0f;  ///< of the picture at these

@@ -8,7 +8,7 @@
 
 namespace gnomon::compare {
 
-/// Of samples inside the map whose filter reads texels that all agree.
+/// Counts samples inside the map whose filter reads texels that all agree.
 struct OwnTest {
   std::size_t pixels = 0, as_drawn = 0;
   std::size_t dark = 0;        ///< by the test

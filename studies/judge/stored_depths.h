@@ -27,10 +27,10 @@ class StoredDepths {
 
   /// By how much stored numbers differ at least at this depth in the map's format.
   double step(raytrace::TexelKey key, double depth) const;
-  /// Without the casters' bias, once that was taken out.
+  /// What the texel stores, without the casters' bias once that was taken out.
   double stored(raytrace::TexelKey key) const;
   bool is_empty(raytrace::TexelKey key) const { return !holds_caster(view_, stored(key)); }
-  /// Of averages: whether nothing may be drawn in the texel itself.
+  /// As is_empty(); where the texel stores averages: whether nothing may be drawn in the texel itself.
   bool may_be_empty(raytrace::TexelKey key) const;
   /// The stored number as a depth along the map's forward axis.
   double depth(raytrace::TexelKey key) const;

@@ -33,7 +33,7 @@ class KeptTruth {
   /// Requires has_frame(). The caller hands it back by keep().
   raytrace::RayTracedFrame take_frame();
   compare::Climb climb(const compare::LadderInput& input);
-  /// Of the one light; empty where they are not known.
+  /// What was measured on the one light's map; empty where it is not known.
   const std::vector<compare::MapMeasures>& measures() const { return measures_; }
   /// Takes the receivers of a finished comparison, and copies the rest of its frame.
   void keep(compare::Comparison& comparison);

@@ -56,9 +56,10 @@ class Studio {
   Expected<void> compare(const DrawOrder& order);
 
   const LivePicture& live() const { return live_; }
-  /// The newest; none yet: null.
+  /// The newest; null where there is none yet.
   std::shared_ptr<const ComparisonOutcome> outcome() const { return outcome_; }
-  /// Of the newest revision that was looked at for long enough; none yet, or nothing but the processor draws: null.
+  /// The times of the newest revision that was looked at for long enough; null where there is none yet, or nothing but the
+  /// processor draws.
   std::shared_ptr<const ShadowTimes> shadow_times() const { return shadow_timer_.times(); }
   const GivenScene& given() const { return given_; }
   const raster::ContextInfo& context_info() const { return renderer_->info(); }

@@ -15,7 +15,7 @@ struct State;
 std::shared_ptr<State> new_objects();
 /// The current context's extensions, enabled; the name of the first without which nothing can be drawn, or nothing.
 std::string use_extensions();
-/// Those of the context that is current from now on.
+/// Says which objects the calls mean: those of the context that is current from now on.
 void use_objects(std::shared_ptr<State> of_context);
 
 }  // namespace gnomon::web

@@ -44,7 +44,7 @@ struct Translation {
   Bindings bindings;
 };
 
-/// Of a whole stage, its includes in place, that uses neither doubles nor storage buffers.
+/// Translates a whole stage, its includes in place, that uses neither doubles nor storage buffers.
 Translation to_es(std::string_view text, Stage stage, const Lacks& lacks);
 /// The fragment shader of a program that writes depths alone.
 std::string_view depth_only(const Lacks& lacks);
