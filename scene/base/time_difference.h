@@ -32,8 +32,8 @@ struct TimedStrip {
 };
 
 /// Subtracts a part of a pass from it, strip by strip. What else the machine does can only add, so the difference is that of
-/// the least times of each strip. Its interval reaches to either side by twice the standard error that leaving out one run
-/// after the other tells (Efron and Tibshirani 1993, "An Introduction to the Bootstrap", section 11.2). Fewer than three runs
+/// the least times of each strip. Its interval reaches to either side by twice the standard error, which leaving out one run
+/// after the other tells. (Efron and Tibshirani 1993, "An Introduction to the Bootstrap", section 11.2.) Fewer than three runs
 /// say nothing of their spread: they are taken to be off by a quarter of the shorter pass (single_run_share). A part takes no
 /// more than the whole, so nothing of the interval lies below 0; where the difference does, it reaches up as far as that
 /// reaches down.
@@ -41,8 +41,8 @@ TimeDifference beyond_part(std::span<const TimedStrip> strips);
 /// Does so for passes that were run in one piece.
 TimeDifference beyond_part(const Times& whole, const Times& part);
 
-/// The median of a pass with an interval from the lower to the upper quartile of its runs (of three from the least to the
-/// greatest), and as far again to either side; of fewer than three runs a quarter of it to either side.
+/// Returns the median of a pass with an interval. That goes from the lower to the upper quartile of its runs, of three from the
+/// least to the greatest, and as far again to either side. Of fewer than three runs it is a quarter to either side.
 TimeDifference with_spread(const Times& pass);
 
 /// Whether `a` takes less time than `b` by more than their runs leave open; as fast are two of which neither does.

@@ -46,9 +46,9 @@ class Folder {
   int descriptor_ = -1;
 };
 
-/// Whether somebody else may have put the thing there for others to stumble over: the folder is one in which all may write and
-/// nobody may remove another's (sticky, as /tmp), and the thing belongs neither to the user nor to the folder's owner. Linux has
-/// the same rule where fs.protected_symlinks and fs.protected_fifos are on (man 5 proc).
+/// Whether somebody else may have put the thing there for others to stumble over. The folder is one in which all may write and
+/// nobody may remove another's (sticky, as /tmp). The thing belongs neither to the user nor to the folder's owner. Linux has the
+/// same rule where fs.protected_symlinks and fs.protected_fifos are on (man 5 proc).
 bool is_planted(const struct stat& folder, const struct stat& thing);
 /// Refuses what is planted by that name in the folder; nothing there is fine.
 Expected<void> refuse_planted(const Folder& folder, const std::string& name);

@@ -80,8 +80,8 @@ class Engine {
   /// the measure "shimmer".
   void film_with(const FilmPlan& plan);
 
-  /// From now on each setting is judged from all these views by that measure, and holds by the worst: compare() gives
-  /// the comparison of the view in which it errs most, with Comparison::views; of probes the lights are those of all
+  /// From now on each setting is judged from all these views by that measure, and holds by the worst. compare() gives
+  /// the comparison of the view in which it errs most, with Comparison::views. Of probes the lights are those of all
   /// views, one after the other, gaps and best bias of all pixels, times their means. What is kept from one setting to
   /// the next is kept for each view. Without views: from the setting's own camera.
   void look_from(std::vector<JudgedView> views, const Figure& measure);
@@ -111,17 +111,16 @@ class Engine {
   /// Of those that the last comparison was judged from, the one that it shows; 0 without views.
   std::size_t shown_view() const { return shown_; }
 
-  /// The last comparison in small, `width` pixels wide (or as wide as the picture, if that is less): the
-  /// ray-traced picture in grey with false shadow and missed shadow of any light compared in their two
-  /// colours.
+  /// Returns the last comparison in small, `width` pixels wide, or as wide as the picture if that is less. It is the ray-traced
+  /// picture in grey, with false shadow and missed shadow of any light compared in their two colours.
   Rgb8Image thumbnail(int width) const;
 
   /// The last comparison's rasterized picture, `width` pixels wide at most; of a derived one that of the
   /// frame that it was made from.
   Rgb8Image drawing(int width) const;
 
-  /// The last comparison's labels, all lights together: the label of the first light that is wrong at a pixel, else of
-  /// the first that is off by less, else right where a light is compared, else why it is not. Codes as below.
+  /// Returns the last comparison's labels, all lights together. A pixel has the label of the first light that is wrong there,
+  /// else of the first that is off by less. Else it is right where a light is compared, or says why none is. Codes as below.
   Image<std::uint8_t> class_codes() const;
 
   /// The last comparison was derived.

@@ -1,5 +1,5 @@
-// The times of a sweep's cells, which are drawn in rounds: all cells once, then all again, so that what else the machine does
-// for a while falls on none of them alone. sweep_times.jsonl holds the rounds one after the other.
+// The times of a sweep's cells, which are drawn in rounds: all cells once, then all again. So what else the machine does for a
+// while falls on none of them alone. sweep_times.jsonl holds the rounds one after the other.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
