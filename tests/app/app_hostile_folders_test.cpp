@@ -1,6 +1,7 @@
 // Where outputs go something may lie that somebody else has put there, and the user's own umask may forbid what is made.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <map>
@@ -130,6 +131,110 @@ TEST(HostileFolders, OutputsOfOneRunAppearTogether) {
     EXPECT_EQ(done.exit_code, 4) << done.err;
     EXPECT_EQ(contents(folder), older) << at << ": " << done.err;
   }
+}
+
+// In a folder like /tmp, where the names of others lie beside the user's: a link to what is the user's, and a pipe.
+TEST(HostileFolders, WhatOthersPlantInASharedFolderIsNotWrittenThrough) {
+  if (geteuid() != 0) GTEST_SKIP() << "needs root, to become another user";
+  constexpr uid_t other = 65534;
+  const auto shared = [](const TemporaryFolder& folder) {
+    fs::create_directories(folder / "mine");
+    write_text(folder / "mine/picture.png", "precious");
+    fs::create_directories(folder / "out");
+    EXPECT_EQ(::chmod((folder / "out").c_str(), 01777), 0);
+  };
+  const auto give_away = [](const std::string& path) { EXPECT_EQ(::lchown(path.c_str(), other, other), 0); };
+  const Words raster{"raster", "thin-wall", "--size", "24x14", "--map-size", "64", "-o"};
+  {
+    const TemporaryFolder folder;
+    shared(folder);
+    fs::create_symlink("../mine/picture.png", folder / "out/picture.png");
+    EXPECT_EQ(run_in(folder, raster + Words{"out/picture.png"}).exit_code, 0)
+        << "a link of one's own is followed";
+    EXPECT_NE(read_file(folder / "mine/picture.png"), "precious");
+  }
+  for (const bool pipe : {false, true}) {
+    const TemporaryFolder folder;
+    shared(folder);
+    const std::string planted = folder / "out/picture.png";
+    if (pipe)
+      EXPECT_EQ(::mkfifo(planted.c_str(), 0666), 0);
+    else
+      fs::create_symlink("../mine/picture.png", planted);
+    give_away(planted);
+    const ProcessResult done = run_in(folder, raster + Words{"out/picture.png"});
+    EXPECT_EQ(done.exit_code, 4) << done.err;
+    EXPECT_NE(done.err.find("belongs to another user"), std::string::npos) << done.err;
+    EXPECT_EQ(read_file(folder / "mine/picture.png"), "precious");
+  }
+  const TemporaryFolder folder;
+  shared(folder);
+  fs::create_directory_symlink("../mine", folder / "out/report");
+  give_away(folder / "out/report");
+  EXPECT_EQ(run_in(folder, {"shaders", "-o", "out/report"}).exit_code, 4);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "mine"), {}), 1);
+}
+
+TEST(HostileFolders, ResultsGoWhereALinkOfOnesOwnLeads) {
+  const TemporaryFolder folder;
+  write_text(folder / "kept.json", "{}");
+  fs::create_symlink("kept.json", folder / "result.json");
+  const Words compare{"compare", "thin-wall", "--size", "24x14",      "--map-size",
+                      "64",      "--runs",    "1",      "--no-report"};
+  const ProcessResult done = run_in(folder, compare + Words{"--json", "result.json", "-o", "out"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(fs::is_symlink(folder / "result.json"));
+  EXPECT_EQ(read_file(folder / "kept.json"), read_file(folder / "out/result.json"));
+}
+
+// A shard comes from somebody else: what it links to is not copied, and its data is not run by the page.
+TEST(HostileFolders, AShardIsReadThroughNoLinkAndItsDataIsData) {
+  const Words sweep{"sweep", "thin-wall", "--size", "24x14", "--map-size", "32,64", "--runs", "1", "-o"};
+  const std::string cell = "shard/cells/cell-000000.js";
+  {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_in(folder, sweep + Words{"shard"}).exit_code, 0);
+    ASSERT_EQ(run_in(folder, {"merge", "shard", "-o", "whole"}).exit_code, 0);
+    std::string data = read_file(folder / cell);
+    data.replace(data.find("24"), 2, "(globalThis.run=1,24)");
+    write_text(folder / cell, data);
+    const ProcessResult merged = run_in(folder, {"merge", "shard", "-o", "whole2"});
+    EXPECT_EQ(merged.exit_code, 3) << merged.err;
+    EXPECT_NE(merged.err.find(cell + ": is no data of that cell"), std::string::npos) << merged.err;
+    EXPECT_FALSE(fs::exists(folder / "whole2"));
+    EXPECT_NE(run_in(folder, sweep + Words{"shard"}).exit_code, 0) << "nor when it is resumed";
+  }
+  for (const char* name :
+       {"cells/cell-000000.png", "cells/cell-000000.js", "thumbnails/cell-000000.png", "cells"}) {
+    const TemporaryFolder folder;
+    write_text(folder / "secret", "a key");
+    ASSERT_EQ(run_in(folder, sweep + Words{"shard"}).exit_code, 0);
+    const std::string planted = folder / ("shard/" + std::string(name));
+    fs::rename(planted, folder / "away");
+    fs::create_symlink(std::string(name) == "cells" ? "../away" : "../../secret", planted);
+    const ProcessResult merged = run_in(folder, {"merge", "shard", "-o", "whole"});
+    EXPECT_EQ(merged.exit_code, 3) << name << ": " << merged.err;
+    EXPECT_FALSE(fs::exists(folder / "whole")) << name;
+  }
+}
+
+// "cp -al": a sweep goes on in the copy, and the original keeps what it has.
+TEST(HostileFolders, ASweepWritesNothingIntoAnotherNameOfItsFiles) {
+  const TemporaryFolder folder;
+  const Words sweep{"sweep", "thin-wall", "--size", "24x14", "--map-size", "32,64", "--runs", "1", "-o"};
+  write_text(folder / "notes", "");
+  fs::create_directories(folder / "out");
+  fs::create_hard_link(folder / "notes", folder / "out/sweep.jsonl");
+  const ProcessResult done = run_in(folder, sweep + Words{"out"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(read_file(folder / "notes"), "");
+  EXPECT_NE(read_file(folder / "out/sweep.jsonl"), "");
+}
+
+TEST(HostileFolders, NoAddressIsNotAllOfThem) {
+  const TemporaryFolder folder;
+  const ProcessResult done = run_in(folder, {"serve", "thin-wall", "--listen", ""});
+  EXPECT_EQ(done.exit_code, 2) << done.err;
 }
 
 }  // namespace

@@ -81,6 +81,9 @@ TEST_F(Grade, BadRubricsAndFolders) {
            R"("points": 1, "kind": "draws", "runs": [{"scene": "acne-floor", "options": {"output": "x"}}]})"),
        "is not for a rubric to set"},
       {check(
+           R"("points": 1, "kind": "draws", "runs": [{"scene": "acne-floor", "options": {"allow-outside": ""}}]})"),
+       "is not for a rubric to set"},
+      {check(
            R"("points": 1, "kind": "draws", "runs": [{"scene": "acne-floor", "options": {"map-size": "none"}}]})"),
        "check \"a\": gnomon compare acne-floor --map-size none"}};
   for (const auto& [members, part] : wrong) {
