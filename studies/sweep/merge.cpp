@@ -10,6 +10,7 @@
 
 #include "scene/base/interrupted.h"
 #include "scene/files/folder.h"
+#include "scene/files/path_status.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 #include "studies/sweep/cell_files.h"

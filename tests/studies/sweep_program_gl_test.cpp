@@ -238,7 +238,8 @@ TEST_F(SweepProgram, AnAxisThatATechniqueDoesNotReadIsNamed) {
   }
   ASSERT_EQ(cells.size(), 4u);
   const std::string base = "gnomon compare floating-box --size 96x54 --map-size 64 --technique ";
-  EXPECT_EQ(cells[1]["command"], base + "hard");
+  EXPECT_EQ(cells[1]["command"], base + "hard --bias auto")
+      << "the scene asks for a texel, and was not heeded";
   EXPECT_EQ(cells[1]["no_effect"].dump(), R"(["filter_radius"])");
   EXPECT_EQ(cells[0]["lights"], cells[1]["lights"]);
   EXPECT_EQ(cells[3]["command"], base + "pcf --filter-radius 2");
