@@ -156,7 +156,7 @@ Expected<Folder> Folder::at(const std::string& path) {
     if (!link) return fail(link.error());
     if (!*link) return failed_in(shown, "cannot open the folder", why);
     if (++links > most_links) return failed_in(shown, "cannot open the folder", ELOOP);
-    rest = **link + "/" + rest;
+    rest.insert(0, **link + "/");
     if (rest.starts_with('/')) folder = Folder(shown, opened("/"));
   }
   if (folder.descriptor_ < 0) return failed_in(shown, "cannot open the folder", errno);

@@ -114,7 +114,7 @@ Expected<std::vector<std::string>> files_below(const std::string& folder, ErrorK
   if (!names) return names;
   std::vector<std::string> files;
   for (const std::string& name : *names) {
-    const std::string path = folder + "/" + name;
+    const std::string path = fmt::format("{}/{}", folder, name);
     std::error_code why;
     const bool deeper = fs::symlink_status(path, why).type() == fs::file_type::directory;
     if (why) return path_error(error, path, cannot_look, why);
@@ -124,7 +124,7 @@ Expected<std::vector<std::string>> files_below(const std::string& folder, ErrorK
     }
     const auto below = files_below(path, error);
     if (!below) return below;
-    for (const std::string& file : *below) files.push_back(name + "/" + file);
+    for (const std::string& file : *below) files.push_back(fmt::format("{}/{}", name, file));
   }
   std::sort(files.begin(), files.end());
   return files;
