@@ -61,7 +61,8 @@ class MergeTest : public ::testing::Test {
             journal->append(unsealed(merge_line(static_cast<int>(cell))), unsealed(merge_times(cell))));
         const std::string folder = "shard" + std::to_string(part);
         files.put(folder + "/thumbnails/" + cell_name(cell) + ".png", "thumbnail of " + cell_name(cell));
-        files.put(folder + "/cells/" + cell_name(cell) + ".js", "data of " + cell_name(cell));
+        files.put(folder + "/cells/" + cell_name(cell) + ".js",
+                  cell_data_file(cell, Image<std::uint8_t>(ImageSize{2, 1}), "truth-0123456789ab"));
         files.put(folder + "/cells/" + cell_name(cell) + ".png", "drawing of " + cell_name(cell));
       }
     }
