@@ -264,8 +264,10 @@ Expected<void> Identifier::run() {
 }
 
 std::string options_text(const raster::MapOptions& map) {
+  raster::MapOptions unasked;  // on a line of its own there is nothing to set back
+  unasked.bias = {.constant = 0.0, .unit = raster::BiasUnit::world};
   std::string text = fmt::format("--technique {} --map-size {} {}", technique_name(map.technique), map.size,
-                                 raster::bias_arguments(map.bias));
+                                 raster::bias_arguments(map.bias, unasked));
   if (map.technique == Technique::pcf) text += fmt::format(" --filter-radius {:g}", map.filter.radius_texels);
   if (raster::reads_setting(map, "filter-plane") && !map.filter.receiver_plane) text += " --filter-plane off";
   return text;
