@@ -77,6 +77,7 @@ json without_times(json document) {
   for (const char* timed : {"times_ms", "process", "time_budget"}) document.erase(timed);
   document.erase("command");
   document.erase("threads");
+  document["machine"].erase("load");
   for (json& light : document["lights"]) light.erase("times_ms");
   return document;
 }

@@ -123,7 +123,7 @@ TEST(Names, OnTheCommandLineAreEscapedInErrors) {
 
 TEST(Names, TooLongForAFolder) {
   const std::string long_name(5000, 'x');
-  expect_one_line(run_gnomon({"raster", "fence", "-o", "x.png", "--shader-dir", long_name}), 2,
+  expect_one_line(run_gnomon({"raster", "fence", "-o", "x.png", "--shader-dir", long_name}), 3,
                   "File name too long");
 }
 
