@@ -84,10 +84,10 @@ Expected<MadeCell> make_cell(SweepRun& run, std::size_t index) {
   const auto compared = run.engine.compare(*setting, compare::Detail::numbers);
   if (!compared) return fail(compared.error());
   compare::Comparison& comparison = **compared;
+  const TimedStage stage("records");
   comparison.command = compare_command(run.command, run.plan, cell);
   comparison.seed = run.command.seed;
   comparison.machine = run.machine;
-  const TimedStage stage("records");
   MadeCell made;
   const auto without_effect = json_names(run.command.options.axes_without_effect(run.plan.grid, cell));
   const int once = std::exchange(comparison.raster.options.runs, rounds_of(run.command));

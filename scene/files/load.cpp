@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 #include <future>
+#include <map>
 #include <new>
 
 #include "scene/base/threads.h"
@@ -180,17 +181,10 @@ Expected<Scene> load_file(const std::string& path, const LoadOptions& options) {
 
 }  // namespace
 
-std::vector<SceneSetting> scene_settings(const std::string& path_or_name) {
-  const auto builtin = find_builtin_scene(path_or_name);
-  std::string text;
-  if (!builtin) {
-    if (lower_extension(path_or_name) != ".json") return {};
-    const auto bytes = read_file(path_or_name);
-    if (!bytes) return {};
-    text = *bytes;
-  }
-  const std::string_view source = builtin ? builtin->text : std::string_view(text);
-  const auto document = parse_json(source, path_or_name);
+namespace {
+
+std::vector<SceneSetting> settings_in(std::string_view source, const std::string& name) {
+  const auto document = parse_json(source, name);
   const JsonMember* settings = document ? document->root.find("settings") : nullptr;
   std::vector<SceneSetting> out;
   if (settings == nullptr) return out;
@@ -200,6 +194,21 @@ std::vector<SceneSetting> scene_settings(const std::string& path_or_name) {
     out.push_back({member.key, member.value.text, at.line, at.column});
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<SceneSetting> scene_settings(const std::string& path_or_name) {
+  if (const auto builtin = find_builtin_scene(path_or_name)) {
+    thread_local std::map<std::string, std::vector<SceneSetting>>
+        known;  // a sweep asks for each of its cells
+    const auto found = known.find(path_or_name);
+    if (found != known.end()) return found->second;
+    return known[path_or_name] = settings_in(builtin->text, path_or_name);
+  }
+  if (lower_extension(path_or_name) != ".json") return {};
+  const auto bytes = read_file(path_or_name);
+  return bytes ? settings_in(*bytes, path_or_name) : std::vector<SceneSetting>();
 }
 
 std::vector<SceneFormat> scene_formats() {

@@ -341,6 +341,7 @@ Expected<void> Journal::append_round(const Json& times) {
 }
 
 Expected<void> Journal::finish_rounds() {
+  const TimedStage stage("records");
   const auto lines = line_file_->own.text(), times = time_file_->own.text();
   if (!lines) return fail(lines.error());
   if (!times) return fail(times.error());

@@ -228,7 +228,7 @@ TEST(TechniqueOptions, ACellNamesOnlyWhatItsTechniqueReads) {
 TEST(TechniqueOptions, SwitchesAndOnesThatTakeAWordAreToldApart) {
   const std::vector<std::pair<std::string, std::string>> off{
       {"technique", "vsm"}, {"mipmaps", "off"}, {"snap", "off"}, {"filter-plane", "off"}};
-  EXPECT_EQ(app::setting_arguments(off), " --technique vsm --mipmaps off --filter-plane off");
+  EXPECT_EQ(app::setting_arguments(off), " --technique vsm --mipmaps off --snap=false --filter-plane off");
   const std::vector<std::pair<std::string, std::string>> on{
       {"technique", "vsm"}, {"mipmaps", "on"}, {"snap", "on"}, {"filter-plane", "on"}};
   EXPECT_EQ(app::setting_arguments(on), " --technique vsm --mipmaps on --snap --filter-plane on");
