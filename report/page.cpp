@@ -69,10 +69,25 @@ class Pictures {
   std::vector<PagePicture> pictures_;
 };
 
+/// What scripts read, and what is saved from the page: a third of it was indentation.
+std::string without_line_breaks(std::string_view json) {
+  std::string text;
+  text.reserve(json.size());
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    if (json[i] != '\n') {
+      text += json[i];
+      continue;
+    }
+    while (i + 1 < json.size() && json[i + 1] == ' ') ++i;  // in strings line breaks are written \n
+  }
+  return text;
+}
+
 /// To be saved from the page itself, unless it has files beside it: these two are among them.
 std::vector<PageLink> links(const PageInput& in) {
-  return {{"result.json", in.beside ? "result.json" : data_uri("application/json", in.json)},
-          {"result.csv", in.beside ? "result.csv" : data_uri("text/csv", in.csv)}};
+  return {
+      {"result.json", in.beside ? "result.json" : data_uri("application/json", without_line_breaks(in.json))},
+      {"result.csv", in.beside ? "result.csv" : data_uri("text/csv", in.csv)}};
 }
 
 std::vector<std::string> said_first(const Comparison& c) {
@@ -88,20 +103,6 @@ std::string with_facts(std::string_view head, const PageInput& in) {
   auto json = nlohmann::ordered_json::parse(head);
   json.update(report_facts(in));
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
-
-/// The scripts read it, nobody else: a third of it was indentation.
-std::string without_line_breaks(std::string_view json) {
-  std::string text;
-  text.reserve(json.size());
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    if (json[i] != '\n') {
-      text += json[i];
-      continue;
-    }
-    while (i + 1 < json.size() && json[i + 1] == ' ') ++i;  // in strings line breaks are written \n
-  }
-  return text;
 }
 
 }  // namespace
