@@ -251,7 +251,7 @@ std::string result_json(const Comparison& c, double report_ms, double total_ms) 
   if (c.judged) json["judged"] = judged_json(*c.judged);
   add_measure(c, json);
   add_threshold(c, json);
-  return dumped(json, 2);
+  return dumped(json, 1);
 }
 
 Json line_json(const Comparison& c, const AxisValues& axes, const std::vector<std::string>& no_effect) {

@@ -20,14 +20,13 @@ std::string clocks_text(double wall_ms, double cpu_ms) {
 
 std::string budget_text(const TimeBudget& budget) {
   std::string text =
-      fmt::format("  \"process\": {{{}}},\n  \"time_budget\": [", clocks_text(budget.wall_ms, budget.cpu_ms));
+      fmt::format(" \"process\": {{{}}},\n \"time_budget\": [", clocks_text(budget.wall_ms, budget.cpu_ms));
   std::string_view between = "\n";
   for (const StageTime& s : budget.stages) {
-    text +=
-        fmt::format("{}    {{\"stage\": \"{}\", {}}}", between, s.stage, clocks_text(s.wall_ms, s.cpu_ms));
+    text += fmt::format("{}  {{\"stage\": \"{}\", {}}}", between, s.stage, clocks_text(s.wall_ms, s.cpu_ms));
     between = ",\n";
   }
-  return text + "\n  ]\n}\n";
+  return text + "\n ]\n}\n";
 }
 
 std::string short_form(const TimeBudget& budget) {
