@@ -17,6 +17,7 @@
 #include "scene/base/threads.h"
 #include "scene/files/path_status.h"
 #include "scene/files/staged_folder.h"
+#include "scene/files/unfinished_files.h"
 
 namespace gnomon::app {
 
@@ -100,6 +101,7 @@ int interrupt_exit_code() {
 void end_process(int exit_code, std::string_view words) {
   TemporaryFolders& folders = temporary_folders();
   folders.mutex.lock();  // for good: no other is made any more
+  remove_unfinished_files();
   try {
     for (const std::string& folder : folders.paths) remove_folder(folder);
     StagedFolder::remove_all_at_the_end();

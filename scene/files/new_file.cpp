@@ -9,11 +9,14 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <utility>
 
 #include "scene/base/interrupted.h"
 #include "scene/files/path_status.h"
+#include "scene/files/unfinished_files.h"
 
 namespace gnomon {
 namespace {
@@ -24,6 +27,26 @@ constexpr std::size_t longest_kept_name = 100;
 std::string temporary_name(const std::string& name) {
   static std::atomic<unsigned> counter{0};
   return fmt::format("{}.{}-{}.part", name.substr(0, longest_kept_name), ::getpid(), counter++);
+}
+
+/// The names of all files in the making, each with the descriptor of its folder. No two of a process have one name.
+struct Unfinished {
+  std::mutex mutex;
+  std::map<std::string, int> folders;
+};
+Unfinished& unfinished() {
+  static Unfinished files;
+  return files;
+}
+
+void remember(const std::string& temporary, int folder) {
+  const std::lock_guard lock(unfinished().mutex);
+  unfinished().folders.emplace(temporary, folder);
+}
+
+void forget(const std::string& temporary) {
+  const std::lock_guard lock(unfinished().mutex);
+  unfinished().folders.erase(temporary);
 }
 
 /// Reads a process's number, which has decimal digits alone, without a leading zero.
@@ -42,7 +65,9 @@ int NewFile::with_temporary_name(const Use& use) {
   constexpr int most = 1000;  // names that somebody has taken before
   for (int taken = 0;; ++taken) {
     std::string name = temporary_name(name_);
+    remember(name, folder_.descriptor());
     const int result = use(name.c_str());
+    if (result < 0) forget(name);
     if (result >= 0) temporary_ = std::move(name);  // needs no memory: the file is there already
     if (result >= 0 || errno != EEXIST || taken == most) return result;
   }
@@ -83,7 +108,9 @@ NewFile& NewFile::operator=(NewFile&& other) noexcept {
 
 NewFile::~NewFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (!temporary_.empty()) ::unlinkat(folder_.descriptor(), temporary_.c_str(), 0);
+  if (temporary_.empty()) return;
+  ::unlinkat(folder_.descriptor(), temporary_.c_str(), 0);
+  forget(temporary_);
 }
 
 Expected<void> NewFile::flush() {
@@ -104,14 +131,23 @@ Expected<void> NewFile::publish(const Folder& folder, const std::string& name) {
   }
   if (::renameat(folder_.descriptor(), temporary_.c_str(), folder.descriptor(), name.c_str()) != 0)
     return failed("cannot rename the finished file");
+  forget(temporary_);
   temporary_.clear();
   return {};
 }
 
 Expected<void> NewFile::remove() {
   if (temporary_.empty()) return {};
-  if (::unlinkat(folder_.descriptor(), std::exchange(temporary_, {}).c_str(), 0) == 0) return {};
+  const std::string name = std::exchange(temporary_, {});
+  const bool removed = ::unlinkat(folder_.descriptor(), name.c_str(), 0) == 0;
+  forget(name);
+  if (removed) return {};
   return failed("cannot be removed");
+}
+
+void remove_unfinished_files() {
+  unfinished().mutex.lock();
+  for (const auto& [name, folder] : unfinished().folders) ::unlinkat(folder, name.c_str(), 0);
 }
 
 std::string abandoned_part_of(std::string_view name) {

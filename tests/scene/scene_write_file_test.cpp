@@ -7,6 +7,7 @@
 
 #include <fstream>
 
+#include "scene/files/unfinished_files.h"
 #include "scene/files/write_file.h"
 #include "tests/support/scene_files_support.h"
 
@@ -45,6 +46,21 @@ TEST(WriteFile, KeepsPermissionsAndLinks) {
   struct stat status {};
   ASSERT_EQ(::stat(path.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0640u);
+}
+
+// A process that ends where it stands, in any thread, leaves no file in the making. Finished ones and others' stay.
+TEST(WriteFile, EndOfTheProcessLeavesNoUnfinishedFile) {
+  const TemporaryFolder folder;
+  folder.put("others.part", "another's");
+  const auto ends_while_it_writes = [&] {
+    const auto file = NewFile::make(*Folder::at(folder.file("")), "picture.png", NewFile::Name::temporary);
+    if (!file || !write_file(folder.file("done.txt"), "whole") || folder.file_count() != 3) _exit(1);
+    remove_unfinished_files();
+    _exit(7);
+  };
+  EXPECT_EXIT(ends_while_it_writes(), testing::ExitedWithCode(7), "");
+  EXPECT_EQ(test::bytes_of(folder.file("done.txt")), "whole");
+  EXPECT_EQ(folder.file_count(), 2u);
 }
 
 /// The names that this process's next temporary files of `path` would have.
