@@ -18,7 +18,7 @@ from same_results import differing_keys, exr_parts, png_parts  # noqa: E402
 
 ABOUT_TIME = re.compile(r"(^|/)(bench|also|trace|tune)\.json$|_times\.jsonl$")
 SEAL = re.compile(rb',"checksum":"([0-9a-f]+)"}$')
-TIMED_COLUMN = re.compile(r"_ms(_|$)|^derived$")
+TIMED_COLUMN = re.compile(r"_ms(_|$)|^(derived|load)$")
 
 
 def keys_of(value):
