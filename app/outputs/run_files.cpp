@@ -65,8 +65,22 @@ void RunFiles::writes_folder(const std::string& option, const std::string& folde
   if (folder.empty()) return;
   folders_.push_back(folder);
   for (const std::string_view name : names)
-    outputs_.push_back({option, (std::filesystem::path(folder) / name).string(), false});
+    outputs_.push_back({option, (std::filesystem::path(folder) / name).string(), folder});
 }
+
+namespace {
+
+/// Says of two outputs that are one file whether they have one name or a link leads from one to the other.
+std::string how_they_meet(const std::string& a, const std::string& b) {
+  std::error_code error;
+  const auto written = [&](const std::string& path) {
+    return std::filesystem::absolute(path, error).lexically_normal();
+  };
+  if (written(a) == written(b)) return fmt::format("two outputs of one name (got {})", b);
+  return fmt::format("two outputs that a link makes one file (got {} and {})", a, b);
+}
+
+}  // namespace
 
 Expected<void> RunFiles::check_collisions() const {
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
@@ -76,10 +90,14 @@ Expected<void> RunFiles::check_collisions() const {
         return fail(ErrorKind::usage,
                     fmt::format("{}: this file is also an input, which would be lost (got {})", output.option,
                                 output.path));
-    for (std::size_t j = 0; j < i; ++j)
-      if (is_same_file(output.path, outputs_[j].path))
-        return fail(ErrorKind::usage, fmt::format("{} and {}: two outputs of one name (got {})",
-                                                  outputs_[j].option, output.option, output.path));
+    for (std::size_t j = 0; j < i; ++j) {
+      const Output& other = outputs_[j];
+      // A folder's files take the places of whatever has their names, links too.
+      const bool both_replaced = !output.folder.empty() && output.folder == other.folder;
+      if (!both_replaced && is_same_file(output.path, other.path))
+        return fail(ErrorKind::usage, fmt::format("{} and {}: {}", other.option, output.option,
+                                                  how_they_meet(other.path, output.path)));
+    }
   }
   return {};
 }
@@ -87,7 +105,7 @@ Expected<void> RunFiles::check_collisions() const {
 Expected<void> RunFiles::check() const {
   if (auto apart = check_collisions(); !apart) return apart;
   for (const Output& output : outputs_) {
-    if (!output.alone) continue;
+    if (!output.folder.empty()) continue;
     if (auto writable = check_output_file(output.path); !writable) return writable;
   }
   for (const std::string& folder : folders_)

@@ -131,6 +131,14 @@ Expected<void> Publication::finish() {
   return has_last_ ? move(files_.back()) : Expected<void>{};
 }
 
+void Publication::drop_older() {
+  for (File& file : files_) {
+    if (!file.kept) continue;
+    if (const auto places = places_of(file.name))
+      file.kept = ::unlinkat((*places)->aside.descriptor(), last_part(file.name).c_str(), 0) != 0;
+  }
+}
+
 /// A file that somebody else has put in the place of one of ours stays.
 Expected<void> Publication::undo(File& file) {
   if (!file.kept && !file.moved) return {};

@@ -27,6 +27,8 @@ class Publication {
   Expected<void> finish();
   /// Undoes what was done. Whatever can be undone is; the error is that of the first step that cannot.
   Expected<void> undo();
+  /// Lets go of what was replaced, whoever's it was. What stays is left to whoever removes the staged folder.
+  void drop_older();
 
  private:
   struct File {

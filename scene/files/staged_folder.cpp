@@ -324,7 +324,8 @@ Expected<std::optional<StagedFolder>> StagedFolder::hold(const std::string& fold
   const auto made = opened->itself();
   if (!made) return give_up(made.error());
   if (made->st_uid != owner)
-    return fail(Error{ErrorKind::cannot_write, "belongs to another user", opened->path()});
+    return fail(Error{ErrorKind::cannot_write, "another user has put a folder in the place of this one",
+                      opened->path()});
   return StagedFolder(std::make_unique<Held>(
       Held{folder, std::move(*around), name, std::move(*opened), std::move(*lock), owner, beside}));
 }
@@ -371,9 +372,12 @@ Expected<void> StagedFolder::publish(std::span<const Part> parts) {
   for (const Part& part : parts) {
     Held& held = *part.folder->held_;
     held.moving = false;
+    if (held.moves) held.moves->drop_older();
     if (auto gone = held.remove(); !gone && whole) {
       whole = gone;
-      whole.error().reason += "; the new files are all in their places";
+      whole.error().reason =
+          fmt::format("is left over ({}); the new files are all in their places, so it can be removed",
+                      gone.error().reason);
     }
     held.turn = {};
     if (!held.beside) clear_abandoned(held.folder, held.owner, Clear::all);
