@@ -196,13 +196,12 @@ std::string plan_json(const EffectPlan& plan, const ImageSize& size, const raytr
       {"primary", method_json(name_of(methods.primary), methods.primary_reason)},
       {"receivers", method_json(name_of(methods.receivers), methods.receivers_reason)},
       {"shadow", shadow_json(shadow)}};
-  return nlohmann::ordered_json{{"effects", effects},
-                                {"rays", rays},
-                                {"tracer", tracer},
-                                {"instances", instances},
-                                {"memory", memory_json(bands, size)}}
-             .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-         "\n";
+  const nlohmann::ordered_json json{{"effects", effects},
+                                    {"rays", rays},
+                                    {"tracer", tracer},
+                                    {"instances", instances},
+                                    {"memory", memory_json(bands, size)}};
+  return plain_lines(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n";
 }
 
 std::string_view state_words(const EffectEntry& entry) {
@@ -340,7 +339,7 @@ void add_plan(CLI::App& program, Invocation& invocation) {
   add_samples(*app, command->options.shadow_samples);
   add_picture_samples(*app, command->samples);
   add_min_contribution(*app, command->options.min_contribution);
-  add_memory(*app, command->memory);
+  add_memory(*app, command->memory, command->scene.memory);
   add_threads(*app, command->threads, "threads of the ray tracer");
   add_json(*app, command->json, "the plan");
   add_quiet(*app, command->quiet);

@@ -276,7 +276,7 @@ std::string TuneAnswer::json() const {
   json["shaders"] = compare::shaders_json(question.shaders);
   json["others"] = Json::array();
   for (const std::size_t i : others()) json["others"].push_back(family_json(*this, i));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return compare::dumped(json, 2);
 }
 
 }  // namespace gnomon::app

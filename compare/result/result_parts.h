@@ -7,6 +7,7 @@
 #include "compare/comparison.h"
 #include "compare/ladder/budget.h"
 #include "compare/result/figures.h"
+#include "scene/base/expected.h"
 #include "scene/base/time_difference.h"
 
 namespace gnomon::compare {
@@ -59,9 +60,10 @@ Json context_json(const raster::ContextInfo& context);
 /// The user's files that were compiled in place of the program's own.
 Json shaders_json(const std::vector<raster::ReplacedShader>& replaced);
 
-/// Names come from files and may hold bytes that are not UTF-8: those are replaced, not refused.
+/// Names come from files and may hold anything. Bytes that are not UTF-8 are replaced, what would steer a terminal that shows the
+/// file is escaped.
 inline std::string dumped(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  return plain_lines(json.dump(indent, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 /// The figures of a block ("error", "map.texel_world") by their names.

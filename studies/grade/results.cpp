@@ -108,7 +108,7 @@ std::string grade_json(const ClassResult& result) {
   if (!result.rubric.technique.empty()) root["technique"] = result.rubric.technique;
   root["students"] = std::move(students);
   root["alike"] = alike_json(result);
-  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return plain_lines(root.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 std::string grade_csv(const ClassResult& result) {

@@ -152,7 +152,7 @@ std::string shimmer_json(const Shimmer& shimmer, const ShimmerProvenance& from) 
        {{"accel_build", one_time_json(shimmer.accel_build_ms)},
         {"frame", times_json(shimmer.frame_ms)},
         {"total", one_time_json(from.total_ms)}}}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dumped(json, 2);
 }
 
 }  // namespace gnomon::compare

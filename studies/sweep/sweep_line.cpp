@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "scene/base/expected.h"
 #include "scene/files/encodings.h"
 #include "scene/files/read_file.h"
 
@@ -52,7 +53,7 @@ std::string header_json(const SweepHeader& header) {
                   {"cells", header.cells},
                   {"shard", {{"part", header.shard.part}, {"of", header.shard.of}}},
                   {"configuration", Json::parse(header.configuration)}};
-  return json.dump(2) + "\n";
+  return plain_lines(json.dump(2)) + "\n";
 }
 
 std::optional<std::size_t> cells_of_header(std::string_view text) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "scene/base/expected.h"
 #include "scene/files/pictures/image_io.h"
@@ -74,6 +75,15 @@ TEST(Names, CannotTurnTheLineAround) {
   EXPECT_EQ(plain_lines("a\n\tb\r\nc\rd\u009be\x1b[1m\x7f"), "a\n\tb\r\nc\\rd\\u009be\\x1b[1m\\u007f");
 }
 
+std::vector<std::string> texts_below(const std::string& folder) {
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (entry.is_regular_file() && extension != ".png" && extension != ".exr") paths.push_back(entry.path());
+  }
+  return paths;
+}
+
 // Everything that a capture says of itself, on every stream and in every file of text.
 TEST(Names, OfCapturesAndScenesAreEscapedInAllOutputs) {
   const TemporaryFolder folder;
@@ -95,7 +105,19 @@ TEST(Names, OfCapturesAndScenesAreEscapedInAllOutputs) {
        {Words{"judge", folder / "capture.json", "-o", folder / "out"},
         Words{"judge", folder / "capture.json", "--json", "-"},
         Words{"judge", folder / "capture.json", folder / "capture.json", "-o", folder / "two"},
-        Words{"compare", folder / "lamp.json", "-o", folder / "drawn"} + small}) {
+        Words{"compare", folder / "lamp.json", "-o", folder / "drawn"} + small,
+        Words{"sweep", folder / "lamp.json", "--bias", "0,1", "-o", folder / "swept"} + small,
+        Words{"merge", folder / "swept", "-o", folder / "merged"},
+        Words{"tune", folder / "lamp.json", "--technique", "hard", "--size", "64x36", "--map-size",
+              "64:128:x2", "--max-error", "50%", "--json", folder / "tune.json"},
+        Words{"shimmer", folder / "lamp.json", "--path", "orbit", "--frames", "2", "-o", folder / "moved",
+              "--size", "64x36", "--map-size", "64"},
+        Words{"plan", folder / "lamp.json", "--json", folder / "plan.json"},
+        Words{"raster", folder / "lamp.json", "--size", "32x18", "-o", folder / "r.png", "--json",
+              folder / "r.json"},
+        Words{"raytrace", folder / "lamp.json", "--size", "32x18", "-o", folder / "t.png", "--json",
+              folder / "t.json"},
+        Words{"export", folder / "lamp.json", "-o", folder / "scene.gltf"}}) {
     const ProcessResult result = run_gnomon(words);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     expect_plain(result.out);
@@ -106,6 +128,14 @@ TEST(Names, OfCapturesAndScenesAreEscapedInAllOutputs) {
     EXPECT_NE(text.find(R"(sun\x1b[31m\u202e\xc2\x9b\nline)"), std::string::npos) << text;
     EXPECT_EQ(plain_lines(text), text) << table;
   }
+  for (const std::string& path : texts_below(folder.path())) {
+    const std::string text = read_file(path);
+    if (path.ends_with(".js") || path.ends_with(".html")) continue;  // of the page's own letters: below
+    EXPECT_EQ(plain_lines(text), text) << path;
+  }
+  const auto result = nlohmann::json::parse(read_file(folder / "drawn/result.json"));
+  EXPECT_EQ(result.at("lights").at(0).at("light").at("name"), "sun\x1b[31m\u202e\u009b\nline")
+      << "the same when it is read";
   for (const char* page : {"out/report.html", "two/report.html", "drawn/report.html"}) {
     const std::string text = read_file(folder / page);
     EXPECT_FALSE(text.empty()) << page;

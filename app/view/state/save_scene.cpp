@@ -119,7 +119,7 @@ Expected<void> write_scene(const std::string& path, const SceneArgument& opened,
   for (const auto& [option, value] : raster::map_values(state.setup.map)) (*json)["settings"][option] = value;
   const OutputGuard whole_output;
   if (auto made = make_folder_for(path); !made) return made;
-  const std::string text = json->dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = compare::dumped(*json, 2);
   if (auto same = check(text, path, meant); !same) return same;
   return write_file(path, text);
 }

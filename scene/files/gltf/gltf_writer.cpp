@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "scene/base/expected.h"
 #include "scene/camera.h"
 #include "scene/files/defaults.h"
 #include "scene/files/encodings.h"
@@ -153,7 +154,7 @@ Expected<GltfFile> write_gltf(const Scene& scene, bool binary) {
   if (!binary) buffer["uri"] = "data:application/octet-stream;base64," + base64(file.binary);
   file.json["buffers"] = gltf_writer::Json::array({std::move(buffer)});
   const auto replace = gltf_writer::Json::error_handler_t::replace;
-  std::string text = file.json.dump(binary ? -1 : 1, ' ', false, replace);
+  std::string text = plain_lines(file.json.dump(binary ? -1 : 1, ' ', false, replace));
   if (!binary) return GltfFile{text + "\n", std::move(file.notes)};
   auto bytes = gltf_writer::glb(std::move(text), std::move(file.binary));
   if (!bytes) return fail(bytes.error());
