@@ -7,8 +7,9 @@
 #include "scene/base/freed_memory.h"
 #include "scene/base/stages.h"
 
-int main(int argc, char** argv) {
-  gnomon::app::start_with_large_pages(argv);
+namespace {
+
+int run(int argc, char** argv) {
   const gnomon::StageLog stages;  // first of all, so that the account begins with the process
   gnomon::keep_freed_memory();
   // A limit on the size of files is then an error of the write that meets it, and no end of the process where the
@@ -17,4 +18,11 @@ int main(int argc, char** argv) {
   gnomon::app::end_in_words_without_threads();
   gnomon::app::watch_for_interrupts();
   return gnomon::app::run_command_line(argc, argv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  gnomon::app::start_with_large_pages(argv);
+  return gnomon::app::with_enough_stack(run, argc, argv);
 }

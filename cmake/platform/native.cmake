@@ -14,7 +14,7 @@ set(GNOMON_STUDIES_PLATFORM  # grade runs students' programs
 set(GNOMON_APP_PLATFORM
   commands/all.cpp commands/bench.cpp commands/grade.cpp commands/serve.cpp commands/verify.cpp commands/view.cpp view/work/job.cpp view/work/priority.cpp view/work/turns.cpp)
 set(GNOMON_APP_ROOMS gnomon::benchmark gnomon::verify)  # beside those that every platform has
-set(GNOMON_PROGRAM_PLATFORM main.cpp process/thread_start.cpp process/out_of_memory.cpp)
+set(GNOMON_PROGRAM_PLATFORM main.cpp process/stack.cpp process/thread_start.cpp process/out_of_memory.cpp)
 
 find_package(glm REQUIRED)
 find_package(tl-expected REQUIRED)

@@ -1,5 +1,6 @@
 // Few processes and little memory: the program goes on with fewer threads and says so, or ends with one line.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -110,6 +111,29 @@ TEST(FewResources, LittleAddressSpace) {
     EXPECT_EQ(result.exit_code, 5) << megabytes << ": " << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_TRUE(folder.entries().empty());
+  }
+}
+
+void limit_stack(rlim_t soft, rlim_t hard) {
+  const rlimit limit{soft, hard};
+  setrlimit(RLIMIT_STACK, &limit);
+}
+
+// As in a container or a shell with ulimit -s: a stack on which no picture can be drawn.
+TEST(FewResources, SmallStacks) {
+  if (test::address_sanitizer) GTEST_SKIP() << "the sanitizer needs more before the program begins";
+  const TemporaryFolder given;
+  for (const Words& words : commands_with_threads(capture_in(given))) {
+    const TemporaryFolder usual_folder;
+    const ProcessResult usual = run_gnomon(words, {.folder = usual_folder.path()});
+    for (void (*const limit)() :
+         {+[] { limit_stack(64 << 10, 64 << 10); }, +[] { limit_stack(200 << 10, RLIM_INFINITY); }}) {
+      const TemporaryFolder folder;
+      const ProcessResult result = run_gnomon(words, {.folder = folder.path(), .prepare = limit});
+      EXPECT_EQ(result.exit_code, usual.exit_code)
+          << words[0] << ", signal " << result.signal << ": " << result.err;
+      EXPECT_EQ(folder.entries(), usual_folder.entries()) << words[0];
+    }
   }
 }
 
