@@ -20,7 +20,7 @@ inline constexpr ImageSize lab_size{64, 48};
 /// A studio of its own thread, and the last snapshot that it gave.
 class Lab {
  public:
-  /// `may_begin`: before that the thread makes no context; and from then on it is noted what is drawn.
+  /// `may_begin`: before that the thread makes no context.
   Lab(const std::string& scene, const std::string& shaders, const std::shared_future<void>& may_begin = {}) {
     options_.compare.perceptual = false;
     options_.shader_folder = shaders;
@@ -33,11 +33,11 @@ class Lab {
       if (may_begin.valid()) may_begin.wait();
       return raster::create_context(raster::Backend::automatic);
     };
-    thread_ = std::make_unique<RenderThread>(context, std::move(*source), options_, [this, may_begin] {
+    thread_ = std::make_unique<RenderThread>(context, std::move(*source), options_, [this] {
       {
         const std::lock_guard lock(mutex_);
         woken_ = true;
-        if (may_begin.valid()) drawn_.insert(thread_->snapshot()->live.revision);
+        if (thread_) drawn_.insert(thread_->snapshot()->live.revision);
       }
       changed_.notify_one();
     });

@@ -117,6 +117,7 @@ TEST(RenderThread, WhatTakesMinutesIsLeftForANewerOrder) {
     ViewState heavy = state;
     heavy.setup.size = size;
     carry_out(heavy, SetMap{slow});
+    carry_out(heavy, LightSizeTo{1.0});  // without a size nothing is looked for around a point
     lab.thread().post(1, {heavy.revision, heavy.setup});
     if (size.width == 480) lab.until([&](const Snapshot& shown) { return shown.is_drawn(heavy); });
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
@@ -129,6 +130,8 @@ TEST(RenderThread, WhatTakesMinutesIsLeftForANewerOrder) {
     EXPECT_EQ(after->live.picture->data, without->live.picture->data);
     EXPECT_EQ(after->outcome->picture(Picture::labels).data, without->outcome->picture(Picture::labels).data);
     EXPECT_FALSE(after->undrawable || after->incomparable);
+    EXPECT_EQ(lab.drawn().contains(heavy.revision), size.width == 480)
+        << "the larger one was drawn to its end";
   }
 }
 
