@@ -1,4 +1,5 @@
 // Where outputs go something may lie that somebody else has put there, and the user's own umask may forbid what is made.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -157,12 +158,16 @@ TEST(HostileFolders, WhatOthersPlantInASharedFolderIsNotWrittenThrough) {
     const TemporaryFolder folder;
     shared(folder);
     const std::string planted = folder / "out/picture.png";
-    if (pipe)
+    int reader = -1;  // who would write into the pipe does not wait for one
+    if (pipe) {
       EXPECT_EQ(::mkfifo(planted.c_str(), 0666), 0);
-    else
+      reader = ::open(planted.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    } else {
       fs::create_symlink("../mine/picture.png", planted);
+    }
     give_away(planted);
     const ProcessResult done = run_in(folder, raster + Words{"out/picture.png"});
+    if (reader >= 0) ::close(reader);
     EXPECT_EQ(done.exit_code, 4) << done.err;
     EXPECT_NE(done.err.find("belongs to another user"), std::string::npos) << done.err;
     EXPECT_EQ(read_file(folder / "mine/picture.png"), "precious");
@@ -231,9 +236,58 @@ TEST(HostileFolders, ASweepWritesNothingIntoAnotherNameOfItsFiles) {
   EXPECT_NE(read_file(folder / "out/sweep.jsonl"), "");
 }
 
+const Words quick_compare{"compare", "thin-wall", "--size", "24x14", "--map-size", "64", "--runs", "1"};
+
+// As a program that spares room makes them of files that are alike, and as somebody may plant them.
+TEST(HostileFolders, LinksBetweenAFoldersFilesAreReplacedByFiles) {
+  for (const bool hard : {false, true}) {
+    const TemporaryFolder folder;
+    write_text(folder / "mine", "precious");
+    fs::create_directories(folder / "out");
+    for (const char* name : {"out/report.html", "out/result.json", "out/result.csv"})
+      if (hard)
+        fs::create_hard_link(folder / "mine", folder / name);
+      else
+        fs::create_symlink("../mine", folder / name);
+    const ProcessResult done = run_in(folder, quick_compare + Words{"-o", "out"});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_EQ(read_file(folder / "mine"), "precious");
+    EXPECT_TRUE(read_file(folder / "out/result.json").starts_with("{"));
+    EXPECT_TRUE(read_file(folder / "out/report.html").starts_with("<!"));
+  }
+}
+
+TEST(HostileFolders, OutputsThatALinkMakesOneAreSaidToBe) {
+  const TemporaryFolder folder;
+  write_text(folder / "mine", "precious");
+  fs::create_symlink("mine", folder / "a.json");
+  const ProcessResult done = run_in(folder, {"raster", "thin-wall", "--size", "24x14", "-o", "x.png",
+                                             "--json", "a.json", "--trace", "mine"});
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_NE(done.err.find("two outputs that a link makes one file (got a.json and mine)"), std::string::npos)
+      << done.err;
+  EXPECT_EQ(read_file(folder / "mine"), "precious");
+}
+
+// A folder of a group's, where each may replace what the others made.
+TEST(HostileFolders, FilesOfAnotherUserAreReplacedWhereThatIsAllowed) {
+  if (geteuid() != 0) GTEST_SKIP() << "needs root, to become another user";
+  const TemporaryFolder folder;
+  const Words compare = quick_compare + Words{"-o", "out"};
+  ASSERT_EQ(run_in(folder, compare).exit_code, 0);
+  const auto names = folder.entries();
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+    EXPECT_EQ(::lchown(entry.path().c_str(), 65534, 65534), 0);
+  const ProcessResult done = run_in(folder, compare);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.err, "");
+  EXPECT_EQ(folder.entries(), names);
+}
+
 TEST(HostileFolders, NoAddressIsNotAllOfThem) {
   const TemporaryFolder folder;
-  const ProcessResult done = run_in(folder, {"serve", "thin-wall", "--listen", ""});
+  const ProcessResult done =
+      run_in(folder, {"serve", "thin-wall", "--listen", ""}, {.interrupt_after_ms = 200});
   EXPECT_EQ(done.exit_code, 2) << done.err;
 }
 
