@@ -19,6 +19,7 @@
 #include "scene/base/stages.h"
 #include "scene/base/threads.h"
 #include "scene/base/timing.h"
+#include "scene/files/pictures/texture_memory.h"
 #include "scene/files/validate.h"
 #include "scene/load.h"
 #include "scene/shapes/tessellate.h"
@@ -54,6 +55,9 @@ Expected<Scene> scene_at(const SceneTime& time, Scene scene, const std::string& 
   if (keys.objects_until) {
     options.animation = keys.name, options.seconds = time.seconds;
     options.files = nullptr, options.paths = nullptr, options.cameras = nullptr;
+    TextureMemory textures = options.textures->anew();
+    options.textures = &textures;
+    scene.textures.clear();  // those of the second reading take their place
     auto played = load_scene(name, options);
     if (!played) return played;
     scene = std::move(*played);
@@ -79,7 +83,9 @@ Expected<LoadedScene> load(const SceneArgument& argument, RunFiles& files, Conso
   console.progress("loading", 0.0);
   std::vector<std::string> read;
   LoadedScene loaded;
-  LoadOptions options{.confine_paths = !argument.allow_outside, .camera = camera, .files = &read};
+  TextureMemory textures = texture_memory(argument.memory);
+  LoadOptions options{
+      .confine_paths = !argument.allow_outside, .camera = camera, .textures = &textures, .files = &read};
   if (with_paths || argument.time) options.paths = &loaded.paths;
   if (with_cameras) options.cameras = &loaded.cameras;
   Expected<Scene> scene = load_scene(scene_of_lesson(argument.name), options);

@@ -14,10 +14,14 @@
 
 namespace gnomon {
 
+class TextureMemory;
+
 struct LoadOptions {
   bool confine_paths = false;  ///< refuse files outside the scene's own folder
   std::string camera{};        ///< of the file's cameras: a name, or a number from 0; empty: the first
   std::string root{};          ///< the scene's own folder; load_scene sets it to where the main file lies
+  /// Where given, what textures may take (scene/files/pictures/texture_memory.h); more is an error (graphics).
+  TextureMemory* textures = nullptr;
   std::vector<std::string>* files = nullptr;  ///< where given, takes the path of every file that is named
   /// Where given, takes the paths along which the file itself moves the chosen camera and lights: "paths" of a scene in
   /// the project's own format, animations of a glTF file. Those of included files are not read.

@@ -309,7 +309,7 @@ void add_options(CLI::App& app, CompareCommand& command) {
   add_setting_options(app, command.setting);
   add_max_lights(app, command.max_lights);
   add_run_options(app, command);
-  add_memory(app, command.memory);
+  add_memory(app, command.memory, command.scene.memory);
   add_shader_dir(app, command.shader_folder);
   add_runs(
       app, command.runs,

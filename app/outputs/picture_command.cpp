@@ -37,7 +37,7 @@ void add_picture_subject(CLI::App& app, PictureCommand& command, ImageSize& size
 
 void add_picture_manner(CLI::App& app, PictureCommand& command, const char* threads, const char* json) {
   add_threads(app, command.threads, threads);
-  add_memory(app, command.memory);
+  add_memory(app, command.memory, command.scene.memory);
   add_exposure(app, command.exposure);
   add_json(app, command.json, json);
   add_quiet(app, command.quiet);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/process/machine.h"
 #include "scene/base/expected.h"
 #include "scene/world.h"
 
@@ -35,6 +36,7 @@ struct SceneArgument {
   InstanceChoice instances = InstanceChoice::automatic;
   SettingsUse settings = SettingsUse::none;
   std::optional<SceneTime> time{};  ///< none: all stands as it is stored
+  MemoryLimit memory{};             ///< what its textures may take
 
   /// For a command line that loads the same.
   std::string words() const;
@@ -65,7 +67,7 @@ class RunFiles {
  private:
   struct Output {
     std::string option, path;
-    bool alone = true;  ///< not one of a folder's
+    std::string folder{};  ///< it is one of this folder's; else empty
   };
   Expected<void> check_collisions() const;
   std::vector<std::string> inputs_;

@@ -15,6 +15,9 @@
 namespace CLI {
 class App;
 }
+namespace gnomon {
+class TextureMemory;
+}
 
 namespace gnomon::app {
 
@@ -44,8 +47,10 @@ struct GivenBytes {
 /// What --memory says; nothing: default_memory().
 using MemoryLimit = std::optional<GivenBytes>;
 
-/// --memory.
-void add_memory(CLI::App& command, MemoryLimit& bytes);
+/// --memory, of pictures and of a scene's textures.
+void add_memory(CLI::App& command, MemoryLimit& bytes, MemoryLimit& textures);
+/// By default half of what the machine, or the process's control group, has free.
+TextureMemory texture_memory(const MemoryLimit& limit);
 /// "2G", "512M", "1.5G", "1000000": bytes, units of 1024. ErrorKind::usage.
 Expected<double> parse_bytes(const std::string& text);
 
@@ -101,6 +106,10 @@ void start_with_large_pages(char** argv);
 /// Whether the system's choice, as /sys/kernel/mm/transparent_hugepage/enabled gives it ("always [madvise] never"), is to
 /// give large pages to those who ask.
 bool are_asked_for(std::string_view choices);
+
+/// Runs it where every thread has a stack of 8 MiB at least, the one that runs it and those that libraries start. A smaller limit
+/// (ulimit -s) holds for the system's own threads alone, which are then left.
+int with_enough_stack(int (*run)(int, char**), int argc, char** argv);
 
 // What becomes of the program when a library cannot start a thread (a limit on processes, ulimit -u). The program tries
 // beforehand how many it can have (limit_threads() in session.h, image_library()); what it finds may have changed by the time

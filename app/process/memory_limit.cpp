@@ -13,6 +13,7 @@
 #include "compare/ladder/penumbra.h"
 #include "compare/measure/reduced.h"
 #include "compare/metrics/edges.h"
+#include "scene/files/pictures/texture_memory.h"
 
 namespace gnomon::app {
 namespace {
@@ -82,22 +83,39 @@ Expected<double> parse_bytes(const std::string& text) {
   return *value * unit;
 }
 
-void add_memory(CLI::App& command, MemoryLimit& bytes) {
+void add_memory(CLI::App& command, MemoryLimit& bytes, MemoryLimit& textures) {
   add_checked(
       command, "--memory", "BYTES",
       "what the picture's pixels may take at a time, besides scene, maps and OpenGL; a picture that would "
-      "take more is worked through in bands, with the same results [bytes, also 500M or 2G (units of "
-      "1024); default half of what the machine has free, at most 2G]",
-      [&bytes](const std::string& text) -> Expected<void> {
+      "take more is worked through in bands, with the same results. A scene whose decoded textures would "
+      "take "
+      "more is refused [bytes, also 500M or 2G (units of 1024); default half of what the machine has free, "
+      "of "
+      "pixels at most 2G]",
+      [&bytes, &textures](const std::string& text) -> Expected<void> {
         const Expected<double> value = parse_bytes(text);
         if (!value) return fail(value.error());
-        bytes = GivenBytes{*value, text};
+        bytes = textures = GivenBytes{*value, text};
         return {};
       });
 }
 
+namespace {
+
+double half_of_the_free() {
+  return 0.5 * std::min(available_memory(), free_in_group());
+}
+
+}  // namespace
+
 double default_memory() {
-  return std::min(0.5 * std::min(available_memory(), free_in_group()), most_by_default);
+  return std::min(half_of_the_free(), most_by_default);
+}
+
+TextureMemory texture_memory(const MemoryLimit& limit) {
+  if (limit) return {limit->bytes, limit->text + " by --memory"};
+  const double half = half_of_the_free();
+  return {half, text_of_bytes(half) + ", half of what is free,"};
 }
 
 double PictureBytes::of(const ImageSize& size, int rows) const {

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <bit>
 #include <vector>
 
@@ -29,6 +30,27 @@ std::vector<glm::uvec4> make_table(std::span<const Texture> textures) {
   return table;
 }
 
+/// Lays all texels one behind the other, a page at a time.
+class PageFiller {
+ public:
+  explicit PageFiller(std::span<const Texture> textures) : left_(textures) {}
+
+  void fill(std::span<glm::u8vec4> page) {
+    while (!page.empty() && !left_.empty()) {
+      const auto rest = std::span(left_.front().texels).subspan(done_);
+      const std::size_t count = std::min(rest.size(), page.size());
+      std::copy_n(rest.begin(), count, page.begin());
+      page = page.subspan(count), done_ += count;
+      if (count == rest.size()) left_ = left_.subspan(1), done_ = 0;
+    }
+    std::fill(page.begin(), page.end(), glm::u8vec4(0));
+  }
+
+ private:
+  std::span<const Texture> left_;
+  std::size_t done_ = 0;  ///< texels of the first of them
+};
+
 }  // namespace
 
 Expected<TexelPages> TexelPages::upload(Gl& gl, std::span<const Texture> textures) {
@@ -46,19 +68,17 @@ Expected<TexelPages> TexelPages::upload(Gl& gl, std::span<const Texture> texture
   const std::uint64_t rows =
       layers > 1 ? shaders::page_height : std::max<std::uint64_t>(1, (total + width - 1) / width);
 
-  std::vector<glm::u8vec4> texels;
-  texels.reserve(layers * rows * width);
-  for (const Texture& t : textures) texels.insert(texels.end(), t.texels.begin(), t.texels.end());
-  texels.resize(layers * rows * width);
-
   TexelPages out{
       Texture2D(gl, GL_RGBA8UI, {shaders::page_width, static_cast<int>(rows)}, static_cast<int>(layers)),
       Buffer(gl), BufferTexture(gl)};
   gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  PageFiller filler(textures);
+  std::vector<glm::u8vec4> texels(rows *
+                                  width);  // of one page: all at once are half of what a large scene takes
   for (std::uint64_t layer = 0; layer < layers; ++layer) {
+    filler.fill(texels);
     gl->TextureSubImage3D(out.pages.id(), 0, 0, 0, static_cast<GLint>(layer), shaders::page_width,
-                          static_cast<GLsizei>(rows), 1, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE,
-                          texels.data() + layer * page);
+                          static_cast<GLsizei>(rows), 1, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE, texels.data());
   }
   out.table.write(std::span<const glm::uvec4>(make_table(textures)));
   out.table_texels.attach(out.table, GL_RGBA32UI);

@@ -2,7 +2,7 @@
 target_sources(gnomon_scene PRIVATE
   texture_sample.cpp files/pictures/apng.cpp files/encodings.cpp files/foreign.cpp files/repeated_instances.cpp files/defaults.cpp files/gltf/gltf_accessor.cpp
   files/gltf/gltf_container.cpp files/gltf/gltf_data.cpp files/gltf/gltf_meshes.cpp files/gltf/gltf_meshopt.cpp
-  files/gltf/gltf_transforms.cpp files/gltf/gltf_writer_meshes.cpp files/pictures/exr_decode.cpp files/pictures/exr_encode.cpp files/pictures/image_io.cpp files/interior.cpp files/made_view.cpp files/parts.cpp files/sketch.cpp
+  files/gltf/gltf_transforms.cpp files/gltf/gltf_writer_meshes.cpp files/pictures/exr_decode.cpp files/pictures/exr_encode.cpp files/pictures/image_io.cpp files/pictures/texture_memory.cpp files/interior.cpp files/made_view.cpp files/parts.cpp files/sketch.cpp
   files/pictures/png_encode.cpp files/mapped_file.cpp files/merge.cpp files/obj/obj.cpp files/obj/obj_text.cpp
   files/ply/ply.cpp files/ply/ply_regular.cpp files/pictures/jpeg_decode.cpp files/pictures/png_decode.cpp files/polygon.cpp files/read_file.cpp
   files/row_file.cpp files/validate.cpp)

@@ -374,6 +374,10 @@ TEST(ExitCodes, APictureWhoseSmallestBandsAreTooLarge) {
       run_gnomon({"compare", "acne-floor", "--size", "16384x16384", "--memory", "100M", "-q"},
                  {.folder = folder.path()});
   expect_one_line(result, 5, "--memory: too little for a picture of 16384x16384 (got 100M, allowed ");
+  expect_one_line(
+      run_gnomon(Words{"compare", "fence", "--memory", "3M", "-q"} + small, {.folder = folder.path()}), 5,
+      "the scene's textures take too much memory (got 1024x1024 pixels here, 4 MB; allowed 3M by "
+      "--memory for all of them)");
   EXPECT_TRUE(folder.entries().empty());
 }
 

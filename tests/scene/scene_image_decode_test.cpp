@@ -19,7 +19,7 @@ namespace {
 void expect_as_open_image_io(const DecodedImage& own, const std::string& bytes, const std::string& format) {
   const auto library = image_library();
   ASSERT_TRUE(library);
-  const auto other = (*library)->decode("other", bytes, format, max_image_side);
+  const auto other = (*library)->decode("other", bytes, format, max_image_side, {});
   ASSERT_TRUE(other) << other.error().message();
   EXPECT_EQ(own.size, other->size);
   EXPECT_EQ(own.channels.size(), other->channels.size());
@@ -29,7 +29,7 @@ void expect_as_open_image_io(const DecodedImage& own, const std::string& bytes, 
 void expect_channels_as_open_image_io(const ChannelImage& own, const std::string& path) {
   const auto library = image_library();
   ASSERT_TRUE(library);
-  const auto other = (*library)->read(path, max_image_side, DecodeAs::floats);
+  const auto other = (*library)->read(path, max_image_side, DecodeAs::floats, {});
   ASSERT_TRUE(other) << other.error().message();
   EXPECT_EQ(own.size, other->size);
   ASSERT_EQ(own.channels.size(), other->channels.size());

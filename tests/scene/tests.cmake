@@ -9,7 +9,7 @@ gnomon_test_support(through_float SOURCES ../support/through_float.cpp LIBS gnom
 gnomon_test(core_rounding_test SOURCES core_rounding_test.cpp LIBS through_float)
 
 gnomon_test(scene_files_test
-  SOURCES scene_bad_input_test.cpp scene_expression_test.cpp scene_foreign_test.cpp scene_gltf_errors_test.cpp scene_gltf_materials_test.cpp scene_gltf_packed_test.cpp scene_gltf_poses_test.cpp scene_gltf_test.cpp scene_ground_test.cpp scene_image_decode_test.cpp scene_image_test.cpp scene_interior_test.cpp scene_json_errors_test.cpp scene_json_test.cpp scene_made_view_test.cpp scene_model_files_test.cpp
+  SOURCES scene_bad_input_test.cpp scene_expression_test.cpp scene_foreign_test.cpp scene_gltf_errors_test.cpp scene_gltf_materials_test.cpp scene_gltf_packed_test.cpp scene_gltf_poses_test.cpp scene_gltf_test.cpp scene_ground_test.cpp scene_image_decode_test.cpp scene_image_test.cpp scene_interior_test.cpp scene_json_errors_test.cpp scene_json_test.cpp scene_made_view_test.cpp scene_model_files_test.cpp scene_texture_memory_test.cpp
     scene_obj_alpha_test.cpp scene_obj_test.cpp scene_path_status_test.cpp scene_paths_test.cpp scene_ply_test.cpp scene_schema_test.cpp scene_tessellate_test.cpp scene_texture_test.cpp
     scene_staged_folder_test.cpp
     scene_write_file_test.cpp

@@ -16,11 +16,11 @@ tl::unexpected<Error> not_read(const std::string& path) {
 class NoImages final : public ImageLibrary {
  public:
   Expected<ImageSize> size(const std::string& path, int) const override { return not_read(path); }
-  Expected<DecodedImage> read(const std::string& path, int, DecodeAs) const override {
+  Expected<DecodedImage> read(const std::string& path, int, DecodeAs, const HeaderCheck&) const override {
     return not_read(path);
   }
-  Expected<DecodedImage> decode(const std::string& name, std::string_view, std::string_view,
-                                int) const override {
+  Expected<DecodedImage> decode(const std::string& name, std::string_view, std::string_view, int,
+                                const HeaderCheck&) const override {
     return not_read(name);
   }
 };

@@ -46,6 +46,7 @@ class GltfData {
   std::size_t view_count() const { return views_.size(); }
   /// Bytes from one element of the view to the next; 0: they lie close together.
   std::size_t stride(std::size_t index) const { return views_[index].stride; }
+  const LoadOptions& options() const { return *options_; }
   std::size_t image_count() const { return images_.size(); }
   /// Reads the file the first time. Error: the path is not allowed, or the file cannot be read.
   Expected<GltfImage> image(std::size_t index);

@@ -7,6 +7,7 @@
 #include "scene/base/parallel.h"
 #include "scene/files/gltf/gltf_value.h"
 #include "scene/files/pictures/image_io.h"
+#include "scene/files/pictures/texture_memory.h"
 #include "scene/files/read_file.h"
 #include "scene/texture_sample.h"
 
@@ -174,8 +175,10 @@ void GltfTextures::apply_sampler(int texture_index, Texture& texture, const std:
 
 Expected<Texture> GltfTextures::decode(const GltfImage& image, bool srgb) const {
   const std::string path = fmt::format("images[{}]", image.index);
-  auto texture = read_texture_bytes(path, image.bytes, srgb);
-  if (!texture) return fail(Error{ErrorKind::bad_input, texture.error().reason, json_.file, 0, 0, path});
+  TextureMemory* const memory = data_.options().textures;
+  const HeaderCheck fits = srgb ? TextureMemory::kept(memory, path) : TextureMemory::passing(memory, path);
+  auto texture = read_texture_bytes(path, image.bytes, srgb, fits);
+  if (!texture) return fail(Error{texture.error().kind, texture.error().reason, json_.file, 0, 0, path});
   texture->name = image.name;
   return texture;
 }

@@ -5,6 +5,7 @@
 #include "scene/files/json/json_generate.h"
 #include "scene/files/json/json_parts.h"
 #include "scene/files/pictures/image_io.h"
+#include "scene/files/pictures/texture_memory.h"
 #include "scene/files/read_file.h"
 
 namespace gnomon {
@@ -15,11 +16,14 @@ Texture texture_pixels(SceneReader& reader, const JsonObject& object, const std:
     object.forbid("srgb", "does not apply to a generated texture");
     const JsonNode node = *object.find("generate");
     auto texture = generate_from_json<Texture>(node, &generate_texture);
+    const HeaderCheck fits = TextureMemory::kept(reader.options.textures, {});
+    if (texture && fits)
+      if (const auto taken = fits(texture->size, 0); !taken) reader.adopt(node, taken.error());
     return texture ? std::move(*texture) : Texture{};
   }
   const bool srgb = object.boolean("srgb", true);
   if (reader.failed()) return {};
-  auto texture = read_texture(path, srgb);
+  auto texture = read_texture(path, srgb, TextureMemory::kept(reader.options.textures, path));
   if (texture) return std::move(*texture);
   reader.adopt(*object.find("file"), texture.error());
   return {};

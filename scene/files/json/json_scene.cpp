@@ -198,11 +198,11 @@ std::vector<NamedCamera> read_top(SceneReader& reader, const JsonNode& root, std
 }  // namespace
 
 void SceneReader::adopt(const JsonNode& node, Error error) {
-  if (error.file.empty()) return node.error(error.reason);
   if (errors.first) return;
+  if (error.file.empty() && error.kind == ErrorKind::bad_input) return node.error(error.reason);
   // An error inside the other file speaks for itself; one about the file as such belongs to the line that
   // names it.
-  if (error.line > 0 || !error.field.empty())
+  if (error.kind != ErrorKind::bad_input || error.line > 0 || !error.field.empty())
     errors.first = std::move(error);
   else
     node.error(fmt::format("{}: {}", error.file, error.reason));

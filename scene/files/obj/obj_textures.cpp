@@ -7,6 +7,7 @@
 #include "scene/base/parallel.h"
 #include "scene/files/path_status.h"
 #include "scene/files/pictures/image_io.h"
+#include "scene/files/pictures/texture_memory.h"
 #include "scene/files/read_file.h"
 #include "scene/texture_sample.h"
 
@@ -70,12 +71,16 @@ void set_alpha_from_luminance(Texture& mask) {
     t.a = static_cast<std::uint8_t>(std::lround(0.2126 * t.r + 0.7152 * t.g + 0.0722 * t.b));
 }
 
+/// The larger width and the larger height of the two.
+ImageSize larger_of(const ImageSize& a, const ImageSize& b) {
+  return {std::max(a.width, b.width), std::max(a.height, b.height)};
+}
+
 /// The colours of one texture with the alpha of the other, both wrapped as `colours` is. Where they have different
 /// sizes, at the larger width and the larger height of the two: a texel then is what the lookup (texture_sample.h)
 /// gives at its centre.
 Texture with_alpha_of(Texture colours, Texture mask) {
-  const ImageSize size{std::max(colours.size.width, mask.size.width),
-                       std::max(colours.size.height, mask.size.height)};
+  const ImageSize size = larger_of(colours.size, mask.size);
   mask.repeat_s = colours.repeat_s;
   mask.repeat_t = colours.repeat_t;
   colours = resized(std::move(colours), size);
@@ -127,15 +132,21 @@ Expected<ObjTextures::Files> ObjTextures::find_files(const MtlMaterial& from) {
   return files;
 }
 
-Expected<ObjTextures::Made> ObjTextures::make(const Files& files) {
-  auto read = files.colours.empty() ? Expected<TextureFile>(TextureFile{white(), false})
-                                    : read_texture_file(files.colours, true);
+Expected<ObjTextures::Made> ObjTextures::make(const Files& files) const {
+  auto read =
+      files.colours.empty()
+          ? Expected<TextureFile>(TextureFile{white(), false})
+          : read_texture_file(files.colours, true, TextureMemory::kept(options_.textures, files.colours));
   if (!read) return fail(read.error());
   Made made{std::move(read->texture)};
   made.texture.repeat_s = made.texture.repeat_t = !files.clamped;
   if (files.has_mask_of_its_own()) {
-    auto other = read_texture_file(files.mask, false);
+    auto other = read_texture_file(files.mask, false, TextureMemory::passing(options_.textures, files.mask));
     if (!other) return fail(other.error());
+    const ImageSize both = larger_of(made.texture.size, other->texture.size);
+    const HeaderCheck fits = TextureMemory::kept(options_.textures, files.mask);
+    if (fits && !(both == made.texture.size))
+      if (const auto taken = fits(both, 0); !taken) return fail(taken.error());
     made.mask = is_opaque(other->texture) ? Mask::grey : Mask::alpha;
     if (made.mask == Mask::grey) set_alpha_from_luminance(other->texture);
     made.texture = with_alpha_of(std::move(made.texture), std::move(other->texture));

@@ -55,7 +55,7 @@ class ObjTextures {
   Expected<std::string> find_file(const std::string& name, const std::string& material,
                                   const std::string& statement);
   Expected<Files> find_files(const MtlMaterial& from);
-  static Expected<Made> make(const Files& files);
+  Expected<Made> make(const Files& files) const;
 
   Scene& scene_;
   MaterialNotes& notes_;

@@ -27,28 +27,28 @@ std::string_view format_of(std::string_view bytes) {
   return "";
 }
 
-Expected<DecodedImage> decode(const std::string& name, std::string_view bytes) {
+Expected<DecodedImage> decode(const std::string& name, std::string_view bytes, const HeaderCheck& check) {
   const std::string_view format = format_of(bytes);
   if (format.empty())
     return bad_image(name,
                      "image in a format that is not known (allowed PNG, JPEG, WebP, BMP, "
                      "EXR, HDR, GIF, TGA)");
-  if (format == "png") return decode_png(name, bytes);
+  if (format == "png") return decode_png(name, bytes, DecodeAs::stored, check);
   if (format == "jpeg") {
-    auto jpeg = decode_jpeg(name, bytes);
+    auto jpeg = decode_jpeg(name, bytes, check);
     if (!jpeg) return fail(jpeg.error());
     if (*jpeg) return std::move(**jpeg);
   }
   const auto library = image_library();
   if (!library) return fail(library.error());
-  return (*library)->decode(name, bytes, format, max_image_side);
+  return (*library)->decode(name, bytes, format, max_image_side, check);
 }
 
 Expected<DecodedImage> decode_floats(const std::string& path, std::string_view bytes) {
   if (format_of(bytes) == "png") return decode_png(path, bytes, DecodeAs::floats);
   const auto library = image_library();
   if (!library) return fail(library.error());
-  return (*library)->read(path, max_image_side, DecodeAs::floats);
+  return (*library)->read(path, max_image_side, DecodeAs::floats, {});
 }
 
 Expected<std::vector<std::uint8_t>> floats_as_bytes(const std::string& name, const std::vector<float>& floats,
@@ -89,8 +89,9 @@ Expected<TextureFile> texture_from(const std::string& name, DecodedImage image, 
   return TextureFile{std::move(texture), channels == 2 || channels >= 4};
 }
 
-Expected<TextureFile> texture_from_bytes(const std::string& name, std::string_view bytes, bool srgb) {
-  auto image = decode(name, bytes);
+Expected<TextureFile> texture_from_bytes(const std::string& name, std::string_view bytes, bool srgb,
+                                         const HeaderCheck& check) {
+  auto image = decode(name, bytes, check);
   if (!image) return fail(image.error());
   return texture_from(name, std::move(*image), srgb);
 }
@@ -165,23 +166,24 @@ Rgb8Image display_image(const ColorImage& linear, double exposure) {
   return out;
 }
 
-Expected<TextureFile> read_texture_file(const std::string& path, bool srgb) {
+Expected<TextureFile> read_texture_file(const std::string& path, bool srgb, const HeaderCheck& check) {
   const auto bytes = read_file(path);
   if (!bytes) return fail(bytes.error());
-  if (lower_extension(path) != ".tga") return texture_from_bytes(path, *bytes, srgb);
+  if (lower_extension(path) != ".tga") return texture_from_bytes(path, *bytes, srgb, check);
   const auto library = image_library();
   if (!library) return fail(library.error());
-  auto image = (*library)->read(path, max_image_side, DecodeAs::stored);
+  auto image = (*library)->read(path, max_image_side, DecodeAs::stored, check);
   if (!image) return fail(image.error());
   return texture_from(path, std::move(*image), srgb);
 }
 
-Expected<Texture> read_texture(const std::string& path, bool srgb) {
-  return texture_alone(read_texture_file(path, srgb));
+Expected<Texture> read_texture(const std::string& path, bool srgb, const HeaderCheck& check) {
+  return texture_alone(read_texture_file(path, srgb, check));
 }
 
-Expected<Texture> read_texture_bytes(const std::string& name, std::string_view bytes, bool srgb) {
-  return texture_alone(texture_from_bytes(name, bytes, srgb));
+Expected<Texture> read_texture_bytes(const std::string& name, std::string_view bytes, bool srgb,
+                                     const HeaderCheck& check) {
+  return texture_alone(texture_from_bytes(name, bytes, srgb, check));
 }
 
 Expected<void> write_png(const std::string& path, const Rgb8Image& image) {

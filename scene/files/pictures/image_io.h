@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scene/base/expected.h"
+#include "scene/files/pictures/image_library.h"
 #include "scene/image.h"
 #include "scene/scene.h"
 
@@ -21,8 +22,10 @@ inline constexpr int max_image_side =
 /// Reads an image file, or an encoded image in memory (`bytes`, with `name` for messages), as 8-bit RGBA. A
 /// file of floating-point values is linear by nature: it is clipped to [0, 1], encoded as sRGB where `srgb`,
 /// and refused if a value is not finite.
-Expected<Texture> read_texture(const std::string& path, bool srgb);
-Expected<Texture> read_texture_bytes(const std::string& name, std::string_view bytes, bool srgb);
+/// Errors of `check` are passed on (texture_memory.h).
+Expected<Texture> read_texture(const std::string& path, bool srgb, const HeaderCheck& check = {});
+Expected<Texture> read_texture_bytes(const std::string& name, std::string_view bytes, bool srgb,
+                                     const HeaderCheck& check = {});
 
 /// A texture with what its file says of alpha.
 struct TextureFile {
@@ -31,7 +34,7 @@ struct TextureFile {
 };
 
 /// Reads a file as read_texture() does.
-Expected<TextureFile> read_texture_file(const std::string& path, bool srgb);
+Expected<TextureFile> read_texture_file(const std::string& path, bool srgb, const HeaderCheck& check = {});
 
 /// [0, 1], clipped, to 0 ... 255, rounded to nearest.
 inline std::uint8_t to_8_bit(float value) {

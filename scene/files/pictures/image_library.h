@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -35,15 +36,21 @@ inline std::uint64_t image_budget(std::uint64_t file_bytes) {
   return (std::uint64_t{64} << 20) + 1100 * file_bytes;
 }
 
+/// Asked what a file's header says, before anything is decoded: its size, and the bytes of a pixel once it is decoded. An error
+/// ends the reading. An empty one takes all.
+using HeaderCheck = std::function<Expected<void>(const ImageSize& size, std::size_t bytes_per_pixel)>;
+
 class ImageLibrary {
  public:
   virtual ~ImageLibrary() = default;
   /// What the header of an image file says, of at most max_side pixels a side; nothing is decoded.
   virtual Expected<ImageSize> size(const std::string& path, int max_side) const = 0;
   /// An image file of at most max_side pixels a side, or one in memory whose format is known ("png", ...).
-  virtual Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as) const = 0;
+  virtual Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as,
+                                      const HeaderCheck& check) const = 0;
   virtual Expected<DecodedImage> decode(const std::string& name, std::string_view bytes,
-                                        std::string_view format, int max_side) const = 0;
+                                        std::string_view format, int max_side,
+                                        const HeaderCheck& check) const = 0;
 };
 
 /// Loads the module the first time. Errors: where it was looked for, and why it could not be loaded; too few threads can be
@@ -58,13 +65,14 @@ tl::unexpected<Error> bad_image(const std::string& file, std::string reason);
 
 /// In 8 bits, or in floats that are fractions of the largest value; colours as they are stored: of gamma and profiles nothing is
 /// applied, palettes and tRNS are. `name` is the file, for messages. Error (bad input): the file is cut off or damaged, or a side
-/// is not in 1 … max_image_side.
+/// is not in 1 … max_image_side. Others are those of `check`.
 Expected<DecodedImage> decode_png(const std::string& name, std::string_view bytes,
-                                  DecodeAs as = DecodeAs::stored);
+                                  DecodeAs as = DecodeAs::stored, const HeaderCheck& check = {});
 /// Returns what the header says. Errors as those of decode_png().
 Expected<ImageSize> png_size(const std::string& name, std::string_view bytes);
 
 /// Grey or RGB; of what is stored as CMYK nothing. Errors as those of decode_png().
-Expected<std::optional<DecodedImage>> decode_jpeg(const std::string& name, std::string_view bytes);
+Expected<std::optional<DecodedImage>> decode_jpeg(const std::string& name, std::string_view bytes,
+                                                  const HeaderCheck& check = {});
 
 }  // namespace gnomon

@@ -77,12 +77,15 @@ Expected<void> check_budget(const std::string& name, const OIIO::ImageSpec& spec
 }
 
 Expected<DecodedImage> pixels_of(const std::string& name, OIIO::ImageInput* input, int max_side, DecodeAs as,
-                                 std::uint64_t file_bytes) {
+                                 std::uint64_t file_bytes, const HeaderCheck& check) {
   if (const auto sound = check_header(name, input, max_side); !sound) return fail(sound.error());
   const bool floats = as == DecodeAs::floats || is_floating(input->spec().format);
   if (const auto fits = check_budget(name, input->spec(), floats, file_bytes); !fits)
     return fail(fits.error());
   const OIIO::ImageSpec spec = input->spec();
+  const std::size_t pixel = static_cast<std::size_t>(spec.nchannels) * (floats ? sizeof(float) : 1);
+  if (check)
+    if (const auto fits = check({spec.width, spec.height}, pixel); !fits) return fail(fits.error());
   DecodedImage out{{spec.width, spec.height}, spec.channelnames, {}, {}};
   const std::size_t count = out.size.pixels() * static_cast<std::size_t>(spec.nchannels);
   bool done = false;
@@ -107,15 +110,16 @@ class OpenImageIo final : public ImageLibrary {
     return ImageSize{input->spec().width, input->spec().height};
   }
 
-  Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as) const override {
+  Expected<DecodedImage> read(const std::string& path, int max_side, DecodeAs as,
+                              const HeaderCheck& check) const override {
     const OIIO::ImageSpec hints = read_hints();
     if (const auto still = check_no_film(path); !still) return fail(still.error());
     const auto input = OIIO::ImageInput::open(path, &hints);
-    return pixels_of(path, input.get(), max_side, as, OIIO::Filesystem::file_size(path));
+    return pixels_of(path, input.get(), max_side, as, OIIO::Filesystem::file_size(path), check);
   }
 
   Expected<DecodedImage> decode(const std::string& name, std::string_view bytes, std::string_view format,
-                                int max_side) const override {
+                                int max_side, const HeaderCheck& check) const override {
     OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());  // outlives `input`
     const auto input = OIIO::ImageInput::create(std::string(format));
     const OIIO::ImageSpec hints = read_hints();
@@ -124,7 +128,7 @@ class OpenImageIo final : public ImageLibrary {
       const std::string reason = library_error(input->geterror());
       return image_error(ErrorKind::bad_input, name, fmt::format("cannot read the image: {}", reason));
     }
-    return pixels_of(name, input.get(), max_side, DecodeAs::stored, bytes.size());
+    return pixels_of(name, input.get(), max_side, DecodeAs::stored, bytes.size(), check);
   }
 };
 

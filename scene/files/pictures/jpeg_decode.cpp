@@ -32,7 +32,8 @@ struct Destroy {
 
 }  // namespace
 
-Expected<std::optional<DecodedImage>> decode_jpeg(const std::string& name, std::string_view bytes) {
+Expected<std::optional<DecodedImage>> decode_jpeg(const std::string& name, std::string_view bytes,
+                                                  const HeaderCheck& check) {
   if (const auto whole = check_is_whole(bytes, name); !whole) return fail(whole.error());
   const std::unique_ptr<void, Destroy> decoder(tjInitDecompress());
   if (!decoder) return fail(ErrorKind::internal, fmt::format("TurboJPEG: {}", tjGetErrorStr2(nullptr)));
@@ -50,6 +51,8 @@ Expected<std::optional<DecodedImage>> decode_jpeg(const std::string& name, std::
   const bool grey = colours == TJCS_GRAY;
   DecodedImage image{{width, height}, {}, {}, {}};
   image.channels = grey ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
+  if (check)
+    if (const auto fits = check(image.size, image.channels.size()); !fits) return fail(fits.error());
   image.bytes.resize(image.size.pixels() * image.channels.size());
   // What is only warned of, such as bytes between the segments, leaves a picture.
   const int done = tjDecompress2(decoder.get(), data, bytes.size(), image.bytes.data(), width, 0, height,

@@ -146,17 +146,19 @@ Expected<ImageSize> png_size(const std::string& name, std::string_view bytes) {
   return ImageSize{static_cast<int>(header.width), static_cast<int>(header.height)};
 }
 
-Expected<DecodedImage> decode_png(const std::string& name, std::string_view bytes, DecodeAs as) {
+Expected<DecodedImage> decode_png(const std::string& name, std::string_view bytes, DecodeAs as,
+                                  const HeaderCheck& check) {
   PngReader reader(bytes);
   Header header;
   if (!reader.header(header)) return bad_image(name, reader.fault());
   if (const auto fits = check_extent(name, header, bytes.size()); !fits) return fail(fits.error());
   Layout layout;
   if (!reader.layout(as == DecodeAs::floats, layout)) return bad_image(name, reader.fault());
-  DecodedImage image{{static_cast<int>(header.width), static_cast<int>(header.height)},
-                     channel_names(layout.channels),
-                     std::vector<std::uint8_t>(layout.row * header.height),
-                     {}};
+  const ImageSize size{static_cast<int>(header.width), static_cast<int>(header.height)};
+  if (check)
+    if (const auto fits = check(size, layout.channels); !fits) return fail(fits.error());
+  DecodedImage image{
+      size, channel_names(layout.channels), std::vector<std::uint8_t>(layout.row * header.height), {}};
   std::vector<png_bytep> rows;
   for (std::size_t y = 0; y < header.height; ++y) rows.push_back(image.bytes.data() + y * layout.row);
   if (!reader.rows(rows.data())) return bad_image(name, reader.fault());
