@@ -97,8 +97,6 @@ std::string in_plain_words(const std::string& text) {
   };
   if (const auto flag = parted("Could not convert: ", " = "))
     return fmt::format("{}: not a switch's value (got {}, allowed on, off)", flag->first, flag->second);
-  if (const auto often = parted("", ": At Most 1 required but received "))
-    return fmt::format("{}: too often (got {} times, allowed once)", often->first, often->second);
   if (const auto none = parted("", ": 1 required "))
     return fmt::format("{}: has no value (allowed {})", none->first,
                        none->second.substr(0, none->second.rfind(" missing")));
@@ -158,6 +156,34 @@ void add_manual(CLI::App& program) {
       ->type_name("CHAPTER");
 }
 
+bool is_single(const CLI::Option& option) {
+  return !option.get_positional() && option.get_items_expected_max() <= 1;
+}
+
+/// So that advice can be appended to what was typed before.
+void let_the_last_count(CLI::App& program) {
+  for (CLI::App* command : program.get_subcommands({}))
+    for (CLI::Option* option : command->get_options())
+      if (is_single(*option)) option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+/// One note for each option that was given again with another value.
+std::vector<std::string> replaced_values(const CLI::App& program) {
+  std::vector<std::string> notes;
+  for (const CLI::App* command : program.get_subcommands())
+    for (const CLI::Option* option : command->get_options()) {
+      const std::vector<std::string>& values = option->results();
+      if (!is_single(*option) ||
+          std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end())
+        continue;
+      const std::string name = option->get_name();
+      notes.push_back(
+          fmt::format("{} is given {} times: the last, {}, counts{}", name, values.size(), values.back(),
+                      name == "--technique" ? ", and options that it does not read are left out" : ""));
+    }
+  return notes;
+}
+
 std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   auto program = std::make_unique<CLI::App>(
       "Gnomon renders a scene with shadow maps and with rays, and says for every pixel where the two shadows "
@@ -181,6 +207,7 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
        {"compare", "judge", "lessons", "raster", "raytrace", "shimmer", "sweep", "tune"})
     for (CLI::App* command : program->get_subcommands({}))
       if (command->get_name() == name) add_trace(*command, invocation.trace);
+  let_the_last_count(*program);
   return program;
 }
 
@@ -202,6 +229,7 @@ Expected<void> write_trace(const std::string& path) {
 
 /// What every command that has them takes by one name.
 void apply_common_options(const CLI::App& program, Invocation& invocation) {
+  invocation.notes = replaced_values(program);
   for (const CLI::App* command : program.get_subcommands()) {
     if (const CLI::Option* threads = command->get_option_no_throw("--threads");
         threads != nullptr && threads->count() > 0)
@@ -213,6 +241,7 @@ void apply_common_options(const CLI::App& program, Invocation& invocation) {
 
 Expected<ExitCode> act_and_trace(const Invocation& invocation) {
   Console console(invocation.quiet);
+  for (const std::string& note : invocation.notes) console.note(note);
   limit_threads(invocation.threads, console);
   if (StageLog* log = StageLog::current()) log->keep_runs(!invocation.trace.empty());
   Expected<ExitCode> code = invocation.action();

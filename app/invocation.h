@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "scene/base/expected.h"
 
@@ -23,7 +24,8 @@ struct Invocation {
   std::function<Expected<ExitCode>()> action;
   int threads = 0;     ///< at most so many of the ray tracer and of the rasterizer; 0: one for each processor
   bool quiet = false;  ///< no messages but errors
-  std::string trace;   ///< file for the stages of the run; empty: none
+  std::vector<std::string> notes;  ///< on what was typed
+  std::string trace;               ///< file for the stages of the run; empty: none
   /// Where a scene's file set an option ("--bias"), as errors without a reason.
   std::map<std::string, Error> settings;
 };

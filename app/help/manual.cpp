@@ -135,7 +135,8 @@ std::string options_chapter(const CLI::App& program) {
   text += wrap(
       "For whoever types a command: every option with its unit, its range and its default. An option that "
       "several commands share is described once, under [Shared options](#shared-options), and named at each "
-      "of them. `gnomon COMMAND --help` prints all of a command's options in one piece.",
+      "of them. `gnomon COMMAND --help` prints all of a command's options in one piece. Of an option that is "
+      "given again the last value counts, and a note says so.",
       0, page_width);
   text += "\n";
   for (const CLI::Option* option : program.get_options()) text += option_item(*option);

@@ -131,7 +131,7 @@ SettingsUse use_of_settings(const CLI::App& command, const Technique& technique)
   if (finds_map_options(command)) return SettingsUse::sought;
   if (!was_given(command, "--technique")) return SettingsUse::taken;
   const std::vector<std::string>& given = command.get_option("--technique")->results();
-  return given.size() == 1 && given.front() == technique() ? SettingsUse::taken : SettingsUse::left_out;
+  return given.back() == technique() ? SettingsUse::taken : SettingsUse::left_out;
 }
 
 }  // namespace

@@ -145,15 +145,20 @@ Expected<void> check_read(std::string_view option, std::span<const Technique> te
 }
 
 void finish_map_options(const CLI::App& command, MapOptions& map) {
-  const auto given = [&](std::string_view name) {
+  const auto times = [&](std::string_view name) {
     const CLI::Option* option = command.get_option_no_throw(fmt::format("--{}", name));
-    return option != nullptr && option->count() > 0;
+    return option != nullptr ? option->count() : 0;
   };
+  const auto given = [&](std::string_view name) { return times(name) > 0; };
+  const bool replaced = times("technique") > 1;
   for (const MapSetting& setting : raster::map_settings()) {
     if (!given(setting.name)) continue;
     const auto read =
         check_read(setting.name, std::span(&map.technique, 1), std::span(&map.filter.kernel, 1));
-    if (!read) throw CLI::ValidationError(read.error().field, read.error().reason);
+    if (read) continue;
+    if (!replaced) throw CLI::ValidationError(read.error().field, read.error().reason);
+    [[maybe_unused]] const auto set =
+        raster::set_setting(setting, map, raster::setting_text(setting, MapOptions{}));
   }
   if (given("cascades") && !map.cascades.splits.empty() && map.cascades.count != map.cascades.splits.count)
     throw CLI::ValidationError(

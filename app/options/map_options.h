@@ -34,7 +34,8 @@ Expected<void> check_read(std::string_view option, std::span<const raster::Techn
                           std::span<const raster::FilterKernel> kernels);
 
 /// When all is parsed: throws CLI::ValidationError for the first option on the command line that the
-/// technique does not read. A bias of any kind takes the place of the default's slope.
+/// technique does not read. Where a technique was given again, such options are the former one's, and are set back.
+/// A bias of any kind takes the place of the default's slope.
 void finish_map_options(const CLI::App& command, raster::MapOptions& map);
 
 }  // namespace gnomon::app

@@ -75,7 +75,6 @@ TEST(Usage, ValuesOutOfRange) {
 TEST(Usage, OptionsInTheWrongPlaceOrNumber) {
   expect_refused(
       {{{"--size", "8x8", "compare", "fence"}, "--size stands behind the command's name"},
-       {fence({"--bias", "1", "--bias", "2"}), "--bias: too often (got 2 times, allowed once)"},
        {fence({"--quiet=maybe"}), "--quiet: not a switch's value (got maybe, allowed on, off)"},
        {fence({"--map-size"}), "--map-size: has no value (allowed N)"},
        {fence({"--bias"}), "--bias"},
@@ -92,6 +91,35 @@ TEST(Usage, OptionsInTheWrongPlaceOrNumber) {
        {{"raster", "fence", "--accel", "bvh"}, "unknown option --accel"},
        {{"plan", "fence", "--map-size", "1"}, "unknown option --map-size"}});
   EXPECT_EQ(run_gnomon({}).exit_code, 2);
+}
+
+// Advice is appended to what was typed.
+TEST(Usage, OfAnOptionGivenAgainTheLastValueCounts) {
+  const TemporaryFolder folder;
+  const auto said = [&](const Words& more) {
+    return run_gnomon(
+        Words{"compare", "sphere-plane", "--size", "16x9", "--no-report", "-o", folder / "out"} + more);
+  };
+  const auto map = [&](const Words& more) {
+    const ProcessResult result = said(more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::size_t at = result.out.find("  map ");
+    return result.out.substr(at, result.out.find("\n  wrong", at) - at);
+  };
+  EXPECT_EQ(map({"--bias", "1", "--map-size", "64", "--bias", "2texel", "--map-size", "128"}),
+            map({"--bias", "2texel", "--map-size", "128"}));
+  EXPECT_EQ(map({"--receiver-plane", "--receiver-plane=false", "--bias", "-1"}), map({"--bias=-1"}));
+  EXPECT_NE(
+      said({"--bias", "1", "--bias", "2"}).err.find("note: --bias is given 2 times: the last, 2, counts\n"),
+      std::string::npos);
+  EXPECT_EQ(said({"--bias", "2", "--bias", "2"}).err.find("given"), std::string::npos);
+  // A technique that takes another's place takes its own options with it.
+  const Words vogel{"--technique", "pcf", "--filter-kernel", "vogel"};
+  EXPECT_EQ(map(vogel + Words{"--technique", "pcss"}), map({"--technique", "pcss"}));
+  EXPECT_NE(
+      said(vogel + Words{"--technique", "pcss"}).err.find("and options that it does not read are left out"),
+      std::string::npos);
+  expect_refused({{fence({"--filter-kernel", "vogel"}), "--filter-kernel: belongs to pcf"}});
 }
 
 TEST(Usage, OptionsThatCouldHaveNoEffectAreRefused) {
