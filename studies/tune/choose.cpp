@@ -38,10 +38,7 @@ Expected<void> Tuner::verify(TuneResult& result) {
           {light_of(**compared, light).name, std::move(units), derived_for_engines(**compared, light)});
   }
   set_figures(lights, options_.goal.measure(), attempt);
-  if (winner.answer && !good(*winner.answer)) {
-    winner.closest = *winner.answer;
-    winner.answer.reset();
-  }
+  settle(winner);
   return {};
 }
 

@@ -30,6 +30,13 @@ std::size_t Tuner::best_of(const TuneResult& result) const {
       result.families.begin());
 }
 
+// What was cheap enough in the search need not be now, and the other way round: the figures that are printed decide.
+void Tuner::settle(FamilyResult& result) const {
+  const Attempt measured = result.attempt();
+  result.answer.reset();
+  (good(measured) ? result.answer.emplace() : result.closest) = measured;
+}
+
 // At its own bias: what is promised from the gaps is what is drawn.
 Expected<void> Tuner::confirm(FamilyResult& result) {
   Attempt& answer = result.attempt();
@@ -65,10 +72,7 @@ Expected<void> Tuner::measure_in_turn(const std::vector<FamilyResult*>& finalist
     Attempt& answer = finalist->attempt();
     answer.time_ms = answer.times.least();
     if (!options_.cost) answer.cost = answer.time_ms;
-    if (finalist->answer && !good(*finalist->answer)) {  // cheap enough in the search, not now
-      finalist->closest = *finalist->answer;
-      finalist->answer.reset();
-    }
+    settle(*finalist);
   }
   return {};
 }

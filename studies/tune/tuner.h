@@ -69,6 +69,7 @@ class Tuner {
   std::size_t best_of(const TuneResult& result) const;
   Expected<void> measure_best(TuneResult& result);
   Expected<void> measure_in_turn(const std::vector<FamilyResult*>& finalists);
+  void settle(FamilyResult& result) const;
   Expected<void> confirm(FamilyResult& result);
   Expected<void> draw_again(FamilyResult& result);
   std::size_t prefer_by_cost(TuneResult& result, std::size_t fastest) const;
