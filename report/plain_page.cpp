@@ -46,10 +46,16 @@ bool is_table(const Json& list) {
   return list.is_array() && list.size() > 1 && std::all_of(list.begin(), list.end(), is_flat);
 }
 
+/// Single runs and their differences: the medians stand beside them, and the sentences say what they come to.
+bool is_left_out(std::string_view key) {
+  return key.ends_with(".times_ms.shadows") || key.ends_with(".times_ms.shading_strips");
+}
+
 class PlainTables {
  public:
   /// Everything below `value`, which stands at `key`.
   void add(const std::string& key, const Json& value) {
+    if (is_left_out(key)) return;
     if (is_table(value)) return add_table(key, value);
     if (is_cell(value)) return add_row(key, cell_of(key, value));
     std::size_t index = 0;
@@ -77,7 +83,7 @@ class PlainTables {
 
   /// Of a long list the first rows: who wants all of them opens the data files.
   void add_table(const std::string& key, const Json& list) {
-    constexpr std::size_t most_rows = 100;
+    constexpr std::size_t most_rows = 25;
     const std::vector<std::string> columns = columns_of(list);
     tables_ += fmt::format("<table><caption>{}</caption><thead><tr>", escaped(spoken(key)));
     for (const std::string& name : columns)

@@ -33,9 +33,9 @@ struct PlainPage {
   std::string_view document;  ///< JSON text
 };
 
-/// HTML with the title, the pictures, links to the files, and tables of all values of the document. Numbers have their
-/// keys, as in the sections: <data value="4" data-key="lights.0.error.wrong">. Those of lists have none: they have a
-/// table of their own, of which the first 100 rows are shown.
+/// HTML with the title, the pictures, links to the files, and tables of the document's values, but for what single runs
+/// took. Numbers have their keys, as in the sections: <data value="4" data-key="lights.0.error.wrong">. Those of lists have
+/// none: they have a table of their own, of which the first 25 rows are shown.
 std::string plain_page(const PlainPage& page);
 
 }  // namespace gnomon::compare

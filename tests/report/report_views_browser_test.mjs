@@ -184,10 +184,9 @@ async function checkBeside() {
     "--bias", biases[0], "--report-max-mb", "0.1", "-o", large]];
   const { stderr } = spawnSync(...run, { encoding: "utf8" });
   assert.match(stderr, /note: the page would weigh \d+ MB, more than --report-max-mb 0.1: its pictures and pixels are files/);
-  // Templates, script and style weigh 0.18 MB, the result of one light 0.06 (each point of its curve has its share with ties), its
-  // tables 0.03, and words 0.03.
+  // Templates, script and style weigh 0.18 MB, the result of one light 0.04, its tables 0.05, and words 0.03.
   assert.ok(!readFileSync(join(large, "report.html"), "utf8").includes("data:image/png"));
-  assert.ok(statSync(join(large, "report.html")).size < 0.32e6);
+  assert.ok(statSync(join(large, "report.html")).size < 0.3e6);
   const page = await open(large, { beside: true }, "#light-0?pixel=100,80&exposure=1");
   assert.match(await page.locator(".beside").textContent(), /lie beside it/);
   for (const image of await page.locator("main img:visible").all()) await checkPicture(image);
@@ -209,8 +208,8 @@ async function checkBeside() {
   await close(lacking);
 }
 
-// A page with every pixel of a scene of 150 thousand triangles can be sent by mail: below 10 MB. Its speed is printed, not
-// judged: machines differ.
+// A page with every pixel of a scene of 150 thousand triangles can be sent by mail: below 10 MB, with room
+// for what the next key of the result takes. Its speed is printed, not judged: machines differ.
 async function checkWeight() {
   const large = join(folder, "hd");
   execFileSync(program, ["compare", "fence", "--size", "1280x720", "--runs", "1", "--quiet", "-o", large], { stdio: "inherit" });
@@ -233,7 +232,7 @@ async function checkWeight() {
   });
   await checkBins(page);
   const weight = statSync(join(large, "report.html")).size / 1e6;
-  assert.ok(weight < 10, `the page of fence weighs ${weight} MB`);
+  assert.ok(weight < 9.95, `the page of fence weighs ${weight} MB`);
   console.log(`1280x720, ${weight.toFixed(1)} MB: first paint after ${said.firstPaint} ms; until the next frame but one, a dragged bias ${said.bias} ms, an exposure ${said.stops} ms, another pixel ${said.pixel} ms`);
   await close(page);
 }
