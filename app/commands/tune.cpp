@@ -238,16 +238,17 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   bench.options.most_seconds = command.most_seconds;
   bench.options.found = [&](const compare::TuneFamily& family, const compare::Attempt& answer,
                             std::uint64_t renders) {
-    console.message(fmt::format("good enough after {} drawing{}: {}, {} texels, {}", renders,
-                                renders == 1 ? "" : "s", family.name, answer.size,
+    console.message(fmt::format("good enough after {}: {}, {}, {}", compare::counted(renders, "drawing"),
+                                family.name, compare::with_noun(std::to_string(answer.size), "texel"),
                                 compare::milliseconds(answer.time_ms)));
   };
-  const auto result =
-      compare::tune(engine, bench.setting, bench.options,
-                    [&](const compare::TuneFamily& family, int size, std::uint64_t renders) {
-                      const double share = double(renders) / double(3 * bench.families.size() + 1);
-                      console.progress(fmt::format("{}, {} texels", family.name, size), share);
-                    });
+  const auto result = compare::tune(
+      engine, bench.setting, bench.options,
+      [&](const compare::TuneFamily& family, int size, std::uint64_t renders) {
+        const double share = double(renders) / double(3 * bench.families.size() + 1);
+        console.progress(
+            fmt::format("{}, {}", family.name, compare::with_noun(std::to_string(size), "texel")), share);
+      });
   if (!result) return fail(result.error());
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
   if (!shaders) return fail(shaders.error());

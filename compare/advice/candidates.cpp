@@ -1,6 +1,7 @@
 #include "compare/advice/candidates.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -126,6 +127,17 @@ std::optional<Candidate> of_larger_map(const Comparison& c, const LightCompariso
   return candidate;
 }
 
+/// Whether another technique may be asked for behind what was typed. A technique that was typed takes its own options with it.
+bool can_be_appended(const MapOptions& map, const MapOptions& drawn) {
+  const MapOptions usual;
+  const auto settings = raster::map_settings();
+  return drawn.technique != usual.technique ||
+         std::all_of(settings.begin(), settings.end(), [&](const raster::MapSetting& setting) {
+           return raster::reads_setting(map, setting.name) ||
+                  raster::setting_text(setting, drawn) == raster::setting_text(setting, usual);
+         });
+}
+
 std::vector<Candidate> soft_techniques(const Comparison& c) {
   std::vector<Candidate> out;
   const MapOptions drawn = asked_options(c);
@@ -135,9 +147,23 @@ std::vector<Candidate> soft_techniques(const Comparison& c) {
     Candidate candidate{drawn, true};
     candidate.map.technique = traits.technique;
     if (drawn.bias == raster::default_bias(drawn)) candidate.map.bias = raster::default_bias(candidate.map);
-    if (raster::check_map_options(candidate.map)) out.push_back(candidate);
+    if (raster::check_map_options(candidate.map) && can_be_appended(candidate.map, drawn))
+      out.push_back(candidate);
   }
   return out;
+}
+
+/// The technique's own settings. What is no matter of the technique stays, and a bias of which gaps tell all.
+std::optional<Candidate> of_defaults(const Comparison& c, const LightComparison& light) {
+  const MapOptions drawn = asked_options(c);
+  MapOptions usual;
+  usual.technique = drawn.technique, usual.filter.kernel = drawn.filter.kernel;
+  usual.size = drawn.size, usual.window = drawn.window;
+  usual.bias = biases_follow_from_gaps(c.raster) && gaps_tell(light, *c.measure)
+                   ? drawn.bias
+                   : raster::default_bias(usual);
+  if (changed_arguments(usual, drawn).empty() || !could_be_worth(1.0, c, light)) return std::nullopt;
+  return Candidate{usual};
 }
 
 }  // namespace
@@ -149,8 +175,10 @@ std::vector<Candidate> candidates(const Comparison& c, const LightComparison& li
   double mended = 0.0, sampled = 0.0;
   const auto bias = of_bias(c, light, mended), larger = of_larger_map(c, light, sampled);
   std::vector<Candidate> out;
+  const auto usual = of_defaults(c, light);
+  if (usual) out.push_back(*usual);
   if (larger && sampled > mended) out.push_back(*larger);
-  if (bias) out.push_back(*bias);
+  if (bias && !(usual && bias->map == usual->map)) out.push_back(*bias);
   if (larger && !(sampled > mended)) out.push_back(*larger);
   return out;
 }
@@ -193,13 +221,13 @@ int halvings(int size, double pixels) {
 }
 
 std::string changed_arguments(const MapOptions& map, const MapOptions& drawn) {
-  std::string text;
+  std::vector<std::pair<std::string, std::string>> changed;
   for (const raster::MapSetting& setting : raster::map_settings()) {
-    if (setting.group == raster::SettingGroup::bias) continue;
-    const std::string value = raster::setting_text(setting, map);
-    if (value == raster::setting_text(setting, drawn)) continue;
-    text += fmt::format("{}--{} {}", text.empty() ? "" : " ", setting.name, value);
+    if (setting.group == raster::SettingGroup::bias || !raster::reads_setting(map, setting.name)) continue;
+    std::string value = raster::setting_text(setting, map);
+    if (value != raster::setting_text(setting, drawn)) changed.emplace_back(setting.name, std::move(value));
   }
+  std::string text = fmt::format("{}", fmt::join(raster::words_of(changed), " "));
   if (map.bias == drawn.bias) return text;
   return text + (text.empty() ? "" : " ") + raster::bias_arguments(map.bias, drawn);
 }

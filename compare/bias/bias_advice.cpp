@@ -169,8 +169,11 @@ std::string left_text(double fraction, const LightComparison& light, const Figur
     return fmt::format(fmt::runtime(measure.measure.said), figure_text(measure, fraction));
   if (fraction == 0.0) return "none wrong";
   if (fraction >= few_fraction) return percent(fraction) + " wrong";
-  const double pixels = fraction * static_cast<double>(light.pixels.compared);
-  return fmt::format("{:.0f} pixel{} wrong", pixels, std::round(pixels) == 1.0 ? "" : "s");
+  return counted(wrong_pixels(fraction, light), "pixel") + " wrong";
+}
+
+std::uint64_t wrong_pixels(double fraction, const LightComparison& light) {
+  return static_cast<std::uint64_t>(std::llround(fraction * static_cast<double>(light.pixels.compared)));
 }
 
 std::string contradiction(const BestBias& best, double texel, const raster::Bias& drawn) {

@@ -38,6 +38,9 @@ LikelyBias likeliest_bias(const LightComparison& light, const raster::MapOptions
 /// for "mean error 0.8 %".
 std::string left_text(double fraction, const LightComparison& light, const Figure& measure);
 
+/// Returns how many of a light's compared pixels a share of them is; two that are off by exactly one half are one.
+std::uint64_t wrong_pixels(double fraction, const LightComparison& light);
+
 /// "No constant bias beside the slope bias of 1 fits all: 213 lit pixels stay dark below 2 texels, and …": of a best bias
 /// that is not feasible. `texel_world`: what a bias in texels is a multiple of; `drawn`: the bias drawn with.
 std::string contradiction(const BestBias& best, double texel_world, const raster::Bias& drawn);

@@ -159,7 +159,7 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "The surface lies outside the part of the scene that the map covers: beside its window, or before or "
      "behind "
      "its depths.",
-     "A map fitted to the whole scene, or light for what lies outside."},
+     "A map fitted to the whole scene; where what lies outside is dark, light for it."},
     {"custom_shader",
      "custom shader",
      "C",

@@ -89,8 +89,9 @@ std::vector<std::pair<std::string, std::string>> layer_lines(const DerivedForEng
   std::vector<std::pair<std::string, std::string>> out;
   if (!bias.derived) return out;
   const auto lengths = [](const BiasLayer& layer, double world) {
-    return fmt::format("{:.3g} world units, {:.3g} texels, {:.3g} of stored depth", world,
-                       world / layer.texel_world, world * layer.stored_per_world);
+    return fmt::format("{}, {}, {:.3g} of stored depth",
+                       with_noun(fmt::format("{:.3g}", world), "world unit"),
+                       texels_text(world / layer.texel_world, 3), world * layer.stored_per_world);
   };
   for (const BiasLayer& layer : bias.derived->layers)
     out.emplace_back(fmt::format("layer {}", out.size() + 1),

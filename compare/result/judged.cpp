@@ -25,10 +25,10 @@ std::string settings_text(const Judged& j) {
 
 std::string identified_text(const Identified& i) {
   return fmt::format(
-      "inferred from the picture alone: nearest is {} ({} drawings); it explains {} of the error, and "
+      "inferred from the picture alone: nearest is {} ({}); it explains {} of the error, and "
       "differs "
       "from the picture by {} in the mean",
-      i.options, i.renders, percent(i.explained), percent(i.model_error));
+      i.options, counted(i.renders, "drawing"), percent(i.explained), percent(i.model_error));
 }
 
 std::string ladder_text(const Comparison& c) {
@@ -47,9 +47,9 @@ std::string length_text(const AdvisedSetting& one) {
   if (!(one.unit_world > 0.0)) return {};
   const double world = one.instead * one.unit_world;
   if (const std::string two = two_lengths(one.units, one.instead); !two.empty()) return "; " + two;
-  std::string text = one.unit == "world units" ? "" : fmt::format("; {:.3g} world units", world);
-  if (one.texel_world > 0.0)
-    text += fmt::format("{}{:.3g} texels", text.empty() ? "; " : ", ", world / one.texel_world);
+  std::string text =
+      one.unit == "world units" ? "" : "; " + with_noun(fmt::format("{:.3g}", world), "world unit");
+  if (one.texel_world > 0.0) text += (text.empty() ? "; " : ", ") + texels_text(world / one.texel_world, 3);
   return text;
 }
 
@@ -72,7 +72,7 @@ std::string advice_text(const Advice& a) {
                : fmt::format("{} {:.4g} instead of {:.4g} ({})", one.setting, one.instead, one.now, unit);
   };
   std::string settings =
-      (a.texels_of_each ? fmt::format("a bias of {:.4g} texels on each layer: ", *a.texels_of_each) : "") +
+      (a.texels_of_each ? "a bias of " + texels_text(*a.texels_of_each, 4) + " on each layer: " : "") +
       text(a);
   if (a.with) settings += " and " + text(*a.with);
   for (const AdvisedSetting& layer : a.layers) settings += " and " + text(layer);

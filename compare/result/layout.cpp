@@ -38,9 +38,10 @@ std::string casters_words(const Comparison& c, const LightView& view) {
   if (c.raster.options.map.window.empty()) return "The map was fitted to hold the casters.";
   const WindowCasters casters = window_casters(*c.world, view);
   if (casters.inside == casters.count())
-    return fmt::format("The window holds all {} casters.", grouped(casters.count()));
+    return casters.count() == 1 ? "The window holds the one caster."
+                                : fmt::format("The window holds all {} casters.", grouped(casters.count()));
   std::string text =
-      fmt::format("Of {} casters the window holds {}", grouped(casters.count()), grouped(casters.inside));
+      fmt::format("Of {} the window holds {}", counted(casters.count(), "caster"), grouped(casters.inside));
   std::string_view before = "; ";
   const auto add = [&](std::uint64_t count, std::string_view where) {
     if (count == 0) return;

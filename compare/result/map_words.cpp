@@ -35,8 +35,9 @@ std::string two_lengths(const std::array<raster::CapturedTest::UnitAt, 2>& units
   constexpr double hardly = 1.05;  // of lengths that are said with three digits as one
   const auto& [near, far] = units;
   if (!(far.world > hardly * near.world) || stored == 0.0) return {};
-  return fmt::format("{:.3g} world units at {:.3g} from the light, {:.3g} at {:.3g}", stored * near.world,
-                     near.distance, stored * far.world, far.distance);
+  return fmt::format("{} at {:.3g} from the light, {:.3g} at {:.3g}",
+                     with_noun(fmt::format("{:.3g}", stored * near.world), "world unit"), near.distance,
+                     stored * far.world, far.distance);
 }
 
 std::string constant_text(const raster::LightRecord& record, double texel_world) {

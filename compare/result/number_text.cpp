@@ -54,11 +54,28 @@ std::string signed_number(double value) {
   return (value < 0.0 ? "\u2212" : "+") + unsigned_number(std::abs(value));
 }
 
-std::string texels_text(double texels) {
+std::string plain_number_up(double value) {
+  if (!(value > 0.0) || !std::isfinite(value)) return plain_number(value);
+  const bool whole = value >= first_of_four_digits && value < 1e6;
+  const double digit = whole ? 1.0 : std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  for (double up = value;; up += digit)
+    if (std::string text = plain_number(up); std::stod(text) >= value) return text;
+}
+
+std::string with_noun(const std::string& number, std::string_view noun) {
+  return fmt::format("{} {}{}", number, noun, number == "1" || number == "-1" ? "" : "s");
+}
+
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return with_noun(grouped(count), noun);
+}
+
+std::string texels_text(double texels, int digits) {
   const double size = std::abs(texels);
   if (size > 0.0 && size < 0.001) return "less than 0.001 texel";
-  const std::string text = size < 99.5 ? fmt::format("{:.2g}", texels) : fmt::format("{:.0f}", texels);
-  return text + (std::abs(texels) > 1.0 && text != "1" ? " texels" : " texel");
+  const std::string text =
+      size < 99.5 ? fmt::format("{:.{}g}", texels, digits) : fmt::format("{:.0f}", texels);
+  return size < 1.0 ? text + " texel" : with_noun(text, "texel");
 }
 
 std::string milliseconds(double ms) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "scene/base/time_difference.h"
 
@@ -23,8 +24,14 @@ std::string plain_number(double value);
 std::string signed_number(double value);
 /// Writes a size, without a sign.
 std::string unsigned_number(double value);
-/// "0.8 texel", "1.6 texels".
-std::string texels_text(double texels);
+/// Returns a number that is not less than `value`, which is above 0, as plain_number() writes it: what is promised to hold it.
+std::string plain_number_up(double value);
+/// "1 world unit", "0.04 world units": a number as it is printed, and its noun.
+std::string with_noun(const std::string& number, std::string_view noun);
+/// "1 shape", "1,024 triangles".
+std::string counted(std::uint64_t count, std::string_view noun);
+/// "0.8 texel", "1 texel", "1.6 texels": with so many digits, up to 99.
+std::string texels_text(double texels, int digits = 2);
 /// "12 ms", "0.42 ms", "1.9 s", "3723 s"; "not timed" for a negative value.
 std::string milliseconds(double ms);
 /// "7.1 ms (4.9 to 8.2 ms)"; where the runs do not tell it from nothing, the interval alone: "0 to 30 ms".

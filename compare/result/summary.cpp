@@ -55,10 +55,10 @@ std::string hybrid_line(const raster::ExternalCosts& e) {
     return percent(whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0);
   };
   return fmt::format(
-      "{} surely lit, {} surely shadowed, {} rays ({} of {}; {} of the triangle tests); sheets {} ms, "
+      "{} surely lit, {} surely shadowed, {} ({} of {}; {} of the triangle tests); sheets {} ms, "
       "shadows {} "
       "ms, {} KiB",
-      grouped(e.surely_lit), grouped(e.surely_shadowed), grouped(e.rays), share(e.rays, e.all_rays),
+      grouped(e.surely_lit), grouped(e.surely_shadowed), counted(e.rays, "ray"), share(e.rays, e.all_rays),
       grouped(e.all_rays), share(e.triangle_tests, e.all_triangle_tests), plain_number(e.build.median()),
       plain_number(e.shadow.median()), grouped(e.bytes / 1024));
 }
@@ -99,14 +99,14 @@ std::string labels_line(const LightComparison& light) {
 }
 
 std::string accidents_line(const RightByAccident& a) {
-  return fmt::format("{} pixels are rightly dark only by acne, {} rightly lit only by a leak",
-                     grouped(a.shadowed), grouped(a.lit));
+  return fmt::format("{} rightly dark only by acne, {} rightly lit only by a leak",
+                     counted(a.shadowed, "pixel"), grouped(a.lit));
 }
 
 std::string seams_line(const SeamCount& seams, const LightView& view) {
   const bool cube = view.projection == LightProjection::perspective;
-  return fmt::format("{} of {} receivers beside another {} would be drawn otherwise by it",
-                     grouped(seams.changed), grouped(seams.at_border), cube ? "face of the cube" : "cascade");
+  return fmt::format("{} of {} beside another {} would be drawn otherwise by it", grouped(seams.changed),
+                     counted(seams.at_border, "receiver"), cube ? "face of the cube" : "cascade");
 }
 
 // What no map has a part in, and what helps.

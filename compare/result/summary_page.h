@@ -43,9 +43,6 @@ class SummaryPage {
   std::string text_;
 };
 
-/// "1 shape", "1,024 triangles"
-std::string counted(std::uint64_t count, std::string_view noun);
-
 /// "12 ms", "not timed".
 std::string median_text(const Times& times);
 

@@ -56,10 +56,6 @@ std::string median_text(const Times& t) {
   return milliseconds(t.runs.empty() ? -1.0 : t.median());
 }
 
-std::string counted(std::uint64_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
-}
-
 void add_times(SummaryPage& page, const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
   if (!c.judged)

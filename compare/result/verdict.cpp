@@ -39,32 +39,40 @@ std::string main_reasons(const std::array<Amount, class_count>& amounts, std::st
   return fmt::format("mainly {}, {} and {}", name(0), name(1), name(2));
 }
 
+/// Those that are off by exactly one half count half, but have no label.
+std::string labels_of_wrong(const LightComparison& light) {
+  return main_reasons(light.classes, light.error.wrong == 1 || light.error.ties > 0 ? "" : "all of them ");
+}
+
 // "Shadow error 4.1 % of the pixels, mostly acne." Each is wholly wrong, so the share is the mean error.
 std::string yes_or_no_part(const LightComparison& light) {
-  const std::uint64_t wrong = light.error.wrong, compared = light.pixels.compared;
-  if (wrong == 0 && compared == 1) return "No shadow error: the one pixel compared is right.";
-  if (wrong == 0) return fmt::format("No shadow error: all {} pixels compared are right.", grouped(compared));
-  const std::string share = light.error.wrong_fraction < few_fraction
-                                ? fmt::format("in {} of {} pixels", grouped(wrong), grouped(compared))
-                                : percent(light.error.wrong_fraction) + " of the pixels";
-  return fmt::format("Shadow error {}, {}.", share,
-                     main_reasons(light.classes, wrong == 1 ? "" : "all of them "));
+  const std::uint64_t compared = light.pixels.compared;
+  if (light.error.wrong == 0 && compared == 1) return "No shadow error: the one pixel compared is right.";
+  if (light.error.wrong == 0)
+    return fmt::format("No shadow error: all {} pixels compared are right.", grouped(compared));
+  const std::string share =
+      light.error.wrong_fraction < few_fraction
+          ? fmt::format("in {} of {} pixels", grouped(wrong_pixels(light.error.wrong_fraction, light)),
+                        grouped(compared))
+          : percent(light.error.wrong_fraction) + " of the pixels";
+  return fmt::format("Shadow error {}, {}.", share, labels_of_wrong(light));
+}
+
+/// Where none is off by more than one half, though some by exactly that: "7 pixels are off by exactly one half".
+std::string none_more_than_half(const LightComparison& light) {
+  if (light.error.ties == 0) return "no pixel is off by more than one half";
+  return counted(light.error.ties, "pixel") + (light.error.ties == 1 ? " is" : " are") +
+         " off by exactly one half";
 }
 
 // Where something is partly lit, in truth or as drawn, counts of what is more than one half off say little.
 std::string fractional_part(const LightComparison& light) {
-  const std::uint64_t wrong = light.error.wrong, compared = light.pixels.compared;
   const auto& errors = light.class_errors;
   const bool labelled = std::any_of(errors.begin(), errors.end(), [](double error) { return error > 0.0; });
-  const std::string lead = fmt::format("Shadow error {} on average{}; ", percent(light.error.mean_absolute),
-                                       labelled ? ", " + main_reasons(errors, "all of it ") : std::string());
-  if (wrong == 0) return lead + "no pixel is off by more than one half.";
-  // Without those that are off by exactly one half, of which the figure of the error counts half.
-  const double share = static_cast<double>(wrong) / static_cast<double>(compared);
-  if (share >= few_fraction)
-    return fmt::format("{}{} of the pixels are off by more than one half.", lead, percent(share));
-  return fmt::format("{}{} pixel{} off by more than one half.", lead, grouped(wrong),
-                     wrong == 1 ? " is" : "s are");
+  return fmt::format("Shadow error {} on average{}; {}.", percent(light.error.mean_absolute),
+                     labelled ? ", " + main_reasons(errors, "all of it ") : std::string(),
+                     light.error.wrong == 0 ? none_more_than_half(light)
+                                            : left_text(light.error.wrong_fraction, light, wrong_and_mean()));
 }
 
 std::string uncertain_part(const PixelCounts& p) {
@@ -82,10 +90,10 @@ std::string measured_part(const LightComparison& light, const Figure& measure) {
       std::isnan(figure) ? fmt::format("{} not known", figure_name(measure))
                          : fmt::format(fmt::runtime(measure.measure.said), figure_text(measure, figure));
   if (light.error.wrong == 0)
-    return fmt::format("Shadow error: {}; no pixel {}.", said,
-                       light.error.fractional > 0 ? "is off by more than one half" : "is wrong");
+    return fmt::format("Shadow error: {}; {}.", said,
+                       light.error.fractional > 0 ? none_more_than_half(light) : "no pixel is wrong");
   return fmt::format("Shadow error: {}; {} of the pixels wrong, {}.", said,
-                     percent(light.error.wrong_fraction), main_reasons(light.classes, "all of them "));
+                     percent(light.error.wrong_fraction), labels_of_wrong(light));
 }
 
 /// Where nobody chose a measure, pixels are counted, or errors averaged where something is partly lit.
@@ -148,7 +156,7 @@ std::string judged_advice(const Judged& judged, const LightComparison& light, co
   for (const AdvisedSetting& layer : last.layers)
     if (layer.instead != layer.now) settings += (settings.empty() ? "" : " and ") + instead_text(layer);
   if (last.texels_of_each)
-    settings = fmt::format("a bias of {:.3g} texels on each layer, {}", *last.texels_of_each, settings);
+    settings = fmt::format("a bias of {} on each layer, {}", texels_text(*last.texels_of_each, 3), settings);
   if (const std::string own = in_engine_text(judged, last); !own.empty()) settings += " (" + own + ")";
   return fmt::format("Try {}: {}.", settings,
                      left_words(left, last.about, light.error.fractional > 0, light, measure));
@@ -194,8 +202,8 @@ std::string what_helps(const Comparison& c, const LightComparison& light, const 
         {try_text(c, light, TriedKind::other), "The error is mostly the light's size, which no bias mends."});
   if (lacks_window(c, light)) return window_advice(light);
   return joined_sentences({try_text(c, light, TriedKind::smaller_map),
-                           try_text(c, light, TriedKind::larger_map),
-                           bias.best.empty() ? try_text(c, light, TriedKind::other) : bias.best});
+                           try_text(c, light, TriedKind::larger_map), bias.best,
+                           try_text(c, light, TriedKind::other)});
 }
 
 }  // namespace

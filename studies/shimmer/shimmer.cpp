@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "compare/ladder/ladder.h"
+#include "compare/result/number_text.h"
 #include "raster/renderer.h"
 #include "raster/technique_traits.h"
 #include "scene/base/parallel.h"
@@ -134,8 +135,8 @@ Expected<void> Film::find_drift() {
   const double share = 1.0 - 2.0 * way / drawing.map.size;
   if (!(share > 0.5))
     return fail(ErrorKind::usage,
-                fmt::format("--drift: the way of {:g} texels is more than a quarter of the map's {}", way,
-                            drawing.map.size));
+                fmt::format("--drift: the way of {} is more than a quarter of the map's {}",
+                            with_noun(fmt::format("{:g}", way), "texel"), drawing.map.size));
   const bool follows = raster::follows_camera(drawing.map.technique);
   Vec2 half = face.half_extent;
   if (!follows) {

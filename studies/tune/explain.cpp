@@ -12,8 +12,9 @@ namespace gnomon::compare {
 namespace {
 
 std::string setting_text(const Attempt& a, const Figure& measure) {
-  return fmt::format("{} in {} with {} texels{}", figure_words(a.figures, measure), milliseconds(a.time_ms),
-                     a.size, a.custom_shader ? ", by the shader of --shader-dir" : "");
+  return fmt::format("{} in {} with {}{}", figure_words(a.figures, measure), milliseconds(a.time_ms),
+                     with_noun(std::to_string(a.size), "texel"),
+                     a.custom_shader ? ", by the shader of --shader-dir" : "");
 }
 
 // The sentence of why no constant bias is right everywhere, as a part of a longer one.

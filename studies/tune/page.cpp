@@ -25,9 +25,7 @@ bool reads_bias(const TuneFamily& family, const Attempt& attempt) {
 // World units, "0.25 texel", "auto": the constant in the unit that the command asks for it in.
 std::string constant_words(const raster::Bias& bias) {
   if (bias.unit == raster::BiasUnit::automatic) return "auto";
-  const std::string text = plain_number(bias.constant);
-  if (bias.unit == raster::BiasUnit::world) return text;
-  return text + (std::abs(bias.constant) > 1.0 ? " texels" : " texel");
+  return bias.unit == raster::BiasUnit::world ? plain_number(bias.constant) : texels_text(bias.constant, 3);
 }
 
 Json family_json(const TunePageInput& in, std::size_t i) {

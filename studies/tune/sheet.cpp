@@ -117,8 +117,8 @@ Json rows_json(const SheetCandidate& candidate, const Comparison& c, const Figur
   add("size", fmt::format("{} × {}", size, size));
   add("error", error_text(light, measure));
   if (light.shimmer) add("flicker", flicker_text(*light.shimmer));
-  add("map", fmt::format("{}, {} texels drawn a frame (counted)", byte_count(c.raster.map_bytes),
-                         grouped(c.raster.map_texels)));
+  add("map", fmt::format("{}, {} drawn a frame (counted)", byte_count(c.raster.map_bytes),
+                         counted(c.raster.map_texels, "texel")));
   add("taps", taps_text(c));
   add("time here", time_text(c));
   return rows;

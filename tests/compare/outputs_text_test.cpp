@@ -55,6 +55,31 @@ TEST(NumberText, WritesCountsSharesAndTimes) {
   EXPECT_EQ(texels_text(1.56), "1.6 texels");
   EXPECT_EQ(texels_text(149.6), "150 texels");
   EXPECT_EQ(texels_text(1e-5), "less than 0.001 texel");
+  EXPECT_EQ(texels_text(-1.0, 3), "-1 texel");
+  EXPECT_EQ(texels_text(1.5625, 3), "1.56 texels");
+  EXPECT_EQ(texels_text(0.9999, 3), "1 texel");
+}
+
+TEST(Text, NounsFollowTheNumberThatIsPrinted) {
+  EXPECT_EQ(with_noun("1", "world unit"), "1 world unit");
+  EXPECT_EQ(with_noun("0.04", "world unit"), "0.04 world units");
+  EXPECT_EQ(counted(0, "ray"), "0 rays");
+  EXPECT_EQ(counted(1, "drawing"), "1 drawing");
+  EXPECT_EQ(counted(1024, "triangle"), "1,024 triangles");
+}
+
+// What is promised to hold something is not smaller than it.
+TEST(Text, PromisedSizesAreRoundedUp) {
+  EXPECT_EQ(plain_number_up(16.12), "16.2");
+  EXPECT_EQ(plain_number_up(16.1), "16.1");
+  EXPECT_EQ(plain_number_up(1234.2), "1235");
+  EXPECT_EQ(plain_number_up(0.09991), "0.1");
+  EXPECT_EQ(plain_number_up(0.0), "0");
+  for (double value = 1.2345e-7; value < 1e9; value *= 1.37) {
+    const double up = std::stod(plain_number_up(value));
+    EXPECT_GE(up, value);
+    EXPECT_LE(up, 1.01 * value) << value;
+  }
 }
 
 TEST(Csv, NamesAreNoFormulas) {

@@ -66,8 +66,7 @@ TEST(Verdict, BeginsWithTheMeasureThatWasChosen) {
     return verdict_on(c.made->comparison, c.light).error;
   };
   EXPECT_EQ(begins("wrong"), "Shadow error 4.1 % of the pixels, mostly acne.");
-  EXPECT_EQ(begins("mean"),
-            "Shadow error 4.1 % on average, mostly acne; 4.1 % of the pixels are off by more than one half.");
+  EXPECT_EQ(begins("mean"), "Shadow error 4.1 % on average, mostly acne; 4.1 % wrong.");
   EXPECT_EQ(begins("flip"), "Shadow error: mean FLIP 0.0774; 4.1 % of the pixels wrong, mostly acne.");
   EXPECT_EQ(begins("edge"),
             "Shadow error: edges off by 1.7 texels (RMS); 4.1 % of the pixels wrong, mostly acne.");
@@ -75,6 +74,8 @@ TEST(Verdict, BeginsWithTheMeasureThatWasChosen) {
   EXPECT_EQ(begins("wrong"), "Shadow error 4.1 % of the pixels, mostly acne.") << "of partly lit ones, too";
   c.light.error.wrong = 0, c.light.error.wrong_fraction = 0.0;
   EXPECT_EQ(begins("wrong"), "Shadow error: 0 % wrong; no pixel is off by more than one half.");
+  c.light.error.ties = 2000, c.light.error.wrong_fraction = 0.01;
+  EXPECT_EQ(begins("wrong"), "Shadow error: 1.0 % wrong; 2,000 pixels are off by exactly one half.");
 }
 
 /// A setting that was drawn, and what it left of a light.
@@ -381,13 +382,18 @@ TEST(Verdict, LeadsWithTheMeanErrorWhereSomethingIsPartlyLit) {
   soft.light.error.fractional = 900;
   soft.light.error.mean_absolute = 0.03;
   soft.light.best_bias = {0.01, 0.02, true, 0, 1, 0, 0};
-  EXPECT_EQ(soft.verdict(),
-            "Shadow error 3.0 % on average, all of it aliasing; 2.0 % of the pixels are off by more than one "
-            "half.");
-  soft.light.error.ties = 50,
-  soft.light.error.wrong_fraction = 0.025;  // no more than one half, and not among them
-  EXPECT_NE(soft.verdict().find("; 2.0 % of the pixels are off by more than one half"), std::string::npos)
+  EXPECT_EQ(soft.verdict(), "Shadow error 3.0 % on average, all of it aliasing; 2.0 % wrong.");
+  soft.light.error.ties = 50, soft.light.error.wrong_fraction = 0.025;
+  EXPECT_NE(soft.verdict().find("; 2.5 % wrong."), std::string::npos) << soft.verdict();
+  soft.light.error.wrong = 0, soft.light.error.ties = 1, soft.light.error.wrong_fraction = 1e-4;
+  EXPECT_NE(soft.verdict().find("; 1 pixel is off by exactly one half."), std::string::npos)
       << soft.verdict();
+  // One meaning: what is told of the light as drawn is what would be told of a setting that leaves as much.
+  Case fine(100000, {3});
+  fine.light.error.fractional = 900, fine.light.error.ties = 3, fine.light.error.wrong_fraction = 4.5e-5;
+  EXPECT_NE(fine.verdict().find("; 5 pixels wrong."), std::string::npos) << fine.verdict();
+  fine.made->comparison.measure = find_measure("wrong");
+  EXPECT_NE(fine.verdict().find("in 5 of 100,000 pixels, acne."), std::string::npos) << fine.verdict();
 }
 
 TEST(Verdict, NamesASoftTechniqueWhereTheLightsSizeIsMostOfTheError) {
@@ -400,11 +406,8 @@ TEST(Verdict, NamesASoftTechniqueWhereTheLightsSizeIsMostOfTheError) {
   size.absolute_mean = 0.015;
   const std::string cause = "The error is mostly the light's size, which no bias mends.";
   const auto says_so = [&] { return c.verdict().find(cause) != std::string::npos; };
-  EXPECT_NE(
-      c.verdict().find("Shadow error 3.0 % on average, all of it light size; 2.0 % of the pixels are off by "
-                       "more than one half. " +
-                       cause),
-      std::string::npos)
+  EXPECT_NE(c.verdict().find("Shadow error 3.0 % on average, all of it light size; 2.0 % wrong. " + cause),
+            std::string::npos)
       << c.verdict();
   EXPECT_EQ(c.verdict().find("Try "), std::string::npos) << "nothing was drawn";
   raster::RasterFrame& drawn = c.made->comparison.raster;

@@ -94,7 +94,7 @@ TEST(ViewStatus, LineHasBiasInBothUnitsAndSaysWhatIsStale) {
   state.setup.map.bias = {0.02, raster::BiasUnit::world};
   Readings readings{0.02, 0.01, 12.0, {}};
   std::string line = status_line(state, readings, "fence");
-  EXPECT_NE(line.find("fence | raster | sun | hard 1024² | bias 0.02 = 2 texel"), std::string::npos) << line;
+  EXPECT_NE(line.find("fence | raster | sun | hard 1024² | bias 0.02 = 2 texels"), std::string::npos) << line;
   EXPECT_NE(line.find("comparing"), std::string::npos) << line;
   readings.compared = Readings::Compared{true, false, 0.041, 0.041};
   line = status_line(state, readings, "fence");

@@ -23,7 +23,7 @@ std::string bias_words(const raster::MapOptions& map, const Readings& readings) 
   const double texels = bias.unit == raster::BiasUnit::texel ? bias.constant
                         : readings.texel_world > 0.0         ? readings.bias_world / readings.texel_world
                                                              : 0.0;
-  return fmt::format("bias {:.4g} = {:.4g} texel", readings.bias_world, texels) +
+  return fmt::format("bias {:.4g} = {}", readings.bias_world, compare::texels_text(texels, 4)) +
          compare::beside_constant(map);
 }
 
