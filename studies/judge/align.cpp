@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "compare/result/number_text.h"
 #include "scene/base/stages.h"
 #include "studies/judge/captured_map.h"
 
@@ -316,8 +317,8 @@ void Aligner::note_resolution() {
   if (block == 1) return;
   judged_.notes.push_back(
       fmt::format("the shadow consists of blocks of {0} x {0} pixels, as if drawn at 1/{0} of the picture's "
-                  "resolution and enlarged: edges are wrong by up to {1} pixel{2} for that reason alone",
-                  block, block - 1, block == 2 ? "" : "s"));
+                  "resolution and enlarged: edges are wrong by up to {1} for that reason alone",
+                  block, counted(static_cast<std::uint64_t>(block - 1), "pixel")));
 }
 
 }  // namespace

@@ -118,19 +118,19 @@ AtlasReads label_atlas_reads(const FrameInput& in, const raster::RasterFrame& dr
   for (const std::uint32_t i : found) light.labels.data[i] = Label::outside_map;
   count_labels_again(light);
   if (found.size() < few_reads) return {};
-  const double border = std::ceil(drawn.options.map.filter.radius_texels);
+  const std::string border =
+      with_noun(fmt::format("{:.0f}", std::ceil(drawn.options.map.filter.radius_texels)), "texel");
   const auto wrong = std::count_if(found.begin(), found.end(),
                                    [&](std::uint32_t i) { return is_wrong(rungs_at(light.rungs, i)); });
   AtlasReads out;
   out.notes = {
       fmt::format("in {} pixels with an error the filter reads beyond its layer's part of the atlas, where a "
                   "neighbour's depths "
-                  "are: clamp its reads to the part, or leave a border of {:.0f} texels",
+                  "are: clamp its reads to the part, or leave a border of {}",
                   grouped(found.size()), border)};
   if (2 * static_cast<std::uint64_t>(wrong) > light.error.wrong)
     out.cure = fmt::format(
-        "Clamp the filter's reads to the layer's part of the atlas, or leave a border of {:.0f} texels.",
-        border);
+        "Clamp the filter's reads to the layer's part of the atlas, or leave a border of {}.", border);
   return out;
 }
 

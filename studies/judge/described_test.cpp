@@ -209,10 +209,12 @@ std::vector<std::string> far_places_notes(const FrameInput& in, const raster::Li
       for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(point.position[axis]));
   const double spacing = farthest > 0.0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0.0;
   if (spacing < coarse_texels * record.texel_world) return {};
-  return {fmt::format(
-      "places of 32 bits lie {:.2g} world units apart so far from the origin ({:.3g}), {:.2g} texels "
-      "of the map: move the origin nearer, or work with places relative to the camera",
-      spacing, farthest, spacing / record.texel_world)};
+  return {
+      fmt::format("places of 32 bits lie {} apart so far from the origin ({:.3g}), {} of the map: move the "
+                  "origin nearer, or "
+                  "work with places relative to the camera",
+                  with_noun(fmt::format("{:.2g}", spacing), "world unit"), farthest,
+                  texels_text(spacing / record.texel_world))};
 }
 
 std::vector<std::string> described_test_notes(const DescribedTest& test,
@@ -237,9 +239,8 @@ std::vector<std::string> described_test_notes(const DescribedTest& test,
           fmt::format("; if {}, it is the one drawn in {} of the pixels", other->what, percent(other->share));
     else if (test.filter_radius > 0.0)
       note += fmt::format(
-          "; an average over {:g} texels to each side would draw them (`filter.kind`, "
-          "`filter.radius_texels`)",
-          test.filter_radius);
+          "; an average over {} to each side would draw them (`filter.kind`, `filter.radius_texels`)",
+          with_noun(fmt::format("{:g}", test.filter_radius), "texel"));
     else if (test.is_mostly_drawn() && 20 * test.drawn_darker > 19 * test.not_drawn)
       note += "; what else takes light away (contact shadows, a cookie) is said by `also`";
     out.push_back(std::move(note));

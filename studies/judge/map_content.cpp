@@ -94,10 +94,9 @@ std::string reason_words(const ContentFinding& found, const raster::LightRecord&
   switch (found.label) {
     case Label::caster_bias:
       return fmt::format(
-          "a bias of the casters: the map holds surfaces some {:.3g} world units behind where they are (a "
-          "polygon "
-          "offset, or casters moved when the map is drawn)",
-          found.bias_world);
+          "a bias of the casters: the map holds surfaces some {} behind where they are (a polygon offset, or "
+          "casters moved when the map is drawn)",
+          with_noun(fmt::format("{:.3g}", found.bias_world), "world unit"));
     case Label::missing_caster:
       return "a caster that is missing from the map";
     case Label::moved_caster:
@@ -105,12 +104,14 @@ std::string reason_words(const ContentFinding& found, const raster::LightRecord&
     case Label::clipped_caster:
       return found.nearest && *found.nearest < face.near_depth
                  ? fmt::format(
-                       "a caster before the map's near plane: it reaches to {:.4g} world units before it, "
-                       "and "
-                       "a near plane there, or depths clamped to it, would hold it",
-                       face.near_depth - *found.nearest)
-                 : fmt::format("a caster behind the map's far plane, by {:.4g} world units",
-                               found.farthest.value_or(face.far_depth) - face.far_depth);
+                       "a caster before the map's near plane: it reaches to {} before it, and a near plane "
+                       "there, or depths "
+                       "clamped to it, would hold it",
+                       with_noun(plain_number_up(face.near_depth - *found.nearest), "world unit"))
+                 : fmt::format(
+                       "a caster behind the map's far plane, by {}",
+                       with_noun(plain_number_up(found.farthest.value_or(face.far_depth) - face.far_depth),
+                                 "world unit"));
     case Label::culled_caster:
       return "a caster of which the side that faces the light was culled";
     case Label::ignored_alpha:

@@ -75,22 +75,17 @@ Reach farthest_reach(const FrameInput& in, const LightComparison& light, const r
   return out;
 }
 
-/// Three digits that are not less.
-double rounded_up(double number) {
-  const double digit = std::pow(10.0, std::floor(std::log10(number)) - 2.0);
-  return std::ceil(number / digit) * digit;
-}
-
 /// "a far plane of 25 world units (now 10)". The depth at which a parallel light's plane lies is nothing that its user knows.
 std::string far_plane_words(const LightView& view, const Reach& reach) {
   const LightFace& face = view.face(reach.face);
   const std::string of_layer =
       view.face_count > 1 && !view.seamless ? fmt::format(" of layer {}", reach.face) : "";
   if (view.projection == LightProjection::perspective)
-    return fmt::format("a far plane{} of {:.3g} world units (now {:.3g})", of_layer, rounded_up(reach.far),
-                       face.far_depth);
-  return fmt::format("a far plane{} at {:.3g} world units from the near one (now {:.3g})", of_layer,
-                     rounded_up(reach.far - face.near_depth), face.far_depth - face.near_depth);
+    return fmt::format("a far plane{} of {} (now {:.3g})", of_layer,
+                       with_noun(plain_number_up(reach.far), "world unit"), face.far_depth);
+  return fmt::format("a far plane{} at {} from the near one (now {:.3g})", of_layer,
+                     with_noun(plain_number_up(reach.far - face.near_depth), "world unit"),
+                     face.far_depth - face.near_depth);
 }
 
 std::string beyond_words(const raster::LightRecord& record) {
@@ -113,17 +108,19 @@ std::string window_words(const FrameInput& in, const LightComparison& light, con
     const Vec2 at(glm::dot(place, face.right), glm::dot(place, face.up));
     reach = glm::max(reach, glm::abs(at - face.center));
   }
+  const auto side = [](double needed, double now) {
+    return needed > now ? plain_number_up(2.0 * needed) : plain_number(2.0 * now);
+  };
   return fmt::format(
-      "a window of {:.3g} x {:.3g} world units about the same middle (now {:.3g} x {:.3g}) holds all that "
-      "the picture shows",
-      2.0 * std::max(reach.x, face.half_extent.x), 2.0 * std::max(reach.y, face.half_extent.y),
-      2.0 * face.half_extent.x, 2.0 * face.half_extent.y);
+      "a window of {} x {} world units about the same middle (now {} x {}) holds all that the picture shows",
+      side(reach.x, face.half_extent.x), side(reach.y, face.half_extent.y),
+      plain_number(2.0 * face.half_extent.x), plain_number(2.0 * face.half_extent.y));
 }
 
 /// The wrong pixels outside a map, by where they lie.
 struct WrongOutside {
   std::vector<std::size_t> beside, behind, nearer;
-  std::size_t behind_dark = 0;
+  std::size_t beside_dark = 0, behind_dark = 0;
 };
 
 WrongOutside sort_wrong(const FrameInput& in, const LightComparison& light,
@@ -133,12 +130,13 @@ WrongOutside sort_wrong(const FrameInput& in, const LightComparison& light,
     const bool outside = light.labels.data[i] == Label::outside_map && record.outside_map.data[i] != 0;
     if (!outside || !is_wrong(rungs_at(light.rungs, i))) continue;
     const TexelCoordinate at = place_of(record, in.traced.receiver.data[i].position, i);
+    const std::size_t dark = light.rungs[6].data[i] < 0.5f ? 1 : 0;
     if (at.inside && is_behind(record, at)) {
-      out.behind.push_back(i), out.behind_dark += light.rungs[6].data[i] < 0.5f ? 1 : 0;
+      out.behind.push_back(i), out.behind_dark += dark;
     } else if (at.inside && in.facts.lights_nearer_half && is_in_nearer_half(record, at)) {
       out.nearer.push_back(i);
     } else {
-      out.beside.push_back(i);
+      out.beside.push_back(i), out.beside_dark += dark;
     }
   }
   return out;
@@ -224,8 +222,10 @@ OutsideFindings find_outside_map(const FrameInput& in, const LightComparison& li
         "test depths from -1 on, where the matrix's range begins, not from 0");
   if (!wrong.beside.empty() && 2 * wrong.beside.size() > light.error.wrong) {
     const bool parallel = view.projection == LightProjection::orthographic && view.face_count == 1;
+    const std::string larger = parallel ? window_words(in, light, view) : "give the map a wider view";
+    const bool dark = 2 * wrong.beside_dark > wrong.beside.size();
     say(wrong.beside.size(), "lie outside the map, where no bias changes anything",
-        (parallel ? window_words(in, light, view) + ", or " : std::string()) + "light what lies outside");
+        larger + (dark ? ", or light what lies outside" : ""));
   }
   return out;
 }

@@ -260,6 +260,17 @@ TEST(JudgeAdvice, CountsWhatLiesOutsideTheMap) {
   const std::string notes = fmt::format("{}", fmt::join(judged.result->judged->notes, "\n"));
   EXPECT_NE(notes.find("lie outside the map, where no bias changes anything: a window of"), std::string::npos)
       << notes;
+  EXPECT_NE(notes.find("or light what lies outside"), std::string::npos) << notes;
+  // What is lit there already is not advised to be lit.
+  draw_again(captured.capture, captured.drawn, 1.0f);
+  const JudgeOutcome lit = captured.judged();
+  ASSERT_TRUE(lit.result) << reason(lit);
+  ASSERT_GT(2 * pixels_called(lit, Label::outside_map), lit.result->lights[0].error.wrong);
+  const std::string of_lit = fmt::format("{}", fmt::join(lit.result->judged->notes, "\n"));
+  EXPECT_NE(of_lit.find("lie outside the map, where no bias changes anything: a window of"),
+            std::string::npos)
+      << of_lit;
+  EXPECT_EQ(of_lit.find("light what lies outside"), std::string::npos) << of_lit;
 }
 
 TEST(JudgeAdvice, LeavesAConstantBelowZeroThatIsRight) {

@@ -109,7 +109,7 @@ TEST(JudgeAdvice, GivesEachLayerAConstantOfItsOwn) {
   EXPECT_LT(advice.layers[0].instead, 0.02);
   EXPECT_NEAR(advice.layers[0].unit_world, engine.range(), 1e-6);
   EXPECT_LT(advice.wrong_instead, 0.5 * advice.wrong_now);
-  EXPECT_NE(advice_text(advice).find(" texels)"), std::string::npos) << advice_text(advice);
+  EXPECT_NE(advice_text(advice).find(" texel)"), std::string::npos) << advice_text(advice);
   // Taken, it leaves what is promised.
   for (const compare::AdvisedSetting& layer : advice.layers)
     capture.map[1].bias = compare::CapturedBias{.constant_depth = layer.instead};
@@ -166,7 +166,8 @@ TEST(JudgeAdvice, GivesLayersOneConstantInTexels) {
   ASSERT_TRUE(advice.texels_of_each.has_value()) << advice_text(advice);
   ASSERT_EQ(advice.layers.size(), 1U);
   EXPECT_NEAR(advice.layers[0].instead * double{times}, advice.instead, 1e-3 * advice.instead);
-  EXPECT_NE(advice_text(advice).find(" texels on each layer"), std::string::npos) << advice_text(advice);
+  EXPECT_NE(advice_text(advice).find("a bias of 0.4 texel on each layer"), std::string::npos)
+      << advice_text(advice);
   // Taken, it leaves what is promised.
   capture.bias->constant_depth = advice.instead;
   capture.map[1].bias = compare::CapturedBias{.constant_depth = advice.layers[0].instead};

@@ -62,35 +62,42 @@ TEST(JudgeValues, ShadowsThatAreNotDarkAreSaid) {
                   strength));
 }
 
-// Of each block its first pixel.
+// A picture of that part of the side, rounded down, is stretched over the whole; each of its pixels is one that stands under it.
 void enlarge(const std::string& file, int block) {
   spoil(file, [&](ChannelImage& image) {
-    for (Channel& channel : image.channels)
+    const auto under = [block](int i, int side) {
+      const int parts = side / block, part = (2 * i + 1) * parts / (2 * side);
+      return (2 * part + 1) * side / (2 * parts);
+    };
+    for (Channel& channel : image.channels) {
+      const std::vector<float> from = channel.values;
       for (int y = 0; y < image.size.height; ++y)
         for (int x = 0; x < image.size.width; ++x) {
           const auto at = [w = std::size_t(image.size.width)](int i, int j) {
             return std::size_t(j) * w + std::size_t(i);
           };
-          channel.values[at(x, y)] = channel.values[at(x - x % block, y - y % block)];
+          channel.values[at(x, y)] = from[at(under(x, image.size.width), under(y, image.size.height))];
         }
+    }
   });
 }
 
 TEST(JudgeValues, ShadowsOfLowerResolutionAreSaid) {
-  for (const char* scene : {"fence", "teapot"}) {
-    const Compared drawn = draw_builtin(scene, small_picture, hard_map(256));
-    for (const int block : {2, 3, 4}) {
-      const Capture capture = self_capture(drawn, folder_for("blocks"), {});
-      enlarge(capture.visibility, block);
-      const JudgeOutcome judged = judge(capture, *drawn.scene);
-      ASSERT_TRUE(judged.result) << reason(judged);
-      EXPECT_NE(fmt::format("{}", fmt::join(judged.result->judged->notes, "\n"))
-                    .find(fmt::format("blocks of {0} x {0} pixels", block)),
-                std::string::npos)
-          << scene << ' ' << block;
+  for (const ImageSize size : {small_picture, ImageSize{128, 72}, ImageSize{130, 75}})
+    for (const char* scene : {"fence", "teapot", "floating-box", "sphere-plane"}) {
+      const Compared drawn = draw_builtin(scene, size, hard_map(256));
+      for (const int block : {2, 3, 4, 5, 8}) {
+        const Capture capture = self_capture(drawn, folder_for("blocks"), {});
+        enlarge(capture.visibility, block);
+        const JudgeOutcome judged = judge(capture, *drawn.scene);
+        ASSERT_TRUE(judged.result) << reason(judged);
+        EXPECT_NE(fmt::format("{}", fmt::join(judged.result->judged->notes, "\n"))
+                      .find(fmt::format("blocks of {0} x {0} pixels", block)),
+                  std::string::npos)
+            << scene << ' ' << block << ' ' << size.width;
+      }
+      EXPECT_EQ(notes_on(drawn, [](float v) { return v; }), "") << scene;
     }
-    EXPECT_EQ(notes_on(drawn, [](float v) { return v; }), "") << scene;
-  }
 }
 
 // Then something is drawn where the light does not arrive, which another camera seems to explain. A haze takes no surface's colour.
