@@ -1,7 +1,7 @@
 // What a comparison cost: passes, shadows alone, every stage of the run, and the work that is the same on every machine.
 import { shareBar } from "./bars";
-import { keyed, keyedCount } from "./document";
-import { byteCount, grouped, milliseconds } from "./number_text";
+import { keyed, keyedCount, keyedThings } from "./document";
+import { byteCount, counted, milliseconds } from "./number_text";
 import { facts, ofLight, result, shadowTime, timed, type LightResult, type Times } from "./report_document";
 import { markup, type Markup } from "./template";
 
@@ -16,16 +16,16 @@ interface TimeRow {
 function lightRows(light: LightResult, i: number): TimeRow[] {
   const { map, times_ms: times, shadow_samples: samples } = light, key = `lights.${i}`, of = ofLight(i), soft = samples !== undefined;
   const row = (pass: string, name: string, what: Markup | string, kind: TimeRow["kind"]): TimeRow => ({ key: `${key}.times_ms.${pass}`, name: name + of, what, times: times[pass]!, kind });
-  return [row("map_pass", map.hybrid ? "sheets" : "depth map", map.size === null ? "its map is not known" : `${grouped(map.faces * map.size ** 2)} texels`, "raster"),
+  return [row("map_pass", map.hybrid ? "sheets" : "depth map", map.size === null ? "its map is not known" : counted(map.faces * map.size ** 2, "texel"), "raster"),
     row("shade_pass", "shading", "the picture with its shadow lookups", "raster"),
-    ...(soft ? [row("soft_shadow_rays", "exact shadows", markup`${keyedCount(`${key}.soft_shadow_rays`)} rays, of ${keyedCount(`${key}.soft_shadow_rays_asked`)} samples asked for (${
+    ...(soft ? [row("soft_shadow_rays", "exact shadows", markup`${keyedThings(`${key}.soft_shadow_rays`, "ray")}, of ${keyedThings(`${key}.soft_shadow_rays_asked`, "sample")} asked for (${
       keyedCount(`${key}.shadow_samples`)} a receiver)`, "rays")] : []),
-    row("shadow_rays", soft ? "the light as a point" : "exact shadows", markup`${keyedCount(`${key}.shadow_rays`)}${soft ? " to the light's centre" : " exact rays"}`, "rays")];
+    row("shadow_rays", soft ? "the light as a point" : "exact shadows", markup`${soft ? markup`${keyedCount(`${key}.shadow_rays`)} to the light's centre` : keyedThings(`${key}.shadow_rays`, "exact ray")}`, "rays")];
 }
 
 function timeTable(): Markup {
   const rows: TimeRow[] = [...result.lights.flatMap(lightRows), { key: "times_ms.primary_rays", name: "primary rays",
-    what: markup`${keyedCount("costs.primary_rays")} rays, one for each pixel`, times: result.times_ms.primary_rays!, kind: "rays" }];
+    what: markup`${keyedThings("costs.primary_rays", "ray")}, one for each pixel`, times: result.times_ms.primary_rays!, kind: "rays" }];
   const longest = Math.max(1e-9, ...rows.map(({ times }) => times.median ?? 0));
   return markup`<table class="times"><caption>What the pictures took</caption><thead class="quiet"><tr><th
 scope="col">pass</th><th scope="col">share of the longest</th><th scope="col"

@@ -29,8 +29,9 @@ export function keyed(key: string, words: (value: number) => string, shown?: num
 
 export const keyedCount = (key: string): Markup => keyed(key, grouped);
 
-/** A count with what is counted: "1 pixel", "12,713 pixels". */
-export const keyedThings = (key: string, thing: string): Markup => markup`${keyedCount(key)} ${thing}${numberAt(key) === 1 ? "" : "s"}`;
+/** A number with what there is so much of: "1 pixel", "12,713 pixels", of plainNumber "1.73 texels". */
+export const keyedThings = (key: string, thing: string, words = grouped): Markup =>
+  markup`${keyed(key, words)} ${thing}${words(numberAt(key)) === "1" ? "" : "s"}`;
 
 /** What something is less by, a number >= 0: shown with a minus sign before it. */
 export const keyedDecrease = (key: string): Markup => markup`${numberAt(key) > 0 ? "−" : ""}${keyed(key, unsignedNumber)}`;

@@ -21,7 +21,7 @@ export function hybridBlock({ map: { hybrid } }: LightResult, i: number): Markup
 class="n">pixels</th><th scope="col" class="n">share</th></tr></thead><tbody>
 ${row(palette.surely_lit, "surely lit", keyedCount(`${key}.surely_lit`), surely_lit)}${
   row(palette.surely_shadowed, "surely in shadow", keyedCount(`${key}.surely_shadowed`), surely_shadowed)}${
-  row(palette.traced, "ambiguous: traced", grouped(traced), traced)}</tbody></table><p>${keyedCount(`${key}.rays`)} rays were cast where pure ray tracing asks for ${
+  row(palette.traced, "ambiguous: traced", grouped(traced), traced)}</tbody></table><p>${keyedThings(`${key}.rays`, "ray")} had to be cast where pure ray tracing asks for ${
   keyedCount(`${key}.all_rays`)}: ${share(rays, all_rays)}. The sheets took ${time("build")} to build and hold ${byteCount(bytes)}
 while light and scene stand still; each frame took ${time("receivers")} to find the receivers and ${time("shadow")} to decide and trace.</p>
 ${lessonDetails("hybrid")}</div>
@@ -57,8 +57,8 @@ const fact = (name: string, value: Markup | string, what: Markup | string): Mark
 
 function edgeFacts({ edges }: LightResult, key: string): Markup | null {
   if (edges.count === 0) return null;
-  return markup`${fact("Edge error", markup`${plain(`${key}.edges.rms_texels`)} texels`,
-    markup`root mean square over ${keyedThings(`${key}.edges.count`, "pixel")} on true edges; ${plain(`${key}.edges.rms_pixels`)} pixels on the screen`)}${
+  return markup`${fact("Edge error", keyedThings(`${key}.edges.rms_texels`, "texel", plainNumber),
+    markup`root mean square over ${keyedThings(`${key}.edges.count`, "pixel")} on true edges; ${keyedThings(`${key}.edges.rms_pixels`, "pixel", plainNumber)} on the screen`)}${
     fact("Edge offset", markup`${keyed(`${key}.edges.mean_texels`, signedNumber)} texels`, `on average the drawn shadow is ${edges.mean_texels >= 0 ? "larger" : "smaller"} than the true one`)}`;
 }
 

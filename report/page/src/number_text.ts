@@ -53,7 +53,7 @@ export const signedNumber = (value: number): string =>
 export function texelsText(texels: number): string {
   const size = Math.abs(texels), text = size < 99.5 ? general(texels, 2) : withDecimals(texels, 0);
   if (size > 0 && size < 0.001) return "less than 0.001 texel";
-  return `${text.replace("-", "−")} texel${size <= 1 || text === "1" ? "" : "s"}`;
+  return `${text.replace("-", "−")} texel${size <= 1 || text === "1" || text === "-1" ? "" : "s"}`;
 }
 
 export function milliseconds(ms: number): string {

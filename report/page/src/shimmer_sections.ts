@@ -1,5 +1,5 @@
 // The sections of a film of shadows, from its result.json (studies/shimmer/shimmer.schema.json).
-import { keyed, keyedCount, keyedSigned, numberAt, resultDocument } from "./document";
+import { keyed, keyedCount, keyedSigned, keyedThings, numberAt, resultDocument } from "./document";
 import { flipsChart } from "./flips_chart";
 import { picture, type Section } from "./frame";
 import { general, grouped, plainNumber, unsignedNumber } from "./number_text";
@@ -74,7 +74,7 @@ class="n">${grouped(flips)}</td><td class="n">${plainNumber(absolute)}</td></tr>
 function edgesLine(light: string): Markup {
   const drawn = `${light}.edges.drawn_texels_per_frame`;
   if (Number.isNaN(numberAt(drawn))) return markup`<p>There is no true shadow edge.</p>\n`;
-  return markup`<p>Drawn shadow edges sweep ${keyed(drawn, plainNumber)} texels with each frame, the true ones ${keyed(`${light}.edges.true_texels_per_frame`, plainNumber)}.</p>\n`;
+  return markup`<p>Drawn shadow edges sweep ${keyedThings(drawn, "texel", plainNumber)} with each frame, the true ones ${keyed(`${light}.edges.true_texels_per_frame`, plainNumber)}.</p>\n`;
 }
 
 function lightSection(result: ShimmerResult, facts: ShimmerFacts, i: number): Markup {
