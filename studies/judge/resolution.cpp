@@ -57,14 +57,14 @@ std::size_t borders_with_changes(const std::vector<std::uint32_t>& changes, cons
 /// picture's side, the smaller picture is stretched over it.
 std::size_t borders_of(const std::vector<std::uint32_t>& changes, std::size_t block) {
   std::size_t most = 0;
-  for (std::size_t phase = 0; phase < block; ++phase)
-    most = std::max(most, borders_with_changes(changes, [&](std::size_t i) { return i % block == phase; }));
   const std::size_t side = changes.size();
   for (const std::size_t parts : {side / block, (side + block - 1) / block}) {
     const auto part = [&](std::size_t i) { return (2 * i + 1) * parts / (2 * side); };
     most = std::max(
         most, borders_with_changes(changes, [&](std::size_t i) { return i > 0 && part(i) != part(i - 1); }));
   }
+  for (std::size_t phase = 0; phase < block; ++phase)
+    most = std::max(most, borders_with_changes(changes, [&](std::size_t i) { return i % block == phase; }));
   return most;
 }
 
