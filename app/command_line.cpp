@@ -149,10 +149,12 @@ void add_manual(CLI::App& program) {
             if (chapter.empty())
               throw CLI::ValidationError(
                   "--manual",
-                  fmt::format("unknown chapter (got {}, allowed options, json, techniques)", name));
+                  fmt::format("unknown chapter (got {}, allowed options, json, schema, techniques)", name));
             throw CLI::CallForVersion(chapter, 0);
           },
-          "print a chapter of the manual as Markdown, and exit [options or json or techniques]")
+          "print a chapter of the manual as Markdown, or the schema of result.json, and exit [options or "
+          "json or "
+          "schema or techniques]")
       ->type_name("CHAPTER");
 }
 

@@ -8,7 +8,7 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" 
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/manual" "${PROJECT_SOURCE_DIR}/docs/lessons" "${PROJECT_SOURCE_DIR}/docs/images" DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 file(GLOB documents CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/*.md")
 install(FILES ${documents} DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
-install(FILES "${PROJECT_SOURCE_DIR}/compare/result/result.schema.json" "${PROJECT_SOURCE_DIR}/scene/files/scene.schema.json" "${PROJECT_SOURCE_DIR}/app/outputs/render.schema.json"
+install(FILES "${PROJECT_SOURCE_DIR}/scene/files/scene.schema.json" "${PROJECT_SOURCE_DIR}/app/outputs/render.schema.json"
   "${PROJECT_SOURCE_DIR}/studies/functions/answers.schema.json" "${PROJECT_SOURCE_DIR}/studies/grade/rubric.schema.json" "${PROJECT_SOURCE_DIR}/studies/grade/grade.schema.json"
   "${PROJECT_SOURCE_DIR}/studies/judge/capture.schema.json" "${PROJECT_SOURCE_DIR}/studies/shimmer/shimmer.schema.json"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/gnomon/schema")
@@ -26,6 +26,7 @@ function(gnomon_install_printed option folder file)
     message(STATUS \"Installing: \${folder}/${file}\")")
 endfunction()
 gnomon_install_printed("--man-page" man/man1 gnomon.1)
+gnomon_install_printed("--manual schema" gnomon/schema result.schema.json)
 gnomon_install_printed("--completion bash" bash-completion/completions gnomon)
 gnomon_install_printed("--completion zsh" zsh/site-functions _gnomon)
 gnomon_install_printed("--completion fish" fish/vendor_completions.d gnomon.fish)

@@ -290,7 +290,7 @@ struct ShadowCosts {
   Sides nothing_moves, light_moves, casters_move;
 };
 
-/// Every number of one light; result/figures.cpp has a row for each.
+/// Every number of one light; result/figure_rows.cpp has a row for each.
 struct LightFigures {
   PixelCounts pixels;
   ErrorStats error;
@@ -298,7 +298,7 @@ struct LightFigures {
   RightByAccident accidents;
   EdgeStats edges;
   Detachment detachment;
-  BleedingStats bleeding;
+  std::optional<BleedingStats> bleeding;  ///< of techniques of moments
   std::optional<PenumbraStats> penumbra;  ///< of a light with size
   std::optional<SeamCount> seams;         ///< of the hard test in several maps
   TerminatorCount terminator;

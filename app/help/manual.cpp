@@ -1,6 +1,5 @@
 #include "app/help/manual.h"
 
-#include <embedded/schemas.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,6 +12,7 @@
 #include "app/options/map_options.h"
 #include "app/options/values.h"
 #include "compare/result/option_names.h"
+#include "compare/result/result_schema.h"
 #include "raster/technique_traits.h"
 #include "scene/light.h"
 
@@ -227,7 +227,7 @@ class KeyList {
 };
 
 std::string json_chapter() {
-  const Json schema = Json::parse(embedded::schemas("result.schema.json"));
+  const Json schema = compare::result_schema();
   KeyList keys(schema);
   keys.add(schema, "");
   keys.add_shared();
@@ -235,7 +235,7 @@ std::string json_chapter() {
       "For whoever reads results with a program: `DIR/result.json` of `gnomon compare`, `--json FILE`, "
       "and each line of `DIR/sweep.jsonl`, in the order of the file. `[]` stands for every element of a "
       "list. An object that stands in several places is described once, below the list. The schema itself"
-      " is `compare/result/result.schema.json`; installed, `share/gnomon/schema/result.schema.json`.";
+      " is what `gnomon --manual schema` prints; installed, `share/gnomon/schema/result.schema.json`.";
   return fmt::format("{}# The keys of result.json\n\n{}\n{}\n{}", written_by_the_program,
                      wrap(intro, 0, page_width),
                      wrap(schema.value("description", std::string()), 0, page_width), keys.take());
@@ -327,6 +327,7 @@ std::string techniques_chapter() {
 std::string manual_chapter(const CLI::App& program, std::string_view chapter) {
   if (chapter == "options") return options_chapter(program);
   if (chapter == "json") return json_chapter();
+  if (chapter == "schema") return compare::result_schema().dump(2) + "\n";
   if (chapter == "techniques") return techniques_chapter();
   return {};
 }

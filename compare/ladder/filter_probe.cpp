@@ -238,9 +238,10 @@ bool shadowed_up_to_bias(const std::array<Image<float>, rung_count>& rungs, std:
 
 }  // namespace
 
-void BleedingSum::add(const LadderInput& in, const std::array<Image<float>, rung_count>& rungs,
-                      const Image<Label>& labels) {
+void BleedingSum::add(const LadderInput& in, const Climb& climb) {
   if (!raster::uses_moments(in.drawn.options.map.technique)) return;
+  const std::array<Image<float>, rung_count>& rungs = climb.rungs;
+  const Image<Label>& labels = climb.labels;
   const auto width = static_cast<std::size_t>(labels.size.width);
   std::vector<BleedingStats> rows(static_cast<std::size_t>(labels.size.height));
   parallel_for(rows.size(), [&](std::size_t y) {
@@ -254,17 +255,17 @@ void BleedingSum::add(const LadderInput& in, const std::array<Image<float>, rung
     }
   });
   for (const Label label : labels.data) compared_ += is_compared(label) ? 1 : 0;
+  BleedingStats& sum = sums_ ? *sums_ : sums_.emplace();
   for (const BleedingStats& row : rows) {
-    sums_.pixels += row.pixels;
-    sums_.mean += row.mean;
-    sums_.max = std::max(sums_.max, row.max);
+    sum.pixels += row.pixels;
+    sum.mean += row.mean;
+    sum.max = std::max(sum.max, row.max);
   }
 }
 
-BleedingStats BleedingSum::stats() const {
-  BleedingStats out = sums_;
-  if (compared_ > 0) out.mean /= static_cast<double>(compared_);
-  return out;
+void BleedingSum::write_to(LightFigures& out) const {
+  out.bleeding = sums_;
+  if (sums_ && compared_ > 0) out.bleeding->mean /= static_cast<double>(compared_);
 }
 
 }  // namespace gnomon::compare

@@ -38,16 +38,14 @@ double filter_reach_texels(const raster::MapOptions& map, double level = 0.0);
 // would.
 
 /// Sums over the pixels that are shadowed at V0 ... V5, with nothing lit within the filter's reach, and lighter at V6 by
-/// half a step of an 8-bit picture or more. It is zero but for vsm, esm, evsm and msm. A picture comes in parts, each of
-/// whole rows, from the top.
+/// half a step of an 8-bit picture or more, of vsm, esm, evsm and msm (measure/pixel_measures.h).
 class BleedingSum {
  public:
-  void add(const LadderInput& input, const std::array<Image<float>, rung_count>& rungs,
-           const Image<Label>& labels);
-  BleedingStats stats() const;
+  void add(const LadderInput& input, const Climb& climb);
+  void write_to(LightFigures& out) const;
 
  private:
-  BleedingStats sums_;
+  std::optional<BleedingStats> sums_;
   std::uint64_t compared_ = 0;
 };
 

@@ -69,7 +69,9 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "A texel holds one depth, but the surface slopes across it. The part of the surface that lies behind "
      "that depth takes itself for an occluder, in stripes that follow the texels.",
      "A bias of at least the depth by which the surface falls over half a texel; a slope bias of 1 is "
-     "exactly that on planes. A finer map needs proportionally less."},
+     "exactly that on planes. A finer map needs proportionally less.",
+     "a surface shadows itself because the map holds one depth per texel: at the slope step, or at the bias "
+     "or the filter step where the map holds the receiver's own sheet or a filter reaches it"},
     {"precision",
      "precision",
      "P",
@@ -79,7 +81,9 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "the stored depth is not the depth the light sees",
      "The depth was rounded to the map's format or interpolated across the triangle, or the fill rule gave "
      "the texel to a neighbour: with the exact depth the same test, with the same bias, would be right.",
-     "A format with more bits (d32f), a depth range fitted closer to the scene, or a slightly larger bias."},
+     "A format with more bits (d32f), a depth range fitted closer to the scene, or a slightly larger bias.",
+     "the precision step, or the biased test is wrong with the stored depth and right with the exact one, or "
+     "a technique without a filter draws other than its test says"},
     {"peter_panning",
      "peter-panning",
      "D",
@@ -89,7 +93,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "the shadow has come loose from its caster",
      "The bias reaches past a true occluder that lies close to the surface, so the shadow starts too late "
      "and the object seems to float.",
-     "Less bias. A finer map, or a bias that grows only with the slope, makes less of it enough."},
+     "Less bias. A finer map, or a bias that grows only with the slope, makes less of it enough.",
+     "the bias step, missed shadow, and the stored primitive is a true occluder"},
     {"light_leak",
      "light leak",
      "L",
@@ -99,7 +104,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "light gets through where the bias or the filter looked past the occluder",
      "The map knows that something stands in the light's way, and the test let light through all the same: "
      "typical behind thin walls and in corners.",
-     "Less bias, a narrower filter, or walls that are thicker than the bias."},
+     "Less bias, a narrower filter, or walls that are thicker than the bias.",
+     "missed shadow by bias or filter otherwise"},
     {"aliasing",
      "aliasing",
      "S",
@@ -111,7 +117,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "so the edge turns into stairs of about a texel. No bias mends that: where the map misses an occluder, "
      "a surface that shadows itself may hide the gap until a bias cures its acne.",
      "Smaller texels where the camera looks: a larger map or one fitted closer. A filter hides the stairs, "
-     "but blurs."},
+     "but blurs.",
+     "the sampling step, and the caster lies under a texel centre nearby"},
     {"missed_feature",
      "missed feature",
      "M",
@@ -120,7 +127,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "aliasing",  // bluish green
      "the shadow of something thinner than a texel is missing",
      "None of the four texel centres around the pixel meets the occluder, so the map does not know it there.",
-     "A larger map, or exact rays where texels hold more than one surface."},
+     "A larger map, or exact rays where texels hold more than one surface.",
+     "the sampling step, missed shadow, and the caster lies under no texel centre nearby"},
     {"false_feature",
      "false feature",
      "F",
@@ -130,7 +138,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "a thin occluder darkens a whole texel",
      "The texel's centre happens to meet an occluder that ends before the next texels' centres; every pixel "
      "that looks the texel up is dark.",
-     "A larger map, or exact rays where texels hold more than one surface."},
+     "A larger map, or exact rays where texels hold more than one surface.",
+     "the sampling step, false shadow, and the caster lies under this texel's centre alone"},
     {"blur",
      "blur",
      "B",
@@ -139,7 +148,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "filtering",  // olive (Tol)
      "the filter's penumbra is not the light's",
      "The technique averages over neighbouring texels, which softens edges that are sharp.",
-     "A smaller filter radius."},
+     "A smaller filter radius.",
+     "the filter step, within its reach of a true shadow edge"},
     {"light_size",
      "light size",
      "Z",
@@ -148,7 +158,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "soft-shadows",  // indigo (Tol)
      "the light is larger than the point that the map takes it for",
      "A depth map sees the scene from one point; a light with a size has a penumbra.",
-     "A technique that estimates the penumbra, or a smaller light."},
+     "A technique that estimates the penumbra, or a smaller light.",
+     "the light shrunk to its centre"},
     {"outside_map",
      "outside the map",
      "X",
@@ -159,7 +170,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "The surface lies outside the part of the scene that the map covers: beside its window, or before or "
      "behind "
      "its depths.",
-     "A map fitted to the whole scene; where what lies outside is dark, light for it."},
+     "A map fitted to the whole scene; where what lies outside is dark, light for it.",
+     "the lookup falls outside the map"},
     {"custom_shader",
      "custom shader",
      "C",
@@ -169,7 +181,9 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "a shader of your own drew other than the map's test says",
      "With --shader-dir a file of yours stands in for the program's own; up to its last step the ladder is "
      "that of the hard test with the map, and the rest is the shader's.",
-     "Whatever the shader is meant to show."},
+     "Whatever the shader is meant to show.",
+     "the filter step, drawn by a shader of --shader-dir; all wrong pixels where it reads neither bias nor "
+     "gap"},
     {"unexplained",
      "unexplained",
      "U",
@@ -181,7 +195,9 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "it so. With the map, the test that the capture describes is not the one that was drawn here, or the "
      "map does not hold what the scene holds here.",
      "A capture with the map, its matrix and its bias as they were drawn with; or, without a map, `gnomon "
-     "judge --identify`, which looks for the setting that comes nearest."},
+     "judge --identify`, which looks for the setting that comes nearest.",
+     "gnomon judge: of a capture without its depth map no step is known; with it, the test that it describes "
+     "is not the one that was drawn there"},
     {"caster_bias",
      "caster bias",
      "H",
@@ -192,7 +208,9 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "What was drawn into the map was moved or shrunk: a polygon offset (--caster-bias, "
      "--caster-slope-bias), a "
      "depth or normal bias of casters. The shadow test then has that much bias, whatever it adds itself.",
-     "Less of that offset, or a bias of the opposite sign in the test."},
+     "Less of that offset, or a bias of the opposite sign in the test.",
+     "gnomon judge: the map holds casters farther from the light than they are: a polygon offset, or casters "
+     "moved or shrunk"},
     {"missing_caster",
      "missing caster",
      "N",
@@ -202,7 +220,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "what casts the shadow is not in the map",
      "At this texel the light first meets an object that the map does not hold: it was not drawn into the "
      "map.",
-     "Draw the object into the map: let it cast shadows, and do not leave it out by what the camera sees."},
+     "Draw the object into the map: let it cast shadows, and do not leave it out by what the camera sees.",
+     "gnomon judge: the map does not hold the object that the light meets first"},
     {"moved_caster",
      "moved caster",
      "V",
@@ -211,7 +230,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "shadow-map",  // purple (Tol)
      "the map holds a caster where the scene has none",
      "The map was drawn before something moved, or with something that the scene does not have.",
-     "Draw the map again when a caster or the light moves."},
+     "Draw the map again when a caster or the light moves.",
+     "gnomon judge: the map holds a caster where the scene has none"},
     {"clipped_caster",
      "clipped caster",
      "K",
@@ -220,7 +240,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "cascades",  // brown (Tol)
      "the caster lies before the map's near plane, or behind its far one",
      "What lies outside the map's depths is not drawn into it, and casts no shadow.",
-     "A nearer near plane (or a farther far one), or depths clamped to the planes."},
+     "A nearer near plane (or a farther far one), or depths clamped to the planes.",
+     "gnomon judge: the caster lies before the map's near plane or behind its far one"},
     {"culled_caster",
      "culled caster",
      "Q",
@@ -229,7 +250,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "shadow-map",  // sand (Tol)
      "the side of the caster that faces the light was culled",
      "Faces of one side are left out of the map, and here the caster has no other side behind them.",
-     "Draw both sides of such objects into the map, or give them a thickness."},
+     "Draw both sides of such objects into the map, or give them a thickness.",
+     "gnomon judge: the caster's side that faces the light was culled, and it has no other there"},
     {"ignored_alpha",
      "ignored alpha",
      "T",
@@ -238,7 +260,8 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "shadow-map",  // cyan (Tol)
      "a hole of the caster's alpha mask is filled in the map",
      "The pass that draws the map does not test alpha, so that the whole triangle casts a shadow.",
-     "Test alpha in the map's pass, too."},
+     "Test alpha in the map's pass, too.",
+     "gnomon judge: the map holds a caster where its alpha mask has a hole"},
 }};
 
 constexpr std::array<StepText, cause_count + 1> steps{{

@@ -1,6 +1,6 @@
 // The tables of labels, steps and rungs: what each is called in files and in words, its colour, and what is said of it.
-// A new label is a value of Label and a row of labels.cpp; result.json, the channels, the pictures, the pages, the lab
-// and grade read the rows.
+// A new label is a value of Label and a row of labels.cpp; result.json and its schema, the channels, the pictures, the pages,
+// the lab and grade read the rows.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -21,6 +21,8 @@ struct LabelText {
   std::string_view what;      ///< half a line: what it is
   std::string_view cause;     ///< one or two sentences; empty for labels that are not errors
   std::string_view cure;
+  std::string_view
+      rule{};  ///< which pixels have it, in result_schema(); empty for labels that are not errors
 };
 const LabelText& label_text(Label label);
 

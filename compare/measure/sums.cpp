@@ -106,21 +106,6 @@ Expected<void> LightSums::finish_theory() {
   return run_all(steps, steps_together(bytes));
 }
 
-namespace {
-
-/// Adds the compared pixels of some rows that lie outside the map; `outside` of the drawing may be empty.
-void add_outside(const Image<std::uint8_t>& outside, const Image<Label>& labels,
-                 const std::array<Image<float>, rung_count>& rungs, OutsideMap& out) {
-  for (std::size_t i = 0; i < outside.data.size(); ++i) {
-    if (outside.data[i] == 0 || !is_compared(labels.data[i])) continue;
-    ++out.receivers;
-    if (rungs.front().data[i] < 0.5f) ++out.shadowed;
-    if (rungs.back().data[i] < 0.5f) ++out.drawn_dark;
-  }
-}
-
-}  // namespace
-
 Expected<Image<float>> LightSums::add_pixels(const LadderInput& in, const Climb& climb,
                                              const Image<Label>& labels_climbed) {
   const TimedStage stage("metrics");
@@ -142,14 +127,11 @@ Expected<Image<float>> LightSums::add_pixels(const LadderInput& in, const Climb&
   Image<float> detached = detachment_map(in.tracer, in.light(), in.traced.receiver, labels, climb.rungs);
   for (const float distance : detached.data)
     if (!std::isnan(distance)) detachment_.add(double{distance});
-  bleeding_.add(in, climb.rungs, labels);
+  std::apply([&](auto&... measure) { (measure.add(in, climb), ...); }, measures_);
   if (options_.map == nullptr) {
     const TerminatorCount here = count_terminator(in, labels);
     map_.terminator.dark += here.dark, map_.terminator.unlit += here.unlit;
   }
-  add_outside(in.record().outside_map, labels, climb.rungs, outside_);
-  if (const auto lookups = count_lookups(in.drawn, in.record(), labels))
-    lookups_ = lookups_.value_or(0) + *lookups;
   if (options_.perceptual) {
     const std::size_t first = in.traced.receiver.index(0, in.place.first_row);
     add_ray_work(in.tracer, in.light(), in.traced.receiver, labels, first, picture_.pixels(), ray_work_);
@@ -208,7 +190,7 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
   out.cascades = cascade_figures(cascades_);
   out.edges = edges_.stats();
   out.detachment = detachment_.stats();
-  out.bleeding = bleeding_.stats();
+  std::apply([&](const auto&... measure) { (measure.write_to(out), ...); }, measures_);
   if (soft_) {
     out.pixels.uncertain_by_samples = climbed_compared_ - out.pixels.compared;
     out.penumbra = penumbra_.stats();
@@ -216,7 +198,6 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
   }
   out.bias_texel_world = in.record().texel_world;
   out.seams = seams_;
-  out.lookups = lookups_, out.outside = outside_;
   out.ray_work = ray_work_;
   out.other_sizes = other_sizes_.figures(out.error.mean_absolute);
   const MapMeasures& map = options_.map != nullptr ? *options_.map : map_;

@@ -7,11 +7,11 @@
 
 #include "compare/bias/bias_kinds.h"
 #include "compare/ladder/budget.h"
-#include "compare/ladder/filter_probe.h"
 #include "compare/ladder/other_sizes.h"
 #include "compare/ladder/penumbra.h"
 #include "compare/measure/light_parts.h"
 #include "compare/measure/number_list.h"
+#include "compare/measure/pixel_measures.h"
 #include "compare/measure/rows.h"
 #include "compare/metrics/edges.h"
 #include "compare/truth/theory.h"
@@ -81,11 +81,9 @@ class LightSums {
   std::uint64_t climbed_compared_ = 0;
   StandardErrors standard_errors_;
   DetachmentSum detachment_;
-  BleedingSum bleeding_;
+  PixelMeasures measures_;
   PenumbraMeasure penumbra_;
   std::optional<SeamCount> seams_;
-  std::optional<std::uint64_t> lookups_;
-  OutsideMap outside_;
   RayWork ray_work_;
   OtherSizesSum other_sizes_;
   EdgeSums edges_;

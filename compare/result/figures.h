@@ -1,10 +1,11 @@
 // Every number that a comparison says of one light, one row each. A row has the key in result.json, unit and words, which
-// way is better, how it is printed, and what it is of several lights together. The blocks of result.json are made from
-// these rows, and with them the columns of CSV files and of the pages. So is what sweeps read back from their lines and
-// show. A new figure is a field of LightFigures and a row in figures.cpp.
+// way is better, how it is printed, and what it is of several lights together. The blocks of result.json and their part of
+// the schema are made from these rows, and with them the columns of CSV files and of the pages. So is what sweeps read back
+// from their lines and show. A new figure is a field of LightFigures and a row in figure_rows.cpp.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +25,10 @@ struct FigurePlace {
   void (*set)(LightFigures&, double) = nullptr;  ///< null: it follows from other figures
   FigureForm form = FigureForm::number;
   bool optional = false;  ///< not every light has the block
+  bool nullable = false;  ///< null in result.json where it was not made
+  double least = 0.0,
+         most =
+             std::numeric_limits<double>::infinity();  ///< of a share: 1 at most, and with a sign -1 at least
 };
 
 /// What a figure is of several lights together.
@@ -50,8 +55,9 @@ struct MarkWords {
 };
 
 struct Figure {
-  std::string_view key;   ///< in a light of result.json: "error.wrong_fraction"
-  std::string_view unit;  ///< "pixels", "texels"; "share": of one
+  std::string_view key;        ///< in a light of result.json: "error.wrong_fraction"
+  std::string_view unit;       ///< "pixels", "texels"; "share": of one
+  std::string_view describes;  ///< in result_schema()
   FigurePlace place;
   Better better = Better::neither;
   Pooling pooling{};

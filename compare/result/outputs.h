@@ -12,7 +12,7 @@
 
 namespace gnomon::compare {
 
-/// The result file (compare/result/result.schema.json), schema "gnomon/result/1".
+/// The result file (compare/result/result_schema.h), schema "gnomon/result/1".
 std::string result_json(const Comparison& comparison);
 /// One row per light: the numbers and times of result.json as a table (result_table.h).
 std::string result_csv(const Comparison& comparison);

@@ -1,5 +1,5 @@
 // result.json: every number of a comparison under the keys of its schema
-// (compare/result/result.schema.json). Conventions: a time is {median, runs[]} in ms, median null when it was
+// (compare/result/result_schema.h). Conventions: a time is {median, runs[]} in ms, median null when it was
 // not timed; fractions and means are over compared pixels; a number that is not finite is written as null,
 // which the schema allows only where it has a meaning.
 #include <algorithm>
@@ -245,7 +245,6 @@ std::string result_json(const Comparison& c, double report_ms, double total_ms) 
     if (!c.judged && !c.lights[i].cascades.empty())
       json["lights"][i]["by_cascade"] = by_cascade_json(c.lights[i].cascades);
     json["lights"][i]["map"]["windows"] = windows_json(c, c.lights[i]);
-    if (c.lights[i].seams) json["lights"][i]["seams"] = block_json("seams", c.lights[i]);
   }
   json["camera"] = camera_json(c);
   if (c.judged) json["judged"] = judged_json(*c.judged);
@@ -257,6 +256,7 @@ std::string result_json(const Comparison& c, double report_ms, double total_ms) 
 Json line_json(const Comparison& c, const AxisValues& axes, const std::vector<std::string>& no_effect) {
   Json json = result_object(c, 0.0, 0.0);
   drop_times(json);
+  for (Json& light : json["lights"]) light.erase("seams");  // a cell of another bias has none
   json["machine"]["load"] = nullptr;
   if (c.judged) json["judged"] = judged_json(*c.judged);
   json["axes"] = axes_object(axes);

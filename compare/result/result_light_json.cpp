@@ -337,6 +337,17 @@ Json block_json(std::string_view block, const LightFigures& light) {
   return json;
 }
 
+/// The blocks of figures that lie in no other object. One that not every light has is there where it was made.
+void add_blocks(Json& json, const LightFigures& light) {
+  for (const Figure& figure : figures()) {
+    const std::string block(figure.block());
+    const bool lies_elsewhere = block.find('.') != std::string::npos;
+    if (lies_elsewhere || json.contains(block) || (figure.place.optional && std::isnan(figure.of(light))))
+      continue;
+    json[block] = block_json(block, light);
+  }
+}
+
 Json named_figures(const LightFigures& light, bool (*takes)(const Figure&)) {
   Json json = Json::object();
   for (const Figure& figure : figures())
@@ -359,35 +370,23 @@ LightFigures read_pooled_figures(const Json& light) {
 
 Json light_block(const Comparison& c, const LightComparison& light) {
   const raytrace::LightTruth& truth = true_record(c, light);
-  Json block{{"light", light_json(light_of(c, light))},
-             {"map", map_json(c, light)},
-             {"pixels", block_json("pixels", light)},
-             {"error", block_json("error", light)},
-             {"budget", budget_json(c, light)},
-             {"ladder", ladder_json(light)},
-             {"classes", classes_json(light)},
-             {"class_errors", class_errors_json(light)},
-             {"right_by_accident", block_json("right_by_accident", light)},
-             {"outside_map", block_json("outside_map", light)},
-             {"terminator", block_json("terminator", light)},
-             {"edges", block_json("edges", light)},
-             {"detachment", block_json("detachment", light)},
-             {"bias_curve", bias_curve_json(light)},
-             {"bias_curve_withheld",
-              light.bias_curve_withheld.empty() ? Json(nullptr) : Json(light.bias_curve_withheld)},
-             {"best_bias", best_bias_json(light)},
-             {"bias_kinds", bias_kinds_json(light, c.raster.options.map)},
-             {"other_map_sizes", other_sizes_json(light)},
-             {"engine_units", engine_units_json(engine_units(c, light))},
-             {"derived_bias", derived_bias_json(derived_for_engines(c, light))},
-             {"theory", theory_json(light.theory)},
-             {"shadow_rays", truth.rays},
-             {"lookups", block_json("lookups", light)},
-             {"ray_tests", block_json("ray_tests", light)},
-             {"times_ms", light_times_json(c, light)}};
-  if (raster::uses_moments(c.raster.options.map.technique)) block["bleeding"] = block_json("bleeding", light);
-  if (light.shimmer) block["shimmer"] = block_json("shimmer", light);
-  if (light.penumbra) block["penumbra"] = block_json("penumbra", light);
+  Json block{{"light", light_json(light_of(c, light))}, {"map", map_json(c, light)}};
+  add_blocks(block, light);
+  block.update({{"budget", budget_json(c, light)},
+                {"ladder", ladder_json(light)},
+                {"classes", classes_json(light)},
+                {"class_errors", class_errors_json(light)},
+                {"bias_curve", bias_curve_json(light)},
+                {"bias_curve_withheld",
+                 light.bias_curve_withheld.empty() ? Json(nullptr) : Json(light.bias_curve_withheld)},
+                {"best_bias", best_bias_json(light)},
+                {"bias_kinds", bias_kinds_json(light, c.raster.options.map)},
+                {"other_map_sizes", other_sizes_json(light)},
+                {"engine_units", engine_units_json(engine_units(c, light))},
+                {"derived_bias", derived_bias_json(derived_for_engines(c, light))},
+                {"theory", theory_json(light.theory)},
+                {"shadow_rays", truth.rays},
+                {"times_ms", light_times_json(c, light)}});
   if (truth.is_soft()) {
     block["shadow_samples"] = truth.samples;
     block["soft_shadow_rays"] = truth.soft_rays;

@@ -150,7 +150,7 @@ void add_theory(SummaryPage& page, const TheoryStats& t) {
 // What moments let through inside shadows, as a part of the filter step.
 void add_bleeding(SummaryPage& page, const Comparison& c, const LightComparison& light) {
   if (!raster::uses_moments(c.raster.options.map.technique)) return;
-  const BleedingStats& b = light.bleeding;
+  const BleedingStats& b = *light.bleeding;
   page.field("bleeding",
              fmt::format("{} of the filter step, on {} pixel{}; at most {}", signed_number(b.mean),
                          grouped(b.pixels), b.pixels == 1 ? "" : "s", percent(b.max)));

@@ -1,7 +1,7 @@
 // The folder of a sweep: what was asked for, and one line per finished cell, in the order of the cells.
 // Files:
 //   sweep.json         the configuration; a folder takes one configuration only
-//   sweep.jsonl        one result per line (result.schema.json with `axes`), without times: the same sweep gives the
+//   sweep.jsonl        one result per line (result_schema.h, with `axes`), without times: the same sweep gives the
 //                      same bytes, however often it was interrupted
 //   sweep.csv          the same numbers and the times as a table (result_table.h)
 //   sweep_times.jsonl  the times of each line of sweep.jsonl, in the same order, and once all lines are there, those of

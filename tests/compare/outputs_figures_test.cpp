@@ -10,6 +10,7 @@
 
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
+#include "compare/result/result_schema.h"
 #include "compare/result/threshold.h"
 #include "tests/support/places.h"
 #include "tests/support/synthetic_comparison.h"
@@ -26,15 +27,16 @@ std::string pointer_to(std::string_view key, std::string_view between) {
   return pointer;
 }
 
-TEST(Figures, TheSchemaHasEachWithItsType) {
-  std::ifstream file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
-  const Json light = Json::parse(file)["$defs"]["light"];
+// What is said of a number stands in its row, and every row's block in the schema's frame.
+TEST(Figures, TheSchemaHasEachWithItsTypeAndWords) {
+  const Json light = result_schema()["$defs"]["light"];
   for (const Figure& figure : figures()) {
     const Json::json_pointer place(pointer_to(figure.key, "/properties/"));
     ASSERT_TRUE(light.contains(place)) << figure.key;
     const std::string type = light[place]["type"].dump();
     EXPECT_NE(type.find(figure.form() == FigureForm::count ? "integer" : "number"), std::string::npos)
         << figure.key << ": " << type;
+    EXPECT_GT(light[place]["description"].dump().size(), 2u) << figure.key;
   }
 }
 
@@ -42,7 +44,7 @@ TEST(Figures, ResultJsonAndCsvHaveEach) {
   const auto made = make_synthetic();
   made->comparison.raster.options.map.technique = raster::Technique::vsm;
   LightComparison& light = made->comparison.lights[0];
-  light.penumbra.emplace(), light.seams.emplace(), light.shimmer.emplace();
+  light.penumbra.emplace(), light.seams.emplace(), light.shimmer.emplace(), light.bleeding.emplace();
   made->comparison.raster.lights[light.record].unshadowed_pass.runs = {25.0, 24.0, 26.0};
   const Json json = Json::parse(result_json(made->comparison))["lights"][0];
   const std::string csv = result_csv(made->comparison), head = "," + csv.substr(0, csv.find('\r')) + ",";

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "compare/result/outputs.h"
+#include "compare/result/result_schema.h"
 #include "tests/support/json_schema_check.h"
 #include "tests/support/places.h"
 #include "tests/support/synthetic_comparison.h"
@@ -13,11 +14,6 @@ namespace gnomon::compare {
 namespace {
 
 using Json = nlohmann::json;
-
-Json load_schema() {
-  std::ifstream file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
-  return Json::parse(file);
-}
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
@@ -29,7 +25,7 @@ TEST(ResultJson, FitsItsSchemaWithOneAndSeveralLights) {
   for (const int lights : {1, 3}) {
     const auto made = make_synthetic(lights);
     const Json json = Json::parse(result_json(made->comparison));
-    EXPECT_EQ(joined(SchemaCheck(load_schema()).violations(json)), "");
+    EXPECT_EQ(joined(SchemaCheck(result_schema()).violations(json)), "");
     EXPECT_EQ(json["lights"].size(), static_cast<std::size_t>(lights));
   }
 }
@@ -40,7 +36,7 @@ TEST(ResultJson, NamesTheThresholdThatErrorsWereHeldAgainst) {
   for (const double limit : {0.0, 1.0}) {
     made->comparison.fail_above = Threshold{find_measure("mean"), limit};
     const Json json = Json::parse(result_json(made->comparison));
-    EXPECT_EQ(joined(SchemaCheck(load_schema()).violations(json)), "");
+    EXPECT_EQ(joined(SchemaCheck(result_schema()).violations(json)), "");
     EXPECT_EQ(json["fail_above"]["threshold"], limit == 0.0 ? "mean:0%" : "mean:100%");
     EXPECT_EQ(json["fail_above"]["failed"], limit == 0.0);
   }
@@ -49,7 +45,7 @@ TEST(ResultJson, NamesTheThresholdThatErrorsWereHeldAgainst) {
 TEST(ResultJson, SchemaRefusesMissingUnknownAndMistypedKeys) {
   const auto made = make_synthetic();
   const Json good = Json::parse(result_json(made->comparison));
-  SchemaCheck check(load_schema());
+  SchemaCheck check(result_schema());
   Json bad = good;
   bad["lights"][0]["error"].erase("wrong");
   EXPECT_EQ(check.violations(bad).size(), 1u);
@@ -140,9 +136,9 @@ TEST(ResultJson, WritesNullForWhatHasNoValue) {
   EXPECT_TRUE(json["lights"][0]["best_bias"]["needs_more_than"].is_null());
   EXPECT_TRUE(json["lights"][0]["best_bias"]["needs_less_than"].is_null());
   EXPECT_TRUE(json["lights"][0]["times_ms"]["map_pass"]["median"].is_null());
-  EXPECT_EQ(joined(SchemaCheck(load_schema()).violations(json)), "");
+  EXPECT_EQ(joined(SchemaCheck(result_schema()).violations(json)), "");
   light.error.rms = std::nan("");  // has no meaning there: the schema must refuse what is written for it
-  EXPECT_EQ(SchemaCheck(load_schema()).violations(Json::parse(result_json(made->comparison))).size(), 1u);
+  EXPECT_EQ(SchemaCheck(result_schema()).violations(Json::parse(result_json(made->comparison))).size(), 1u);
 }
 
 TEST(ResultJson, SurvivesNamesThatAreNotUtf8) {

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Counts the files that a new metric, setting, technique, light shape, file format and lesson take.
+"""Counts the files that a new metric, label, setting, technique, light shape, file format and lesson take.
 
     project_exercise_test.py SOURCE          counts, and holds the table of CONTRIBUTING.md to the counts
-    project_exercise_test.py SOURCE --apply  makes all six changes there, to be built and tried
+    project_exercise_test.py SOURCE --apply  makes all changes there, to be built and tried
 
 Each exercise is a small one that works: its lines are all that it takes beside tests, manual and changelog. An anchor that
 is gone, or stands there several times, fails the test: then the exercise is to be done again by hand, and the table with it.
@@ -22,22 +22,42 @@ def row(name, kind, read_by, text):
 # File, anchor, where the text stands beside it, text. Without an anchor the file is new; of "file <- other" it is the other
 # with the anchor's word replaced.
 EXERCISES = {
-    "a metric": [  # how much darker or lighter the picture is in all
-        ("compare/comparison.h", "  double mean_absolute = 0.0, rms = 0.0;\n", AFTER, "  double surplus = 0.0;\n"),
-        ("compare/ladder/budget.cpp", "  error.mean_absolute = absolute_ / compared_;\n", AFTER,
-         "  error.surplus = (missed_shadow_ - false_shadow_) / compared_;\n"),
-        ("compare/result/figures.cpp", '    {"error.fractional", "pixels", at<error, &E::fractional>()},\n', AFTER,
-         '    {"error.surplus", "share", at<error, &E::surplus>()},\n'),
-        ("compare/result/result.schema.json", '            "fractional": {"type": "integer"', BEFORE,
-         '            "surplus": {"type": "number", "description": "share missed less share false"},\n'),
+    "a metric that is measured": [  # the pixels that both renderers draw as half lit
+        ("compare/comparison.h", "struct OutsideMap {\n", REPLACE,
+         "struct Halves {\n  std::uint64_t true_ones = 0, drawn_ones = 0;\n};\n\nstruct OutsideMap {\n"),
+        ("compare/comparison.h", "  OutsideMap outside;\n", AFTER, "  Halves halves;\n"),
+        ("compare/measure/halves.h", None, None,
+         "// Counts pixels between light and shadow.\n#pragma once\n\n#include \"compare/ladder/ladder.h\"\n\nnamespace gnomon::compare {\n\n"
+         "class HalvesSum {\n public:\n  void add(const LadderInput& in, const Climb& climb);\n"
+         "  void write_to(LightFigures& out) const { out.halves = sum_; }\n\n private:\n  Halves sum_;\n};\n\n}  // namespace gnomon::compare\n"),
+        ("compare/measure/halves.cpp", None, None,
+         "#include \"compare/measure/halves.h\"\n\nnamespace gnomon::compare {\n\n"
+         "void HalvesSum::add(const LadderInput&, const Climb& climb) {\n  const auto is_half = [](float v) { return v > 0.0f && v < 1.0f; };\n"
+         "  for (std::size_t i = 0; i < climb.labels.data.size(); ++i) {\n    if (!is_compared(climb.labels.data[i])) continue;\n"
+         "    sum_.true_ones += is_half(climb.rungs.front().data[i]) ? 1 : 0;\n    sum_.drawn_ones += is_half(climb.rungs.back().data[i]) ? 1 : 0;\n"
+         "  }\n}\n\n}  // namespace gnomon::compare\n"),
+        ("compare/measure/pixel_measures.h", '#include "compare/ladder/ladder.h"\n', AFTER, '#include "compare/measure/halves.h"\n'),
+        ("compare/measure/pixel_measures.h", "LookupSum>;", REPLACE, "LookupSum, HalvesSum>;"),
+        ("compare/CMakeLists.txt", "measure/image_sink.cpp", BEFORE, "measure/halves.cpp "),
+        ("compare/result/figure_rows.cpp", '    {"terminator.dark", "pixels",', BEFORE,
+         '    {"halves.true_ones", "pixels", "in truth", at<&L::halves, &Halves::true_ones>()},\n'
+         '    {"halves.drawn_ones", "pixels", "as drawn", at<&L::halves, &Halves::drawn_ones>()},\n\n'),
+    ],
+    "a label": [  # what is dark within a filter's reach, apart from what is bright there
+        ("compare/comparison.h", "  ignored_alpha\n};", REPLACE, "  ignored_alpha,\n  dark_blur\n};"),
+        ("compare/comparison.h", "class_count = 18;", REPLACE, "class_count = 19;"),
+        ("compare/ladder/labels.cpp", '     "gnomon judge: the map holds a caster where its alpha mask has a hole"},\n', AFTER,
+         '    {"dark_blur",\n     "dark blur",\n     "d",\n     {0x10, 0x20, 0x30},\n     Cause::filter,\n     "filtering",\n'
+         '     "a filter darkens beside a shadow",\n     "The filter mixes shadow into light.",\n     "Make the filter narrower.",\n'
+         '     "the filter step, darker than the truth"},\n'),
+        ("compare/ladder/labelling.cpp", "  return lit_within_reach(in, wrong.pixel) ? Label::blur", REPLACE,
+         "  return lit_within_reach(in, wrong.pixel) ? Label::dark_blur"),
     ],
     "a setting of the map": [  # twice as many points, and again
         ("raster/options.h", "  int samples = 32;          ///< pcf vogel", BEFORE, "  int doublings = 0;         ///< pcf vogel\n"),
         ("raster/settings.cpp", '    {.name = "blocker-samples",\n', BEFORE,
          row("doublings", 'integer<of_filter, &F::doublings>("times", 0, 4, 0, 4)', "averages", "how often the samples are doubled")),
         ("raster/passes/technique.cpp", 'return {"pcf_vogel", {define("FILTER_SAMPLES", filter.samples', AFTER, " << filter.doublings"),
-        ("compare/result/result.schema.json", '                "samples": {"type": "number", "description": "pcf', BEFORE,
-         '                "doublings": {"type": "number", "minimum": 0},\n'),
     ],
     "a technique with a parameter": [  # lets a share of the light into every shadow
         ("raster/options.h", "  izb,\n  hybrid\n", REPLACE, "  izb,\n  hybrid,\n  veil\n"),
@@ -53,9 +73,6 @@ EXERCISES = {
         ("shaders/technique/veil.glsl", None, None,
          "float technique_visibility(ShadowTest test, vec3 position, vec3 normal, vec3 to_light) {\n  COUNT_LOOKUPS(1);\n"
          "  return test.gap > light.bias.x ? float(VEIL) / 100.0 : 1.0;\n}\n"),
-        ("compare/result/result.schema.json", '            "technique": {"enum": ["hard", ', AFTER, '"veil", '),
-        ("compare/result/result.schema.json", '                "samples": {"type": "number", "description": "pcf', BEFORE,
-         '                "veil": {"type": "number", "minimum": 0},\n'),
     ],
     "a light's shape": [  # the disc under another name
         ("scene/light_shape/light_shape.h", "struct RectangleLight {\n", BEFORE,

@@ -10,6 +10,7 @@
 
 #include "compare/result/judged.h"
 #include "compare/result/outputs.h"
+#include "compare/result/result_schema.h"
 #include "report/write_outputs.h"
 #include "scene/files/pictures/image_io.h"
 #include "scene/files/read_file.h"
@@ -74,8 +75,7 @@ TEST(JudgeLadder, WithoutAMapHasOneStepUnexplained) {
 }
 
 TEST(JudgeOutputs, AreWholeWithAMapAndWithout) {
-  std::ifstream file(source_dir() + "/compare/result/result.schema.json");
-  const nlohmann::json schema = nlohmann::json::parse(file);
+  const nlohmann::json schema = compare::result_schema();
   const Compared drawn = draw_builtin("courtyard", small_picture, hard_map(256));
   for (const bool map : {true, false}) {
     const JudgeOutcome judged = judge(self_capture(drawn, folder_for("outputs"), {.map = map}));

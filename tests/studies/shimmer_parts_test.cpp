@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/result/outputs.h"
+#include "compare/result/result_schema.h"
 #include "studies/shimmer/outputs.h"
 #include "tests/support/json_schema_check.h"
 #include "tests/support/one_world.h"
@@ -169,8 +170,7 @@ TEST(CascadeBudgets, AddUpToTheLights) {
   options.raster.map.technique = raster::Technique::csm;
   options.raster.runs = 1;
   const auto json = nlohmann::json::parse(compare::result_json(one.compare(options)));
-  std::ifstream schema(source_dir() + "/compare/result/result.schema.json");
-  for (const std::string& violation : SchemaCheck(nlohmann::json::parse(schema)).violations(json))
+  for (const std::string& violation : SchemaCheck(compare::result_schema()).violations(json))
     ADD_FAILURE() << violation;
   const auto& light = json["lights"][0];
   ASSERT_EQ(light["by_cascade"].size(), 4u);

@@ -10,6 +10,7 @@
 #include <set>
 #include <thread>
 
+#include "compare/result/result_schema.h"
 #include "tests/support/json_schema_check.h"
 #include "tests/support/program_process.h"
 
@@ -30,8 +31,7 @@ class WholeSweep : public SweepProgram {
 };
 
 TEST_F(WholeSweep, WritesResultsWithAxes) {
-  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
-  gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
+  gnomon::SchemaCheck schema(gnomon::compare::result_schema());
   std::istringstream stream(lines("whole"));
   std::vector<nlohmann::json> results;
   for (std::string line; std::getline(stream, line);) {
@@ -75,8 +75,7 @@ TEST_F(SweepProgram, WhatCellsLackOfAComparisonIsDocumented) {
   compare.insert(compare.end(), {"--bias", "1texel", "--json", (root / "one.json").string()});
   ASSERT_EQ(run(sweep), 0) << said();
   ASSERT_EQ(run(compare), 0) << said();
-  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
-  const nlohmann::json schema = nlohmann::json::parse(schema_file);
+  const nlohmann::json schema = gnomon::compare::result_schema();
   const std::string text = lines("cells");
   const nlohmann::json cell = nlohmann::json::parse(text.substr(0, text.find('\n')));
   const nlohmann::json one = nlohmann::json::parse(bytes_of(root / "one.json"));
@@ -126,8 +125,7 @@ TEST_F(SweepProgram, CountsFlipsOfFilms) {
       run(joined({"sweep"}, {setting, film, {"--snap", "off,on", "--measure", "shimmer", "-o", folder}})), 0)
       << said();
   EXPECT_NE(said().find("Best for flips"), std::string::npos) << said();
-  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
-  gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
+  gnomon::SchemaCheck schema(gnomon::compare::result_schema());
   std::istringstream stream(lines("films"));
   std::vector<nlohmann::json> cells;
   for (std::string line; std::getline(stream, line);) cells.push_back(nlohmann::json::parse(line));
@@ -228,8 +226,7 @@ TEST_F(SweepProgram, AnAxisThatATechniqueDoesNotReadIsNamed) {
     return run(all);
   };
   ASSERT_EQ(sweep("whole", {}), 0) << said();
-  std::ifstream schema_file(gnomon::test::source_dir() + "/compare/result/result.schema.json");
-  gnomon::SchemaCheck schema(nlohmann::json::parse(schema_file));
+  gnomon::SchemaCheck schema(gnomon::compare::result_schema());
   std::istringstream stream(lines("whole"));
   std::vector<nlohmann::json> cells;
   for (std::string line; std::getline(stream, line);) {

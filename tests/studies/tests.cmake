@@ -3,7 +3,7 @@ gnomon_test(sweep_test SOURCES sweep_axis_test.cpp sweep_headline_test.cpp sweep
 gnomon_test(sweep_engine_gl_test TIMEOUT 900
   SOURCES sweep_engine_gl_test.cpp sweep_edge_gl_test.cpp sweep_theory_gl_test.cpp tune_grid_gl_test.cpp sweep_cell_pictures_gl_test.cpp
   LIBS compare_support gnomon::app)
-gnomon_test(sweep_program_gl_test TIMEOUT 900 SOURCES sweep_program_gl_test.cpp tune_program_gl_test.cpp tune_lights_gl_test.cpp views_program_gl_test.cpp LIBS nlohmann_json::nlohmann_json)
+gnomon_test(sweep_program_gl_test TIMEOUT 900 SOURCES sweep_program_gl_test.cpp tune_program_gl_test.cpp tune_lights_gl_test.cpp views_program_gl_test.cpp LIBS gnomon::compare nlohmann_json::nlohmann_json)
 add_dependencies(sweep_program_gl_test gnomon_program)
 
 gnomon_test(shimmer_gl_test

@@ -26,7 +26,7 @@ writeFileSync(path.join(folder, "index.d.ts"), [
   "// Made by ./gnomon web --pack: options are those of the command line, results those of the JSON schemas.",
   readFileSync(path.join(here, "functions.d.ts"), "utf8"),
   ...commands.map(([command, name]) => optionTypes(manual, command, name)),
-  schemaTypes(JSON.parse(readFileSync(path.join(root, "compare/result/result.schema.json"), "utf8")), "Result"),
+  schemaTypes(JSON.parse(gnomon("--manual", "schema")), "Result"),
 ].join("\n"));
 
 const version = /\d+\.\d+\.\d+/.exec(gnomon("--version"))[0];
