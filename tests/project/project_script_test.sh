@@ -191,6 +191,14 @@ EOF
   "$work/copy/gnomon" scenes >"$work/out" 2>"$work/said" || fail "with its packages again: $(cat "$work/said")"
 fi
 
+# After a long run the words of what failed stand last, with ctest's own summary below them.
+printf '%s\n' '      Start 1: a' '      Start 2: b' '1/3 Test #1: a ....   Passed    1.56 sec' '2/3 Test #2: b ....***Failed    0.10 sec' \
+  'why b failed' '      Start 3: c' '3/3 Test #3: c ....***Skipped   0.10 sec' 'no tool for c' '' '67% tests passed, 1 tests failed out of 3' \
+  '	  2 - b (Failed)' >"$work/said"
+told=$(. <(sed -n '/^failed_words()/,/^}/p' "$source/gnomon") && failed_words "$work/said")
+[[ $told == '2/3 Test #2: b '*'why b failed'*'67% tests passed'*'2 - b (Failed)' && $told != *'Passed'* && $told != *'for c'* ]] ||
+  fail "what failed is not told last: $told"
+
 # What cannot be written. A user who may not write can run what is built.
 if ((EUID == 0)) && command -v setpriv >/dev/null; then
   as=(setpriv --reuid=65534 --regid=65534 --clear-groups)
