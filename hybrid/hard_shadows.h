@@ -11,6 +11,7 @@
 #pragma once
 
 #include "hybrid/light_sheets.h"
+#include "raster/external_visibility.h"
 #include "raytrace/receiver_tiles.h"
 
 namespace gnomon::hybrid {
@@ -50,8 +51,7 @@ struct ShadowCounts {
   std::uint64_t rays = 0;               ///< cast for the others
 };
 
-/// Says who decided one pixel.
-enum class Decision : std::uint8_t { shadowed = 0, lit = 1, traced = 2, not_asked = 3 };
+using raster::Decision;
 
 /// Fills `visibility`: lit where there is no receiver, shadowed where the light cannot reach, as in
 /// raytrace::LightTruth. May refine the light's sheets. `decisions` (or null) says who decided.

@@ -22,6 +22,9 @@ struct VisibilityRequest {
   bool analysis = false;   ///< of one picture; else it may be one of many in a row, made for speed
 };
 
+/// Says who decided one pixel; the first two were sure without a ray.
+enum class Decision : std::uint8_t { shadowed = 0, lit = 1, traced = 2, not_asked = 3 };
+
 /// What a light's visibility took. Shares are of `receivers`, the pixels that the light can reach.
 struct ExternalCosts {
   std::uint64_t receivers = 0;
@@ -35,8 +38,7 @@ struct ExternalCosts {
   Times build;
   double build_later_ms = 0.0;
   Times receivers_ms, shadow;  ///< ms, of each frame: the receivers; their visibility
-  /// Who decided each pixel: 0 surely shadowed, 1 surely lit, 2 traced, 3 not asked.
-  Image<std::uint8_t> decision;
+  Image<std::uint8_t> decision;  ///< the Decision of each pixel
   /// Triangles tested for the rays cast, and for all rays, by a walk that counts; 0: not counted.
   std::uint64_t triangle_tests = 0, all_triangle_tests = 0;
 };

@@ -8,7 +8,6 @@
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
 #include "compare/result/palette.h"
-#include "hybrid/hard_shadows.h"
 #include "scene/base/parallel.h"
 #include "scene/files/pictures/image_io.h"
 
@@ -96,11 +95,12 @@ Rgb8Image decision_picture(const Comparison& c, const LightComparison& light) {
   const Rgb8Image drawn = raster_picture(c);
   const Image<std::uint8_t>& decision = drawn_record(c, light).external->decision;
   return picture(drawn.size, [&](std::size_t i) {
-    const std::uint8_t who = decision.data[i];
-    if (who == static_cast<std::uint8_t>(hybrid::Decision::traced)) return traced_colour;
+    const auto who = static_cast<raster::Decision>(decision.data[i]);
+    if (who == raster::Decision::traced) return traced_colour;
     const glm::u8vec3 grey = grey_backdrop(drawn.data[i]);
-    if (who >= tints.size()) return grey;
-    return glm::u8vec3(glm::mix(Vec3f(grey), Vec3f(tints[who]), strength) + 0.5f);
+    if (who == raster::Decision::not_asked) return grey;
+    const Vec3f tint(tints[static_cast<std::size_t>(who)]);
+    return glm::u8vec3(glm::mix(Vec3f(grey), tint, strength) + 0.5f);
   });
 }
 

@@ -28,7 +28,7 @@ const std::map<std::string, std::set<std::string>, std::less<>> arrows = {
     {"raster", {"scene", "shaders"}},
     {"raytrace", {"scene"}},
     {"hybrid", {"scene", "raster", "raytrace"}},
-    {"compare", {"scene", "raster", "raytrace", "hybrid"}},
+    {"compare", {"scene", "raster", "raytrace"}},
     {"report", {"scene", "compare"}},
     {"studies", {"scene", "raster", "raytrace", "compare", "report"}},
     {"verify", {"scene", "raster", "raytrace"}},
