@@ -1,4 +1,4 @@
-// The document of a comparison, result.json (compare/result/result.schema.json), and what the program says beside it
+// The document of a comparison, result.json (compare/result/result_schema.h), and what the program says beside it
 // (../../facts.cpp).
 import { keyed, resultDocument } from "./document";
 import { milliseconds, percent, plainNumber, timeDifference } from "./number_text";
