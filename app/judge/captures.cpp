@@ -125,9 +125,9 @@ std::vector<NamedCapture> all_lights(const std::vector<std::string>& captures,
 Expected<std::vector<std::string>> captures_below(const std::string& folder) {
   std::vector<std::string> found;
   const auto add = [&](const std::filesystem::path& file) -> Expected<void> {
-    const auto plain = is_plain_file(file.string());
-    if (!plain) return fail(plain.error());
-    if (*plain) found.push_back(file.string());
+    const auto kind = file_kind(file.string());
+    if (!kind) return fail(kind.error());
+    if (*kind != FileKind::none && *kind != FileKind::folder) found.push_back(file.string());
     return {};
   };
   if (auto added = add(std::filesystem::path(folder) / "capture.json"); !added) return fail(added.error());

@@ -83,7 +83,7 @@ std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, con
   out.cosine = std::clamp(glm::dot(receiver.normal, to_light), 0.0, 1.0);
   const raster::CapturedTest* test = record.captured ? &*record.captured->test : nullptr;
   const double given = test != nullptr ? captured_offset(*test, record.face.data[pixel], out.cosine) : 0.0;
-  if (bias.normal_offset_texels > 0.0 || given > 0.0) {
+  if (bias.normal_offset_texels > 0.0 || given != 0.0) {
     const double sine = glm::length(glm::cross(receiver.normal, to_light));
     const double texels = bias.normal_offset_texels * texel_world_size(view, out.at) * sine;
     out.position += receiver.normal * (texels + given);

@@ -29,6 +29,25 @@ tl::unexpected<Error> path_error(ErrorKind kind, const std::string& path, std::s
 constexpr std::string_view cannot_look = "cannot be looked at", cannot_list = "cannot be listed",
                            cannot_remove = "cannot be removed";
 
+/// What is wrong with a path that is to be a plain file.
+const char* no_file_words(fs::file_type type) {
+  switch (type) {
+    case fs::file_type::not_found:
+      return "no such file";
+    case fs::file_type::directory:
+      return "is a folder, not a file";
+    case fs::file_type::fifo:
+      return "is a pipe, not a file";
+    case fs::file_type::socket:
+      return "is a socket, not a file";
+    case fs::file_type::block:
+    case fs::file_type::character:
+      return "is a device, not a file";
+    default:
+      return "is not a plain file";
+  }
+}
+
 }  // namespace
 
 Expected<FileKind> file_kind(const std::string& path, ErrorKind error) {
@@ -61,10 +80,10 @@ Expected<bool> is_plain_file(const std::string& path, ErrorKind error) {
 }
 
 Expected<std::uint64_t> size_of_file(const std::string& path, ErrorKind error) {
-  const auto kind = file_kind(path, error);
-  if (!kind) return fail(kind.error());
-  if (*kind != FileKind::file) return fail(Error{error, "is not a plain file", path});
   std::error_code why;
+  const fs::file_type type = fs::status(path, why).type();
+  if (type == fs::file_type::none) return path_error(error, path, cannot_look, why);
+  if (type != fs::file_type::regular) return fail(Error{error, no_file_words(type), path});
   const std::uint64_t size = fs::file_size(path, why);
   if (why) return path_error(error, path, cannot_look, why);
   return size;

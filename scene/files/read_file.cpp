@@ -31,16 +31,11 @@ tl::unexpected<Error> cannot_read(const std::string& path, std::string reason) {
 }  // namespace
 
 Expected<std::string> read_file(const std::string& path) {
-  const auto kind = file_kind(path);
-  if (!kind) return fail(kind.error());
-  if (*kind == FileKind::none) return cannot_read(path, "no such file");
-  if (*kind == FileKind::folder) return cannot_read(path, "is a folder, not a file");
-  if (*kind != FileKind::file) return cannot_read(path, "is not a plain file");
+  const auto size = size_of_file(path);
+  if (!size) return fail(size.error());
   const Descriptor file(
       uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }));
   if (file.number() < 0) return failed_call(ErrorKind::bad_input, path, "cannot be opened", errno);
-  const auto size = size_of_file(path);
-  if (!size) return fail(size.error());
   std::string bytes(*size, '\0');
   std::size_t count = 0;
   while (count < bytes.size()) {

@@ -260,7 +260,7 @@ Expected<void> Aligner::doubt_shadows(double share, bool alone) {
       "of conventions mends that",
       hundredths_of_percent(share));
   if (alone) return capture_error(in_.capture, "", words + ": is it this scene, camera and light?");
-  judged_.notes.push_back(words);
+  out_.doubt = words;
   return {};
 }
 
@@ -278,9 +278,12 @@ Expected<void> Aligner::check_shadows() {
   if (*now.visibility >= good_shadows) return {};
   const bool alone = !now.geometry();
   const auto best = best_suspect(input(), samples_, suspects_, false, alone);
-  if (best && best->share > no_shadows + least_gain &&
-      mends(*now.visibility, best->share, alone ? most_left_alone : most_left))
-    return mend_shadows(*best, *now.visibility, alone);
+  const bool likely = best && best->share > no_shadows + least_gain &&
+                      mends(*now.visibility, best->share, alone ? most_left_alone : most_left);
+  // A mistake in the test speaks against no convention, but that one which is the same as a swapped comparison.
+  const bool is_inverted = likely && best->suspect.inverted;
+  if (!is_inverted && in_.drawn_by_mistake && in_.drawn_by_mistake()) return {};
+  if (likely) return mend_shadows(*best, *now.visibility, alone);
   return doubt_shadows(*now.visibility, alone);
 }
 

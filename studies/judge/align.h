@@ -2,6 +2,9 @@
 // if not. A comparison of two different pictures would be worth nothing.
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "studies/judge/evidence.h"
 
 namespace gnomon::compare {
@@ -16,6 +19,8 @@ struct AlignInput {
   const LightView* map = nullptr;
   /// The shadows are those of the capture's own test (OwnTest::is_believed): no convention of theirs is suspected.
   bool shadows_believed = false;
+  /// Tells whether a usual mistake in the capture's test draws the shadows; asked before they are doubted.
+  std::function<bool()> drawn_by_mistake{};
 };
 
 struct Aligned {
@@ -23,6 +28,7 @@ struct Aligned {
   bool trace_again = false;       ///< camera or light were changed
   bool pictures_differ = false;   ///< something was undone
   Mat3 place_from_captured{1.0};  ///< undone in the positions
+  std::string doubt{};            ///< of the shadows, as a sentence, to be said where nothing explains them
 };
 
 /// Looks at positions, depths or silhouettes, the first that there is. What does not agree and is mended by a usual suspect is

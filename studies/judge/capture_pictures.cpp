@@ -31,9 +31,8 @@ tl::unexpected<Error> picture_error(const std::string& file, const std::string& 
 /// Checks that the picture has the capture's size in pixels.
 Expected<ImageSize> checked_size(const Capture& capture, const std::string& file, const std::string& field,
                                  bool of_pixels) {
-  const auto plain = is_plain_file(file);
-  if (!plain) return picture_error(file, field, plain.error().reason);
-  if (!*plain) return capture_error(capture, field, fmt::format("no such file (got {})", file));
+  if (const auto there = size_of_file(file); !there)
+    return capture_error(capture, field, fmt::format("{} (got {})", there.error().reason, file));
   const auto size = read_image_size(file);
   if (size && of_pixels && *size != capture.size)
     return picture_error(file, field,

@@ -4,21 +4,26 @@
 
 #include "compare/comparison.h"
 #include "studies/judge/captured_frame.h"
+#include "studies/judge/filter_kernel.h"
 
 namespace gnomon::compare {
 
 struct DescribedTest {
   std::size_t compared = 0;  ///< pixels
   /// Compared pixels that the described test does not draw as they were drawn. That must hold whatever rounding does,
-  /// whichever texel within the filter's reach decides, and whichever cascade that holds the place is looked up.
+  /// whichever texel within the filter's reach decides, and whichever cascade that holds the place is looked up. Those that are
+  /// partly lit where the test cannot make that are among them; those behind the far plane are not.
   std::size_t not_drawn = 0;
   std::size_t drawn_darker = 0;  ///< of these; the others are drawn lighter than the test has them
-  /// Texels to each side whose average of comparisons comes near to what is drawn of them; 0: none does, or none is looked for.
-  double filter_radius = 0.0;
+  /// A filter whose average of comparisons comes near to what is drawn of them; none does, or none is looked for.
+  std::optional<FilterKernel> filter{};
+  double filter_error = 0.0;  ///< how far it is off, on average
   /// Drawn as another layer than the first that holds the place has it; the capture does not say which is looked up.
   std::size_t by_another_layer = 0;
 
   bool is_drawn() const;  ///< but for a few pixels
+  /// Tells whether the filter draws them to the last step of eight bits, so that nothing else need be looked for.
+  bool filter_is_known() const;
   /// In 19 of 20 pixels: something else darkens or lightens the rest, such as contact shadows or a fade with distance.
   bool is_mostly_drawn() const;
 };
@@ -42,6 +47,8 @@ struct OtherTest {
 };
 std::optional<OtherTest> find_drawn_test(const FrameInput& input, const raster::RasterFrame& drawn,
                                          const LightComparison& light);
+/// Tells before anything is compared whether there is such a mistake. Needs a map; `drawn`: the capture's frame.
+bool is_drawn_but_for_a_mistake(const FrameInput& input, const raster::RasterFrame& drawn);
 
 /// Whether what the described test would draw with another bias says something of the renderer.
 inline bool advice_holds(const DescribedTest& test, const std::optional<OtherTest>& other) {

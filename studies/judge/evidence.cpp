@@ -139,7 +139,10 @@ void Gatherer::depth(std::uint32_t pixel, const Shown& shown, Tally& out) const 
 void Gatherer::visibility(const Shown& shown, Tallies& out) const {
   const raytrace::SurfacePoint& point = shown.point;
   if (in_.pictures.reached.data[shown.shadow] == 0) return;
-  if (in_.map != nullptr && !project_to_texel(*in_.map, point.position).inside) return;
+  if (in_.map != nullptr) {
+    const TexelCoordinate at = project_to_texel(*in_.map, point.position);
+    if (!at.inside || at.depth > in_.map->face(at.face).far_depth) return;
+  }
   const bool reached = !light_cannot_reach(light_, point.position, point.normal);
   // A renderer that has the light's direction wrong draws what then faces away dark.
   if (!reached && !suspect_.light_turned) return;

@@ -41,6 +41,7 @@ struct Judging {
   Image<std::uint8_t> elsewhere{};
   CasterBiases casters{};
   MapFacts facts{};
+  std::string doubt{};  ///< Aligned::doubt
 
   const LightView* view() const { return map ? &map->map.view : nullptr; }
 };
@@ -136,6 +137,13 @@ Expected<void> undo_rest(Judging& in, const raytrace::RayTracedFrame& traced, Ju
   return {};
 }
 
+/// What the picture shows as full shadow becomes 0; a note says so.
+void undo_full_shadow(Judging& in, double full_shadow, Judged& judged) {
+  if (full_shadow == 0.0) return;
+  stretch_to_full_shadow(full_shadow, in.pictures.visibility);
+  judged.notes.push_back(strength_note(in.capture.strength, full_shadow));
+}
+
 /// A strength of the shadow is undone before anything is measured, as the capture says it, or as the test finds it.
 Expected<bool> believe_own_test(Judging& in, const Comparison& c, Judged& judged) {
   undo_strength(in, c.raytraced, judged);
@@ -144,10 +152,20 @@ Expected<bool> believe_own_test(Judging& in, const Comparison& c, Judged& judged
   const auto frame = make_frame(input, *in.map);
   if (!frame) return fail(frame.error());
   const OwnTest test = try_own_test(input, *frame);
-  if (!test.is_believed()) return false;
-  if (test.full_shadow == 0.0) return true;
-  stretch_to_full_shadow(test.full_shadow, in.pictures.visibility);
-  judged.notes.push_back(strength_note(in.capture.strength, test.full_shadow));
+  if (test.is_believed()) undo_full_shadow(in, test.full_shadow, judged);
+  return test.is_believed();
+}
+
+/// Tells whether a usual mistake in its description makes the test the one that was drawn, whose strength is undone then.
+bool believe_mistaken_test(Judging& in, const Comparison& c, Judged& judged) {
+  if (!in.map) return false;
+  const FrameInput input = frame_input(in, c);
+  auto frame = make_frame(input, *in.map);
+  if (!frame) return false;
+  const double darkest = try_own_test(input, *frame).darkest;
+  stretch_to_full_shadow(darkest, frame->lights.front().visibility);
+  if (!is_drawn_but_for_a_mistake(input, *frame)) return false;
+  undo_full_shadow(in, darkest, judged);
   return true;
 }
 
@@ -167,8 +185,10 @@ Expected<void> trace_truth(Judging& in, Comparison& out, Judged& judged) {
   if (!believed) return fail(believed.error());
   AlignInput shadows = align_input(in, out);
   shadows.shadows_believed = *believed;
+  shadows.drawn_by_mistake = [&] { return believe_mistaken_test(in, out, judged); };
   auto aligned = align_shadows(shadows, in.scene, in.sight, in.pictures, judged);
   if (!aligned) return fail(aligned.error());
+  in.doubt = aligned->doubt;
   if (!aligned->pictures_differ) return {};
   aligned->everywhere = aligned->everywhere || geometry->everywhere;
   trace_again(in, options, *aligned, out);
@@ -229,7 +249,8 @@ void finish(Judging& in, Comparison& out) {
       for (std::string& one : notes) judged->notes.push_back(std::move(one));
     };
     const DescribedTest test = check_described_test(frame, out.raster, light);
-    const auto other = test.is_drawn() ? std::nullopt : find_drawn_test(frame, out.raster, light);
+    const auto other =
+        test.is_drawn() || test.filter_is_known() ? std::nullopt : find_drawn_test(frame, out.raster, light);
     note(described_test_notes(test, other));
     note(far_triangle_notes(in.world, out.raytraced));
     note(far_places_notes(frame, record));
@@ -249,6 +270,9 @@ void finish(Judging& in, Comparison& out) {
     note(outside.notes);
     for (const std::string& cure : {atlas.cure, outside.cure})
       if (judged->cure.empty()) judged->cure = cure;
+    const bool is_explained = test.is_drawn() || test.filter_is_known() || other || !judged->cure.empty() ||
+                              content.is_main_cause(light);
+    if (is_explained) in.doubt.clear();
     const TimedStage advising("advice");
     judged->advice_sought = described && !content.is_main_cause(light);
     if (judged->advice_sought)
@@ -267,6 +291,7 @@ void finish(Judging& in, Comparison& out) {
     for (std::string& one : traced_notes(found)) judged->notes.push_back(std::move(one));
     judged->cure = traced_advice(found, light);
   }
+  if (!in.doubt.empty()) judged->notes.push_back(in.doubt);
   if (!judged->has_map) forget_texels(light);
   out.judged = std::move(judged);
 }

@@ -164,6 +164,12 @@ bool lies_beyond_depths(const raster::LightRecord& record, const raster::Bias& b
   return true;
 }
 
+bool lies_behind_far_plane(const raster::LightRecord& record, const Vec3& position, std::size_t pixel) {
+  if (!record.captured->test->paraboloids.empty()) return false;
+  const TexelCoordinate at = place_of(record, position, pixel);
+  return at.inside && is_behind(record, at);
+}
+
 void find_lit_depths(const FrameInput& in, raster::RasterFrame& frame, MapFacts& facts) {
   raster::LightRecord& record = frame.lights.front();
   raster::CapturedTest& test = *record.captured->test;

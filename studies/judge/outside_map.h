@@ -15,6 +15,10 @@ namespace gnomon::compare {
 bool lies_beyond_depths(const raster::LightRecord& record, const raster::Bias& bias, const Light& light,
                         const raytrace::SurfacePoint& receiver, std::size_t pixel);
 
+/// Tells whether a place lies behind the far plane of the layer that the pixel looks up. What is drawn there is the renderer's
+/// own choice: it may clamp the depth, light what lies there or darken it.
+bool lies_behind_far_plane(const raster::LightRecord& record, const Vec3& position, std::size_t pixel);
+
 /// Finds what the picture tells of receivers that the renderer lights though its map shadows them. They lie behind the far
 /// plane, or in the nearer half of depths of -1 to 1 that are tested from 0 on. They look nothing up then
 /// (CapturedTest::faces).

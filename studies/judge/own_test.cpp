@@ -9,6 +9,7 @@
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
 #include "scene/light.h"
+#include "studies/judge/outside_map.h"
 
 namespace gnomon::compare {
 namespace {
@@ -22,8 +23,7 @@ constexpr double most_of_it = 0.5;     ///< of the shadow has that value
 constexpr double darkest_share = 0.1;  ///< of the values, from which it is taken
 constexpr int reach_steps = 2;         ///< on each side of the middle, over a filter's reach
 
-/// What the texels within reach say: all lit, all dark, or some of both.
-enum class Said : std::uint8_t { nothing, lit, dark, both };
+constexpr double near_mean = 0.35;  ///< sixteen taps are off the mean over their reach by 1/8 (one deviation)
 
 class OwnTester {
  public:
@@ -34,21 +34,23 @@ class OwnTester {
     reach_ = once ? 0.0 : std::max(1.0, drawn.options.map.filter.radius_texels);
   }
 
-  Said at(std::size_t pixel) const {
+  /// The share of the texels within reach that are lit; none of what the test says nothing of.
+  std::optional<double> at(std::size_t pixel) const {
     const raytrace::SurfacePoint& point = in_.traced.receiver.data[pixel];
-    if (point.primitive == no_id || drawn_.primitive.data[pixel] != point.primitive) return Said::nothing;
-    if (record_.outside_map.data[pixel] != 0 || light_cannot_reach(light_, point.position, point.normal))
-      return Said::nothing;
+    if (point.primitive == no_id || drawn_.primitive.data[pixel] != point.primitive) return std::nullopt;
+    if (record_.outside_map.data[pixel] != 0 || light_cannot_reach(light_, point.position, point.normal) ||
+        lies_behind_far_plane(record_, point.position, pixel))
+      return std::nullopt;
     const raster::Bias& bias = drawn_.options.map.bias;
     const Vec3 to_light = light_at(light_, point.position).to_light;
     const auto lookup = biased_lookup(record_, bias, to_light, point, pixel);
-    if (!lookup) return Said::nothing;
-    bool lit = false, dark = false;
+    if (!lookup) return std::nullopt;
+    int lit = 0;
     const int side = reach_ > 0.0 ? reach_steps : 0;
     for (int j = -side; j <= side; ++j)
       for (int i = -side; i <= side; ++i)
-        (is_dark(*lookup, bias, point.normal, reach_ / reach_steps * Vec2(i, j)) ? dark : lit) = true;
-    return lit && dark ? Said::both : dark ? Said::dark : Said::lit;
+        lit += is_dark(*lookup, bias, point.normal, reach_ / reach_steps * Vec2(i, j)) ? 0 : 1;
+    return double(lit) / ((2 * side + 1) * (2 * side + 1));
   }
 
  private:
@@ -87,7 +89,7 @@ double full_shadow_of(std::vector<float> values) {
 
 }  // namespace
 
-bool OwnTest::is_believed() const {
+bool OwnTestCount::is_believed() const {
   const std::size_t differ = pixels - as_drawn;
   if (pixels < few_tried || double(as_drawn) < least_believed * double(pixels)) return false;
   return differ < few_tried || double(differ) <= of_shadows * double(std::max(dark, drawn_dark));
@@ -98,19 +100,26 @@ OwnTest try_own_test(const FrameInput& in, const raster::RasterFrame& drawn) {
   const OwnTester tester(in, drawn);
   const Image<float>& picture = drawn.lights.front().visibility;
   const std::size_t step = std::max<std::size_t>(1, picture.data.size() / most_tried);
-  std::vector<Said> said(picture.data.size() / step);
+  std::vector<std::optional<double>> said(picture.data.size() / step);
   parallel_for(said.size(), [&](std::size_t i) { said[i] = tester.at(i * step); });
-  std::vector<float> in_shadow;
-  for (std::size_t i = 0; i < said.size(); ++i)
-    if (said[i] == Said::dark) in_shadow.push_back(picture.data[i * step]);
-  OwnTest out;
-  out.full_shadow = full_shadow_of(std::move(in_shadow));
-  const double half = 0.5 * (1.0 + out.full_shadow);
+  std::vector<float> in_shadow, all;
   for (std::size_t i = 0; i < said.size(); ++i) {
-    if (said[i] == Said::nothing || said[i] == Said::both) continue;
-    const bool dark = double{picture.data[i * step]} < half;
-    ++out.pixels, out.dark += said[i] == Said::dark ? 1 : 0, out.drawn_dark += dark ? 1 : 0;
-    out.as_drawn += dark == (said[i] == Said::dark) ? 1 : 0;
+    if (said[i]) all.push_back(picture.data[i * step]);
+    if (said[i] == 0.0) in_shadow.push_back(picture.data[i * step]);
+  }
+  OwnTest out;
+  out.full_shadow = full_shadow_of(std::move(in_shadow)), out.darkest = full_shadow_of(std::move(all));
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    if (!said[i]) continue;
+    const double drawn = (double{picture.data[i * step]} - out.full_shadow) / (1.0 - out.full_shadow);
+    const bool is_clear = *said[i] == 0.0 || *said[i] == 1.0, drawn_dark = drawn < 0.5;
+    const bool same = is_clear ? drawn_dark == (*said[i] == 0.0) : std::abs(drawn - *said[i]) <= near_mean;
+    const auto count = [&](OwnTestCount& to) {
+      ++to.pixels, to.as_drawn += same ? 1 : 0, to.drawn_dark += drawn_dark ? 1 : 0;
+      to.dark += *said[i] < 0.5 ? 1 : 0;
+    };
+    count(out.all);
+    if (is_clear) count(out.clear);
   }
   return out;
 }

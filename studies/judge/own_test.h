@@ -8,16 +8,25 @@
 
 namespace gnomon::compare {
 
-/// Counts samples inside the map whose filter reads texels that all agree.
-struct OwnTest {
+/// Samples inside the map, and on how many of them the test is the picture.
+struct OwnTestCount {
   std::size_t pixels = 0, as_drawn = 0;
   std::size_t dark = 0;        ///< by the test
   std::size_t drawn_dark = 0;  ///< by the picture
-  /// What the picture shows where the test is dark, where most of that is one value; else 0.
-  double full_shadow = 0.0;
 
   /// The test is the picture in 19 of 20 samples, and what differs is the smaller part of what either shadows.
   bool is_believed() const;
+};
+
+struct OwnTest {
+  OwnTestCount clear;  ///< the filter reads texels that all agree
+  OwnTestCount all;    ///< where they do not, the picture has to come near to their mean
+  /// What the picture shows where the test is dark, where most of that is one value; else 0.
+  double full_shadow = 0.0;
+  /// The same of the whole picture within the map, whatever the test is.
+  double darkest = 0.0;
+
+  bool is_believed() const { return clear.is_believed() || all.is_believed(); }
 };
 
 /// `drawn`: the capture's frame. Darker than halfway between `full_shadow` and 1 counts as shadow.

@@ -44,9 +44,7 @@ ErrorKind kind_of(int code) {
 }
 
 Expected<std::string> run_script(const std::string& frame, std::vector<std::string> options) {
-  const auto there = is_plain_file(frame);
-  if (!there) return fail(there.error());
-  if (!*there) return frame_error(frame, ErrorKind::bad_input, "no such file");
+  if (const auto there = size_of_file(frame); !there) return fail(there.error());
   // Debian's own Python has the module for RenderDoc; another one of the PATH does not.
   const std::string python =
       file_kind_or_none("/usr/bin/python3") == FileKind::file ? "/usr/bin/python3" : "python3";

@@ -218,7 +218,7 @@ std::vector<Suspect> usual_suspects(const SuspectInput& in) {
     out.push_back(suspect);
   }
   Suspect inverted;
-  inverted.what = "the shadow's picture has 1 for shadow and 0 for light";
+  inverted.what = "the shadow's picture has 1 for shadow and 0 for light, or its comparison is swapped";
   inverted.inverted = true, inverted.geometric = false;
   out.push_back(inverted);
   return out;

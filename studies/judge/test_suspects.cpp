@@ -85,6 +85,17 @@ bool has_offset(LightRecord& record) {
   return test_of(record).normal_offset_world > 0.0;
 }
 
+bool turn_offset(LightRecord& record) {
+  raster::CapturedTest& test = test_of(record);
+  test.normal_offset_world *= -1.0;
+  for (auto& layer : test.layers) layer.normal_offset_world *= -1.0;
+  return test.normal_offset_world != 0.0 || !test.layers.empty();
+}
+
+bool keep(LightRecord&) {
+  return true;
+}
+
 /// Each texel's number taken for a distance where it was taken for a depth along the axis, or the reverse.
 bool take_for_other_linear(LightRecord& record) {
   raster::ShadowMap& map = record.map;
@@ -115,14 +126,25 @@ void add_conventions(const LightRecord& described, std::vector<TestSuspect>& out
     return out.back();
   };
   add("`rows` of the map is the other one", "the renderer reads its map upside down (v runs the other way)",
-      [](LightRecord& record) { return turn_faces(record, {.rows = true}); });
+      [](LightRecord& record) { return turn_faces(record, {.rows = true}); })
+      .turns_map = true;
   add("the map's columns run the other way", "the renderer reads its map mirrored (u runs the other way)",
-      [](LightRecord& record) { return turn_faces(record, {.columns = true}); });
+      [](LightRecord& record) { return turn_faces(record, {.columns = true}); })
+      .turns_map = true;
   add("the map's columns are its rows", "the renderer reads its map with u and v exchanged",
-      [](LightRecord& record) { return turn_faces(record, {.transposed = true}); });
+      [](LightRecord& record) { return turn_faces(record, {.transposed = true}); })
+      .turns_map = true;
   add("`constant_depth` has the other sign (positive takes shadow away)",
       "the renderer applies its bias with the other sign", turn_sign)
       .of_constant = true;
+  out.back().of_sign = true;
+  add("`slope` has the other sign (positive takes shadow away)",
+      "the renderer applies its slope bias with the other sign", keep)
+      .of_sign = true;
+  out.back().of_slope = -1.0;
+  add("`normal_offset_world` has the other sign",
+      "the renderer applies its normal offset with the other sign, into the surface", turn_offset)
+      .of_sign = true;
   add("`clip_from_world` holds the scale and shift to texture coordinates", "", take_off_texture_matrix);
   add("the matrix makes depths of -1 to 1 (`minus_one_to_one`)", "",
       [](LightRecord& record) { return stretch_depths(record, 2.0); });
@@ -137,6 +159,8 @@ void add_conventions(const LightRecord& described, std::vector<TestSuspect>& out
   add("the offset goes along the front's normal, on back faces into the surface",
       "the renderer's normal offset has the wrong sign on back faces", has_offset)
       .by_fronts = true;
+  out.push_back({"the picture has 1 for shadow and 0 for light, or the comparison is swapped", "", keep});
+  out.back().swapped = out.back().of_sign = true;
   const bool distances = described.captured->test->stores == Stores::distances;
   out.push_back({distances ? "`convention` of the map is linear_z" : "`convention` of the map is distance",
                  "", take_for_other_linear});
@@ -179,6 +203,8 @@ void add_keys_of_test(const LightRecord& described, std::vector<TestSuspect>& ou
          for (auto& layer : changed.layers) layer.normal_offset_world = 0.0;
          return any;
        }});
+  out.push_back({"no slope bias is drawn (`bias.slope` is 0)", "", keep});
+  out.back().of_slope = 0.0;
   out.push_back({"the layers' own biases (`map[].bias`) are not drawn", "",
                  [](LightRecord& record) { return !std::exchange(test_of(record).layers, {}).empty(); }});
 }

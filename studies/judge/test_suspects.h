@@ -15,6 +15,10 @@ struct TestSuspect {
   std::string of_renderer;  ///< empty: the capture is wrong in any case
   std::function<bool(raster::LightRecord&)> change;  ///< false: does not apply
   bool by_fronts = false;  ///< offsets go along the front's normal, also where the back is seen
+  bool swapped = false;    ///< what the test would darken is lit, and the reverse
+  double of_slope = 1.0;   ///< the slope bias, times the described one
+  bool turns_map = false;  ///< all of it is read another way
+  bool of_sign = false;    ///< the most usual kind, of which a picture that is all dark tells, too
   bool of_constant = false;
   bool with_others = false;  ///< may come together with another such mistake
 };

@@ -120,6 +120,18 @@ TEST(Faults, LinksInACircleAndNoFolderForTemporaryFiles) {
   EXPECT_EQ(compared.exit_code, 0) << compared.err;
 }
 
+TEST(Faults, APipeInTheCapturesPlace) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "suite");
+  ASSERT_EQ(mkfifo((folder / "suite/capture.json").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo((folder / "frame.rdc").c_str(), 0600), 0);
+  for (const Words& words : {Words{"judge", "--suite", "suite"}, Words{"judge", "frame.rdc"}}) {
+    const ProcessResult judged = run_gnomon(words, {.folder = folder.path()});
+    EXPECT_EQ(judged.exit_code, 3);
+    EXPECT_NE(judged.err.find("is a pipe, not a file"), std::string::npos) << judged.err;
+  }
+}
+
 TEST(Faults, OsmesaThatDoesNotLoadIsSaid) {
   const TemporaryFolder folder;
   const Words words{"raster", "acne-floor", "-o", "picture.png", "--size", "32x18", "--map-size", "64"};

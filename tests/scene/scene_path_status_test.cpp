@@ -1,4 +1,6 @@
 // Questions about paths: "nothing is there" is never said where nobody could look.
+#include <sys/stat.h>
+
 #include <algorithm>
 
 #include "scene/files/path_status.h"
@@ -51,6 +53,20 @@ TEST(PathStatus, AnswersOfWhatIsThere) {
   EXPECT_FALSE(size_of_file(folder.file("deep")));
   EXPECT_EQ(are_one_path(file, folder.file("link")), true);
   EXPECT_EQ(are_one_path(file, folder.file("absent")), false);
+}
+
+TEST(PathStatus, WhatIsNoPlainFileIsCalledWhatItIs) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  fs::create_directory(folder.file("deep"));
+  for (const auto& [path, words] : {std::pair(folder.file("absent"), "no such file"),
+                                    std::pair(folder.file("deep"), "is a folder, not a file"),
+                                    std::pair(folder.file("pipe"), "is a pipe, not a file"),
+                                    std::pair(std::string("/dev/null"), "is a device, not a file")}) {
+    const auto size = size_of_file(path);
+    ASSERT_FALSE(size) << path;
+    EXPECT_EQ(size.error().reason, words) << path;
+  }
 }
 
 TEST(PathStatus, ListsAreWholeAndSorted) {

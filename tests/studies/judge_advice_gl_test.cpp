@@ -1,10 +1,11 @@
 // What judge advises is drawn again by another renderer, on random captures: what is promised is what is then drawn, and
 // nothing is worse. GNOMON_ADVICE=N in the environment takes N captures in place of 30, and prints the table;
-// GNOMON_ADVICE_TEST=NAME takes those of one row.
+// GNOMON_ADVICE_TEST=NAME takes those of one row, GNOMON_ADVICE_FIRST=SEED begins there.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <random>
 
@@ -105,8 +106,14 @@ struct Engine {
   FilterTaps filter{};
   Elsewhere elsewhere{};
 
-  /// Draws the capture's picture with the settings of this one.
-  void draw(const Capture& settings) const {
+  /// Draws the capture's picture with the settings of this one. A map of moments is made from its depths with them.
+  void draw(Capture settings) const {
+    if (compare::reads_moments(settings)) {
+      for (const compare::CapturedLayer& layer : settings.map)
+        std::filesystem::copy_file(layer.depth + ".depths.exr", layer.depth,
+                                   std::filesystem::copy_options::overwrite_existing);
+      store_moments(settings);
+    }
     draw_again(settings, drawn, 1.0f, false, filter);
     elsewhere.draw_on(settings);
   }
@@ -130,7 +137,9 @@ void choose_filter(Random& random, Engine& engine) {
     filter.kind = kind;
     filter.light_bleeding_reduction = random.one_of({0.0, 0.0, 0.2});
     filter.minimum_variance = random.one_of({0.0, 1e-6, 1e-4});
-    store_moments(engine.capture);
+    filter.read = raster::CapturedTest::Read::moments, filter.radius_texels = 2.5;
+    for (const compare::CapturedLayer& layer : engine.capture.map)
+      std::filesystem::copy_file(layer.depth, layer.depth + ".depths.exr");
   };
   const auto side = static_cast<int>(1 + random.below(4));
   const double radius = random.between(1.5, 3.5);
@@ -202,7 +211,10 @@ void take(const AdvisedSetting& one, Capture& capture) {
     capture.filter->minimum_variance = one.instead;
   else if (key == "filter.moment_bias")
     capture.filter->moment_bias = one.instead;
-  else if (key.starts_with("map[") && key.ends_with("].bias.constant_depth")) {
+  else if (key == "filter.exponents[0]" || key == "filter.exponents[1]") {
+    capture.filter->exponents.resize(key.ends_with("[1]") ? 2 : capture.filter->exponents.size());
+    capture.filter->exponents[key.ends_with("[1]") ? 1 : 0] = one.instead;
+  } else if (key.starts_with("map[") && key.ends_with("].bias.constant_depth")) {
     const auto layer = static_cast<std::size_t>(std::stoul(key.substr(4)));
     compare::CapturedBias bias = *capture.bias;
     bias.constant_depth = one.instead;
@@ -278,7 +290,9 @@ void check_capture(unsigned seed, std::map<Kind, Row>& table) {
 
 TEST(JudgeAdvice, IsWhatIsDrawnWithIt) {
   const char* asked = std::getenv("GNOMON_ADVICE");
-  const unsigned first = 1, count = asked != nullptr ? static_cast<unsigned>(std::atoi(asked)) : 30;
+  const char* begin = std::getenv("GNOMON_ADVICE_FIRST");
+  const unsigned first = begin != nullptr ? static_cast<unsigned>(std::atoi(begin)) : 1;
+  const unsigned count = asked != nullptr ? static_cast<unsigned>(std::atoi(asked)) : 30;
   std::map<Kind, Row> table;
   const char* only = std::getenv("GNOMON_ADVICE_TEST");
   for (unsigned seed = first; seed < first + count; ++seed)

@@ -1,5 +1,6 @@
 // Captures that cannot be judged: one line that names the field, an error of bad input, and no result.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -91,6 +92,12 @@ TEST(BadCaptures, OfPicturesNameThePicture) {
   Capture capture = good();
   capture.visibility = folder() + "/none.exr";
   expect_named(capture, "visibility: no such file");
+  capture.visibility = folder() + "/pipe.exr";
+  std::filesystem::remove(capture.visibility);
+  ASSERT_EQ(mkfifo(capture.visibility.c_str(), 0600), 0);
+  expect_named(capture, "visibility: is a pipe, not a file (got ");
+  capture.visibility = "/dev/null";
+  expect_named(capture, "visibility: is a device, not a file (got /dev/null)");
   capture.visibility = image("small.exr", {32, 18}, {"V"});
   expect_named(capture, "visibility: is of another size (got 32 x 18, the capture says 64 x 36)");
   capture.visibility = image("rgb.exr", picture, {"R", "G", "B"});

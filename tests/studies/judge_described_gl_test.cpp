@@ -21,9 +21,9 @@ struct OtherPicture {
     capture = self_capture(drawn, folder_for(name), {.map = true, .stored = StoredDepth::zero_to_one});
     draw_with(bias);
   }
-  void draw_with(const compare::CapturedBias& bias) {
+  void draw_with(const compare::CapturedBias& bias, const FilterTaps& filter = {}) {
     capture.bias = bias;
-    draw_again(capture, drawn);
+    draw_again(capture, drawn, 1.0f, false, filter);
   }
   JudgeOutcome judged() const { return judge(capture, *drawn.scene); }
 };
@@ -162,6 +162,108 @@ TEST(JudgeDescribed, OtherMatricesAndConstantsAreNamed) {
   picture.capture = right;
   picture.capture.bias->constant_depth = 0.2;
   expect_other_test(picture.judged(), "if `constant_depth` is about", true);
+}
+
+// All is dark then, as it would be without light.
+TEST(JudgeDescribed, ABiasOfTheOtherSignIsNotTheLightsDoing) {
+  struct Case {
+    compare::CapturedBias drawn, described;
+    const char* words;
+  };
+  for (const Case& c : {Case{{.constant_depth = -0.02},
+                             {.constant_depth = 0.02},
+                             "the renderer applies its bias with the other sign"},
+                        Case{{.slope = 0.0}, {.slope = 8.0}, "no slope bias is drawn"},
+                        Case{{.constant_depth = 0.0002, .normal_offset_world = -0.1},
+                             {.constant_depth = 0.0002, .normal_offset_world = 0.1},
+                             "the renderer applies its normal offset with the other sign"}})
+    for (const double strength : {1.0, 0.6}) {
+      OtherPicture picture("dark", c.drawn);
+      spoil(picture.capture.visibility, [&](ChannelImage& image) {
+        for (float& v : image.channels[0].values)
+          v = static_cast<float>(1.0 - strength + strength * double{v});
+      });
+      picture.capture.bias = c.described;
+      expect_other_test(picture.judged(), std::string("if ") + c.words);
+    }
+}
+
+TEST(JudgeDescribed, ASwappedComparisonIsNamed) {
+  OtherPicture picture("swapped", {.constant_depth = 0.001});
+  const auto swap = [&] {
+    spoil(picture.capture.visibility, [](ChannelImage& image) {
+      for (float& v : image.channels[0].values) v = 1.0f - v;
+    });
+  };
+  swap();
+  EXPECT_NE(reason(picture.judged()).find("1 for shadow and 0 for light, or its comparison is swapped"),
+            std::string::npos)
+      << reason(picture.judged());
+  picture.draw_with({.constant_depth = -0.02}), swap();  // all is lit: the truth does not tell that it is
+  expect_other_test(picture.judged(),
+                    "if the picture has 1 for shadow and 0 for light, or the comparison is swapped");
+}
+
+// A floor and a sun: a factor of the angle is one number nearly everywhere.
+TEST(JudgeDescribed, AnotherConstantIsThePlainestCause) {
+  const double lit = -glm::normalize(scene_under("sun").lights[0].direction).y;
+  for (const auto& [drawn, described] :
+       {std::pair(0.02, 0.3), std::pair(0.001, 0.1), std::pair(0.02, 0.02 / (1.0 - lit)),
+        std::pair(0.04, 0.04 / (1.0 - lit))}) {
+    OtherPicture picture("constant", {.constant_depth = drawn});
+    picture.capture.bias->constant_depth = described;
+    expect_other_test(picture.judged(), "if `constant_depth` is about ", true);
+  }
+  // Nothing is dark: any that is larger draws it as well.
+  OtherPicture picture("constant", {.constant_depth = 0.5});
+  picture.capture.bias->constant_depth = 0.02;
+  expect_other_test(picture.judged(), " or more, it is the one drawn in 100 %", true);
+}
+
+// ---- a filter that is not described ----
+
+// One comparison leaves nothing partly lit, and its rounding makes no greys.
+TEST(JudgeDescribed, GreysOfAnUnsaidFilterAreUnexplainedAndTheFilterIsNamed) {
+  struct Case {
+    FilterTaps taps;
+    const char* words;
+  };
+  const FilterTaps disc{.taps = {{1.9, 0.3}, {-1.1, 1.2}, {0.2, -1.7}, {-1.8, -0.6}, {0.9, 1.6}, {0.1, 0.2}}};
+  for (const Case& c :
+       {Case{square_taps(3), "3 x 3 comparisons draw them (`filter.kind` pcf, `filter.radius_texels` 1.5)"},
+        Case{square_taps(5), "5 x 5 comparisons draw them"},
+        Case{square_taps(1, true), "1 x 1 comparisons, each of four texels, draw them"},
+        Case{disc, "texels to each side would draw them"}}) {
+    OtherPicture picture("greys", enough_bias);
+    picture.draw_with(enough_bias, c.taps);
+    const JudgeOutcome judged = picture.judged();
+    ASSERT_TRUE(judged.result) << reason(judged);
+    EXPECT_NE(notes_of(judged).find(c.words), std::string::npos) << notes_of(judged);
+    EXPECT_EQ(notes_of(judged).find("; if "), std::string::npos) << notes_of(judged);
+    const compare::LightComparison& light = judged.result->lights[0];
+    std::size_t greys = 0;
+    for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
+      const float drawn = light.rungs[6].data[i];
+      if (!compare::has_cause(light.labels.data[i]) || drawn < 0.05f || drawn > 0.95f) continue;
+      ++greys;
+      EXPECT_EQ(light.labels.data[i], compare::Label::unexplained) << label_name(light.labels.data[i]);
+    }
+    EXPECT_GT(greys, 100U);
+    EXPECT_EQ(count_of(judged, compare::Label::stored_depth), 0U);
+  }
+}
+
+// The filter that is said reaches less far than the one that draws.
+TEST(JudgeDescribed, GreysBeyondTheSaidFilterAreUnexplained) {
+  OtherPicture picture("wide-greys", {.constant_depth = 0.02});
+  picture.draw_with({.constant_depth = 0.02}, square_taps(9));
+  picture.capture.filter = compare::CapturedFilter{compare::FilterName::pcf, 1.5};
+  const JudgeOutcome judged = picture.judged();
+  ASSERT_TRUE(judged.result) << reason(judged);
+  EXPECT_NE(notes_of(judged).find("9 x 9 comparisons draw them"), std::string::npos) << notes_of(judged);
+  const compare::LightComparison& light = judged.result->lights[0];
+  EXPECT_GT(light.class_errors[static_cast<std::size_t>(compare::Label::unexplained) - 1],
+            0.2 * light.error.mean_absolute);
 }
 
 // A floor seen from its back: an offset along the front's normal goes into it, and it shadows itself.

@@ -14,7 +14,7 @@ add_dependencies(shimmer_program_gl_test gnomon_program)
 
 gnomon_test(judge_gl_test
   SOURCES judge_gl_test.cpp judge_parts_gl_test.cpp judge_values_gl_test.cpp judge_described_gl_test.cpp
-          judge_content_gl_test.cpp judge_own_test_gl_test.cpp
+          judge_content_gl_test.cpp judge_far_plane_gl_test.cpp judge_own_test_gl_test.cpp
   LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_test(judge_advice_gl_test TIMEOUT 900 SOURCES judge_advice_gl_test.cpp LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_test(judge_pictures_gl_test SOURCES judge_pictures_gl_test.cpp judge_words_gl_test.cpp
