@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Holds the sentences of the lab and of the grader to the one file in which they can be read through, prose.txt: a sentence that is
 new or changed is read there, by its author and in review, before it is a user's. Holds them and the sentences in headers' comments
-to a length that is understood at once.
+and in Markdown pages to a length that is understood at once.
   project_prose_test.py [--fix]     --fix writes the file"""
 import pathlib
 import re
+import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -65,9 +66,35 @@ def headers():
     return sorted(path for room in rooms for path in room.rglob("*.h") if "node_modules" not in path.parts)
 
 
+def page_parts(text):
+    """Paragraphs, items of lists and cells of tables of a Markdown page, each with the line where it begins. Code and headings are
+    left out, and of a link its address."""
+    part, begin, in_code = [], 0, False
+    for number, line in enumerate([*text.split("\n"), ""], 1):
+        line = line.strip()
+        in_code ^= line.startswith("```")
+        item = re.fullmatch(r"(?:[-*]|\d+\.) (.*)", line)
+        stands_alone = in_code or not line or line.startswith(("|", "#", "<", "!", "```"))
+        if part and (item or stands_alone):
+            yield begin, re.sub(r"\]\([^)]*\)", "]", " ".join(part))
+            part = []
+        if line.startswith("|") and not in_code:
+            yield from ((number, re.sub(r"\]\([^)]*\)", "]", cell.strip())) for cell in line.strip("|").split("|"))
+        elif not stands_alone:
+            begin = begin if part else number
+            part.append(item.group(1) if item else line)
+
+
+def pages():
+    """All but those that the program writes."""
+    tracked = subprocess.run(["git", "-C", ROOT, "ls-files", "*.md"], capture_output=True, text=True, check=True).stdout.split()
+    return [path for path in map(ROOT.joinpath, tracked) if not path.read_text(encoding="utf-8").startswith("<!-- Written by the program")]
+
+
 def long_sentences():
-    for path in headers():
-        for line, part in comment_parts(path.read_text(encoding="utf-8")):
+    files = [(path, comment_parts) for path in headers()] + [(path, page_parts) for path in pages()]
+    for path, parts_of in files:
+        for line, part in parts_of(path.read_text(encoding="utf-8")):
             for sentence in SENTENCE_END.split(part):
                 if word_count(sentence) > MOST_WORDS:
                     yield f"{path.relative_to(ROOT)}:{line}: {word_count(sentence)} words: {sentence}"
