@@ -71,10 +71,11 @@ def page_parts(text):
     left out, and of a link its address."""
     part, begin, in_code = [], 0, False
     for number, line in enumerate([*text.split("\n"), ""], 1):
+        is_formula = not part and line.startswith("    ")
         line = line.strip()
         in_code ^= line.startswith("```")
         item = re.fullmatch(r"(?:[-*]|\d+\.) (.*)", line)
-        stands_alone = in_code or not line or line.startswith(("|", "#", "<", "!", "```"))
+        stands_alone = in_code or is_formula or not line or line.startswith(("|", "#", "<", "!", "```"))
         if part and (item or stands_alone):
             yield begin, re.sub(r"\]\([^)]*\)", "]", " ".join(part))
             part = []
