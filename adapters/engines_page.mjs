@@ -102,12 +102,13 @@ function main() {
   const least = (name) => (100 * Math.min(...drawn.filter((d) => d.name === name).map((d) => d.share))).toFixed(3);
   console.log(`# Engines, judged
 
-For whoever asks what engines draw: four of Gnomon's scenes, each with a sun, drawn at ${size} by engines of the web in
-headless Chromium, by Blender's EEVEE and Cycles, and by Godot and Qt Quick 3D, of which RenderDoc recorded a frame, and judged by \`gnomon judge\`. \`docs/make_engines.sh\` wrote this page
-with the [adapters](../adapters/README.md); versions and options stand in each row.
+For whoever asks what engines draw: four of Gnomon's scenes, each with a sun, drawn at ${size} and judged by \`gnomon judge\`.
+They are drawn by engines of the web in headless Chromium, by Blender's EEVEE and Cycles, and by Godot and Qt Quick 3D, of
+which RenderDoc recorded a frame. \`docs/make_engines.sh\` wrote this page with the [adapters](../adapters/README.md); versions
+and options stand in each row.
 
-One picture of one light is compared in each scene, at settings that nobody has tuned for it: *default* is what the engine
-takes by itself, *advised* a finer map, its best filter for such a light, and biases in the range that its documents'
+One picture of one light is compared in each scene, at settings that nobody has tuned for it. *Default* is what the engine
+takes by itself. *Advised* is a finer map, its best filter for such a light, and biases in the range that its documents'
 examples show. Much depends on what the engine fits its map to; no number here says that one engine is better than another.
 
 | scene | engine | wrong pixels | mean error | labels | edges off by, pixels (RMS) | shadows detached by, world units (mean) | Gnomon's advice |
@@ -133,8 +134,8 @@ ${[...rows, cycles, cyclesAsShipped].map(([engine, name, options]) => `| ${engin
 
 Where a capture has a map and one comparison for each pixel, V5, worked out from its map, matrix and bias, must be V6, its
 picture. In every scene it is on at least ${[...new Set(drawn.map((d) => d.name))].map((name) => `${least(name)} % of the pixels (${name})`).join(" and ")}.
-The others lie on the boundaries of texels, where the engine's 32-bit coordinates and Gnomon's 64-bit ones round to either
-side, or on surfaces whose interpolated normals the engine offsets along and Gnomon does not.
+Some of the others lie on the boundaries of texels, where the engine's 32-bit coordinates and Gnomon's 64-bit ones
+round to either side. The rest lie on surfaces whose interpolated normals the engine offsets along and Gnomon does not.
 
 ## The advice, taken
 
@@ -146,18 +147,19 @@ ${scenes.map((scene, s) => [scene, results[s][2]]).filter(([, result]) => result
 
 ## Cycles, a second truth
 
-Cycles traces the same hard shadows with its own code: one ray through each pixel's centre, lights without size, and its
-*shadow terminator geometry offset*, which starts the rays of smooth surfaces off the surface where the light grazes, set to
-0 (with Blender's default of 0.1 ${asShipped.error.wrong} pixels of courtyard differ). The last scene is the conformance suite's.
+Cycles traces the same hard shadows with its own code: one ray through each pixel's centre, lights without size. Its *shadow
+terminator geometry offset*, which starts the rays of smooth surfaces off the surface where the light grazes, is 0. With
+Blender's default of 0.1, ${asShipped.error.wrong} pixels of courtyard differ. The last scene is the conformance suite's.
 
 | scene | pixels compared | different | explained |
 |---|---|---|---|
 ${truths.join("\n")}
 
 Cycles keeps places in 32-bit floats. Each differing pixel was computed again in 64-bit floats from the file's numbers,
-against every triangle (\`adapters/second_truth.mjs\` lists them). A difference is explained when Cycles is right about the place that it
-found (its position pass), or when the edge of the shadow is nearer to the receiver, in its plane, than one step of those
-floats.
+against every triangle (\`adapters/second_truth.mjs\` lists them). A difference is explained by either of these:
+
+- Cycles is right about the place that it found (its position pass).
+- The edge of the shadow is nearer to the receiver, in its plane, than one step of those floats.
 `);
 }
 
