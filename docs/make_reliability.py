@@ -32,9 +32,9 @@ COMPARE = ['compare', 'floating-box', '--size', '96x54', '--map-size', '128', '-
 FAILING_CALLS = """## Single calls that fail
 
 One call of the C library fails in each run: the n-th write, fsync, rename, open, mkdir, unlink, read, listing of a folder, mmap,
-malloc, thread, process or pipe, n spread evenly and over all calls that publish. "Reached" are the points at which the program was
-the one to answer; calls of a graphics driver's own, of which `tests/faults/points.py` says why, are not. In further runs somebody
-has planted something where the command writes (`tests/faults/planted.py`): lists, links, FIFOs, another user's things."""
+malloc, thread, process or pipe. Here n is spread evenly and over all calls that publish. "Reached" are the points at which the
+program was the one to answer; calls of a graphics driver's own, of which `tests/faults/points.py` says why, are not. In further runs
+somebody has planted something where the command writes (`tests/faults/planted.py`): lists, links, FIFOs, another user's things."""
 SWEEP = ['sweep', 'floating-box', '--size', '96x54', '--map-size', '32,64,128', '--bias', '0:0.1:4', '--runs', '1', '-q']
 
 
