@@ -103,9 +103,9 @@ function main() {
   console.log(`# Engines, judged
 
 For whoever asks what engines draw: four of Gnomon's scenes, each with a sun, drawn at ${size} and judged by \`gnomon judge\`.
-They are drawn by engines of the web in headless Chromium, by Blender's EEVEE and Cycles, and by Godot and Qt Quick 3D, of
-which RenderDoc recorded a frame. \`docs/make_engines.sh\` wrote this page with the [adapters](../adapters/README.md); versions
-and options stand in each row.
+The engines are those of the web in headless Chromium, Blender's EEVEE and Cycles, and Godot and Qt Quick 3D, of which
+RenderDoc recorded a frame. \`docs/make_engines.sh\` wrote this page with the [adapters](../adapters/README.md); versions and
+options stand in each row.
 
 One picture of one light is compared in each scene, at settings that nobody has tuned for it. *Default* is what the engine
 takes by itself. *Advised* is a finer map, its best filter for such a light, and biases in the range that its documents'
@@ -135,7 +135,7 @@ ${[...rows, cycles, cyclesAsShipped].map(([engine, name, options]) => `| ${engin
 Where a capture has a map and one comparison for each pixel, V5, worked out from its map, matrix and bias, must be V6, its
 picture. In every scene it is on at least ${[...new Set(drawn.map((d) => d.name))].map((name) => `${least(name)} % of the pixels (${name})`).join(" and ")}.
 Some of the others lie on the boundaries of texels, where the engine's 32-bit coordinates and Gnomon's 64-bit ones
-round to either side. The rest lie on surfaces whose interpolated normals the engine offsets along and Gnomon does not.
+round to either side. On the rest the engine offsets along interpolated normals and Gnomon does not.
 
 ## The advice, taken
 
