@@ -37,7 +37,7 @@ struct ExternalCosts {
   /// ms, of what is kept while light and world stand still, with what the first frames that ask for it add; and that part.
   Times build;
   double build_later_ms = 0.0;
-  Times receivers_ms, shadow;  ///< ms, of each frame: the receivers; their visibility
+  Times receivers_ms, shadow;    ///< ms, of each frame: the receivers; their visibility
   Image<std::uint8_t> decision;  ///< the Decision of each pixel
   /// Triangles tested for the rays cast, and for all rays, by a walk that counts; 0: not counted.
   std::uint64_t triangle_tests = 0, all_triangle_tests = 0;

@@ -141,7 +141,8 @@ TEST(Documents, ChaptersOfTheProgramAreCurrent) {
     EXPECT_EQ(read_file(path), run_gnomon({"--manual", chapter}).out)
         << path << " is not what the program writes; run docs/make_manual.sh";
   }
-  expect_one_line(run_gnomon({"--manual", "labels"}), 2, "(got labels, allowed options, json, schema, techniques)");
+  expect_one_line(run_gnomon({"--manual", "labels"}), 2,
+                  "(got labels, allowed options, json, schema, techniques)");
 }
 
 TEST(Documents, LinksLeadSomewhere) {
