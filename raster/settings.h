@@ -152,6 +152,6 @@ std::vector<std::string> map_arguments(const MapOptions& map);
 std::vector<std::string> words_of(const std::vector<std::pair<std::string, std::string>>& values);
 /// "--slope-bias 1 --bias auto": what asks for a bias beside what asked for that of `drawn`, whose other parts are set back, since
 /// they may have been written out. The automatic constant is asked for, too, because a scene or a lesson may ask for another.
-std::string bias_arguments(const Bias& bias, const MapOptions& drawn = {});
+std::string bias_arguments(const Bias& bias, const MapOptions& drawn);
 
 }  // namespace gnomon::raster
