@@ -153,8 +153,7 @@ void add_manual(CLI::App& program) {
             throw CLI::CallForVersion(chapter, 0);
           },
           "print a chapter of the manual as Markdown, or the schema of result.json, and exit [options or "
-          "json or "
-          "schema or techniques]")
+          "json or schema or techniques]")
       ->type_name("CHAPTER");
 }
 

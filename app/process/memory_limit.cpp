@@ -88,10 +88,8 @@ void add_memory(CLI::App& command, MemoryLimit& bytes, MemoryLimit& textures) {
       command, "--memory", "BYTES",
       "what the picture's pixels may take at a time, besides scene, maps and OpenGL; a picture that would "
       "take more is worked through in bands, with the same results. A scene whose decoded textures would "
-      "take "
-      "more is refused [bytes, also 500M or 2G (units of 1024); default half of what the machine has free, "
-      "of "
-      "pixels at most 2G]",
+      "take more is refused [bytes, also 500M or 2G (units of 1024); default half of what the machine has "
+      "free, of pixels at most 2G]",
       [&bytes, &textures](const std::string& text) -> Expected<void> {
         const Expected<double> value = parse_bytes(text);
         if (!value) return fail(value.error());

@@ -16,8 +16,9 @@ inline constexpr std::size_t most_tried = 2;  ///< drawings of one comparison
 using Redraw = std::function<Expected<raster::RasterFrame>(const raster::MapOptions&)>;
 
 /// Looks at the light that is off most, and fills Comparison::tried by what it lacks. That may be a larger or a smaller
-/// map, the technique's own settings, a bias whose figure no gaps tell, a parameter of moments, or a soft technique. At most `most_tried` settings are
-/// drawn; where one cannot be, no further one is. Needs the images of a picture in one piece: in bands nothing is tried.
+/// map, the technique's own settings, a bias whose figure no gaps tell, a parameter of moments, or a soft technique. At
+/// most `most_tried` settings are drawn; where one cannot be, no further one is. Needs the images of a picture in one piece:
+/// in bands nothing is tried.
 /// `plan`: with its topology.
 void try_settings(Comparison& comparison, const Plan& plan, const Redraw& redraw);
 
