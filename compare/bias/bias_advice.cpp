@@ -103,12 +103,12 @@ std::string constant_alone(const LightComparison& light, const Figure& measure) 
 std::string in_texels(const raster::Bias& bias, const LightComparison& light) {
   const double texels = bias.constant / light.bias_texel_world;
   if (bias.unit != raster::BiasUnit::world || !std::isfinite(texels) || std::abs(texels) < 0.01) return {};
-  return fmt::format(" ({})", texels_text(texels));
+  return fmt::format(" (a bias of {})", texels_text(texels));
 }
 
 BiasAdvice try_bias(const raster::Bias& bias, const std::string& left, const LightComparison& light,
                     const raster::MapOptions& drawn) {
-  return {.best = fmt::format("Try {}{}: {}.", bias_arguments(bias, drawn), in_texels(bias, light), left)};
+  return {.best = fmt::format("Try {}: {}{}.", bias_arguments(bias, drawn), left, in_texels(bias, light))};
 }
 
 BiasAdvice advice_of_kinds(const LightComparison& light, const raster::MapOptions& drawn,

@@ -35,8 +35,8 @@ TEST(Verdict, SaysHowManyWhyAndWhatWouldHelp) {
   Case c(100000, {3900, 0, 0, 0, 200, 0, 0, 0, 0, 0});
   c.light.best_bias = {0.01, 0.006, true, 0.005, 0.02, 0, 0};
   EXPECT_EQ(c.verdict(),
-            "Shadow error 4.1 % of the pixels, mostly acne. Try --slope-bias 1 --bias 0.01 (0.8 texel): 0.6 "
-            "% wrong.");
+            "Shadow error 4.1 % of the pixels, mostly acne. Try --slope-bias 1 --bias 0.01: 0.6 % wrong "
+            "(a bias of 0.8 texel).");
   EXPECT_EQ(verdict_on(c.made->comparison, c.light).detail, "");
 }
 
@@ -105,14 +105,17 @@ TEST(Verdict, AdvisesByTheMeasureThatWasChosen) {
     const Verdict verdict = verdict_on(c.made->comparison, c.light);
     return joined_sentences({verdict.advice, verdict.detail});
   };
-  const std::string bias = " Try --slope-bias 1 --bias 0.01 (0.8 texel): ",
+  const std::string bias = " Try --slope-bias 1 --bias 0.01: ",
                     why =
-                        " No constant bias beside the slope bias of 1 fits all: 7 lit pixels stay dark below "
+                        " No constant bias beside the slope bias of 1 fits all: 7 lit "
+                        "pixels stay dark below "
                         "0.4 texel, and 9 shadowed pixels are lit from 1.6 texels on.";
-  EXPECT_EQ(advice("wrong"),
-            fmt::format("Try --map-size {}: 2.2 % wrong.{}0.6 % wrong.{}", twice, bias, why));
+  EXPECT_EQ(
+      advice("wrong"),
+      fmt::format("Try --map-size {}: 2.2 % wrong.{}0.6 % wrong (a bias of 0.8 texel).{}", twice, bias, why));
   EXPECT_EQ(advice("mean"),
-            fmt::format("Try --map-size {}: mean error 2.2 %.{}mean error 0.6 %.{}", twice, bias, why));
+            fmt::format("Try --map-size {}: mean error 2.2 %.{}mean error 0.6 % (a bias of 0.8 texel).{}",
+                        twice, bias, why));
   EXPECT_EQ(advice("flip"), "") << "the drawing leaves as much";
   c.made->comparison.tried[0].lights[0].error.flip = 0.05;
   EXPECT_EQ(advice("flip"), fmt::format("Try --map-size {}: mean FLIP 0.05.", twice));
@@ -271,7 +274,7 @@ TEST(Verdict, AsksForAKindOfBiasByItsOptions) {
   kind.name = "normal offset", kind.wrong_fraction = 0.01;
   const std::pair<raster::Bias, std::string> cases[] = {
       {{.constant = 0.4, .unit = raster::BiasUnit::world, .normal_offset_texels = 1.0},
-       " Try --slope-bias 0 --normal-offset 1 --bias 0.4 (32 texels): 1.0 % wrong."},
+       " Try --slope-bias 0 --normal-offset 1 --bias 0.4: 1.0 % wrong (a bias of 32 texels)."},
       {{.constant = 0.0, .unit = raster::BiasUnit::world}, " Try --slope-bias 0 --bias 0: 1.0 % wrong."},
       {{.constant = 0.0, .unit = raster::BiasUnit::texel},
        " Try --slope-bias 0 --bias 0texel: 1.0 % wrong."}};
@@ -310,7 +313,8 @@ TEST(Verdict, NamesTheSmallerConstantOfAPlateau) {
   Case c(100000, {4100, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   c.light.best_bias = {0.5, 0.01, true, 0.4, 0.7, 0, 0};
   c.light.best_bias.smaller = {0.01, 0.0101};
-  EXPECT_NE(c.verdict().find(" Try --slope-bias 1 --bias 0.01 (0.8 texel): 1.0 % wrong."), std::string::npos)
+  EXPECT_NE(c.verdict().find(" Try --slope-bias 1 --bias 0.01: 1.0 % wrong (a bias of 0.8 texel)."),
+            std::string::npos)
       << c.verdict();
 }
 

@@ -34,7 +34,7 @@ MODEL_ENDINGS = (".glb", ".gltf", ".obj", ".ply")
 TECHNIQUES = ("hard", "hard", "hard", "pcf", "pcf", "pcss", "vsm", "evsm", "msm", "esm", "csm", "second-depth")
 SIZE = ["--size", "160x90"]
 SECONDS = 600
-TRY = re.compile(r"(?:Try|,|or) (--[a-z].*?)(?: \([^()]*texels?\))?: (.*?)\.(?= |$)")
+TRY = re.compile(r"(?:Try|,|or) (--[a-z].*?): (.*?)\.(?= |$)")
 WOULD_DO = re.compile(r"A map of (\d+) would do .*?: its shadow edges are off by ([\d.e-]+) pixels?, (.*?)\.(?= |$)")
 
 
