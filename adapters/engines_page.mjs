@@ -11,7 +11,8 @@ import { differences, explanation } from "./second_truth.mjs";
 const here = dirname(fileURLToPath(import.meta.url));
 const [gnomon, folder] = process.argv.slice(2, 4).map((path) => resolve(path));
 const wanted = process.argv.slice(4);
-const scenes = ["floating-box", "wires", "thin-wall", "courtyard"], size = "640x360";
+const scenes = ["floating-box", "wires", "thin-wall", "courtyard"],
+  size = "640x360";
 // The second row of an engine: a finer map, its best filter for a sun, and biases in the range of its documents' examples.
 const rows = [
   ["three", "default", ""],
@@ -28,18 +29,33 @@ const rows = [
   ["godot", "one map", "--mode orthogonal"],
   ["quick3d", "default", ""],
 ];
-const cycles = ["cycles", "rays", ""], cyclesAsShipped = ["cycles", "offset", "--shadowTerminatorOffset 0.1"];
+const cycles = ["cycles", "rays", ""],
+  cyclesAsShipped = ["cycles", "offset", "--shadowTerminatorOffset 0.1"];
 
 function judged(scene, [engine, name, options]) {
   const capture = join(folder, `${engine}-${name}-${scene}`);
   if (!existsSync(join(capture, "capture.json"))) {
-    const words = [join(here, "capture.mjs"), engine, join(folder, `${scene}.glb`), "-o", capture, "--size", size, ...options.split(" ").filter(Boolean)];
+    const words = [
+      join(here, "capture.mjs"),
+      engine,
+      join(folder, `${scene}.glb`),
+      "-o",
+      capture,
+      "--size",
+      size,
+      ...options.split(" ").filter(Boolean),
+    ];
     const drawn = spawnSync("node", words, { encoding: "utf8", timeout: 1800000 });
     console.error(drawn.stderr.trim());
     if (drawn.status !== 0) return { refused: drawn.stderr.trim().split("\n")[0] || "not drawn within half an hour" };
   }
-  const report = join(capture, "report"), json = join(capture, "result.json");
-  const run = spawnSync(gnomon, ["judge", join(capture, "capture.json"), "-o", report, "--json", json, "--aov", join(capture, "verdict.exr"), "--quiet"], { encoding: "utf8" });
+  const report = join(capture, "report"),
+    json = join(capture, "result.json");
+  const run = spawnSync(
+    gnomon,
+    ["judge", join(capture, "capture.json"), "-o", report, "--json", json, "--aov", join(capture, "verdict.exr"), "--quiet"],
+    { encoding: "utf8" },
+  );
   if (run.status !== 0) return { refused: run.stderr.trim().replace(/^.*?capture.json: /, "") };
   return JSON.parse(readFileSync(json, "utf8"));
 }
@@ -49,17 +65,28 @@ const percent3 = (share) => `${Number((100 * share).toPrecision(3))} %`;
 const number = (value) => Number(value.toPrecision(2)).toString();
 
 function labels({ classes, error }) {
-  const found = Object.entries(classes).filter(([, count]) => count > 0).sort((a, b) => b[1] - a[1]).slice(0, 2);
+  const found = Object.entries(classes)
+    .filter(([, count]) => count > 0)
+    .sort((a, b) => b[1] - a[1])
+    .slice(0, 2);
   return found.map(([label, count]) => `${label.replace("_", " ")} ${percent(count / error.wrong)}`).join(", ") || "-";
 }
 
 function advice({ advice: list }) {
-  return (list || []).map((a) => `\`${a.setting}\` ${a.instead === a.now ? `stays ${number(a.now)}` : `${number(a.instead)} instead of ${number(a.now)}: ${percent(a.wrong_instead)}`}`).join("; ") || "-";
+  return (
+    (list || [])
+      .map(
+        (a) =>
+          `\`${a.setting}\` ${a.instead === a.now ? `stays ${number(a.now)}` : `${number(a.instead)} instead of ${number(a.now)}: ${percent(a.wrong_instead)}`}`,
+      )
+      .join("; ") || "-"
+  );
 }
 
 function row(scene, result, [engine, name]) {
   if (result.refused) return `| ${scene} | ${engine}, ${name} | not judged: ${result.refused} | | | | | |`;
-  const light = result.lights[0], { renderer } = result.judged;
+  const light = result.lights[0],
+    { renderer } = result.judged;
   const away = light.detachment?.pixels > 0 ? number(light.detachment.mean_world) : "-";
   return `| ${scene} | ${renderer.name} ${renderer.version}, ${name} | ${percent(light.error.wrong_fraction)} | ${percent(light.error.mean_absolute)} | ${labels(light)} | ${number(light.edges.rms_pixels)} | ${away} | ${advice(result.judged)} |`;
 }
@@ -76,7 +103,8 @@ function withAdvice(scene, result) {
 function secondTruth(scene) {
   const result = judged(scene, cycles);
   if (result.refused) throw new Error(`${scene}: ${result.refused}`);
-  const { pixels, error } = result.lights[0], capture = join(folder, `cycles-rays-${scene}`);
+  const { pixels, error } = result.lights[0],
+    capture = join(folder, `cycles-rays-${scene}`);
   const found = error.wrong === 0 ? [] : differences(join(folder, `${scene}.glb`), join(capture, "verdict.exr"), capture);
   return `| ${scene} | ${pixels.compared} | ${error.wrong} | ${found.filter(explanation).length} |`;
 }
@@ -96,7 +124,8 @@ function main() {
   const results = scenes.map((scene) => rows.map((entry) => judged(scene, entry)));
   const asShipped = judged("courtyard", cyclesAsShipped).lights[0];
   const truths = [...scenes, "far-from-origin"].map(secondTruth);
-  const drawn = results.flatMap((list) => rows.map((entry, r) => [entry, list[r]]))
+  const drawn = results
+    .flatMap((list) => rows.map((entry, r) => [entry, list[r]]))
     .filter(([, result]) => !result.refused && result.judged.biased_is_drawn != null && result.lights[0].map.filter.kind === "none")
     .map(([entry, result]) => ({ name: `${result.judged.renderer.name} ${entry[1]}`, share: result.judged.biased_is_drawn }));
   const least = (name) => (100 * Math.min(...drawn.filter((d) => d.name === name).map((d) => d.share))).toFixed(3);
@@ -143,7 +172,11 @@ three.js, \`basic\`, drawn again with the \`bias\` that its verdict advises, whe
 
 | scene | bias | wrong with -0.002 | promised | drawn |
 |---|---|---|---|---|
-${scenes.map((scene, s) => [scene, results[s][2]]).filter(([, result]) => result.judged.advice.some((a) => a.setting === "bias.constant_depth" && a.instead !== a.now)).map(([scene, result]) => withAdvice(scene, result)).join("\n")}
+${scenes
+  .map((scene, s) => [scene, results[s][2]])
+  .filter(([, result]) => result.judged.advice.some((a) => a.setting === "bias.constant_depth" && a.instead !== a.now))
+  .map(([scene, result]) => withAdvice(scene, result))
+  .join("\n")}
 
 ## Cycles, a second truth
 

@@ -5,7 +5,7 @@ import { exrBlocks, exrChannels } from "./exr_blocks.mjs";
 
 /** channels: {NAME: Float32Array, row 0 at the top}. Returns the file's bytes. */
 export function exr(width, height, channels) {
-  const names = Object.keys(channels).sort();  // the format keeps them sorted by name
+  const names = Object.keys(channels).sort(); // the format keeps them sorted by name
   const text = (s) => Buffer.from(s + "\0", "latin1");
   const int = (...values) => Buffer.from(Int32Array.from(values).buffer);
   const float = (...values) => Buffer.from(Float32Array.from(values).buffer);
@@ -42,5 +42,8 @@ export function exr(width, height, channels) {
 /** {width, height, channels {NAME: Float32Array}} of a file of 32-bit channels in scan lines, uncompressed or by deflate. */
 export function readExr(path) {
   const parts = exrBlocks(readFileSync(path));
-  return exrChannels(parts, parts.blocks.map(({ deflated, data }) => (deflated ? inflateSync(data) : data)));
+  return exrChannels(
+    parts,
+    parts.blocks.map(({ deflated, data }) => (deflated ? inflateSync(data) : data)),
+  );
 }

@@ -17,26 +17,37 @@ const unit = (a) => a.map((v) => v / Math.hypot(...a));
 /** A node's matrix, column-major. */
 function matrixOf({ matrix, translation = [0, 0, 0], rotation: [x, y, z, w] = [0, 0, 0, 1], scale = [1, 1, 1] }) {
   if (matrix) return matrix;
-  const axes = [[1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)], [2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)], [2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)]];
+  const axes = [
+    [1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)],
+    [2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)],
+    [2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)],
+  ];
   return [...axes.flatMap((axis, k) => [...axis.map((v) => v * scale[k]), 0]), ...translation, 1];
 }
-const product = (a, b) => Array.from({ length: 16 }, (_, i) => [0, 1, 2, 3].reduce((sum, k) => sum + a[4 * k + (i % 4)] * b[4 * Math.floor(i / 4) + k], 0));
+const product = (a, b) =>
+  Array.from({ length: 16 }, (_, i) => [0, 1, 2, 3].reduce((sum, k) => sum + a[4 * k + (i % 4)] * b[4 * Math.floor(i / 4) + k], 0));
 const moved = (m, p, w) => [0, 1, 2].map((i) => m[i] * p[0] + m[4 + i] * p[1] + m[8 + i] * p[2] + m[12 + i] * w);
 
 /** {triangles [[a, b, c]], eye, toLight}: world places of a binary glTF file with one camera and one sun. */
 function readScene(path) {
-  const bytes = readFileSync(path), length = bytes.readUInt32LE(12);
-  const json = JSON.parse(bytes.subarray(20, 20 + length)), binary = bytes.subarray(28 + length);
+  const bytes = readFileSync(path),
+    length = bytes.readUInt32LE(12);
+  const json = JSON.parse(bytes.subarray(20, 20 + length)),
+    binary = bytes.subarray(28 + length);
   const numbers = (index) => {
-    const { bufferView, byteOffset = 0, componentType, count, type } = json.accessors[index], view = json.bufferViews[bufferView];
+    const { bufferView, byteOffset = 0, componentType, count, type } = json.accessors[index],
+      view = json.bufferViews[bufferView];
     const read = { 5126: "readFloatLE", 5125: "readUInt32LE", 5123: "readUInt16LE", 5121: "readUInt8" }[componentType];
-    const width = { 5126: 4, 5125: 4, 5123: 2, 5121: 1 }[componentType], parts = { SCALAR: 1, VEC3: 3 }[type];
-    const at = (view.byteOffset || 0) + byteOffset, stride = view.byteStride || parts * width;
+    const width = { 5126: 4, 5125: 4, 5123: 2, 5121: 1 }[componentType],
+      parts = { SCALAR: 1, VEC3: 3 }[type];
+    const at = (view.byteOffset || 0) + byteOffset,
+      stride = view.byteStride || parts * width;
     return Array.from({ length: count }, (_, i) => Array.from({ length: parts }, (_, k) => binary[read](at + i * stride + k * width)));
   };
   const out = { triangles: [] };
   const visit = (index, parent) => {
-    const node = json.nodes[index], world = product(parent, matrixOf(node));
+    const node = json.nodes[index],
+      world = product(parent, matrixOf(node));
     for (const { attributes, indices } of node.mesh === undefined ? [] : json.meshes[node.mesh].primitives) {
       const places = numbers(attributes.POSITION).map((p) => moved(world, p, 1));
       const order = indices === undefined ? places.map((_, i) => i) : numbers(indices).flat();
@@ -52,11 +63,16 @@ function readScene(path) {
 
 /** The distance along a ray to a triangle (Möller and Trumbore 1997), or nothing. */
 function meets([a, b, c], from, along) {
-  const e1 = sub(b, a), e2 = sub(c, a), p = cross(along, e2), det = dot(e1, p);
+  const e1 = sub(b, a),
+    e2 = sub(c, a),
+    p = cross(along, e2),
+    det = dot(e1, p);
   if (det === 0) return undefined;
-  const s = sub(from, a), u = dot(s, p) / det;
+  const s = sub(from, a),
+    u = dot(s, p) / det;
   if (u < 0 || u > 1) return undefined;
-  const q = cross(s, e1), v = dot(along, q) / det;
+  const q = cross(s, e1),
+    v = dot(along, q) / det;
   return v >= 0 && u + v <= 1 ? dot(e2, q) / det : undefined;
 }
 
@@ -77,7 +93,10 @@ function darkness({ triangles, toLight }, { at, triangle }, farthest) {
   // Only what comes near the ray can matter.
   const near = triangles.filter((t) => {
     if (t === triangle) return false;
-    const off = t.map((p) => { const d = sub(p, at); return { d, along: dot(d, toLight), beside: Math.hypot(...cross(d, toLight)) }; });
+    const off = t.map((p) => {
+      const d = sub(p, at);
+      return { d, along: dot(d, toLight), beside: Math.hypot(...cross(d, toLight)) };
+    });
     const reach = Math.max(...off.map(({ d }) => Math.hypot(...sub(d, off[0].d))));
     return off.some(({ along }) => along > -reach) && Math.min(...off.map(({ beside }) => beside)) <= reach + farthest;
   });
@@ -86,13 +105,14 @@ function darkness({ triangles, toLight }, { at, triangle }, farthest) {
 
 /** How far the receiver has to be moved in its own plane, in the best of 64 directions, for the answer to change: world units. */
 function margin(dark, { at, normal }, farthest) {
-  const side = unit(cross(normal, Math.abs(normal[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0])), other = cross(normal, side);
+  const side = unit(cross(normal, Math.abs(normal[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0])),
+    other = cross(normal, side);
   const before = dark(at);
   let least = Infinity;
   for (let k = 0; k < 64; ++k) {
-    const angle = (Math.PI * k) / 32, step = side.map((v, i) => v * Math.cos(angle) + other[i] * Math.sin(angle));
-    for (let d = 2 ** -40; d < Math.min(farthest, least); d *= 1.05)
-      if (dark(add(at, step, d)) !== before) least = d;
+    const angle = (Math.PI * k) / 32,
+      step = side.map((v, i) => v * Math.cos(angle) + other[i] * Math.sin(angle));
+    for (let d = 2 ** -40; d < Math.min(farthest, least); d *= 1.05) if (dark(add(at, step, d)) !== before) least = d;
   }
   return least;
 }
@@ -103,14 +123,26 @@ const spacing = (place) => 2 ** (Math.floor(Math.log2(Math.max(...place.map(Math
 /** The differing pixels: [{x, y, shadowed: the exact answer, atItsPlace: that at the place which the other tracer found,
     margin, spacing}]. */
 export function differences(scenePath, aovPath, captureFolder) {
-  const scene = readScene(scenePath), aov = readExr(aovPath), position = readExr(join(captureFolder, "position.exr"));
+  const scene = readScene(scenePath),
+    aov = readExr(aovPath),
+    position = readExr(join(captureFolder, "position.exr"));
   const out = [];
   for (let i = 0; i < aov.width * aov.height; ++i) {
     if (aov.channels["class.V"][i] <= 0) continue;
-    const place = ["X", "Y", "Z"].map((c) => position.channels[c][i]), found = receiver(scene, place), step = spacing(found.at);
-    const dark = darkness(scene, found, 1000 * step), shadowed = dark(found.at);
+    const place = ["X", "Y", "Z"].map((c) => position.channels[c][i]),
+      found = receiver(scene, place),
+      step = spacing(found.at);
+    const dark = darkness(scene, found, 1000 * step),
+      shadowed = dark(found.at);
     if (shadowed !== aov.channels["truth.V"][i] < 0.5) throw new Error(`${i % aov.width}, ${Math.floor(i / aov.width)}: the truths differ`);
-    out.push({ x: i % aov.width, y: Math.floor(i / aov.width), shadowed, atItsPlace: dark(place), margin: margin(dark, found, 1000 * step), spacing: step });
+    out.push({
+      x: i % aov.width,
+      y: Math.floor(i / aov.width),
+      shadowed,
+      atItsPlace: dark(place),
+      margin: margin(dark, found, 1000 * step),
+      spacing: step,
+    });
   }
   return out;
 }
@@ -123,4 +155,6 @@ export function explanation({ shadowed, atItsPlace, margin, spacing }) {
 
 if (import.meta.url === pathToFileURL(process.argv[1] || "").href)
   for (const d of differences(...process.argv.slice(2)))
-    console.log(`${d.x}, ${d.y}: ${d.shadowed ? "shadowed" : "lit"}, edge ${d.margin.toExponential(2)} away, floats ${d.spacing.toExponential(2)} apart: ${explanation(d) || "not explained"}`);
+    console.log(
+      `${d.x}, ${d.y}: ${d.shadowed ? "shadowed" : "lit"}, edge ${d.margin.toExponential(2)} away, floats ${d.spacing.toExponential(2)} apart: ${explanation(d) || "not explained"}`,
+    );

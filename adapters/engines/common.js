@@ -20,8 +20,9 @@ export function channel(pixels, width, height, c, { flip = true, stride = 4 } = 
 
 /** The JSON of a .gltf or .glb. */
 export async function readGltf(url) {
-  const bytes = await (await fetch(url)).arrayBuffer(), head = new DataView(bytes);
-  const isBinary = head.getUint32(0, true) === 0x46546c67;  // "glTF"
+  const bytes = await (await fetch(url)).arrayBuffer(),
+    head = new DataView(bytes);
+  const isBinary = head.getUint32(0, true) === 0x46546c67; // "glTF"
   return JSON.parse(new TextDecoder().decode(isBinary ? new Uint8Array(bytes, 20, head.getUint32(12, true)) : bytes));
 }
 
@@ -38,7 +39,11 @@ export function shadowFlags(gltf, node, primitive) {
 export function loadScript(path) {
   return new Promise((done, failed) => {
     const script = document.createElement("script");
-    Object.assign(script, { src: path, onload: done, onerror: () => failed(new Error(`${path} is missing: npm install --prefix adapters`)) });
+    Object.assign(script, {
+      src: path,
+      onload: done,
+      onerror: () => failed(new Error(`${path} is missing: npm install --prefix adapters`)),
+    });
     document.head.append(script);
   });
 }

@@ -8,7 +8,9 @@ import { channel, readGltf, settled, shadowFlags } from "./common.js";
 const types = ["PCF1_32F", "PCF3_32F", "PCF5_32F", "VSM_16F", "PCSS_32F"];
 
 function loadScene(app, url) {
-  return new Promise((done, failed) => app.assets.loadFromUrl(url, "container", (error, asset) => (error ? failed(new Error(error)) : done(asset))));
+  return new Promise((done, failed) =>
+    app.assets.loadFromUrl(url, "container", (error, asset) => (error ? failed(new Error(error)) : done(asset))),
+  );
 }
 
 function chooseLight(root, wanted) {
@@ -35,7 +37,12 @@ function white(original) {
   material.cull = pc.CULLFACE_NONE;
   material.twoSidedLighting = true;
   material.useTonemap = material.useSkybox = material.useFog = false;
-  if (original.alphaTest > 0) Object.assign(material, { opacityMap: original.opacityMap || original.diffuseMap, opacityMapChannel: "a", alphaTest: original.alphaTest });
+  if (original.alphaTest > 0)
+    Object.assign(material, {
+      opacityMap: original.opacityMap || original.diffuseMap,
+      opacityMapChannel: "a",
+      alphaTest: original.alphaTest,
+    });
   material.update();
   return material;
 }
@@ -64,7 +71,9 @@ function places(original) {
 /** As the file's extras say for each primitive; entities have the names of the file's nodes. */
 function setFlags(root, gltf) {
   for (const render of root.findComponents("render")) {
-    const nodes = gltf.nodes.flatMap(({ mesh, name }, i) => (mesh !== undefined && (name ?? `node_${i}`) === render.entity.name ? [i] : []));
+    const nodes = gltf.nodes.flatMap(({ mesh, name }, i) =>
+      mesh !== undefined && (name ?? `node_${i}`) === render.entity.name ? [i] : [],
+    );
     render.meshInstances.forEach((instance, primitive) => {
       const [flags, ...others] = nodes.map((node) => shadowFlags(gltf, node, primitive));
       if (others.some(({ casts, receives }) => casts !== flags.casts || receives !== flags.receives))
@@ -91,7 +100,14 @@ function frame(app) {
 }
 
 async function drawFloats(app, camera, width, height) {
-  const texture = new pc.Texture(app.graphicsDevice, { width, height, format: pc.PIXELFORMAT_RGBA32F, mipmaps: false, minFilter: pc.FILTER_NEAREST, magFilter: pc.FILTER_NEAREST });
+  const texture = new pc.Texture(app.graphicsDevice, {
+    width,
+    height,
+    format: pc.PIXELFORMAT_RGBA32F,
+    mipmaps: false,
+    minFilter: pc.FILTER_NEAREST,
+    magFilter: pc.FILTER_NEAREST,
+  });
   camera.renderTarget = new pc.RenderTarget({ colorBuffer: texture, depth: true, flipY: false });
   await frame(app);
   await frame(app);
@@ -101,7 +117,11 @@ async function drawFloats(app, camera, width, height) {
 }
 
 export async function capture(canvas, task) {
-  const settings = settled(task.settings, { shadowType: "PCF3_32F", shadowResolution: 1024, shadowBias: 0.05, normalOffsetBias: 0, shadowDistance: 40, numCascades: 1 }, { shadowType: types });
+  const settings = settled(
+    task.settings,
+    { shadowType: "PCF3_32F", shadowResolution: 1024, shadowBias: 0.05, normalOffsetBias: 0, shadowDistance: 40, numCascades: 1 },
+    { shadowType: types },
+  );
   const { width, height } = task;
   const app = new pc.Application(canvas, { graphicsDeviceOptions: { antialias: false, preserveDrawingBuffer: true } });
   app.setCanvasFillMode(pc.FILLMODE_NONE, width, height);
@@ -110,8 +130,16 @@ export async function capture(canvas, task) {
   const root = (await loadScene(app, task.scene)).resource.instantiateRenderEntity({ castShadows: true, receiveShadows: true });
   app.root.addChild(root);
   setFlags(root, await readGltf(task.scene));
-  const camera = root.findComponent("camera"), light = chooseLight(root, task.light);
-  Object.assign(camera, { enabled: true, clearColor: new pc.Color(0, 0, 0, 0), toneMapping: pc.TONEMAP_NONE, gammaCorrection: pc.GAMMA_NONE, frustumCulling: false, aspectRatioMode: pc.ASPECT_AUTO });
+  const camera = root.findComponent("camera"),
+    light = chooseLight(root, task.light);
+  Object.assign(camera, {
+    enabled: true,
+    clearColor: new pc.Color(0, 0, 0, 0),
+    toneMapping: pc.TONEMAP_NONE,
+    gammaCorrection: pc.GAMMA_NONE,
+    frustumCulling: false,
+    aspectRatioMode: pc.ASPECT_AUTO,
+  });
   const { shadowType, ...rest } = settings;
   Object.assign(light, { castShadows: true, shadowType: pc[`SHADOW_${shadowType}`], ...rest });
   if (light.type !== "directional") light.range = reach(root, light);
@@ -120,12 +148,21 @@ export async function capture(canvas, task) {
   await frame(app);
   await frame(app);
   const picture = canvas.toDataURL();
-  const instances = instancesOf(root), originals = instances.map((instance) => instance.material);
+  const instances = instancesOf(root),
+    originals = instances.map((instance) => instance.material);
   dress(instances, originals, white);
   const [shadowed] = await drawFloats(app, camera, width, height);
   light.castShadows = false;
   const [unshadowed] = await drawFloats(app, camera, width, height);
   dress(instances, originals, places);
   const [x, y, z, covered] = await drawFloats(app, camera, width, height);
-  return { renderer: { name: "PlayCanvas", version: pc.version, settings }, light: light.entity.name, picture, shadowed, unshadowed, covered, position: [x, y, z] };
+  return {
+    renderer: { name: "PlayCanvas", version: pc.version, settings },
+    light: light.entity.name,
+    picture,
+    shadowed,
+    unshadowed,
+    covered,
+    position: [x, y, z],
+  };
 }

@@ -23,7 +23,8 @@ function chooseLight(gltf, wanted) {
 function fitSun(scene, light) {
   const from = new THREE.Vector3().setFromMatrixPosition(light.matrixWorld);
   const direction = new THREE.Vector3().setFromMatrixPosition(light.target.matrixWorld).sub(from).normalize();
-  const box = new THREE.Box3().setFromObject(scene), center = box.getCenter(new THREE.Vector3());
+  const box = new THREE.Box3().setFromObject(scene),
+    center = box.getCenter(new THREE.Vector3());
   const radius = 0.5 * box.getSize(new THREE.Vector3()).length();
   scene.add(light, light.target);
   light.position.copy(center).addScaledVector(direction, -1.01 * radius);
@@ -36,8 +37,19 @@ function fitSun(scene, light) {
   camera.updateMatrixWorld();
   const seen = new THREE.Box3();
   for (let corner = 0; corner < 8; ++corner)
-    seen.expandByPoint(new THREE.Vector3(...["x", "y", "z"].map((axis, i) => (corner >> i & 1 ? box.max : box.min)[axis])).applyMatrix4(camera.matrixWorldInverse));
-  Object.assign(camera, { left: seen.min.x, right: seen.max.x, bottom: seen.min.y, top: seen.max.y, near: 0.99 * -seen.max.z, far: 1.01 * -seen.min.z });
+    seen.expandByPoint(
+      new THREE.Vector3(...["x", "y", "z"].map((axis, i) => ((corner >> i) & 1 ? box.max : box.min)[axis])).applyMatrix4(
+        camera.matrixWorldInverse,
+      ),
+    );
+  Object.assign(camera, {
+    left: seen.min.x,
+    right: seen.max.x,
+    bottom: seen.min.y,
+    top: seen.max.y,
+    near: 0.99 * -seen.max.z,
+    far: 1.01 * -seen.min.z,
+  });
   camera.updateProjectionMatrix();
 }
 
@@ -62,12 +74,20 @@ function setAspect(camera, aspect) {
 
 /** The material's own geometry, sides and alpha test, but a colour of ours. */
 function probe(original, color) {
-  const material = new THREE.MeshStandardMaterial({ map: original.map, alphaTest: original.alphaTest, side: original.side, flatShading: original.flatShading, opacity: original.opacity });
+  const material = new THREE.MeshStandardMaterial({
+    map: original.map,
+    alphaTest: original.alphaTest,
+    side: original.side,
+    flatShading: original.flatShading,
+    opacity: original.opacity,
+  });
   material.shadowSide = original.shadowSide;
   material.onBeforeCompile = (shader) => {
-    shader.vertexShader = shader.vertexShader.replace("void main() {", "varying vec3 vWorldPlace;\nvoid main() {")
+    shader.vertexShader = shader.vertexShader
+      .replace("void main() {", "varying vec3 vWorldPlace;\nvoid main() {")
       .replace("#include <project_vertex>", "#include <project_vertex>\nvWorldPlace = (modelMatrix * vec4(transformed, 1.0)).xyz;");
-    shader.fragmentShader = shader.fragmentShader.replace("void main() {", "varying vec3 vWorldPlace;\n#include <shadowmask_pars_fragment>\nvoid main() {")
+    shader.fragmentShader = shader.fragmentShader
+      .replace("void main() {", "varying vec3 vWorldPlace;\n#include <shadowmask_pars_fragment>\nvoid main() {")
       .replace("#include <opaque_fragment>", `gl_FragColor = vec4(${color}, 1.0);`);
   };
   material.customProgramCacheKey = () => color;
@@ -87,7 +107,11 @@ function withMaterials(scene, make, work) {
 }
 
 function drawFloats(renderer, width, height, draw) {
-  const target = new THREE.WebGLRenderTarget(width, height, { type: THREE.FloatType, minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter });
+  const target = new THREE.WebGLRenderTarget(width, height, {
+    type: THREE.FloatType,
+    minFilter: THREE.NearestFilter,
+    magFilter: THREE.NearestFilter,
+  });
   renderer.setRenderTarget(target);
   draw();
   const pixels = new Float32Array(width * height * 4);
@@ -107,15 +131,34 @@ function readDepth(renderer, shadow, size, face) {
       void main() { gl_FragColor = texture(depths, ${cube ? "rotation * vec3(place, -1.0)" : "0.5 * place + 0.5"}); }`,
   });
   const scene = new THREE.Scene().add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), material));
-  return channel(drawFloats(renderer, size, size, () => renderer.render(scene, new THREE.Camera())), size, size, 0, { flip: false });
+  return channel(
+    drawFloats(renderer, size, size, () => renderer.render(scene, new THREE.Camera())),
+    size,
+    size,
+    0,
+    { flip: false },
+  );
 }
 
-const cubeFaces = [[1, 0, 0, 0, -1, 0], [-1, 0, 0, 0, -1, 0], [0, 1, 0, 0, 0, 1], [0, -1, 0, 0, 0, -1], [0, 0, 1, 0, -1, 0], [0, 0, -1, 0, -1, 0]];
+const cubeFaces = [
+  [1, 0, 0, 0, -1, 0],
+  [-1, 0, 0, 0, -1, 0],
+  [0, 1, 0, 0, 0, 1],
+  [0, -1, 0, 0, 0, -1],
+  [0, 0, 1, 0, -1, 0],
+  [0, 0, -1, 0, -1, 0],
+];
 
 function readMap(renderer, light, size) {
-  const { shadow } = light, { camera } = shadow;
-  const layer = (texels) => ({ texels, size, convention: "minus_one_to_one", rows: "bottom_up",
-    clip_from_world: new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements });
+  const { shadow } = light,
+    { camera } = shadow;
+  const layer = (texels) => ({
+    texels,
+    size,
+    convention: "minus_one_to_one",
+    rows: "bottom_up",
+    clip_from_world: new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements,
+  });
   if (!light.isPointLight) return [layer(readDepth(renderer, shadow, size))];
   return cubeFaces.map(([x, y, z, ...up]) => {
     camera.up.set(...up);
@@ -146,17 +189,27 @@ export async function capture(canvas, task) {
   light.shadow.mapSize.set(settings.mapSize, settings.mapSize);
   if (light.isDirectionalLight) fitSun(scene, light);
 
-  const drawn = (color) => withMaterials(scene, (material) => probe(material, color), () => drawFloats(renderer, width, height, () => renderer.render(scene, camera)));
-  const mask = drawn("vec3(getShadowMask())"), places = drawn("vWorldPlace");
+  const drawn = (color) =>
+    withMaterials(
+      scene,
+      (material) => probe(material, color),
+      () => drawFloats(renderer, width, height, () => renderer.render(scene, camera)),
+    );
+  const mask = drawn("vec3(getShadowMask())"),
+    places = drawn("vWorldPlace");
   renderer.render(scene, camera);
   const picture = canvas.toDataURL();
-  if (settings.type === "pcf") {  // its texture only compares; the same map as BasicShadowMap can be read
+  if (settings.type === "pcf") {
+    // its texture only compares; the same map as BasicShadowMap can be read
     renderer.shadowMap.type = THREE.BasicShadowMap;
     renderer.render(scene, camera);
   }
   return {
-    renderer: { name: "three.js", version: `r${THREE.REVISION}`, settings }, light: name, picture,
-    visibility: channel(mask, width, height, 0), covered: channel(mask, width, height, 3),
+    renderer: { name: "three.js", version: `r${THREE.REVISION}`, settings },
+    light: name,
+    picture,
+    visibility: channel(mask, width, height, 0),
+    covered: channel(mask, width, height, 3),
     position: [0, 1, 2].map((c) => channel(places, width, height, c)),
     map: readMap(renderer, light, settings.mapSize),
     bias: { constant_depth: -settings.bias, normal_offset_world: settings.normalBias },

@@ -10,6 +10,10 @@ export default defineConfig(({ mode }) => ({
   root: folder,
   logLevel: "warn",
   plugins: [viteSingleFile({ removeViteModuleLoader: true })],
-  build: { target: "es2022", emptyOutDir: mode === "production", modulePreload: false,
-    rollupOptions: { input: `${folder}${mode === "production" ? "page" : mode}.html` } },
+  build: {
+    target: "es2022",
+    emptyOutDir: mode === "production",
+    modulePreload: false,
+    rollupOptions: { input: `${folder}${mode === "production" ? "page" : mode}.html` },
+  },
 }));

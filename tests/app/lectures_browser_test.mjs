@@ -9,8 +9,10 @@ import { basename, join } from "node:path";
 import { browser, close, colours, open, violations } from "../browser/open_page.mjs";
 import { pdfPages } from "../browser/pdf_text.mjs";
 
-const [program, folder] = process.argv.slice(2), viewport = { width: 1024, height: 768 };
-const decks = new URL("../../docs/lectures/en", import.meta.url), lectures = readdirSync(decks).map((file) => basename(file, ".md"));
+const [program, folder] = process.argv.slice(2),
+  viewport = { width: 1024, height: 768 };
+const decks = new URL("../../docs/lectures/en", import.meta.url),
+  lectures = readdirSync(decks).map((file) => basename(file, ".md"));
 rmSync(folder, { recursive: true, force: true });
 for (const lecture of lectures) execFileSync(program, ["lessons", "--lecture", lecture, "-o", folder, "--quiet"], { stdio: "inherit" });
 const at = (lecture, options = {}, hash = "") => open(folder, { file: `${lecture}.html`, viewport, ...options }, hash);
@@ -19,30 +21,54 @@ const count = (page) => page.locator(".part").count();
 const hash = (page) => page.evaluate(() => location.hash);
 const toCome = (page) => page.locator(".on-slide .to-come").count();
 const go = async (page, slide) => {
-  await page.evaluate((n) => { location.hash = `#slide-${n}`; }, slide);
+  await page.evaluate((n) => {
+    location.hash = `#slide-${n}`;
+  }, slide);
   await page.waitForFunction((n) => document.querySelector(".on-slide").id === `slide-${n}`, slide);
 };
 
 /** Every slide: heading, minutes and notes; all of it on the screen; letters of 18 pixels or more; a question before its answer. */
 async function checkSlides(page, lecture) {
-  const slides = await count(page), minutes = await page.locator(".notes").evaluateAll((all) => all.map((notes) => Number(notes.dataset.minutes)));
-  assert.equal(minutes.reduce((sum, m) => sum + m, 0), 90, `${lecture} takes ${minutes.join(" + ")} minutes`);
+  const slides = await count(page),
+    minutes = await page.locator(".notes").evaluateAll((all) => all.map((notes) => Number(notes.dataset.minutes)));
+  assert.equal(
+    minutes.reduce((sum, m) => sum + m, 0),
+    90,
+    `${lecture} takes ${minutes.join(" + ")} minutes`,
+  );
   assert.ok(slides >= 30 && minutes.every((m) => m >= 1 && m <= 5), lecture);
   for (let slide = 1; slide <= slides; ++slide) {
     await go(page, slide);
     const found = await page.evaluate(() => {
-      const part = document.querySelector(".on-slide"), box = part.getBoundingClientRect(), small = [], cut = [], broken = [];
+      const part = document.querySelector(".on-slide"),
+        box = part.getBoundingClientRect(),
+        small = [],
+        cut = [],
+        broken = [];
       for (const element of part.querySelectorAll("*")) {
         if (element.closest(".notes, .is-live > p") || element.getClientRects().length === 0) continue;
         if (![...element.childNodes].some((c) => c.nodeType === Node.TEXT_NODE && c.textContent.trim() !== "")) continue;
-        const drawing = element.closest("svg"), pixels = parseFloat(getComputedStyle(element).fontSize) * (drawing ? drawing.getScreenCTM().a : 1), at = element.getBoundingClientRect();
+        const drawing = element.closest("svg"),
+          pixels = parseFloat(getComputedStyle(element).fontSize) * (drawing ? drawing.getScreenCTM().a : 1),
+          at = element.getBoundingClientRect();
         if (pixels < 18) small.push(`${element.textContent.slice(0, 30)}: ${pixels}`);
-        if (at.left < box.left - 1 || at.top < box.top - 1 || at.right > box.right + 1 || at.bottom > box.bottom - 30) cut.push(element.textContent.slice(0, 40));
+        if (at.left < box.left - 1 || at.top < box.top - 1 || at.right > box.right + 1 || at.bottom > box.bottom - 30)
+          cut.push(element.textContent.slice(0, 40));
         if (element.matches(".option") && element.getClientRects().length > 1) broken.push(element.textContent);
       }
-      for (const element of part.querySelectorAll("pre, .scroll, .live-figure > p")) if (element.scrollWidth > element.clientWidth + 1) cut.push(element.textContent.slice(0, 40));
-      const notes = part.querySelector(".notes").textContent.trim(), asks = part.querySelector(".step.question") !== null;
-      return { small, cut, broken, notes: notes.length, asks, heading: part.querySelector("h1, h2").textContent, sentences: part.querySelectorAll(".step.sentence:not(.to-come)").length };
+      for (const element of part.querySelectorAll("pre, .scroll, .live-figure > p"))
+        if (element.scrollWidth > element.clientWidth + 1) cut.push(element.textContent.slice(0, 40));
+      const notes = part.querySelector(".notes").textContent.trim(),
+        asks = part.querySelector(".step.question") !== null;
+      return {
+        small,
+        cut,
+        broken,
+        notes: notes.length,
+        asks,
+        heading: part.querySelector("h1, h2").textContent,
+        sentences: part.querySelectorAll(".step.sentence:not(.to-come)").length,
+      };
     });
     const where = `${lecture}, slide ${slide}: ${found.heading}`;
     assert.deepEqual([found.small, found.cut, found.broken], [[], [], []], where);
@@ -56,9 +82,18 @@ async function checkTexels(page, lecture) {
   const figures = await page.evaluate(() => JSON.parse(document.getElementById("page-data").textContent).figures);
   for (const [i, { name, settings }] of figures.entries()) {
     if (name !== "bias" && name !== "map-size") continue;
-    const { scene, sizes, ...options } = settings, words = Object.entries({ ...options, ...(sizes ? { "map-size": sizes.split(",")[0] } : {}) }).flatMap(([key, value]) => [`--${key}`, value]);
-    const light = JSON.parse(execFileSync(program, ["compare", scene, ...words, "--size", "480x270", "--runs", "1", "--quiet", "--no-report", "--json", "-"])).lights[0];
-    const shown = await page.locator(`[data-figure="${i}"] canvas`).first().evaluate((canvas) => canvas.getBoundingClientRect().width / canvas.width);
+    const { scene, sizes, ...options } = settings,
+      words = Object.entries({ ...options, ...(sizes ? { "map-size": sizes.split(",")[0] } : {}) }).flatMap(([key, value]) => [
+        `--${key}`,
+        value,
+      ]);
+    const light = JSON.parse(
+      execFileSync(program, ["compare", scene, ...words, "--size", "480x270", "--runs", "1", "--quiet", "--no-report", "--json", "-"]),
+    ).lights[0];
+    const shown = await page
+      .locator(`[data-figure="${i}"] canvas`)
+      .first()
+      .evaluate((canvas) => canvas.getBoundingClientRect().width / canvas.width);
     const texel = light.theory.aliasing.median * shown;
     assert.ok(texel >= 20, `${lecture}: a texel of ${scene} ${words.join(" ")} is ${texel.toFixed(1)} pixels wide`);
   }
@@ -66,15 +101,29 @@ async function checkTexels(page, lecture) {
 
 /** Of two pictures in one file the slide shows the left one alone, then the right one alone, each as wide as the slide allows. */
 async function checkPairs(page, lecture) {
-  const pairs = await page.locator(".part:has(.step.pair)").evaluateAll((parts) => parts.map(({ id }) => Number(id.slice("slide-".length))));
+  const pairs = await page
+    .locator(".part:has(.step.pair)")
+    .evaluateAll((parts) => parts.map(({ id }) => Number(id.slice("slide-".length))));
   assert.ok(pairs.length >= 3, `${lecture} shows ${pairs.length} pairs`);
   for (const slide of pairs) {
     await go(page, slide);
-    for (const [side, step] of [["0%", "pair"], ["100%", "flip"]]) {
-      while (await page.locator(`.on-slide .step.${step}.to-come`).count() > 0) await page.keyboard.press("ArrowRight");
-      const shown = await page.locator(".on-slide .step.pair img").evaluate((img) => ({ ...img.getBoundingClientRect().toJSON(), texel: img.getBoundingClientRect().height / img.naturalHeight, at: getComputedStyle(img).objectPosition }));
+    for (const [side, step] of [
+      ["0%", "pair"],
+      ["100%", "flip"],
+    ]) {
+      while ((await page.locator(`.on-slide .step.${step}.to-come`).count()) > 0) await page.keyboard.press("ArrowRight");
+      const shown = await page
+        .locator(".on-slide .step.pair img")
+        .evaluate((img) => ({
+          ...img.getBoundingClientRect().toJSON(),
+          texel: img.getBoundingClientRect().height / img.naturalHeight,
+          at: getComputedStyle(img).objectPosition,
+        }));
       assert.equal(shown.at.split(" ")[0], side, `${lecture}, slide ${slide}`);
-      assert.ok(Math.abs(shown.width / shown.height - 16 / 9) < 0.01 && shown.texel > 2.2, `${lecture}, slide ${slide}: ${JSON.stringify(shown)}`);
+      assert.ok(
+        Math.abs(shown.width / shown.height - 16 / 9) < 0.01 && shown.texel > 2.2,
+        `${lecture}, slide ${slide}: ${JSON.stringify(shown)}`,
+      );
     }
   }
 }
@@ -115,14 +164,19 @@ async function checkKeys(page, lecture) {
 /** The speaker's window: the notes of the slide that is shown, what comes next, a clock; its keys turn the slides. */
 async function checkNotes(page, lecture) {
   await go(page, 1);
-  await go(page, 2);  // anew
+  await go(page, 2); // anew
   const [notes] = await Promise.all([page.waitForEvent("popup"), page.locator(".lecture-bar button", { hasText: "Notes" }).click()]);
-  const said = await page.locator(".on-slide .notes").textContent(), next = await page.locator("#slide-3 h2").textContent();
+  const said = await page.locator(".on-slide .notes").textContent(),
+    next = await page.locator("#slide-3 h2").textContent();
   const plain = (text) => text.replace(/\s+/g, "");
   assert.equal(plain(await notes.locator(".notes-text").textContent()), plain(said), lecture);
   assert.equal(await notes.locator(".notes-next").textContent(), `Next: ${next}`);
   assert.match(await notes.locator(".notes-time").textContent(), /^0:0\d gone; this slide ends at \d+:00, in \d+:\d\d\. Now /);
-  assert.equal(await notes.evaluate(() => getComputedStyle(document.querySelector(".notes-time")).fontWeight), "700", "the window has the page's style");
+  assert.equal(
+    await notes.evaluate(() => getComputedStyle(document.querySelector(".notes-time")).fontWeight),
+    "700",
+    "the window has the page's style",
+  );
   const before = await toCome(page);
   await notes.keyboard.press("PageDown");
   assert.equal(await toCome(page), before - 1);
@@ -131,8 +185,17 @@ async function checkNotes(page, lecture) {
 
 /** Printed: a page a slide, of its size, with the words of every step. */
 async function checkPrinted(page, lecture) {
-  const pages = pdfPages(await page.pdf({ preferCSSPageSize: true, printBackground: true })), plain = (text) => text.normalize("NFKC").replace(/\s/g, "");
-  const wanted = await page.locator(".part").evaluateAll((parts) => parts.map((part) => [...part.querySelectorAll("h1, h2, .step:not(.figure) :is(p, pre, td, th)")].filter((e) => getComputedStyle(e).display !== "none").map((e) => e.textContent)));
+  const pages = pdfPages(await page.pdf({ preferCSSPageSize: true, printBackground: true })),
+    plain = (text) => text.normalize("NFKC").replace(/\s/g, "");
+  const wanted = await page
+    .locator(".part")
+    .evaluateAll((parts) =>
+      parts.map((part) =>
+        [...part.querySelectorAll("h1, h2, .step:not(.figure) :is(p, pre, td, th)")]
+          .filter((e) => getComputedStyle(e).display !== "none")
+          .map((e) => e.textContent),
+      ),
+    );
   assert.equal(pages.length, wanted.length, `${lecture} has another number of pages than of slides`);
   for (const [i, { width, height, text }] of pages.entries()) {
     assert.deepEqual([width, height], [768, 576], `${lecture}, page ${i + 1}`);
@@ -152,7 +215,10 @@ try {
     const pages = await checkPrinted(page, lecture);
     for (const slide of [1, 2, 6]) {
       await go(page, slide);
-      for (const [colorScheme, rules] of [["light", {}], ["dark", colours]]) {
+      for (const [colorScheme, rules] of [
+        ["light", {}],
+        ["dark", colours],
+      ]) {
         await page.emulateMedia({ colorScheme });
         assert.deepEqual(await violations(page, rules), [], `axe, ${lecture}, slide ${slide}, ${colorScheme}`);
       }

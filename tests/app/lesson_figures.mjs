@@ -7,22 +7,41 @@ import { execFileSync } from "node:child_process";
 const result = (program, figure, extra = []) => {
   const { scene, sizes, ...options } = figure.settings;
   const words = Object.entries(options).flatMap(([key, value]) => [`--${key}`, value]);
-  return JSON.parse(execFileSync(program, ["compare", scene, ...words, ...extra, "--size", "480x270", "--runs", "1", "--quiet", "--no-report", "--json", "-"])).lights[0];
+  return JSON.parse(
+    execFileSync(program, [
+      "compare",
+      scene,
+      ...words,
+      ...extra,
+      "--size",
+      "480x270",
+      "--runs",
+      "1",
+      "--quiet",
+      "--no-report",
+      "--json",
+      "-",
+    ]),
+  ).lights[0];
 };
-const counts = (said) => said.evaluate(({ dataset }) => ({ false_shadow: Number(dataset.falseShadow), missed_shadow: Number(dataset.missedShadow) }));
-const until = (page, id, key, value) => page.waitForFunction(([i, k, v]) => document.querySelector(`${i} [role=status]`).dataset[k] === v, [id, key, value]);
+const counts = (said) =>
+  said.evaluate(({ dataset }) => ({ false_shadow: Number(dataset.falseShadow), missed_shadow: Number(dataset.missedShadow) }));
+const until = (page, id, key, value) =>
+  page.waitForFunction(([i, k, v]) => document.querySelector(`${i} [role=status]`).dataset[k] === v, [id, key, value]);
 
 /** Each live figure is operated, and says what the program says. */
 export const operate = {
   async bias(page, figure, id, program) {
-    const light = result(program, figure), said = page.locator(`${id} .bias-counts`);
+    const light = result(program, figure),
+      said = page.locator(`${id} .bias-counts`);
     for (const { bias, bias_texels: _, wrong_fraction: __, ...wanted } of [3, 17, 60].map((i) => light.bias_curve[i])) {
       await page.locator(`${id} input[type=number]`).fill(String(bias));
       await page.keyboard.press("Enter");
       await page.waitForFunction(([i, b]) => document.querySelector(`${i} .bias-counts`).dataset.bias === b, [id, String(bias)]);
       assert.deepEqual(await counts(said), wanted, `bias ${bias}`);
     }
-    const drawing = page.locator(`${id} .light-space`), before = await drawing.textContent();
+    const drawing = page.locator(`${id} .light-space`),
+      before = await drawing.textContent();
     await page.locator(`${id} .bias-picture canvas`).click({ position: { x: 20, y: 60 } });
     await page.waitForFunction(([i, text]) => document.querySelector(`${i} .light-space`)?.textContent !== text, [id, before]);
   },
@@ -52,18 +71,26 @@ export const operate = {
 };
 /** As if dragged there: a slider takes the nearest of its steps, and its end for what lies beyond, which not every version of
     fill() allows. One after the other, and then a drawing later: the figure has taken all of them. */
-export const slide = (page, id, values) => page.evaluate(([figure, all]) => {
-  for (const [slider, value] of Object.entries(all)) {
-    const input = document.querySelector(`${figure} [data-slider=${slider}]`);
-    input.value = value;
-    input.dispatchEvent(new Event("input", { bubbles: true }));
-    input.dispatchEvent(new Event("change", { bubbles: true }));
-  }
-  return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-}, [id, values]);
-export const said = (page, id) => page.locator(`${id} [role=status]`).evaluate(({ dataset }) => Object.fromEntries(Object.entries(dataset).map(([key, value]) => [key, Number(value)])));
+export const slide = (page, id, values) =>
+  page.evaluate(
+    ([figure, all]) => {
+      for (const [slider, value] of Object.entries(all)) {
+        const input = document.querySelector(`${figure} [data-slider=${slider}]`);
+        input.value = value;
+        input.dispatchEvent(new Event("input", { bubbles: true }));
+        input.dispatchEvent(new Event("change", { bubbles: true }));
+      }
+      return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    },
+    [id, values],
+  );
+export const said = (page, id) =>
+  page
+    .locator(`${id} [role=status]`)
+    .evaluate(({ dataset }) => Object.fromEntries(Object.entries(dataset).map(([key, value]) => [key, Number(value)])));
 const words = (page, id) => page.locator(`${id} [role=status]`).textContent();
-export const near = (value, wanted, tolerance, what) => assert.ok(Math.abs(value - wanted) <= tolerance, `${what}: ${value}, wanted ${wanted} within ${tolerance}`);
+export const near = (value, wanted, tolerance, what) =>
+  assert.ok(Math.abs(value - wanted) <= tolerance, `${what}: ${value}, wanted ${wanted} within ${tolerance}`);
 const radians = (degrees) => (degrees * Math.PI) / 180;
 
 /** The flatlands against closed forms worked out here, from the scenes' own numbers. */
@@ -71,7 +98,12 @@ const flatlands = {
   // The floor is measured in 640 pieces; each edge of a texel's dark half falls into one of them.
   async acne(page, id) {
     near((await said(page, id)).angle, 90 - 42, 0.5, "the sun of acne-floor");
-    for (const [angle, texels, bias] of [[48, 14, 0], [48, 20, 0.06], [-30, 10, 0.03], [60, 30, 0.3]]) {
+    for (const [angle, texels, bias] of [
+      [48, 14, 0],
+      [48, 20, 0.06],
+      [-30, 10, 0.03],
+      [60, 30, 0.3],
+    ]) {
       await slide(page, id, { angle, texels, bias });
       const { texel, falseShare, missedShare, bias: used } = await said(page, id);
       const a = 0.5 * texel * Math.tan(radians(Math.abs(angle)));
@@ -83,10 +115,19 @@ const flatlands = {
   // A texel's width on the floor, and a piece's.
   async wall(page, id) {
     near((await said(page, id)).angle, 60, 0.5, "the sun of thin-wall");
-    for (const [angle, texels, bias] of [[60, 128, 0.2], [-45, 128, 0.3], [60, 100, 0.03]]) {
+    for (const [angle, texels, bias] of [
+      [60, 128, 0.2],
+      [-45, 128, 0.3],
+      [60, 100, 0.03],
+    ]) {
       await slide(page, id, { angle, texels, bias });
       const { texel, measured, bias: used } = await said(page, id);
-      near(measured, Math.max(0, used * Math.sin(radians(Math.abs(angle))) - 0.05), texel / Math.cos(radians(angle)) + 0.006, `wall at ${angle} degrees, bias ${bias}`);
+      near(
+        measured,
+        Math.max(0, used * Math.sin(radians(Math.abs(angle))) - 0.05),
+        texel / Math.cos(radians(angle)) + 0.006,
+        `wall at ${angle} degrees, bias ${bias}`,
+      );
     }
     // Square to the floor there is nothing for a bias to cure, and no shadow.
     await slide(page, id, { angle: 0, bias: 0 });
@@ -95,9 +136,16 @@ const flatlands = {
     await slide(page, id, { angle: 60 });
   },
   async penumbra(page, id) {
-    for (const [radius, height] of [[0.4, 4], [0.2, 3], [0, 4], [0.9, 4]]) {
+    for (const [radius, height] of [
+      [0.4, 4],
+      [0.2, 3],
+      [0, 4],
+      [0.9, 4],
+    ]) {
       await slide(page, id, { radius, height, x: 0 });
-      const { umbra, penumbra } = await said(page, id), h = 1.6, a = 0.6;
+      const { umbra, penumbra } = await said(page, id),
+        h = 1.6,
+        a = 0.6;
       near(umbra, Math.max(0, (a * height - radius * h) / (height - h)), 1e-6, "umbra");
       near(penumbra, (a * height + radius * h) / (height - h), 1e-6, "penumbra");
     }
@@ -109,17 +157,25 @@ const flatlands = {
     assert.deepEqual(await page.locator(`${id} svg text`).allTextContents(), ["penumbra"]);
   },
   async terminator(page, id) {
-    for (const [angle, sides] of [[35, 14], [-100, 9], [0, 60]]) {
+    for (const [angle, sides] of [
+      [35, 14],
+      [-100, 9],
+      [0, 60],
+    ]) {
       await slide(page, id, { angle, sides });
-      const { lostLeft, lostRight, formulaLeft, formulaRight } = await said(page, id), piece = 360 / sides / 60;
+      const { lostLeft, lostRight, formulaLeft, formulaRight } = await said(page, id),
+        piece = 360 / sides / 60;
       near(lostLeft, formulaLeft, piece, "left");
       near(lostRight, formulaRight, piece, "right");
       assert.ok(Math.max(lostLeft, lostRight) <= 180 / sides + 1e-9);
     }
     // Below the floor: the sun is drawn there, and what the floor shadows is no fault of the ball's faces.
     await slide(page, id, { angle: 180, sides: 14 });
-    const { lostLeft, lostRight } = await said(page, id), round = 2 * Math.PI * 0.7 * (960 / 5);
-    const [low, orange] = await page.locator(`${id} svg`).evaluate((svg) => [Number(svg.querySelector(".sun").getAttribute("cy")), svg.querySelector(".surface.false").getTotalLength()]);
+    const { lostLeft, lostRight } = await said(page, id),
+      round = 2 * Math.PI * 0.7 * (960 / 5);
+    const [low, orange] = await page
+      .locator(`${id} svg`)
+      .evaluate((svg) => [Number(svg.querySelector(".sun").getAttribute("cy")), svg.querySelector(".surface.false").getTotalLength()]);
     assert.ok(low > (960 / 5) * 2.3, `the sun is drawn at ${low}`);
     near(orange, ((lostLeft + lostRight) / 360) * round, 0.02 * round, "orange");
   },
@@ -143,12 +199,26 @@ flatlands.stripes = async (page, id) => {
 flatlands["back-faces"] = async (page, id, program) => {
   await slide(page, id, { angle: 60, texels: 128, bias: 0 });
   assert.ok((await said(page, id)).falseShare < 0.01, "no acne: but for the texel at the shadow's end");
-  for (const [angle, bias] of [[60, 0.2], [-45, 0.3], [60, 0.03]]) {
+  for (const [angle, bias] of [
+    [60, 0.2],
+    [-45, 0.3],
+    [60, 0.03],
+  ]) {
     await slide(page, id, { angle, texels: 128, bias });
     const { texel, measured, bias: used } = await said(page, id);
-    near(measured, used * Math.sin(radians(Math.abs(angle))), texel / Math.cos(radians(angle)) + 0.006, `back faces at ${angle} degrees, bias ${bias}`);
+    near(
+      measured,
+      used * Math.sin(radians(Math.abs(angle))),
+      texel / Math.cos(radians(angle)) + 0.006,
+      `back faces at ${angle} degrees, bias ${bias}`,
+    );
   }
-  near(result(program, { settings: { scene: "thin-wall", bias: "0.2", cull: "front" } }).detachment.max_world, 0.2 * Math.sin(radians(60)), 0.005, "the program's");
+  near(
+    result(program, { settings: { scene: "thin-wall", bias: "0.2", cull: "front" } }).detachment.max_world,
+    0.2 * Math.sin(radians(60)),
+    0.005,
+    "the program's",
+  );
 };
 operate.flatland = async (page, { settings: { show, scene } }, id, program) => {
   if (show !== "shadow") return flatlands[show](page, id, program);
@@ -157,10 +227,21 @@ operate.flatland = async (page, { settings: { show, scene } }, id, program) => {
 };
 // The page's walks count what the program counted for the same rays: cells or nodes, and primitives; and hit where it hit.
 operate.structure = async (page, figure, id) => {
-  const at = Number(/\d+/.exec(id)[0]), walks = await page.evaluate((i) => globalThis.gnomonWalks(i).map(({ wanted, walk: { boxes, primitives, t } }) => ({ wanted, boxes, primitives, t: isFinite(t) ? t : null })), at);
+  const at = Number(/\d+/.exec(id)[0]),
+    walks = await page.evaluate(
+      (i) =>
+        globalThis
+          .gnomonWalks(i)
+          .map(({ wanted, walk: { boxes, primitives, t } }) => ({ wanted, boxes, primitives, t: isFinite(t) ? t : null })),
+      at,
+    );
   assert.ok(walks.length >= 8 && walks.some(({ t }) => t !== null));
   for (const { wanted, boxes, primitives, t } of walks) {
-    assert.deepEqual({ boxes, primitives }, { boxes: wanted.boxes, primitives: wanted.primitives }, JSON.stringify([figure.settings, wanted]));
+    assert.deepEqual(
+      { boxes, primitives },
+      { boxes: wanted.boxes, primitives: wanted.primitives },
+      JSON.stringify([figure.settings, wanted]),
+    );
     // Both meet the same segment in doubles; in the page its ends were cut out of a triangle first.
     if (wanted.t === null) assert.equal(t, null);
     else near(t, wanted.t, 1e-6 * wanted.t, "hit");
@@ -178,8 +259,17 @@ operate.intersection = async (page, { settings: { kind, show }, data: { checks }
   assert.ok(checks.some(({ t }) => t === null) && checks.some(({ t }) => t !== null));
   if (kind === "triangle") {
     for (const { corners, t } of checks) {
-      await slide(page, id, Object.fromEntries(corners.flatMap(([x, y], i) => [[`${"ABC"[i]}x`, x], [`${"ABC"[i]}y`, y]])));
-      const { hit, z } = (await page.locator(`${id} [role=status]`).evaluate(({ dataset }) => ({ ...dataset })));
+      await slide(
+        page,
+        id,
+        Object.fromEntries(
+          corners.flatMap(([x, y], i) => [
+            [`${"ABC"[i]}x`, x],
+            [`${"ABC"[i]}y`, y],
+          ]),
+        ),
+      );
+      const { hit, z } = await page.locator(`${id} [role=status]`).evaluate(({ dataset }) => ({ ...dataset }));
       assert.equal(hit === "true", t !== null, JSON.stringify(corners));
       if (t !== null) near(Number(z), t, 1e-9, "z");
       if (show === "both") await checkBothWays(page, id);
@@ -193,14 +283,43 @@ operate.intersection = async (page, { settings: { kind, show }, data: { checks }
     const found = await page.locator(`${id} [role=status]`).evaluate(({ dataset }) => ({ ...dataset }));
     if (kind === "parity") {
       const { crossings } = checks.find((check) => check.from === from);
-      assert.deepEqual([found.roots.split(" ").filter((r) => r !== "").length, found.inside], [crossings, String(crossings % 2 === 1)], `${kind} from ${from} to ${to}`);
+      assert.deepEqual(
+        [found.roots.split(" ").filter((r) => r !== "").length, found.inside],
+        [crossings, String(crossings % 2 === 1)],
+        `${kind} from ${from} to ${to}`,
+      );
     }
-    const roots = kind === "box" ? (found.hit === "true" ? [Number(found.entry)] : []) : found.roots.split(" ").filter((r) => r !== "").map(Number).filter((r) => r > 0);
+    const roots =
+      kind === "box"
+        ? found.hit === "true"
+          ? [Number(found.entry)]
+          : []
+        : found.roots
+            .split(" ")
+            .filter((r) => r !== "")
+            .map(Number)
+            .filter((r) => r > 0);
     if (t === null) assert.deepEqual(roots, [], `${kind} from ${from} to ${to}`);
     else near(roots[0], t, 1e-6, `${kind} from ${from} to ${to}`);
   }
   // The rays that a test must bear.
-  const cases = { box: [["starts inside", /the last entry 0 is not after/], ["points away", /misses/], ["runs in a face", /hits/], ["is parallel, outside", /misses/]], plane: [["points away", /behind the start/], ["is parallel", /never comes/]], parity: [["starts inside", /inside/], ["starts in a notch", /outside/], ["passes a corner", /outside/]] };
+  const cases = {
+    box: [
+      ["starts inside", /the last entry 0 is not after/],
+      ["points away", /misses/],
+      ["runs in a face", /hits/],
+      ["is parallel, outside", /misses/],
+    ],
+    plane: [
+      ["points away", /behind the start/],
+      ["is parallel", /never comes/],
+    ],
+    parity: [
+      ["starts inside", /inside/],
+      ["starts in a notch", /outside/],
+      ["passes a corner", /outside/],
+    ],
+  };
   for (const [name, answer] of cases[kind] ?? []) {
     await page.locator(`${id} .steps button`, { hasText: name }).click();
     await slide(page, id, {});
@@ -223,10 +342,17 @@ async function checkBothWays(page, id) {
 // The camera of the program, for pictures of several shapes and angles.
 operate["eye-ray"] = async (page, { data: { checks } }, id) => {
   assert.equal(checks.length, 27);
-  const directions = await page.evaluate((all) => all.map(({ columns, rows, fov, x, y }) => globalThis.gnomonEyeRay(columns, rows, fov, x, y).direction), checks);
+  const directions = await page.evaluate(
+    (all) => all.map(({ columns, rows, fov, x, y }) => globalThis.gnomonEyeRay(columns, rows, fov, x, y).direction),
+    checks,
+  );
   checks.forEach(({ direction }, i) => direction.forEach((c, k) => near(directions[i][k], c, 1e-12, `direction ${i}`)));
   await slide(page, id, { columns: 1, rows: 1, fov: 90, x: 0, y: 0 });
-  assert.deepEqual(await said(page, id).then(({ u, v, dx, dy, dz }) => [u, v, dx, dy, dz].map((c) => c + 0)), [0, 0, 0, 0, -1], "one pixel looks straight on");
+  assert.deepEqual(
+    await said(page, id).then(({ u, v, dx, dy, dz }) => [u, v, dx, dy, dz].map((c) => c + 0)),
+    [0, 0, 0, 0, -1],
+    "one pixel looks straight on",
+  );
 };
 // The curve of grids goes through what the program counts for its two, but for the endless floor; and cells follow the cube root.
 operate["grid-curve"] = async (page, { data: { points, program } }, id) => {
@@ -241,24 +367,35 @@ operate["grid-curve"] = async (page, { data: { points, program } }, id) => {
   near(cells, formula, 0.1 * formula, "cells by the cube root");
 };
 /** Rays across the discs from all around, and where the first of them is met: a disc that lies on both sides of a split is found from either. */
-const fan = (discs) => Array.from({ length: 300 }, (_, i) => {
-  const from = [3 * Math.cos(i), 1.6 * Math.sin(i)], to = [2.4 * Math.cos(1.7 * i), 0.9 * Math.sin(2.3 * i)], size = Math.hypot(to[0] - from[0], to[1] - from[1]);
-  const way = [(to[0] - from[0]) / size, (to[1] - from[1]) / size];
-  const ends = discs.flatMap(([x, y, radius]) => {
-    const along = (x - from[0]) * way[0] + (y - from[1]) * way[1], half = radius ** 2 - ((x - from[0]) ** 2 + (y - from[1]) ** 2 - along ** 2);
-    return half < 0 ? [] : [along - Math.sqrt(half), along + Math.sqrt(half)];
-  }).filter((t) => t > 0);
-  return { from, to, t: ends.length > 0 ? Math.min(...ends) : null };
-});
+const fan = (discs) =>
+  Array.from({ length: 300 }, (_, i) => {
+    const from = [3 * Math.cos(i), 1.6 * Math.sin(i)],
+      to = [2.4 * Math.cos(1.7 * i), 0.9 * Math.sin(2.3 * i)],
+      size = Math.hypot(to[0] - from[0], to[1] - from[1]);
+    const way = [(to[0] - from[0]) / size, (to[1] - from[1]) / size];
+    const ends = discs
+      .flatMap(([x, y, radius]) => {
+        const along = (x - from[0]) * way[0] + (y - from[1]) * way[1],
+          half = radius ** 2 - ((x - from[0]) ** 2 + (y - from[1]) ** 2 - along ** 2);
+        return half < 0 ? [] : [along - Math.sqrt(half), along + Math.sqrt(half)];
+      })
+      .filter((t) => t > 0);
+    return { from, to, t: ends.length > 0 ? Math.min(...ends) : null };
+  });
 // Small structures hit what the program's tracer hits; boxes are met as often as their perimeters foretell; steps, splits and stack.
 operate.build = async (page, { settings: { kind }, data }, id) => {
   assert.ok(data.checks.filter(({ t }) => t !== null).length >= 5);
   const rules = { kd: ["middle", "area"], bvh: ["middle", "area"], bsp: ["area"] }[kind] ?? ["middle"];
-  const wide = data.discs.map(([x, y, radius]) => [x, y, 2 * radius]);  // they overlap, and each split goes through some
+  const wide = data.discs.map(([x, y, radius]) => [x, y, 2 * radius]); // they overlap, and each split goes through some
   for (const rule of rules) {
     for (const json of [data, { discs: wide, checks: fan(wide) }]) {
-      const hits = await page.evaluate((words) => globalThis.gnomonSmallHits(...words).map((t) => (isFinite(t) ? t : null)), [json, kind, rule]);
-      json.checks.forEach(({ t }, i) => (t === null ? assert.equal(hits[i], null) : near(hits[i] ?? NaN, t, 1e-9, `${kind}, ${rule}, ray ${i}`)));
+      const hits = await page.evaluate(
+        (words) => globalThis.gnomonSmallHits(...words).map((t) => (isFinite(t) ? t : null)),
+        [json, kind, rule],
+      );
+      json.checks.forEach(({ t }, i) =>
+        t === null ? assert.equal(hits[i], null) : near(hits[i] ?? NaN, t, 1e-9, `${kind}, ${rule}, ray ${i}`),
+      );
     }
   }
   await slide(page, id, { walk: 1, ...(kind === "grid" ? { cells: 4 } : { built: 1 }) });
@@ -273,12 +410,18 @@ operate.build = async (page, { settings: { kind }, data }, id) => {
   await slide(page, id, { walk: 0, built: 0 });
   assert.equal((await said(page, id)).splits, 0);
   await page.locator(`${id} .steps button`, { hasText: "Next split" }).click();
-  for (let i = 0; i < 2; ++i) await page.locator(`${id} .steps button`, { hasText: "Next step" }).click().then(() => slide(page, id, {}));
+  for (let i = 0; i < 2; ++i)
+    await page
+      .locator(`${id} .steps button`, { hasText: "Next step" })
+      .click()
+      .then(() => slide(page, id, {}));
   assert.match(await words(page, id), /^1 split of \d+.*\. .*On the stack: 1/);
   if (kind === "octree") return;
   if (rules.length > 1) await slide(page, id, { rule: 1 });
   // Of n discs: both ends of each along two axes but for the outermost; a line between each two; each place between two in order.
-  const n = data.discs.length, first = { kd: 4 * n - 4, bsp: (n * (n - 1)) / 2, bvh: 2 * (n - 1) }[kind], splits = Number(/of (\d+)/.exec(await words(page, id))[1]);
+  const n = data.discs.length,
+    first = { kd: 4 * n - 4, bsp: (n * (n - 1)) / 2, bvh: 2 * (n - 1) }[kind],
+    splits = Number(/of (\d+)/.exec(await words(page, id))[1]);
   await slide(page, id, { built: 1 / splits });
   assert.equal((await said(page, id)).tried, first, "ways to make the first split");
   await slide(page, id, { built: 1 });
@@ -287,24 +430,40 @@ operate.build = async (page, { settings: { kind }, data }, id) => {
 };
 // The lookup of a cube map, worked out here; and what the texel in the middle below the lamp stores.
 operate["cube-faces"] = async (page, figure, id) => {
-  for (const [lampX, lampY, x, texels] of [[-0.9, 2, 1.6, 8], [1.5, 1, 1.5, 9], [-1.5, 0.5, 2.5, 16]]) {
+  for (const [lampX, lampY, x, texels] of [
+    [-0.9, 2, 1.6, 8],
+    [1.5, 1, 1.5, 9],
+    [-1.5, 0.5, 2.5, 16],
+  ]) {
     await slide(page, id, { lampX, lampY, x, texels });
-    const { z, u, wide, texel, stored } = await said(page, id), d = [x - lampX, -lampY], along = Math.max(Math.abs(d[0]), Math.abs(d[1]));
+    const { z, u, wide, texel, stored } = await said(page, id),
+      d = [x - lampX, -lampY],
+      along = Math.max(Math.abs(d[0]), Math.abs(d[1]));
     near(z, along, 1e-9, "z");
     near(wide, (2 * along) / texels, 1e-9, "width of a texel");
     assert.ok(u > 0 && u < 1 && texel === Math.floor(u * texels));
     if (lampX === x) near(stored, lampY, 1e-9, "depth below the lamp");
   }
-  await slide(page, id, { lampX: 0, lampY: 0.85, x: 0, texels: 9 });  // the middle of the ball: it stores the ball's far side
+  await slide(page, id, { lampX: 0, lampY: 0.85, x: 0, texels: 9 }); // the middle of the ball: it stores the ball's far side
   near((await said(page, id)).stored, 0.7, 1e-9, "depth within the ball");
 };
 // Followed backwards light has the same way, and the same share of it arrives: by the page's paths, and by the program's Fresnel.
 operate["two-ways"] = async (page, { data: { fresnel } }, id) => {
   for (const { cosine, ratio, reflected } of fresnel) {
     const behind = Math.sqrt(1 - ratio ** 2 * (1 - cosine ** 2));
-    if (reflected < 1) near(await page.evaluate(([c, r]) => globalThis.gnomonFresnel(c, r), [behind, 1 / ratio]), reflected, 1e-12, "the program's share, the other way");
+    if (reflected < 1)
+      near(
+        await page.evaluate(([c, r]) => globalThis.gnomonFresnel(c, r), [behind, 1 / ratio]),
+        reflected,
+        1e-12,
+        "the program's share, the other way",
+      );
   }
-  for (const [aimX, aimY, surfaces] of [[0.36, 0.3, 5], [0.4, 0.25, 5], [0.76, 0.31, 3]]) {
+  for (const [aimX, aimY, surfaces] of [
+    [0.36, 0.3, 5],
+    [0.4, 0.25, 5],
+    [0.76, 0.31, 3],
+  ]) {
     await slide(page, id, { aimX, aimY });
     const found = await said(page, id);
     assert.equal(found.surfaces, surfaces, `aimed at ${aimX}, ${aimY}`);
@@ -315,9 +474,15 @@ operate["two-ways"] = async (page, { data: { fresnel } }, id) => {
 };
 // A rod that leans by 45 degrees and has no width: 1/(|cos| + |sin|). Turned with it the box is the rod.
 operate["box-fit"] = async (page, figure, id) => {
-  for (const [rod, box, cost] of [[45, 0, 6], [20, 0, 6], [45, 30, 24], [10, 90, 6]]) {
+  for (const [rod, box, cost] of [
+    [45, 0, 6],
+    [20, 0, 6],
+    [45, 30, 24],
+    [10, 90, 6],
+  ]) {
     await slide(page, id, { rod, box, width: 0.02 });
-    const { formula, measured, cost: paid } = await said(page, id), between = radians(rod - box);
+    const { formula, measured, cost: paid } = await said(page, id),
+      between = radians(rod - box);
     near(formula, 1 / (Math.abs(Math.cos(between)) + Math.abs(Math.sin(between))), 0.01, `a rod at ${rod}, a box at ${box} degrees`);
     near(measured, formula, 0.02, "counted");
     assert.equal(paid, cost);
@@ -337,7 +502,15 @@ operate.whitted = async (page, { data: { fresnel } }, id) => {
     await page.waitForFunction(([i, n]) => document.querySelector(`${i} [role=status]`).dataset.rays === n, [id, String(ray)]);
   }
   // The floor below the glass ball, and the lamp above it: two surfaces with 4 % reflected at each, and a shadow ray more behind each.
-  await slide(page, id, { eyeX: 0.6 / 8.2, eyeY: 1.4 / 4.6, aimX: 3.6 / 8.2, aimY: 0.4 / 4.6, lampX: 3.6 / 8.2, lampY: 4.4 / 4.6, step: 1 });
+  await slide(page, id, {
+    eyeX: 0.6 / 8.2,
+    eyeY: 1.4 / 4.6,
+    aimX: 3.6 / 8.2,
+    aimY: 0.4 / 4.6,
+    lampX: 3.6 / 8.2,
+    lampY: 4.4 / 4.6,
+    step: 1,
+  });
   assert.equal((await said(page, id)).total, 4);
   assert.match(await words(page, id), /the surfaces of the glass let 92\.2 % of the light through/);
 };

@@ -10,10 +10,12 @@ import { browser, close, colours, goTo, open, violations } from "../browser/open
 import { near, operate, said, slide } from "./lesson_figures.mjs";
 import { checkLanguage } from "./lesson_language.mjs";
 
-const [program, folder, only] = process.argv.slice(2), site = join(folder, "site");
+const [program, folder, only] = process.argv.slice(2),
+  site = join(folder, "site");
 rmSync(folder, { recursive: true, force: true });
 execFileSync(program, ["lessons", "-o", site, "--quiet", ...(only ? ["--only", only] : [])], { stdio: "inherit" });
-const pages = readdirSync(site), lessons = only?.split(",") ?? JSON.parse(execFileSync(program, ["scenes", "--json", "-"])).lessons.map(({ name }) => name);
+const pages = readdirSync(site),
+  lessons = only?.split(",") ?? JSON.parse(execFileSync(program, ["scenes", "--json", "-"])).lessons.map(({ name }) => name);
 assert.deepEqual([...pages].sort(), ["index.html", ...lessons.map((name) => `${name}.html`)].sort());
 const bytes = pages.reduce((sum, page) => sum + statSync(join(site, page)).size, 0);
 assert.ok(bytes < 20e6, `the site weighs ${bytes} bytes`);
@@ -23,7 +25,8 @@ const at = (page, options = {}, hash = "") => open(site, { file: page, ...option
 /** Every link within the site leads to one of its pages; every picture is there; nothing is wider than a phone. */
 async function checkContent(page, name) {
   const links = await page.locator("a[href]").evaluateAll((all) => all.map((a) => a.getAttribute("href")));
-  for (const link of links.filter((l) => !l.startsWith("#") && !l.includes("://"))) assert.ok(pages.includes(link), `${name} links to ${link}`);
+  for (const link of links.filter((l) => !l.startsWith("#") && !l.includes("://")))
+    assert.ok(pages.includes(link), `${name} links to ${link}`);
   const broken = await page.locator("img").evaluateAll((all) => all.filter((i) => i.complete && i.naturalWidth === 0).map((i) => i.alt));
   assert.deepEqual(broken, [], name);
   assert.equal(await page.locator("h1").count(), 1, name);
@@ -37,7 +40,10 @@ async function checkContent(page, name) {
 
 /** Nothing but the colours differs in the dark. */
 async function checkAxe(page, name) {
-  for (const [colorScheme, rules] of [["light", {}], ["dark", colours]]) {
+  for (const [colorScheme, rules] of [
+    ["light", {}],
+    ["dark", colours],
+  ]) {
     await page.emulateMedia({ colorScheme });
     assert.deepEqual(await violations(page, rules), [], `axe, ${name}, ${colorScheme}`);
   }
@@ -53,8 +59,10 @@ async function checkSlides(page, name) {
     await page.waitForFunction((n) => location.hash === `#slide-${n}`, slide);
     const { seen, over } = await page.evaluate(() => {
       const part = document.querySelector(".part.on-slide");
-      return { seen: [...part.children].filter((e) => e.getClientRects().length > 0).length,
-        over: Math.max(part.scrollHeight - part.clientHeight, part.scrollWidth - part.clientWidth) };
+      return {
+        seen: [...part.children].filter((e) => e.getClientRects().length > 0).length,
+        over: Math.max(part.scrollHeight - part.clientHeight, part.scrollWidth - part.clientWidth),
+      };
     });
     assert.ok(seen >= 1, `${name}, slide ${slide} is empty`);
     assert.ok(over <= 0, `${name}, slide ${slide} is ${over} pixels too large`);
@@ -69,7 +77,12 @@ async function checkSlides(page, name) {
 /** With every slider at one end all points of a figure may be the same, and lie on its border. What the browser cannot draw is an
     offence of the page; what is written stays in the drawing, and nothing is written over anything else. On a phone letters are larger. */
 async function checkSliderEnds(page) {
-  for (const [size, end] of [[1440, "min"], [1440, "max"], [390, "max"], [390, "min"]]) {
+  for (const [size, end] of [
+    [1440, "min"],
+    [1440, "max"],
+    [390, "max"],
+    [390, "min"],
+  ]) {
     await page.setViewportSize({ width: size, height: 844 });
     const [outside, over] = await page.evaluate((limit) => {
       for (const input of document.querySelectorAll("[data-slider]")) {
@@ -77,18 +90,38 @@ async function checkSliderEnds(page) {
         input.dispatchEvent(new Event("input", { bubbles: true }));
       }
       const isOutside = (text) => {
-        const at = text.getBoundingClientRect(), all = text.ownerSVGElement.getBoundingClientRect();
+        const at = text.getBoundingClientRect(),
+          all = text.ownerSVGElement.getBoundingClientRect();
         return at.left < all.left - 2 || at.top < all.top - 2 || at.right > all.right + 2 || at.bottom > all.bottom + 2;
       };
       const meets = (one, other) => {
-        const a = one.getBoundingClientRect(), b = other.getBoundingClientRect();
+        const a = one.getBoundingClientRect(),
+          b = other.getBoundingClientRect();
         return a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1;
       };
-      return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(() => {
-        const drawings = [...document.querySelectorAll("svg.flatland")].map((drawing) => [...drawing.querySelectorAll("text")]);
-        done([drawings.flat().filter(isOutside).map((text) => text.textContent),
-          drawings.flatMap((texts) => texts.flatMap((a, i) => texts.slice(i + 1).filter((b) => meets(a, b)).map((b) => `${a.textContent}, ${b.textContent}`)))]);
-      }))));
+      return new Promise((done) =>
+        requestAnimationFrame(() =>
+          requestAnimationFrame(() =>
+            requestAnimationFrame(() => {
+              const drawings = [...document.querySelectorAll("svg.flatland")].map((drawing) => [...drawing.querySelectorAll("text")]);
+              done([
+                drawings
+                  .flat()
+                  .filter(isOutside)
+                  .map((text) => text.textContent),
+                drawings.flatMap((texts) =>
+                  texts.flatMap((a, i) =>
+                    texts
+                      .slice(i + 1)
+                      .filter((b) => meets(a, b))
+                      .map((b) => `${a.textContent}, ${b.textContent}`),
+                  ),
+                ),
+              ]);
+            }),
+          ),
+        ),
+      );
     }, end);
     assert.deepEqual(outside, [], `${page.url()}, ${size} pixels wide, with every slider at its ${end}`);
     assert.deepEqual(over, [], `${page.url()}, ${size} pixels wide, with every slider at its ${end}`);
@@ -99,17 +132,20 @@ async function checkSliderEnds(page) {
 /** A drag holds its handle, past the other one as well, and the handle stays under the pointer: also on a slide, where the drawing is
     narrower than its element. */
 async function checkDrag() {
-  const page = await at("intersections.html", { viewport: { width: 1024, height: 768 } }), id = '[data-figure="0"]', drawing = page.locator(`${id} svg.flatland`);
+  const page = await at("intersections.html", { viewport: { width: 1024, height: 768 } }),
+    id = '[data-figure="0"]',
+    drawing = page.locator(`${id} svg.flatland`);
   await page.click(".open-slides");
   for (let i = 0; i < 40 && !(await drawing.isVisible()); ++i) await page.keyboard.press("ArrowRight");
-  const screen = (at) => drawing.evaluate((svg, [x, y]) => {
-    const place = new DOMPoint(160 * (x + 3), 160 * (1.5 - y)).matrixTransform(svg.getScreenCTM());
-    return [place.x, place.y];
-  }, at);
+  const screen = (at) =>
+    drawing.evaluate((svg, [x, y]) => {
+      const place = new DOMPoint(160 * (x + 3), 160 * (1.5 - y)).matrixTransform(svg.getScreenCTM());
+      return [place.x, place.y];
+    }, at);
   await slide(page, id, { ox: -2, oy: 0, ax: 0, ay: 0.02 });
-  await page.mouse.move(...await screen([-2, 0]));
+  await page.mouse.move(...(await screen([-2, 0])));
   await page.mouse.down();
-  await page.mouse.move(...await screen([2, 0.1]), { steps: 40 });
+  await page.mouse.move(...(await screen([2, 0.1])), { steps: 40 });
   await page.mouse.up();
   await slide(page, id, {});
   const { ox, oy, ax, ay } = await said(page, id);
@@ -121,7 +157,8 @@ async function checkDrag() {
 
 /** What is written in the drawings can be read from a projector of 1024 × 768. */
 async function checkProjector() {
-  const page = await at("shadow-map.html", { viewport: { width: 1024, height: 768 } }), drawing = page.locator(".light-space");
+  const page = await at("shadow-map.html", { viewport: { width: 1024, height: 768 } }),
+    drawing = page.locator(".light-space");
   await page.click(".open-slides");
   for (let i = 0; i < 40 && !(await drawing.isVisible()); ++i) await page.keyboard.press("ArrowRight");
   const pixels = await drawing.evaluate((svg) => svg.getScreenCTM().a * parseFloat(getComputedStyle(svg.querySelector("text")).fontSize));
@@ -131,7 +168,21 @@ async function checkProjector() {
 
 const operated = new Set();
 /** What the lessons have: a figure that no lesson asks for would be looked at by nobody. */
-const wanted = ["bias", "box-fit", "build", "cube-faces", "eye-ray", "flatland", "grid-curve", "intersection", "map-size", "structure", "two-passes", "two-ways", "whitted"];
+const wanted = [
+  "bias",
+  "box-fit",
+  "build",
+  "cube-faces",
+  "eye-ray",
+  "flatland",
+  "grid-curve",
+  "intersection",
+  "map-size",
+  "structure",
+  "two-passes",
+  "two-ways",
+  "whitted",
+];
 async function checkFigures(page) {
   const figures = await page.evaluate(() => JSON.parse(document.getElementById("page-data").textContent).figures);
   for (const [i, figure] of figures.entries()) {
@@ -147,7 +198,13 @@ async function checkWhole() {
   await checkDrag();
   await checkProjector();
   const linked = await at("acne.html", {}, "#slide-2");
-  assert.equal(await linked.locator(".slide-bar output").textContent().then((text) => text.slice(0, 5)), "2 of ");
+  assert.equal(
+    await linked
+      .locator(".slide-bar output")
+      .textContent()
+      .then((text) => text.slice(0, 5)),
+    "2 of ",
+  );
   await checkAxe(linked, "a slide");
   await close(linked);
   const plain = await at("acne.html", { javaScriptEnabled: false });

@@ -13,10 +13,14 @@ export function skip(reason) {
 
 const require = createRequire(new URL("package.json", import.meta.url));
 function load(name) {
-  try { return require(name); } catch { return skip(`${name} is not installed: npm install --no-save --prefix tests/browser`); }
+  try {
+    return require(name);
+  } catch {
+    return skip(`${name} is not installed: npm install --no-save --prefix tests/browser`);
+  }
 }
-const browserPath = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync)
-  || skip("no chromium-headless-shell or chromium in /usr/bin");
+const browserPath =
+  ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium"].find(existsSync) || skip("no chromium-headless-shell or chromium in /usr/bin");
 const { chromium } = load("playwright-core");
 const axeSource = load("axe-core").source;
 /** WebGL without a GPU is the browser's own software's. */
@@ -26,7 +30,8 @@ export const browser = await chromium.launch({ executablePath: browserPath, args
 /** In the page: an array of a type as text. Its numbers one by one take ten times as long to come out of the browser. */
 function addBytesAsText() {
   globalThis.bytesAsText = ({ buffer, byteOffset, byteLength }) => {
-    const bytes = new Uint8Array(buffer, byteOffset, byteLength), parts = [];
+    const bytes = new Uint8Array(buffer, byteOffset, byteLength),
+      parts = [];
     for (let at = 0; at < bytes.length; at += 4096) parts.push(String.fromCharCode(...bytes.subarray(at, at + 4096)));
     return btoa(parts.join(""));
   };
@@ -34,7 +39,8 @@ function addBytesAsText() {
 
 /** Opens FOLDER/report.html, or another file of it, and collects everything that it must not do. `hash` begins with #. */
 export function open(folder, options = {}, hash = "") {
-  const { beside, file = "report.html", ...others } = options, url = pathToFileURL(resolve(folder, file)).href;
+  const { beside, file = "report.html", ...others } = options,
+    url = pathToFileURL(resolve(folder, file)).href;
   return openAt(url, beside ? new URL(".", url).href : null, others, hash);
 }
 
@@ -51,13 +57,13 @@ export async function openAt(url, allowed, contextOptions = {}, hash = "") {
   page.own = url;
   page.on("request", (request) => {
     // A page may ask for nothing but itself, or, where it says so, for the files beside it.
-    const asked = request.url().split("#")[0], besideIt = allowed !== null && asked.startsWith(allowed);
+    const asked = request.url().split("#")[0],
+      besideIt = allowed !== null && asked.startsWith(allowed);
     page.requests.push(asked);
     if (asked !== page.own && !asked.startsWith("data:") && !besideIt) page.offences.push(`request: ${asked}`);
   });
   await page.goto(url + hash);
-  if (contextOptions.javaScriptEnabled !== false)
-    await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
+  if (contextOptions.javaScriptEnabled !== false) await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
   return page;
 }
 
@@ -77,8 +83,13 @@ export async function close(page) {
 export async function violations(page, rules = {}, part = null) {
   await page.evaluate(axeSource);
   // Of what passes axe would otherwise list every element, too.
-  return page.evaluate(async ([where, options]) => (await window.axe.run(where ?? document, options)).violations
-    .map(({ id, nodes }) => `${id}: ${nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`), [part, { resultTypes: ["violations"], ...rules }]);
+  return page.evaluate(
+    async ([where, options]) =>
+      (await window.axe.run(where ?? document, options)).violations.map(
+        ({ id, nodes }) => `${id}: ${nodes.map((n) => n.html.slice(0, 120)).join(" | ")}`,
+      ),
+    [part, { resultTypes: ["violations"], ...rules }],
+  );
 }
 /** The rules that colours decide. */
 export const colours = { runOnly: ["color-contrast", "link-in-text-block"] };
@@ -94,23 +105,29 @@ export async function checkAccessibility(folder, options = {}, hash = "") {
 
 /** A picture can be read. One that the page has only just set may still be loading, so this waits until it has loaded or failed. */
 export async function checkPicture(image) {
-  const width = await image.evaluate((e) => new Promise((done) => {
-    const tell = () => done(e.naturalWidth);
-    if (e.complete) return tell();
-    e.addEventListener("load", tell);
-    e.addEventListener("error", tell);
-  }));
+  const width = await image.evaluate(
+    (e) =>
+      new Promise((done) => {
+        const tell = () => done(e.naturalWidth);
+        if (e.complete) return tell();
+        e.addEventListener("load", tell);
+        e.addEventListener("error", tell);
+      }),
+  );
   assert.ok(width > 0, "a picture cannot be read");
 }
 
 /** A canvas' pixels, four bytes each. */
 export async function pixelsOf(canvas) {
-  return Buffer.from(await canvas.evaluate((e) => {
-    const copy = Object.assign(document.createElement("canvas"), { width: e.width, height: e.height });
-    const context = copy.getContext("2d", { willReadFrequently: true });
-    context.drawImage(e, 0, 0);
-    return globalThis.bytesAsText(context.getImageData(0, 0, copy.width, copy.height).data);
-  }), "base64");
+  return Buffer.from(
+    await canvas.evaluate((e) => {
+      const copy = Object.assign(document.createElement("canvas"), { width: e.width, height: e.height });
+      const context = copy.getContext("2d", { willReadFrequently: true });
+      context.drawImage(e, 0, 0);
+      return globalThis.bytesAsText(context.getImageData(0, 0, copy.width, copy.height).data);
+    }),
+    "base64",
+  );
 }
 
 /** Nothing may be wider than a phone. */

@@ -17,7 +17,10 @@ const byKey = (json, key) => key.split(".").reduce((value, part) => value?.[part
 
 // The number that a reader sees, in the unit of result.json.
 function numberShown(text) {
-  const match = text.replaceAll(",", "").replaceAll("\u2212", "-").match(/^([+-]?[\d.]+(?:e[+-]?\d+)?)(?:\s(.*))?$/);
+  const match = text
+    .replaceAll(",", "")
+    .replaceAll("\u2212", "-")
+    .match(/^([+-]?[\d.]+(?:e[+-]?\d+)?)(?:\s(.*))?$/);
   if (!match) return null;
   const units = { "%": 0.01, s: 1000, ms: 1, kB: 1e3, MB: 1e6, GB: 1e9, bytes: 1 };
   return Number(match[1]) * (units[match[2]] ?? 1);
@@ -27,8 +30,9 @@ async function checkNumbers(page, name) {
   const file = JSON.parse(readFileSync(join(folder, name, "result.json"), "utf8"));
   const embedded = JSON.parse(await page.locator("#result").textContent());
   assert.deepEqual(embedded, file, "the embedded result differs from result.json");
-  const shown = await page.locator("data[data-key]").evaluateAll((all) =>
-    all.map((e) => ({ key: e.dataset.key, value: e.getAttribute("value"), text: e.textContent })));
+  const shown = await page
+    .locator("data[data-key]")
+    .evaluateAll((all) => all.map((e) => ({ key: e.dataset.key, value: e.getAttribute("value"), text: e.textContent })));
   assert.ok(shown.length > 30, `only ${shown.length} numbers on the page`);
   for (const { key, value, text } of shown) {
     const expected = byKey(file, key);
@@ -77,8 +81,14 @@ async function checkPolicy(page) {
 
 async function checkViewer() {
   const page = await open("one");
-  const viewer = page.locator(".viewer").first(), stage = viewer.locator(".stage"), probe = viewer.locator(".probe");
-  const transform = () => stage.locator("canvas").first().evaluate((e) => e.style.transform);
+  const viewer = page.locator(".viewer").first(),
+    stage = viewer.locator(".stage"),
+    probe = viewer.locator(".probe");
+  const transform = () =>
+    stage
+      .locator("canvas")
+      .first()
+      .evaluate((e) => e.style.transform);
   await stage.focus();
   await page.keyboard.press("ArrowRight");
   assert.equal(await viewer.locator(".slider input").inputValue(), "52");
@@ -95,13 +105,17 @@ async function checkViewer() {
   // Pixel (10, 120) of the hand-made picture is acne: (10 + 120) is even, in the first patch.
   const box = await stage.boundingBox();
   await stage.hover({ position: { x: (10.5 / 320) * box.width, y: (120.5 / 180) * box.height } });
-  assert.match(await probe.textContent(), /^Pixel 10, 120: acne; rasterized #[0-9a-f]{6}, linear [\d. e-]+; ray traced #[0-9a-f]{6}, linear [\d. e-]+/);
+  assert.match(
+    await probe.textContent(),
+    /^Pixel 10, 120: acne; rasterized #[0-9a-f]{6}, linear [\d. e-]+; ray traced #[0-9a-f]{6}, linear [\d. e-]+/,
+  );
   await page.keyboard.press("Shift+ArrowRight");
   assert.match(await probe.textContent(), /^Pixel 11, 120: right/);
   await viewer.getByRole("button", { name: "Side by side" }).click();
   const panes = await stage.locator(".pane").evaluateAll((all) => all.map((e) => e.getBoundingClientRect().left));
   assert.ok(panes[1] > panes[0]);
-  const picture = page.locator("#picture-labels-0"), before = await picture.getAttribute("src");
+  const picture = page.locator("#picture-labels-0"),
+    before = await picture.getAttribute("src");
   const acne = page.getByRole("button", { name: "acne", exact: true });
   await acne.click();
   assert.notEqual(await picture.getAttribute("src"), before, "the label picture did not change");
@@ -112,13 +126,17 @@ async function checkViewer() {
   const [, x, y] = /^Pixel (\d+), (\d+): acne/.exec((await page.locator(".pixel-title").first().textContent()).trim());
   await stage.evaluate((e) => e.focus({ preventScroll: true }));
   await page.keyboard.press("Shift+ArrowLeft");
-  assert.ok((await probe.textContent()).startsWith(`Pixel ${x - 1}, ${y}:`), `a step from ${x}, ${y} leads to ${await probe.textContent()}`);
+  assert.ok(
+    (await probe.textContent()).startsWith(`Pixel ${x - 1}, ${y}:`),
+    `a step from ${x}, ${y} leads to ${await probe.textContent()}`,
+  );
   await close(page);
 }
 
 // Several lights stand in tabs: one section at a time, by mouse, keyboard and link; all of them in print.
 async function checkTabs() {
-  const page = await open("three"), tabs = page.getByRole("tab");
+  const page = await open("three"),
+    tabs = page.getByRole("tab");
   const seen = () => page.locator("main section[id^=light-]:visible").evaluateAll((all) => all.map((e) => e.id));
   assert.equal(await tabs.count(), 3);
   assert.deepEqual(await seen(), ["light-0"]);
@@ -129,7 +147,7 @@ async function checkTabs() {
   const linked = await openFolder(join(folder, "three"), {}, new URL(page.url()).hash);
   assert.deepEqual(await linked.locator("main section[id^=light-]:visible").evaluateAll((all) => all.map((e) => e.id)), ["light-1"]);
   await close(linked);
-  await close(await openFolder(join(folder, "three"), {}, "#light-01"));  // a light by another spelling of its number
+  await close(await openFolder(join(folder, "three"), {}, "#light-01")); // a light by another spelling of its number
   await page.keyboard.press("ArrowRight");
   await page.keyboard.press("ArrowRight");
   assert.deepEqual(await seen(), ["light-0"]);
@@ -147,14 +165,16 @@ async function checkTabs() {
 
 // The first screen of 1440 x 900 holds both pictures and the labelled one, side by side.
 async function checkFirstScreen() {
-  const page = await open("one"), boxes = [];
+  const page = await open("one"),
+    boxes = [];
   for (const id of ["picture-raster", "picture-raytraced", "picture-labels-0"]) boxes.push(await page.locator(`#${id}`).boundingBox());
   for (const box of boxes) assert.ok(box.y === boxes[0].y && box.y + box.height < 900 && box.width > 300, JSON.stringify(boxes));
   assert.ok(boxes[0].x < boxes[1].x && boxes[1].x < boxes[2].x);
   const verdict = await page.locator(".verdict").first().boundingBox();
   assert.ok(verdict.y + verdict.height < boxes[0].y, JSON.stringify(verdict));
   await close(page);
-  const phone = await open("one", { viewport: { width: 390, height: 844 } }), said = await phone.locator(".verdict").first().boundingBox();
+  const phone = await open("one", { viewport: { width: 390, height: 844 } }),
+    said = await phone.locator(".verdict").first().boundingBox();
   assert.ok(said.y + said.height < 844, `on a phone the verdict ends at ${said.y + said.height}`);
   await close(phone);
 }
@@ -162,7 +182,8 @@ async function checkFirstScreen() {
 // Of a picture with more pixels than a page holds the page shows some, and says so on its first screen, scripts or none.
 async function checkReducedPage() {
   for (const javaScriptEnabled of [true, false]) {
-    const page = await open("large", { javaScriptEnabled }), said = page.locator("main p", { hasText: "shows one pixel" });
+    const page = await open("large", { javaScriptEnabled }),
+      said = page.locator("main p", { hasText: "shows one pixel" });
     const words = async (place) => (await place.innerText()).replaceAll(/\s+/g, " ");
     assert.match(await words(said), /^This page shows one pixel of every 3 × 3 .* are of all pixels\.$/);
     const box = await said.boundingBox();
@@ -171,7 +192,13 @@ async function checkReducedPage() {
     await checkNumbers(page, "large");
     // 320 x 180 pixels were given: every third of their columns and rows.
     if (javaScriptEnabled)
-      assert.deepEqual(await page.locator(".stage canvas").first().evaluate((e) => [e.width, e.height]), [107, 60]);
+      assert.deepEqual(
+        await page
+          .locator(".stage canvas")
+          .first()
+          .evaluate((e) => [e.width, e.height]),
+        [107, 60],
+      );
     await close(page);
   }
   const page = await open("one");
@@ -181,10 +208,20 @@ async function checkReducedPage() {
 
 // Several captures: the worst first, each with a link to its own page, and the same without scripts.
 async function checkCaptures() {
-  const page = await open("captures"), rows = await page.locator(".captures tbody tr").allInnerTexts();
-  assert.deepEqual(rows.map((row) => row.replaceAll(/\s+/g, " ").trim()), [
-    "shot#1 <b> fence Another 2.0 12.5 % 25.0 % acne 12 1.5 0.0625 bias 0.002 instead of 0.001", "empty nothing compared", "refused not judged: no such file"]);
-  assert.deepEqual(await page.locator(".captures a").evaluateAll((all) => all.map((a) => a.getAttribute("href"))), ["shot%231%20%3Cb%3E/report.html", "empty/report.html"]);
+  const page = await open("captures"),
+    rows = await page.locator(".captures tbody tr").allInnerTexts();
+  assert.deepEqual(
+    rows.map((row) => row.replaceAll(/\s+/g, " ").trim()),
+    [
+      "shot#1 <b> fence Another 2.0 12.5 % 25.0 % acne 12 1.5 0.0625 bias 0.002 instead of 0.001",
+      "empty nothing compared",
+      "refused not judged: no such file",
+    ],
+  );
+  assert.deepEqual(await page.locator(".captures a").evaluateAll((all) => all.map((a) => a.getAttribute("href"))), [
+    "shot%231%20%3Cb%3E/report.html",
+    "empty/report.html",
+  ]);
   assert.equal(await page.locator("nav a").getAttribute("href"), "#captures");
   await close(page);
   const plain = await open("captures", { javaScriptEnabled: false });
@@ -203,8 +240,12 @@ async function checkSums() {
   assert.match(costs[2], /casters move.* by the map, .* by rays$/);
   assert.equal(await three.locator("#cost").getByText("casters move").count(), 3, "of each light");
   await close(three);
-  const page = await open("cancelling"), sums = await page.locator("table:is(.budget, .ladder) tr.sum .n").allTextContents();
-  assert.deepEqual(sums.filter((text) => text !== ""), ["0", "0"]);
+  const page = await open("cancelling"),
+    sums = await page.locator("table:is(.budget, .ladder) tr.sum .n").allTextContents();
+  assert.deepEqual(
+    sums.filter((text) => text !== ""),
+    ["0", "0"],
+  );
   await close(page);
 }
 
@@ -226,7 +267,9 @@ try {
   await checkReducedPage();
   await checkCaptures();
   await checkSums();
-  console.log("viewer: keys, mouse and labels work; three lights in tabs; the first screen has the labelled picture, and says what it leaves out");
+  console.log(
+    "viewer: keys, mouse and labels work; three lights in tabs; the first screen has the labelled picture, and says what it leaves out",
+  );
 } finally {
   await browser.close();
 }

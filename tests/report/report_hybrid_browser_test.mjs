@@ -9,16 +9,39 @@ import { browser, checkAccessibility, close, open } from "../browser/open_page.m
 
 const [program, folder] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
-const width = 240, height = 135, traced = 2;
-execFileSync(program, ["compare", "thin-wall", "--technique", "hybrid", "--size", `${width}x${height}`, "--map-size", "128", "--runs", "1", "--quiet",
-  "-o", folder, "--aov", join(folder, "all.exr")], { stdio: "inherit" });
-const result = JSON.parse(readFileSync(join(folder, "result.json"), "utf8")), { hybrid } = result.lights[0].map;
+const width = 240,
+  height = 135,
+  traced = 2;
+execFileSync(
+  program,
+  [
+    "compare",
+    "thin-wall",
+    "--technique",
+    "hybrid",
+    "--size",
+    `${width}x${height}`,
+    "--map-size",
+    "128",
+    "--runs",
+    "1",
+    "--quiet",
+    "-o",
+    folder,
+    "--aov",
+    join(folder, "all.exr"),
+  ],
+  { stdio: "inherit" },
+);
+const result = JSON.parse(readFileSync(join(folder, "result.json"), "utf8")),
+  { hybrid } = result.lights[0].map;
 
 function decisions() {
   execFileSync("oiiotool", [join(folder, "all.exr"), "--ch", "decision.V,class.V", "-o", join(folder, "few.exr")]);
-  const text = execFileSync("oiiotool", ["--dumpdata", join(folder, "few.exr")], { encoding: "utf8", maxBuffer: 1 << 28 }), pixels = [];
+  const text = execFileSync("oiiotool", ["--dumpdata", join(folder, "few.exr")], { encoding: "utf8", maxBuffer: 1 << 28 }),
+    pixels = [];
   for (const [, x, y, values] of text.matchAll(/Pixel \((\d+), (\d+)\): (.*)/g)) {
-    const [label, who] = values.trim().split(/\s+/).map(Number);  // EXR files sort their channels: class, decision
+    const [label, who] = values.trim().split(/\s+/).map(Number); // EXR files sort their channels: class, decision
     pixels.push({ x: Number(x), y: Number(y), label, who });
   }
   return pixels;
@@ -28,16 +51,22 @@ const at = (path) => path.split(".").reduce((value, key) => value[key], result);
 const stories = [/surely in shadow, no ray was cast/, /surely lit, no ray was cast/, /a ray was cast/];
 
 try {
-  const page = await open(folder), keyed = page.locator("data[data-key^='lights.0.map.hybrid']");
+  const page = await open(folder),
+    keyed = page.locator("data[data-key^='lights.0.map.hybrid']");
   assert.ok((await keyed.count()) >= 7);
   for (const [key, value] of await keyed.evaluateAll((all) => all.map((e) => [e.dataset.key, Number(e.value)])))
     assert.equal(value, at(key), key);
   assert.equal(await page.locator("text=/bias [\\d.]+ world units/").count(), 0, "an exact technique has no bias");
-  const pixels = decisions(), counts = [0, 1, 2].map((who) => pixels.filter((p) => p.who === who).length);
-  assert.ok(counts.every((count) => count > 0), `decisions ${counts}`);
+  const pixels = decisions(),
+    counts = [0, 1, 2].map((who) => pixels.filter((p) => p.who === who).length);
+  assert.ok(
+    counts.every((count) => count > 0),
+    `decisions ${counts}`,
+  );
   assert.equal(counts[1], hybrid.surely_lit);
   const marked = await page.locator("[id^=picture-decisions]").evaluate((image) => {
-    const canvas = Object.assign(document.createElement("canvas"), { width: image.naturalWidth, height: image.naturalHeight }), context = canvas.getContext("2d");
+    const canvas = Object.assign(document.createElement("canvas"), { width: image.naturalWidth, height: image.naturalHeight }),
+      context = canvas.getContext("2d");
     context.drawImage(image, 0, 0);
     const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
     let count = 0;
@@ -48,7 +77,8 @@ try {
   await checkAccessibility(folder);
   await close(page);
   for (const who of [0, 1, 2]) {
-    const { x, y } = pixels.find((p) => p.who === who && p.label >= 0), probed = await open(folder, {}, `#light-0?pixel=${x},${y}`);
+    const { x, y } = pixels.find((p) => p.who === who && p.label >= 0),
+      probed = await open(folder, {}, `#light-0?pixel=${x},${y}`);
     assert.match(await probed.locator(".story").textContent(), stories[who]);
     await close(probed);
   }

@@ -7,7 +7,8 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 
-const [sampleProgram, folder] = process.argv.slice(2), sources = fileURLToPath(new URL("../../report/page", import.meta.url));
+const [sampleProgram, folder] = process.argv.slice(2),
+  sources = fileURLToPath(new URL("../../report/page", import.meta.url));
 if (!existsSync(join(sources, "node_modules/esbuild"))) {
   console.log("skipped: esbuild is not installed: npm install --no-save --prefix report/page");
   process.exit(77);

@@ -17,7 +17,8 @@ function readAov(bias) {
   const few = join(folder, "few.exr");
   execFileSync("oiiotool", [join(folder, `bias-${bias}.exr`), "--ch", channels.join(","), "-o", few]);
   const text = execFileSync("oiiotool", ["--dumpdata", few], { encoding: "utf8", maxBuffer: 1 << 28 });
-  const order = [...channels].sort(), places = channels.map((name) => order.indexOf(name));  // EXR files sort theirs
+  const order = [...channels].sort(),
+    places = channels.map((name) => order.indexOf(name)); // EXR files sort theirs
   const pixels = [];
   for (const [, x, y, values] of text.matchAll(/Pixel \((\d+), (\d+)\): (.*)/g))
     pixels[Number(y) * width + Number(x)] = places.map((place) => Number(values.trim().split(/\s+/)[place]));
@@ -29,20 +30,29 @@ function readAov(bias) {
 async function checkData(page, aov) {
   const { position_steps: steps } = JSON.parse(await page.locator("#page-data").textContent());
   const light = await page.evaluate(async (count) => {
-    const light = await gnomon.light(0), pixels = Array.from({ length: count }, (_, i) => light.pixel(i % 240, Math.floor(i / 240)));
+    const light = await gnomon.light(0),
+      pixels = Array.from({ length: count }, (_, i) => light.pixel(i % 240, Math.floor(i / 240)));
     const numbers = pixels.flatMap(({ label, gap, at, primitive, rungs }) => [label, gap, at.u, at.v, primitive, ...rungs]);
     return { depthStep: light.json.depth_step, text: bytesAsText(Float64Array.from(numbers, (value) => value ?? NaN)) };
   }, aov.length);
   const numbers = new Float64Array(new Uint8Array(Buffer.from(light.text, "base64")).buffer);
   assert.equal(numbers.length, aov.length * channels.length);
-  const used = Math.fround(Number(biases[0])), biasesOfCurve = resultOf(biases[0]).bias_curve.map(({ bias }) => Math.fround(bias));
+  const used = Math.fround(Number(biases[0])),
+    biasesOfCurve = resultOf(biases[0]).bias_curve.map(({ bias }) => Math.fround(bias));
   aov.forEach(([label, gap, u, v, primitive, ...ladder], i) => {
-    const [labelHere, gapHere, uHere, vHere, primitiveHere, ...ladderHere] = numbers.subarray(i * channels.length, (i + 1) * channels.length);
+    const [labelHere, gapHere, uHere, vHere, primitiveHere, ...ladderHere] = numbers.subarray(
+      i * channels.length,
+      (i + 1) * channels.length,
+    );
     assert.equal(labelHere, label, `label of pixel ${i}`);
     // Rounded to a step, and never past a bias of the curve. (1e-7: the dump's nine decimals.)
-    assert.ok(gap === gapHere || Math.abs(gap - gapHere) <= light.depthStep + 1e-7 * Math.abs(gap), `gap of pixel ${i}: ${gapHere}, not ${gap}`);
+    assert.ok(
+      gap === gapHere || Math.abs(gap - gapHere) <= light.depthStep + 1e-7 * Math.abs(gap),
+      `gap of pixel ${i}: ${gapHere}, not ${gap}`,
+    );
     for (const bias of [used, ...biasesOfCurve])
-      if (Math.abs(gap - bias) > 1e-7 * Math.abs(gap) && gapHere > bias !== gap > bias) assert.fail(`gap ${gap} of pixel ${i}, kept as ${gapHere}, at the bias ${bias}`);
+      if (Math.abs(gap - bias) > 1e-7 * Math.abs(gap) && gapHere > bias !== gap > bias)
+        assert.fail(`gap ${gap} of pixel ${i}, kept as ${gapHere}, at the bias ${bias}`);
     if (label >= 0) {
       assert.equal(uHere, Math.floor(u * steps) / steps, `u of pixel ${i}`);
       assert.equal(vHere, Math.floor(v * steps) / steps, `v of pixel ${i}`);
@@ -64,12 +74,14 @@ async function checkMarker(page, pixel, u, v) {
 // One pixel of every label that occurs, those of pixels not compared among them, chosen by the URL.
 async function checkProbe(aov, names, depthStep) {
   const examples = new Map();
-  aov.forEach(([label], i) => { examples.set(label, i); });
+  aov.forEach(([label], i) => {
+    examples.set(label, i);
+  });
   assert.ok(examples.size >= 4, `only the labels ${[...examples.keys()]} occur`);
   for (const [label, i] of examples) {
     const page = await open(folderOf(biases[0]), {}, `#light-0?pixel=${i % width},${Math.floor(i / width)}`);
     const [, gap, u, v, primitive, ...ladder] = aov[i];
-    assert.equal((await title(page)), `Pixel ${i % width}, ${Math.floor(i / width)}: ${names.get(label)}`);
+    assert.equal(await title(page), `Pixel ${i % width}, ${Math.floor(i / width)}: ${names.get(label)}`);
     if (label < 0) {
       assert.match(await page.locator(".story").textContent(), /^Not compared: /);
       await close(page);
@@ -94,25 +106,38 @@ async function checkProbe(aov, names, depthStep) {
 
 async function checkDrawing(page) {
   // Texels are as wide as the caption says, in the drawing's one scale for width and depth.
-  const own = page.locator("svg.light-space .column.own"), caption = await page.locator(".probe-body figcaption").textContent();
-  const texel = Number(/a texel is ([\d.e-]+) wide/.exec(caption)[1]), scale = Number(await own.getAttribute("width")) / texel;
+  const own = page.locator("svg.light-space .column.own"),
+    caption = await page.locator(".probe-body figcaption").textContent();
+  const texel = Number(/a texel is ([\d.e-]+) wide/.exec(caption)[1]),
+    scale = Number(await own.getAttribute("width")) / texel;
   const [top, bottom] = (await page.locator(".gap-mark .bracket").getAttribute("d")).match(/[\d.]+(?=h8)/g).map(Number);
-  const { gap } = await shown(page), ray = Math.abs(bottom - top) / scale;
+  const { gap } = await shown(page),
+    ray = Math.abs(bottom - top) / scale;
   // The gap is measured along the ray, the drawing's depth along the face's axis: at most sqrt(3) apart on a cube face.
   assert.ok(ray <= gap * 1.03 && ray >= gap / 1.78, `the gap is drawn ${ray} long, and is ${gap}`);
 }
 
 async function checkBias(page) {
-  const [used, other] = biases.map(resultOf), curve = used.bias_curve;
-  const points = [...curve.filter((_, i) => i % 16 === 0), { ...used.error, bias: Number(biases[0]) }, { ...other.error, bias: Number(biases[1]) }];
+  const [used, other] = biases.map(resultOf),
+    curve = used.bias_curve;
+  const points = [
+    ...curve.filter((_, i) => i % 16 === 0),
+    { ...used.error, bias: Number(biases[0]) },
+    { ...other.error, bias: Number(biases[1]) },
+  ];
   for (const { bias, false_shadow, missed_shadow } of points)
-    assert.deepEqual(await countsAt(page, bias), { false_shadow, missed_shadow, orange: false_shadow, blue: missed_shadow }, `at a bias of ${bias}`);
+    assert.deepEqual(
+      await countsAt(page, bias),
+      { false_shadow, missed_shadow, orange: false_shadow, blue: missed_shadow },
+      `at a bias of ${bias}`,
+    );
   assert.notDeepEqual(used.error.false_shadow, other.error.false_shadow, "the two biases cannot be told apart");
   await page.locator(".bias-bar input[type=range]").focus();
   const before = await page.locator(".bias-counts").textContent();
   for (let i = 0; i < 60; ++i) await page.keyboard.press("ArrowLeft");
   await page.waitForFunction((text) => document.querySelector(".bias-counts").textContent !== text, before);
-  const chart = page.locator("svg.chart.live"), box = await chart.boundingBox();
+  const chart = page.locator("svg.chart.live"),
+    box = await chart.boundingBox();
   const dragged = await page.locator(".bias-counts").textContent();
   await page.mouse.move(box.x + 0.3 * box.width, box.y + 0.5 * box.height);
   await page.mouse.down();
@@ -129,20 +154,25 @@ const srgb = (v) => (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055
 // Exposure multiplies linear light: against the EXR file's own colours, to one level of 8 bits (the page keeps half a percent
 // of a value, less than one level).
 async function checkExposure(page) {
-  const text = execFileSync("oiiotool", [join(folder, `bias-${biases[0]}.exr`), "--ch", "R,G,B", "-o", join(folder, "rgb.exr")]) &&
+  const text =
+    execFileSync("oiiotool", [join(folder, `bias-${biases[0]}.exr`), "--ch", "R,G,B", "-o", join(folder, "rgb.exr")]) &&
     execFileSync("oiiotool", ["--dumpdata", join(folder, "rgb.exr")], { encoding: "utf8", maxBuffer: 1 << 28 });
-  const linear = [...text.matchAll(/Pixel \((\d+), (\d+)\): (.*)/g)].map(([, , , values]) => values.trim().split(/\s+/).map(Number).reverse());
+  const linear = [...text.matchAll(/Pixel \((\d+), (\d+)\): (.*)/g)].map(([, , , values]) =>
+    values.trim().split(/\s+/).map(Number).reverse(),
+  );
   const blueFirst = /channel list: B, G, R/.test(execFileSync("oiiotool", ["-v", "--info", join(folder, "rgb.exr")], { encoding: "utf8" }));
   const { exposure } = JSON.parse(readFileSync(join(folderOf(biases[0]), "result.json"), "utf8"));
   for (const stops of [0, 2, -3]) {
     await page.locator(".exposure input").fill(String(stops));
     await redrawn(page);
-    const shown = await canvasOf(page, 1);  // ray traced
+    const shown = await canvasOf(page, 1); // ray traced
     let worst = 0;
-    linear.forEach((values, i) => (blueFirst ? values : [...values].reverse()).forEach((v, k) => {
-      const expected = Math.floor(255 * srgb(Math.min(v * exposure * 2 ** stops, 1)) + 0.5);
-      worst = Math.max(worst, Math.abs(expected - shown[4 * i + k]));
-    }));
+    linear.forEach((values, i) =>
+      (blueFirst ? values : [...values].reverse()).forEach((v, k) => {
+        const expected = Math.floor(255 * srgb(Math.min(v * exposure * 2 ** stops, 1)) + 0.5);
+        worst = Math.max(worst, Math.abs(expected - shown[4 * i + k]));
+      }),
+    );
     assert.ok(worst <= 1, `at ${stops} stops a pixel is off by ${worst} levels`);
   }
   await page.locator(".exposure input").fill("0");
@@ -152,8 +182,12 @@ async function checkExposure(page) {
 async function checkMetrics(page) {
   const { error } = resultOf(biases[0]);
   const mean = (values) => values.reduce((a, b) => a + b, 0) / values.length;
-  const maps = await page.evaluate(async () => { const { flip, ssim } = await gnomon.light(0); return [[...flip], [...ssim]]; });
-  const flip = maps[0].map((v) => v / 100), ssim = maps[1].filter((v) => v !== -128).map((v) => v / 100);
+  const maps = await page.evaluate(async () => {
+    const { flip, ssim } = await gnomon.light(0);
+    return [[...flip], [...ssim]];
+  });
+  const flip = maps[0].map((v) => v / 100),
+    ssim = maps[1].filter((v) => v !== -128).map((v) => v / 100);
   assert.equal(ssim.length, (width - 10) * (height - 10));
   assert.ok(Math.abs(mean(flip) - error.flip) < 0.5 / 100, `FLIP ${mean(flip)}, not ${error.flip}`);
   assert.ok(Math.abs(mean(ssim) - error.ssim) < 0.5 / 100, `SSIM ${mean(ssim)}, not ${error.ssim}`);
@@ -162,7 +196,10 @@ async function checkMetrics(page) {
     await redrawn(page);
     assert.match(await page.locator(".legends").textContent(), new RegExp(name.replace("|", ".")), `the scale of ${name}`);
     const picture = await canvasOf(page, 0);
-    assert.ok(picture.some((v, i) => i % 4 !== 3 && v !== picture[i % 4]), `${name} is one colour`);
+    assert.ok(
+      picture.some((v, i) => i % 4 !== 3 && v !== picture[i % 4]),
+      `${name} is one colour`,
+    );
     if (name === "absolute error") {
       // Hard shadows: wrong pixels are magma's 1, right ones its 0.
       const wrong = picture.reduce((n, v, i) => n + (i % 4 === 0 && v === 252 && picture[i + 1] === 253 && picture[i + 2] === 191), 0);
@@ -182,7 +219,8 @@ async function checkLessons(page) {
 async function checkControls(page) {
   await page.getByRole("button", { name: "Copy the command" }).click();
   await page.getByRole("button", { name: "Copied" }).waitFor();
-  const stage = page.locator(".stage"), box = await stage.boundingBox();
+  const stage = page.locator(".stage"),
+    box = await stage.boundingBox();
   await stage.click({ position: { x: (100.5 / width) * box.width, y: (80.5 / height) * box.height } });
   await page.waitForFunction(() => document.querySelector(".pixel-title").textContent.trim().startsWith("Pixel 100, 80:"));
   await stage.click({ button: "right", position: { x: (50.5 / width) * box.width, y: (40.5 / height) * box.height } });
@@ -198,16 +236,28 @@ async function checkControls(page) {
 }
 
 try {
-  const aov = readAov(biases[0]), page = await open(folderOf(biases[0]));
+  const aov = readAov(biases[0]),
+    page = await open(folderOf(biases[0]));
   const depthStep = await checkData(page, aov);
   console.log(`${aov.length} pixels carry the numbers of the EXR file`);
   // One that sees exactly half the light is in neither shadow, whatever the bias.
-  assert.deepEqual(await page.evaluate(async () => {
-    const light = await gnomon.light(0), { visibility_steps: steps } = JSON.parse(document.getElementById("page-data").textContent);
-    const wrongWith = (share) => { light.truth[0] = share * steps; return [-1e9, 1e9].map((bias) => light.wrongAt(0, bias)); };
-    light.gap[0] = 0;
-    return [0, 0.5, 1].map(wrongWith);
-  }), [[0, 1], [0, 0], [-1, 0]]);
+  assert.deepEqual(
+    await page.evaluate(async () => {
+      const light = await gnomon.light(0),
+        { visibility_steps: steps } = JSON.parse(document.getElementById("page-data").textContent);
+      const wrongWith = (share) => {
+        light.truth[0] = share * steps;
+        return [-1e9, 1e9].map((bias) => light.wrongAt(0, bias));
+      };
+      light.gap[0] = 0;
+      return [0, 0.5, 1].map(wrongWith);
+    }),
+    [
+      [0, 1],
+      [0, 0],
+      [-1, 0],
+    ],
+  );
   const names = new Map(JSON.parse(await page.locator("#page-data").textContent()).labels.map(({ value, name }) => [value, name]));
   console.log(`${await checkProbe(aov, names, depthStep)} labels probed`);
   await checkDrawing(page);

@@ -8,7 +8,9 @@ import { join } from "node:path";
 
 const require = createRequire(new URL("../browser/package.json", import.meta.url));
 let validator;
-try { validator = require("gltf-validator"); } catch {
+try {
+  validator = require("gltf-validator");
+} catch {
   console.log("skipped: gltf-validator is not installed: npm install --no-save --prefix tests/browser");
   process.exit(77);
 }
@@ -23,7 +25,15 @@ rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 const { scenes } = JSON.parse(execFileSync(gnomon, ["scenes", "--json", "-"]));
 for (const { name } of scenes)
-  execFileSync(gnomon, ["export", name, "--tessellate", "16", "--quiet", "-o", join(folder, `${name}.${name === "teapot" ? "gltf" : "glb"}`)]);
+  execFileSync(gnomon, [
+    "export",
+    name,
+    "--tessellate",
+    "16",
+    "--quiet",
+    "-o",
+    join(folder, `${name}.${name === "teapot" ? "gltf" : "glb"}`),
+  ]);
 execFileSync(gnomon, ["export", "--suite", join(folder, "suite"), "--size", "16x9", "--quiet"]);
 const files = readdirSync(folder, { recursive: true }).filter((name) => /\.gl(b|tf)$/.test(name));
 assert.equal(files.length, scenes.length + 12);

@@ -18,35 +18,65 @@ const change = async (page, act) => {
   await page.waitForFunction((url) => location.href !== url, before);
   await done(page);
 };
-const counts = (page) => page.locator("#lab-results .labels tbody tr").evaluateAll((rows) => Object.fromEntries(rows.map((row) => [row.querySelector("summary").textContent,
-  Number(row.querySelector(".n").textContent.replaceAll(",", ""))])));
+const counts = (page) =>
+  page
+    .locator("#lab-results .labels tbody tr")
+    .evaluateAll((rows) =>
+      Object.fromEntries(
+        rows.map((row) => [row.querySelector("summary").textContent, Number(row.querySelector(".n").textContent.replaceAll(",", ""))]),
+      ),
+    );
 const command = (page) => page.locator("#lab-command").textContent();
 
 async function countsWhatTheCommandCounts() {
   const page = await openLab();
   await done(page);
   for (const texels of ["2", "0"])
-    await change(page, () => page.locator("[data-setting=bias] input[type=text]").fill(texels).then(() => page.keyboard.press("Enter")));
+    await change(page, () =>
+      page
+        .locator("[data-setting=bias] input[type=text]")
+        .fill(texels)
+        .then(() => page.keyboard.press("Enter")),
+    );
   const { classes } = compared({ command: await command(page) }).lights[0];
   assert.ok(classes.acne > 100);
   assert.equal((await counts(page)).acne, classes.acne);
   assert.match(await page.locator("#lab-verdict").textContent(), /acne/);
   const chart = page.locator("#lab-results .chart");
-  await change(page, () => chart.evaluate((e) => {  // three quarters of the way: the curve's end is at a multiple of a texel that the document knows
-    const { left, right, from, to } = e.dataset, box = e.getBoundingClientRect(), width = Number(e.getAttribute("viewBox").split(" ")[2]);
-    globalThis.biasAsked = Number(from) + 0.75 * (to - from);
-    e.dispatchEvent(new MouseEvent("click", { bubbles: true, clientX: box.left + ((Number(left) + 0.75 * (right - left)) * box.width) / width }));
-  }));
-  const clicked = compared({ command: await command(page) }).lights[0].map.bias.constant_world, asked = await page.evaluate(() => globalThis.biasAsked);
+  await change(page, () =>
+    chart.evaluate((e) => {
+      // three quarters of the way: the curve's end is at a multiple of a texel that the document knows
+      const { left, right, from, to } = e.dataset,
+        box = e.getBoundingClientRect(),
+        width = Number(e.getAttribute("viewBox").split(" ")[2]);
+      globalThis.biasAsked = Number(from) + 0.75 * (to - from);
+      e.dispatchEvent(
+        new MouseEvent("click", { bubbles: true, clientX: box.left + ((Number(left) + 0.75 * (right - left)) * box.width) / width }),
+      );
+    }),
+  );
+  const clicked = compared({ command: await command(page) }).lights[0].map.bias.constant_world,
+    asked = await page.evaluate(() => globalThis.biasAsked);
   assert.ok(Math.abs(clicked - asked) <= 0.01 * asked, `a click at a bias of ${asked} takes ${clicked}`);
   await change(page, () => page.locator("[data-setting=technique] select").selectOption("pcf"));
   assert.ok(await page.locator("[data-setting=filter-radius]").isVisible(), "what pcf reads is there");
   assert.ok(!(await page.locator("[data-setting=esm-exponent]").isVisible()), "what it does not read is not");
 
   // The address is the state.
-  const address = page.url(), words = await command(page), now = await counts(page);
-  await change(page, () => page.locator("[data-setting=map-size] input[type=text]").fill("32").then(() => page.keyboard.press("Enter")));
-  await change(page, () => page.evaluate((hash) => { location.hash = hash; }, new URL(address).hash));
+  const address = page.url(),
+    words = await command(page),
+    now = await counts(page);
+  await change(page, () =>
+    page
+      .locator("[data-setting=map-size] input[type=text]")
+      .fill("32")
+      .then(() => page.keyboard.press("Enter")),
+  );
+  await change(page, () =>
+    page.evaluate((hash) => {
+      location.hash = hash;
+    }, new URL(address).hash),
+  );
   assert.equal(await command(page), words);
   assert.deepEqual(await counts(page), now);
   await close(page);
@@ -55,7 +85,8 @@ async function countsWhatTheCommandCounts() {
 async function turnsAndExplains() {
   const page = await openLab();
   await done(page);
-  const stage = page.locator(".stage"), before = await pixelsOf(page.locator(".pane canvas").first());
+  const stage = page.locator(".stage"),
+    before = await pixelsOf(page.locator(".pane canvas").first());
   const box = await stage.boundingBox();
   await change(page, async () => {
     await page.mouse.move(box.x + 0.2 * box.width, box.y + 0.5 * box.height);
@@ -93,18 +124,25 @@ async function opensFilesAndTheReport() {
   await change(page, () => page.locator("#lab-scene").selectOption("floating-box"));
   assert.ok(await page.locator("#lab-error").isHidden());
   await page.locator("#lab-report").click();
-  await page.waitForFunction(() => document.querySelector("iframe")?.contentDocument?.documentElement?.dataset.ready === "true", null, { timeout: 300000 });
+  await page.waitForFunction(() => document.querySelector("iframe")?.contentDocument?.documentElement?.dataset.ready === "true", null, {
+    timeout: 300000,
+  });
   assert.match(await page.frameLocator("iframe").locator("h1").first().textContent(), /floating-box|Shadow|Floating/i);
   await close(page);
 }
 
 async function canBeReadByAll() {
-  for (const [width, height] of [[1440, 900], [1024, 768], [390, 844]]) {
+  for (const [width, height] of [
+    [1440, 900],
+    [1024, 768],
+    [390, 844],
+  ]) {
     const page = await openLab({ viewport: { width, height } });
     await done(page);
-    assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth) <= width, `wider than ${width} pixels`);
+    assert.ok((await page.evaluate(() => document.scrollingElement.scrollWidth)) <= width, `wider than ${width} pixels`);
     assert.deepEqual(await violations(page), [], `axe, ${width}`);
-    if (width === 390) assert.ok((await page.locator(".stage").boundingBox()).y < height - 150, "the pictures begin on a phone's first screen");
+    if (width === 390)
+      assert.ok((await page.locator(".stage").boundingBox()).y < height - 150, "the pictures begin on a phone's first screen");
     await close(page);
   }
   const dark = await openLab({ colorScheme: "dark" });
@@ -115,27 +153,53 @@ async function canBeReadByAll() {
 
 /** A page of another origin that knows the key sends what it can: nothing of it is a wish, whatever its body looks like. */
 async function answersNoPageOfAnotherOrigin() {
-  const { host } = new URL(lab.url), wish = JSON.stringify({ client: "evil", scene: "fence", words: [] });
+  const { host } = new URL(lab.url),
+    wish = JSON.stringify({ client: "evil", scene: "fence", words: [] });
   const inner = `POST ${new URL(lab.url).pathname}wish HTTP/1.1\r\nHost: ${host}\r\nContent-Length: ${wish.length}\r\n\r\n${wish}`;
-  const other = createServer((_, response) => { response.setHeader("Content-Type", "text/html"); response.end("<title>other</title>"); });
-  await new Promise((done) => { other.listen(0, "127.0.0.1", done); });
-  const context = await browser.newContext(), page = await context.newPage();
+  const other = createServer((_, response) => {
+    response.setHeader("Content-Type", "text/html");
+    response.end("<title>other</title>");
+  });
+  await new Promise((done) => {
+    other.listen(0, "127.0.0.1", done);
+  });
+  const context = await browser.newContext(),
+    page = await context.newPage();
   await page.goto(`http://127.0.0.1:${other.address().port}/`);
-  const read = await page.evaluate(async ({ url, bodies }) => {
-    const got = [];
-    for (const path of ["x", "wish", ""])  // one connection after the other, and its next request
-      for (const body of bodies) {
-        await fetch(url + path, { method: "POST", mode: "no-cors", body }).catch(() => undefined);
-        await fetch(url + path, { method: "POST", body }).then((answer) => answer.text()).then((text) => got.push(text), () => undefined);
-      }
-    await fetch(url).then((answer) => answer.text()).then((text) => got.push(text), () => undefined);
-    return got;
-  }, { url: lab.url, bodies: [wish, inner, `${inner}${"p".repeat(5000)}`, ...Array.from({ length: 5 }, (_, i) => `${inner}${" ".repeat(1400 + i)}`)] });
+  const read = await page.evaluate(
+    async ({ url, bodies }) => {
+      const got = [];
+      for (const path of ["x", "wish", ""])
+        // one connection after the other, and its next request
+        for (const body of bodies) {
+          await fetch(url + path, { method: "POST", mode: "no-cors", body }).catch(() => undefined);
+          await fetch(url + path, { method: "POST", body })
+            .then((answer) => answer.text())
+            .then(
+              (text) => got.push(text),
+              () => undefined,
+            );
+        }
+      await fetch(url)
+        .then((answer) => answer.text())
+        .then(
+          (text) => got.push(text),
+          () => undefined,
+        );
+      return got;
+    },
+    {
+      url: lab.url,
+      bodies: [wish, inner, `${inner}${"p".repeat(5000)}`, ...Array.from({ length: 5 }, (_, i) => `${inner}${" ".repeat(1400 + i)}`)],
+    },
+  );
   assert.deepEqual(read, [], "it reads nothing");
   const { client, words } = await (await fetch(`${lab.url}news?after=0`)).json();
   assert.notEqual(client, "evil", words.join(" "));
   await context.close();
-  await new Promise((done) => { other.close(done); });
+  await new Promise((done) => {
+    other.close(done);
+  });
 }
 
 async function saysThatItsProgramIsGone() {

@@ -12,7 +12,9 @@ mkdirSync(folder, { recursive: true });
 export async function serve(...words) {
   const child = spawn(program, ["serve", ...words], { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, TMPDIR: folder } });
   let said = "";
-  child.stderr.on("data", (part) => { said += part; });
+  child.stderr.on("data", (part) => {
+    said += part;
+  });
   const ended = new Promise((done) => child.on("exit", (code) => done(code)));
   let out = "";
   const url = await new Promise((done, fail) => {
@@ -22,10 +24,19 @@ export async function serve(...words) {
     });
     void ended.then((code) => fail(new Error(`it ended with ${code}: ${said}`)));
   });
-  return { url, child, ended, stop: () => { child.kill("SIGINT"); return ended; } };
+  return {
+    url,
+    child,
+    ended,
+    stop: () => {
+      child.kill("SIGINT");
+      return ended;
+    },
+  };
 }
 
-export const post = (url, body, headers = {}) => fetch(url, { method: "POST", body: typeof body === "string" ? body : JSON.stringify(body), headers });
+export const post = (url, body, headers = {}) =>
+  fetch(url, { method: "POST", body: typeof body === "string" ? body : JSON.stringify(body), headers });
 
 /** Asks for a state, and waits until its comparison is there, or why there is none. */
 export async function ask(lab, wish) {
@@ -43,4 +54,6 @@ export async function ask(lab, wish) {
 
 /** result.json of the command that a reading says. */
 export const compared = (reading) =>
-  JSON.parse(execFileSync("sh", ["-c", `${reading.command.replace(/^gnomon/, `'${program}'`)} --json - --quiet --runs 1`], { maxBuffer: 1 << 28 }));
+  JSON.parse(
+    execFileSync("sh", ["-c", `${reading.command.replace(/^gnomon/, `'${program}'`)} --json - --quiet --runs 1`], { maxBuffer: 1 << 28 }),
+  );

@@ -12,7 +12,8 @@ if (spawnSync("blender", ["--version"]).error) {
 makeScenes(gnomon, folder);
 
 // A second truth: not one pixel of 9,000 differs.
-const cycles = captured(folder, "cycles", "floating-box"), verdict = judge(gnomon, cycles, "-o", `${cycles}/verdict`, "--aov", `${cycles}/judged.exr`);
+const cycles = captured(folder, "cycles", "floating-box"),
+  verdict = judge(gnomon, cycles, "-o", `${cycles}/verdict`, "--aov", `${cycles}/judged.exr`);
 assert.equal(verdict.judged.renderer.name, "Cycles");
 assert.ok(verdict.lights[0].pixels.compared > 8000);
 assert.equal(verdict.lights[0].error.wrong, 0);

@@ -13,7 +13,7 @@ if (!isThere("playwright-core") || !chromiumPath) {
   process.exit(77);
 }
 makeScenes(gnomon, folder);
-const only = process.env.GNOMON_ENGINE;  // one engine instead of all
+const only = process.env.GNOMON_ENGINE; // one engine instead of all
 
 /** The ladder's V5 on an engine's own map is its picture: of 9,000 pixels a few lie on the border of two texels, where floats and
     doubles may look up either. */
@@ -30,11 +30,18 @@ function climbed(scene, ...options) {
 function three() {
   climbed("spot-rim", "--bias", "-0.001");
   climbed("cube-seams", "--bias", "-0.001");
-  const { instead, wrong_now: now, wrong_instead: promised } = climbed("floating-box").judged.advice.find(({ setting }) => setting === "bias.constant_depth");
+  const {
+    instead,
+    wrong_now: now,
+    wrong_instead: promised,
+  } = climbed("floating-box").judged.advice.find(({ setting }) => setting === "bias.constant_depth");
   assert.ok(now > 0.2 && promised < 0.01, `${now} ${promised}`);
   const { pixels, error } = climbed("floating-box", "--bias", String(-instead)).lights[0];
   // Within a tenth, or two pixels: those on borders again.
-  assert.ok(Math.abs(error.wrong_fraction - promised) < Math.max(0.1 * promised, 2 / pixels.compared), `${error.wrong_fraction} for ${promised}`);
+  assert.ok(
+    Math.abs(error.wrong_fraction - promised) < Math.max(0.1 * promised, 2 / pixels.compared),
+    `${error.wrong_fraction} for ${promised}`,
+  );
   assert.match(refused(folder, "three", "floating-box", "--light", "moon"), /--light: no such light \(got moon/);
 }
 
@@ -53,7 +60,15 @@ const boxes = (gltf) => gltf.nodes.filter(({ mesh, name }) => mesh !== undefined
     as that of the same scene without flags; were they ignored, the boxes' shadows would be wrong on a twentieth of the pixels. */
 function flagged(engine, ...options) {
   const error = (name) => {
-    const { judged, lights: [{ pixels, error: { wrong } }] } = judge(gnomon, captured(folder, engine, name, ...options));
+    const {
+      judged,
+      lights: [
+        {
+          pixels,
+          error: { wrong },
+        },
+      ],
+    } = judge(gnomon, captured(folder, engine, name, ...options));
     assert.ok(pixels.compared > 5000, `${engine} ${name}: ${pixels.compared}`);
     const positions = judged.agreement.find(({ of }) => of === "positions").share;
     assert.ok(positions > 0.99, `${engine} ${name}: ${positions}`);
@@ -80,7 +95,8 @@ async function openReport(engine) {
   judge(gnomon, verdict, "-o", join(verdict, "report"));
   const { chromium } = await import(new URL("../../adapters/node_modules/playwright-core/index.mjs", import.meta.url));
   const browser = await chromium.launch({ executablePath: chromiumPath });
-  const page = await browser.newPage(), errors = [];
+  const page = await browser.newPage(),
+    errors = [];
   page.on("pageerror", (error) => errors.push(error.message));
   await page.goto(`file://${resolve(verdict, "report", "report.html")}`);
   const words = await page.waitForSelector(".probe-words .story", { state: "attached" }).then((story) => story.textContent());
@@ -97,7 +113,8 @@ async function openSeveral(scenes) {
   execFileSync(gnomon, ["judge", ...scenes.map((scene) => join(folder, `three-${scene}`, "capture.json")), "-o", verdicts, "--quiet"]);
   const { chromium } = await import(new URL("../../adapters/node_modules/playwright-core/index.mjs", import.meta.url));
   const browser = await chromium.launch({ executablePath: chromiumPath });
-  const page = await browser.newPage(), errors = [];
+  const page = await browser.newPage(),
+    errors = [];
   page.on("pageerror", (error) => errors.push(error.message));
   await page.goto(`file://${resolve(verdicts, "report.html")}`);
   await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
@@ -107,8 +124,20 @@ async function openSeveral(scenes) {
 }
 
 const engines = {
-  three: ["three", async () => { three(); await openSeveral(["spot-rim", "cube-seams"]); }],
-  filament: ["filament", async () => { plain("filament", "Filament"); await openReport("filament"); }],
+  three: [
+    "three",
+    async () => {
+      three();
+      await openSeveral(["spot-rim", "cube-seams"]);
+    },
+  ],
+  filament: [
+    "filament",
+    async () => {
+      plain("filament", "Filament");
+      await openReport("filament");
+    },
+  ],
   babylon: ["babylonjs", () => plain("babylon", "Babylon.js", "--type", "pcf", "--bias", "0.001")],
   playcanvas: ["playcanvas", () => plain("playcanvas", "PlayCanvas")],
 };
@@ -119,9 +148,11 @@ const flaggedOf = {
 };
 makeFlagged("ortho");
 makeFlagged("casts-nothing", (gltf) => boxes(gltf).forEach((node) => (node.extras = { casts_shadow: false })));
-makeFlagged("receives-nothing", (gltf) => gltf.materials.forEach((material) => (material.extras = { ...material.extras, receives_shadow: 0 })));
+makeFlagged("receives-nothing", (gltf) =>
+  gltf.materials.forEach((material) => (material.extras = { ...material.extras, receives_shadow: 0 })),
+);
 for (const [engine, [packageName, run]] of Object.entries(engines)) {
   if (only && engine !== only) continue;
   if (!isThere(packageName)) console.log(`skipped: adapter ${engine}: its npm package is not installed`);
-  else await run(), flaggedOf[engine]?.(), console.log(`${engine}: fine`);
+  else (await run(), flaggedOf[engine]?.(), console.log(`${engine}: fine`));
 }

@@ -15,7 +15,9 @@ const host = await serveThree();
 
 async function openThree(query) {
   const page = await browser.newPage();
-  page.on("pageerror", (error) => { throw error; });
+  page.on("pageerror", (error) => {
+    throw error;
+  });
   await page.goto(`${host.url}?${query}`);
   await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
   return page;
@@ -35,12 +37,17 @@ async function exported(page, name) {
 
 /** The share of the pixels facing the light that three.js and the program shadow unlike. */
 async function apart(query, name) {
-  const page = await openThree(query), { file, words, notes, options } = await exported(page, name), theirs = await page.evaluate(() => globalThis.shadows());
+  const page = await openThree(query),
+    { file, words, notes, options } = await exported(page, name),
+    theirs = await page.evaluate(() => globalThis.shadows());
   await page.close();
   const exr = path.join(folder, `${name}.exr`);
   execFileSync(native, ["raster", file, ...words, "-o", exr, "--quiet"]);
-  const { channels } = readExr(exr), ours = channels[Object.keys(channels).find((channel) => channel.endsWith("drawn.V"))];
-  let unlike = 0, facing = 0, dark = 0;
+  const { channels } = readExr(exr),
+    ours = channels[Object.keys(channels).find((channel) => channel.endsWith("drawn.V"))];
+  let unlike = 0,
+    facing = 0,
+    dark = 0;
   theirs.forEach((shadow, i) => {
     if (shadow === 2) return;
     ++facing;
@@ -53,14 +60,25 @@ async function apart(query, name) {
 
 /** Borders of triangles, and of texels where floats and doubles look up either of two; where a bias is right at one depth alone, the rims
     of shadows beside it. */
-for (const [light, bias, most, cull] of [["sun", -0.004, 0.002, "none"], ["spot", -0.002, 0.006, "none"], ["point", -0.002, 0.006, "front"]]) {
+for (const [light, bias, most, cull] of [
+  ["sun", -0.004, 0.002, "none"],
+  ["spot", -0.002, 0.006, "none"],
+  ["point", -0.002, 0.006, "front"],
+]) {
   const { share, options, notes } = await apart(`light=${light}&bias=${bias}&type=0${cull === "front" ? "&side=0" : ""}`, light);
   console.log(`${light}: ${(100 * share).toFixed(2)} % of the pixels shadowed unlike`);
   assert.ok(share <= most, `${light}: ${share} are shadowed unlike`);
-  assert.deepEqual([options["map-size"], options.technique, options.cull, notes.length], ["256", "hard", cull, light === "sun" ? 0 : 1], light);
+  assert.deepEqual(
+    [options["map-size"], options.technique, options.cull, notes.length],
+    ["256", "hard", cull, light === "sun" ? 0 : 1],
+    light,
+  );
 }
 // Filters are the lab's own: what is dark is dark, and what is lit is lit.
-for (const [type, technique] of [[1, "pcf"], [3, "vsm"]]) {
+for (const [type, technique] of [
+  [1, "pcf"],
+  [3, "vsm"],
+]) {
   const { share, options } = await apart(`light=sun&bias=-0.004&type=${type}`, technique);
   console.log(`${technique}: ${(100 * share).toFixed(2)} % of the pixels on the other side of one half`);
   assert.equal(options.technique, technique);

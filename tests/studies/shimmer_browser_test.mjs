@@ -10,23 +10,52 @@ import { inflateSync } from "node:zlib";
 import { browser, checkAccessibility, checkPhone, checkPicture, close, open } from "../browser/open_page.mjs";
 
 const [program, folder] = process.argv.slice(2);
-const whole = join(folder, "whole"), parts = join(folder, "parts");
+const whole = join(folder, "whole"),
+  parts = join(folder, "parts");
 mkdirSync(folder, { recursive: true });
-const width = 120, height = 80, frames = 6;
-const film = (out, ...more) => execFileSync(program, ["shimmer", "fence", "--size", `${width}x${height}`, "--map-size", "128", "--frames", `${frames}`,
-  "--path", "orbit", "--speed", "3", "--quiet", "-o", out, ...more], { stdio: "inherit" });
+const width = 120,
+  height = 80,
+  frames = 6;
+const film = (out, ...more) =>
+  execFileSync(
+    program,
+    [
+      "shimmer",
+      "fence",
+      "--size",
+      `${width}x${height}`,
+      "--map-size",
+      "128",
+      "--frames",
+      `${frames}`,
+      "--path",
+      "orbit",
+      "--speed",
+      "3",
+      "--quiet",
+      "-o",
+      out,
+      ...more,
+    ],
+    { stdio: "inherit" },
+  );
 film(whole);
 film(parts, "--report-max-mb", "0");
-const result = JSON.parse(readFileSync(join(whole, "result.json"), "utf8")), [light] = result.lights;
+const result = JSON.parse(readFileSync(join(whole, "result.json"), "utf8")),
+  [light] = result.lights;
 const at = (path) => path.split(".").reduce((value, key) => value[Array.isArray(value) ? Number(key) : key], result);
 
 /** The last picture of an animated PNG whose frames are whole and laid over each other, as RGB. */
 function lastPicture(file) {
-  const bytes = readFileSync(file), shown = new Uint8Array(3 * width * height);
-  let stream = [], count = 0, announced = 0;
+  const bytes = readFileSync(file),
+    shown = new Uint8Array(3 * width * height);
+  let stream = [],
+    count = 0,
+    announced = 0;
   const lay = () => {
     if (stream.length === 0) return;
-    const rows = inflateSync(Buffer.concat(stream)), row = 4 * width + 1;
+    const rows = inflateSync(Buffer.concat(stream)),
+      row = 4 * width + 1;
     for (let i = 0; i < width * height; ++i) {
       const from = Math.floor(i / width) * row + 1 + 4 * (i % width);
       if (rows[from + 3] === 255) shown.set(rows.subarray(from, from + 3), 3 * i);
@@ -35,7 +64,9 @@ function lastPicture(file) {
     stream = [];
   };
   for (let offset = 8; offset < bytes.length;) {
-    const length = bytes.readUInt32BE(offset), type = bytes.toString("latin1", offset + 4, offset + 8), data = bytes.subarray(offset + 8, offset + 8 + length);
+    const length = bytes.readUInt32BE(offset),
+      type = bytes.toString("latin1", offset + 4, offset + 8),
+      data = bytes.subarray(offset + 8, offset + 8 + length);
     if (type === "acTL") announced = data.readUInt32BE(0);
     if (type === "fcTL") lay();
     if (type === "IDAT") stream.push(data);
@@ -48,8 +79,10 @@ function lastPicture(file) {
   return shown;
 }
 
-const showsFrame = (page, frame) => page.waitForFunction((f) => document.querySelector(".shimmer-light").dataset.frame === f, String(frame));
-const pixels = (page) => page.locator(".film canvas").evaluate((canvas) => [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data]);
+const showsFrame = (page, frame) =>
+  page.waitForFunction((f) => document.querySelector(".shimmer-light").dataset.frame === f, String(frame));
+const pixels = (page) =>
+  page.locator(".film canvas").evaluate((canvas) => [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data]);
 const showsView = async (page, view) => {
   await page.click(`button[data-view=${view}]`);
   await page.waitForFunction((v) => document.querySelector(`button[data-view=${v}]`).getAttribute("aria-pressed") === "true", view);
@@ -65,7 +98,8 @@ async function checkFilm(page) {
     await showsView(page, "flips");
     const marked = await pixels(page);
     let changed = 0;
-    for (let i = 0; i < plain.length; i += 4) changed += plain[i] !== marked[i] || plain[i + 1] !== marked[i + 1] || plain[i + 2] !== marked[i + 2];
+    for (let i = 0; i < plain.length; i += 4)
+      changed += plain[i] !== marked[i] || plain[i + 1] !== marked[i + 1] || plain[i + 2] !== marked[i + 2];
     assert.equal(changed, light.by_frame[frame - 1].flips, `flips to frame ${frame}`);
   }
   await showsView(page, "drawn");
@@ -81,7 +115,10 @@ async function checkProbe(page) {
   await page.locator(".place button").first().click();
   await page.waitForFunction((pixel) => document.querySelector(".film-probe").dataset.pixel === pixel, String(worst.y * width + worst.x));
   assert.equal(await page.locator(".strip-flip").count(), worst.flips);
-  assert.match(await page.locator(".film-probe .probe").textContent(), new RegExp(`^Pixel ${worst.x}, ${worst.y}: ${worst.flips} flips?, by `));
+  assert.match(
+    await page.locator(".film-probe .probe").textContent(),
+    new RegExp(`^Pixel ${worst.x}, ${worst.y}: ${worst.flips} flips?, by `),
+  );
 }
 
 async function checkNumbers(page, least) {
@@ -124,7 +161,10 @@ try {
   rmSync(join(parts, "report-data", "film-0.js"));
   const lacking = await open(parts, { beside: true });
   assert.match(await lacking.locator(".shimmer-light .left-out").textContent(), /^The film and its probe are missing: /);
-  assert.deepEqual(lacking.offences.splice(0).filter((text) => !text.includes("ERR_FILE_NOT_FOUND")), []);
+  assert.deepEqual(
+    lacking.offences.splice(0).filter((text) => !text.includes("ERR_FILE_NOT_FOUND")),
+    [],
+  );
   await close(lacking);
   await checkWithoutScripts();
   await checkAccessibility(whole);

@@ -16,7 +16,20 @@ export function makeScenes(gnomon, folder) {
   execFileSync(gnomon, ["export", "--suite", folder, ...size, "--quiet"]);
 }
 
-const run = (folder, engine, scene, options) => spawnSync("node", [join(adapters, "capture.mjs"), engine, join(folder, `${scene}${existsSync(join(folder, `${scene}.gltf`)) ? ".gltf" : ".glb"}`), "-o", join(folder, `${engine}-${scene}`), ...size, ...options], { encoding: "utf8" });
+const run = (folder, engine, scene, options) =>
+  spawnSync(
+    "node",
+    [
+      join(adapters, "capture.mjs"),
+      engine,
+      join(folder, `${scene}${existsSync(join(folder, `${scene}.gltf`)) ? ".gltf" : ".glb"}`),
+      "-o",
+      join(folder, `${engine}-${scene}`),
+      ...size,
+      ...options,
+    ],
+    { encoding: "utf8" },
+  );
 
 /** The folder of a capture that an adapter made. */
 export function captured(folder, engine, scene, ...options) {
@@ -34,5 +47,7 @@ export function refused(folder, engine, scene, ...options) {
 
 /** The result of gnomon judge. */
 export function judge(gnomon, folder, ...options) {
-  return JSON.parse(execFileSync(gnomon, ["judge", join(folder, "capture.json"), "--json", "-", "--quiet", ...options], { maxBuffer: 1 << 26 }));
+  return JSON.parse(
+    execFileSync(gnomon, ["judge", join(folder, "capture.json"), "--json", "-", "--quiet", ...options], { maxBuffer: 1 << 26 }),
+  );
 }

@@ -64,7 +64,8 @@ document.documentElement.dataset.ready = "true";
 /** Its host, on which adapters/ lies as well; "?light=sun|spot|point&type=0&bias=-0.002&hidden" chooses. */
 export async function serveThree() {
   const server = createServer((request, response) => {
-    const { pathname } = new URL(request.url, "http://localhost"), file = path.join(adapters, path.normalize(pathname));
+    const { pathname } = new URL(request.url, "http://localhost"),
+      file = path.join(adapters, path.normalize(pathname));
     if (pathname === "/") return response.writeHead(200, { "Content-Type": "text/html" }).end(page);
     if (!existsSync(file)) return response.writeHead(404).end();
     return response.writeHead(200, { "Content-Type": "text/javascript" }).end(readFileSync(file));

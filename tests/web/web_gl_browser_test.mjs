@@ -14,21 +14,34 @@ mkdirSync(folder, { recursive: true });
 /** The scene sphere-plane with a second lamp: what both give adds up. */
 const twoLights = path.resolve(folder, "two-lights.json");
 const scene = readFileSync(new URL("../../scene/builtin/sphere-plane.json", import.meta.url), "utf8");
-writeFileSync(twoLights, scene.replace('"lights": [', '"lights": [{ "name": "second", "type": "point", "position": [3, 2.6, 0.5], "intensity": [3, 5, 9] }, '));
+writeFileSync(
+  twoLights,
+  scene.replace('"lights": [', '"lights": [{ "name": "second", "type": "point", "position": [3, 2.6, 0.5], "intensity": [3, 5, 9] }, '),
+);
 const web = await openProgram([], { [twoLights]: readFileSync(twoLights, "utf8") });
 const small = ["--size", "160x90", "--quiet"];
 let wrong = 0;
-const say = (good, words) => { console.log(`${good ? "ok" : "WRONG"}: ${words}`); wrong += !good; };
+const say = (good, words) => {
+  console.log(`${good ? "ok" : "WRONG"}: ${words}`);
+  wrong += !good;
+};
 const percent = (share) => `${(100 * share).toPrecision(2)} %`;
 
 /** The channels that both programs write; null where both refuse the words with the same code. */
 const channels = (...words) => channelsOf(web, ...words);
 async function channelsOf(web, ...words) {
-  const [command, ...rest] = words, file = path.join(folder, "native.exr"), option = command === "compare" ? "--aov" : "-o";
+  const [command, ...rest] = words,
+    file = path.join(folder, "native.exr"),
+    option = command === "compare" ? "--aov" : "-o";
   const output = command === "compare" ? ["-o", folder] : [];
   const ours = spawnSync(native, [command, ...rest, ...small, ...output, option, file], { encoding: "utf8" });
-  const theirs = await web.run([command, ...rest, ...small, ...(command === "compare" ? ["-o", "/out"] : []), option, "/web.exr"], "/web.exr", "/out/result.json");
-  if (ours.status !== theirs.code) throw new Error(`${words.join(" ")}: exit codes ${ours.status} and ${theirs.code}: ${ours.stderr}${theirs.said}`);
+  const theirs = await web.run(
+    [command, ...rest, ...small, ...(command === "compare" ? ["-o", "/out"] : []), option, "/web.exr"],
+    "/web.exr",
+    "/out/result.json",
+  );
+  if (ours.status !== theirs.code)
+    throw new Error(`${words.join(" ")}: exit codes ${ours.status} and ${theirs.code}: ${ours.stderr}${theirs.said}`);
   if (ours.status !== 0) return null;
   writeFileSync(path.join(folder, "web.exr"), theirs.files[0]);
   return { ours: readExr(file).channels, theirs: readExr(path.join(folder, "web.exr")).channels, result: theirs.files[1] };
@@ -36,8 +49,11 @@ async function channelsOf(web, ...words) {
 
 /** Of pixels that see the same primitive: how far visibilities are apart in the mean; and how many pixels see another, and the most that a colour is. */
 function apart({ ours, theirs }) {
-  let same = 0, sum = 0, colours = 0;
-  const pixels = ours["primitive.V"].length, lights = Object.keys(ours).filter((name) => name.endsWith("drawn.V"));
+  let same = 0,
+    sum = 0,
+    colours = 0;
+  const pixels = ours["primitive.V"].length,
+    lights = Object.keys(ours).filter((name) => name.endsWith("drawn.V"));
   for (let i = 0; i < pixels; ++i) {
     if (ours["primitive.V"][i] !== theirs["primitive.V"][i]) continue;
     ++same;
@@ -56,10 +72,14 @@ const techniques = listed.split(/\s+or\s+/).filter((name) => name !== "izb");
 const exact = new Set(["hard", "pcf", "second-depth", "midpoint", "cube"]);
 async function drawsLikeTheNative(web, words, begin = "") {
   const both = await channelsOf(web, "raster", ...words);
-  if (!both) return;  // no such light in this scene
-  const { others, mean, colours } = apart(both), analytic = words[0] === twoLights || (words[0] === "sphere-plane" && exact.has(words[2]));
+  if (!both) return; // no such light in this scene
+  const { others, mean, colours } = apart(both),
+    analytic = words[0] === twoLights || (words[0] === "sphere-plane" && exact.has(words[2]));
   const good = analytic ? others === 0 && mean === 0 && colours < 1e-5 : others <= 0.05 && mean <= 0.005;
-  say(good, `${begin}${words.map((word) => path.basename(word)).join(" ")}: visibilities ${mean === 0 ? "the same" : `${percent(mean)} apart`}, another primitive in ${percent(others)}`);
+  say(
+    good,
+    `${begin}${words.map((word) => path.basename(word)).join(" ")}: visibilities ${mean === 0 ? "the same" : `${percent(mean)} apart`}, another primitive in ${percent(others)}`,
+  );
 }
 async function drawsEveryTechnique() {
   for (const scene of ["sphere-plane", "acne-floor", "teapot", "fence"])
@@ -70,16 +90,23 @@ async function drawsEveryTechnique() {
 /** Fed the same, the ladder says the same: rungs of rays wherever neither sees a silhouette, all others where the map says the same
  *  of the pixel. */
 async function climbsTheSameLadder() {
-  const silhouette = -3;  // in the channel class (docs/manual/aov.md)
+  const silhouette = -3; // in the channel class (docs/manual/aov.md)
   for (const scene of ["acne-floor", "fence"]) {
     const { ours, theirs } = await channels("compare", scene);
     const alike = (i, ...names) => names.every((name) => Object.is(ours[`${name}.V`][i], theirs[`${name}.V`][i]));
-    let rays = 0, ladders = 0, unlike = 0;
+    let rays = 0,
+      ladders = 0,
+      unlike = 0;
     for (let i = 0; i < ours["class.V"].length; ++i) {
       if (ours["class.V"][i] === silhouette || theirs["class.V"][i] === silhouette) continue;
       ++rays;
       unlike += !alike(i, "truth", "point");
-      if (!alike(i, "drawn", "stored", "gap") || ours["texel_uv.U"][i] !== theirs["texel_uv.U"][i] || ours["texel_uv.V"][i] !== theirs["texel_uv.V"][i]) continue;
+      if (
+        !alike(i, "drawn", "stored", "gap") ||
+        ours["texel_uv.U"][i] !== theirs["texel_uv.U"][i] ||
+        ours["texel_uv.V"][i] !== theirs["texel_uv.V"][i]
+      )
+        continue;
       ++ladders;
       unlike += !alike(i, "texel", "flat", "biased", "class", "cause");
     }
@@ -87,7 +114,12 @@ async function climbsTheSameLadder() {
   }
   const { result } = await channels("compare", "sphere-plane");
   const figures = (text) => {
-    const { pixels, error: { wrong, false_shadow, missed_shadow, mean_absolute, rms }, budget, classes } = JSON.parse(text).lights[0];
+    const {
+      pixels,
+      error: { wrong, false_shadow, missed_shadow, mean_absolute, rms },
+      budget,
+      classes,
+    } = JSON.parse(text).lights[0];
     return JSON.stringify({ pixels, wrong, false_shadow, missed_shadow, mean_absolute, rms, budget, classes });
   };
   const ours = execFileSync(native, ["compare", "sphere-plane", ...small, "--json", "-"], { encoding: "utf8" });
@@ -96,15 +128,23 @@ async function climbsTheSameLadder() {
 
 /** Without the extensions that other browsers lack: by the same limits. */
 async function doesWithoutExtensions() {
-  const others = await openProgram(["EXT_clip_control", "EXT_depth_clamp", "EXT_float_blend", "OES_draw_buffers_indexed", "OES_texture_float_linear"], { [twoLights]: readFileSync(twoLights, "utf8") });
+  const others = await openProgram(
+    ["EXT_clip_control", "EXT_depth_clamp", "EXT_float_blend", "OES_draw_buffers_indexed", "OES_texture_float_linear"],
+    { [twoLights]: readFileSync(twoLights, "utf8") },
+  );
   for (const words of [
     ...["hard", "vsm", "evsm", "midpoint", "cube"].map((technique) => ["sphere-plane", "--technique", technique]),
-    ["sphere-plane", "--technique", "vsm", "--map-size", "250", "--mipmaps", "on"], [twoLights],
-    ...["pcf", "second-depth", "csm", "lispsm", "msm"].map((technique) => ["fence", "--technique", technique]), ["teapot", "--depth-format", "d32f-reversed"],
-    ["fence", "--camera-height", "6"], ["fence", "--caster-bias", "0.01", "--caster-slope-bias", "1"],
-  ]) await drawsLikeTheNative(others, words, "without extensions, ");
+    ["sphere-plane", "--technique", "vsm", "--map-size", "250", "--mipmaps", "on"],
+    [twoLights],
+    ...["pcf", "second-depth", "csm", "lispsm", "msm"].map((technique) => ["fence", "--technique", technique]),
+    ["teapot", "--depth-format", "d32f-reversed"],
+    ["fence", "--camera-height", "6"],
+    ["fence", "--caster-bias", "0.01", "--caster-slope-bias", "1"],
+  ])
+    await drawsLikeTheNative(others, words, "without extensions, ");
   await others.close();
-  const none = await openProgram(["EXT_color_buffer_float"]), { code, said } = await none.run(["raster", "sphere-plane", ...small, "-o", "/web.exr"]);
+  const none = await openProgram(["EXT_color_buffer_float"]),
+    { code, said } = await none.run(["raster", "sphere-plane", ...small, "-o", "/web.exr"]);
   say(code === 5 && /lacks EXT_color_buffer_float, without which no shadow map/.test(said), said.trim());
   await none.close();
 }

@@ -18,7 +18,10 @@ execFileSync(native, ["site", "-o", path.join(folder, "site"), "--web", app, "--
 const host = await serveFolder(path.join(folder, "site"));
 const openLab = (hash, options = {}) => openAt(`${host.url}lab.html`, host.url, options, hash);
 /** What was asked for last is compared in full. */
-const done = (page) => page.waitForFunction(() => document.body.dataset.busy === "false" || !document.getElementById("lab-gone").hidden, null, { timeout: 300000 });
+const done = (page) =>
+  page.waitForFunction(() => document.body.dataset.busy === "false" || !document.getElementById("lab-gone").hidden, null, {
+    timeout: 300000,
+  });
 const change = async (page, act) => {
   const before = page.url();
   await act();
@@ -26,16 +29,34 @@ const change = async (page, act) => {
   await done(page);
 };
 const small = "#scene=sphere-plane&size=192x108&map-size=128";
-const set = (page, name, value) => change(page, () => page.locator(`[data-setting=${name}] input[type=text]`).fill(value).then(() => page.keyboard.press("Enter")));
+const set = (page, name, value) =>
+  change(page, () =>
+    page
+      .locator(`[data-setting=${name}] input[type=text]`)
+      .fill(value)
+      .then(() => page.keyboard.press("Enter")),
+  );
 /** By the keys of result.json. */
-const countsOf = (page) => page.locator("#lab-results .labels tbody tr").evaluateAll((rows) => Object.fromEntries(rows.map((row) => [row.querySelector("summary").textContent.replaceAll(/[ -]/g, "_"), Number(row.querySelector(".n").textContent.replaceAll(",", ""))])));
+const countsOf = (page) =>
+  page
+    .locator("#lab-results .labels tbody tr")
+    .evaluateAll((rows) =>
+      Object.fromEntries(
+        rows.map((row) => [
+          row.querySelector("summary").textContent.replaceAll(/[ -]/g, "_"),
+          Number(row.querySelector(".n").textContent.replaceAll(",", "")),
+        ]),
+      ),
+    );
 
 async function countsWhatTheCommandCounts() {
   const page = await openLab(small);
   await done(page);
   for (const texels of ["3", "0"]) await set(page, "bias", texels);
   const command = await page.locator("#lab-command").textContent();
-  const { classes } = JSON.parse(execFileSync("sh", ["-c", `${command.replace(/^gnomon/, `'${native}'`)} --json - --quiet --runs 1`], { maxBuffer: 1 << 28 })).lights[0];
+  const { classes } = JSON.parse(
+    execFileSync("sh", ["-c", `${command.replace(/^gnomon/, `'${native}'`)} --json - --quiet --runs 1`], { maxBuffer: 1 << 28 }),
+  ).lights[0];
   const counts = await countsOf(page);
   const wrong = Object.entries(classes).filter(([, count]) => count > 0);
   assert.ok(wrong.length > 0 && wrong.reduce((sum, [, count]) => sum + count, 0) > 100, "a bias of 0 leaves something wrong");
@@ -71,11 +92,16 @@ async function opensFilesAndSavesTheReport() {
 }
 
 async function canBeReadByAll() {
-  for (const [name, hash] of [["", ""], ["lab.html", small], ["manual/", ""], ["lessons/", ""]])
+  for (const [name, hash] of [
+    ["", ""],
+    ["lab.html", small],
+    ["manual/", ""],
+    ["lessons/", ""],
+  ])
     for (const width of [1440, 390]) {
       const page = await openAt(`${host.url}${name}`, host.url, { viewport: { width, height: 844 } }, hash);
       if (name === "lab.html") await done(page);
-      assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth) <= width, `${name} is wider than ${width} pixels`);
+      assert.ok((await page.evaluate(() => document.scrollingElement.scrollWidth)) <= width, `${name} is wider than ${width} pixels`);
       assert.deepEqual(await violations(page), [], `axe, ${name}, ${width}`);
       await close(page);
     }
@@ -87,14 +113,22 @@ async function canBeReadByAll() {
 
 /** Of all pages but the lessons', which are the same as those of `gnomon lessons`: each link to a page and a place of it that there are. */
 async function leadsSomewhere() {
-  for (const [name, least, which] of [["", 20, "a[href]"], ["manual/", 5, "a[href]"], ["manual/options.html", 3, "a[href]"], ["manual/techniques.html", 1, "a[href]"], ["lab.html", 7, "a.manual"]]) {
+  for (const [name, least, which] of [
+    ["", 20, "a[href]"],
+    ["manual/", 5, "a[href]"],
+    ["manual/options.html", 3, "a[href]"],
+    ["manual/techniques.html", 1, "a[href]"],
+    ["lab.html", 7, "a.manual"],
+  ]) {
     const page = await openAt(`${host.url}${name}`, host.url);
     const links = (await page.locator(which).evaluateAll((all) => all.map(({ href }) => href))).filter((link) => link.startsWith(host.url));
     assert.ok(links.length >= least, `${name}: ${links.length} links`);
     for (const link of links) {
-      const [address, place = ""] = link.split("#"), answer = await fetch(address);
+      const [address, place = ""] = link.split("#"),
+        answer = await fetch(address);
       assert.ok(answer.ok, `${name}: ${link}`);
-      if (place !== "" && !address.endsWith("lab.html")) assert.ok((await answer.text()).includes(`id="${place}"`), `${name}: no such place: ${link}`);
+      if (place !== "" && !address.endsWith("lab.html"))
+        assert.ok((await answer.text()).includes(`id="${place}"`), `${name}: no such place: ${link}`);
     }
     await close(page);
   }
@@ -105,13 +139,14 @@ async function savesTheLabAsOneFile() {
   const page = await openLab(small);
   await done(page);
   await set(page, "bias", "0");
-  const labels = (of) => of.locator("#lab-results .labels").textContent(), counted = await labels(page);
+  const labels = (of) => of.locator("#lab-results .labels").textContent(),
+    counted = await labels(page);
   const saved = page.waitForEvent("download", { timeout: 120000 });
   await page.locator("#lab-one-file").click();
   const file = path.join(folder, "elsewhere", "gnomon-lab.html");
   await (await saved).saveAs(file);
   await close(page);
-  const alone = await openAt(pathToFileURL(file).href, "blob:");  // its worker
+  const alone = await openAt(pathToFileURL(file).href, "blob:"); // its worker
   await done(alone);
   assert.equal(await alone.locator("#lab-gone").textContent(), "");
   assert.match(await alone.evaluate(() => location.hash), /scene=sphere-plane.*bias=0/);
@@ -125,15 +160,35 @@ async function savesTheLabAsOneFile() {
 
 /** A lesson's figure leads to the lab, which draws the same picture: both count what the command counts. */
 async function leadsFromALessonToTheLab() {
-  const lesson = await openAt(`${host.url}lessons/acne.html`, host.url), figure = lesson.locator(".live-figure", { has: lesson.locator(".to-lab") }).first();
-  const [counted, href] = [await figure.locator(".bias-counts").evaluate(({ dataset }) => Number(dataset.falseShadow)), await figure.locator(".to-lab").evaluate((a) => a.href)];
+  const lesson = await openAt(`${host.url}lessons/acne.html`, host.url),
+    figure = lesson.locator(".live-figure", { has: lesson.locator(".to-lab") }).first();
+  const [counted, href] = [
+    await figure.locator(".bias-counts").evaluate(({ dataset }) => Number(dataset.falseShadow)),
+    await figure.locator(".to-lab").evaluate((a) => a.href),
+  ];
   await close(lesson);
   const page = await openLab(new URL(href).hash);
   assert.equal(new URL(href).href.split("#")[0], `${host.url}lab.html`);
   await done(page);
   const rows = await countsOf(page);
   const { scene, ...options } = Object.fromEntries(new URLSearchParams(new URL(href).hash.slice(1)));
-  const { classes, error } = JSON.parse(execFileSync(native, ["compare", scene, ...Object.entries(options).flatMap(([name, value]) => [`--${name}`, value]), "--runs", "1", "--quiet", "--no-report", "--json", "-"], { maxBuffer: 1 << 28 })).lights[0];
+  const { classes, error } = JSON.parse(
+    execFileSync(
+      native,
+      [
+        "compare",
+        scene,
+        ...Object.entries(options).flatMap(([name, value]) => [`--${name}`, value]),
+        "--runs",
+        "1",
+        "--quiet",
+        "--no-report",
+        "--json",
+        "-",
+      ],
+      { maxBuffer: 1 << 28 },
+    ),
+  ).lights[0];
   assert.equal(counted, error.false_shadow);
   // Triangles are not drawn to the bit by another graphics driver: as in web_gl_browser_test.
   assert.ok(Math.abs(rows.acne - classes.acne) <= 0.005 * classes.acne, `${JSON.stringify(rows)}, by the command ${classes.acne}`);
@@ -171,8 +226,14 @@ const noClock = `const { getExtension, getParameter } = WebGL2RenderingContext.p
     getParameter(name) { return name === 0x9246 ? "Stub GPU" : getParameter.call(this, name); },
   });`;
 const askForAPixel = (page) => page.locator(".stage").click({ position: { x: 100, y: 100 } });
-const times = (page) => page.locator("#lab-times tbody tr").evaluateAll((rows) => Object.fromEntries(rows.map((row) => [...row.children].map(({ textContent }) => textContent))));
-const timedBy = (page, pattern) => page.waitForFunction((source) => new RegExp(source).test(document.querySelector("#lab-times + p")?.textContent ?? ""), pattern.source, { timeout: 60000 });
+const times = (page) =>
+  page
+    .locator("#lab-times tbody tr")
+    .evaluateAll((rows) => Object.fromEntries(rows.map((row) => [...row.children].map(({ textContent }) => textContent))));
+const timedBy = (page, pattern) =>
+  page.waitForFunction((source) => new RegExp(source).test(document.querySelector("#lab-times + p")?.textContent ?? ""), pattern.source, {
+    timeout: 60000,
+  });
 
 /** What shadows take: by the GPU's clock where a page may read it, which labels do not wait for; else by the program's; else not of a GPU. */
 async function timesTheShadowsOnTheGpu() {
@@ -218,7 +279,12 @@ async function saysThatTheContextIsLost() {
 async function saysThatItTakesLong() {
   const page = await browser.newPage();
   await page.clock.install();
-  await page.route("**/gnomon_worker.mjs", (route) => route.fulfill({ contentType: "text/javascript", body: "onmessage = ({ data: { id, name } }) => { if (name !== 'news') postMessage({ id, status: 200, type: 'application/json', body: new TextEncoder().encode('{\"number\": 1}') }); };" }));
+  await page.route("**/gnomon_worker.mjs", (route) =>
+    route.fulfill({
+      contentType: "text/javascript",
+      body: "onmessage = ({ data: { id, name } }) => { if (name !== 'news') postMessage({ id, status: 200, type: 'application/json', body: new TextEncoder().encode('{\"number\": 1}') }); };",
+    }),
+  );
   await page.goto(`${host.url}lab.html#scene=shapes`);
   await page.waitForFunction(() => document.body.dataset.busy === "true");
   assert.equal(await page.locator("#lab-note").textContent(), "");
@@ -236,21 +302,33 @@ async function opensFromTheDisk() {
   assert.equal(await page.locator("#lab-verdict").textContent(), "", "nothing is said to be drawn");
   await close(page);
   const start = await openAt(pathToFileURL(path.join(folder, "site", "index.html")).href, null);
-  assert.ok(await start.locator(".cards img").evaluateAll((all) => all.length > 10 && all.every(({ naturalWidth }) => naturalWidth === 320)), "a picture of each scene");
+  assert.ok(
+    await start.locator(".cards img").evaluateAll((all) => all.length > 10 && all.every(({ naturalWidth }) => naturalWidth === 320)),
+    "a picture of each scene",
+  );
   await close(start);
 }
 
 async function saysThatThereIsNoWebGl() {
   const page = await openWith("OffscreenCanvas.prototype.getContext = () => null;");
-  await page.waitForFunction(() => !document.getElementById("lab-error").hidden || !document.getElementById("lab-gone").hidden, null, { timeout: 60000 });
-  assert.match(await page.locator("#lab-error, #lab-gone").allTextContents().then((all) => all.join(" ")), /no WebGL 2 here to draw with/);
+  await page.waitForFunction(() => !document.getElementById("lab-error").hidden || !document.getElementById("lab-gone").hidden, null, {
+    timeout: 60000,
+  });
+  assert.match(
+    await page
+      .locator("#lab-error, #lab-gone")
+      .allTextContents()
+      .then((all) => all.join(" ")),
+    /no WebGL 2 here to draw with/,
+  );
   await page.close();
 }
 
 /** A page of three.js, of another host, hands its scene in with one line: the lab says where it came from, and counts what the command
     counts of the same file. Nothing else is taken from anywhere. */
 async function takesARunningScene() {
-  const three = await serveThree(), page = await openAt(`${three.url}?light=sun&bias=-0.001`, "http://127.0.0.1:");
+  const three = await serveThree(),
+    page = await openAt(`${three.url}?light=sun&bias=-0.001`, "http://127.0.0.1:");
   const opened = page.waitForEvent("popup");
   const exported = page.evaluate(async (site) => {
     const { exportForLab, openInLab } = await import(`${site}open_in_lab.mjs`);
@@ -264,12 +342,18 @@ async function takesARunningScene() {
   assert.match(lab.url(), /window-depths=1,9&bias=0\.008/, "the shadow's settings came along");
   const file = path.join(folder, "scene.glb");
   writeFileSync(file, Buffer.from(await exported));
-  const counts = await countsOf(lab), command = (await lab.locator("#lab-command").textContent()).replace(/^gnomon compare \S+/, `'${native}' compare '${file}'`);
-  const { classes, pixels } = JSON.parse(execFileSync("sh", ["-c", `${command} --json - --quiet --no-report --runs 1`], { maxBuffer: 1 << 28 })).lights[0];
+  const counts = await countsOf(lab),
+    command = (await lab.locator("#lab-command").textContent()).replace(/^gnomon compare \S+/, `'${native}' compare '${file}'`);
+  const { classes, pixels } = JSON.parse(
+    execFileSync("sh", ["-c", `${command} --json - --quiet --no-report --runs 1`], { maxBuffer: 1 << 28 }),
+  ).lights[0];
   // As in web_gl_browser_test; of what is wrong a twentieth.
   for (const [label, count] of Object.entries(classes)) {
     const apart = Math.abs((counts[label] ?? 0) - count);
-    assert.ok(apart <= Math.min(0.005 * pixels.compared, 0.05 * classes.acne), `${label}: ${JSON.stringify(counts)}, by the command ${count}`);
+    assert.ok(
+      apart <= Math.min(0.005 * pixels.compared, 0.05 * classes.acne),
+      `${label}: ${JSON.stringify(counts)}, by the command ${count}`,
+    );
   }
   assert.ok(classes.acne > 1000, "a bias of 0.008 leaves acne");
 
@@ -277,7 +361,12 @@ async function takesARunningScene() {
 
   // Of what is no scene, of another window's, and of a second one nothing is taken; a file that is none says so, as one that is dropped.
   const opening = page.waitForEvent("popup");
-  await page.evaluate((site) => { globalThis.lab = window.open(`${site}lab.html`); return new Promise((heard) => { window.onmessage = heard; }); }, host.url);
+  await page.evaluate((site) => {
+    globalThis.lab = window.open(`${site}lab.html`);
+    return new Promise((heard) => {
+      window.onmessage = heard;
+    });
+  }, host.url);
   const other = await opening;
   await other.evaluate(() => window.postMessage({ gnomon: "scene", glb: new ArrayBuffer(8) }, "*"));
   await page.evaluate(() => {
@@ -287,7 +376,11 @@ async function takesARunningScene() {
   assert.equal(await other.locator("#lab-from").textContent(), "");
   assert.ok(await other.locator("#lab-error").isHidden());
   await page.evaluate(() => {
-    for (const note of ["<b>first</b>", "second"]) globalThis.lab.postMessage({ gnomon: "scene", glb: new ArrayBuffer(8), options: { "no such": "1", "map-size": 7 }, notes: [note, 1] }, "*");
+    for (const note of ["<b>first</b>", "second"])
+      globalThis.lab.postMessage(
+        { gnomon: "scene", glb: new ArrayBuffer(8), options: { "no such": "1", "map-size": 7 }, notes: [note, 1] },
+        "*",
+      );
   });
   await other.waitForFunction(() => !document.getElementById("lab-error").hidden, null, { timeout: 60000 });
   assert.match(await other.locator("#lab-from").textContent(), /Not brought along: <b>first<\/b>\.$/);

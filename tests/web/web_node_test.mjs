@@ -16,19 +16,30 @@ if (!existsSync(wasm)) {
 mkdirSync(folder, { recursive: true });
 
 const runs = [
-  ["acne-floor"], ["sphere-plane"], ["whitted"], ["teapot"], ["far-away"], ["fence"], ["shapes"], ["courtyard"],
-  ["acne-floor", "--precision", "exact"], ["thin-wall", "--precision", "exact"],
+  ["acne-floor"],
+  ["sphere-plane"],
+  ["whitted"],
+  ["teapot"],
+  ["far-away"],
+  ["fence"],
+  ["shapes"],
+  ["courtyard"],
+  ["acne-floor", "--precision", "exact"],
+  ["thin-wall", "--precision", "exact"],
 ];
 
 function trace(program, words, file) {
-  const done = spawnSync(program[0], [...program.slice(1), "raytrace", ...words, "--size", "160x90", "--quiet", "-o", file], { encoding: "utf8" });
+  const done = spawnSync(program[0], [...program.slice(1), "raytrace", ...words, "--size", "160x90", "--quiet", "-o", file], {
+    encoding: "utf8",
+  });
   if (done.status !== 0) throw new Error(`${program.join(" ")} raytrace ${words.join(" ")}: exit code ${done.status}: ${done.stderr}`);
   return readExr(file);
 }
 
 const bits = (values) => new Uint32Array(values.buffer, values.byteOffset, values.length);
 function unlike(a, b) {
-  const x = bits(a), y = bits(b);
+  const x = bits(a),
+    y = bits(b);
   let count = 0;
   for (let i = 0; i < x.length; ++i) count += x[i] !== y[i];
   return count;
@@ -43,7 +54,9 @@ for (const words of runs) {
   if (String(names) !== String(Object.keys(theirs.channels))) throw new Error(`${name}: other channels: ${Object.keys(theirs.channels)}`);
   const differs = names.map((channel) => [channel, unlike(ours.channels[channel], theirs.channels[channel])]).filter(([, n]) => n > 0);
   const good = differs.length === 0;
-  console.log(`${words.join(" ")}: ${good ? "ok" : "WRONG"}, ${differs.length === 0 ? "the same bits in all channels" : `pixels unlike: ${differs.map(([channel, n]) => `${channel} ${n}`).join(", ")}`}`);
+  console.log(
+    `${words.join(" ")}: ${good ? "ok" : "WRONG"}, ${differs.length === 0 ? "the same bits in all channels" : `pixels unlike: ${differs.map(([channel, n]) => `${channel} ${n}`).join(", ")}`}`,
+  );
   wrong += !good;
 }
 console.log(`gnomon.wasm: ${statSync(wasm).size} bytes`);

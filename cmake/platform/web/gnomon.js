@@ -10,7 +10,9 @@ for (const name of readdirSync("/")) {
   try {
     module.FS.mkdirTree(`/${name}`);
     module.FS.mount(module.NODEFS, { root: `/${name}` }, `/${name}`);
-  } catch { /* a file, or not to be read */ }
+  } catch {
+    /* a file, or not to be read */
+  }
 }
 module.FS.chdir(process.cwd());
 process.exitCode = module.callMain(process.argv.slice(2));

@@ -2,17 +2,33 @@
 // figure ("figure"), and is the engine of the lab's page: it takes the page's requests, and draws and compares between them.
 import gnomon from "./gnomon.mjs";
 
-const quiet_turns = 8;  // that nothing came of, more than a comparison takes: then there is nothing to do
-const looks = 40, between_looks = 25;  // after them, and milliseconds apart: whether the GPU tells what shadows took
-const waiting = [];     // requests for news of a moment that has not come
+const quiet_turns = 8; // that nothing came of, more than a comparison takes: then there is nothing to do
+const looks = 40,
+  between_looks = 25; // after them, and milliseconds apart: whether the GPU tells what shadows took
+const waiting = []; // requests for news of a moment that has not come
 const port = globalThis.WorkerGlobalScope ? globalThis : (await import("node:worker_threads")).parentPort;
-let loading, module, said = { out: "", err: "" }, number = 0, quiet = 0, turning = false;
+let loading,
+  module,
+  said = { out: "", err: "" },
+  number = 0,
+  quiet = 0,
+  turning = false;
 
-const load = (wasmBinary) => (loading ??= gnomon({ ...(wasmBinary && { wasmBinary }), thisProgram: "gnomon", print: (line) => { said.out += `${line}\n`; }, printErr: (line) => { said.err += `${line}\n`; } }).then((made) => {
-  module = made;
-  module.FS.mkdirTree("/given");
-  module.FS.chdir("/given");
-}));
+const load = (wasmBinary) =>
+  (loading ??= gnomon({
+    ...(wasmBinary && { wasmBinary }),
+    thisProgram: "gnomon",
+    print: (line) => {
+      said.out += `${line}\n`;
+    },
+    printErr: (line) => {
+      said.err += `${line}\n`;
+    },
+  }).then((made) => {
+    module = made;
+    module.FS.mkdirTree("/given");
+    module.FS.chdir("/given");
+  }));
 
 /** A command line: its exit code, what it said, how long it took, and the files that it was to write, which are gone then like those it
  *  was given. `files`: {PATH: bytes or text}; a path that is not there is null. */
@@ -23,26 +39,66 @@ function run({ words, files = {}, wanted = [] }) {
     module.FS.writeFile(path, content);
   }
   said = { out: "", err: "" };
-  const begin = performance.now(), code = module.callMain(words), ms = performance.now() - begin;
-  const read = (path) => { try { return module.FS.readFile(path); } catch { return null; } };
+  const begin = performance.now(),
+    code = module.callMain(words),
+    ms = performance.now() - begin;
+  const read = (path) => {
+    try {
+      return module.FS.readFile(path);
+    } catch {
+      return null;
+    }
+  };
   const written = wanted.map(read);
-  for (const path of [...Object.keys(files), ...wanted]) try { module.FS.unlink(path); } catch { /* not there */ }
+  for (const path of [...Object.keys(files), ...wanted])
+    try {
+      module.FS.unlink(path);
+    } catch {
+      /* not there */
+    }
   return { code, ...said, ms, files: written };
 }
 function report(words) {
-  const { code, err, files: [page] } = run({ words: [...words, "-o", "/report", "--quiet", "--report-max-mb", "1000"], wanted: ["/report/report.html"] });
-  return code === 0 ? { status: 200, type: "text/html", body: page } : { status: 500, type: "text/plain", body: new TextEncoder().encode(err) };
+  const {
+    code,
+    err,
+    files: [page],
+  } = run({ words: [...words, "-o", "/report", "--quiet", "--report-max-mb", "1000"], wanted: ["/report/report.html"] });
+  return code === 0
+    ? { status: 200, type: "text/html", body: page }
+    : { status: 500, type: "text/plain", body: new TextEncoder().encode(err) };
 }
 
 function asked(name, parameters, body) {
-  const bytes = new Uint8Array(body ?? 0), at = module._malloc(bytes.length || 1);
+  const bytes = new Uint8Array(body ?? 0),
+    at = module._malloc(bytes.length || 1);
   module.HEAPU8.set(bytes, at);
-  module.ccall("gnomon_lab_answer", null, ["string", "string", "number", "number"], [name, Object.entries(parameters).map(([key, value]) => `${key}=${value}`).join("\n"), at, bytes.length]);
+  module.ccall(
+    "gnomon_lab_answer",
+    null,
+    ["string", "string", "number", "number"],
+    [
+      name,
+      Object.entries(parameters)
+        .map(([key, value]) => `${key}=${value}`)
+        .join("\n"),
+      at,
+      bytes.length,
+    ],
+  );
   module._free(at);
   return module.answer;
 }
-const tell = (id, answer) => port.postMessage({ id, ...answer }, [answer.body, ...(answer.files ?? [])].filter(Boolean).map(({ buffer }) => buffer));
-const failed = (error) => ({ status: 500, type: "text/plain", body: new TextEncoder().encode(String(error?.message ?? error?.name ?? error)) });
+const tell = (id, answer) =>
+  port.postMessage(
+    { id, ...answer },
+    [answer.body, ...(answer.files ?? [])].filter(Boolean).map(({ buffer }) => buffer),
+  );
+const failed = (error) => ({
+  status: 500,
+  type: "text/plain",
+  body: new TextEncoder().encode(String(error?.message ?? error?.name ?? error)),
+});
 
 function tellNews() {
   for (const request of waiting.splice(0))
@@ -51,7 +107,12 @@ function tellNews() {
 }
 
 const channel = new MessageChannel();
-const turnSoon = () => { if (!turning) { turning = true; channel.port2.postMessage(null); } };
+const turnSoon = () => {
+  if (!turning) {
+    turning = true;
+    channel.port2.postMessage(null);
+  }
+};
 channel.port1.onmessage = () => {
   turning = false;
   try {
@@ -62,7 +123,9 @@ channel.port1.onmessage = () => {
     if (quiet < quiet_turns) turnSoon();
     else if (quiet < quiet_turns + looks) setTimeout(turnSoon, between_looks);
   } catch (error) {
-    port.postMessage({ gone: module.ctx?.isContextLost() ? "The browser has taken the graphics away (context lost)." : String(error?.message ?? error) });
+    port.postMessage({
+      gone: module.ctx?.isContextLost() ? "The browser has taken the graphics away (context lost)." : String(error?.message ?? error),
+    });
   }
 };
 
@@ -80,9 +143,13 @@ port.onmessage = async ({ data: { id, name, parameters, body } }) => {
   try {
     if (name === "run") return void (await (begun ?? load()), tell(id, { status: 200, ...run(parameters) }));
     if (name === "figure") return void (await (begun ?? load()), tell(id, asked(name, parameters)));
-    if (name === "begin") return void (await (begun = begin(parameters)), tell(id, { status: 200, type: "text/plain", body: new Uint8Array(0) }));
+    if (name === "begin")
+      return void (await (begun = begin(parameters)), tell(id, { status: 200, type: "text/plain", body: new Uint8Array(0) }));
     await begun;
-    if (name === "news") { waiting.push({ id, parameters }); return tellNews(); }
+    if (name === "news") {
+      waiting.push({ id, parameters });
+      return tellNews();
+    }
     tell(id, name === "report" ? report(parameters.words.split("\n")) : asked(name, parameters, body));
     quiet = 0;
     turnSoon();

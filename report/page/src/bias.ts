@@ -29,10 +29,16 @@ export class BiasPanel {
   private readonly backdrop: Uint32Array;
   private readonly compared: number;
   private readonly histogram: GapHistogram;
-  private readonly kind: string;  // what is dragged
+  private readonly kind: string; // what is dragged
 
-  private constructor(private readonly light: Light, chart: SVGSVGElement, host: Element, best: number,
-                      private readonly chosen: (bias: number) => void, pin: (x: number, y: number) => void) {
+  private constructor(
+    private readonly light: Light,
+    chart: SVGSVGElement,
+    host: Element,
+    best: number,
+    private readonly chosen: (bias: number) => void,
+    pin: (x: number, y: number) => void,
+  ) {
     this.kind = otherParts(light.json.bias) === "" ? "bias" : "constant bias";
     const number_ = (key: string) => Number(chart.dataset[key]);
     const line = svg("line", { class: "chosen", y1: number_("top"), y2: number_("bottom") });
@@ -49,27 +55,65 @@ export class BiasPanel {
       b.addEventListener("click", () => chosen(bias));
       return b;
     };
-    this.bar = html("div", { class: "bias-bar" },
-      html("label", {}, `${this.kind[0]!.toUpperCase()}${this.kind.slice(1)} `, this.range), html("label", {}, "world units ", this.exact),
-      button("as rendered", light.json.bias.constant), button("best", best));
-    host.append(html("div", { class: "bias-live" }, this.bar, this.said,
-      html("figure", {}, this.picture, html("figcaption", {},
-        "What this bias would draw wrong, counted and coloured from the gaps, without rendering: orange false shadow, light blue missed shadow."))),
-      this.histogram.figure);
+    this.bar = html(
+      "div",
+      { class: "bias-bar" },
+      html("label", {}, `${this.kind[0]!.toUpperCase()}${this.kind.slice(1)} `, this.range),
+      html("label", {}, "world units ", this.exact),
+      button("as rendered", light.json.bias.constant),
+      button("best", best),
+    );
+    host.append(
+      html(
+        "div",
+        { class: "bias-live" },
+        this.bar,
+        this.said,
+        html(
+          "figure",
+          {},
+          this.picture,
+          html(
+            "figcaption",
+            {},
+            "What this bias would draw wrong, counted and coloured from the gaps, without rendering: orange false shadow, light blue missed shadow.",
+          ),
+        ),
+      ),
+      this.histogram.figure,
+    );
     this.listen(pin);
   }
 
-  static make(light: Light, index: number, best: number, chosen: (bias: number) => void, pin: (x: number, y: number) => void): BiasPanel | null {
+  static make(
+    light: Light,
+    index: number,
+    best: number,
+    chosen: (bias: number) => void,
+    pin: (x: number, y: number) => void,
+  ): BiasPanel | null {
     const chart = document.getElementById(`bias-${index}-title`)?.closest("svg");
     return chart ? BiasPanel.of(light, chart, best, chosen, pin) : null;
   }
 
   /** With the chart that the writer drew. */
-  static of(light: Light, chart: SVGSVGElement, best: number, chosen: (bias: number) => void, pin: (x: number, y: number) => void): BiasPanel | null {
+  static of(
+    light: Light,
+    chart: SVGSVGElement,
+    best: number,
+    chosen: (bias: number) => void,
+    pin: (x: number, y: number) => void,
+  ): BiasPanel | null {
     if (!light.json.gaps_decide) {
       if (light.json.compares_depths)
-        hostAfter(chart).append(html("p", { class: "hint" }, `This curve is of hard tests. What ${light.json.technique} draws does not follow from one gap, so that its bias cannot be dragged here: ` +
-        "gnomon sweep SCENE --bias 0:0.1:16 draws each bias by itself."));
+        hostAfter(chart).append(
+          html(
+            "p",
+            { class: "hint" },
+            `This curve is of hard tests. What ${light.json.technique} draws does not follow from one gap, so that its bias cannot be dragged here: ` +
+              "gnomon sweep SCENE --bias 0:0.1:16 draws each bias by itself.",
+          ),
+        );
       return null;
     }
     return new BiasPanel(light, chart, hostAfter(chart), best, chosen, pin);
@@ -77,7 +121,8 @@ export class BiasPanel {
 
   show(bias: number): void {
     const { from, to, left, right, line } = this.chart;
-    const share = Math.min(Math.max((bias - from) / (to - from), 0), 1), x = left + share * (right - left);
+    const share = Math.min(Math.max((bias - from) / (to - from), 0), 1),
+      x = left + share * (right - left);
     line.setAttribute("x1", String(x));
     line.setAttribute("x2", String(x));
     this.histogram.show(bias);
@@ -86,11 +131,13 @@ export class BiasPanel {
     if (Number(this.exact.value) !== bias || this.exact.value === "") this.exact.value = String(Number(bias.toPrecision(6)));
     const counts = recolour(this.light, bias, this.backdrop, new Uint32Array(this.image.data.buffer));
     this.canvas.getContext("2d", { willReadFrequently: true })!.putImageData(this.image, 0, 0);
-    const wrong = counts.falseShadow + counts.missedShadow + counts.ties / 2, texels = bias / this.light.json.texel_world;
+    const wrong = counts.falseShadow + counts.missedShadow + counts.ties / 2,
+      texels = bias / this.light.json.texel_world;
     this.said.dataset.bias = String(bias);
     this.said.dataset.falseShadow = String(counts.falseShadow);
     this.said.dataset.missedShadow = String(counts.missedShadow);
-    this.said.textContent = `At a ${this.kind} of ${number(bias)} (${texelsText(texels)}) ${percent(wrong / Math.max(1, this.compared))} ` +
+    this.said.textContent =
+      `At a ${this.kind} of ${number(bias)} (${texelsText(texels)}) ${percent(wrong / Math.max(1, this.compared))} ` +
       `of the compared pixels are wrong: ${counted(counts.falseShadow, "pixel")} in false shadow, ${grouped(counts.missedShadow)} in missed shadow` +
       `${counts.ties > 0 ? `, ${grouped(counts.ties)} off by exactly one half (two count as one wrong)` : ""}.`;
     this.canvas.setAttribute("aria-label", `The picture with what is wrong at this bias. ${this.said.textContent}`);
@@ -109,25 +156,48 @@ export class BiasPanel {
     });
     const { drawing, left, right } = this.chart;
     const drag = (event: PointerEvent) => {
-      const box = drawing.getBoundingClientRect(), x = ((event.clientX - box.left) / box.width) * drawing.viewBox.baseVal.width;
+      const box = drawing.getBoundingClientRect(),
+        x = ((event.clientX - box.left) / box.width) * drawing.viewBox.baseVal.width;
       this.chosen(this.biasAt((x - left) / (right - left)));
     };
     let dragging = false;
     drawing.classList.add("live");
-    drawing.addEventListener("pointerdown", (event) => { if (event.button !== 0) return; dragging = true; drawing.setPointerCapture(event.pointerId); drag(event); });
-    drawing.addEventListener("pointermove", (event) => { if (dragging) drag(event); });
-    for (const end of ["pointerup", "pointercancel"]) drawing.addEventListener(end, () => { dragging = false; });
+    drawing.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      dragging = true;
+      drawing.setPointerCapture(event.pointerId);
+      drag(event);
+    });
+    drawing.addEventListener("pointermove", (event) => {
+      if (dragging) drag(event);
+    });
+    for (const end of ["pointerup", "pointercancel"])
+      drawing.addEventListener(end, () => {
+        dragging = false;
+      });
     const pick = (event: PointerEvent) => {
-      const box = this.canvas.getBoundingClientRect(), at = (share: number, size: number) => Math.floor(Math.min(Math.max(share, 0), 1) * (size - 1e-6));
+      const box = this.canvas.getBoundingClientRect(),
+        at = (share: number, size: number) => Math.floor(Math.min(Math.max(share, 0), 1) * (size - 1e-6));
       pin(at((event.clientX - box.left) / box.width, page.width), at((event.clientY - box.top) / box.height, page.height));
     };
-    this.canvas.addEventListener("pointerdown", (event) => { if (event.button !== 0) return; this.canvas.setPointerCapture(event.pointerId); pick(event); });
-    this.canvas.addEventListener("pointermove", (event) => { if (this.canvas.hasPointerCapture(event.pointerId)) pick(event); });
+    this.canvas.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      this.canvas.setPointerCapture(event.pointerId);
+      pick(event);
+    });
+    this.canvas.addEventListener("pointermove", (event) => {
+      if (this.canvas.hasPointerCapture(event.pointerId)) pick(event);
+    });
   }
 
   /** Where the probed pixel is. */
   mark(x: number, y: number): void {
-    Object.assign(this.marker.style, { left: `${(100 * x) / page.width}%`, top: `${(100 * y) / page.height}%`, width: `${100 / page.width}%`, height: `${100 / page.height}%` });
+    Object.assign(this.marker.style, {
+      left: `${(100 * x) / page.width}%`,
+      top: `${(100 * y) / page.height}%`,
+      width: `${100 / page.width}%`,
+      height: `${100 / page.height}%`,
+    });
   }
 }
 

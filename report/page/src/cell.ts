@@ -24,21 +24,34 @@ function loaded(url: string): Promise<HTMLImageElement> {
   });
 }
 
-const trueShadow = 0x20, darker = 0x40, small = 0x80, labelMask = 0x1f, rightInShadow: Rgb = [198, 198, 194];
+const trueShadow = 0x20,
+  darker = 0x40,
+  small = 0x80,
+  labelMask = 0x1f,
+  rightInShadow: Rgb = [198, 198, 194];
 
 export class Cell {
   readonly labels: Int8Array;
   private readonly made = new Map<string, HTMLCanvasElement | ImageData>();
 
-  private constructor(readonly json: SweepCell, readonly width: number, readonly height: number, private readonly codes: Int8Array,
-                      readonly truth: HTMLImageElement, readonly drawing: HTMLImageElement | null) {
+  private constructor(
+    readonly json: SweepCell,
+    readonly width: number,
+    readonly height: number,
+    private readonly codes: Int8Array,
+    readonly truth: HTMLImageElement,
+    readonly drawing: HTMLImageElement | null,
+  ) {
     this.labels = codes.map((code) => (code & labelMask) - 4);
   }
 
   static async load(json: SweepCell): Promise<Cell> {
     const data = await part<{ width: number; height: number; truth: string; classes: Packed }>(nameOf(json.cell));
-    const [codes, truth, drawing] = await Promise.all([unpack(data.classes), pictureUrl(data.truth).then(loaded),
-      json.drawn ? pictureUrl(nameOf(json.cell)).then(loaded) : null]);
+    const [codes, truth, drawing] = await Promise.all([
+      unpack(data.classes),
+      pictureUrl(data.truth).then(loaded),
+      json.drawn ? pictureUrl(nameOf(json.cell)).then(loaded) : null,
+    ]);
     return new Cell(json, data.width, data.height, codes as Int8Array, truth, drawing);
   }
 
@@ -53,21 +66,27 @@ export class Cell {
 
   /** "acne, false shadow" */
   nameAt(index: number): string {
-    const label = this.labels[index]!, words = wordsOf(label);
-    return label > 0 ? `${words.name}, ${this.codes[index]! & small ? `drawn too ${this.codes[index]! & darker ? "dark" : "light"}` : `${this.codes[index]! & darker ? "false" : "missed"} shadow`}` : words.name;
+    const label = this.labels[index]!,
+      words = wordsOf(label);
+    return label > 0
+      ? `${words.name}, ${this.codes[index]! & small ? `drawn too ${this.codes[index]! & darker ? "dark" : "light"}` : `${this.codes[index]! & darker ? "false" : "missed"} shadow`}`
+      : words.name;
   }
 
   labelPicture(alone: number | null): ImageData {
-    const key = `labels ${alone}`, size = { width: this.width, height: this.height };
+    const key = `labels ${alone}`,
+      size = { width: this.width, height: this.height };
     return this.keep(key, () => {
       if (alone !== null) return isolatedLabel(this.labels, alone, size);
       const colours = new Map<number, Rgb>();
       return painted((i) => {
-        const code = this.codes[i]!, label = this.labels[i]!;
+        const code = this.codes[i]!,
+          label = this.labels[i]!;
         if (label === 0 && code & trueShadow) return rightInShadow;
         const key = code & (labelMask | small | trueShadow);
         if (!colours.has(key)) {
-          const whole = rgbOf(wordsOf(label).colour), right = code & trueShadow ? rightInShadow : rgbOf(wordsOf(0).colour);
+          const whole = rgbOf(wordsOf(label).colour),
+            right = code & trueShadow ? rightInShadow : rgbOf(wordsOf(0).colour);
           colours.set(key, code & small ? (whole.map((c, k) => (c + 2 * right[k]!) / 3) as unknown as Rgb) : whole);
         }
         return colours.get(key)!;
@@ -79,8 +98,11 @@ export class Cell {
       the page may be shown, but not read. */
   difference(): HTMLCanvasElement {
     return this.keep("difference", () => {
-      const [canvas, marks] = [0, 1].map(() => Object.assign(document.createElement("canvas"), { width: this.width, height: this.height })) as [HTMLCanvasElement, HTMLCanvasElement];
-      const errors = new ImageData(this.width, this.height), context = canvas.getContext("2d")!;
+      const [canvas, marks] = [0, 1].map(() =>
+        Object.assign(document.createElement("canvas"), { width: this.width, height: this.height }),
+      ) as [HTMLCanvasElement, HTMLCanvasElement];
+      const errors = new ImageData(this.width, this.height),
+        context = canvas.getContext("2d")!;
       this.codes.forEach((code, i) => {
         if (this.labels[i]! <= 0) return;
         const colour = code & darker ? falseShadow : missedShadow;

@@ -4,9 +4,11 @@ import { html } from "./svg";
 async function copy(text: string): Promise<void> {
   try {
     await navigator.clipboard.writeText(text);
-  } catch {  // no permission, or a page from disk: the old way
-    const area = html("textarea", { "aria-hidden": "true" }, text), focused = document.activeElement;
-    Object.assign(area.style, { position: "fixed", top: "0" });  // where selecting it scrolls nothing
+  } catch {
+    // no permission, or a page from disk: the old way
+    const area = html("textarea", { "aria-hidden": "true" }, text),
+      focused = document.activeElement;
+    Object.assign(area.style, { position: "fixed", top: "0" }); // where selecting it scrolls nothing
     document.body.append(area);
     area.select();
     document.execCommand("copy");
@@ -21,7 +23,9 @@ export function copyButton(code: HTMLElement, name: string): HTMLButtonElement {
   button.addEventListener("click", async () => {
     await copy(code.textContent!);
     button.textContent = "Copied";
-    window.setTimeout(() => { button.textContent = name; }, 2000);
+    window.setTimeout(() => {
+      button.textContent = name;
+    }, 2000);
   });
   return button;
 }

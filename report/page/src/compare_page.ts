@@ -17,19 +17,24 @@ async function load(index: number): Promise<LightPanel | null> {
   try {
     return new LightPanel(await Light.load(index), index, section, result.lights[index]!.best_bias.constant_world ?? 0);
   } catch (error) {
-    section.querySelector(".viewer")!.after(html("p", { class: "left-out" }, `The viewer and the pixel probe of this light are missing: ${(error as Error).message}.`));
+    section
+      .querySelector(".viewer")!
+      .after(html("p", { class: "left-out" }, `The viewer and the pixel probe of this light are missing: ${(error as Error).message}.`));
     return null;
   }
 }
 
-const panel = (index: number): Promise<LightPanel | null> => panels[index] ??= load(index);
+const panel = (index: number): Promise<LightPanel | null> => (panels[index] ??= load(index));
 
 function loadWhenNear(index: number): void {
-  const near = new IntersectionObserver((entries) => {
-    if (!entries.some((entry) => entry.isIntersecting)) return;
-    near.disconnect();
-    void panel(index);
-  }, { rootMargin: "100%" });
+  const near = new IntersectionObserver(
+    (entries) => {
+      if (!entries.some((entry) => entry.isIntersecting)) return;
+      near.disconnect();
+      void panel(index);
+    },
+    { rootMargin: "100%" },
+  );
   near.observe(document.getElementById(`light-${index}`)!);
 }
 
@@ -48,7 +53,7 @@ async function restore(): Promise<void> {
 }
 
 declare global {
-  var gnomon: { light: (index: number) => Promise<Light> } | undefined;  // eslint-disable-line no-var
+  var gnomon: { light: (index: number) => Promise<Light> } | undefined; // eslint-disable-line no-var
 }
 
 export async function startComparison(): Promise<void> {

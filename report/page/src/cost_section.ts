@@ -6,7 +6,7 @@ import { facts, ofLight, result, shadowTime, timed, type LightResult, type Times
 import { markup, type Markup } from "./template";
 
 interface TimeRow {
-  key: string;  // in result.json, of the times
+  key: string; // in result.json, of the times
   name: string;
   what: Markup | string;
   times: Times;
@@ -14,25 +14,67 @@ interface TimeRow {
 }
 
 function lightRows(light: LightResult, i: number): TimeRow[] {
-  const { map, times_ms: times, shadow_samples: samples } = light, key = `lights.${i}`, of = ofLight(i), soft = samples !== undefined;
-  const row = (pass: string, name: string, what: Markup | string, kind: TimeRow["kind"]): TimeRow => ({ key: `${key}.times_ms.${pass}`, name: name + of, what, times: times[pass]!, kind });
-  return [row("map_pass", map.hybrid ? "sheets" : "depth map", map.size === null ? "its map is not known" : counted(map.faces * map.size ** 2, "texel"), "raster"),
+  const { map, times_ms: times, shadow_samples: samples } = light,
+    key = `lights.${i}`,
+    of = ofLight(i),
+    soft = samples !== undefined;
+  const row = (pass: string, name: string, what: Markup | string, kind: TimeRow["kind"]): TimeRow => ({
+    key: `${key}.times_ms.${pass}`,
+    name: name + of,
+    what,
+    times: times[pass]!,
+    kind,
+  });
+  return [
+    row(
+      "map_pass",
+      map.hybrid ? "sheets" : "depth map",
+      map.size === null ? "its map is not known" : counted(map.faces * map.size ** 2, "texel"),
+      "raster",
+    ),
     row("shade_pass", "shading", "the picture with its shadow lookups", "raster"),
-    ...(soft ? [row("soft_shadow_rays", "exact shadows", markup`${keyedThings(`${key}.soft_shadow_rays`, "ray")}, of ${keyedThings(`${key}.soft_shadow_rays_asked`, "sample")} asked for (${
-      keyedCount(`${key}.shadow_samples`)} a receiver)`, "rays")] : []),
-    row("shadow_rays", soft ? "the light as a point" : "exact shadows", markup`${soft ? markup`${keyedCount(`${key}.shadow_rays`)} to the light's centre` : keyedThings(`${key}.shadow_rays`, "exact ray")}`, "rays")];
+    ...(soft
+      ? [
+          row(
+            "soft_shadow_rays",
+            "exact shadows",
+            markup`${keyedThings(`${key}.soft_shadow_rays`, "ray")}, of ${keyedThings(`${key}.soft_shadow_rays_asked`, "sample")} asked for (${keyedCount(
+              `${key}.shadow_samples`,
+            )} a receiver)`,
+            "rays",
+          ),
+        ]
+      : []),
+    row(
+      "shadow_rays",
+      soft ? "the light as a point" : "exact shadows",
+      markup`${soft ? markup`${keyedCount(`${key}.shadow_rays`)} to the light's centre` : keyedThings(`${key}.shadow_rays`, "exact ray")}`,
+      "rays",
+    ),
+  ];
 }
 
 function timeTable(): Markup {
-  const rows: TimeRow[] = [...result.lights.flatMap(lightRows), { key: "times_ms.primary_rays", name: "primary rays",
-    what: markup`${keyedThings("costs.primary_rays", "ray")}, one for each pixel`, times: result.times_ms.primary_rays!, kind: "rays" }];
+  const rows: TimeRow[] = [
+    ...result.lights.flatMap(lightRows),
+    {
+      key: "times_ms.primary_rays",
+      name: "primary rays",
+      what: markup`${keyedThings("costs.primary_rays", "ray")}, one for each pixel`,
+      times: result.times_ms.primary_rays!,
+      kind: "rays",
+    },
+  ];
   const longest = Math.max(1e-9, ...rows.map(({ times }) => times.median ?? 0));
   return markup`<table class="times"><caption>What the pictures took</caption><thead class="quiet"><tr><th
 scope="col">pass</th><th scope="col">share of the longest</th><th scope="col"
 class="n">median</th><th scope="col" class="n">of</th></tr></thead><tbody>
-${rows.map(({ key, name, what, times, kind }) => markup`<tr><th scope="row">${name}<small>${what}</small></th><td class="wide">${
-    times.median !== null && shareBar(times.median / longest, kind)}</td><td class="n">${timed(key, times)}</td><td
-class="n">${times.runs.length > 1 ? `${times.runs.length} runs` : times.runs.length === 1 && "1 run"}</td></tr>\n`)}</tbody></table>
+${rows.map(
+  ({ key, name, what, times, kind }) => markup`<tr><th scope="row">${name}<small>${what}</small></th><td class="wide">${
+    times.median !== null && shareBar(times.median / longest, kind)
+  }</td><td class="n">${timed(key, times)}</td><td
+class="n">${times.runs.length > 1 ? `${times.runs.length} runs` : times.runs.length === 1 && "1 run"}</td></tr>\n`,
+)}</tbody></table>
 `;
 }
 
@@ -40,20 +82,31 @@ class="n">${times.runs.length > 1 ? `${times.runs.length} runs` : times.runs.len
 function shadowRows(light: LightResult, i: number): Markup | null {
   if (!light.times_ms.shadows) return null;
   const name = result.lights.length > 1 ? `${facts.light_facts[i]!.name}: ` : "";
-  return markup`${facts.shadow_situations.map(({ key, words, made }) => markup`<tr><th scope="row">${name}${words}<small>${made}</small></th><td class="n">${
-    shadowTime(light, i, `${key}_map`)}</td><td class="n">${shadowTime(light, i, `${key}_rays`)}</td></tr>\n`)}`;
+  return markup`${facts.shadow_situations.map(
+    ({ key, words, made }) =>
+      markup`<tr><th scope="row">${name}${words}<small>${made}</small></th><td class="n">${shadowTime(
+        light,
+        i,
+        `${key}_map`,
+      )}</td><td class="n">${shadowTime(light, i, `${key}_rays`)}</td></tr>\n`,
+  )}`;
 }
 
 const oneTime = (name: string): Markup => keyed(`times_ms.${name}.median`, milliseconds);
 
 function shadowTable(): Markup {
-  const rows = result.lights.map(shadowRows), by = result.lights.some(({ map }) => map.hybrid) ? "hybrid" : "map";
-  return markup`${rows.some((row) => row !== null) && markup`<table class="times sides"><caption>The shadows of a frame, without what the picture costs</caption><thead><tr><th scope="col">since the last frame</th><th
+  const rows = result.lights.map(shadowRows),
+    by = result.lights.some(({ map }) => map.hybrid) ? "hybrid" : "map";
+  return markup`${
+    rows.some((row) => row !== null) &&
+    markup`<table class="times sides"><caption>The shadows of a frame, without what the picture costs</caption><thead><tr><th scope="col">since the last frame</th><th
 scope="col" class="n">by the ${by}</th><th scope="col"
 class="n">by rays</th></tr></thead><tbody>
 ${rows}</tbody></table>
-`}<p class="hint">Before the first frame: ${oneTime("upload")} to upload the scene to the rasterizer, ${oneTime("accel_build")} to build the tracer’s hierarchy.${
-    result.timing.software_rasterizer && ` ${facts.software_note}`}</p>
+`
+  }<p class="hint">Before the first frame: ${oneTime("upload")} to upload the scene to the rasterizer, ${oneTime("accel_build")} to build the tracer’s hierarchy.${
+    result.timing.software_rasterizer && ` ${facts.software_note}`
+  }</p>
 `;
 }
 
@@ -89,9 +142,14 @@ function timeBudget(): Markup | null {
   const longest = Math.max(1e-9, ...stages.map(({ wall_ms }) => wall_ms));
   return markup`<table class="times"><caption>The time budget: every stage of the run, up to this page</caption><thead><tr><th scope="col">stage</th><th scope="col">share of the longest</th><th
 scope="col" class="n">wall clock</th><th scope="col" class="n">processor</th></tr></thead><tbody>
-${stages.map(({ stage, wall_ms }, i) => markup`<tr><th scope="row">${stage}<small>${stageWords[stage]}</small></th><td class="wide">${shareBar(wall_ms / longest, "sum")}</td><td
+${stages.map(
+  (
+    { stage, wall_ms },
+    i,
+  ) => markup`<tr><th scope="row">${stage}<small>${stageWords[stage]}</small></th><td class="wide">${shareBar(wall_ms / longest, "sum")}</td><td
 class="n">${keyed(`time_budget.${i}.wall_ms`, milliseconds)}</td><td
-class="n">${keyed(`time_budget.${i}.cpu_ms`, milliseconds)}</td></tr>\n`)}<tr class="sum"><th scope="row">sum: the process</th><td class="wide"></td><td
+class="n">${keyed(`time_budget.${i}.cpu_ms`, milliseconds)}</td></tr>\n`,
+)}<tr class="sum"><th scope="row">sum: the process</th><td class="wide"></td><td
 class="n">${keyed("process.wall_ms", milliseconds)}</td><td
 class="n">${keyed("process.cpu_ms", milliseconds)}</td></tr></tbody></table>
 <p class="hint">Processor time is that of all threads. What comes after this point, putting the page together,
@@ -100,23 +158,36 @@ last.</p>
 `;
 }
 
-const plainRow = (name: string, value: Markup | string): Markup => markup`<tr><th scope="row">${name}</th><td class="n">${value}</td></tr>\n`;
+const plainRow = (name: string, value: Markup | string): Markup =>
+  markup`<tr><th scope="row">${name}</th><td class="n">${value}</td></tr>\n`;
 
 function workTable(): Markup {
-  const { costs, lights } = result, row = (name: string, key: string): Markup => plainRow(name, keyedCount(`costs.${key}`));
+  const { costs, lights } = result,
+    row = (name: string, key: string): Markup => plainRow(name, keyedCount(`costs.${key}`));
   return markup`<table><caption>Work, the same on every machine</caption><tbody>
 ${row("depth-map texels rendered", "map_texels")}${plainRow("depth-map memory", keyed("costs.map_bytes", byteCount))}${row("primary rays", "primary_rays")}${row("shadow rays", "shadow_rays")}${
-    costs.soft_shadow_rays_asked! > 0 && markup`${row("rays to lights with size", "soft_shadow_rays")}${row("samples asked for", "soft_shadow_rays_asked")}`}${
-    lights.map(({ lookups }, i) => lookups.total !== null && plainRow(`map lookups of compared pixels${ofLight(i)}`, keyedCount(`lights.${i}.lookups.total`)))}${
-    row("reflection rays", "reflection_rays")}${row("refraction rays", "refraction_rays")}${costs.glossy_rays! > 0 && row("glossy rays", "glossy_rays")}${
-    costs.indirect_rays! > 0 && row("indirect rays", "indirect_rays")}</tbody></table>
+    costs.soft_shadow_rays_asked! > 0 &&
+    markup`${row("rays to lights with size", "soft_shadow_rays")}${row("samples asked for", "soft_shadow_rays_asked")}`
+  }${lights.map(
+    ({ lookups }, i) =>
+      lookups.total !== null && plainRow(`map lookups of compared pixels${ofLight(i)}`, keyedCount(`lights.${i}.lookups.total`)),
+  )}${row(
+    "reflection rays",
+    "reflection_rays",
+  )}${row("refraction rays", "refraction_rays")}${costs.glossy_rays! > 0 && row("glossy rays", "glossy_rays")}${
+    costs.indirect_rays! > 0 && row("indirect rays", "indirect_rays")
+  }</tbody></table>
 `;
 }
 
 const wholeTable = (): Markup => markup`<table><caption>The rest of the run</caption><tbody>
-${plainRow("loading the scene", oneTime("load"))}${plainRow("building the ray tracer's hierarchy", oneTime("accel_build"))}${plainRow("shading the ray-traced picture", oneTime("picture"))}${
-  result.lights.map(({ times_ms }, i) => plainRow(`finding each pixel's ladder and label${ofLight(i)}`, timed(`lights.${i}.times_ms.classify`, times_ms.classify!)))}${
-  plainRow("whole process, up to this page", oneTime("total"))}${plainRow("peak memory", byteCount(facts.peak_memory_bytes))}</tbody></table>
+${plainRow("loading the scene", oneTime("load"))}${plainRow("building the ray tracer's hierarchy", oneTime("accel_build"))}${plainRow("shading the ray-traced picture", oneTime("picture"))}${result.lights.map(
+  ({ times_ms }, i) =>
+    plainRow(`finding each pixel's ladder and label${ofLight(i)}`, timed(`lights.${i}.times_ms.classify`, times_ms.classify!)),
+)}${plainRow(
+  "whole process, up to this page",
+  oneTime("total"),
+)}${plainRow("peak memory", byteCount(facts.peak_memory_bytes))}</tbody></table>
 `;
 
 export const costSection = (): Markup => markup`<section id="cost" aria-labelledby="cost-title">

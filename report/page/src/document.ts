@@ -38,5 +38,6 @@ export const keyedDecrease = (key: string): Markup => markup`${numberAt(key) > 0
 
 /** A difference of two means is shown as 0 where it is no more than what rounding leaves of `magnitude`
     (twin: ../../../compare/ladder/budget.h). */
-export const beyondRounding = (difference: number, magnitude: number): number => (Math.abs(difference) <= 2 ** -37 * magnitude ? 0 : difference);
+export const beyondRounding = (difference: number, magnitude: number): number =>
+  Math.abs(difference) <= 2 ** -37 * magnitude ? 0 : difference;
 export const keyedSigned = (key: string, magnitude: number): Markup => keyed(key, signedNumber, beyondRounding(numberAt(key), magnitude));

@@ -1,20 +1,23 @@
 // The frames of a film of shadows (../../../shimmer/film.h), decoded when they are asked for and kept as long as they fit.
 
 export interface FilmJson {
-  seen: string[];   // red V6, green V0, blue bits: V1 … V5, counted, outside the map
-  flips: string[];  // red: the label of the flip that led to the frame + 1; 0: none
+  seen: string[]; // red V6, green V0, blue bits: V1 … V5, counted, outside the map
+  flips: string[]; // red: the label of the flip that led to the frame + 1; 0: none
 }
 
 export interface Frame {
-  seen: Uint8ClampedArray;   // four a pixel
-  flips: Uint8Array;         // one a pixel
+  seen: Uint8ClampedArray; // four a pixel
+  flips: Uint8Array; // one a pixel
 }
 
 const keptBytes = 320e6;
 
 export class Decoder {
   private readonly context: CanvasRenderingContext2D;
-  constructor(readonly width: number, readonly height: number) {
+  constructor(
+    readonly width: number,
+    readonly height: number,
+  ) {
     const canvas = document.createElement("canvas");
     canvas.width = width;
     canvas.height = height;
@@ -32,7 +35,12 @@ export class Decoder {
 export class FilmFrames {
   readonly count: number;
   private readonly kept = new Map<number, Promise<Frame>>();
-  constructor(private readonly json: FilmJson, private readonly decoder: Decoder) { this.count = json.seen.length; }
+  constructor(
+    private readonly json: FilmJson,
+    private readonly decoder: Decoder,
+  ) {
+    this.count = json.seen.length;
+  }
 
   frame(index: number): Promise<Frame> {
     const known = this.kept.get(index);
@@ -55,12 +63,14 @@ export class FilmFrames {
 /** One receiver in one frame. */
 export interface Moment {
   counted: boolean;
-  rungs: number[];  // V0 … V6
-  flip: number;     // label of the flip that led here; -1: none
+  rungs: number[]; // V0 … V6
+  flip: number; // label of the flip that led here; -1: none
 }
 
 export function momentAt(frame: Frame, pixel: number): Moment {
-  const drawn = frame.seen[4 * pixel]! / 255, truth = frame.seen[4 * pixel + 1]! / 255, bits = frame.seen[4 * pixel + 2]!;
+  const drawn = frame.seen[4 * pixel]! / 255,
+    truth = frame.seen[4 * pixel + 1]! / 255,
+    bits = frame.seen[4 * pixel + 2]!;
   // Outside the map the rungs from V2 on are what was drawn.
   const rung = (k: number): number => ((bits & 64) !== 0 && k >= 2 ? drawn : (bits >> (k - 1)) & 1);
   return { counted: (bits & 32) !== 0, rungs: [truth, ...[1, 2, 3, 4, 5].map(rung), drawn], flip: frame.flips[pixel]! - 1 };

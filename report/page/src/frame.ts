@@ -5,7 +5,7 @@ import { markup, type Markup } from "./template";
 
 export interface Section {
   id: string;
-  link: string;  // in the bar on top
+  link: string; // in the bar on top
   html: Markup;
 }
 
@@ -26,7 +26,10 @@ const save = main.querySelector(".plain .save");
 export const saveLinks = save && markup`<p class="save"></p>`;
 
 export function showSections(sections: Section[]): void {
-  document.querySelector("nav ul")!.innerHTML = sections.filter(({ link }) => link !== "").map(({ id, link }) => markup`<li><a href="#${id}">${link}</a></li>`.text).join("");
+  document.querySelector("nav ul")!.innerHTML = sections
+    .filter(({ link }) => link !== "")
+    .map(({ id, link }) => markup`<li><a href="#${id}">${link}</a></li>`.text)
+    .join("");
   main.innerHTML = sections.map(({ html }) => html.text).join("");
   for (const place of main.querySelectorAll<HTMLImageElement>("img[data-picture]")) {
     const image = pictures.get(place.dataset.picture!)!;

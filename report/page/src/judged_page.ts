@@ -6,8 +6,8 @@ import { markup, scrollRegion, type Markup } from "./template";
 
 interface Judged {
   name: string;
-  folder: string;    // of its own page, as a part of an address
-  refused?: string;  // why it was not judged
+  folder: string; // of its own page, as a part of an address
+  refused?: string; // why it was not judged
   scene: string;
   renderer: string;
   compared: number;
@@ -30,12 +30,21 @@ class="n">${plainNumber(capture.edge_pixels)}</td><td class="n">${capture.detach
 
 export function startJudged(): void {
   const { captures } = resultDocument<{ captures: Judged[] }>();
-  showSections([{ id: "captures", link: "Captures", html: markup`<section id="captures" aria-labelledby="captures-title"><h1 id="captures-title">Captures judged</h1>
+  showSections([
+    {
+      id: "captures",
+      link: "Captures",
+      html: markup`<section id="captures" aria-labelledby="captures-title"><h1 id="captures-title">Captures judged</h1>
 <p>The worst first. Each name opens that capture's own report. Edges: how far drawn shadow edges lie from the true
 ones, root mean square in pixels. Detached: how far shadows start from what casts them, mean in world units.</p>
-${scrollRegion("Captures", markup`<table class="captures"><thead><tr><th scope="col">capture</th><th scope="col">drawn by</th><th
+${scrollRegion(
+  "Captures",
+  markup`<table class="captures"><thead><tr><th scope="col">capture</th><th scope="col">drawn by</th><th
 scope="col" class="n">wrong</th><th scope="col" class="n">mean error</th><th scope="col">mostly</th><th
 scope="col" class="n">edges</th><th scope="col" class="n">detached</th><th scope="col">advice</th></tr></thead><tbody>
-${captures.map(row)}</tbody></table>`)}</section>
-` }]);
+${captures.map(row)}</tbody></table>`,
+)}</section>
+`,
+    },
+  ]);
 }

@@ -7,11 +7,18 @@ export class LabelTable {
   private readonly original: string;
   private readonly buttons = new Map<string, HTMLButtonElement>();
 
-  constructor(section: Element, index: number, private readonly labels: Int8Array, chosen: (label: string | null) => void) {
-    this.image = document.getElementById(`picture-labels-${index}`) as HTMLImageElement;  // in the light's section, or on the first screen
+  constructor(
+    section: Element,
+    index: number,
+    private readonly labels: Int8Array,
+    chosen: (label: string | null) => void,
+  ) {
+    this.image = document.getElementById(`picture-labels-${index}`) as HTMLImageElement; // in the light's section, or on the first screen
     this.original = this.image.src;
     for (const row of section.querySelectorAll<HTMLElement>(".labels tr[data-colour]")) {
-      const heading = row.querySelector("th")!, name = heading.firstChild!, button = document.createElement("button");
+      const heading = row.querySelector("th")!,
+        name = heading.firstChild!,
+        button = document.createElement("button");
       button.type = "button";
       button.textContent = name.textContent;
       button.title = "Show only this label in the picture";

@@ -15,8 +15,18 @@ import { Viewer, type Source } from "./viewer";
 
 /** What a lecture shows in place of the live picture; `live`: its name. */
 function overlaysOf(index: number, live: string): Overlays {
-  const named = [["rasterized", "picture-raster"], ["ray traced", "picture-raytraced"], ["labels", `picture-labels-${index}`]] as const;
-  return [[live, null], ...named.flatMap(([name, id]): Overlays => { const picture = byId(id); return picture ? [[name, picture]] : []; })];
+  const named = [
+    ["rasterized", "picture-raster"],
+    ["ray traced", "picture-raytraced"],
+    ["labels", `picture-labels-${index}`],
+  ] as const;
+  return [
+    [live, null],
+    ...named.flatMap(([name, id]): Overlays => {
+      const picture = byId(id);
+      return picture ? [[name, picture]] : [];
+    }),
+  ];
 }
 
 export class LightPanel {
@@ -29,11 +39,16 @@ export class LightPanel {
   private readonly map: MapMarker | null;
   private readonly line: HTMLElement;
   private frame = 0;
-  private passing = false;  // the pointer is on its way, nothing is chosen
+  private passing = false; // the pointer is on its way, nothing is chosen
   private shown: Pixel;
-  private coloured: number;  // the bias that the picture shows
+  private coloured: number; // the bias that the picture shows
 
-  constructor(private readonly light: Light, private readonly index: number, section: HTMLElement, best: number) {
+  constructor(
+    private readonly light: Light,
+    private readonly index: number,
+    section: HTMLElement,
+    best: number,
+  ) {
     const root = section.querySelector<HTMLElement>(".viewer")!;
     this.line = root.querySelector(".probe")!;
     for (const pick of root.querySelectorAll("select"))
@@ -42,13 +57,28 @@ export class LightPanel {
     root.after(host);
     this.probe = new Probe(light, index, host, this.state, () => this.redraw());
     this.labels = new LabelTable(section, index, light.label, (label) => this.choose(label));
-    this.bias = BiasPanel.make(light, index, best, (bias) => { this.state.bias = bias; this.redraw(); }, (x, y) => this.pin(x, y));
+    this.bias = BiasPanel.make(
+      light,
+      index,
+      best,
+      (bias) => {
+        this.state.bias = bias;
+        this.redraw();
+      },
+      (x, y) => this.pin(x, y),
+    );
     const depths = section.querySelector<HTMLImageElement>(".depth img");
     this.map = depths && new MapMarker(light, depths);
     this.shown = examplePixel(light);
     this.viewer = new Viewer(root, this.state, page, {
-      hover: (x, y) => this.hover(x, y), pin: (x, y) => this.pin(x, y), source: (name) => this.source(name),
-      unpin: () => { this.state.pixel = null; this.redraw(); }, changed: () => saveLight(this.index, this.state),
+      hover: (x, y) => this.hover(x, y),
+      pin: (x, y) => this.pin(x, y),
+      source: (name) => this.source(name),
+      unpin: () => {
+        this.state.pixel = null;
+        this.redraw();
+      },
+      changed: () => saveLight(this.index, this.state),
     });
     const labelled = byId(`picture-labels-${index}`);
     if (labelled?.closest("#overview")) enlargeLabels(light, labelled);
@@ -58,10 +88,19 @@ export class LightPanel {
     this.bias?.show(this.coloured);
     this.bias?.mark(this.shown.x, this.shown.y);
     const { words, drawing, bar, below } = this.probe;
-    new Presenter(root.querySelector(".viewer-bar")!, `light ${light.json.name}`, {
-      controls: this.bias ? [this.bias.bar, this.bias.said] : [], picture: this.bias?.picture ?? root.querySelector<HTMLElement>(".stage")!,
-      drawing, words, section: [bar, below],
-    }, overlaysOf(index, this.bias ? "difference" : "as chosen"), (x, y) => this.step(x, y));
+    new Presenter(
+      root.querySelector(".viewer-bar")!,
+      `light ${light.json.name}`,
+      {
+        controls: this.bias ? [this.bias.bar, this.bias.said] : [],
+        picture: this.bias?.picture ?? root.querySelector<HTMLElement>(".stage")!,
+        drawing,
+        words,
+        section: [bar, below],
+      },
+      overlaysOf(index, this.bias ? "difference" : "as chosen"),
+      (x, y) => this.step(x, y),
+    );
   }
 
   private step(x: number, y: number): void {
@@ -79,7 +118,9 @@ export class LightPanel {
   }
 
   /** Writes what is looked at into the URL. */
-  save(): void { saveLight(this.index, this.state); }
+  save(): void {
+    saveLight(this.index, this.state);
+  }
 
   private choose(label: string | null): void {
     this.state.label = label;
@@ -96,13 +137,20 @@ export class LightPanel {
 
   // Pictures that were made are kept, of those with an exposure or a label the last one.
   private source(name: string): Source | null {
-    const { exposure, label } = this.state, linear = /^picture-(raster|raytraced)$/.exec(name)?.[1] as PictureName | undefined;
+    const { exposure, label } = this.state,
+      linear = /^picture-(raster|raytraced)$/.exec(name)?.[1] as PictureName | undefined;
     const alone = /^picture-labels/.test(name) && label !== null ? page.labels.find((words) => words.name === label)?.value : undefined;
     const key = linear ? `${name} ${exposure}` : alone !== undefined ? `labels ${alone}` : name;
     if (!this.made.has(key)) {
       for (const old of [...this.made.keys()]) if (linear ? old.startsWith(name) : old.startsWith("labels ")) this.made.delete(old);
-      this.made.set(key, linear ? exposed(this.light.pixels, linear, exposure)
-        : alone !== undefined ? isolatedLabel(this.light.label, alone) : lightPicture(this.light, name));
+      this.made.set(
+        key,
+        linear
+          ? exposed(this.light.pixels, linear, exposure)
+          : alone !== undefined
+            ? isolatedLabel(this.light.label, alone)
+            : lightPicture(this.light, name),
+      );
     }
     const image = byId(name);
     return this.made.get(key) ?? (image && { url: image.getAttribute("src")! });
@@ -110,20 +158,26 @@ export class LightPanel {
 
   // "rasterized #8a8a8a, linear 0.254 0.254 0.254"
   private colour(name: PictureName, index: number): string {
-    return `${hex(colourAt(this.light.pixels, name, index))}, linear ${linearAt(this.light.pixels, name, index).map((v) => number(v, 3)).join(" ")}`;
+    return `${hex(colourAt(this.light.pixels, name, index))}, linear ${linearAt(this.light.pixels, name, index)
+      .map((v) => number(v, 3))
+      .join(" ")}`;
   }
 
   private read(x: number, y: number): void {
     this.shown = this.light.pixel(x, y);
-    const { index, label } = this.shown, { flip, ssim } = this.light;
-    this.line.textContent = `Pixel ${x}, ${y}: ${wordsOf(label).name}; rasterized ${this.colour("raster", index)}; ray traced ${this.colour("raytraced", index)}` +
-      (flip && label >= 0 ? `; FLIP ${number(flip[index]! / 100, 2)}` : "") + (ssim && label >= 0 && ssim[index] !== -128 ? `, SSIM ${number(ssim[index]! / 100, 2)}` : "");
+    const { index, label } = this.shown,
+      { flip, ssim } = this.light;
+    this.line.textContent =
+      `Pixel ${x}, ${y}: ${wordsOf(label).name}; rasterized ${this.colour("raster", index)}; ray traced ${this.colour("raytraced", index)}` +
+      (flip && label >= 0 ? `; FLIP ${number(flip[index]! / 100, 2)}` : "") +
+      (ssim && label >= 0 && ssim[index] !== -128 ? `, SSIM ${number(ssim[index]! / 100, 2)}` : "");
   }
 
   private hover(x: number, y: number): void {
     const pinned = this.shown;
     this.read(x, y);
-    if (this.state.pixel) this.shown = pinned;  // the line follows the pointer, the drawings stay
+    if (this.state.pixel)
+      this.shown = pinned; // the line follows the pointer, the drawings stay
     else this.later(true);
   }
 
@@ -141,7 +195,10 @@ export class LightPanel {
   // Many events become one drawing.
   private later(passing = false): void {
     this.passing = passing;
-    this.frame ||= requestAnimationFrame(() => { this.frame = 0; this.update(); });
+    this.frame ||= requestAnimationFrame(() => {
+      this.frame = 0;
+      this.update();
+    });
   }
 
   private update(): void {

@@ -12,51 +12,73 @@ import { flowing, markup, swatch, type Markup } from "./template";
 import { viewerBlock } from "./viewer_block";
 
 function viewer(i: number): Markup {
-  const options = [["picture-raster", "rasterized"], ["picture-raytraced", "ray traced"], [`picture-difference-${i}`, "difference"], [`picture-labels-${i}`, "labels"],
-    ...(pictureNamed(`decisions-${i}`) ? [[`picture-decisions-${i}`, "who decided"]] : [])];
-  return viewerBlock(markup`${options.map(([id, name]) => markup`<option value="${id}">${name}</option>`)}`, i,
+  const options = [
+    ["picture-raster", "rasterized"],
+    ["picture-raytraced", "ray traced"],
+    [`picture-difference-${i}`, "difference"],
+    [`picture-labels-${i}`, "labels"],
+    ...(pictureNamed(`decisions-${i}`) ? [[`picture-decisions-${i}`, "who decided"]] : []),
+  ];
+  return viewerBlock(
+    markup`${options.map(([id, name]) => markup`<option value="${id}">${name}</option>`)}`,
+    i,
     markup`Point at a pixel to read it, click to pin it; its story is below. Drag to move the divider, or the
 picture once it is enlarged; double-click enlarges. Keys: <kbd>F</kbd> flips, <kbd>+</kbd> <kbd>−</kbd>
 <kbd>0</kbd> zoom, arrows move, <kbd>Shift</kbd> with arrows steps from pixel to pixel, <kbd>Esc</kbd> lets
 go. Exposure is in stops, on linear light, of both pictures. Scales are fixed: the same colour means the same
-in every picture.`, true);
+in every picture.`,
+    true,
+  );
 }
 
-const differenceFigure = (i: number): Markup => markup`<figure>${picture(`difference-${i}`, `picture-difference-${i}`)}<figcaption>${
-  swatch(palette.false_shadow, "−")} <b>False shadow</b>: drawn dark, truly lit, ${keyedThings(`lights.${i}.error.false_shadow`, "pixel")}. ${
-  swatch(palette.missed_shadow, "+")} <b>Missed shadow</b>: drawn lit, truly dark, ${keyedThings(`lights.${i}.error.missed_shadow`, "pixel")}.</figcaption></figure>\n`;
+const differenceFigure = (i: number): Markup =>
+  markup`<figure>${picture(`difference-${i}`, `picture-difference-${i}`)}<figcaption>${swatch(
+    palette.false_shadow,
+    "−",
+  )} <b>False shadow</b>: drawn dark, truly lit, ${keyedThings(`lights.${i}.error.false_shadow`, "pixel")}. ${swatch(
+    palette.missed_shadow,
+    "+",
+  )} <b>Missed shadow</b>: drawn lit, truly dark, ${keyedThings(`lights.${i}.error.missed_shadow`, "pixel")}.</figcaption></figure>\n`;
 
 /** The errors that occur, those with most of the mean error first. */
 const occurring = ({ classes, class_errors: errors }: LightResult): LabelFacts[] =>
-  facts.labels.filter(({ key, value }) => value > 0 && (classes[key]! > 0 || errors[key]! > 0)).sort((a, b) => errors[b.key]! - errors[a.key]!);
+  facts.labels
+    .filter(({ key, value }) => value > 0 && (classes[key]! > 0 || errors[key]! > 0))
+    .sort((a, b) => errors[b.key]! - errors[a.key]!);
 
 const labelRow = ({ name, letter, colour, what }: LabelFacts, pixels: Markup, share: string, error: Markup | string = ""): Markup =>
   markup`<tr data-colour="${colour}" data-label="${name}"><td>${swatch(colour, letter)}</td><th scope="row">${name}<small>${what}</small></th><td
 class="n">${pixels}</td><td class="n">${share}</td><td class="n">${error}</td></tr>\n`;
 
 function labelTable(light: LightResult, i: number): Markup {
-  const { pixels, error, classes } = light, { compared } = pixels, right = compared - error.wrong - error.ties;
+  const { pixels, error, classes } = light,
+    { compared } = pixels,
+    right = compared - error.wrong - error.ties;
   const labelled = (wanted: string): LabelFacts => facts.labels.find(({ key }) => key === wanted)!;
   const others = ["uncertain", "silhouette", "facing_away", "background"].filter((key) => pixels[key]! > 0);
   return markup`<table class="labels"><caption>Labels</caption><thead><tr><td></td><th scope="col">label</th><th
 scope="col" class="n">pixels</th><th scope="col" class="n">share</th><th scope="col" class="n" title="What the label has of the mean absolute error">error</th></tr></thead><tbody>
 ${occurring(light).map((label) => labelRow(label, keyedCount(`lights.${i}.classes.${label.key}`), shareOf(classes[label.key]!, compared), keyed(`lights.${i}.class_errors.${label.key}`, percent)))}<tr class="sum"><td></td><th
 scope="row">wrong</th><td class="n">${keyedCount(`lights.${i}.error.wrong`)}</td><td class="n">${keyed(`lights.${i}.error.wrong_fraction`, percent)}</td><td class="n">${keyed(`lights.${i}.error.mean_absolute`, percent)}</td></tr>
-${error.ties > 0 && markup`<tr><td></td><th scope="row">off by exactly one half (two count as one wrong)</th><td
+${
+  error.ties > 0 &&
+  markup`<tr><td></td><th scope="row">off by exactly one half (two count as one wrong)</th><td
 class="n">${keyedCount(`lights.${i}.error.ties`)}</td><td class="n">${shareOf(error.ties, compared)}</td><td></td></tr>
-`}${labelRow(labelled("right"), markup`${grouped(right)}`, shareOf(right, compared))}<tr class="sum"><td></td><th scope="row">compared</th><td
+`
+}${labelRow(labelled("right"), markup`${grouped(right)}`, shareOf(right, compared))}<tr class="sum"><td></td><th scope="row">compared</th><td
 class="n">${keyedCount(`lights.${i}.pixels.compared`)}</td><td class="n">${compared > 0 && "100 %"}</td><td></td></tr>
 ${others.map((key) => labelRow(labelled(key), keyedCount(`lights.${i}.pixels.${key}`), ""))}</tbody></table>
 `;
 }
 
 function explanations(light: LightResult): Markup | null {
-  const given = new Set<string>();  // each lesson once
+  const given = new Set<string>(); // each lesson once
   const items = occurring(light).map(({ name, letter, colour, cause, cure, lesson }) => {
     const known = given.has(lesson);
     given.add(lesson);
     return markup`<div><dt>${swatch(colour, letter)}${name}</dt><dd>${cause}</dd><dd class="cure"><b>Cure.</b> ${cure}</dd><dd>${
-      known ? `Lesson: ${facts.lessons[lesson]!.title}, above.` : lessonDetails(lesson)}</dd></div>\n`;
+      known ? `Lesson: ${facts.lessons[lesson]!.title}, above.` : lessonDetails(lesson)
+    }</dd></div>\n`;
   });
   return items.length > 0 ? markup`<h3>What causes it, what cures it</h3>\n<dl class="explain">\n${items}</dl>\n` : null;
 }
@@ -72,8 +94,12 @@ function mapSize({ map: { size, inferred, faces } }: LightResult): string {
 }
 
 export function lightSection(light: LightResult, i: number): Markup {
-  const { name, verdict } = facts.light_facts[i]!, bias = light.map.bias.constant_world;
-  const numbers = light.pixels.compared === 0 ? labelTable(light, i) : markup`<div class="columns">
+  const { name, verdict } = facts.light_facts[i]!,
+    bias = light.map.bias.constant_world;
+  const numbers =
+    light.pixels.compared === 0
+      ? labelTable(light, i)
+      : markup`<div class="columns">
 <div>${labelTable(light, i)}</div>
 <div>${explanations(light)}</div>
 </div>

@@ -7,9 +7,9 @@ export interface Face {
   right: Vec3;
   up: Vec3;
   forward: Vec3;
-  center: readonly [number, number];       // of an orthographic face, along right and up from the view's origin
-  half_extent: readonly [number, number];  // along right and up
-  warp: number;                            // of an orthographic face along up; 0: none
+  center: readonly [number, number]; // of an orthographic face, along right and up from the view's origin
+  half_extent: readonly [number, number]; // along right and up
+  warp: number; // of an orthographic face along up; 0: none
 }
 
 /** Where light-space perspective shows a height, and back (see scene/light_map/light_view.h). */
@@ -18,7 +18,8 @@ const unwarped = (f: Face, shown: number): number => (shown - f.warp * f.half_ex
 
 /** Position along right and up from the view's origin, at depth 1 of a perspective map. */
 export function place(view: LightView, face: number, u: number, v: number): [number, number] {
-  const f = view.faces[face]!, y = unwarped(f, ((2 * v) / view.size - 1) * f.half_extent[1]);
+  const f = view.faces[face]!,
+    y = unwarped(f, ((2 * v) / view.size - 1) * f.half_extent[1]);
   return [f.center[0] + ((2 * u) / view.size - 1) * f.half_extent[0] * (1 + f.warp * y), f.center[1] + y];
 }
 
@@ -35,8 +36,7 @@ export const dot = (a: Vec3, b: Vec3): number => a[0] * b[0] + a[1] * b[1] + a[2
 export const add = (a: Vec3, b: Vec3, scale = 1): Vec3 => [a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]];
 export const sub = (a: Vec3, b: Vec3): Vec3 => add(a, b, -1);
 export const scaled = (a: Vec3, s: number): Vec3 => [a[0] * s, a[1] * s, a[2] * s];
-export const cross = (a: Vec3, b: Vec3): Vec3 =>
-  [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const cross = (a: Vec3, b: Vec3): Vec3 => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 export const length = (a: Vec3): number => Math.sqrt(dot(a, a));
 export const unit = (a: Vec3): Vec3 => scaled(a, 1 / length(a));
 
@@ -46,7 +46,9 @@ export interface Ray {
 }
 
 export function texelRay(view: LightView, face: number, u: number, v: number): Ray {
-  const f = view.faces[face]!, [x, y] = place(view, face, u, v), offset = add(scaled(f.right, x), f.up, y);
+  const f = view.faces[face]!,
+    [x, y] = place(view, face, u, v),
+    offset = add(scaled(f.right, x), f.up, y);
   if (!view.perspective) return { origin: add(view.origin, offset), direction: f.forward };
   return { origin: view.origin, direction: unit(add(f.forward, offset)) };
 }
@@ -58,20 +60,24 @@ export interface MapPoint {
 }
 
 export function project(view: LightView, face: number, point: Vec3): MapPoint {
-  const f = view.faces[face]!, d = sub(point, view.origin), depth = dot(d, f.forward), up = dot(d, f.up) - f.center[1];
-  const [x, y] = view.perspective ? [dot(d, f.right) / depth, up / depth] : [(dot(d, f.right) - f.center[0]) / (1 + f.warp * up), warped(f, up)];
-  return {
-    u: 0.5 * (x / f.half_extent[0] + 1) * view.size,
-    v: 0.5 * (y / f.half_extent[1] + 1) * view.size,
-    depth,
-  };
+  const f = view.faces[face]!,
+    d = sub(point, view.origin),
+    depth = dot(d, f.forward),
+    up = dot(d, f.up) - f.center[1];
+  const [x, y] = view.perspective
+    ? [dot(d, f.right) / depth, up / depth]
+    : [(dot(d, f.right) - f.center[0]) / (1 + f.warp * up), warped(f, up)];
+  return { u: 0.5 * (x / f.half_extent[0] + 1) * view.size, v: 0.5 * (y / f.half_extent[1] + 1) * view.size, depth };
 }
 
 /** World width of a texel along u (axis 0) or v (axis 1) where a point falls. */
 export function texelWidth(view: LightView, axis: 0 | 1, at: MapPoint & { face: number }): number {
   const f = view.faces[at.face]!;
   if (f.warp === 0) return (2 * f.half_extent[axis] * (view.perspective ? at.depth : 1)) / view.size;
-  const [near, far] = axis === 0 ? [place(view, at.face, at.u - 0.5, at.v), place(view, at.face, at.u + 0.5, at.v)] : [place(view, at.face, at.u, at.v - 0.5), place(view, at.face, at.u, at.v + 0.5)];
+  const [near, far] =
+    axis === 0
+      ? [place(view, at.face, at.u - 0.5, at.v), place(view, at.face, at.u + 0.5, at.v)]
+      : [place(view, at.face, at.u, at.v - 0.5), place(view, at.face, at.u, at.v + 0.5)];
   return Math.hypot(far[0] - near[0], far[1] - near[1]);
 }
 
@@ -82,7 +88,8 @@ export function alongRay(view: LightView, face: number, u: number, v: number): n
 
 /** Depth at which the ray through (u, v) meets a plane from the front; infinity where it does not. */
 export function planeDepth(view: LightView, face: number, u: number, v: number, point: Vec3, normal: Vec3): number {
-  const ray = texelRay(view, face, u, v), facing = dot(normal, ray.direction);
+  const ray = texelRay(view, face, u, v),
+    facing = dot(normal, ray.direction);
   if (!(facing < 0)) return Infinity;
   const t = dot(normal, sub(point, ray.origin)) / facing;
   if (!view.perspective) return t;

@@ -2,7 +2,7 @@
 // of every step makes a change of it quick.
 import { page, type PictureName, type Pixels } from "./data";
 
-const table = new Float32Array(4096);  // 24 octaves of 64 steps below one, as many above, and black
+const table = new Float32Array(4096); // 24 octaves of 64 steps below one, as many above, and black
 for (let k = 1; k < table.length; ++k) table[k] = 2 ** (page.darkest_octave + (k - 1) / page.colour_steps);
 
 /** IEC 61966-2-1. */
@@ -32,7 +32,9 @@ export function colourAt(pixels: Pixels, name: PictureName, index: number): numb
 }
 
 export function exposed(pixels: Pixels, name: PictureName, stops: number): ImageData {
-  const bytes = encoded(pixels, stops), image = new ImageData(page.width, page.height), { data } = image;
+  const bytes = encoded(pixels, stops),
+    image = new ImageData(page.width, page.height),
+    { data } = image;
   const [red, green, blue] = pixels.picture(name) as [Int16Array, Int16Array, Int16Array];
   for (let i = 0, o = 0; i < red.length; ++i, o += 4) {
     data[o] = bytes[red[i]!]!;

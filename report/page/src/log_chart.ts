@@ -15,7 +15,13 @@ export class LogPlot {
   static readonly bottom = 52;
 
   /** `shares`: values along y are shares, written in per cent; else plain numbers. */
-  constructor(readonly minX: number, readonly maxX: number, readonly minY: number, readonly maxY: number, readonly shares: boolean) {}
+  constructor(
+    readonly minX: number,
+    readonly maxX: number,
+    readonly minY: number,
+    readonly maxY: number,
+    readonly shares: boolean,
+  ) {}
 
   x(v: number): number {
     return LogPlot.left + (Math.log(v / this.minX) / Math.log(this.maxX / this.minX)) * (LogPlot.width - LogPlot.left - LogPlot.right);
@@ -31,10 +37,21 @@ export const chartText = (x: number, y: number, kind: string, content: string): 
   markup`<text class="${kind}" x="${fixed(x)}" y="${fixed(y)}">${content}</text>`;
 
 type Box = readonly [x0: number, y0: number, x1: number, y1: number];
-const glyph = 7.2, ascent = 11, descent = 4, gap = 13;  // of text of 13 pixels, and from it to the point
+const glyph = 7.2,
+  ascent = 11,
+  descent = 4,
+  gap = 13; // of text of 13 pixels, and from it to the point
 // Where a name may stand beside its point; the last number: where the text begins, in its lengths left of its anchor.
-const places = [["middle", 0, -gap, 0.5], ["middle", 0, 1.8 * gap, 0.5], ["start", gap, 4, 0], ["end", -gap, 4, 1],
-  ["start", gap, -gap, 0], ["end", -gap, -gap, 1], ["start", gap, 2 * gap, 0], ["end", -gap, 2 * gap, 1]] as const;
+const places = [
+  ["middle", 0, -gap, 0.5],
+  ["middle", 0, 1.8 * gap, 0.5],
+  ["start", gap, 4, 0],
+  ["end", -gap, 4, 1],
+  ["start", gap, -gap, 0],
+  ["end", -gap, -gap, 1],
+  ["start", gap, 2 * gap, 0],
+  ["end", -gap, 2 * gap, 1],
+] as const;
 
 /** Names beside points: each takes the first place around its point where it covers no other. */
 export class ChartLabels {
@@ -42,7 +59,9 @@ export class ChartLabels {
   private readonly names: string[] = [];
 
   /** Room that names keep off: of `reach` around a point. */
-  keepFree(x: number, y: number, reach: number): void { this.taken.push([x - reach, y - reach, x + reach, y + reach]); }
+  keepFree(x: number, y: number, reach: number): void {
+    this.taken.push([x - reach, y - reach, x + reach, y + reach]);
+  }
 
   /** A straight line that names keep off. */
   keepLineFree(x0: number, y0: number, x1: number, y1: number): void {
@@ -55,7 +74,9 @@ export class ChartLabels {
     if (this.names.includes(name)) return null;
     const length = glyph * name.length;
     for (const [anchor, dx, dy, from] of places) {
-      const start = x + dx - from * length, base = y + dy, box: Box = [start, base - ascent, start + length, base + descent];
+      const start = x + dx - from * length,
+        base = y + dy,
+        box: Box = [start, base - ascent, start + length, base + descent];
       const inside = box[0] >= LogPlot.left && box[2] <= LogPlot.width && box[1] >= 0 && box[3] <= LogPlot.height - LogPlot.bottom + 10;
       if (!inside || this.taken.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3])) continue;
       this.taken.push(box);
@@ -75,7 +96,12 @@ export function logTicks(min: number, max: number): number[] {
     return ticks;
   };
   if (max / min > 300) return at([1]);
-  const few = [[1, 2, 5], [1, 1.5, 2, 3, 4, 5, 6, 8]].map(at).find((ticks) => ticks.length >= 3);
+  const few = [
+    [1, 2, 5],
+    [1, 1.5, 2, 3, 4, 5, 6, 8],
+  ]
+    .map(at)
+    .find((ticks) => ticks.length >= 3);
   return few ?? at([1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6, 6.5, 7, 7.5, 8, 8.5, 9, 9.5]);
 }
 
@@ -87,12 +113,27 @@ export function leastError(shares: number[]): number {
 
 /** Lines and ticks; `unitX` names the horizontal axis. */
 export function chartFrame(plot: LogPlot, ticksX: number[], unitX: string): Markup {
-  const { left, height } = LogPlot, right = LogPlot.width - LogPlot.right, floor = height - LogPlot.bottom;
-  const across = logTicks(plot.minY * 1.6, plot.maxY);  // above the word at the bottom
-  return markup`${across.map((v) => markup`<line class="grid" x1="${left}" x2="${right}" y1="${fixed(plot.y(v))}" y2="${fixed(plot.y(v))}"/>${
-    chartText(left - 8, plot.y(v) + 4, "tick end", plot.shares ? `${general(100 * v, 3)} %` : plainNumber(v))}`)}${chartText(left - 8, plot.y(plot.minY) + 4, "tick end", "none")}${
-    ticksX.map((v) => markup`<line class="mark" x1="${fixed(plot.x(v))}" x2="${fixed(plot.x(v))}" y1="${floor + 4}" y2="${floor + 9}"/>${
-      chartText(plot.x(v), floor + 24, "tick middle", plainNumber(v))}`)}${chartText(right, height - 8, "tick end", unitX)}`;
+  const { left, height } = LogPlot,
+    right = LogPlot.width - LogPlot.right,
+    floor = height - LogPlot.bottom;
+  const across = logTicks(plot.minY * 1.6, plot.maxY); // above the word at the bottom
+  return markup`${across.map(
+    (v) =>
+      markup`<line class="grid" x1="${left}" x2="${right}" y1="${fixed(plot.y(v))}" y2="${fixed(plot.y(v))}"/>${chartText(
+        left - 8,
+        plot.y(v) + 4,
+        "tick end",
+        plot.shares ? `${general(100 * v, 3)} %` : plainNumber(v),
+      )}`,
+  )}${chartText(left - 8, plot.y(plot.minY) + 4, "tick end", "none")}${ticksX.map(
+    (v) =>
+      markup`<line class="mark" x1="${fixed(plot.x(v))}" x2="${fixed(plot.x(v))}" y1="${floor + 4}" y2="${floor + 9}"/>${chartText(
+        plot.x(v),
+        floor + 24,
+        "tick middle",
+        plainNumber(v),
+      )}`,
+  )}${chartText(right, height - 8, "tick end", unitX)}`;
 }
 
 export const chartSvg = (title: string, content: Markup): Markup =>

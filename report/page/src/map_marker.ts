@@ -4,13 +4,16 @@ import { html } from "./svg";
 
 export class MapMarker {
   private readonly marker = html("div", { class: "map-marker" });
-  private readonly side: number;  // of a face, in pixels of the picture
+  private readonly side: number; // of a face, in pixels of the picture
   private readonly gap: number;
   private readonly across: number;
-  private readonly width: number;  // of the picture, in its pixels
+  private readonly width: number; // of the picture, in its pixels
   private readonly height: number;
 
-  constructor(private readonly light: Light, image: HTMLImageElement) {
+  constructor(
+    private readonly light: Light,
+    image: HTMLImageElement,
+  ) {
     this.width = Number(image.getAttribute("width"));
     this.height = Number(image.getAttribute("height"));
     const faces = light.json.view.faces.length;
@@ -26,8 +29,9 @@ export class MapMarker {
   }
 
   show(pixel: Pixel): void {
-    const { size } = this.light.json.view, { u, v } = pixel.at;
-    this.marker.hidden = !(pixel.seen && u >= 0 && v >= 0 && u < size && v < size);  // of a pixel outside the map there is no place in it
+    const { size } = this.light.json.view,
+      { u, v } = pixel.at;
+    this.marker.hidden = !(pixel.seen && u >= 0 && v >= 0 && u < size && v < size); // of a pixel outside the map there is no place in it
     const scale = this.side / size;
     const x = (pixel.face % this.across) * (this.side + this.gap) + u * scale;
     const y = Math.floor(pixel.face / this.across) * (this.side + this.gap) + this.side - v * scale;

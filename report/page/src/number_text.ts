@@ -2,17 +2,22 @@
 
 /** So many decimals; what lies in the middle between two goes to the even digit, as in C++. */
 function withDecimals(value: number, decimals: number): string {
-  const exact = value.toFixed(Math.min(decimals + 60, 100)), cut = exact.indexOf(".") + 1 + decimals, kept = exact.slice(0, cut).replace(/\.$/, "");
+  const exact = value.toFixed(Math.min(decimals + 60, 100)),
+    cut = exact.indexOf(".") + 1 + decimals,
+    kept = exact.slice(0, cut).replace(/\.$/, "");
   return /^50*$/.test(exact.slice(cut)) && Number(kept.at(-1)) % 2 === 0 ? kept : value.toFixed(decimals);
 }
 
 /** At most so many significant digits, as "%g" writes them: 0.0123, 1.2e-05, 1e+06. */
 export function general(value: number, digits: number): string {
   if (value === 0) return "0";
-  const [mantissa, power] = value.toExponential(digits - 1).split("e") as [string, string], exponent = Number(power);
+  const [mantissa, power] = value.toExponential(digits - 1).split("e") as [string, string],
+    exponent = Number(power);
   const short = mantissa.includes(".") ? mantissa.replace(/\.?0+$/, "") : mantissa;
   if (exponent < -4 || exponent >= digits) return `${short}e${exponent < 0 ? "-" : "+"}${String(Math.abs(exponent)).padStart(2, "0")}`;
-  return withDecimals(value, Math.max(0, digits - 1 - exponent)).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
+  return withDecimals(value, Math.max(0, digits - 1 - exponent))
+    .replace(/(\.\d*?)0+$/, "$1")
+    .replace(/\.$/, "");
 }
 
 // From here on three digits would round to a thousand, which has an exponent.
@@ -46,12 +51,12 @@ export function unsignedNumber(value: number): string {
   return withDecimals(value, value < 5e-5 ? Math.ceil(-Math.log10(value)) : 4);
 }
 
-export const signedNumber = (value: number): string =>
-  value === 0 ? "0" : `${value < 0 ? "−" : "+"}${unsignedNumber(Math.abs(value))}`;
+export const signedNumber = (value: number): string => (value === 0 ? "0" : `${value < 0 ? "−" : "+"}${unsignedNumber(Math.abs(value))}`);
 
 /** "0.8 texel", "1 texel", "1.6 texels", "150 texels" */
 export function texelsText(texels: number): string {
-  const size = Math.abs(texels), text = size < 99.5 ? general(texels, 2) : withDecimals(texels, 0);
+  const size = Math.abs(texels),
+    text = size < 99.5 ? general(texels, 2) : withDecimals(texels, 0);
   if (size > 0 && size < 0.001) return "less than 0.001 texel";
   return `${text.replace("-", "−")} texel${size <= 1 || text === "1" || text === "-1" ? "" : "s"}`;
 }
@@ -69,12 +74,13 @@ export interface TimeDifference {
   low: number;
   median: number;
   high: number;
-  told: boolean;  // the interval does not hold 0
+  told: boolean; // the interval does not hold 0
 }
 
 /** "4.9 to 8.2 ms", "0 to 30 ms", "900 ms to 1.2 s"; where the difference is told, "6 ms (4.9 to 8.2 ms)". */
 export function timeDifference({ low, median, high, told }: TimeDifference): string {
-  const to = milliseconds(high), unit = to.slice(to.indexOf(" "));
+  const to = milliseconds(high),
+    unit = to.slice(to.indexOf(" "));
   let from = low > 0 ? milliseconds(low) : "0";
   if (from.endsWith(unit)) from = from.slice(0, -unit.length);
   const middle = milliseconds(median);
@@ -84,7 +90,8 @@ export function timeDifference({ low, median, high, told }: TimeDifference): str
 
 export function byteCount(bytes: number): string {
   const units = ["bytes", "kB", "MB", "GB", "TB"];
-  let value = bytes, unit = 0;
+  let value = bytes,
+    unit = 0;
   for (; value >= firstOfFourDigits && unit + 1 < units.length; ++unit) value /= 1000;
   return `${unit === 0 ? bytes : general(value, 3)} ${units[unit]}`;
 }

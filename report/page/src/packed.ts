@@ -7,7 +7,7 @@ type From = "nothing" | "previous" | "surface";
 export interface Packed {
   bytes: 1 | 2 | 4;
   from: From;
-  minus?: string;  // the name of an array to be added, which stands before this one
+  minus?: string; // the name of an array to be added, which stands before this one
   data: string;
 }
 
@@ -15,16 +15,21 @@ export interface Packed {
 export type Channel = Packed | { same: string };
 export type Numbers = Int8Array | Int16Array | Int32Array;
 
-const base = 91, place = new Uint8Array(128);
+const base = 91,
+  place = new Uint8Array(128);
 for (let c = 0x21, i = 0; c <= 0x7e; ++c) if (c !== 0x22 && c !== 0x5c && c !== 0x3c) place[c] = i++;
 
 function bytesOf(text: string): Uint8Array<ArrayBuffer> {
-  const pairs = text.length >> 1, rest = text.length & 1;
+  const pairs = text.length >> 1,
+    rest = text.length & 1;
   // A last pair may hold up to six bits too many, a single character up to five.
   const bytes = new Uint8Array(Math.floor((13 * pairs + 6 * rest) / 8));
-  let bits = 0, count = 0, at = 0;
+  let bits = 0,
+    count = 0,
+    at = 0;
   for (let i = 0; i < text.length; i += 2) {
-    const single = i + 1 === text.length, first = place[text.charCodeAt(i)]!;
+    const single = i + 1 === text.length,
+      first = place[text.charCodeAt(i)]!;
     bits |= (single ? first : base * first + place[text.charCodeAt(i + 1)]!) << count;
     for (count += single ? 6 : 13; count >= 8 && at < bytes.length; count -= 8, bits >>>= 8) bytes[at++] = bits & 255;
   }
@@ -38,7 +43,8 @@ async function inflate(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
 
 /** What the prediction leaves, signed. */
 async function residues(packed: Packed): Promise<Numbers> {
-  const planes = await inflate(bytesOf(packed.data)), count = planes.length / packed.bytes;
+  const planes = await inflate(bytesOf(packed.data)),
+    count = planes.length / packed.bytes;
   const numbers = new { 1: Int8Array, 2: Int16Array, 4: Int32Array }[packed.bytes](count);
   for (let i = 0; i < count; ++i) {
     let folded = 0;
@@ -59,7 +65,8 @@ export const unpack = async (packed: Packed): Promise<Numbers> => predicted(awai
 
 /** For each number the place of the last one before it of the same surface, or else of the one before. */
 export function surfaceSources(surfaces: Numbers): Int32Array {
-  const last = new Map<number, number>(), sources = new Int32Array(surfaces.length);
+  const last = new Map<number, number>(),
+    sources = new Int32Array(surfaces.length);
   surfaces.forEach((surface, i) => {
     sources[i] = last.get(surface) ?? Math.max(i - 1, 0);
     last.set(surface, i);
@@ -69,8 +76,11 @@ export function surfaceSources(surfaces: Numbers): Int32Array {
 
 /** Several arrays. Equal ones share theirs. `sources` is asked for the surfaces, and `made` for what `minus` names that
     is no channel, with what is unpacked by then. */
-export async function unpackAll(channels: Record<string, Channel>, sources?: (done: Record<string, Numbers>) => Int32Array,
-                                made?: (name: string, done: Record<string, Numbers>) => Numbers): Promise<Record<string, Numbers>> {
+export async function unpackAll(
+  channels: Record<string, Channel>,
+  sources?: (done: Record<string, Numbers>) => Int32Array,
+  made?: (name: string, done: Record<string, Numbers>) => Numbers,
+): Promise<Record<string, Numbers>> {
   const left = await Promise.all(Object.values(channels).map((channel) => ("same" in channel ? null : residues(channel))));
   const done: Record<string, Numbers> = {};
   Object.entries(channels).forEach(([name, channel], at) => {

@@ -24,7 +24,7 @@ export const pageKind = data.kind;
 export const isBeside = data.folder !== undefined;
 
 declare global {
-  var gnomonFiles: Record<string, unknown> | undefined;  // eslint-disable-line no-var
+  var gnomonFiles: Record<string, unknown> | undefined; // eslint-disable-line no-var
 }
 
 /** Loads a data file; its value is forgotten by the page as soon as it is handed on. */
@@ -39,7 +39,10 @@ export function fromFile<T>(path: string, name: string): Promise<T> {
       if (value === undefined) reject(new Error(`${path} does not hold ${name}`));
       else resolve(value as T);
     };
-    script.onerror = () => { script.remove(); reject(new Error(`${path} is missing: it belongs beside this page`)); };
+    script.onerror = () => {
+      script.remove();
+      reject(new Error(`${path} is missing: it belongs beside this page`));
+    };
     document.head.append(script);
   });
 }

@@ -5,8 +5,7 @@ import { exposed } from "./linear";
 
 export const byId = (id: string): HTMLImageElement | null => document.getElementById(id) as HTMLImageElement | null;
 
-export const hex = (colour: ArrayLike<number>): string =>
-  "#" + [0, 1, 2].map((k) => colour[k]!.toString(16).padStart(2, "0")).join("");
+export const hex = (colour: ArrayLike<number>): string => "#" + [0, 1, 2].map((k) => colour[k]!.toString(16).padStart(2, "0")).join("");
 
 export function dataUrl(pixels: ImageData): string {
   const canvas = document.createElement("canvas");
@@ -33,37 +32,53 @@ const unseen: Rgb = [60, 62, 66];
 
 /** A picture of a light by its name in the viewer; null: none of these. */
 export function lightPicture(light: Light, name: string): ImageData | null {
-  const steps = page.visibility_steps, compared = (colour: (i: number) => Rgb) => painted((i) => (light.label[i]! < 0 ? unseen : colour(i)));
+  const steps = page.visibility_steps,
+    compared = (colour: (i: number) => Rgb) => painted((i) => (light.label[i]! < 0 ? unseen : colour(i)));
   const grey = (v: number): Rgb => [v, v, v];
   const mix = (c: Rgb, t: number): Rgb => c.map((v) => Math.round(255 + (v - 255) * t)) as unknown as Rgb;
   switch (name) {
-    case "truth": return compared((i) => grey(Math.round((255 * light.truth[i]!) / steps)));
-    case "drawn": return compared((i) => grey(Math.round((255 * light.drawn[i]!) / steps)));
-    case "gap": return compared((i) => {
-      const texels = light.gap[i]! / light.json.texel_world;
-      return texels < 0 ? mix(missedShadow, Math.min(1, -texels / 4)) : mix(falseShadow, Math.min(1, texels / 4));
-    });
-    case "absolute error": return compared((i) => magma(Math.abs(light.drawn[i]! - light.truth[i]!) / steps));
-    case "FLIP": return light.flip && painted((i) => magma(light.flip![i]! / 100));
-    case "1 − SSIM": return light.ssim && painted((i) => (light.ssim![i] === -128 ? unseen : magma(1 - light.ssim![i]! / 100)));
-    default: return null;
+    case "truth":
+      return compared((i) => grey(Math.round((255 * light.truth[i]!) / steps)));
+    case "drawn":
+      return compared((i) => grey(Math.round((255 * light.drawn[i]!) / steps)));
+    case "gap":
+      return compared((i) => {
+        const texels = light.gap[i]! / light.json.texel_world;
+        return texels < 0 ? mix(missedShadow, Math.min(1, -texels / 4)) : mix(falseShadow, Math.min(1, texels / 4));
+      });
+    case "absolute error":
+      return compared((i) => magma(Math.abs(light.drawn[i]! - light.truth[i]!) / steps));
+    case "FLIP":
+      return light.flip && painted((i) => magma(light.flip![i]! / 100));
+    case "1 − SSIM":
+      return light.ssim && painted((i) => (light.ssim![i] === -128 ? unseen : magma(1 - light.ssim![i]! / 100)));
+    default:
+      return null;
   }
 }
 
 /** The names of these pictures; those of what the page does not know of this light are left out. */
-export const lightPictureNames = (light: Light): string[] =>
-  ["truth", "drawn", ...(light.json.map_known ? ["gap"] : []), "absolute error", ...(light.flip ? ["FLIP"] : []), ...(light.ssim ? ["1 − SSIM"] : [])];
+export const lightPictureNames = (light: Light): string[] => [
+  "truth",
+  "drawn",
+  ...(light.json.map_known ? ["gap"] : []),
+  "absolute error",
+  ...(light.flip ? ["FLIP"] : []),
+  ...(light.ssim ? ["1 − SSIM"] : []),
+];
 
 /** The label picture with every other label faded towards white. */
 export function isolatedLabel(labels: ArrayLike<number>, wanted: number, size?: { width: number; height: number }): ImageData {
-  const faded = new Map<number, Rgb>(), whole = rgbOf(wordsOf(wanted).colour);
+  const faded = new Map<number, Rgb>(),
+    whole = rgbOf(wordsOf(wanted).colour);
   return painted((i) => {
     const label = labels[i]!;
     if (label === wanted) return whole;
     let colour = faded.get(label);
     if (!colour) {
-      const [r, g, b] = rgbOf(wordsOf(label).colour), grey = Math.round(200 + 0.2 * (0.3 * r + 0.6 * g + 0.1 * b));
-      faded.set(label, colour = [grey, grey, grey]);
+      const [r, g, b] = rgbOf(wordsOf(label).colour),
+        grey = Math.round(200 + 0.2 * (0.3 * r + 0.6 * g + 0.1 * b));
+      faded.set(label, (colour = [grey, grey, grey]));
     }
     return colour;
   }, size);
@@ -72,7 +87,7 @@ export function isolatedLabel(labels: ArrayLike<number>, wanted: number, size?: 
 export interface Recoloured {
   falseShadow: number;
   missedShadow: number;
-  ties: number;  // of which exactly half the light is seen: as near to right as to wrong at any bias
+  ties: number; // of which exactly half the light is seen: as near to right as to wrong at any bias
 }
 
 // A colour as one number, red in the lowest byte: ImageData's order on little-endian machines, which browsers run on.
@@ -81,12 +96,16 @@ const pixelOf = ([r, g, b]: Rgb): number => ((255 << 24) | (b << 16) | (g << 8) 
 /** What a constant bias would draw wrong, over a backdrop; writes into `out`. Arrays of pixels as numbers. */
 export function recolour(light: Light, bias: number, backdrop: Uint32Array, out: Uint32Array): Recoloured {
   const counts = { falseShadow: 0, missedShadow: 0, ties: 0 };
-  const threshold = Math.fround(bias), half = 0.5 * page.visibility_steps, { gap, label, truth } = light;
-  const orange = pixelOf(falseShadow), blue = pixelOf(missedShadow);
+  const threshold = Math.fround(bias),
+    half = 0.5 * page.visibility_steps,
+    { gap, label, truth } = light;
+  const orange = pixelOf(falseShadow),
+    blue = pixelOf(missedShadow);
   out.set(backdrop);
   for (let i = 0; i < gap.length; ++i) {
     if (label[i]! < 0) continue;
-    const dark = gap[i]! > threshold, seen = truth[i]!;
+    const dark = gap[i]! > threshold,
+      seen = truth[i]!;
     if (seen === half) ++counts.ties;
     else if (dark && seen > half) {
       ++counts.falseShadow;
@@ -101,7 +120,8 @@ export function recolour(light: Light, bias: number, backdrop: Uint32Array, out:
 
 /** Grey of the ray-traced picture, between 64 and 232, so that both error colours stand out from it. */
 export function backdropOf(pixels: Pixels): Uint32Array {
-  const { data } = exposed(pixels, "raytraced", 0), backdrop = new Uint32Array(data.length / 4);
+  const { data } = exposed(pixels, "raytraced", 0),
+    backdrop = new Uint32Array(data.length / 4);
   for (let i = 0, o = 0; i < backdrop.length; ++i, o += 4) {
     const grey = Math.floor(64.5 + ((0.2126 * data[o]! + 0.7152 * data[o + 1]! + 0.0722 * data[o + 2]!) * 168) / 255);
     backdrop[i] = pixelOf([grey, grey, grey]);

@@ -4,7 +4,7 @@
 import { html } from "./svg";
 
 export interface Pieces {
-  controls: HTMLElement[];  // above all
+  controls: HTMLElement[]; // above all
   picture: HTMLElement;
   drawing: HTMLElement;
   words: HTMLElement;
@@ -20,20 +20,49 @@ export class Presenter {
   private places: [HTMLElement, Comment][] = [];
   private readonly overlay = html("img", { class: "presenter-overlay", alt: "" });
   private readonly choices: HTMLButtonElement[];
-  private readonly details = html("button", { type: "button", "aria-pressed": "false", title: "Pixel drawing, cross-section and words (D)" }, "Details");
+  private readonly details = html(
+    "button",
+    { type: "button", "aria-pressed": "false", title: "Pixel drawing, cross-section and words (D)" },
+    "Details",
+  );
 
-  constructor(host: Element, name: string, private readonly pieces: Pieces, private readonly overlays: Overlays, private readonly step: (x: number, y: number) => void) {
-    const area = (kind: string, elements: HTMLElement[]): [HTMLElement, HTMLElement[]] => [html("div", { class: `presenter-${kind}` }), elements];
-    this.areas = [area("controls", pieces.controls), area("picture", [pieces.picture]), area("drawing", [pieces.drawing]),
-      area("words", [pieces.words]), area("section", pieces.section)];
+  constructor(
+    host: Element,
+    name: string,
+    private readonly pieces: Pieces,
+    private readonly overlays: Overlays,
+    private readonly step: (x: number, y: number) => void,
+  ) {
+    const area = (kind: string, elements: HTMLElement[]): [HTMLElement, HTMLElement[]] => [
+      html("div", { class: `presenter-${kind}` }),
+      elements,
+    ];
+    this.areas = [
+      area("controls", pieces.controls),
+      area("picture", [pieces.picture]),
+      area("drawing", [pieces.drawing]),
+      area("words", [pieces.words]),
+      area("section", pieces.section),
+    ];
     const close = html("button", { type: "button", class: "presenter-close" }, "Close");
     this.choices = overlays.map(([title], i) => {
       const button = html("button", { type: "button", title: `Key ${i + 1}` }, title);
       button.addEventListener("click", () => this.choose(i));
       return button;
     });
-    const bar = html("div", { class: "presenter-bar modes", role: "group", "aria-label": "What is shown" }, ...this.choices, this.details, close);
-    this.dialog = html("dialog", { class: "presenter", "aria-label": `Presentation: ${name}` }, bar, ...this.areas.map(([element]) => element));
+    const bar = html(
+      "div",
+      { class: "presenter-bar modes", role: "group", "aria-label": "What is shown" },
+      ...this.choices,
+      this.details,
+      close,
+    );
+    this.dialog = html(
+      "dialog",
+      { class: "presenter", "aria-label": `Presentation: ${name}` },
+      bar,
+      ...this.areas.map(([element]) => element),
+    );
     const open = html("button", { type: "button", class: "present" }, "Present");
     open.title = "The picture as large as the window; with its details picture, pixel drawing, cross-section and bias on one screen";
     open.addEventListener("click", () => this.open());

@@ -6,8 +6,11 @@ export class ProgramWorker {
   private gone: string | null = null;
 
   constructor(private readonly worker: Worker) {
-    this.worker.onerror = (event) => this.fail(event.message || "The program for the web cannot be loaded: its files are not beside this page.");
-    this.worker.onmessage = ({ data }: MessageEvent<{ id?: number; gone?: string; status: number; type: string; body: Uint8Array<ArrayBuffer> }>) => {
+    this.worker.onerror = (event) =>
+      this.fail(event.message || "The program for the web cannot be loaded: its files are not beside this page.");
+    this.worker.onmessage = ({
+      data,
+    }: MessageEvent<{ id?: number; gone?: string; status: number; type: string; body: Uint8Array<ArrayBuffer> }>) => {
       if (data.gone !== undefined || data.id === undefined) return this.fail(data.gone ?? "");
       this.open.get(data.id)?.(new Response(data.body, { status: data.status, headers: { "Content-Type": data.type } }));
       this.open.delete(data.id);
@@ -38,6 +41,8 @@ export async function answered(response: Response): Promise<Response> {
   let said = text.trim();
   try {
     said = (JSON.parse(text) as { error: string }).error;
-  } catch { /* words, then */ }
+  } catch {
+    /* words, then */
+  }
   throw new Error(said || `the program answers with ${response.status}`);
 }

@@ -15,8 +15,14 @@ export type Entry = [name: string, value: Markup | string];
 /** `before` and `after` OpenGL. */
 export function provenance(before: Entry[] = [], after: Entry[] = []): Markup {
   const { command, version, scene, gl } = resultDocument<Provenance>();
-  const entries: Entry[] = [["Scene", scene.path], ["SHA-256 of the scene file", scene.sha256], ["Gnomon", version], ...before,
-    ["OpenGL", `${gl.version} through ${gl.backend}: ${gl.renderer}`], ...after];
+  const entries: Entry[] = [
+    ["Scene", scene.path],
+    ["SHA-256 of the scene file", scene.sha256],
+    ["Gnomon", version],
+    ...before,
+    ["OpenGL", `${gl.version} through ${gl.backend}: ${gl.renderer}`],
+    ...after,
+  ];
   return markup`<section id="provenance" aria-labelledby="provenance-title">
 <h2 id="provenance-title">Where this comes from</h2>
 <p class="command"><code>${command}</code></p>

@@ -62,20 +62,29 @@ export interface LightResult {
   light: { type: string; position?: number[]; direction?: number[] };
   map: {
     technique: string;
-    size: number | null;  // null: not known
+    size: number | null; // null: not known
     inferred: boolean;
     faces: number;
-    windows?: Vec3[][];  // of each map four corners at its near and four at its far depth
+    windows?: Vec3[][]; // of each map four corners at its near and four at its far depth
     bias: { constant_world: number | null; texel_world: number };
     hybrid?: { receivers: number; surely_lit: number; surely_shadowed: number; rays: number; all_rays: number; bytes: number };
     texel_world: { min: number; median: number; max: number };
   };
   pixels: Record<string, number> & { compared: number };
-  error: { wrong: number; wrong_fraction: number; false_shadow: number; missed_shadow: number; ties: number; ssim: number | null; flip_compared: number | null; ssim_compared: number | null };
+  error: {
+    wrong: number;
+    wrong_fraction: number;
+    false_shadow: number;
+    missed_shadow: number;
+    ties: number;
+    ssim: number | null;
+    flip_compared: number | null;
+    ssim_compared: number | null;
+  };
   budget: { signed: number; absolute: number; darkened: number; lightened: number; false_shadow: number; missed_shadow: number }[];
   ladder: { mean: number }[];
   classes: Record<string, number>;
-  class_errors: Record<string, number>;  // by label, of the mean error
+  class_errors: Record<string, number>; // by label, of the mean error
   edges: { count: number; mean_texels: number };
   detachment: { pixels: number };
   bleeding?: { pixels: number };
@@ -91,7 +100,7 @@ export interface LightResult {
   derived_bias: DerivedBias | null;
   lookups: { total: number | null };
   times_ms: Record<string, Times> & { shadows?: Record<string, number | null> };
-  shadow_samples?: number;  // of a light with size
+  shadow_samples?: number; // of a light with size
 }
 
 /** What a setting errs by from several views, and where: squares seen from above. */
@@ -131,8 +140,8 @@ export interface Result {
 }
 
 export interface LabelFacts {
-  key: string;    // of the document
-  value: number;  // 1 and more: an error
+  key: string; // of the document
+  value: number; // 1 and more: an error
   name: string;
   letter: string;
   what: string;
@@ -158,9 +167,9 @@ export interface ShadowSituation {
 interface LightFacts {
   name: string;
   verdict: { headline: string; detail: string; whole: string };
-  window: string;         // what the map holds, in sentences
-  contradiction: string;  // of a best bias that is not right everywhere
-  smaller: { constant_world: number; wrong_fraction: number } | null;  // a constant that leaves hardly more than the best
+  window: string; // what the map holds, in sentences
+  contradiction: string; // of a best bias that is not right everywhere
+  smaller: { constant_world: number; wrong_fraction: number } | null; // a constant that leaves hardly more than the best
   depth: { near: number; far: number; perspective: boolean; texels_per_pixel: number } | null;
 }
 
@@ -168,12 +177,12 @@ export interface Facts {
   labels: LabelFacts[];
   rungs: { symbol: string; name: string; what: string; step?: string }[];
   lessons: Record<string, LessonFacts>;
-  map: string;            // what shadows are drawn with
-  bias_parts: string[];   // beside the constant
+  map: string; // what shadows are drawn with
+  bias_parts: string[]; // beside the constant
   compares_depths: boolean;
   edge_scale_texels: number;
   detachment_scale_texels: number;
-  reduced: string;           // what the page leaves out of a large picture
+  reduced: string; // what the page leaves out of a large picture
   peak_memory_bytes: number;
   software_note: string;
   shadow_situations: ShadowSituation[];
@@ -182,7 +191,8 @@ export interface Facts {
   tune?: TuneFacts;
 }
 
-export const result = resultDocument<Result>(), facts = pageData<Facts>();
+export const result = resultDocument<Result>(),
+  facts = pageData<Facts>();
 
 /** Another renderer's picture, whose depth map is not known: two steps are told apart, light size and all the rest. */
 export const lacksMap = (): boolean => result.lights.some(({ map }) => map.size === null);
@@ -193,7 +203,8 @@ export const stepName = (k: number): string => (lacksMap() && k === 1 ? "unexpla
 export const ofLight = (i: number): string => (result.lights.length > 1 ? `, ${facts.light_facts[i]!.name}` : "");
 
 /** A pass by its key, or that it was not timed. */
-export const timed = (key: string, { runs }: Times): Markup => (runs.length === 0 ? markup`not timed` : keyed(`${key}.median`, milliseconds));
+export const timed = (key: string, { runs }: Times): Markup =>
+  runs.length === 0 ? markup`not timed` : keyed(`${key}.median`, milliseconds);
 
 export const shareOf = (part: number, whole: number): string => percent(part / Math.max(whole, 1));
 

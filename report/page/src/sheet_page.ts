@@ -5,8 +5,8 @@ import { flowing, markup, type Markup } from "./template";
 
 interface Candidate {
   name: string;
-  place: string;        // the square of the picture that errs most
-  view: string | null;  // from where it is seen, of several
+  place: string; // the square of the picture that errs most
+  view: string | null; // from where it is seen, of several
   rows: [name: string, text: string][];
   command: string;
   units: { engine: string; setting: string; value: string }[];
@@ -25,10 +25,16 @@ ${units.length > 0 && markup`<ul>${units.map(({ engine, setting, value }) => mar
 
 export function startSheet(): void {
   const { scene, wanted, candidates } = resultDocument<{ scene: string; wanted: string; candidates: Candidate[] }>();
-  showSections([{ id: "sheet", link: "", html: markup`<section id="sheet" class="sheet" aria-labelledby="sheet-title"><h1 id="sheet-title">Shadows of ${scene}</h1>
+  showSections([
+    {
+      id: "sheet",
+      link: "",
+      html: markup`<section id="sheet" class="sheet" aria-labelledby="sheet-title"><h1 id="sheet-title">Shadows of ${scene}</h1>
 <p>Wanted: ${flowing(wanted)}. The star is the answer; the others have at most as much memory for their maps. Texels and taps
 hold on every machine, times on this one. Printed, it is one page.</p>
 <div class="candidates">
 ${candidates.map(column)}</div></section>
-` }]);
+`,
+    },
+  ]);
 }

@@ -8,7 +8,8 @@ import { stripChart, stripX } from "./strip_chart";
 import { counted } from "./number_text";
 import { html } from "./svg";
 
-const result = resultDocument<ShimmerResult>(), facts = pageData<ShimmerFacts>();
+const result = resultDocument<ShimmerResult>(),
+  facts = pageData<ShimmerFacts>();
 const page = { ...result, ...result?.size, labels: facts.labels };
 const views = ["drawn", "truth", "flips"] as const;
 type View = (typeof views)[number];
@@ -31,7 +32,7 @@ class FilmPlayer {
   private readonly buttons: HTMLButtonElement[];
   private view: View = "flips";
   private now = 0;
-  private started: number | null = null;  // the moment that frame 0 was due
+  private started: number | null = null; // the moment that frame 0 was due
   private pixel: number | null = null;
   private moments: Moment[] = [];
 
@@ -39,10 +40,13 @@ class FilmPlayer {
     document.documentElement.style.setProperty("--ratio", String(page.width / page.height));
     this.canvas.width = page.width;
     this.canvas.height = page.height;
-    this.context = this.canvas.getContext("2d", { willReadFrequently: true })!;  // whole pictures are put into it
+    this.context = this.canvas.getContext("2d", { willReadFrequently: true })!; // whole pictures are put into it
     this.buttons = views.map((view) => {
       const button = html("button", { type: "button", "data-view": view }, view);
-      button.addEventListener("click", () => { this.view = view; void this.show(this.now); });
+      button.addEventListener("click", () => {
+        this.view = view;
+        void this.show(this.now);
+      });
       return button;
     });
   }
@@ -57,35 +61,68 @@ class FilmPlayer {
 
   private build(): void {
     const step = (by: number): HTMLButtonElement => {
-      const button = html("button", { type: "button", class: by < 0 ? "film-back" : "film-on", "aria-label": by < 0 ? "One frame back" : "One frame on" }, by < 0 ? "◀" : "▶");
-      button.addEventListener("click", () => { this.pause(); void this.show(this.now + by); });
+      const button = html(
+        "button",
+        { type: "button", class: by < 0 ? "film-back" : "film-on", "aria-label": by < 0 ? "One frame back" : "One frame on" },
+        by < 0 ? "◀" : "▶",
+      );
+      button.addEventListener("click", () => {
+        this.pause();
+        void this.show(this.now + by);
+      });
       return button;
     };
     this.play.addEventListener("click", () => (this.started === null ? this.run() : this.pause()));
-    this.slider.addEventListener("input", () => { this.pause(); void this.show(Number(this.slider.value)); });
+    this.slider.addEventListener("input", () => {
+      this.pause();
+      void this.show(Number(this.slider.value));
+    });
     this.canvas.addEventListener("click", (event) => {
-      const box = this.canvas.getBoundingClientRect(), step = page.anchors;
+      const box = this.canvas.getBoundingClientRect(),
+        step = page.anchors;
       // A click's place is whole, the picture's need not be: its first column may be met just before it begins.
       const snap = (share: number, size: number): number => Math.floor(Math.min(Math.max(share * size, 0), size - 1) / step) * step;
-      void this.read(snap((event.clientY - box.top) / box.height, page.height) * page.width + snap((event.clientX - box.left) / box.width, page.width));
+      void this.read(
+        snap((event.clientY - box.top) / box.height, page.height) * page.width + snap((event.clientX - box.left) / box.width, page.width),
+      );
     });
     this.canvas.addEventListener("keydown", (event) => {
       const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
       if (by === undefined && event.key !== " ") return;
       event.preventDefault();
-      if (by === undefined) { this.play.click(); return; }
+      if (by === undefined) {
+        this.play.click();
+        return;
+      }
       this.pause();
       void this.show(this.now + by);
     });
-    const legend = html("p", { class: "film-legend" }, ...page.labels.flatMap((label) => {
-      const dot = html("span", { class: "dot-swatch" });
-      dot.style.background = label.colour;
-      return [dot, ` ${label.name}  `];
-    }));
+    const legend = html(
+      "p",
+      { class: "film-legend" },
+      ...page.labels.flatMap((label) => {
+        const dot = html("span", { class: "dot-swatch" });
+        dot.style.background = label.colour;
+        return [dot, ` ${label.name}  `];
+      }),
+    );
     const film = this.section.querySelector<HTMLElement>(".film")!;
-    film.append(html("div", { class: "film-bar" }, this.play, step(-1), step(1), this.slider, this.reading, html("span", { class: "modes", role: "group", "aria-label": "Film of" }, ...this.buttons)),
-      this.canvas, legend,
-      html("p", { class: "hint" }, "Click a pixel to see its rungs over time. Keys on the picture: space plays, arrows step."), this.probe);
+    film.append(
+      html(
+        "div",
+        { class: "film-bar" },
+        this.play,
+        step(-1),
+        step(1),
+        this.slider,
+        this.reading,
+        html("span", { class: "modes", role: "group", "aria-label": "Film of" }, ...this.buttons),
+      ),
+      this.canvas,
+      legend,
+      html("p", { class: "hint" }, "Click a pixel to see its rungs over time. Keys on the picture: space plays, arrows step."),
+      this.probe,
+    );
     film.hidden = false;
     for (const place of this.section.querySelectorAll<HTMLElement>(".place")) {
       const button = html("button", { type: "button" }, place.textContent!);
@@ -113,12 +150,13 @@ class FilmPlayer {
 
   private async show(frame: number): Promise<void> {
     this.now = (frame + page.frames) % page.frames;
-    const asked = this.now, pictures = await this.frames.frame(asked);
-    if (asked !== this.now) return;  // another one was asked for meanwhile
+    const asked = this.now,
+      pictures = await this.frames.frame(asked);
+    if (asked !== this.now) return; // another one was asked for meanwhile
     this.compose(pictures);
     this.context.putImageData(this.image, 0, 0);
     this.slider.value = String(asked);
-    const said = `frame ${asked + 1} of ${page.frames}`;  // for people, who count from one
+    const said = `frame ${asked + 1} of ${page.frames}`; // for people, who count from one
     this.reading.textContent = said;
     this.slider.setAttribute("aria-valuetext", said);
     this.canvas.setAttribute("aria-label", `${this.view}, ${said}`);
@@ -127,11 +165,14 @@ class FilmPlayer {
     this.section.dataset.shown = String(shown + 1);
     this.section.dataset.frame = String(asked);
     this.mark();
-    void this.frames.frame((asked + 1) % page.frames);  // is due next
+    void this.frames.frame((asked + 1) % page.frames); // is due next
   }
 
   private compose({ seen, flips }: Frame): void {
-    const { data } = this.image, { base } = this, channel = this.view === "truth" ? 1 : 0, marks = this.view === "flips";
+    const { data } = this.image,
+      { base } = this,
+      channel = this.view === "truth" ? 1 : 0,
+      marks = this.view === "flips";
     for (let i = 0, o = 0; i < flips.length; ++i, o += 4) {
       const flip = marks ? flips[i]! : 0;
       if (flip > 0) {
@@ -155,21 +196,33 @@ class FilmPlayer {
     for (let frame = 0; frame < page.frames; ++frame) moments.push(momentAt(await this.frames.frame(frame), pixel));
     if (this.pixel !== pixel) return;
     this.moments = moments;
-    const x = pixel % page.width, y = Math.floor(pixel / page.width), flips = moments.filter((moment) => moment.flip >= 0);
+    const x = pixel % page.width,
+      y = Math.floor(pixel / page.width),
+      flips = moments.filter((moment) => moment.flip >= 0);
     const where = moments.some((moment) => moment.counted) ? counted(flips.length, "flip") : "nothing is compared here";
     const by = [...new Set(flips.map((moment) => page.labels[moment.flip]!.name))].join(", ");
     const text = `Pixel ${x}, ${y}: ${where}${by ? `, by ${by}` : ""}.`;
-    this.probe.replaceChildren(html("p", { class: "probe" }, text),
-      html("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": `Rungs over time, light ${this.section.dataset.light}` }, stripChart(moments, page.labels, text)));
+    this.probe.replaceChildren(
+      html("p", { class: "probe" }, text),
+      html(
+        "div",
+        { class: "scroll", tabindex: "0", role: "region", "aria-label": `Rungs over time, light ${this.section.dataset.light}` },
+        stripChart(moments, page.labels, text),
+      ),
+    );
     this.probe.dataset.pixel = String(pixel);
     this.mark();
   }
 
   /** The frame that is shown, in the charts. */
   private mark(): void {
-    const place = (line: Element | null, x: number): void => { line?.setAttribute("x1", String(x)); line?.setAttribute("x2", String(x)); };
+    const place = (line: Element | null, x: number): void => {
+      line?.setAttribute("x1", String(x));
+      line?.setAttribute("x2", String(x));
+    };
     if (this.moments.length > 0) place(this.probe.querySelector(".now"), stripX(this.now, page.frames));
-    const chart = this.section.querySelector(".flips-chart"), dots = chart?.querySelectorAll("circle");
+    const chart = this.section.querySelector(".flips-chart"),
+      dots = chart?.querySelectorAll("circle");
     const dot = dots?.[Math.max(this.now - 1, 0)];
     if (dot) place(chart!.querySelector(".now"), Number(dot.getAttribute("cx")));
   }
@@ -182,6 +235,8 @@ export async function startShimmer(): Promise<void> {
     try {
       await new FilmPlayer(section).start(index);
     } catch (error) {
-      section.querySelector(".film")!.after(html("p", { class: "left-out" }, `The film and its probe are missing: ${(error as Error).message}.`));
+      section
+        .querySelector(".film")!
+        .after(html("p", { class: "left-out" }, `The film and its probe are missing: ${(error as Error).message}.`));
     }
 }

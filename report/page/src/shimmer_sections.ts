@@ -7,7 +7,7 @@ import { provenance } from "./provenance";
 import { flowing, markup, scrollRegion, swatch, type Markup } from "./template";
 
 export interface FlipLabel {
-  key: string;  // of the document
+  key: string; // of the document
   name: string;
   colour: string;
   letter: string;
@@ -33,8 +33,8 @@ export interface ShimmerResult {
 /** What the program says beside the document. */
 export interface ShimmerFacts {
   labels: FlipLabel[];
-  verdicts: string[];    // by light
-  most_flips: number[];  // of one receiver, by light
+  verdicts: string[]; // by light
+  most_flips: number[]; // of one receiver, by light
   film: { words: string; extension: string };
 }
 
@@ -54,21 +54,31 @@ function budgetTable(labels: FlipLabel[], light: string, i: number): Markup {
     if (Number.isNaN(absolute)) return markup`<td></td><td></td>`;
     return markup`<td class="n">${keyedSigned(`${of}.signed`, absolute)}</td><td class="n">${keyed(`${of}.absolute`, unsignedNumber)}</td>`;
   };
-  const row = ({ key, name, colour, letter }: FlipLabel, k: number): Markup => markup`<tr><th scope="row">${swatch(colour, letter)} ${name}</th>${
-    means(`${light}.budget.${k}`)}<td class="n">${keyedCount(`${light}.by_label.${key}`)}</td></tr>\n`;
-  return scrollRegion(`Temporal budget ${i}`, markup`<table class="families"><thead><tr><th scope="col">step</th><th scope="col" class="n">signed</th><th
+  const row = ({ key, name, colour, letter }: FlipLabel, k: number): Markup =>
+    markup`<tr><th scope="row">${swatch(colour, letter)} ${name}</th>${means(
+      `${light}.budget.${k}`,
+    )}<td class="n">${keyedCount(`${light}.by_label.${key}`)}</td></tr>\n`;
+  return scrollRegion(
+    `Temporal budget ${i}`,
+    markup`<table class="families"><thead><tr><th scope="col">step</th><th scope="col" class="n">signed</th><th
 scope="col" class="n">absolute</th><th scope="col" class="n">flips</th></tr></thead><tbody>
 ${labels.map(row)}<tr><th scope="row">sum</th>${means(`${light}.error`)}<td class="n">${keyedCount(`${light}.flips`)}</td></tr>
-</tbody></table>`);
+</tbody></table>`,
+  );
 }
 
 function worstTable({ worst }: LightResult, width: number, i: number): Markup | null {
   if (worst.length === 0) return null;
   return markup`<h3>The receivers that flip most</h3>
-${scrollRegion(`Worst receivers ${i}`, markup`<table class="worst"><thead><tr><th scope="col">pixel</th><th scope="col" class="n">flips</th><th
+${scrollRegion(
+  `Worst receivers ${i}`,
+  markup`<table class="worst"><thead><tr><th scope="col">pixel</th><th scope="col" class="n">flips</th><th
 scope="col" class="n">sum of |error|</th></tr></thead><tbody>
-${worst.map(({ x, y, flips, absolute }) => markup`<tr><th scope="row"><span class="place" data-pixel="${y * width + x}">${x}, ${y}</span></th><td
-class="n">${grouped(flips)}</td><td class="n">${plainNumber(absolute)}</td></tr>\n`)}</tbody></table>`)}`;
+${worst.map(
+  ({ x, y, flips, absolute }) => markup`<tr><th scope="row"><span class="place" data-pixel="${y * width + x}">${x}, ${y}</span></th><td
+class="n">${grouped(flips)}</td><td class="n">${plainNumber(absolute)}</td></tr>\n`,
+)}</tbody></table>`,
+)}`;
 }
 
 function edgesLine(light: string): Markup {
@@ -78,7 +88,10 @@ function edgesLine(light: string): Markup {
 }
 
 function lightSection(result: ShimmerResult, facts: ShimmerFacts, i: number): Markup {
-  const light = result.lights[i]!, { words, extension } = facts.film, key = `lights.${i}`, name = light.light.name;
+  const light = result.lights[i]!,
+    { words, extension } = facts.film,
+    key = `lights.${i}`,
+    name = light.light.name;
   return markup`<section id="light-${i}" class="shimmer-light" data-light="${i}" aria-labelledby="light-${i}-title">
 <h2 id="light-${i}-title">Light: ${name}</h2>
 <p class="verdict">${flowing(facts.verdicts[i]!)}</p>
@@ -86,7 +99,13 @@ function lightSection(result: ShimmerResult, facts: ShimmerFacts, i: number): Ma
 <p class="setting">The films themselves lie beside this page, as ${words}: <code>film-${i}-drawn.${extension}</code>,
 <code>film-${i}-truth.${extension}</code>, <code>film-${i}-flips.${extension}</code>.</p>
 <h3>Flips from frame to frame</h3>
-${scrollRegion(`Flips from frame to frame ${i}`, flipsChart(light.by_frame.map(({ flips }) => flips), name))}
+${scrollRegion(
+  `Flips from frame to frame ${i}`,
+  flipsChart(
+    light.by_frame.map(({ flips }) => flips),
+    name,
+  ),
+)}
 ${edgesLine(key)}<h3>Where it flips</h3>
 <figure>${picture(`flips-${i}`, "", "flips-map")}
 <figcaption>Flips of each receiver over the film, black none, pale yellow ${facts.most_flips[i]}.</figcaption></figure>
@@ -97,7 +116,9 @@ ${budgetTable(facts.labels, key, i)}${worstTable(light, result.size.width, i)}</
 
 export function shimmerSections(facts: ShimmerFacts): Section[] {
   const result = resultDocument<ShimmerResult>();
-  return [{ id: "overview", link: "Overview", html: overview(result) },
+  return [
+    { id: "overview", link: "Overview", html: overview(result) },
     ...result.lights.map((light, i) => ({ id: `light-${i}`, link: `Light: ${light.light.name}`, html: lightSection(result, facts, i) })),
-    { id: "provenance", link: "", html: provenance() }];
+    { id: "provenance", link: "", html: provenance() },
+  ];
 }

@@ -3,42 +3,60 @@
 
 /** What the viewer shows. */
 export interface ViewState {
-  left: string;   // pictures, by their names in the viewer
+  left: string; // pictures, by their names in the viewer
   right: string;
   mode: string;
-  split: number;  // share of the width
+  split: number; // share of the width
   zoom: number;
   x: number;
   y: number;
-  front: number;  // which picture flipping shows
-  exposure: number;  // in stops
-  pixel: readonly [number, number] | null;  // pinned
-  label: string | null;  // shown alone
+  front: number; // which picture flipping shows
+  exposure: number; // in stops
+  pixel: readonly [number, number] | null; // pinned
+  label: string | null; // shown alone
 }
 
 /** What is looked at of one light of a comparison. */
 export interface LightState extends ViewState {
-  bias: number | null;  // constant, world units; null: as rendered
-  cut: string;  // the cross-section's way across the map: auto, row, column
-  texels: number;  // half the width of the cross-section
+  bias: number | null; // constant, world units; null: as rendered
+  cut: string; // the cross-section's way across the map: auto, row, column
+  texels: number; // half the width of the cross-section
 }
 
 const initialView: ViewState = {
-  left: "rasterized", right: "ray traced", mode: "swipe", split: 0.5, zoom: 1, x: 0, y: 0, front: 0, exposure: 0, pixel: null, label: null,
+  left: "rasterized",
+  right: "ray traced",
+  mode: "swipe",
+  split: 0.5,
+  zoom: 1,
+  x: 0,
+  y: 0,
+  front: 0,
+  exposure: 0,
+  pixel: null,
+  label: null,
 };
 export const initialLight: LightState = { ...initialView, bias: null, cut: "auto", texels: 16 };
 
 /** What is looked at of a sweep. */
 export interface SweepState extends ViewState {
   cell: number | null;
-  held: number | null;  // a cell kept for comparison
-  rows: string;     // axes; empty: none
+  held: number | null; // a cell kept for comparison
+  rows: string; // axes; empty: none
   columns: string;
-  slice: string;    // values of the other axes, with "|" between
-  sort: string;     // a column of the table, with "-" before it when descending
+  slice: string; // values of the other axes, with "|" between
+  sort: string; // a column of the table, with "-" before it when descending
 }
 export const initialSweep: SweepState = {
-  ...initialView, left: "ray traced", right: "difference", cell: null, held: null, rows: "", columns: "", slice: "", sort: "",
+  ...initialView,
+  left: "ray traced",
+  right: "difference",
+  cell: null,
+  held: null,
+  rows: "",
+  columns: "",
+  slice: "",
+  sort: "",
 };
 
 export const inRange = (text: string, low: number, high: number): number | undefined => {
@@ -51,22 +69,28 @@ const word = (text: string): string => text;
 const index = (text: string): number | undefined => (/^\d+$/.test(text) ? Number(text) : undefined);
 
 const viewReaders: Readers<ViewState> = {
-  left: word, right: word, label: word,
+  left: word,
+  right: word,
+  label: word,
   mode: (t) => (["swipe", "side", "flip"].includes(t) ? t : undefined),
-  split: (t) => inRange(t, 0, 1), zoom: (t) => inRange(t, 1, 64), x: (t) => inRange(t, -63, 0), y: (t) => inRange(t, -63, 0),
-  front: (t) => (t === "1" ? 1 : 0), exposure: (t) => inRange(t, -6, 6),
+  split: (t) => inRange(t, 0, 1),
+  zoom: (t) => inRange(t, 1, 64),
+  x: (t) => inRange(t, -63, 0),
+  y: (t) => inRange(t, -63, 0),
+  front: (t) => (t === "1" ? 1 : 0),
+  exposure: (t) => inRange(t, -6, 6),
   pixel: (t) => {
     const match = /^(\d+),(\d+)$/.exec(t);
     return match ? [Number(match[1]), Number(match[2])] : undefined;
   },
 };
 const lightReaders: Readers<LightState> = {
-  ...viewReaders, cut: (t) => (["auto", "row", "column"].includes(t) ? t : undefined), texels: (t) => (index(t) === undefined ? undefined : inRange(t, 4, 1e6)),
+  ...viewReaders,
+  cut: (t) => (["auto", "row", "column"].includes(t) ? t : undefined),
+  texels: (t) => (index(t) === undefined ? undefined : inRange(t, 4, 1e6)),
   bias: (t) => inRange(t, -1e30, 1e30),
 };
-const sweepReaders: Readers<SweepState> = {
-  ...viewReaders, cell: index, held: index, rows: word, columns: word, slice: word, sort: word,
-};
+const sweepReaders: Readers<SweepState> = { ...viewReaders, cell: index, held: index, rows: word, columns: word, slice: word, sort: word };
 
 function hashOf<State extends object>(place: string, state: State, initial: State): string {
   const parts = new URLSearchParams();

@@ -40,20 +40,46 @@ function position(light: LightView, f: Face, steps: number, u: number, v: number
 // u and v as shares of the map from -1 to 1, and the distance.
 function lookedUp(light: LightView, f: Face, point: Vec3): Vec3 {
   const d = sum(point, light.origin, -1);
-  const right = dot3(d, f.right), up = dot3(d, f.up), depth = dot3(d, f.forward);
+  const right = dot3(d, f.right),
+    up = dot3(d, f.up),
+    depth = dot3(d, f.forward);
   if (light.perspective) return [right / depth / f.half_extent[0], up / depth / f.half_extent[1], Math.sqrt(dot3(d, d))];
-  const y = up - f.center[1], stretch = 1 + f.warp * y;
-  return [(right - f.center[0]) / stretch / f.half_extent[0], (y + f.warp * f.half_extent[1] * f.half_extent[1]) / stretch / f.half_extent[1], depth];
+  const y = up - f.center[1],
+    stretch = 1 + f.warp * y;
+  return [
+    (right - f.center[0]) / stretch / f.half_extent[0],
+    (y + f.warp * f.half_extent[1] * f.half_extent[1]) / stretch / f.half_extent[1],
+    depth,
+  ];
 }
 
-const most = 2 ** 30, noPrimitive = -1;
+const most = 2 ** 30,
+  noPrimitive = -1;
 
 /** Adds what is predicted to what is left of u, v and distance, in place. */
-export function addPredicted(s: PixelSurfaces, light: LightView, steps: number, depthStep: number, us: Numbers, vs: Numbers, distances: Numbers, faces: Numbers): void {
-  const { width, rays, primitives, normals: [nx, ny, nz], sources } = s, half = light.size * steps * 0.5;
+export function addPredicted(
+  s: PixelSurfaces,
+  light: LightView,
+  steps: number,
+  depthStep: number,
+  us: Numbers,
+  vs: Numbers,
+  distances: Numbers,
+  faces: Numbers,
+): void {
+  const {
+      width,
+      rays,
+      primitives,
+      normals: [nx, ny, nz],
+      sources,
+    } = s,
+    half = light.size * steps * 0.5;
   for (let i = 1; i < us.length; ++i) {
     const from = sources[i]!;
-    let u = us[from]!, v = vs[from]!, distance = distances[from]!;
+    let u = us[from]!,
+      v = vs[from]!,
+      distance = distances[from]!;
     if (primitives[i] === primitives[from] && primitives[i] !== noPrimitive) {
       const normal: Vec3 = [nx[from]!, ny[from]!, nz[from]!];
       const known = position(light, light.faces[faces[from]!]!, steps, u, v, distance * depthStep);

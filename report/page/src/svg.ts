@@ -11,7 +11,10 @@ export function svg(name: string, attributes: Attributes = {}, ...children: (Nod
 }
 
 export function html<K extends keyof HTMLElementTagNameMap>(
-  name: K, attributes: Record<string, string> = {}, ...children: (Node | string)[]): HTMLElementTagNameMap[K] {
+  name: K,
+  attributes: Record<string, string> = {},
+  ...children: (Node | string)[]
+): HTMLElementTagNameMap[K] {
   const element = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
   element.append(...children);
@@ -27,10 +30,12 @@ export function number(value: number, digits = 4): string {
 
 /** Beside ticks: as many digits as tell them apart, and a power of ten where that is shorter. */
 export function tickTexts(ticks: number[]): string[] {
-  const largest = Math.max(...ticks.map(Math.abs)), step = ticks.length > 1 ? ticks[1]! - ticks[0]! : largest;
+  const largest = Math.max(...ticks.map(Math.abs)),
+    step = ticks.length > 1 ? ticks[1]! - ticks[0]! : largest;
   const digits = Math.min(Math.max(4, Math.ceil(Math.log10(largest / step)) + 1), 15);
   return ticks.map((tick) => {
-    const long = number(tick, digits), short = Number(tick.toPrecision(digits)).toExponential().replace("e+", "e").replaceAll("-", "−");
+    const long = number(tick, digits),
+      short = Number(tick.toPrecision(digits)).toExponential().replace("e+", "e").replaceAll("-", "−");
     return long.length > 6 && short.length < long.length ? short : long;
   });
 }
@@ -38,7 +43,9 @@ export function tickTexts(ticks: number[]): string[] {
 /** Ticks at 1, 2 or 5 times a power of ten inside [min, max], about `wanted` of them. */
 export function niceTicks(min: number, max: number, wanted: number): number[] {
   if (!(max > min)) return [];
-  const rough = (max - min) / wanted, power = 10 ** Math.floor(Math.log10(rough)), lead = rough / power;
+  const rough = (max - min) / wanted,
+    power = 10 ** Math.floor(Math.log10(rough)),
+    lead = rough / power;
   const step = power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
   const ticks = [];
   for (let k = Math.ceil(min / step); k * step <= max; ++k) ticks.push(k * step);

@@ -4,7 +4,8 @@ import type { SweepState } from "./state";
 type Key = number | string | null;
 
 function keyOf(row: HTMLTableRowElement, column: number): Key {
-  const cell = row.cells[column]!, text = cell.dataset.sort ?? cell.textContent!;
+  const cell = row.cells[column]!,
+    text = cell.dataset.sort ?? cell.textContent!;
   const value = parseFloat(text);
   return text === "" ? null : Number.isNaN(value) ? text : value;
 }
@@ -19,10 +20,15 @@ function compare(a: Key, b: Key): number {
 export class SweepTable {
   private readonly headers: HTMLTableCellElement[];
 
-  constructor(private readonly table: HTMLTableElement, private readonly state: SweepState, changed: () => void) {
+  constructor(
+    private readonly table: HTMLTableElement,
+    private readonly state: SweepState,
+    changed: () => void,
+  ) {
     this.headers = [...table.tHead!.rows[0]!.cells];
     for (const header of this.headers) {
-      const button = document.createElement("button"), name = header.textContent!;
+      const button = document.createElement("button"),
+        name = header.textContent!;
       button.type = "button";
       button.textContent = name;
       header.replaceChildren(button);
@@ -35,13 +41,16 @@ export class SweepTable {
   }
 
   show(): void {
-    const down = this.state.sort.startsWith("-"), name = this.state.sort.replace(/^-/, "");
-    const column = this.headers.findIndex((header) => header.textContent === name), body = this.table.tBodies[0]!;
+    const down = this.state.sort.startsWith("-"),
+      name = this.state.sort.replace(/^-/, "");
+    const column = this.headers.findIndex((header) => header.textContent === name),
+      body = this.table.tBodies[0]!;
     this.headers.forEach((header, k) => {
       if (k === column) header.setAttribute("aria-sort", down ? "descending" : "ascending");
       else header.removeAttribute("aria-sort");
     });
-    const by = Math.max(column, 0), sign = down ? -1 : 1;
+    const by = Math.max(column, 0),
+      sign = down ? -1 : 1;
     const rows = [...body.rows].map((row) => ({ row, key: keyOf(row, by) }));
     rows.sort((a, b) => (a.key === null || b.key === null ? compare(a.key, b.key) : sign * compare(a.key, b.key)));
     body.append(...rows.map(({ row }) => row));

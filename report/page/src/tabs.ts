@@ -4,7 +4,10 @@ import { html } from "./svg";
 export class LightTabs {
   private readonly buttons: HTMLButtonElement[];
 
-  constructor(private readonly sections: HTMLElement[], private readonly chosen: (index: number) => void) {
+  constructor(
+    private readonly sections: HTMLElement[],
+    private readonly chosen: (index: number) => void,
+  ) {
     this.buttons = sections.map((section, i) => {
       const name = section.querySelector("h2")!.textContent!.replace(/^Light: /, "");
       const button = html("button", { type: "button", role: "tab", id: `tab-${i}`, "aria-controls": section.id }, name);

@@ -25,7 +25,9 @@ export const markup = (parts: TemplateStringsArray, ...contents: Content[]): Mar
 /** Text whose numbers stay with the word behind them ("4.1 %" and "8 × 8" do not break), and whose options stay whole: a
     browser breaks lines at hyphens, also at those of "--adaptive-bias". */
 export const flowing = (text: string): Markup =>
-  new Markup(escaped(text.replace(/(?<=\d|×) /g, "\u00a0")).replace(/--[a-z][a-z0-9-]*/g, (option) => `<span class="option">${option}</span>`));
+  new Markup(
+    escaped(text.replace(/(?<=\d|×) /g, "\u00a0")).replace(/--[a-z][a-z0-9-]*/g, (option) => `<span class="option">${option}</span>`),
+  );
 
 /** A block that scrolls sideways where the page is narrow, by keyboard too; `label` must be unique on the page. */
 export const scrollRegion = (label: string, content: Markup): Markup =>

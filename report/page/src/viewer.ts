@@ -9,22 +9,24 @@ export interface ViewerEvents {
   hover: (x: number, y: number) => void;
   pin: (x: number, y: number) => void;
   unpin: () => void;
-  changed: () => void;  // anything of the state
-  source: (name: string) => Source | null;  // of a picture, by its value in the menus; null: not there yet
+  changed: () => void; // anything of the state
+  source: (name: string) => Source | null; // of a picture, by its value in the menus; null: not there yet
 }
 
 /** A key that nothing on the page has the focus for; letters mean nothing to a button that was clicked last. */
 function isNobodys(event: KeyboardEvent): boolean {
   const target = event.target as Element;
-  return target === document.body || target === document.documentElement || (target instanceof HTMLButtonElement && !(event.key in steps) && event.key.length === 1 && event.key !== " ");
+  return (
+    target === document.body ||
+    target === document.documentElement ||
+    (target instanceof HTMLButtonElement && !(event.key in steps) && event.key.length === 1 && event.key !== " ")
+  );
 }
 
 /** A picture by its address, as pixels, or drawn already. */
 export type Source = { url: string } | ImageData | HTMLCanvasElement;
 
-const steps: Record<string, readonly [number, number]> = {
-  ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
-};
+const steps: Record<string, readonly [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 export class Viewer {
   private readonly stage: HTMLElement;
@@ -36,12 +38,16 @@ export class Viewer {
   private readonly canvases: HTMLCanvasElement[];
   private readonly painted: (Source | null)[] = [null, null];
   private readonly legends = document.createElement("div");
-  private last: readonly [number, number] | null = null;  // the pixel read last
-  private pinned: readonly [number, number] | null = null;  // as it was last shown
+  private last: readonly [number, number] | null = null; // the pixel read last
+  private pinned: readonly [number, number] | null = null; // as it was last shown
   private drag: { divider: boolean; moved: boolean; x: number; y: number } | null = null;
 
-  constructor(private readonly root: HTMLElement, private readonly state: ViewState,
-              private readonly size: { width: number; height: number }, private readonly events: ViewerEvents) {
+  constructor(
+    private readonly root: HTMLElement,
+    private readonly state: ViewState,
+    private readonly size: { width: number; height: number },
+    private readonly events: ViewerEvents,
+  ) {
     this.stage = root.querySelector(".stage")!;
     this.panes = [...this.stage.querySelectorAll<HTMLElement>(".pane")];
     this.picks = [...root.querySelectorAll<HTMLSelectElement>(".pick")];
@@ -71,7 +77,8 @@ export class Viewer {
   show(): void {
     document.documentElement.style.setProperty("--ratio", String(this.size.width / this.size.height));
     [this.state.left, this.state.right].forEach((name, i) => {
-      const pick = this.picks[i]!, option = [...pick.options].find((o) => o.textContent === name) ?? pick.options[i]!;
+      const pick = this.picks[i]!,
+        option = [...pick.options].find((o) => o.textContent === name) ?? pick.options[i]!;
       pick.value = option.value;
       this.put(i, this.events.source(option.value), option.textContent!);
       this.panes[i]!.querySelector(".tag")!.textContent = option.textContent;
@@ -83,7 +90,8 @@ export class Viewer {
 
   // Pixels go onto the canvas, anything else into the image; of the two one is seen.
   private put(pane: number, source: Source | null, name: string): void {
-    const image = this.panes[pane]!.querySelector("img")!, canvas = this.canvases[pane]!;
+    const image = this.panes[pane]!.querySelector("img")!,
+      canvas = this.canvases[pane]!;
     image.hidden = source === null || source instanceof ImageData || source instanceof HTMLCanvasElement;
     canvas.hidden = !image.hidden;
     if (source === null) {
@@ -121,15 +129,15 @@ export class Viewer {
     this.slider.parentElement!.hidden = s.mode !== "swipe";
     this.exposure.value = String(s.exposure);
     this.exposure.setAttribute("aria-valuetext", `${number(s.exposure)} stop${Math.abs(s.exposure) === 1 ? "" : "s"}`);
-    this.root.querySelector(".zoom-value")!.textContent =
-      `${s.zoom < 10 ? s.zoom.toFixed(1).replace(".0", "") : Math.round(s.zoom)}×`;
+    this.root.querySelector(".zoom-value")!.textContent = `${s.zoom < 10 ? s.zoom.toFixed(1).replace(".0", "") : Math.round(s.zoom)}×`;
     for (const button of this.root.querySelectorAll<HTMLElement>("button[data-mode]"))
       button.setAttribute("aria-pressed", String(button.dataset.mode === s.mode));
     this.mark();
   }
 
   private mark(): void {
-    const { pixel, zoom, x, y } = this.state, page = this.size;
+    const { pixel, zoom, x, y } = this.state,
+      page = this.size;
     // Steps start from a pixel that was pinned elsewhere: by a label, in the bias's picture, by a link.
     if (pixel !== this.pinned) this.last = (this.pinned = pixel) ?? this.last;
     for (const marker of this.markers) {
@@ -149,7 +157,8 @@ export class Viewer {
 
   // Zooms about a point given in units of the pane.
   private zoomTo(zoom: number, at = { x: 0.5, y: 0.5 }): void {
-    const s = this.state, next = clamp(zoom, 1, 64);
+    const s = this.state,
+      next = clamp(zoom, 1, 64);
     s.x = at.x - (at.x - s.x) * (next / s.zoom);
     s.y = at.y - (at.y - s.y) * (next / s.zoom);
     s.zoom = next;
@@ -157,22 +166,28 @@ export class Viewer {
   }
 
   private paneAt(event: MouseEvent) {
-    const under = this.panes.find((p) => {
-      const box = p.getBoundingClientRect();
-      return event.clientX >= box.left && event.clientX < box.right;
-    }) ?? this.panes[0]!;
+    const under =
+      this.panes.find((p) => {
+        const box = p.getBoundingClientRect();
+        return event.clientX >= box.left && event.clientX < box.right;
+      }) ?? this.panes[0]!;
     const box = under.getBoundingClientRect();
     return { x: (event.clientX - box.left) / box.width, y: (event.clientY - box.top) / box.height, box };
   }
 
   private pixelAt(event: MouseEvent): readonly [number, number] | null {
-    const at = this.paneAt(event), s = this.state, page = this.size;
-    const x = Math.floor(((at.x - s.x) / s.zoom) * page.width), y = Math.floor(((at.y - s.y) / s.zoom) * page.height);
+    const at = this.paneAt(event),
+      s = this.state,
+      page = this.size;
+    const x = Math.floor(((at.x - s.x) / s.zoom) * page.width),
+      y = Math.floor(((at.y - s.y) / s.zoom) * page.height);
     return x >= 0 && y >= 0 && x < page.width && y < page.height ? [x, y] : null;
   }
 
   private moveDrag(event: PointerEvent): void {
-    const drag = this.drag!, at = this.paneAt(event), s = this.state;
+    const drag = this.drag!,
+      at = this.paneAt(event),
+      s = this.state;
     if (!drag.moved && Math.hypot(event.clientX - drag.x, event.clientY - drag.y) < 4) return;
     drag.moved = true;
     if (drag.divider) s.split = clamp(at.x, 0, 1);
@@ -188,8 +203,9 @@ export class Viewer {
   private listen(): void {
     const { stage, state, events } = this;
     stage.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0 || !event.isPrimary) return;  // a menu swallows the end of a drag; a second finger would jump
-      const at = this.paneAt(event), near = Math.abs(at.x - state.split) * at.box.width < 16;
+      if (event.button !== 0 || !event.isPrimary) return; // a menu swallows the end of a drag; a second finger would jump
+      const at = this.paneAt(event),
+        near = Math.abs(at.x - state.split) * at.box.width < 16;
       this.drag = { divider: state.mode === "swipe" && (state.zoom === 1 || near), moved: false, x: event.clientX, y: event.clientY };
       stage.setPointerCapture(event.pointerId);
     });
@@ -205,13 +221,19 @@ export class Viewer {
       if (this.drag && !this.drag.moved && pixel) events.pin(...(this.last = pixel));
       this.drag = null;
     });
-    stage.addEventListener("pointercancel", () => { this.drag = null; });
+    stage.addEventListener("pointercancel", () => {
+      this.drag = null;
+    });
     stage.addEventListener("dblclick", (event) => this.zoomTo(state.zoom * 2, this.paneAt(event)));
-    stage.addEventListener("wheel", (event) => {
-      if (!event.ctrlKey && !event.metaKey) return;  // plain scrolling stays the page's
-      event.preventDefault();
-      this.zoomTo(state.zoom * Math.exp(-0.01 * event.deltaY), this.paneAt(event));
-    }, { passive: false });
+    stage.addEventListener(
+      "wheel",
+      (event) => {
+        if (!event.ctrlKey && !event.metaKey) return; // plain scrolling stays the page's
+        event.preventDefault();
+        this.zoomTo(state.zoom * Math.exp(-0.01 * event.deltaY), this.paneAt(event));
+      },
+      { passive: false },
+    );
     stage.addEventListener("keydown", (event) => this.take(event));
     document.addEventListener("keydown", (event) => {
       if (isNobodys(event) && this.isBeforeTheReader()) this.take(event);
@@ -228,20 +250,27 @@ export class Viewer {
         this.changed();
       });
     const zooms: Record<string, () => void> = {
-      in: () => this.zoomTo(state.zoom * 1.5), out: () => this.zoomTo(state.zoom / 1.5), fit: () => this.zoomTo(1),
+      in: () => this.zoomTo(state.zoom * 1.5),
+      out: () => this.zoomTo(state.zoom / 1.5),
+      fit: () => this.zoomTo(1),
     };
     for (const button of root.querySelectorAll<HTMLElement>("[data-zoom]")) button.addEventListener("click", zooms[button.dataset.zoom!]!);
-    this.slider.addEventListener("input", () => { state.split = Number(this.slider.value) / 100; this.changed(); });
+    this.slider.addEventListener("input", () => {
+      state.split = Number(this.slider.value) / 100;
+      this.changed();
+    });
     this.exposure.addEventListener("input", () => {
       state.exposure = Number(this.exposure.value);
       this.show();
       this.events.changed();
     });
-    this.picks.forEach((pick, i) => pick.addEventListener("change", () => {
-      state[i === 0 ? "left" : "right"] = pick.selectedOptions[0]!.textContent!;
-      this.show();
-      this.events.changed();
-    }));
+    this.picks.forEach((pick, i) =>
+      pick.addEventListener("change", () => {
+        state[i === 0 ? "left" : "right"] = pick.selectedOptions[0]!.textContent!;
+        this.show();
+        this.events.changed();
+      }),
+    );
   }
 
   private take(event: KeyboardEvent): void {
@@ -250,13 +279,16 @@ export class Viewer {
 
   /** The middle of the window lies on the pictures: of two viewers on a page only one has it. */
   private isBeforeTheReader(): boolean {
-    const { top, bottom, width } = this.stage.getBoundingClientRect(), middle = window.innerHeight / 2;
+    const { top, bottom, width } = this.stage.getBoundingClientRect(),
+      middle = window.innerHeight / 2;
     return width > 0 && top < middle && bottom > middle && document.querySelector("dialog[open]") === null;
   }
 
   /** Whether the key meant something here. */
   private key(event: KeyboardEvent): boolean {
-    const s = this.state, step = steps[event.key], page = this.size;
+    const s = this.state,
+      step = steps[event.key],
+      page = this.size;
     if (step && event.shiftKey) {
       const from = this.last ?? s.pixel ?? [Math.floor(page.width / 2), Math.floor(page.height / 2)];
       this.last = [clamp(from[0] + step[0], 0, page.width - 1), clamp(from[1] + step[1], 0, page.height - 1)];

@@ -2,7 +2,12 @@
 import { markup, type Markup } from "./template";
 
 /** `options`: of its menus; `id` sets its hint apart; `exposure`: with a slider for it. */
-export const viewerBlock = (options: Markup | null, id: string | number, hint: Markup, exposure: boolean): Markup => markup`<div class="viewer" hidden>
+export const viewerBlock = (
+  options: Markup | null,
+  id: string | number,
+  hint: Markup,
+  exposure: boolean,
+): Markup => markup`<div class="viewer" hidden>
 <div class="viewer-bar" role="group" aria-label="Compare two pictures">
 <label>Left <select class="pick">${options}</select></label> <label>Right <select class="pick">${options}</select></label>
 <span class="modes" role="group" aria-label="How"><button type="button"

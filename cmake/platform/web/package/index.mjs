@@ -10,8 +10,9 @@ export class GnomonError extends Error {
   }
 }
 
-const waiting = new Map();  // {done, refuse} of each request
-let last = 0, worker;       // a promise
+const waiting = new Map(); // {done, refuse} of each request
+let last = 0,
+  worker; // a promise
 
 /** Ends the program; the next call starts another. What has not come is refused. */
 export async function close(why = "the program was closed") {
@@ -23,10 +24,10 @@ export async function close(why = "the program was closed") {
 }
 
 function answer(from, { id, status, body, ...ran }) {
-  if (status !== 200) return void close(new TextDecoder().decode(body));  // it broke off, and is not to be trusted with more
+  if (status !== 200) return void close(new TextDecoder().decode(body)); // it broke off, and is not to be trusted with more
   waiting.get(id)?.done(ran);
   waiting.delete(id);
-  if (waiting.size === 0) from.unref?.();  // Node ends where nobody waits
+  if (waiting.size === 0) from.unref?.(); // Node ends where nobody waits
 }
 
 async function startWorker() {
@@ -44,7 +45,8 @@ async function startWorker() {
 }
 
 async function ask(words, files, wanted) {
-  const own = (worker ??= startWorker()), asked = await own;
+  const own = (worker ??= startWorker()),
+    asked = await own;
   if (worker !== own) throw new GnomonError(6, "the program was closed");
   asked.ref?.();
   return new Promise((done, refuse) => {
@@ -69,7 +71,8 @@ async function run(command, argument, files, options, more, wanted) {
   return ran;
 }
 
-const inflate = async (data) => new Uint8Array(await new Response(new Blob([data]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
+const inflate = async (data) =>
+  new Uint8Array(await new Response(new Blob([data]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
 
 async function channelsOf(bytes) {
   const parts = exrBlocks(bytes);
@@ -78,9 +81,14 @@ async function channelsOf(bytes) {
 
 async function comparison(command, argument, files, { report = false, channels = false, ...options }) {
   const more = ["--json", "-", ...(report ? ["-o", "out"] : []), ...(channels ? ["--aov", "channels.exr"] : [])];
-  const { code, out, files: [page, exr] } = await run(command, argument, files, options, more, ["out/report.html", "channels.exr"]);
+  const {
+    code,
+    out,
+    files: [page, exr],
+  } = await run(command, argument, files, options, more, ["out/report.html", "channels.exr"]);
   return {
-    code, result: JSON.parse(out),
+    code,
+    result: JSON.parse(out),
     ...(page && { report: new TextDecoder().decode(page) }),
     ...(exr && { frame: await channelsOf(exr) }),
   };
@@ -96,17 +104,29 @@ class Scene {
     this.plan = plan;
   }
   async #frame(command, options) {
-    const { files: [exr] } = await run(command, this.#name, this.#files, options, ["-o", "frame.exr"], ["frame.exr"]);
+    const {
+      files: [exr],
+    } = await run(command, this.#name, this.#files, options, ["-o", "frame.exr"], ["frame.exr"]);
     return channelsOf(exr);
   }
   async #picture(command, options) {
     return (await run(command, this.#name, this.#files, options, ["-o", "picture.png"], ["picture.png"])).files[0];
   }
-  draw(options = {}) { return this.#frame("raster", options); }
-  drawPicture(options = {}) { return this.#picture("raster", options); }
-  trace(options = {}) { return this.#frame("raytrace", options); }
-  tracePicture(options = {}) { return this.#picture("raytrace", options); }
-  compare(options = {}) { return comparison("compare", this.#name, this.#files, options); }
+  draw(options = {}) {
+    return this.#frame("raster", options);
+  }
+  drawPicture(options = {}) {
+    return this.#picture("raster", options);
+  }
+  trace(options = {}) {
+    return this.#frame("raytrace", options);
+  }
+  tracePicture(options = {}) {
+    return this.#picture("raytrace", options);
+  }
+  compare(options = {}) {
+    return comparison("compare", this.#name, this.#files, options);
+  }
 }
 
 export async function load(name, files = {}) {

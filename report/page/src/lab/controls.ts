@@ -15,13 +15,19 @@ export interface SliderScale {
 }
 
 export const linearScale = (from: number, to: number, steps = 400): SliderScale => ({
-  steps, valueAt: (place) => from + ((to - from) * place) / steps, placeOf: (value) => Math.round((steps * (value - from)) / (to - from)),
+  steps,
+  valueAt: (place) => from + ((to - from) * place) / steps,
+  placeOf: (value) => Math.round((steps * (value - from)) / (to - from)),
 });
 export const logarithmicScale = (from: number, to: number, steps = 400): SliderScale => ({
-  steps, valueAt: (place) => from * (to / from) ** (place / steps), placeOf: (value) => Math.round((steps * Math.log(Math.max(value, from) / from)) / Math.log(to / from)),
+  steps,
+  valueAt: (place) => from * (to / from) ** (place / steps),
+  placeOf: (value) => Math.round((steps * Math.log(Math.max(value, from) / from)) / Math.log(to / from)),
 });
 export const powersOfTwo = (from: number, to: number): SliderScale => ({
-  steps: Math.round(Math.log2(to / from)), valueAt: (place) => from * 2 ** place, placeOf: (value) => Math.round(Math.log2(value / from)),
+  steps: Math.round(Math.log2(to / from)),
+  valueAt: (place) => from * 2 ** place,
+  placeOf: (value) => Math.round(Math.log2(value / from)),
 });
 
 /** Four significant digits: what a slider gives is read and typed again. */
@@ -32,7 +38,20 @@ const { manual } = pageData<LabFacts>();
 /** A panel, and a question mark that leads to the manual's paragraph on its first option, where there is a manual. */
 export function panel(name: string, option: string, ...rows: HTMLElement[]): HTMLFieldSetElement {
   const legend = html("legend", {}, name);
-  if (manual) legend.append(" ", html("a", { href: new URL(`${manual}#--${option}`, packed?.from ?? location.href).href, target: "_blank", class: "manual", "aria-label": `${name} in the manual` }, "?"));
+  if (manual)
+    legend.append(
+      " ",
+      html(
+        "a",
+        {
+          href: new URL(`${manual}#--${option}`, packed?.from ?? location.href).href,
+          target: "_blank",
+          class: "manual",
+          "aria-label": `${name} in the manual`,
+        },
+        "?",
+      ),
+    );
   return html("fieldset", {}, legend, ...rows);
 }
 
@@ -42,7 +61,8 @@ export interface Row {
 }
 
 function row(name: string, note: string, ...controls: HTMLElement[]): { element: HTMLElement; id: string } {
-  const id = `row-${++rows}`, label = html("label", { for: id }, name);
+  const id = `row-${++rows}`,
+    label = html("label", { for: id }, name);
   const words = html("p", { class: "note", id: `${id}-note` }, note);
   controls[0]!.id = id;
   controls[0]!.setAttribute("aria-describedby", words.id);
@@ -74,7 +94,12 @@ export function sliderRow(name: string, unit: string, note: string, scale: Slide
 export function textRow(name: string, unit: string, note: string, changed: (text: string) => void): Row {
   const box = html("input", { type: "text", autocomplete: "off", class: "wide" });
   box.addEventListener("change", () => changed(box.value.trim()));
-  return { element: row(unit === "" ? name : `${name}, ${unit}`, note, box).element, show: (value) => { if (document.activeElement !== box) box.value = value; } };
+  return {
+    element: row(unit === "" ? name : `${name}, ${unit}`, note, box).element,
+    show: (value) => {
+      if (document.activeElement !== box) box.value = value;
+    },
+  };
 }
 
 export function switchRow(name: string, note: string, changed: (on: boolean) => void): Row {
@@ -82,11 +107,21 @@ export function switchRow(name: string, note: string, changed: (on: boolean) => 
   box.addEventListener("change", () => changed(box.checked));
   const { element } = row(name, note, box);
   element.classList.add("switch");
-  return { element, show: (value) => { box.checked = value === "on"; } };
+  return {
+    element,
+    show: (value) => {
+      box.checked = value === "on";
+    },
+  };
 }
 
 export function choiceRow(name: string, note: string, choices: readonly string[], changed: (choice: string) => void): Row {
   const select = html("select", { class: "wide" }, ...choices.map((choice) => html("option", { value: choice }, choice)));
   select.addEventListener("change", () => changed(select.value));
-  return { element: row(name, note, select).element, show: (value) => { select.value = value; } };
+  return {
+    element: row(name, note, select).element,
+    show: (value) => {
+      select.value = value;
+    },
+  };
 }

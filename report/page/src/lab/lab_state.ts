@@ -12,7 +12,9 @@ export interface LabState {
 export function optionsOf(words: readonly string[]): Options {
   const options: Options = new Map();
   for (let i = 0; i < words.length; ++i) {
-    const word = words[i]!, equals = word.indexOf("="), next = words[i + 1];
+    const word = words[i]!,
+      equals = word.indexOf("="),
+      next = words[i + 1];
     if (!word.startsWith("--")) continue;
     if (equals >= 0) options.set(word.slice(2, equals), word.slice(equals + 1));
     else if (next !== undefined && !next.startsWith("--")) options.set(word.slice(2), words[++i]!);
@@ -22,7 +24,9 @@ export function optionsOf(words: readonly string[]): Options {
 }
 
 export const wordsOf = (options: Options): string[] =>
-  [...options].flatMap(([name, value]) => (value === "" ? [`--${name}`] : value.startsWith("-") ? [`--${name}=${value}`] : [`--${name}`, value]));
+  [...options].flatMap(([name, value]) =>
+    value === "" ? [`--${name}`] : value.startsWith("-") ? [`--${name}=${value}`] : [`--${name}`, value],
+  );
 
 /** "#scene=fence&technique=pcf" */
 export function addressOf({ scene, options }: LabState): string {
@@ -31,7 +35,8 @@ export function addressOf({ scene, options }: LabState): string {
 
 /** The state of an address; null where it has none. */
 export function stateAt(hash: string): LabState | null {
-  const all = new URLSearchParams(hash.replace(/^#/, "")), scene = all.get("scene");
+  const all = new URLSearchParams(hash.replace(/^#/, "")),
+    scene = all.get("scene");
   if (scene === null) return null;
   const options: Options = new Map([...all].filter(([name]) => name !== "scene" && /^[a-z][a-z0-9-]*$/.test(name)));
   return { scene, options };

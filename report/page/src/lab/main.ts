@@ -17,37 +17,62 @@ import { SettingsPanel } from "./settings_panel";
 import { Stage } from "./stage";
 
 const facts = pageData<LabFacts>();
-const poseOptions = ["camera", "camera-orbit", "camera-distance", "camera-target", "camera-up", "camera-height", "light", "light-azimuth", "light-elevation", "light-distance", "light-size", "size", "precision"];
+const poseOptions = [
+  "camera",
+  "camera-orbit",
+  "camera-distance",
+  "camera-target",
+  "camera-up",
+  "camera-height",
+  "light",
+  "light-azimuth",
+  "light-elevation",
+  "light-distance",
+  "light-size",
+  "size",
+  "precision",
+];
 
-const patience = 20_000;  // milliseconds without news before the page says what may take so long
-const long = "This takes long: without a GPU a browser may need minutes for this scene's shaders. It goes on. To stop it, reload the page with another scene; its address keeps what is set here.";
+const patience = 20_000; // milliseconds without news before the page says what may take so long
+const long =
+  "This takes long: without a GPU a browser may need minutes for this scene's shaders. It goes on. To stop it, reload the page with another scene; its address keeps what is set here.";
 
 class Lab {
   private state: LabState = stateAt(location.hash) ?? stateAt(packed?.state ?? "") ?? { scene: facts.scene, options: new Map() };
-  private readonly engine = facts.worker ? workerEngine(facts.scenes.some(({ name }) => name === this.state.scene) ? this.state.scene : facts.scene, facts.size) : servedEngine();
-  private asked = 0;      // the moment from which readings are of this page's wish
+  private readonly engine = facts.worker
+    ? workerEngine(facts.scenes.some(({ name }) => name === this.state.scene) ? this.state.scene : facts.scene, facts.size)
+    : servedEngine();
+  private asked = 0; // the moment from which readings are of this page's wish
   private asking = false;
-  private again = false;  // something was changed meanwhile
-  private waits = 0;      // the timer of patience
+  private again = false; // something was changed meanwhile
+  private waits = 0; // the timer of patience
   private preset: number | undefined;
   private seen = 0;
   private newest: Reading | null = null;
-  private reading: (Reading & Drawn) | null = null;  // the newest with something drawn
+  private reading: (Reading & Drawn) | null = null; // the newest with something drawn
   private readonly files = new Set<string>();
 
   private readonly part = (id: string): HTMLElement => document.getElementById(id)!;
   private readonly stage: Stage;
   private readonly settings: SettingsPanel;
   private readonly light: LightControls;
-  private readonly precision = choiceRow("Arithmetic of the rays", "fast is float, robust has error bounds, exact has no rounding at all. --precision", ["fast", "robust", "exact"],
-    (value) => this.change({ precision: value }));
+  private readonly precision = choiceRow(
+    "Arithmetic of the rays",
+    "fast is float, robust has error bounds, exact has no rounding at all. --precision",
+    ["fast", "robust", "exact"],
+    (value) => this.change({ precision: value }),
+  );
 
   constructor() {
     document.getElementById("main")!.innerHTML = layout.text;
     document.querySelector("nav ul")!.innerHTML = "";
     this.stage = new Stage(this.part("lab-stage"), this.engine, facts, {
-      turnCamera: (pose) => this.turnCamera(pose), turnLight: (azimuth, elevation) => this.change({ "light-azimuth": String(azimuth), "light-elevation": String(elevation) }),
-      pin: (x, y) => void this.explain(x, y), unpin: () => { this.part("lab-pixel").replaceChildren(); },
+      turnCamera: (pose) => this.turnCamera(pose),
+      turnLight: (azimuth, elevation) => this.change({ "light-azimuth": String(azimuth), "light-elevation": String(elevation) }),
+      pin: (x, y) => void this.explain(x, y),
+      unpin: () => {
+        this.part("lab-pixel").replaceChildren();
+      },
     });
     this.settings = new SettingsPanel(this.part("lab-settings"), facts.settings, (options) => this.changeMap(options));
     this.light = new LightControls(this.part("lab-settings"), (pose) => this.change(pose));
@@ -59,8 +84,9 @@ class Lab {
   }
 
   private sceneMenu(): void {
-    const menu = this.part("lab-scene") as HTMLSelectElement, group = (label: string, all: Named[]): HTMLElement =>
-      html("optgroup", { label }, ...all.map(({ name, what }) => html("option", { value: name, title: what }, name)));
+    const menu = this.part("lab-scene") as HTMLSelectElement,
+      group = (label: string, all: Named[]): HTMLElement =>
+        html("optgroup", { label }, ...all.map(({ name, what }) => html("option", { value: name, title: what }, name)));
     menu.append(group("Scenes", facts.scenes), group("Lessons", facts.lessons));
     this.offer(facts.scene);
     this.offer(this.state.scene);
@@ -77,7 +103,10 @@ class Lab {
   private presetButtons(): void {
     facts.presets.forEach(({ title, what }, i) => {
       const button = html("button", { type: "button", title: what }, title);
-      button.addEventListener("click", () => { this.preset = i; this.ask(); });
+      button.addEventListener("click", () => {
+        this.preset = i;
+        this.ask();
+      });
       this.part("lab-presets").append(button);
     });
   }
@@ -91,21 +120,25 @@ class Lab {
     this.part("lab-report").addEventListener("click", () => this.showReport());
     if (this.engine.makesReports) {
       this.part("lab-report").hidden = true;
-      this.part("lab-save").addEventListener("click", (event) => { event.preventDefault(); void this.saveReport(); });
+      this.part("lab-save").addEventListener("click", (event) => {
+        event.preventDefault();
+        void this.saveReport();
+      });
     }
     this.part("lab-one-file").hidden = !facts.worker || packed !== null;
     this.part("lab-one-file").addEventListener("click", () => void this.saveLab());
     this.part("lab-results").addEventListener("click", (event) => {
-      const chart = (event.target as Element).closest<SVGElement>(".chart"), light = this.reading?.result?.lights[0];
+      const chart = (event.target as Element).closest<SVGElement>(".chart"),
+        light = this.reading?.result?.lights[0];
       const texels = chart && light ? biasAt(chart, event.clientX, light) : null;
       if (texels !== null) this.change({ bias: `${tidy(texels)}texel` });
     });
     const drop = this.part("lab-file") as HTMLInputElement;
-    drop.addEventListener("change", () => void this.open([...drop.files ?? []]));
+    drop.addEventListener("change", () => void this.open([...(drop.files ?? [])]));
     document.addEventListener("dragover", (event) => event.preventDefault());
     document.addEventListener("drop", (event) => {
       event.preventDefault();
-      void this.open([...event.dataTransfer?.files ?? []]);
+      void this.open([...(event.dataTransfer?.files ?? [])]);
     });
     listenToOpener(({ file, options, words }) => void this.open([file], options, words));
   }
@@ -143,7 +176,8 @@ class Lab {
       else this.state.options.set(name, value);
     }
     // Which light is turned has to be said where there are several.
-    if (Object.keys(options).some((name) => name.startsWith("light-")) && this.reading && this.reading.scene.lights.length > 1) this.state.options.set("light", this.reading.light.name);
+    if (Object.keys(options).some((name) => name.startsWith("light-")) && this.reading && this.reading.scene.lights.length > 1)
+      this.state.options.set("light", this.reading.light.name);
     this.ask();
   }
 
@@ -160,7 +194,10 @@ class Lab {
 
   // One wish at a time: of those that come meanwhile the newest is asked for next.
   private ask(): void {
-    if (this.asking) { this.again = true; return; }
+    if (this.asking) {
+      this.again = true;
+      return;
+    }
     this.asking = true;
     this.again = false;
     const preset = this.preset;
@@ -169,14 +206,23 @@ class Lab {
     document.body.dataset.busy = "true";
     this.say("");
     this.wait();
-    this.engine.ask({ scene: this.state.scene, words: wordsOf(this.state.options), ...(preset !== undefined && { preset }) }).then(
-      (number) => { this.asked = number; this.fail(""); },
-      (error: Error) => { this.fail(error.message); if (this.reading) this.settings.show(this.reading); },
-    ).finally(() => {
-      this.asking = false;
-      if (this.again) this.ask();
-      else if (this.newest) this.take(this.newest);  // it may have come before the answer
-    });
+    this.engine
+      .ask({ scene: this.state.scene, words: wordsOf(this.state.options), ...(preset !== undefined && { preset }) })
+      .then(
+        (number) => {
+          this.asked = number;
+          this.fail("");
+        },
+        (error: Error) => {
+          this.fail(error.message);
+          if (this.reading) this.settings.show(this.reading);
+        },
+      )
+      .finally(() => {
+        this.asking = false;
+        if (this.again) this.ask();
+        else if (this.newest) this.take(this.newest); // it may have come before the answer
+      });
   }
 
   // A browser without a GPU translates some shaders for minutes, in which its engine hears nothing.
@@ -205,7 +251,7 @@ class Lab {
       } catch (error) {
         this.part("lab-gone").textContent = `${this.engine.makesReports ? `${(error as Error).message} ` : ""}${this.engine.lost}`;
         this.part("lab-gone").hidden = false;
-        if (this.seen === 0) this.part("lab-verdict").replaceChildren();  // nothing is being drawn
+        if (this.seen === 0) this.part("lab-verdict").replaceChildren(); // nothing is being drawn
         await new Promise((done) => setTimeout(done, 1000));
       }
     }
@@ -215,7 +261,7 @@ class Lab {
     this.newest = reading;
     if (this.part("lab-note").textContent === long) this.say("");
     this.wait();
-    const isOther = this.asked > 0 && reading.client !== this.engine.client;  // a page that has asked for nothing shows what is there
+    const isOther = this.asked > 0 && reading.client !== this.engine.client; // a page that has asked for nothing shows what is there
     this.part("lab-other").hidden = !isOther;
     this.part("lab-opening").hidden = !reading.opening;
     if (reading.number >= this.asked && !this.asking) this.fail(reading.error);
@@ -228,10 +274,16 @@ class Lab {
     const isNow = reading.compared === reading.revision && !reading.preview;
     document.body.dataset.busy = String(!(isNow && isOwn));
     document.body.dataset.revision = String(isNow ? reading.revision : 0);
-    if (reading.verdict) this.part("lab-verdict").innerHTML = markup`<p class="verdict">${flowing(reading.verdict.headline)}</p>${reading.verdict.detail && markup`<p class="verdict-detail">${flowing(reading.verdict.detail)}</p>`}`.text;
+    if (reading.verdict)
+      this.part("lab-verdict").innerHTML =
+        markup`<p class="verdict">${flowing(reading.verdict.headline)}</p>${reading.verdict.detail && markup`<p class="verdict-detail">${flowing(reading.verdict.detail)}</p>`}`.text;
     const details = [...this.part("lab-results").querySelectorAll("details")].map(({ open }) => open);
     this.part("lab-results").innerHTML = resultsMarkup(reading, facts).text;
-    this.part("lab-results").querySelectorAll("details").forEach((element, i) => { element.open = details[i] ?? false; });
+    this.part("lab-results")
+      .querySelectorAll("details")
+      .forEach((element, i) => {
+        element.open = details[i] ?? false;
+      });
     const pinned = this.stage.pinned();
     if (pinned && isNow) void this.explain(...pinned);
     this.markReport(reading.revision);
@@ -239,7 +291,8 @@ class Lab {
 
   // What the engine made of the wish: as a command line would say it.
   private adopt(reading: Reading & Drawn): void {
-    const own = new Set(poseOptions), kept = [...this.state.options].filter(([name]) => own.has(name));
+    const own = new Set(poseOptions),
+      kept = [...this.state.options].filter(([name]) => own.has(name));
     this.state.options = optionsOf(reading.words);
     for (const [name, value] of kept) if (!this.state.options.has(name) && name !== "light") this.state.options.set(name, value);
     history.replaceState(null, "", addressOf(this.state));
@@ -266,26 +319,47 @@ class Lab {
     }
   }
   private async saveReport(): Promise<void> {
-    if (this.reading) await this.save(this.engine.report(this.reading.command.split(" ").slice(1)), "report.html", "Writing the report…", "The report is saved as report.html.");
+    if (this.reading)
+      await this.save(
+        this.engine.report(this.reading.command.split(" ").slice(1)),
+        "report.html",
+        "Writing the report…",
+        "The report is saved as report.html.",
+      );
   }
   private saveLab(): Promise<void> {
-    return this.save(asOneFile(), "gnomon-lab.html", "Packing the lab…", "The lab is saved as gnomon-lab.html, which opens from the disk and begins with what is set here.");
+    return this.save(
+      asOneFile(),
+      "gnomon-lab.html",
+      "Packing the lab…",
+      "The lab is saved as gnomon-lab.html, which opens from the disk and begins with what is set here.",
+    );
   }
 
   private showReport(): void {
     if (!this.reading) return;
-    const frame = html("iframe", { title: "The report of this state", src: `report?revision=${this.reading.revision}`, "data-revision": String(this.reading.revision) });
+    const frame = html("iframe", {
+      title: "The report of this state",
+      src: `report?revision=${this.reading.revision}`,
+      "data-revision": String(this.reading.revision),
+    });
     this.part("lab-frame").replaceChildren(html("p", { role: "status" }, "Writing the report…"), frame);
-    frame.addEventListener("load", () => { this.part("lab-frame").firstElementChild!.textContent = ""; this.markReport(this.reading!.revision); });
+    frame.addEventListener("load", () => {
+      this.part("lab-frame").firstElementChild!.textContent = "";
+      this.markReport(this.reading!.revision);
+    });
   }
 
   private markReport(revision: number): void {
     const frame = this.part("lab-frame").querySelector("iframe");
     const isOld = frame !== null && frame.dataset.revision !== String(revision);
-    this.part("lab-report").textContent = frame === null ? "Show the whole report" : isOld ? "Show the report of the settings as they are now" : "Show the report again";
+    this.part("lab-report").textContent =
+      frame === null ? "Show the whole report" : isOld ? "Show the report of the settings as they are now" : "Show the report again";
   }
 
-  private say(text: string): void { this.part("lab-note").textContent = text; }
+  private say(text: string): void {
+    this.part("lab-note").textContent = text;
+  }
   private fail(text: string): void {
     this.part("lab-error").textContent = text;
     this.part("lab-error").hidden = text === "";

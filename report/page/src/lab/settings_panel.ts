@@ -20,7 +20,10 @@ function biasInTexels(text: string, drawn: Panelled): string {
 /** Whether the technique of these values reads the setting; what is none of the map's is always read. */
 function isRead({ readers }: SettingFacts, values: Record<string, string>): boolean {
   if (!readers) return true;
-  return readers.techniques.includes(values.technique!) && (values.technique !== "pcf" || readers.kernels.includes(values["filter-kernel"] ?? readers.kernels[0]!));
+  return (
+    readers.techniques.includes(values.technique!) &&
+    (values.technique !== "pcf" || readers.kernels.includes(values["filter-kernel"] ?? readers.kernels[0]!))
+  );
 }
 
 export class SettingsPanel {
@@ -29,7 +32,11 @@ export class SettingsPanel {
   private drawn: Panelled | null = null;
 
   /** `changed`: with the options that then hold, all of them. */
-  constructor(root: HTMLElement, private readonly facts: SettingFacts[], private readonly changed: (options: Options) => void) {
+  constructor(
+    root: HTMLElement,
+    private readonly facts: SettingFacts[],
+    private readonly changed: (options: Options) => void,
+  ) {
     const technique = facts.find(({ name }) => name === "technique");
     if (technique) root.append(this.rowOf(technique).element);
     for (const setting of facts) {
@@ -52,14 +59,26 @@ export class SettingsPanel {
   }
 
   private control(setting: SettingFacts): Row {
-    const { name, title, unit = "", from = 0, to = 1 } = setting, note = noteOf(setting), set = (text: string): void => this.set(setting, text);
+    const { name, title, unit = "", from = 0, to = 1 } = setting,
+      note = noteOf(setting),
+      set = (text: string): void => this.set(setting, text);
     switch (setting.control) {
-      case "choice": return choiceRow(title, note, setting.choices!, set);
-      case "switch": return switchRow(title, note, (on) => set(on ? "on" : "off"));
-      case "text": return textRow(title, unit, note, set);
-      case "bias": return sliderRow(title, unit, note, linearScale(from, to), (text) => set(Number.isNaN(Number(text)) || text === "" ? text : `${text}texel`));
-      case "integer": return sliderRow(title, unit, note, setting.powers_of_two ? powersOfTwo(from, to) : linearScale(from, to, to - from), (text) => set(name && text));
-      default: return sliderRow(title, unit, note, setting.logarithmic && from > 0 ? logarithmicScale(from, to) : linearScale(from, to), set);
+      case "choice":
+        return choiceRow(title, note, setting.choices!, set);
+      case "switch":
+        return switchRow(title, note, (on) => set(on ? "on" : "off"));
+      case "text":
+        return textRow(title, unit, note, set);
+      case "bias":
+        return sliderRow(title, unit, note, linearScale(from, to), (text) =>
+          set(Number.isNaN(Number(text)) || text === "" ? text : `${text}texel`),
+        );
+      case "integer":
+        return sliderRow(title, unit, note, setting.powers_of_two ? powersOfTwo(from, to) : linearScale(from, to, to - from), (text) =>
+          set(name && text),
+        );
+      default:
+        return sliderRow(title, unit, note, setting.logarithmic && from > 0 ? logarithmicScale(from, to) : linearScale(from, to), set);
     }
   }
 
@@ -86,7 +105,8 @@ export class SettingsPanel {
   show(drawn: Panelled): void {
     this.drawn = drawn;
     for (const setting of this.facts) {
-      const row = this.rows.get(setting.name)!, value = drawn.values[setting.name];
+      const row = this.rows.get(setting.name)!,
+        value = drawn.values[setting.name];
       row.element.hidden = value === undefined;
       if (value !== undefined) row.show(setting.control === "bias" ? biasInTexels(value, drawn) : value);
     }

@@ -11,9 +11,15 @@ import type { CameraPose, Drawn, Engine, LabFacts } from "./engine";
 /** What a drag on the pictures does. */
 type Tool = "camera" | "light" | "pictures";
 
-const tools: readonly [tool: Tool, words: string, key: string][] = [["camera", "Turn camera", "c"], ["light", "Turn light", "l"], ["pictures", "Move pictures", "p"]];
-const degreesPerPixel = 0.4, degreesPerKey = 5, zoomPerNotch = 1.15;
-const highest = 89;  // degrees, of the camera's elevation
+const tools: readonly [tool: Tool, words: string, key: string][] = [
+  ["camera", "Turn camera", "c"],
+  ["light", "Turn light", "l"],
+  ["pictures", "Move pictures", "p"],
+];
+const degreesPerPixel = 0.4,
+  degreesPerKey = 5,
+  zoomPerNotch = 1.15;
+const highest = 89; // degrees, of the camera's elevation
 
 export interface StageEvents {
   turnCamera: (pose: CameraPose) => void;
@@ -27,7 +33,19 @@ const wrapped = (degrees: number): number => ((((degrees + 180) % 360) + 360) % 
 
 export class Stage {
   private readonly viewer: Viewer;
-  private readonly state: ViewState = { left: "", right: "", mode: "swipe", split: 0.5, zoom: 1, x: 0, y: 0, front: 0, exposure: 0, pixel: null, label: null };
+  private readonly state: ViewState = {
+    left: "",
+    right: "",
+    mode: "swipe",
+    split: 0.5,
+    zoom: 1,
+    x: 0,
+    y: 0,
+    front: 0,
+    exposure: 0,
+    pixel: null,
+    label: null,
+  };
   private readonly size = { width: 960, height: 540 };
   private readonly pictures = new Map<string, { version: string; canvas: HTMLCanvasElement }>();
   private readonly loading = new Map<string, string>();
@@ -37,17 +55,37 @@ export class Stage {
   private held: { x: number; y: number; moved: boolean } | null = null;
   private readonly fingers = new Map<number, { x: number; y: number }>();
 
-  constructor(root: HTMLElement, private readonly engine: Engine, facts: LabFacts, private readonly events: StageEvents) {
+  constructor(
+    root: HTMLElement,
+    private readonly engine: Engine,
+    facts: LabFacts,
+    private readonly events: StageEvents,
+  ) {
     const options = markup`${facts.pictures.map(({ name, title }) => markup`<option value="${name}">${title}</option>`)}`;
-    root.innerHTML = viewerBlock(options, "lab", markup`Drag to turn the camera (C), the light (L), or to move enlarged pictures (P); a click explains a pixel. F flips, + and − enlarge,
-Ctrl and the wheel come nearer.`, false).text;
+    root.innerHTML = viewerBlock(
+      options,
+      "lab",
+      markup`Drag to turn the camera (C), the light (L), or to move enlarged pictures (P); a click explains a pixel. F flips, + and − enlarge,
+Ctrl and the wheel come nearer.`,
+      false,
+    ).text;
     this.stage = root.querySelector(".stage")!;
     root.querySelector(".probe")!.remove();
     this.state.left = facts.pictures[0]!.title;
     this.state.right = facts.pictures.find(({ name }) => name === "labels")!.title;
     this.viewer = new Viewer(root.querySelector(".viewer")!, this.state, this.size, {
-      hover: () => undefined, unpin: () => { this.state.pixel = null; this.viewer.show(); events.unpin(); },
-      pin: (x, y) => this.pin(x, y), changed: () => undefined, source: (name) => { this.fetch(name); return this.pictures.get(name)?.canvas ?? null; },
+      hover: () => undefined,
+      unpin: () => {
+        this.state.pixel = null;
+        this.viewer.show();
+        events.unpin();
+      },
+      pin: (x, y) => this.pin(x, y),
+      changed: () => undefined,
+      source: (name) => {
+        this.fetch(name);
+        return this.pictures.get(name)?.canvas ?? null;
+      },
     });
     root.querySelector(".viewer-bar")!.prepend(this.toolButtons());
     this.listen();
@@ -77,22 +115,34 @@ Ctrl and the wheel come nearer.`, false).text;
     this.events.pin(x, y);
   }
 
-  pinned(): readonly [number, number] | null { return this.state.pixel; }
+  pinned(): readonly [number, number] | null {
+    return this.state.pixel;
+  }
 
   // Of the rasterizer's picture there is another for each revision, of all others for each comparison.
   private versionOf(name: string): string {
     if (!this.drawn) return "";
-    return name === "raster" || this.drawn.compared === 0 ? `${this.drawn.drawn}` : `${this.drawn.compared}${this.drawn.preview ? "p" : ""}`;
+    return name === "raster" || this.drawn.compared === 0
+      ? `${this.drawn.drawn}`
+      : `${this.drawn.compared}${this.drawn.preview ? "p" : ""}`;
   }
 
   private fetch(name: string): void {
     const version = this.versionOf(name);
     if (version === "" || version === "0" || this.pictures.get(name)?.version === version || this.loading.get(name) === version) return;
     this.loading.set(name, version);
-    void this.engine.picture(name).then((canvas) => {
-      this.pictures.set(name, { version, canvas });
-      this.viewer.show();
-    }, () => undefined).finally(() => { if (this.loading.get(name) === version) this.loading.delete(name); });
+    void this.engine
+      .picture(name)
+      .then(
+        (canvas) => {
+          this.pictures.set(name, { version, canvas });
+          this.viewer.show();
+        },
+        () => undefined,
+      )
+      .finally(() => {
+        if (this.loading.get(name) === version) this.loading.delete(name);
+      });
   }
 
   show(drawn: Drawn): void {
@@ -134,31 +184,42 @@ Ctrl and the wheel come nearer.`, false).text;
 
   // Before the viewer sees what is done to the stage: it has what is not taken here.
   private listen(): void {
-    const before = { capture: true }, outer = this.stage.parentElement!;
+    const before = { capture: true },
+      outer = this.stage.parentElement!;
     const onStage = (event: Event): boolean => this.stage.contains(event.target as Node);
-    outer.addEventListener("pointerdown", (event) => {
-      if (!onStage(event) || event.button !== 0 || this.tool === "pictures" || this.isNearDivider(event)) return;
-      event.stopPropagation();
-      this.stage.focus({ preventScroll: true });
-      this.stage.setPointerCapture(event.pointerId);
-      this.fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-      this.held = { x: event.clientX, y: event.clientY, moved: this.fingers.size > 1 };
-    }, before);
-    outer.addEventListener("pointermove", (event) => {
-      if (!this.held || !this.fingers.has(event.pointerId)) return;
-      event.stopPropagation();
-      const wide = this.spread();
-      this.fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-      if (this.fingers.size > 1) return wide > 0 ? this.comeNearer(this.spread() / wide) : undefined;
-      const right = event.clientX - this.held.x, up = this.held.y - event.clientY;
-      if (!this.held.moved && Math.hypot(right, up) < 4) return;
-      this.held = { x: event.clientX, y: event.clientY, moved: true };
-      this.turn(degreesPerPixel * right, degreesPerPixel * up);
-    }, before);
+    outer.addEventListener(
+      "pointerdown",
+      (event) => {
+        if (!onStage(event) || event.button !== 0 || this.tool === "pictures" || this.isNearDivider(event)) return;
+        event.stopPropagation();
+        this.stage.focus({ preventScroll: true });
+        this.stage.setPointerCapture(event.pointerId);
+        this.fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+        this.held = { x: event.clientX, y: event.clientY, moved: this.fingers.size > 1 };
+      },
+      before,
+    );
+    outer.addEventListener(
+      "pointermove",
+      (event) => {
+        if (!this.held || !this.fingers.has(event.pointerId)) return;
+        event.stopPropagation();
+        const wide = this.spread();
+        this.fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+        if (this.fingers.size > 1) return wide > 0 ? this.comeNearer(this.spread() / wide) : undefined;
+        const right = event.clientX - this.held.x,
+          up = this.held.y - event.clientY;
+        if (!this.held.moved && Math.hypot(right, up) < 4) return;
+        this.held = { x: event.clientX, y: event.clientY, moved: true };
+        this.turn(degreesPerPixel * right, degreesPerPixel * up);
+      },
+      before,
+    );
     const end = (event: PointerEvent): void => {
       if (!this.fingers.delete(event.pointerId)) return;
       event.stopPropagation();
-      const box = this.stage.getBoundingClientRect(), wasClick = this.held && !this.held.moved && event.type === "pointerup";
+      const box = this.stage.getBoundingClientRect(),
+        wasClick = this.held && !this.held.moved && event.type === "pointerup";
       if (this.fingers.size === 0) this.held = null;
       if (!wasClick) return;
       const share = this.shareAt(event, box);
@@ -166,18 +227,23 @@ Ctrl and the wheel come nearer.`, false).text;
     };
     outer.addEventListener("pointerup", end, before);
     outer.addEventListener("pointercancel", end, before);
-    outer.addEventListener("wheel", (event) => {
-      if (!onStage(event) || this.tool === "pictures" || !(event.ctrlKey || event.metaKey)) return;
-      event.preventDefault();
-      event.stopPropagation();
-      this.comeNearer(event.deltaY < 0 ? zoomPerNotch : 1 / zoomPerNotch);
-    }, { capture: true, passive: false });
+    outer.addEventListener(
+      "wheel",
+      (event) => {
+        if (!onStage(event) || this.tool === "pictures" || !(event.ctrlKey || event.metaKey)) return;
+        event.preventDefault();
+        event.stopPropagation();
+        this.comeNearer(event.deltaY < 0 ? zoomPerNotch : 1 / zoomPerNotch);
+      },
+      { capture: true, passive: false },
+    );
     outer.addEventListener("keydown", (event) => this.key(event), before);
   }
 
   /** Where in the picture a pointer is, shares of its sides; null beside it. */
   private shareAt(event: PointerEvent, box: DOMRect): { x: number; y: number } | null {
-    const { zoom, x, y, mode } = this.state, panes = [...this.stage.querySelectorAll(".pane")].map((pane) => pane.getBoundingClientRect());
+    const { zoom, x, y, mode } = this.state,
+      panes = [...this.stage.querySelectorAll(".pane")].map((pane) => pane.getBoundingClientRect());
     const pane = mode === "side" ? (panes.find(({ left, right }) => event.clientX >= left && event.clientX < right) ?? box) : box;
     const at = { x: ((event.clientX - pane.left) / pane.width - x) / zoom, y: ((event.clientY - pane.top) / pane.height - y) / zoom };
     return at.x >= 0 && at.y >= 0 && at.x < 1 && at.y < 1 ? at : null;
@@ -186,7 +252,9 @@ Ctrl and the wheel come nearer.`, false).text;
   private key(event: KeyboardEvent): void {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target !== this.stage) return;
     const tool = tools.find(([, , key]) => key === event.key.toLowerCase());
-    const step = ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] } as Record<string, [number, number]>)[event.key];
+    const step = ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] } as Record<string, [number, number]>)[
+      event.key
+    ];
     if (tool) this.choose(tool[0]);
     else if (step && !event.shiftKey && this.tool !== "pictures") this.turn(degreesPerKey * step[0], degreesPerKey * step[1]);
     else return;

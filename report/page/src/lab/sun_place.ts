@@ -8,7 +8,9 @@ export const declination = (day: number): number => 23.45 * Math.sin(toRadians *
 
 /** `hours`: local solar time, 0 to 24. Azimuth: 0 is +z (south), 90 is +x (east). */
 export function sunAt(day: number, hours: number, latitude: number): { azimuth: number; elevation: number } {
-  const angle = toRadians * 15 * (hours - 12), tilt = toRadians * declination(day), place = toRadians * latitude;
+  const angle = toRadians * 15 * (hours - 12),
+    tilt = toRadians * declination(day),
+    place = toRadians * latitude;
   const east = -Math.cos(tilt) * Math.sin(angle),
     up = Math.sin(place) * Math.sin(tilt) + Math.cos(place) * Math.cos(tilt) * Math.cos(angle),
     south = Math.sin(place) * Math.cos(tilt) * Math.cos(angle) - Math.cos(place) * Math.sin(tilt);

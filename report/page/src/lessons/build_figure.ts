@@ -5,7 +5,17 @@ import { html, number } from "../svg";
 import { add, length, sub, unit, type Circle, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
 import { frame } from "./flatland_figure";
-import { boxOfOutline, countedNodes, expectedNodes, overlap, SmallTree, walkTree, type Kind, type Rule, type SmallNode } from "./small_tree";
+import {
+  boxOfOutline,
+  countedNodes,
+  expectedNodes,
+  overlap,
+  SmallTree,
+  walkTree,
+  type Kind,
+  type Rule,
+  type SmallNode,
+} from "./small_tree";
 import { walkCells } from "./small_grid";
 import { Sliders, Stage } from "./stage";
 import { many, say } from "./say";
@@ -14,7 +24,13 @@ interface BuildJson {
   discs: [number, number, number][];
   checks: { from: Vec2; to: Vec2; t: number | null }[];
 }
-const names: Record<Kind, string> = { grid: say("uniform grid"), octree: say("octree"), kd: say("kd-tree"), bsp: say("BSP tree"), bvh: say("hierarchy of boxes") };
+const names: Record<Kind, string> = {
+  grid: say("uniform grid"),
+  octree: say("octree"),
+  kd: say("kd-tree"),
+  bsp: say("BSP tree"),
+  bvh: say("hierarchy of boxes"),
+};
 /** What a ray meets, one and several. */
 const metBy = (kind: Kind): [string, string] => (kind === "grid" || kind === "bsp" ? ["cell", "cells"] : ["box", "boxes"]);
 const window: [number, number, number, number] = [-3, 3, -1.5, 1.5];
@@ -26,60 +42,156 @@ const firstHit = (kind: Kind, rule: Rule, discs: Circle[], from: Vec2, to: Vec2)
 };
 
 declare global {
-  var gnomonSmallHits: ((json: BuildJson, kind: Kind, rule: Rule) => number[]) | undefined;  // eslint-disable-line no-var
+  var gnomonSmallHits: ((json: BuildJson, kind: Kind, rule: Rule) => number[]) | undefined; // eslint-disable-line no-var
 }
 /** For the rays that the program traced through the same discs: where they hit here. */
-globalThis.gnomonSmallHits = (json, kind, rule) => json.checks.map(({ from, to }) => firstHit(kind, rule, json.discs.map(circleOf), from, to));
+globalThis.gnomonSmallHits = (json, kind, rule) =>
+  json.checks.map(({ from, to }) => firstHit(kind, rule, json.discs.map(circleOf), from, to));
 
 export function buildFigure({ settings, data }: FigureJson, id: string): HTMLElement {
-  const json = data as BuildJson, kind = settings.kind as Kind, discs = json.discs.map(circleOf), ruled = kind === "kd" || kind === "bvh";
-  let from: Vec2 = [-2.7, 0.3], to: Vec2 = [1.45, 0.6];
+  const json = data as BuildJson,
+    kind = settings.kind as Kind,
+    discs = json.discs.map(circleOf),
+    ruled = kind === "kd" || kind === "bvh";
+  let from: Vec2 = [-2.7, 0.3],
+    to: Vec2 = [1.45, 0.6];
   const handles = (): Record<string, Vec2> => ({ from, to, ...Object.fromEntries(discs.map(({ center }, i) => [`disc${i}`, center])) });
-  const stage = new Stage(window, say`A ${names[kind]} over discs, and a ray on its way through it`, (at, handle) => {
-    if (handle === "from") from = at;
-    else if (handle === "to") to = at;
-    else discs[Number(handle.slice(4))] = { ...discs[Number(handle.slice(4))]!, center: at };
-    show();
-  }, handles);
+  const stage = new Stage(
+    window,
+    say`A ${names[kind]} over discs, and a ray on its way through it`,
+    (at, handle) => {
+      if (handle === "from") from = at;
+      else if (handle === "to") to = at;
+      else discs[Number(handle.slice(4))] = { ...discs[Number(handle.slice(4))]!, center: at };
+      show();
+    },
+    handles,
+  );
   const said = html("p", { class: "bias-counts", role: "status" });
-  const share = (name: string, value: number) => ({ name, from: 0, to: 1, step: 0.001, value, text: (v: number) => `${Math.round(100 * v)} %` });
-  const sliders: Sliders<string> = new Sliders<string>({
-    ...(kind === "grid" ? { cells: { name: say("Cells for each disc"), from: 1, to: 16, step: 1, value: 4, text: String } } : { built: share(say("Built"), 1) }),
-    walk: share(say("Ray's way"), 1),
-    ...(ruled ? { rule: { name: say("Split"), from: 0, to: 1, step: 1, value: 0, text: (v: number) => (v === 0 ? say("in the middle") : say("by area")) } } : {}),
-    seventh: { name: say("A disc, left and right"), from: -2.9, to: 2.9, step: 0.01, value: discs[6]!.center[0], text: (v: number) => number(v, 3), drags: true },
-  }, () => { discs[6] = { ...discs[6]!, center: [sliders.value("seventh"), discs[6]!.center[1]] }; show(); });
+  const share = (name: string, value: number) => ({
+    name,
+    from: 0,
+    to: 1,
+    step: 0.001,
+    value,
+    text: (v: number) => `${Math.round(100 * v)} %`,
+  });
+  const sliders: Sliders<string> = new Sliders<string>(
+    {
+      ...(kind === "grid"
+        ? { cells: { name: say("Cells for each disc"), from: 1, to: 16, step: 1, value: 4, text: String } }
+        : { built: share(say("Built"), 1) }),
+      walk: share(say("Ray's way"), 1),
+      ...(ruled
+        ? {
+            rule: {
+              name: say("Split"),
+              from: 0,
+              to: 1,
+              step: 1,
+              value: 0,
+              text: (v: number) => (v === 0 ? say("in the middle") : say("by area")),
+            },
+          }
+        : {}),
+      seventh: {
+        name: say("A disc, left and right"),
+        from: -2.9,
+        to: 2.9,
+        step: 0.01,
+        value: discs[6]!.center[0],
+        text: (v: number) => number(v, 3),
+        drags: true,
+      },
+    },
+    () => {
+      discs[6] = { ...discs[6]!, center: [sliders.value("seventh"), discs[6]!.center[1]] };
+      show();
+    },
+  );
   const step = (key: string, by: number) => {
-    const button = html("button", { type: "button" }, by > 0 ? (key === "built" ? say("Next split") : say("Next step")) : key === "built" ? say("Split before") : say("Step before"));
-    button.addEventListener("click", () => { const n = Math.max(1, key === "built" ? splits : steps); sliders.set(key, Math.min(Math.max((Math.round(sliders.value(key) * n) + by) / n, 0), 1)); });
+    const button = html(
+      "button",
+      { type: "button" },
+      by > 0 ? (key === "built" ? say("Next split") : say("Next step")) : key === "built" ? say("Split before") : say("Step before"),
+    );
+    button.addEventListener("click", () => {
+      const n = Math.max(1, key === "built" ? splits : steps);
+      sliders.set(key, Math.min(Math.max((Math.round(sliders.value(key) * n) + by) / n, 0), 1));
+    });
     return button;
   };
   let [splits, steps] = [1, 1];
   const show = () => {
-    const way = length(sub(to, from)) > 0 ? unit(sub(to, from)) : ([1, 0] as Vec2), tree = new SmallTree(kind, kind === "bsp" || (ruled && sliders.value("rule") === 1) ? "area" : "middle", discs);
-    const grid = kind === "grid" ? walkCells(discs, Math.sqrt(sliders.value("cells")), from, way) : null, walk = grid ?? walkTree(tree, from, way);
+    const way = length(sub(to, from)) > 0 ? unit(sub(to, from)) : ([1, 0] as Vec2),
+      tree = new SmallTree(kind, kind === "bsp" || (ruled && sliders.value("rule") === 1) ? "area" : "middle", discs);
+    const grid = kind === "grid" ? walkCells(discs, Math.sqrt(sliders.value("cells")), from, way) : null,
+      walk = grid ?? walkTree(tree, from, way);
     splits = tree.splits.length;
     steps = walk.length;
-    const made = kind === "grid" ? [] : tree.splits.slice(0, Math.round(sliders.value("built") * splits)), seen = walk.slice(0, Math.round(sliders.value("walk") * steps)), last = seen.at(-1), all = seen.length === steps;
-    const closed = ({ outline }: SmallNode): Vec2[] => [...outline, outline[0]!], middleOf = ({ outline }: SmallNode): Vec2 => outline.reduce<Vec2>((sum, p) => add(sum, p, 1 / outline.length), [0, 0]);
-    const shownNodes = kind === "bvh" ? made.flatMap((node) => node.children) : [], tests = new Set(seen.flatMap((s) => s.tested));
+    const made = kind === "grid" ? [] : tree.splits.slice(0, Math.round(sliders.value("built") * splits)),
+      seen = walk.slice(0, Math.round(sliders.value("walk") * steps)),
+      last = seen.at(-1),
+      all = seen.length === steps;
+    const closed = ({ outline }: SmallNode): Vec2[] => [...outline, outline[0]!],
+      middleOf = ({ outline }: SmallNode): Vec2 => outline.reduce<Vec2>((sum, p) => add(sum, p, 1 / outline.length), [0, 0]);
+    const shownNodes = kind === "bvh" ? made.flatMap((node) => node.children) : [],
+      tests = new Set(seen.flatMap((s) => s.tested));
     const hit = last && all && isFinite(last.t) ? add(from, way, last.t) : null;
-    stage.put(stage.path("cells bold", [...(grid ? grid.lines : [closed(tree.root)]), ...made.flatMap((node) => node.cut), ...shownNodes.map(closed)]), ...seen.map((s) => stage.path(`visited${s.tested.length > 0 ? " tests" : ""}${s === last ? " last" : ""}`, [closed(s.node)])),
-      ...discs.map((disc, i) => stage.circle(`disc${tests.has(i) ? " tested" : ""}`, disc.center, stage.units(disc.radius))), stage.path("ray", [[from, hit ?? add(from, way, 9)]]), stage.circle("point", from, 11), stage.circle("moved", to, 9), ...(hit ? [stage.circle("hit", hit, 8)] : []),
-      ...(grid || !last ? [] : tree.nodes().filter(({ name }) => last.stack.includes(name)).map((node) => stage.label("middle", middleOf(node), node.name, 6))));
-    const met = last?.boxes ?? 0, tested = last?.discs ?? 0, tried = made.reduce((sum, node) => sum + node.tried, 0);
-    Object.assign(said.dataset, { splits: String(made.length), tried: String(tried), boxes: String(met), discs: String(tested), t: String(last?.t ?? Infinity), stack: (last?.stack ?? []).join(" ") });
+    stage.put(
+      stage.path("cells bold", [
+        ...(grid ? grid.lines : [closed(tree.root)]),
+        ...made.flatMap((node) => node.cut),
+        ...shownNodes.map(closed),
+      ]),
+      ...seen.map((s) => stage.path(`visited${s.tested.length > 0 ? " tests" : ""}${s === last ? " last" : ""}`, [closed(s.node)])),
+      ...discs.map((disc, i) => stage.circle(`disc${tests.has(i) ? " tested" : ""}`, disc.center, stage.units(disc.radius))),
+      stage.path("ray", [[from, hit ?? add(from, way, 9)]]),
+      stage.circle("point", from, 11),
+      stage.circle("moved", to, 9),
+      ...(hit ? [stage.circle("hit", hit, 8)] : []),
+      ...(grid || !last
+        ? []
+        : tree
+            .nodes()
+            .filter(({ name }) => last.stack.includes(name))
+            .map((node) => stage.label("middle", middleOf(node), node.name, 6))),
+    );
+    const met = last?.boxes ?? 0,
+      tested = last?.discs ?? 0,
+      tried = made.reduce((sum, node) => sum + node.tried, 0);
+    Object.assign(said.dataset, {
+      splits: String(made.length),
+      tried: String(tried),
+      boxes: String(met),
+      discs: String(tested),
+      t: String(last?.t ?? Infinity),
+      stack: (last?.stack ?? []).join(" "),
+    });
     said.textContent = say`${kind === "grid" ? "" : say`${many(made.length, "split", "splits")} of ${splits}${tried > 0 ? say`, the cheapest of ${grouped(tried)} tried` : ""}. `}The ray has met ${many(met, ...metBy(kind))} and tested ${many(tested, "disc", "discs")} of ${discs.length}. ${grid || !last ? "" : last.stack.length > 0 ? say`On the stack: ${last.stack.join(", ")}. ` : say("The stack is empty. ")}${kind === "grid" ? "" : costs(tree, said)}`;
   };
   const bar = sliders.bar;
   show();
-  bar.prepend(html("div", { class: "steps" }, ...(kind === "grid" ? [] : [step("built", -1), step("built", 1)]), step("walk", -1), step("walk", 1)));
-  return frame(id, stage, bar, said, say("Drag a disc or either end of the ray. Filled: what the ray came to, darker where discs were tested; their outlines are bold."));
+  bar.prepend(
+    html("div", { class: "steps" }, ...(kind === "grid" ? [] : [step("built", -1), step("built", 1)]), step("walk", -1), step("walk", 1)),
+  );
+  return frame(
+    id,
+    stage,
+    bar,
+    said,
+    say("Drag a disc or either end of the ray. Filled: what the ray came to, darker where discs were tested; their outlines are bold."),
+  );
 }
 
 /** What the whole tree costs a line: foretold by perimeters, and counted. */
 function costs(tree: SmallTree, said: HTMLElement): string {
-  const expected = expectedNodes(tree), met = countedNodes(tree, 60), over = tree.kind === "bvh" ? tree.splits.reduce((sum, { children: [a, b] }) => sum + overlap(boxOfOutline(a!.outline), boxOfOutline(b!.outline)), 0) : 0;
+  const expected = expectedNodes(tree),
+    met = countedNodes(tree, 60),
+    over =
+      tree.kind === "bvh"
+        ? tree.splits.reduce((sum, { children: [a, b] }) => sum + overlap(boxOfOutline(a!.outline), boxOfOutline(b!.outline)), 0)
+        : 0;
   Object.assign(said.dataset, { expected: String(expected), counted: String(met), overlap: String(over) });
   return say`A line meets Σ perimeters/perimeter = ${number(expected, 3)} of its ${tree.nodes().length} ${say(metBy(tree.kind)[1])}; counted: ${number(met, 3)}.${tree.kind === "bvh" ? say` Boxes overlap by ${number(over, 2)} in all.` : ""}`;
 }

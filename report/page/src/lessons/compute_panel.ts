@@ -15,14 +15,25 @@ interface ComputedJson {
   parts: Record<string, unknown>;
 }
 
-let program: ProgramWorker | undefined;  // one for the page, from the first change on
+let program: ProgramWorker | undefined; // one for the page, from the first change on
 
 async function computed(mark: string, id: string): Promise<FigureJson> {
-  program ??= new ProgramWorker(new Worker(new URL("gnomon_worker.mjs", new URL(pageData<{ lab: string }>().lab, location.href)), { type: "module" }));
-  const { figures: [figure], comparisons, parts } = (await (await answered(await program.ask("figure", { mark }))).json()) as ComputedJson;
-  const key = Object.keys(comparisons)[0], own = `${id}: `;
+  program ??= new ProgramWorker(
+    new Worker(new URL("gnomon_worker.mjs", new URL(pageData<{ lab: string }>().lab, location.href)), { type: "module" }),
+  );
+  const {
+    figures: [figure],
+    comparisons,
+    parts,
+  } = (await (await answered(await program.ask("figure", { mark }))).json()) as ComputedJson;
+  const key = Object.keys(comparisons)[0],
+    own = `${id}: `;
   if (key !== undefined) {
-    putComparison(own, comparisons[key]!, Object.fromEntries(Object.entries(parts).map(([name, part]) => [own + name.slice(key.length), part])));
+    putComparison(
+      own,
+      comparisons[key]!,
+      Object.fromEntries(Object.entries(parts).map(([name, part]) => [own + name.slice(key.length), part])),
+    );
     figure.data.comparison = own;
   }
   return figure as FigureJson;
@@ -35,21 +46,38 @@ export class ComputePanel {
   readonly element: HTMLElement;
   private readonly said = html("p", { class: "compute-said", role: "status" });
   private readonly panel: SettingsPanel;
-  private asked = 0;  // the number of the last wish
+  private asked = 0; // the number of the last wish
   private wish: Record<string, string> | null = null;
   private isBusy = false;
 
   /** `show` takes a figure's data and shows it in place of what was there. */
-  constructor(private readonly lesson: FigureJson, private readonly id: string, private readonly show: (figure: FigureJson) => Promise<void>) {
-    const rows = html("div", { class: "rows" }), back = html("button", { type: "button" }, say("As in the lesson"));
+  constructor(
+    private readonly lesson: FigureJson,
+    private readonly id: string,
+    private readonly show: (figure: FigureJson) => Promise<void>,
+  ) {
+    const rows = html("div", { class: "rows" }),
+      back = html("button", { type: "button" }, say("As in the lesson"));
     this.panel = new SettingsPanel(rows, lesson.controls!, (options) => this.ask({ ...lesson.settings, ...Object.fromEntries(options) }));
     this.showSettings(lesson);
     back.addEventListener("click", () => void this.restore());
-    this.element = html("details", { class: "compute" }, html("summary", {}, say("Compute with other settings")),
-      html("p", { class: "hint" }, say("The program itself computes the figure anew here, in your browser. It is loaded with the first change.")), rows, html("div", { class: "compute-end" }, back, this.said));
+    this.element = html(
+      "details",
+      { class: "compute" },
+      html("summary", {}, say("Compute with other settings")),
+      html(
+        "p",
+        { class: "hint" },
+        say("The program itself computes the figure anew here, in your browser. It is loaded with the first change."),
+      ),
+      rows,
+      html("div", { class: "compute-end" }, back, this.said),
+    );
   }
 
-  private showSettings({ drawn }: FigureJson): void { this.panel.show(structuredClone(drawn!)); }
+  private showSettings({ drawn }: FigureJson): void {
+    this.panel.show(structuredClone(drawn!));
+  }
 
   private say(words: string, isWrong = false): void {
     this.said.textContent = words;
@@ -86,7 +114,10 @@ export class ComputePanel {
     const begin = performance.now();
     this.say(program ? say("The program computes…") : say("The program is loaded, and computes…"));
     try {
-      const figure = await computed([this.lesson.name, ...Object.entries(settings).map(([name, value]) => `${name}=${value}`)].join(" "), this.id);
+      const figure = await computed(
+        [this.lesson.name, ...Object.entries(settings).map(([name, value]) => `${name}=${value}`)].join(" "),
+        this.id,
+      );
       if (!isWanted()) return;
       await this.show(figure);
       this.showSettings(figure);

@@ -24,14 +24,28 @@ import { whittedFigure } from "./whitted_figure";
 
 export interface FigureJson<Data = never> {
   name: string;
-  settings: Record<string, string>;  // of the mark in the lesson's text
+  settings: Record<string, string>; // of the mark in the lesson's text
   data: Data;
-  controls?: SettingFacts[];  // what it can be computed with anew, by the program for the web
-  drawn?: Panelled;           // and with what it was
+  controls?: SettingFacts[]; // what it can be computed with anew, by the program for the web
+  drawn?: Panelled; // and with what it was
 }
 
 type Maker = (figure: FigureJson, id: string) => HTMLElement | Promise<HTMLElement>;
-const makers: Record<string, Maker> = { bias: biasFigure, "box-fit": boxFitFigure, build: buildFigure, "cube-faces": cubeFigure, "eye-ray": eyeRayFigure, flatland: flatlandFigure, "grid-curve": gridCurveFigure, intersection: intersectionFigure, "map-size": mapSizeFigure, structure: structureFigure, "two-passes": twoPassesFigure, "two-ways": twoWaysFigure, whitted: whittedFigure };
+const makers: Record<string, Maker> = {
+  bias: biasFigure,
+  "box-fit": boxFitFigure,
+  build: buildFigure,
+  "cube-faces": cubeFigure,
+  "eye-ray": eyeRayFigure,
+  flatland: flatlandFigure,
+  "grid-curve": gridCurveFigure,
+  intersection: intersectionFigure,
+  "map-size": mapSizeFigure,
+  structure: structureFigure,
+  "two-passes": twoPassesFigure,
+  "two-ways": twoWaysFigure,
+  whitted: whittedFigure,
+};
 
 /** Null where that fails: the other figures and the slides do not wait for it. */
 async function makeFigure(figure: FigureJson, id: string): Promise<HTMLElement | null> {
@@ -45,7 +59,13 @@ async function makeFigure(figure: FigureJson, id: string): Promise<HTMLElement |
 
 /** Where the browser draws the same picture anew, with any setting. */
 function labAddress(lab: string, { scene, ...options }: Record<string, string>): string {
-  return lab + addressOf({ scene: scene!, options: new Map(Object.entries(options).filter(([name]) => name !== "sizes")).set("size", `${page.width}x${page.height}`) });
+  return (
+    lab +
+    addressOf({
+      scene: scene!,
+      options: new Map(Object.entries(options).filter(([name]) => name !== "sizes")).set("size", `${page.width}x${page.height}`),
+    })
+  );
 }
 
 type PlacedJson = FigureJson<{ comparison?: string }>;
@@ -57,7 +77,12 @@ class PlacedFigure {
   private readonly panel: HTMLElement | null = null;
   private readonly link = html("a", { class: "to-lab" }, say("Change every setting in the lab"));
 
-  constructor(readonly element: HTMLElement, figure: PlacedJson, private readonly at: number, private readonly id: string) {
+  constructor(
+    readonly element: HTMLElement,
+    figure: PlacedJson,
+    private readonly at: number,
+    private readonly id: string,
+  ) {
     this.own = [...element.children];
     element.classList.add("live-figure");
     element.dataset.name = figure.name;
@@ -71,11 +96,14 @@ class PlacedFigure {
     element.append(html("p", { class: "hint" }, this.link, ". ", say("The program itself computes it there, in your browser.")));
   }
 
-  private setLink({ settings }: PlacedJson): void { if (pageFigures.lab) this.link.href = labAddress(pageFigures.lab, settings); }
+  private setLink({ settings }: PlacedJson): void {
+    if (pageFigures.lab) this.link.href = labAddress(pageFigures.lab, settings);
+  }
 
   /** The panel stands below the picture, before charts and hints, and stays where it is: it may have the focus. */
   private arrange(elements: Element[]): void {
-    const more = elements.findIndex((element) => element.matches(".scroll, .hint")), split = more < 0 ? elements.length : more;
+    const more = elements.findIndex((element) => element.matches(".scroll, .hint")),
+      split = more < 0 ? elements.length : more;
     this.element.prepend(...elements.slice(0, split));
     this.panel!.after(...elements.slice(split));
     this.own = elements;
@@ -92,7 +120,9 @@ class PlacedFigure {
 
 export async function startFigures(): Promise<void> {
   for (const host of document.querySelectorAll<HTMLElement>(".live")) {
-    const at = Number(host.dataset.figure), figure = pageFigures.figures[at], id = `figure-${at}`;
+    const at = Number(host.dataset.figure),
+      figure = pageFigures.figures[at],
+      id = `figure-${at}`;
     if (!figure) continue;
     const made = await makeFigure(figure as FigureJson, id);
     if (!made) continue;

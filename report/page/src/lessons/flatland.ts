@@ -6,8 +6,8 @@ export type Vec2 = readonly [number, number];
 export interface Segment {
   from: Vec2;
   to: Vec2;
-  normal: Vec2;  // unit, outwards
-  smooth?: readonly [Vec2, Vec2];  // unit normals at its ends, of what it stands for
+  normal: Vec2; // unit, outwards
+  smooth?: readonly [Vec2, Vec2]; // unit normals at its ends, of what it stands for
 }
 export interface Circle {
   center: Vec2;
@@ -28,15 +28,19 @@ export const unit = (a: Vec2): Vec2 => (length(a) > 0 ? [a[0] / length(a), a[1] 
 
 /** Where a ray meets a segment; infinity where it does not. */
 export function meetSegment(origin: Vec2, direction: Vec2, { from, to }: Segment): number {
-  const along = sub(to, from), across = cross(direction, along);
+  const along = sub(to, from),
+    across = cross(direction, along);
   if (across === 0) return Infinity;
-  const away = sub(from, origin), s = cross(away, direction) / across;
+  const away = sub(from, origin),
+    s = cross(away, direction) / across;
   return s >= 0 && s <= 1 ? cross(away, along) / across : Infinity;
 }
 
 /** Where a ray of unit direction enters and leaves a circle; null where it passes. */
 export function meetCircle(origin: Vec2, direction: Vec2, { center, radius }: Circle): Vec2 | null {
-  const away = sub(center, origin), middle = dot(away, direction), past = cross(direction, away);
+  const away = sub(center, origin),
+    middle = dot(away, direction),
+    past = cross(direction, away);
   const half = radius * radius - past * past;
   return half < 0 ? null : [middle - Math.sqrt(half), middle + Math.sqrt(half)];
 }
@@ -67,20 +71,28 @@ export function occluded(world: World2, { surface, at }: Place, direction: Vec2,
 
 /** The depth of the first surface ahead of a ray of unit direction: endless where there is none. */
 export function firstDepth(world: World2, origin: Vec2, direction: Vec2): number {
-  const meetings = [...world.segments.map((segment) => meetSegment(origin, direction, segment)), ...world.circles.flatMap((circle) => meetCircle(origin, direction, circle) ?? [])];
+  const meetings = [
+    ...world.segments.map((segment) => meetSegment(origin, direction, segment)),
+    ...world.circles.flatMap((circle) => meetCircle(origin, direction, circle) ?? []),
+  ];
   return Math.min(...meetings.filter((t) => t > 0));
 }
 
 /** A sun's shadow map: `count` texels side by side, square to the light. Depth counts along the light from a line through
     the origin of the world. */
 export class SunMap {
-  readonly across: Vec2;  // unit, the way in which the texels follow each other
+  readonly across: Vec2; // unit, the way in which the texels follow each other
   readonly from: number;
-  readonly texel: number;  // width
+  readonly texel: number; // width
   readonly depths: number[];
 
   /** Over the part of the plane that the corners span. */
-  constructor(world: World2, readonly light: Vec2, readonly count: number, corners: Vec2[]) {
+  constructor(
+    world: World2,
+    readonly light: Vec2,
+    readonly count: number,
+    corners: Vec2[],
+  ) {
     this.across = [-light[1], light[0]];
     const places = corners.map((corner) => dot(corner, this.across));
     this.from = Math.min(...places);
@@ -107,7 +119,8 @@ export class SunMap {
       the offset first, texels along its normal times the sine of its angle to the light. */
   gap(place: Place, offset: number): number {
     const sine = Math.abs(cross(place.normal, this.light));
-    const at = add(place.at, place.normal, offset * this.texel * sine), k = Math.floor(this.position(at));
+    const at = add(place.at, place.normal, offset * this.texel * sine),
+      k = Math.floor(this.position(at));
     return k < 0 || k >= this.count ? -Infinity : this.depth(at) - this.depths[k]!;
   }
 }
@@ -119,7 +132,8 @@ export type Outcome = "lit" | "dark" | "false" | "missed" | "away";
 export function outcomeAt(world: World2, place: Place, map: SunMap, bias: number, offset: number): Outcome {
   const toLight: Vec2 = [-map.light[0], -map.light[1]];
   if (dot(place.normal, toLight) <= 0) return "away";
-  const truth = !occluded(world, place, toLight), drawn = !(map.gap(place, offset) > bias + 1e-9);  // more than rounding
+  const truth = !occluded(world, place, toLight),
+    drawn = !(map.gap(place, offset) > bias + 1e-9); // more than rounding
   return truth ? (drawn ? "lit" : "false") : drawn ? "missed" : "dark";
 }
 
@@ -141,7 +155,8 @@ export const lengthOf = (surface: Segment | Circle): number =>
 export function polygon({ center, radius }: Circle, sides: number): Segment[] {
   const corner = (i: number): Vec2 => [Math.cos((2 * Math.PI * i) / sides), Math.sin((2 * Math.PI * i) / sides)];
   return Array.from({ length: sides }, (_, i) => {
-    const a = corner(i), b = corner(i + 1);
+    const a = corner(i),
+      b = corner(i + 1);
     return { from: add(center, a, radius), to: add(center, b, radius), normal: unit(add(a, b)), smooth: [a, b] as const };
   });
 }

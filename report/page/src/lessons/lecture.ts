@@ -5,22 +5,30 @@ import { html } from "../svg";
 import { NotesWindow } from "./notes_window";
 import { say } from "./say";
 
-const height = 768, least = 1024, most = 1366;  // of a slide, CSS pixels
-const largest = 38, beside = 27, smallest = 18;  // of its letters, CSS pixels; beside a figure
+const height = 768,
+  least = 1024,
+  most = 1366; // of a slide, CSS pixels
+const largest = 38,
+  beside = 27,
+  smallest = 18; // of its letters, CSS pixels; beside a figure
 
 /** What belongs together stays on one line: an option and its value, both sides of an operator, a number and its unit. */
 function keepTogether(element: HTMLElement): void {
-  for (const code of element.querySelectorAll(":not(pre) > code")) code.innerHTML = code.innerHTML.replace(/--[\w-]+( [^\s-][^\s]*)?/g, '<span class="option">$&</span>');
+  for (const code of element.querySelectorAll(":not(pre) > code"))
+    code.innerHTML = code.innerHTML.replace(/--[\w-]+( [^\s-][^\s]*)?/g, '<span class="option">$&</span>');
   const texts = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
   for (let text = texts.nextNode(); text; text = texts.nextNode())
-    if (!text.parentElement!.closest("code, .live-figure")) text.textContent = text.textContent!.replace(/ (?=[=−+·≤≥<>≈×%])/g, "\u00a0").replace(/(?<=\u00a0[=−+·≤≥<>≈×]) /g, "\u00a0");
+    if (!text.parentElement!.closest("code, .live-figure"))
+      text.textContent = text.textContent!.replace(/ (?=[=−+·≤≥<>≈×%])/g, "\u00a0").replace(/(?<=\u00a0[=−+·≤≥<>≈×]) /g, "\u00a0");
 }
 
 /** Whether a slide shows all that is in it. */
 function fits(element: HTMLElement): boolean {
   const whole = (e: Element) => e.scrollHeight <= e.clientHeight + 1 && e.scrollWidth <= e.clientWidth + 1;
   const inside = (e: Element) => e.getBoundingClientRect().bottom <= e.parentElement!.getBoundingClientRect().bottom + 1;
-  return [element, ...element.querySelectorAll("pre, .scroll")].every(whole) && [...element.querySelectorAll(".live-figure > *")].every(inside);
+  return (
+    [element, ...element.querySelectorAll("pre, .scroll")].every(whole) && [...element.querySelectorAll(".live-figure > *")].every(inside)
+  );
 }
 
 export interface Slide {
@@ -34,10 +42,12 @@ export interface Slide {
 /** What is asked stands there at once, with the figure that it is asked of; the rest is revealed. */
 function slideOf(element: HTMLElement, at: number): Slide {
   element.id = `slide-${at + 1}`;
-  const steps = [...element.querySelectorAll<HTMLElement>(".step")], heading = element.querySelector<HTMLElement>("h1, h2")!, notes = element.querySelector<HTMLElement>(".notes")!;
+  const steps = [...element.querySelectorAll<HTMLElement>(".step")],
+    heading = element.querySelector<HTMLElement>("h1, h2")!,
+    notes = element.querySelector<HTMLElement>(".notes")!;
   keepTogether(element);
   heading.setAttribute("role", "heading");
-  heading.setAttribute("aria-level", "1");  // of what is shown it is the first
+  heading.setAttribute("aria-level", "1"); // of what is shown it is the first
   if (steps[0]?.matches(".figure, .question")) steps.shift();
   if (element.querySelector(".step.question")) element.classList.add("asks");
   return { element, heading: heading.textContent!, steps, notes, minutes: Number(notes.dataset.minutes) };
@@ -50,7 +60,7 @@ export class Lecture {
   private readonly black = html("div", { class: "black", hidden: "" });
   private readonly notes: NotesWindow;
   private at = 0;
-  private shown = 0;  // steps
+  private shown = 0; // steps
 
   constructor(article: HTMLElement) {
     this.stage = article;
@@ -61,7 +71,18 @@ export class Lecture {
       made.addEventListener("click", () => this.act(key));
       return made;
     };
-    article.append(html("div", { class: "lecture-bar", role: "group", "aria-label": say("Slides") }, button(say("Back"), "ArrowLeft"), this.count, button(say("Next"), "ArrowRight"), button(say("Black (B)"), "b"), button(say("Notes (N)"), "n")), this.black);
+    article.append(
+      html(
+        "div",
+        { class: "lecture-bar", role: "group", "aria-label": say("Slides") },
+        button(say("Back"), "ArrowLeft"),
+        this.count,
+        button(say("Next"), "ArrowRight"),
+        button(say("Black (B)"), "b"),
+        button(say("Notes (N)"), "n"),
+      ),
+      this.black,
+    );
     document.documentElement.dataset.view = "lecture";
     article.style.width = `${least}px`;
     this.slides.forEach((slide) => this.fit(slide));
@@ -81,8 +102,12 @@ export class Lecture {
   }
 
   private scale(): void {
-    const width = Math.min(Math.max((height * innerWidth) / innerHeight, least), most), by = Math.min(innerWidth / width, innerHeight / height);
-    Object.assign(this.stage.style, { width: `${width}px`, transform: `translate(${(innerWidth - by * width) / 2}px, ${(innerHeight - by * height) / 2}px) scale(${by})` });
+    const width = Math.min(Math.max((height * innerWidth) / innerHeight, least), most),
+      by = Math.min(innerWidth / width, innerHeight / height);
+    Object.assign(this.stage.style, {
+      width: `${width}px`,
+      transform: `translate(${(innerWidth - by * width) / 2}px, ${(innerHeight - by * height) / 2}px) scale(${by})`,
+    });
   }
 
   private restore(): void {
@@ -101,7 +126,8 @@ export class Lecture {
   }
 
   private step(by: 1 | -1): void {
-    const slide = this.slides[this.at]!, shown = this.shown + by;
+    const slide = this.slides[this.at]!,
+      shown = this.shown + by;
     if (shown >= 0 && shown <= slide.steps.length) return this.show(this.at, shown);
     const next = this.at + by;
     if (next >= 0 && next < this.slides.length) this.show(next, by > 0 ? 0 : this.slides[next]!.steps.length);

@@ -12,17 +12,37 @@ export class PicturePointer {
   private y = 0;
 
   /** A canvas of so many pixels, with a marker over the chosen one. */
-  constructor(private readonly size: { width: number; height: number }, name: string, private readonly chosen: (x: number, y: number) => void) {
-    this.canvas = html("canvas", { role: "application", "aria-label": name, tabindex: "0", "data-arrows": "", width: String(size.width), height: String(size.height) });
+  constructor(
+    private readonly size: { width: number; height: number },
+    name: string,
+    private readonly chosen: (x: number, y: number) => void,
+  ) {
+    this.canvas = html("canvas", {
+      role: "application",
+      "aria-label": name,
+      tabindex: "0",
+      "data-arrows": "",
+      width: String(size.width),
+      height: String(size.height),
+    });
     this.frame = html("div", { class: "live-picture" }, this.canvas, this.marker);
     const pick = (event: PointerEvent) => {
       const box = this.canvas.getBoundingClientRect();
-      this.choose(Math.floor(((event.clientX - box.left) / box.width) * size.width), Math.floor(((event.clientY - box.top) / box.height) * size.height));
+      this.choose(
+        Math.floor(((event.clientX - box.left) / box.width) * size.width),
+        Math.floor(((event.clientY - box.top) / box.height) * size.height),
+      );
     };
-    this.canvas.addEventListener("pointerdown", (event) => { this.canvas.setPointerCapture(event.pointerId); pick(event); });
-    this.canvas.addEventListener("pointermove", (event) => { if (this.canvas.hasPointerCapture(event.pointerId)) pick(event); });
+    this.canvas.addEventListener("pointerdown", (event) => {
+      this.canvas.setPointerCapture(event.pointerId);
+      pick(event);
+    });
+    this.canvas.addEventListener("pointermove", (event) => {
+      if (this.canvas.hasPointerCapture(event.pointerId)) pick(event);
+    });
     this.canvas.addEventListener("keydown", (event) => {
-      const way = arrows[event.key], far = event.shiftKey ? 10 : 1;
+      const way = arrows[event.key],
+        far = event.shiftKey ? 10 : 1;
       if (!way) return;
       event.preventDefault();
       this.choose(this.x + far * way[0], this.y + far * way[1]);
@@ -37,7 +57,12 @@ export class PicturePointer {
   mark(x: number, y: number): void {
     [this.x, this.y] = [x, y];
     const { width, height } = this.size;
-    Object.assign(this.marker.style, { left: `${(100 * x) / width}%`, top: `${(100 * y) / height}%`, width: `${100 / width}%`, height: `${100 / height}%` });
+    Object.assign(this.marker.style, {
+      left: `${(100 * x) / width}%`,
+      top: `${(100 * y) / height}%`,
+      width: `${100 / width}%`,
+      height: `${100 / height}%`,
+    });
   }
 
   put(image: ImageData): void {

@@ -6,11 +6,12 @@ import { say } from "./say";
 
 interface Slide {
   part: HTMLElement;
-  elements: Element[];  // besides the part's heading
+  elements: Element[]; // besides the part's heading
 }
 
-const mostText = 620;  // characters
-const largest = 34, smallest = 15;  // CSS pixels, of the root's font
+const mostText = 620; // characters
+const largest = 34,
+  smallest = 15; // CSS pixels, of the root's font
 
 const isAlone = (element: Element): boolean => element.matches(".live, details, p:has(> img), .scroll");
 /** So many characters before a table or a figure are its heading, and share its slide. */
@@ -25,7 +26,8 @@ const weight = (element: Element): number =>
 
 function slidesOf(part: HTMLElement): Slide[] {
   const slides: Slide[] = [];
-  let group: Element[] = [], size = 0;
+  let group: Element[] = [],
+    size = 0;
   const close = () => {
     if (group.length > 0) slides.push({ part, elements: group });
     [group, size] = [[], 0];
@@ -55,15 +57,21 @@ export class SlideView {
   private readonly slides: Slide[];
   private readonly count = html("output", {});
   private readonly bar: HTMLElement;
-  private at = -1;  // -1: the page is read as a page
+  private at = -1; // -1: the page is read as a page
 
   constructor(lesson: HTMLElement) {
     this.slides = [...lesson.querySelectorAll<HTMLElement>(".part")].flatMap(slidesOf);
     const open = this.button(say("Slides"), () => this.go(0));
     open.classList.add("open-slides");
     document.querySelector("header.bar-top")!.append(open);
-    this.bar = html("div", { class: "slide-bar", role: "group", "aria-label": say("Slides") },
-      this.button(say("Previous"), () => this.step(-1)), this.count, this.button(say("Next"), () => this.step(1)), this.button(say("Close"), () => this.go(-1)));
+    this.bar = html(
+      "div",
+      { class: "slide-bar", role: "group", "aria-label": say("Slides") },
+      this.button(say("Previous"), () => this.step(-1)),
+      this.count,
+      this.button(say("Next"), () => this.step(1)),
+      this.button(say("Close"), () => this.go(-1)),
+    );
     lesson.after(this.bar);
     document.addEventListener("keydown", (event) => this.key(event));
     window.addEventListener("hashchange", () => this.restore());
@@ -111,7 +119,8 @@ export class SlideView {
 
   /** The largest font with which the slide fits the window. */
   private fit(): void {
-    const root = document.documentElement, part = this.slides[this.at]?.part;
+    const root = document.documentElement,
+      part = this.slides[this.at]?.part;
     root.style.fontSize = "";
     if (!part) return;
     for (let size = largest; size >= smallest; --size) {
@@ -122,7 +131,8 @@ export class SlideView {
 
   private key(event: KeyboardEvent): void {
     if (event.ctrlKey || event.altKey || event.metaKey || this.at < 0) return;
-    const far = { PageUp: -1, PageDown: 1 }[event.key], near = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    const far = { PageUp: -1, PageDown: 1 }[event.key],
+      near = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     // A slider and a drawing that is dragged by keys keep the arrows.
     const taken = (event.target as Element).closest?.("input, select, [data-arrows]");
     const by = far ?? (taken ? undefined : near);

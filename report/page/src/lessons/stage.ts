@@ -3,7 +3,7 @@
 import { html, svg } from "../svg";
 import { length, sub, type Vec2 } from "./flatland";
 
-const width = 960;  // of the drawing, in its own units
+const width = 960; // of the drawing, in its own units
 
 const clamp = (v: number, low: number, high: number): number => Math.min(Math.max(v, low), high);
 
@@ -17,7 +17,12 @@ export class Stage {
   private scale = 1;
 
   /** `window`: left, right, bottom, top. Where there are several handles, a drag holds the one nearest to its beginning, and says which. */
-  constructor(private window: readonly [number, number, number, number], name: string, dragged: (at: Vec2, handle: string) => void, handles: () => Record<string, Vec2> = () => ({ "": [0, 0] })) {
+  constructor(
+    private window: readonly [number, number, number, number],
+    name: string,
+    dragged: (at: Vec2, handle: string) => void,
+    handles: () => Record<string, Vec2> = () => ({ "": [0, 0] }),
+  ) {
     this.drawing = svg("svg", { class: "flatland", role: "img", "aria-label": name }) as SVGSVGElement;
     this.look(window);
     this.listen(dragged, handles);
@@ -27,13 +32,13 @@ export class Stage {
 
   /** At another part of the plane from now on. */
   look(window: readonly [number, number, number, number]): void {
-    const [left, right, bottom, top] = this.window = window;
+    const [left, right, bottom, top] = (this.window = window);
     this.scale = width / (right - left);
     this.drawing.setAttribute("viewBox", `0 0 ${width} ${Math.round((top - bottom) * this.scale)}`);
   }
 
   private listen(dragged: (at: Vec2, handle: string) => void, handles: () => Record<string, Vec2>): void {
-    const held = new Map<number, string>();  // by pointers
+    const held = new Map<number, string>(); // by pointers
     const drag = (event: PointerEvent) => {
       const handle = held.get(event.pointerId);
       if (handle !== undefined) dragged(this.place(event), handle);
@@ -54,10 +59,18 @@ export class Stage {
     return [this.window[0] + x / this.scale, this.window[3] - y / this.scale];
   }
 
-  x(at: Vec2): number { return (at[0] - this.window[0]) * this.scale; }
-  y(at: Vec2): number { return (this.window[3] - at[1]) * this.scale; }
-  units(world: number): number { return world * this.scale; }
-  private text(at: Vec2): string { return `${this.x(at).toFixed(1)},${this.y(at).toFixed(1)}`; }
+  x(at: Vec2): number {
+    return (at[0] - this.window[0]) * this.scale;
+  }
+  y(at: Vec2): number {
+    return (this.window[3] - at[1]) * this.scale;
+  }
+  units(world: number): number {
+    return world * this.scale;
+  }
+  private text(at: Vec2): string {
+    return `${this.x(at).toFixed(1)},${this.y(at).toFixed(1)}`;
+  }
 
   path(kind: string, lines: Iterable<readonly Vec2[]>): SVGElement {
     let d = "";
@@ -77,11 +90,14 @@ export class Stage {
 
   /** Moves labels into the drawing, and up or down off those before them, by as little as it takes. */
   private arrangeLabels(): void {
-    const placed: DOMRect[] = [], height = Math.round((this.window[3] - this.window[2]) * this.scale);
+    const placed: DOMRect[] = [],
+      height = Math.round((this.window[3] - this.window[2]) * this.scale);
     for (const label of this.drawing.querySelectorAll("text")) {
-      const box = label.getBBox(), x = clamp(box.x, 0, width - box.width);
+      const box = label.getBBox(),
+        x = clamp(box.x, 0, width - box.width);
       const fits = (y: number) => placed.every((p) => x + box.width <= p.x || p.right <= x || y + box.height <= p.y || p.bottom <= y);
-      const inside = (y: number) => clamp(y, 0, height - box.height), home = inside(box.y);
+      const inside = (y: number) => clamp(y, 0, height - box.height),
+        home = inside(box.y);
       const places = [home, ...placed.flatMap((p) => [inside(p.y - box.height), inside(p.bottom)])].filter(fits);
       const y = places.sort((a, b) => Math.abs(a - home) - Math.abs(b - home))[0] ?? home;
       label.setAttribute("transform", `translate(${x - box.x} ${y - box.y})`);
@@ -96,8 +112,8 @@ export interface Slider {
   to: number;
   step: number;
   value: number;
-  text: (value: number) => string;  // beside it, and to be heard
-  drags?: boolean;  // the drawing is dragged for it as well: a lecture's slide leaves the slider out
+  text: (value: number) => string; // beside it, and to be heard
+  drags?: boolean; // the drawing is dragged for it as well: a lecture's slide leaves the slider out
 }
 
 /** Sliders by their keys, which show their values; `changed` is told once a frame. */
@@ -107,18 +123,33 @@ export class Sliders<Key extends string> {
   private readonly texts: (() => void)[] = [];
   private frame = 0;
 
-  constructor(sliders: Record<Key, Slider>, private readonly changed: () => void) {
+  constructor(
+    sliders: Record<Key, Slider>,
+    private readonly changed: () => void,
+  ) {
     for (const [key, { name, from, to, step, value, text, drags }] of Object.entries<Slider>(sliders)) {
-      const range = html("input", { type: "range", min: String(from), max: String(to), step: String(step), value: String(value), "data-slider": key });
+      const range = html("input", {
+        type: "range",
+        min: String(from),
+        max: String(to),
+        step: String(step),
+        value: String(value),
+        "data-slider": key,
+      });
       const shown = html("output", {});
       this.ranges[key as Key] = range;
-      this.texts.push(() => { shown.textContent = text(Number(range.value)); range.setAttribute("aria-valuetext", shown.textContent); });
+      this.texts.push(() => {
+        shown.textContent = text(Number(range.value));
+        range.setAttribute("aria-valuetext", shown.textContent);
+      });
       range.addEventListener("input", () => this.later());
       this.bar.append(html("label", drags ? { class: "drags" } : {}, html("span", {}, name), range, shown));
     }
     this.write();
   }
-  value(key: Key): number { return Number(this.ranges[key].value); }
+  value(key: Key): number {
+    return Number(this.ranges[key].value);
+  }
   set(key: Key, value: number): void {
     this.ranges[key].value = String(value);
     this.later();
@@ -127,6 +158,10 @@ export class Sliders<Key extends string> {
     for (const text of this.texts) text();
   }
   private later(): void {
-    this.frame ||= requestAnimationFrame(() => { this.frame = 0; this.write(); this.changed(); });
+    this.frame ||= requestAnimationFrame(() => {
+      this.frame = 0;
+      this.write();
+      this.changed();
+    });
   }
 }

@@ -10,15 +10,21 @@ import type { FigureJson } from "./figures";
 import { PicturePointer } from "./picture_pointer";
 import { say } from "./say";
 
-const steps = 200;  // of the slider, half of them for each pass
+const steps = 200; // of the slider, half of them for each pass
 
 /** The map as the light sees it, near is bright; the first `rows` rows from the top. */
 function mapPicture(light: Light, rows: number): ImageData {
-  const { size } = light.json.view, image = new ImageData(size, size), depths: number[] = [];
-  for (let row = 0; row < size; ++row) for (let column = 0; column < size; ++column) depths.push(light.map.depth(0, column, size - 1 - row));
-  const seen = depths.filter(isFinite), low = Math.min(...seen), high = Math.max(...seen);
+  const { size } = light.json.view,
+    image = new ImageData(size, size),
+    depths: number[] = [];
+  for (let row = 0; row < size; ++row)
+    for (let column = 0; column < size; ++column) depths.push(light.map.depth(0, column, size - 1 - row));
+  const seen = depths.filter(isFinite),
+    low = Math.min(...seen),
+    high = Math.max(...seen);
   depths.forEach((depth, i) => {
-    const known = Math.floor(i / size) < rows, grey = isFinite(depth) ? 235 - 175 * ((depth - low) / (high - low || 1)) : 24;
+    const known = Math.floor(i / size) < rows,
+      grey = isFinite(depth) ? 235 - 175 * ((depth - low) / (high - low || 1)) : 24;
     image.data.set(known ? [grey, grey, grey, 255] : [0, 0, 0, 0], 4 * i);
   });
   return image;
@@ -32,39 +38,80 @@ function cameraPicture(drawn: ImageData, done: number): ImageData {
 }
 
 export async function twoPassesFigure({ data }: FigureJson, id: string): Promise<HTMLElement> {
-  const { comparison } = data as { comparison: string }, light = await Light.load(0, comparison), { size } = light.json.view;
+  const { comparison } = data as { comparison: string },
+    light = await Light.load(0, comparison),
+    { size } = light.json.view;
   const drawn = exposed(light.pixels, "raster", 0);
   const range = html("input", { type: "range", min: "0", max: String(steps), step: "1", value: String(steps) });
-  const said = html("p", { class: "bias-counts", role: "status" }), words = html("p", { class: "story" }), drawing = html("div", { class: "live-drawing" });
-  let shown: Pixel = examplePixel(light), frame = 0;
-  const camera = new PicturePointer(page, say("The camera's view; choose a pixel"), (x, y) => { shown = light.pixel(x, y); later(); });
-  const map = html("canvas", { role: "img", width: String(size), height: String(size) }), texel = html("div", { class: "marker" });
+  const said = html("p", { class: "bias-counts", role: "status" }),
+    words = html("p", { class: "story" }),
+    drawing = html("div", { class: "live-drawing" });
+  let shown: Pixel = examplePixel(light),
+    frame = 0;
+  const camera = new PicturePointer(page, say("The camera's view; choose a pixel"), (x, y) => {
+    shown = light.pixel(x, y);
+    later();
+  });
+  const map = html("canvas", { role: "img", width: String(size), height: String(size) }),
+    texel = html("div", { class: "marker" });
   const show = () => {
-    const at = Number(range.value), first = Math.min(at / (steps / 2), 1), second = Math.max(at / (steps / 2) - 1, 0);
-    const rows = Math.round(first * size), done = Math.round(second * page.width * page.height), over = at === steps;
+    const at = Number(range.value),
+      first = Math.min(at / (steps / 2), 1),
+      second = Math.max(at / (steps / 2) - 1, 0);
+    const rows = Math.round(first * size),
+      done = Math.round(second * page.width * page.height),
+      over = at === steps;
     map.getContext("2d")!.putImageData(mapPicture(light, rows), 0, 0);
     map.setAttribute("aria-label", say`The depth map as the light sees it, near is bright: ${rows} of ${size} rows`);
     camera.put(cameraPicture(drawn, done));
     camera.mark(shown.x, shown.y);
     const asks = over && shown.seen;
     texel.hidden = !asks;
-    Object.assign(texel.style, { left: `${(100 * Math.floor(shown.at.u)) / size}%`, top: `${100 - (100 * (Math.floor(shown.at.v) + 1)) / size}%`, width: `${100 / size}%`, height: `${100 / size}%` });
+    Object.assign(texel.style, {
+      left: `${(100 * Math.floor(shown.at.u)) / size}%`,
+      top: `${100 - (100 * (Math.floor(shown.at.v) + 1)) / size}%`,
+      width: `${100 / size}%`,
+      height: `${100 / size}%`,
+    });
     Object.assign(said.dataset, { rows: String(rows), pixels: String(done) });
-    said.textContent = second === 0
-      ? say`Pass 1, from the light: each texel keeps the depth of what is nearest. ${rows} of ${size} rows.`
-      : over ? say("Pass 2 is done: choose a pixel, by finger, mouse or arrow keys, to see the texel that it asked.")
-             : say`Pass 2, from the camera: each pixel asks its texel whether something stood before it. ${Math.round(100 * second)} % of the pixels.`;
+    said.textContent =
+      second === 0
+        ? say`Pass 1, from the light: each texel keeps the depth of what is nearest. ${rows} of ${size} rows.`
+        : over
+          ? say("Pass 2 is done: choose a pixel, by finger, mouse or arrow keys, to see the texel that it asked.")
+          : say`Pass 2, from the camera: each pixel asks its texel whether something stood before it. ${Math.round(100 * second)} % of the pixels.`;
     words.textContent = asks ? story(light, shown, light.json.bias.constant) : "";
     drawing.replaceChildren(...(asks ? [texelDrawing(light, shown, light.json.bias.constant, `${id}-texel`)] : []));
   };
-  const later = () => { frame ||= requestAnimationFrame(() => { frame = 0; show(); }); };
+  const later = () => {
+    frame ||= requestAnimationFrame(() => {
+      frame = 0;
+      show();
+    });
+  };
   const to = (name: string, step: number) => {
     const button = html("button", { type: "button" }, name);
-    button.addEventListener("click", () => { range.value = String(step); later(); });
+    button.addEventListener("click", () => {
+      range.value = String(step);
+      later();
+    });
     return button;
   };
   range.addEventListener("input", later);
   show();
-  return html("div", { id }, html("div", { class: "bias-bar" }, html("label", {}, say("Both passes "), range), to(say("pass 1"), steps / 4), to(say("pass 2"), (3 * steps) / 4), to(say("done"), steps)), said,
-    html("div", { class: "live-pair three" }, html("div", { class: "live-picture texels" }, map, texel), camera.frame, drawing), words);
+  return html(
+    "div",
+    { id },
+    html(
+      "div",
+      { class: "bias-bar" },
+      html("label", {}, say("Both passes "), range),
+      to(say("pass 1"), steps / 4),
+      to(say("pass 2"), (3 * steps) / 4),
+      to(say("done"), steps),
+    ),
+    said,
+    html("div", { class: "live-pair three" }, html("div", { class: "live-picture texels" }, map, texel), camera.frame, drawing),
+    words,
+  );
 }
