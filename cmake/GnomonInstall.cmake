@@ -1,5 +1,5 @@
 # cmake --install BUILD [--prefix P]: the program, its licence, the manual, lessons, pictures and schemas, and what the
-# program prints of itself: its manual page, completion for bash, zsh and fish.
+# program prints of itself: chapters of the manual, its manual page, completion for bash, zsh and fish.
 install(TARGETS gnomon_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 # Where scene/files/pictures/image_library.cpp looks for it from the folder of the program.
 install(TARGETS gnomon_images LIBRARY DESTINATION lib/gnomon)
@@ -16,17 +16,20 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_D
 # What judge starts for a frame that RenderDoc recorded: where studies/judge/recorded_frame.cpp looks from the folder of the program.
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/adapters/renderdoc" DESTINATION share/gnomon FILES_MATCHING PATTERN "*.py" PATTERN "*.json" PATTERN "__pycache__" EXCLUDE)
 
-# gnomon_install_printed(OPTION FOLDER FILE): what the program prints for OPTION; FOLDER is below the data folder (share).
+# gnomon_install_printed(OPTION FOLDER FILE): what the program prints for OPTION; FOLDER is below the prefix.
 function(gnomon_install_printed option folder file)
   install(CODE "
-    set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/${folder}\")
+    set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${folder}\")
     file(MAKE_DIRECTORY \"\${folder}\")
     execute_process(COMMAND \"$<TARGET_FILE:gnomon_program>\" ${option}
       OUTPUT_FILE \"\${folder}/${file}\" COMMAND_ERROR_IS_FATAL ANY)
     message(STATUS \"Installing: \${folder}/${file}\")")
 endfunction()
-gnomon_install_printed("--man-page" man/man1 gnomon.1)
-gnomon_install_printed("--manual schema" gnomon/schema result.schema.json)
-gnomon_install_printed("--completion bash" bash-completion/completions gnomon)
-gnomon_install_printed("--completion zsh" zsh/site-functions _gnomon)
-gnomon_install_printed("--completion fish" fish/vendor_completions.d gnomon.fish)
+foreach(chapter options json techniques)
+  gnomon_install_printed("--manual ${chapter}" "${CMAKE_INSTALL_DOCDIR}/docs/manual" ${chapter}.md)
+endforeach()
+gnomon_install_printed("--man-page" "${CMAKE_INSTALL_DATADIR}/man/man1" gnomon.1)
+gnomon_install_printed("--manual schema" "${CMAKE_INSTALL_DATADIR}/gnomon/schema" result.schema.json)
+gnomon_install_printed("--completion bash" "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" gnomon)
+gnomon_install_printed("--completion zsh" "${CMAKE_INSTALL_DATADIR}/zsh/site-functions" _gnomon)
+gnomon_install_printed("--completion fish" "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" gnomon.fish)

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/console.h"
+#include "app/help/manual.h"
 #include "app/invocation.h"
 #include "app/lessons/comparison.h"
 #include "app/lessons/site.h"
@@ -112,7 +113,14 @@ void add_below(const std::string& folder, std::vector<SitePage> pages, std::vect
   for (SitePage& page : pages) files.push_back({folder + "/" + page.file, std::move(page.html)});
 }
 
-Expected<ExitCode> run_site(const SiteCommand& command) {
+std::vector<lessons::ManualChapter> printed_chapters(const CLI::App& program) {
+  std::vector<lessons::ManualChapter> chapters;
+  for (const std::string_view name : written_chapters)
+    chapters.push_back({fmt::format("{}.md", name), manual_chapter(program, name)});
+  return chapters;
+}
+
+Expected<ExitCode> run_site(const SiteCommand& command, const CLI::App& program) {
   const Stopwatch total;
   Console console(command.quiet);
   RunFiles paths;
@@ -123,7 +131,7 @@ Expected<ExitCode> run_site(const SiteCommand& command) {
   if (!files) return fail(files.error());
   auto lesson_pages = lessons::make_site({}, console, "../lab.html");
   if (!lesson_pages) return fail(lesson_pages.error());
-  auto manual = lessons::manual_pages();
+  auto manual = lessons::manual_pages(printed_chapters(program));
   if (!manual) return fail(manual.error());
   LabOptions lab;
   lab.scene = lab.scene.named("acne-floor");
@@ -168,7 +176,9 @@ void add_site(CLI::App& program, Invocation& invocation) {
          "program was built]")
       ->type_name("DIR");
   add_quiet(*app, command->quiet);
-  app->callback([command, &invocation] { invocation.action = [command] { return run_site(*command); }; });
+  app->callback([command, &program, &invocation] {
+    invocation.action = [command, &program] { return run_site(*command, program); };
+  });
 }
 
 }  // namespace gnomon::app

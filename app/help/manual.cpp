@@ -23,8 +23,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t page_width = 120;  // columns
-constexpr const char* written_by_the_program =
-    "<!-- Written by the program: docs/make_manual.sh. Edits here are lost. -->\n";
 
 /// "- text", wrapped, further lines below the first.
 std::string list_item(const std::string& text) {
@@ -130,8 +128,7 @@ std::string command_chapter(const CLI::App& command, const SharedOptions& shared
 }
 
 std::string options_chapter(const CLI::App& program) {
-  std::string text = written_by_the_program;
-  text += "# Commands and options\n\n";
+  std::string text = "# Commands and options\n\n";
   text += wrap(
       "For whoever types a command: every option with its unit, its range and its default. An option that "
       "several commands share is described once, under [Shared options](#shared-options), and named at each "
@@ -236,8 +233,7 @@ std::string json_chapter() {
       "and each line of `DIR/sweep.jsonl`, in the order of the file. `[]` stands for every element of a "
       "list. An object that stands in several places is described once, below the list. The schema itself"
       " is what `gnomon --manual schema` prints; installed, `share/gnomon/schema/result.schema.json`.";
-  return fmt::format("{}# The keys of result.json\n\n{}\n{}\n{}", written_by_the_program,
-                     wrap(intro, 0, page_width),
+  return fmt::format("# The keys of result.json\n\n{}\n{}\n{}", wrap(intro, 0, page_width),
                      wrap(schema.value("description", std::string()), 0, page_width), keys.take());
 }
 
@@ -309,10 +305,10 @@ std::string techniques_chapter() {
       "that not every technique reads ([options](options.md#shared-options)). `pcf` reads some with some "
       "of its kernels alone.";
   std::string text = fmt::format(
-      "{}# The techniques\n\n{}\n"
+      "# The techniques\n\n{}\n"
       "| technique | texel holds | decides by | lights | texels | default slope bias | reads |\n"
       "|---|---|---|---|---|---|---|\n",
-      written_by_the_program, wrap(intro, 0, page_width));
+      wrap(intro, 0, page_width));
   for (const raster::TechniqueTraits& t : raster::all_technique_traits()) {
     const bool biased = raster::compares_depths(t.technique);
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", t.name, contents_text(t.contents),

@@ -1,7 +1,7 @@
-// The text of --help, the manual page, the completion of shells, and the chapters of docs/manual/ are made from the parser
-// itself. So they cannot drift from it. The keys of result.json come from its schema, the techniques from their table.
+// The text of --help, the manual page, the completion of shells, and chapters of the manual are made from the parser itself. So they cannot drift from it. The keys of result.json come from its schema, the techniques from their table.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -23,7 +23,9 @@ std::string man_page(const CLI::App& program, const std::string& version);
 /// The script for "bash", "zsh" or "fish"; empty for any other shell.
 std::string completion_script(const CLI::App& program, std::string_view shell);
 
-/// "options", "json" or "techniques", as Markdown; empty for any other chapter.
+/// The chapters that are pages of the manual beside those of docs/manual/.
+inline constexpr std::array<std::string_view, 3> written_chapters{"options", "json", "techniques"};
+/// One of these as Markdown, or "schema" as JSON; empty for any other chapter.
 std::string manual_chapter(const CLI::App& program, std::string_view chapter);
 
 }  // namespace gnomon::app

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cctype>
 
 #include "app/lessons/site.h"
@@ -9,13 +10,28 @@
 namespace gnomon::app::lessons {
 namespace {
 
+std::string stem_of(std::string_view file) {
+  return std::string(file.substr(0, file.rfind('.')));
+}
+
 /// "options.md" is options.html, of those that there are; README.md is the first.
-std::string page_of(std::string_view target) {
-  const std::string_view name = target.substr(target.rfind('/') + 1);
-  if (target.starts_with('#')) return std::string(target);
-  if (target == "README.md") return "index.html";
-  if (embedded::manual_pages(name).empty() || name == "README.md") return {};
-  return std::string(name.substr(0, name.rfind('.'))) + ".html";
+std::string page_of(std::string_view target, const std::vector<ManualChapter>& all) {
+  const std::string_view path = target.substr(0, target.find('#')), place = target.substr(path.size());
+  const std::string_view name = path.substr(path.rfind('/') + 1);
+  if (path.empty()) return std::string(target);
+  if (path == "README.md") return "index.html";
+  const auto is_it = [&](const ManualChapter& chapter) { return chapter.file == name; };
+  if (name == "README.md" || std::none_of(all.begin(), all.end(), is_it)) return {};
+  return fmt::format("{}.html{}", stem_of(name), place);
+}
+
+/// `gnomon --manual options` leads to options.html.
+std::string with_printed(std::string html, std::string_view file) {
+  const std::string words = fmt::format("<code>gnomon --manual {}</code>", stem_of(file));
+  const std::string link = fmt::format("<a href=\"{}.html\">{}</a>", stem_of(file), words);
+  for (std::size_t at = 0; (at = html.find(words, at)) != std::string::npos; at += link.size())
+    html.replace(at, words.size(), link);
+  return html;
 }
 
 /// "Commands and options" of "# Commands and options".
@@ -28,7 +44,7 @@ std::string title_of(std::string_view text) {
 std::string place_of(std::string_view heading) {
   std::string place;
   for (const char c : heading) {
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-')
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_')
       place += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     else if (c == ' ')
       place += '-';
@@ -61,18 +77,23 @@ std::string with_places(std::string_view html) {
 
 }  // namespace
 
-Expected<std::vector<SitePage>> manual_pages() {
+Expected<std::vector<SitePage>> manual_pages(std::vector<ManualChapter> chapters) {
+  const std::vector<ManualChapter> printed = chapters;
+  for (const auto& [name, text] : embedded::manual_pages_entries())
+    chapters.push_back({std::string(name), std::string(text)});
+  const auto target = [&](std::string_view link) { return page_of(link, chapters); };
   std::vector<SitePage> pages;
-  for (const auto& [name, text] : embedded::manual_pages_entries()) {
+  for (const auto& [name, text] : chapters) {
     const auto html = html_of(text);
     if (!html) return fail(html.error());
-    const std::string file = page_of(name);
+    std::string article = with_links(with_places(*html), target);
+    for (const ManualChapter& chapter : printed) article = with_printed(std::move(article), chapter.file);
     pages.push_back(
-        {file, page_of_text(
-                   fmt::format("{} \u2013 Gnomon", title_of(text)),
-                   "<li><a href=\"../index.html\">Start</a></li><li><a href=\"index.html\">Manual</a></li>",
-                   "<article class=\"lesson-text\">\n" + with_links(with_places(*html), page_of) +
-                       "</article>\n")});
+        {target(name),
+         page_of_text(
+             fmt::format("{} \u2013 Gnomon", title_of(text)),
+             "<li><a href=\"../index.html\">Start</a></li><li><a href=\"index.html\">Manual</a></li>",
+             "<article class=\"lesson-text\">\n" + article + "</article>\n")});
   }
   return pages;
 }

@@ -53,8 +53,13 @@ std::vector<std::string_view> lecture_names();
 /// The lecture of that name as one page, "shadows.html". Errors: (usage) no such lecture; as above.
 Expected<SitePage> make_lecture(std::string_view name, Console& console);
 
-/// The manual: a page for each file of docs/manual, and what they lead to. Error (internal): md4c fails.
-Expected<std::vector<SitePage>> manual_pages();
+struct ManualChapter {
+  std::string file;  ///< "options.md"
+  std::string text;  ///< Markdown
+};
+/// The manual: a page for each file of docs/manual, each of `chapters`, and what they lead to. Where a page names the command
+/// that prints one of these, `gnomon --manual options`, it leads there. Error (internal): md4c fails.
+Expected<std::vector<SitePage>> manual_pages(std::vector<ManualChapter> chapters);
 
 /// A page in the lessons' style. `links`: <li> items of the bar on top; `main`: what <main> holds.
 std::string page_of_text(const std::string& title, const std::string& links, const std::string& main);

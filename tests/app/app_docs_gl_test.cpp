@@ -1,15 +1,17 @@
-// The documents cannot rot: every command in them is one that the program takes, the chapters that it writes
-// of itself are current, links lead somewhere, and the shaders of the manual compile.
+// The documents cannot rot: every command in them and in the chapters that the program prints is one that it takes, links lead
+// somewhere, here and on the site, and the shaders of the manual compile.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
+#include <map>
 #include <regex>
 #include <span>
 #include <sstream>
 
 #include "app/command_line.h"
+#include "app/help/manual.h"
+#include "app/lessons/site.h"
 #include "compare/comparison.h"
 #include "compare/ladder/labels.h"
 #include "report/lessons.h"
@@ -22,20 +24,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> documents() {
-  std::vector<fs::path> files;
+struct Document {
+  fs::path file;
+  std::string text;
+};
+
+/// Of the program's own chapters what it prints, in the place where an installation has them.
+std::vector<Document> documents() {
+  std::vector<Document> all;
   const fs::path root = test::source_dir();
-  for (const char* name : {"README.md", "CONTRIBUTING.md"}) files.push_back(root / name);
+  for (const std::string_view name : app::written_chapters)
+    all.push_back(
+        {root / fmt::format("docs/manual/{}.md", name), run_gnomon({"--manual", std::string(name)}).out});
+  std::vector<fs::path> files{root / "README.md", root / "CONTRIBUTING.md"};
   for (const auto& entry : fs::recursive_directory_iterator(root / "docs"))
     if (entry.path().extension() == ".md") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
+  for (const fs::path& file : files) all.push_back({file, read_file(file.string())});
+  return all;
 }
 
 /// Blocks between ```language and ```.
-std::vector<std::string> blocks(const fs::path& file, const std::string& language) {
+std::vector<std::string> blocks(const std::string& text, const std::string& language) {
   std::vector<std::string> found;
-  std::ifstream lines(file);
+  std::istringstream lines(text);
   bool inside = false;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("```")) {
@@ -81,8 +92,8 @@ struct Shown {
 
 std::vector<Shown> shown_commands() {
   std::vector<Shown> commands;
-  for (const fs::path& file : documents()) {
-    for (const std::string& block : blocks(file, "sh")) {
+  for (const auto& [file, text] : documents()) {
+    for (const std::string& block : blocks(text, "sh")) {
       std::istringstream lines(block);
       for (std::string line; std::getline(lines, line);) {
         Words words = shell_words(line);
@@ -135,22 +146,56 @@ TEST(Documents, CommandsAreTheProgramsOwn) {
   fs::current_path(before);
 }
 
-TEST(Documents, ChaptersOfTheProgramAreCurrent) {
-  for (const std::string chapter : {"options", "json", "techniques"}) {
-    const std::string path = test::source_dir() + "/docs/manual/" + chapter + ".md";
-    EXPECT_EQ(read_file(path), run_gnomon({"--manual", chapter}).out)
-        << path << " is not what the program writes; run docs/make_manual.sh";
-  }
+TEST(Documents, AChapterThatIsNoneIsSaid) {
   expect_one_line(run_gnomon({"--manual", "labels"}), 2,
                   "(got labels, allowed options, json, schema, techniques)");
 }
 
+// A page of the sources leads to none that the program prints: a reader of the sources has it not.
 TEST(Documents, LinksLeadSomewhere) {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
-  for (const fs::path& file : documents()) {
-    const std::string text = read_file(file.string());
-    for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found)
-      EXPECT_TRUE(fs::exists(file.parent_path() / (*found)[1].str())) << file << ": " << (*found)[1];
+  const std::vector<Document> all = documents();
+  for (const auto& [file, text] : all) {
+    for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found) {
+      const fs::path target = file.parent_path() / (*found)[1].str();
+      const bool is_printed =
+          !fs::exists(file) && std::any_of(all.begin(), all.end(), [&](const Document& document) {
+            return document.file == target.lexically_normal();
+          });
+      EXPECT_TRUE(fs::exists(target) || is_printed) << file << ": " << (*found)[1];
+    }
+  }
+}
+
+/// The relative links of a page: "options.html" and "shared-options" of options.html#shared-options.
+std::vector<std::pair<std::string, std::string>> links_of(const std::string& html) {
+  const std::regex link(R"re(<a href="([^"#:]*)(?:#([^"]*))?")re");
+  std::vector<std::pair<std::string, std::string>> links;
+  for (std::sregex_iterator found(html.begin(), html.end(), link), end; found != end; ++found)
+    links.emplace_back((*found)[1], (*found)[2]);
+  return links;
+}
+
+TEST(Documents, TheSitesManualIsWhole) {
+  std::vector<app::lessons::ManualChapter> chapters;
+  for (const std::string_view name : app::written_chapters)
+    chapters.push_back({fmt::format("{}.md", name), run_gnomon({"--manual", std::string(name)}).out});
+  const auto pages = app::lessons::manual_pages(chapters);
+  ASSERT_TRUE(pages) << pages.error().message();
+  std::map<std::string, std::string> site;
+  for (const auto& [file, html] : *pages) site[file] = html;
+  for (const auto& [file, html] : site)
+    for (const auto& [target, place] : links_of(html)) {
+      if (target == "../index.html") continue;  // the site's start
+      const auto page = site.find(target.empty() ? file : target);
+      ASSERT_NE(page, site.end()) << file << ": " << target;
+      const bool is_there = page->second.find(fmt::format("id=\"{}\"", place)) != std::string::npos;
+      EXPECT_TRUE(place.empty() || is_there) << file << ": " << target << "#" << place;
+    }
+  for (const std::string_view name : app::written_chapters) {
+    const std::string page = fmt::format("{}.html", name);
+    EXPECT_TRUE(site.contains(page)) << name;
+    EXPECT_NE(site["index.html"].find(fmt::format("<a href=\"{}\">", page)), std::string::npos) << name;
   }
 }
 
@@ -176,7 +221,8 @@ TEST(Documents, ChannelsOfTheManualAreThoseOfTheFile) {
 
 // Each block says in its first line which file it is.
 TEST(Documents, ShadersOfTheManualDraw) {
-  const std::vector<std::string> shaders = blocks(test::source_dir() + "/docs/manual/shaders.md", "glsl");
+  const std::vector<std::string> shaders =
+      blocks(read_file(test::source_dir() + "/docs/manual/shaders.md"), "glsl");
   EXPECT_EQ(shaders.size(), 2u);
   for (const std::string& shader : shaders) {
     const TemporaryFolder folder;

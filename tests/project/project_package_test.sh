@@ -11,7 +11,8 @@ package=$(ls "$work"/gnomon_*.deb)
 dpkg-deb --contents "$package" >"$work/contents"
 for file in usr/bin/gnomon usr/lib/gnomon/libgnomon_images.so usr/share/man/man1/gnomon.1 usr/share/bash-completion/completions/gnomon \
   usr/share/zsh/site-functions/_gnomon usr/share/fish/vendor_completions.d/gnomon.fish \
-  usr/share/doc/gnomon/CITATION.cff usr/share/doc/gnomon/docs/manual/options.md usr/share/doc/gnomon/docs/manual/shaders.md \
+  usr/share/doc/gnomon/CITATION.cff usr/share/doc/gnomon/docs/manual/options.md usr/share/doc/gnomon/docs/manual/json.md \
+  usr/share/doc/gnomon/docs/manual/techniques.md usr/share/doc/gnomon/docs/manual/shaders.md \
   usr/share/doc/gnomon/docs/lessons/acne.md usr/share/doc/gnomon/docs/images/lesson-acne.png \
   usr/share/doc/gnomon/examples/shaders/technique/hard.glsl usr/share/gnomon/schema/result.schema.json; do
   grep -q " \./$file\$" "$work/contents" || { echo "not in the package: $file"; cat "$work/contents"; exit 1; }

@@ -1,7 +1,8 @@
 # The viewer: its state, keys and scripts without a display, and the window itself under Xvfb.
 gnomon_test(view_test SOURCES view_pose_test.cpp view_state_test.cpp view_input_test.cpp view_script_test.cpp
   view_rows_test.cpp view_status_test.cpp view_facts_test.cpp view_film_test.cpp view_text_test.cpp view_times_test.cpp
-  LIBS gnomon::app gnomon::scene glfw)
+  LIBS app_process gnomon::app gnomon::scene glfw)
+add_dependencies(view_test gnomon_program)
 
 gnomon_test(view_thread_gl_test SOURCES view_thread_gl_test.cpp view_story_gl_test.cpp
   LIBS app_process gnomon::app gnomon::compare gnomon::raster gnomon::scene)

@@ -7,6 +7,7 @@
 #include <regex>
 #include <set>
 
+#include "tests/support/app_process.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
@@ -187,7 +188,7 @@ std::set<std::string> quoted_words(const std::string& text) {
 
 /// The language, docs/lab.md and the manual, which is the program's own help, have the same words.
 TEST(ViewScript, EveryWordIsInTheManual) {
-  const std::string page = text_of("docs/lab.md"), manual = text_of("docs/manual/options.md");
+  const std::string page = text_of("docs/lab.md"), manual = app_test::run_gnomon({"--manual", "options"}).out;
   const std::size_t scripts = page.find("## Scripts"), keys = page.find("\nKeys: ", scripts);
   ASSERT_NE(keys, std::string::npos);
   const std::set<std::string> steps = quoted_words(page.substr(scripts, keys - scripts)),
