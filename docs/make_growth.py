@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the section "Growth" of docs/performance.md and its chart: what `gnomon compare` takes of time and memory
+"""Writes the section "How long for my scene" of docs/performance.md and its chart: what `gnomon compare` takes of time and memory
 for more triangles and for more pixels.
 
 Usage: docs/make_growth.py BUILD [--triangles 0.1,1,5,20] [--pixels 0.25,1,4,16,64] [--runs 3] [--machine WORDS] [--to FOLDER]
@@ -186,7 +186,7 @@ def table(what, points):
 
 def section(by_triangles, by_pixels, terrain, wanted):
     return f'''{BEGIN}
-## Growth
+## How long for my scene
 
 `gnomon compare` on terrains of the same ground in ever finer triangles, loading and report included; medians of {wanted.runs}
 runs{f' on {wanted.machine}' if wanted.machine else ''} (docs/make_growth.py). A power is the slope of the straight line through
