@@ -30,32 +30,41 @@ Json figure_schema(const Figure& figure) {
   return json;
 }
 
-/// All are required, and there are no others.
-void close(Json& object, Json properties) {
-  Json names = Json::array();
-  for (const auto& [name, property] : properties.items()) names.push_back(name);
-  object["properties"] = std::move(properties);
-  object["required"] = std::move(names);
+/// A block of figures that not every light has.
+bool is_optional_block(const Json& property) {
+  const auto block = property.find("figures");
+  if (block == property.end() || !block->is_string()) return false;
+  const std::string name = block->get<std::string>();
+  const auto is_it = [&](const Figure& figure) { return figure.place.optional && figure.block() == name; };
+  return std::any_of(figures().begin(), figures().end(), is_it);
+}
+
+/// All properties are required but those that `optional` names and optional blocks of figures. There are no others.
+void close(Json& object, const Json& optional) {
+  Json required = Json::array();
+  for (const auto& [name, property] : object["properties"].items())
+    if (std::find(optional.begin(), optional.end(), name) == optional.end() && !is_optional_block(property))
+      required.push_back(name);
+  object["required"] = std::move(required);
   object["additionalProperties"] = false;
 }
 
 void add_figures(Json& object, const std::string& block) {
-  Json properties = Json::object();
+  Json& properties = object["properties"] = Json::object();
   for (const Figure& figure : figures())
     if (figure.block() == block) properties[std::string(figure.name())] = figure_schema(figure);
-  close(object, std::move(properties));
 }
 
 void add_labels(Json& object) {
   const bool counts = !object.contains("each");
-  Json properties = Json::object();
+  const Json each = counts ? Json() : object["each"];
+  object.erase("each");
+  Json& properties = object["properties"] = Json::object();
   for (std::size_t k = 0; k < class_count; ++k) {
     const LabelText& label = label_text(static_cast<Label>(k + 1));
     properties[std::string(label.key)] =
-        counts ? Json{{"type", "integer"}, {"minimum", 0}, {"description", label.rule}} : object["each"];
+        counts ? Json{{"type", "integer"}, {"minimum", 0}, {"description", label.rule}} : each;
   }
-  object.erase("each");
-  close(object, std::move(properties));
 }
 
 /// Another renderer's bias or filter may lie beyond what the option takes, but has no other sign, and a share is one.
@@ -79,10 +88,13 @@ Json setting_schema(const raster::MapSetting& setting) {
   return json;
 }
 
+/// A filter has those settings alone that its technique reads.
 void add_settings(Json& object, raster::SettingGroup group) {
-  for (const raster::MapSetting& setting : raster::map_settings())
-    if (setting.group == group && !setting.key.empty() && !object["properties"].contains(setting.key))
-      object["properties"][std::string(setting.key)] = setting_schema(setting);
+  for (const raster::MapSetting& setting : raster::map_settings()) {
+    if (setting.group != group || setting.key.empty() || object["properties"].contains(setting.key)) continue;
+    object["properties"][std::string(setting.key)] = setting_schema(setting);
+    if (group == raster::SettingGroup::filter) object["optional"].push_back(setting.key);
+  }
 }
 
 raster::SettingGroup group_of(const std::string& name) {
@@ -114,6 +126,7 @@ void expand(Json& json) {
       all.insert(all.end(), json["enum"].begin(), json["enum"].end());
       json["enum"] = std::move(all);
     }
+    if (json.contains("properties")) close(json, taken(json, "optional"));
   }
   if (json.is_structured())
     for (Json& member : json) expand(member);

@@ -12,6 +12,8 @@ namespace gnomon::compare {
 /// - "settings": "filter": those of map_settings() in that group which have a key (settings.h), where the object has none of
 ///   that name
 /// "techniques": true puts their names first in the object's "enum".
+/// Of an object with "properties" all are required but those that its "optional" names and blocks of figures that not every
+/// light has, and there are no others.
 nlohmann::ordered_json result_schema();
 
 }  // namespace gnomon::compare

@@ -60,6 +60,24 @@ TEST(ResultJson, SchemaRefusesMissingUnknownAndMistypedKeys) {
   EXPECT_EQ(check.violations(bad).size(), 1u);
 }
 
+// A key is required unless the schema says that not every document has it.
+TEST(ResultJson, EveryKeyThatIsAlwaysWrittenIsRequired) {
+  const auto made = make_synthetic();
+  const Json good = Json::parse(result_json(made->comparison));
+  SchemaCheck check(result_schema());
+  for (const char* path :
+       {"/timing", "/machine/load", "/costs/glossy_rays", "/times_ms/upload", "/lights/0/engine_units",
+        "/lights/0/derived_bias", "/lights/0/bias_kinds", "/lights/0/lookups", "/lights/0/map/window",
+        "/lights/0/map/bias/unit", "/lights/0/map/bias/adaptive", "/lights/0/times_ms/shadow_lookups",
+        "/lights/0/best_bias/constant_texels"}) {
+    const Json::json_pointer key(path);
+    ASSERT_TRUE(good.contains(key)) << path;
+    Json bad = good;
+    bad[key.parent_pointer()].erase(key.back());
+    EXPECT_EQ(check.violations(bad).size(), 1u) << path;
+  }
+}
+
 TEST(ResultJson, CountsAndBudgetAddUp) {
   const auto made = make_synthetic();
   const Json light = Json::parse(result_json(made->comparison))["lights"][0];

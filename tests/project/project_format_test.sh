@@ -11,7 +11,7 @@ files_of() {
   local names=()
   for ending in "$@"; do names+=(-o -name "*.$ending"); done
   find adapters app benchmark cmake compare hybrid raster raytrace report scene shaders studies tests verify -name node_modules -prune -o \
-    -name dist -prune -o -type f \( "${names[@]:1}" \) -print | sort
+    \( -name dist -o -name generated \) -prune -o -type f \( "${names[@]:1}" \) -print | sort
 }
 
 skipped=0 failed=0

@@ -8,4 +8,4 @@ gnomon_node_test(report_probe_browser_test $<TARGET_FILE:gnomon_program> "${CMAK
 gnomon_node_test(report_views_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/report_views")
 gnomon_node_test(report_section_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/report_section")
 gnomon_node_test(report_hybrid_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/report_hybrid")
-gnomon_node_test(report_built_page_test "${CMAKE_CURRENT_BINARY_DIR}/report_built_page")
+gnomon_node_test(report_built_page_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/report_built_page")

@@ -96,7 +96,7 @@ function feasibleInterval(best: BestBias, scale: Scale): Markup | null {
 
 function description({ best_bias: best, error, map }: BiasCurve): string {
   const used = map.bias.constant_world,
-    said = `Best: ${plainNumber(best.constant_world)}, ${percent(best.wrong_fraction)} wrong.`;
+    said = `Best: ${plainNumber(best.constant_world!)}, ${percent(best.wrong_fraction!)} wrong.`;
   return used === null
     ? said
     : `Used: a bias of ${plainNumber(used)}, ${percent(error.wrong_fraction)} of the compared pixels wrong. ${said}`;
@@ -133,5 +133,5 @@ export function biasChart(light: BiasCurve, id: string): Markup | null {
   )}${axes(scale, bias.texel_world)}${curves.map(
     ([kind, , share]) =>
       markup`<polyline class="curve ${kind}" points="${curve.map((p) => `${fixed(scale.x(p.bias))},${fixed(scale.y(share(p, compared)))}`).join(" ")}"/>`,
-  )}${marks(best.constant_world, bias.constant_world ?? best.constant_world, scale)}${curveNames(last, scale, compared)}</svg>`;
+  )}${marks(best.constant_world!, bias.constant_world ?? best.constant_world!, scale)}${curveNames(last, scale, compared)}</svg>`;
 }

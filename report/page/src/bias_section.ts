@@ -11,7 +11,7 @@ function biasWords({ best_bias: best, map: { bias } }: LightResult, i: number): 
   const inTexels = (world: number): string => (bias.texel_world > 0 ? ` (${texelsText(world / bias.texel_world)})` : "");
   return markup`A hard test shadows a pixel when its gap, the distance to the light minus the stored one${facts.bias_parts.length > 0 && " and the other parts of the bias"}, is
 larger than the constant bias. Sorting the gaps of one render gives the exact error of every constant bias.
-The best is ${plain(`${key}.constant_world`)}${inTexels(best.constant_world)}, which leaves ${keyed(`${key}.wrong_fraction`, percent)} wrong.${
+The best is ${plain(`${key}.constant_world`)}${inTexels(best.constant_world!)}, which leaves ${keyed(`${key}.wrong_fraction`, percent)} wrong.${
     smaller &&
     ` The smaller ${plainNumber(smaller.constant_world)}${inTexels(smaller.constant_world)} is nearly as good: ${percent(smaller.wrong_fraction)}.`
   } ${best.feasible ? "Some constant bias makes every compared pixel right." : contradiction}`;

@@ -18,11 +18,11 @@ function lightRows(light: LightResult, i: number): TimeRow[] {
     key = `lights.${i}`,
     of = ofLight(i),
     soft = samples !== undefined;
-  const row = (pass: string, name: string, what: Markup | string, kind: TimeRow["kind"]): TimeRow => ({
+  const row = (pass: keyof typeof times, name: string, what: Markup | string, kind: TimeRow["kind"]): TimeRow => ({
     key: `${key}.times_ms.${pass}`,
     name: name + of,
     what,
-    times: times[pass]!,
+    times: times[pass] as Times,
     kind,
   });
   return [
@@ -61,7 +61,7 @@ function timeTable(): Markup {
       key: "times_ms.primary_rays",
       name: "primary rays",
       what: markup`${keyedThings("costs.primary_rays", "ray")}, one for each pixel`,
-      times: result.times_ms.primary_rays!,
+      times: result.times_ms.primary_rays,
       kind: "rays",
     },
   ];

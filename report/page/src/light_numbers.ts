@@ -82,7 +82,7 @@ function edgeFacts({ edges }: LightResult, key: string): Markup | null {
   )}${fact(
     "Edge offset",
     markup`${keyed(`${key}.edges.mean_texels`, signedNumber)} texels`,
-    `on average the drawn shadow is ${edges.mean_texels >= 0 ? "larger" : "smaller"} than the true one`,
+    `on average the drawn shadow is ${edges.mean_texels! >= 0 ? "larger" : "smaller"} than the true one`,
   )}`;
 }
 

@@ -41,7 +41,7 @@ const differenceFigure = (i: number): Markup =>
   )} <b>Missed shadow</b>: drawn lit, truly dark, ${keyedThings(`lights.${i}.error.missed_shadow`, "pixel")}.</figcaption></figure>\n`;
 
 /** The errors that occur, those with most of the mean error first. */
-const occurring = ({ classes, class_errors: errors }: LightResult): LabelFacts[] =>
+const occurring = ({ classes, class_errors: errors }: Record<"classes" | "class_errors", Record<string, number>>): LabelFacts[] =>
   facts.labels
     .filter(({ key, value }) => value > 0 && (classes[key]! > 0 || errors[key]! > 0))
     .sort((a, b) => errors[b.key]! - errors[a.key]!);
@@ -51,8 +51,10 @@ const labelRow = ({ name, letter, colour, what }: LabelFacts, pixels: Markup, sh
 class="n">${pixels}</td><td class="n">${share}</td><td class="n">${error}</td></tr>\n`;
 
 function labelTable(light: LightResult, i: number): Markup {
-  const { pixels, error, classes } = light,
-    { compared } = pixels,
+  const { error } = light,
+    classes: Record<string, number> = light.classes,
+    pixels: Record<string, number> = light.pixels,
+    { compared } = light.pixels,
     right = compared - error.wrong - error.ties;
   const labelled = (wanted: string): LabelFacts => facts.labels.find(({ key }) => key === wanted)!;
   const others = ["uncertain", "silhouette", "facing_away", "background"].filter((key) => pixels[key]! > 0);

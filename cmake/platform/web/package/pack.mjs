@@ -5,7 +5,8 @@ import { execFileSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import path from "node:path";
-import { optionTypes, schemaTypes } from "./types.mjs";
+import { schemaTypes } from "../../../../report/page/schema_types.mjs";
+import { optionTypes } from "./types.mjs";
 
 const [build, out = build] = process.argv.slice(2).map((word) => path.resolve(word));
 const app = path.join(build, "app"),

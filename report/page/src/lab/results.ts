@@ -8,17 +8,16 @@ import type { Cut, Drawn, LabFacts, PixelStory, TimeWords } from "./engine";
 
 function labelRows(light: LightResult, labels: LabelFacts[]): Markup {
   const { compared } = light.pixels,
-    seen = labels
-      .filter(({ key, value }) => value > 0 && (light.classes[key] ?? 0) > 0)
-      .sort((a, b) => light.classes[b.key]! - light.classes[a.key]!);
+    classes: Record<string, number> = light.classes,
+    seen = labels.filter(({ key, value }) => value > 0 && (classes[key] ?? 0) > 0).sort((a, b) => classes[b.key]! - classes[a.key]!);
   if (seen.length === 0) return markup`<p>No compared pixel is wrong.</p>`;
   return markup`<table class="labels"><caption>Wrong pixels, and why</caption><tbody>${seen.map(
     ({ key, name, colour, letter, what, cause, cure }) =>
       markup`<tr><td>${swatch(
         colour,
         letter,
-      )}</td><th scope="row"><details><summary>${name}</summary><p>${what}. ${cause} ${cure}</p></details></th><td class="n">${grouped(light.classes[key]!)}</td><td class="n">${percent(
-        light.classes[key]! / Math.max(compared, 1),
+      )}</td><th scope="row"><details><summary>${name}</summary><p>${what}. ${cause} ${cure}</p></details></th><td class="n">${grouped(classes[key]!)}</td><td class="n">${percent(
+        classes[key]! / Math.max(compared, 1),
       )}</td></tr>`,
   )}</tbody></table>`;
 }

@@ -41,7 +41,7 @@ export async function biasFigure({ data }: FigureJson, id: string): Promise<HTML
   const panel = BiasPanel.of(
     light,
     curve.querySelector("svg")!,
-    result.best_bias.constant_world,
+    result.best_bias.constant_world!,
     (b) => {
       bias = b;
       later();
