@@ -183,7 +183,7 @@ class KeyList {
     if (!path.empty()) entry(path, type_text(schema), description);
     if (schema.contains("properties"))
       for (const auto& [key, member] : schema["properties"].items())
-        add(member, path.empty() ? key : path + "." + key);
+        add(member, path.empty() ? key : fmt::format("{}.{}", path, key));
     if (schema.contains("items") && schema["items"].is_object()) add(schema["items"], path + "[]");
   }
   /// The keys of each object that stands in several places, once and under its name.
