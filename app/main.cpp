@@ -12,7 +12,7 @@ namespace {
 int run(int argc, char** argv) {
   const gnomon::StageLog stages;  // first of all, so that the account begins with the process
   gnomon::keep_freed_memory();
-  // A limit on the size of files is then an error of the write that meets it, and no end of the process where the
+  // A limit on the size of files is then an error of the write that meets it. It does not end the process where the
   // driver writes its cache of compiled shaders.
   std::signal(SIGXFSZ, SIG_IGN);
   gnomon::app::end_in_words_without_threads();

@@ -1,5 +1,5 @@
 // The hybrid's hard shadows against pure ray tracing of the same receivers, in turn: rays, triangles tested,
-// and time: of a new light as the cost estimate has it, with the sheets built again, and with the sheets kept.
+// and time. Rows are of a new light as the cost estimate has it, with the sheets built again, and with the sheets kept.
 // An error when the two differ.
 #include <fmt/core.h>
 

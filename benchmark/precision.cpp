@@ -1,7 +1,7 @@
 // What accuracy costs: the three precisions side by side. Speed is that of the scene's own primary and hard
-// shadow rays, as a picture is rendered (in packets where the precision has them) and one ray at a time,
-// which compares the arithmetic alone. Wrong shadows are counted on adversarial rays, aimed at corners and
-// edges, against rational numbers. A single triangle is wrong where the ray passes its edges by more than rounding: nearer
+// shadow rays, as a picture is rendered (in packets where the precision has them) and one ray at a time. The
+// latter compares the arithmetic alone. Wrong shadows are counted on adversarial rays, aimed at corners and
+// edges, against rational numbers. A single triangle is wrong where the ray passes its edges by more than rounding. Nearer
 // than that robust decides as rounding falls, but alike for both triangles of an edge, so that none slips between them.
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-// Acceleration structures side by side: the same single rays in double precision through each, primary rays
+// Acceleration structures side by side: the same single rays in double precision through each. They are primary rays
 // of the picture and shadow rays from what they hit to the scene's first light. Brute force gets every n-th
 // ray only, so many as its cost allows.
 #include <fmt/core.h>

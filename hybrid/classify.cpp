@@ -73,7 +73,7 @@ class Classifier {
     usable_ = usable_ && (!perspective_ || origin_.w > 2.0 * grid_.near_limit);
     // Perspective: what lies less deep is left to doubles.
     least_depth_ = perspective_ ? std::max(0.5 * origin_.w, origin_.w - 2.0 * w_.size) : 1.0;
-    // What a column is wider (texel_slack) holds the error of u and v: of U - c w, of w (its constant's, no
+    // What a column is wider (texel_slack) holds the error of u and v. It is that of U - c w, of w (its constant's, no
     // more than two, and a sum's), of the quotient's two operations, of a last sum.
     const double by_depth = perspective_ ? rounding * w_.size / least_depth_ + 6.0 * 0x1p-24 : 0.0;
     const double size = std::max(u_.size, v_.size) / least_depth_;

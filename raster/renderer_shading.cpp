@@ -167,7 +167,7 @@ std::vector<PictureRows> GlRenderer::strips_in_turn() const {
 }
 
 /// Each run draws the light with its shadows, and where RasterOptions::shadow_cost asks for it once more without them, strip
-/// by strip, so that both have the same moments of the machine, and now the one and now the other first.
+/// by strip. So both have the same moments of the machine, and now the one and now the other first.
 Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const VisibilityRequest* asked,
                                         LightRecord& record) {
   const RasterOptions& options = job.options;

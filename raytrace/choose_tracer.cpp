@@ -35,7 +35,7 @@ void choose_primary(const Tracer& tracer, const View& view, TracerPlan& plan) {
   }
 }
 
-/// Receivers are 96 bytes a pixel, which to clear and to page in takes longer than to find them twice: they
+/// Receivers are 96 bytes a pixel, which to clear and to page in takes longer than to find them twice. They
 /// need not be stored where nobody reads them but passes that find them again quickly.
 void choose_receivers(const Tracer& tracer, std::span<const std::uint32_t> lights,
                       const RaytraceOptions& options, TracerPlan& plan) {

@@ -171,7 +171,7 @@ RayCounts& RayCounts::operator+=(const RayCounts& other) {
 
 namespace {
 
-/// Traces the same rays through a few pixels in the middle of the picture: code, hierarchy and threads are then as they will
+/// Traces the same rays through a few pixels in the middle of the picture. Code, hierarchy and threads are then as they will
 /// be, at the cost of some thousand rays and of what these see.
 void warm_up(const Tracer& tracer, const EffectPlan& plan, const Camera& camera,
              std::span<const std::uint32_t> lights, RaytraceOptions options) {

@@ -47,7 +47,7 @@ struct TrianglePlanes {
 
  private:
   // With k = |e1||e2| / |n| and c the cosine between ray and normal, the plane through the first corner is
-  // turned by 2^-51 k, the crossing moved by 2^-51 (|to_corner| + k |e|) / c. That is to stay below 2^-39 of
+  // turned by 2^-51 k. The crossing is moved by 2^-51 (|to_corner| + k |e|) / c. That is to stay below 2^-39 of
   // the crossing's distance, and the turn below 2^-24. All is squared, and (a + b)^2 <= 2 (a^2 + b^2). And n2 is to
   // lie well within the range of floats, in which the normal is divided by its length.
   static M is_well_known(const V3& e1, const V3& e2, V n2, const V3& to_corner, V height) {

@@ -26,8 +26,8 @@ bool all_below(const Vec3& v, double limit) {
   return std::abs(v.x) < limit && std::abs(v.y) < limit && std::abs(v.z) < limit;  // false for NaN
 }
 
-/// Whether moving the mesh by its instance's matrix gives the mesh's own bits: the matrix is the identity, and no
-/// coordinate is one that the arithmetic changes (-0 becomes 0, infinity becomes NaN).
+/// Whether moving the mesh by its instance's matrix gives the mesh's own bits. So it does where the matrix is the identity, and
+/// no coordinate is one that the arithmetic changes (-0 becomes 0, infinity becomes NaN).
 bool stays_in_place(const WorldPart& part) {
   if (part.world_from_object != Mat4(1.0)) return false;
   const auto& positions = part.mesh->positions;
@@ -84,7 +84,7 @@ bool is_tame(const Mesh& mesh) {
 }
 
 /// A kept instance shares its mesh's tree, so each of its triangles must be one that rays can hit just when that of
-/// the mesh is: rounding may take a triangle's area.
+/// the mesh is. Rounding may take a triangle's area.
 bool can_be_kept(const WorldPart& part) {
   if (part.turned) return false;  // the tree's corners are in the mesh's order
   for (int c = 0; c < 4; ++c)

@@ -1,4 +1,4 @@
-// The same scene at the origin and 1e7 away from it: moved by whole numbers, so that every corner, the eye
+// The same scene at the origin and 1e7 away from it. It is moved by whole numbers, so that every corner, the eye
 // and the light move exactly, and the oracle is the picture at the origin.
 #include "raytrace/frame.h"
 #include "verify/cases.h"

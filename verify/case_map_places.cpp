@@ -103,7 +103,7 @@ void outside_map(Run& run) {
                   [&](std::uint64_t, Tally& tally) { tally.check(beside > 1000); });
 }
 
-// A level floor seen from straight above, so that pixel centres fall on the borders of texels, or beside them
+// A level floor seen from straight above. So pixel centres fall on the borders of texels, or beside them
 // by less than the 8 bits that OpenGL keeps below a pixel.
 void texel_boundaries(Run& run) {
   constexpr int size = 64;

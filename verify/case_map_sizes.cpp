@@ -6,7 +6,7 @@
 namespace gnomon::verify {
 
 // A lamp that recedes along the light's direction, its cone narrowed so that its texels keep their width on
-// the floor: the bias that leaves no acne must come to that of a sun, a + b = h (|dz/du| + |dz/dv|), in the
+// the floor. The bias that leaves no acne must come to that of a sun, a + b = h (|dz/du| + |dz/dv|), in the
 // same world units.
 void bias_convergence(Run& run) {
   const Vec3 towards = glm::normalize(Vec3(0.5, 1.0, 0.3));
@@ -34,7 +34,7 @@ void bias_convergence(Run& run) {
     std::uint64_t seen = 0;
     for (const float gap : frame->lights[0].gap.data)
       if (gap > -infinity) most = std::max(most, double(gap)), ++seen;
-    // Off the axis the lamp's texels are wider by the depth there: at most by the cone's reach over its
+    // Off the axis the lamp's texels are wider by the depth there. That is at most by the cone's reach over its
     // distance, as seen on a floor that leans by less than one to two.
     run.sample_each(
         "bias without acne, lamp " + std::to_string(static_cast<int>(distance)) + " away", seen,

@@ -51,7 +51,7 @@ void self_hits(Run& run) {
 
 namespace {
 
-/// Three instances of one mesh, `way` apart, whose hierarchy is in the mesh's own space and shared: what is
+/// Three instances of one mesh, `way` apart, whose hierarchy is in the mesh's own space and shared. Asked is what is
 /// hit, and that nothing meets itself, as brute force in the world has it.
 void shared_tree(Run& run, const std::string& name, Scene scene, const Vec3& way) {
   const double radius = 0.5 * glm::length(way);

@@ -6,7 +6,7 @@
 namespace gnomon::verify {
 
 void non_finite_radiance(Run& run) {
-  // A floor that glows as brightly as a float can say, under a sun as bright: their sum is infinite wherever
+  // A floor that glows as brightly as a float can say, under a sun as bright. Their sum is infinite wherever
   // the sun shines, and what a rough mirror beside it gathers of that would be NaN.
   constexpr float brightest = 3e38f;
   Scene scene = scene_of({quad({-6, 0, -6}, {0, 0, 12}, {12, 0, 0}), box({-2, 0, -2}, {-1, 3, -1})},

@@ -1,4 +1,4 @@
-// Lights that shrink from a radius of 1 to nothing: what is seen of them must approach the hard light's
+// Lights that shrink from a radius of 1 to nothing. What is seen of them must approach the hard light's
 // visibility, closer with every step, and be it in the end.
 #include <fmt/core.h>
 

@@ -7,7 +7,7 @@ namespace gnomon::verify {
 namespace {
 
 // How far from an edge (in barycentric units), a tangent or another hit (relative) the oracle still vouches
-// for doubles: coordinates up to 1e2 and triangles from 0.01 on leave 2^-53 * 1e4.
+// for doubles. Coordinates up to 1e2 and triangles from 0.01 on leave 2^-53 * 1e4.
 constexpr double margin = 1e-11;
 
 struct Candidate {

@@ -206,7 +206,7 @@ void choose_materials(Scene& scene, Random& r) {
   }
   for (MeshInstance& instance : scene.instances)
     if (r.below(3) == 0) instance.material = 1 + r.below(3);
-  // A triangle of which u or v is the same everywhere shall not lie at a border of texels, or halfway between two: rounding
+  // A triangle of which u or v is the same everywhere shall not lie at a border of texels, or halfway between two. Rounding
   // would say over all of it whether there is a hole.
   constexpr double aside = 0.05;
   for (Mesh& mesh : scene.meshes)

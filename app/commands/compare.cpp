@@ -90,7 +90,7 @@ compare::Redraw redraw_of(const CompareCommand& command, const LoadedScene& load
   };
 }
 
-/// What the drawing needs is let go before the rest is compared, and the hierarchy is made before it is asked for: memory
+/// What the drawing needs is let go before the rest is compared, and the hierarchy is made before it is asked for. Memory
 /// that one of them frees the next one takes.
 Expected<Compared> compare_picture(const CompareCommand& command, const LoadedScene& loaded,
                                    const std::vector<std::uint32_t>& lights, Console& console) {

@@ -132,7 +132,7 @@ std::string step(std::string_view kind, std::string_view markdown) {
 }
 
 /// "acne figure bias with map-size=32": the part, in the steps that show it. "cascades pair lesson-cascades.png" is a figure of two
-/// pictures side by side, of which the slide shows the left one first and then the right one in its place, as large.
+/// pictures side by side. The slide shows the left one first and then the right one in its place, as large.
 Expected<std::string> steps_of(std::string_view shown) {
   const std::size_t first = shown.find(' '), second = shown.find(' ', first + 1);
   if (second == std::string_view::npos) return fail(not_there(shown));

@@ -1,6 +1,6 @@
-// What becomes of the program when an allocation fails where no exception can pass: in a destructor, in a function of a library
-// that promises not to throw, or while static objects are made, before main() begins. Such an allocation ends the process with
-// ErrorKind::graphics and one line, instead of an abort. Everywhere else std::bad_alloc reaches run_command_line().
+// What becomes of the program when an allocation fails where no exception can pass. That is in a destructor, in a function of a
+// library that promises not to throw, or while static objects are made, before main() begins. Such an allocation ends the process
+// with ErrorKind::graphics and one line, instead of an abort. Everywhere else std::bad_alloc reaches run_command_line().
 #include <exception>
 #include <new>
 

@@ -190,7 +190,7 @@ MapOptions asked_options(const Comparison& c) {
   return map;
 }
 
-// Most of the error is that a light with size was taken for its centre: no filter makes up for most of that, and no other
+// Most of the error is that a light with size was taken for its centre. No filter makes up for most of that, and no other
 // step or label stands for more of the error.
 bool lacks_light_size(const raster::RasterFrame& drawn, const LightComparison& light) {
   if (drawn.custom_shader || raster::traits_of(drawn.options.map.technique).soft) return false;

@@ -83,7 +83,7 @@ GapLists sort_gaps(const raster::LightRecord& record, const Image<float>& truth,
 
 BestBias find_best_bias(const GapLists& gaps) {
   BestBias best;
-  // Raising the bias past a lit pixel's gap mends it, past a shadowed pixel's breaks it: only the gaps
+  // Raising the bias past a lit pixel's gap mends it, past a shadowed pixel's breaks it. Only the gaps
   // themselves and 0 are candidates for the start of the best interval.
   auto lit = std::upper_bound(gaps.lit.begin(), gaps.lit.end(), 0.0f);
   auto shadowed = std::upper_bound(gaps.shadowed.begin(), gaps.shadowed.end(), 0.0f);

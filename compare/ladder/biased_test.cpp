@@ -102,7 +102,7 @@ std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, con
 namespace {
 
 /// Returns the constant, stored numbers, from which on the test draws light where the receiver lies this far behind what is
-/// stored: the two are compared after the constant was multiplied by the angle's factor and held within its limits.
+/// stored. The two are compared after the constant was multiplied by the angle's factor and held within its limits.
 double constant_that_lights(const raster::CapturedTest& test, double behind, double cosine) {
   if (!test.has_angle()) return behind;
   if (behind <= test.least) return -infinity;

@@ -47,7 +47,7 @@ bool is_between(float visibility) {
 }  // namespace
 
 // Sums are taken along rows of pixels and then over the rows, 16384 of each at most, and each addition is off by 2^-53
-// of `sizes` at most: together by 2^-38. Means and the six steps add few roundings more, for which this is twice that.
+// of `sizes` at most. Together it is 2^-38. Means and the six steps add few roundings more, for which this is twice that.
 // A hard test's sum is a whole number of pixels, of 2^28 at most, and never so small unless it is 0.
 double beyond_rounding(double sum, double sizes) {
   constexpr double most = 0x1p-37;

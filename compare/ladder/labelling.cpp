@@ -40,7 +40,7 @@ Label bias_label(const LadderInput& in, Column& column, const WrongPixel& wrong)
   return stored != no_id && column.same_sheet(stored, receiver) ? Label::acne : Label::false_feature;
 }
 
-// A filter that averages comparisons draws what they say: where true comparisons, averaged alike, are right,
+// A filter that averages comparisons draws what they say. Where true comparisons, averaged alike, are right,
 // those with the map are at fault, and what they find dark is the surface itself. Of moments the least is
 // known: only where nothing within reach is shadowed is the surface itself the caster.
 bool filters_own_surface(const LowerClimb& lower, const LadderInput& in, const WrongPixel& wrong) {

@@ -143,7 +143,7 @@ bool stores_midpoints(const raster::MapOptions& map) {
 }
 
 // V4: the depth really stored, but for the casters' own bias, which is the bias step's. Where culling kept the first surface out of the map, that is the technique's
-// doing, not a matter of precision: the rung then stays at V3 and the bias step takes the difference. So it
+// doing, not a matter of precision. The rung then stays at V3 and the bias step takes the difference. So it
 // does where the map stores the midpoint between two surfaces, where its depths end before the first surface,
 // and where the stored depth is the exact one.
 float stored_rung(const LadderInput& in, const TexelCentre& centre, raytrace::TexelKey key, bool stores_first,

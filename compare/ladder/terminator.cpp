@@ -8,7 +8,7 @@ namespace gnomon::compare {
 namespace {
 
 /// Normals of vertices are floats: each component is off by no more than 2^-24, and by as much again where it was
-/// normalised, so that a cosine with them may lie on the wrong side of 0 by less than this.
+/// normalised. So a cosine with them may lie on the wrong side of 0 by less than this.
 constexpr double rounding = 0x1p-22;
 
 /// Neighbouring pixels show one triangle: where a directional light falls on one side of all of it, none counts.

@@ -119,7 +119,7 @@ struct EdgeWalk : EdgeInput {
             0.5 * (Vec2(record.texel_uv.at(px, py)) + Vec2(record.texel_uv.at(qx, qy))),
             0.5 * (receivers.at(px, py).position + receivers.at(qx, qy).position)};
   }
-  // Map positions and receivers are those of pixel centres, while a walk ends where it enters a pixel: the
+  // Map positions and receivers are those of pixel centres, while a walk ends where it enters a pixel. What is left is the
   // way to the pixel's centre, scaled to the way that was walked.
   Moved moved(const Start& start, std::size_t end, double offset) const {
     const auto width = static_cast<std::size_t>(labels.size.width);

@@ -9,7 +9,7 @@
 namespace gnomon::compare {
 namespace {
 
-// Union and find with path halving (Tarjan and van Leeuwen 1984), by several threads at a time: what is no root never
+// Union and find with path halving (Tarjan and van Leeuwen 1984), by several threads at a time. What is no root never
 // becomes one again, and every parent is lower than its child, so that the lowest vertex stands for all.
 using Parents = raytrace::HugeArray<std::uint32_t>;
 using Parent = std::atomic_ref<std::uint32_t>;

@@ -14,7 +14,7 @@ Interval slopes(double x, double z, double r) {
   return {(x * z - root) * scale, (x * z + root) * scale};
 }
 
-// The bounding rectangle of the image's part whose rays meet the plane ahead of a perspective origin: the
+// The bounding rectangle of the image's part whose rays meet the plane ahead of a perspective origin. It is the
 // image clipped at the plane's horizon, where the direction's component towards the plane is zero (it is
 // linear over the image).
 std::optional<ClipRectangle> plane_bounds(const Projection& projection, const Plane& plane) {

@@ -15,7 +15,7 @@ namespace gnomon::raster {
 namespace {
 
 /// Is the colour of what mirrors or lets light through. A rasterizer without further rays has nothing to show for that
-/// share: it is drawn as a matte surface of middle grey, on which shadows can be seen, not left out, which is black.
+/// share. It is drawn as a matte surface of middle grey, on which shadows can be seen, not left out, which is black.
 constexpr float matte_grey = 0.5f;
 
 /// Columns of rotation times scale.

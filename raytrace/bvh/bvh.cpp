@@ -1,5 +1,5 @@
-// The upper part of the hierarchy: the primitives are sorted into the cells of a grid, the cells' runs are
-// split by bins (Wald 2007) as if each run were one primitive of its weight, and ranges that have become
+// The upper part of the hierarchy: the primitives are sorted into the cells of a grid. The cells' runs are
+// split by bins (Wald 2007) as if each run were one primitive of its weight. Ranges that have become
 // small enough are split primitive by primitive (raytrace/bvh/treelet.h). Where a few cells hold many
 // primitives, these get a finer grid of their own.
 #include "raytrace/bvh/bvh.h"

@@ -7,7 +7,7 @@
 
 namespace gnomon::raytrace {
 
-/// The corners of a group of leaves, each once: equal vertices first, which is quick to see, and then those of equal
+/// The corners of a group of leaves, each once. Equal vertices go first, which is quick to see, and then those of equal
 /// bits, for files give a vertex twice where its normal or its texture has a seam. In passes over the whole group, so that
 /// no load waits for what another one says.
 class LeafGroup {

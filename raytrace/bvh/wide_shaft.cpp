@@ -11,8 +11,8 @@ HWY_BEFORE_NAMESPACE();
 namespace gnomon::raytrace::HWY_NAMESPACE {
 namespace {
 
-// A point of the shaft is at or above a lower plane b of an axis only if o + t high >= b, at or below an
-// upper one only if o + t low <= b: each bounds t from one side, which side by the sign of high or low. The
+// A point of the shaft is at or above a lower plane b of an axis only if o + t high >= b. At or below an
+// upper one only if o + t low <= b. Each bounds t from one side, which side by the sign of high or low. The
 // floats are those of a ray's slabs with another direction for the upper planes than for the lower ones, and
 // so are their errors (raytrace/bvh/wide_ray.h).
 struct SpreadShaft {

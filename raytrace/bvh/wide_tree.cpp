@@ -79,7 +79,7 @@ double longest_edge(const LeafPrimitive& triangle) {
   return longest;
 }
 
-// First the pairs, bottom up, with the least cost of each as one to sixteen children (Ylitalo et al. 2017,
+// First the pairs, bottom up. Each gets its least cost as one to sixteen children (Ylitalo et al. 2017,
 // "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", section 3.1); then the nodes,
 // top down. A thread takes the places of what it makes when it begins it.
 class Collapse {

@@ -2,9 +2,9 @@
 //
 // The bounds, with u = 2^-24 and M the largest coordinate in the pass:
 // - An edge function has 5 roundings of terms that sum to at most |d| (<= 2.35 for |u|, |v| <= 1.5): 12 u.
-//   Along a direction, with |u|, |v| <= 2 R for the world's radius R and no line farther than R from the
-//   middle, near an edge: of the coefficients and of (u, v) 2 * 2.83 R + R, of the inner sum 2 R, of products
-//   where they are not fused 2.83 R, of quantised receivers' positions 4 R: below 16 u R.
+//   Along a direction |u|, |v| <= 2 R for the world's radius R, and no line is farther than R from the middle.
+//   Near an edge the coefficients and (u, v) add 2 * 2.83 R + R, the inner sum 2 R, products that are not fused
+//   2.83 R. Quantised receivers' positions add 4 R. Together that is below 16 u R.
 // - The double kernels see corners displaced by less than 2^-43 M, points by less than 2^-44 M (their own
 // error
 //   boxes included: gamma(7) and gamma(24) of raytrace/precision/ray_offset.h, gamma(12) of

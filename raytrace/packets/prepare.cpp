@@ -36,7 +36,7 @@ class QuantisedRays {
     from_light_ = all(tile.origin - setup.origin);
     // A direction's heights are rounded to floats as well, so that less of their bound is left.
     lateral_ = setup.lateral, height_ = std::min(setup.height, 4.0 * setup.lateral);
-    // A component's error moves (u, v) by 1.13 * 2^-24 sqrt(3) extent / depth (1 + |slope|), which is to stay
+    // A component's error moves (u, v) by 1.13 * 2^-24 sqrt(3) extent / depth (1 + |slope|). That is to stay
     // well below what the bounds of raytrace/packets/edge_setup_kernel.cpp leave beside the tests' own
     // rounding: extent <= 0.45 depth.
     least_depth_ = std::max(2.25 * tile.extent, 0x1p-30 * setup.reach);

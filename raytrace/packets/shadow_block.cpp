@@ -274,7 +274,7 @@ class BlockShadows {
   float far_min_ = inf, limit_ = -inf;
   FoundRun found_[most_found];
   std::size_t found_count_ = 0;
-  /// How many more runs may concern no tile before all rays are left to single rays: where the tiles' regions are small in the
+  /// How many more runs may concern no tile before all rays are left to single rays. Where the tiles' regions are small in the
   /// block's, as in foliage, the traversal alone costs more than these.
   std::uint64_t misses_left_ = 1;
   BoundsRows bounds_;

@@ -48,11 +48,11 @@ Vec2 larger(const Vec2& a, const Vec2& b) {
 
 }  // namespace
 
-// With p_k = (u_k, v_k, 1) z_k the corners and n_0 = p_1 x p_2 and so on, the weights of the corners at d = (u, v, 1) are n_k.d
+// The corners are p_k = (u_k, v_k, 1) z_k, and n_0 = p_1 x p_2 and so on. The weights of the corners at d = (u, v, 1) are n_k.d
 // / w.d, w the sum of all n_k; w.d is det / z_k at corner k, so at least det / z_max inside. A place has a gradient of at most
 // (|q| + extent |w|) / min(w.d) there, q.d / w.d being its distance from the first corner's. With u = 2^-24 a ray's floats are
-// right to 4 u (1 + |u|) of a point's and 6 u of the radius of a direction's each way (projection-inl.h), a corner as the
-// double kernels see it to 2^-42 of the largest coordinate (edge_setup_kernel.cpp), and each other corner's error adds its own.
+// right to 4 u (1 + |u|) of a point's and 6 u of the radius of a direction's each way (projection-inl.h). A corner as the
+// double kernels see it is right to 2^-42 of the largest coordinate (edge_setup_kernel.cpp). Each other corner adds its own.
 TriangleMask triangle_mask(const Structures& s, const EdgeSetupPass& pass, std::uint32_t id,
                            const CornerPointers& corners) {
   if (!casts_shadow(s, id)) return {};

@@ -168,7 +168,7 @@ class ExpectedGaps {
   static double signed_value(std::uint32_t number) { return static_cast<std::int32_t>(number); }
 
   /// What slope bias and receiver plane make of the tilt of the pixel's surface, (x, y) along right and up
-  /// from the face's axis: per unit of distance of a perspective map.
+  /// from the face's axis. It is per unit of distance of a perspective map.
   double tilt(const LightFace& f, std::size_t i, double x, double y) const {
     if (bias_.slope == 0.0 && !bias_.receiver_plane) return 0.0;
     const Vec3 normal = surfaces_.normal(i);

@@ -38,7 +38,7 @@ bool is_control(std::uint32_t code) {
   return code < 0x20 || (code >= 0x7f && code < 0xa0);
 }
 
-/// What changes the order in which a whole line is shown (Unicode Standard Annex 9, tables 1 to 3), ends it (line and
+/// What changes the order in which a whole line is shown (Unicode Standard Annex 9, tables 1 to 3). Or what ends it (line and
 /// paragraph separator), or is a letter that nobody sees (tags).
 bool is_misleading(std::uint32_t code) {
   return code == 0x061c || code == 0x200e || code == 0x200f || (code >= 0x2028 && code <= 0x202e) ||

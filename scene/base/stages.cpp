@@ -14,7 +14,7 @@ namespace {
 
 thread_local StageLog* log_of_thread = nullptr;
 
-/// How long ago the process was started, by the kernel's own record: field 22 of /proc/self/stat (proc(5)),
+/// How long ago the process was started, by the kernel's own record. It is field 22 of /proc/self/stat (proc(5)),
 /// in clock ticks since boot, so that the true start lies up to one tick later. Less than 0: not known.
 double age_by_kernel_ms(double tick_ms) {
   std::ifstream file("/proc/self/stat");
@@ -30,7 +30,7 @@ double age_by_kernel_ms(double tick_ms) {
 }
 
 /// Before main only one thread runs, so no less wall-clock time has passed than processor time. The kernel's
-/// record is coarser but knows of waiting, such as for libraries that come from a slow disk: it counts where
+/// record is coarser but knows of waiting, such as for libraries that come from a slow disk. It counts where
 /// the two differ by more than its own tick.
 double age_ms(double cpu_ms) {
   const double tick_ms = 1e3 / static_cast<double>(::sysconf(_SC_CLK_TCK));

@@ -1,4 +1,4 @@
-// Newell's teapot as triangles. It is not closed, and never was: the lid rests in the air a gap's width
+// Newell's teapot as triangles. It is not closed, and never was. The lid rests in the air a gap's width
 // inside the rim, the spout is open at its tip, handle and spout end inside the body.
 #include "scene/generate/generator.h"
 #include "scene/generate/mesh_builder.h"

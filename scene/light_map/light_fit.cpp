@@ -1,6 +1,6 @@
 // Fitting a light's depth map to what matters. Directional: the casters' rectangle in light space, cut with
-// the camera frustum projected along the light (a shadow has the light-space position of its caster, so
-// nothing outside the casters' rectangle can be in shadow, and nothing outside the frustum can be seen). Spot
+// the camera frustum projected along the light. A shadow has the light-space position of its caster, so
+// nothing outside the casters' rectangle can be in shadow, and nothing outside the frustum can be seen. Spot
 // and point: the light's own cone or cube, with the tightest depth range that clips nothing.
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// A sphere, of which a point sees a cone of directions: sampled by solid angle (Shirley, Wang and Zimmerman 1996, "Monte Carlo
-// Techniques for Direct Lighting Calculations", section 3), and evenly over the sphere from within.
+// A sphere, of which a point sees a cone of directions. It is sampled by solid angle (Shirley, Wang and Zimmerman 1996, "Monte
+// Carlo Techniques for Direct Lighting Calculations", section 3), and evenly over the sphere from within.
 #include "scene/scene.h"
 
 namespace gnomon {

@@ -1,4 +1,4 @@
-// What light does at a surface. An answer may be off by a thousandth of a direction's length or of all light: single precision
+// What light does at a surface. An answer may be off by a thousandth of a direction's length or of all light. Single precision
 // leaves it within a tenth of that, away from the angle of total reflection, which no case comes near.
 #include <cmath>
 

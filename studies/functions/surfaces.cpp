@@ -1,4 +1,4 @@
-// Rays against surfaces. A place on a ray may be off by a thousandth of the way (or of 1): single precision leaves it within a
+// Rays against surfaces. A place on a ray may be off by a thousandth of the way (or of 1). Single precision leaves it within a
 // tenth of that in every case here by any of the usual formulas, and the usual mistakes are farther off.
 #include "studies/functions/parts.h"
 

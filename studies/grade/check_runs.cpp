@@ -46,7 +46,7 @@ bool is_shaders_fault(const Outcome& outcome) {
                                                  outcome.code == static_cast<int>(ErrorKind::bad_input));
 }
 
-/// Ends that somebody else than the shader may have caused: a file that could not be read, the system, which takes a
+/// Ends that somebody else than the shader may have caused. Such is a file that could not be read, the system, which takes a
 /// process's memory for others, or whoever sends signals (whose exit codes these are). A shader that has a mistake ends with
 /// ErrorKind::bad_input as well, and one that asks for more than it may have with ErrorKind::graphics.
 bool may_be_disturbed(const Outcome& outcome) {

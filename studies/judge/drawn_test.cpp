@@ -13,8 +13,8 @@
 namespace gnomon::compare {
 namespace {
 
-/// The test must then be drawn nearly everywhere, on most of the pixels where it was not, and on most of those that are drawn
-/// dark as of those that are drawn lit.
+/// The test must then be drawn nearly everywhere, on most of the pixels where it was not. Likewise on most of those that are
+/// drawn dark, and of those that are drawn lit.
 constexpr double least_drawn = 0.98, most_not_drawn = 1.0 / 3.0, least_of_either = 0.7;
 /// A picture with fewer dark or lit pixels tells of signs alone, and of a constant that lights all: much else draws it.
 constexpr std::size_t few_of_either = 20;

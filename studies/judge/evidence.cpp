@@ -16,7 +16,7 @@ constexpr double place_slack = 0.25;  // pixels
 /// Depth may differ by what a quarter of a pixel's step to its neighbours changes, and by a float's rounding.
 constexpr double depth_slack = 1e-4;
 
-/// Less light than one step of a picture of eight bits, beside the brightest: a spot's rim, or a light in the
+/// Less light than one step of a picture of eight bits, beside the brightest. Such is a spot's rim, or a light in the
 /// surface's own plane, where the sign of n.l is rounding. A share, and a cosine.
 constexpr double faint = 1.0 / 256.0;
 

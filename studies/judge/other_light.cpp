@@ -1,6 +1,6 @@
-// With the light's own irradiance e on a surface of albedo a under other light r (both as multiples of the light's greatest),
-// the picture without shadows shows a (r + e), that with them a (r + v e). Where v = 0 the two give r = e s / (u - s), whatever
-// a is: one number for all surfaces that see the same other light. Its most frequent value over the pixels that differ is
+// The light's own irradiance on a surface of albedo a is e, other light r, both as multiples of the light's greatest. Then
+// the picture without shadows shows a (r + e). That with them shows a (r + v e). Where v = 0 the two give r = e s / (u - s),
+// whatever a is: one number for all surfaces that see the same other light. Its most frequent value over pixels that differ is
 // that of full shadow, since penumbrae and filters spread theirs. Other light differs from side to side (a sky above, a ground
 // below), so that surfaces of one orientation are asked by themselves where they are many.
 #include "studies/judge/other_light.h"

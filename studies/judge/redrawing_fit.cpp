@@ -47,7 +47,7 @@ std::vector<Redrawing::Fit> Redrawing::tried_kernels() const {
 }
 
 /// The kernel that comes nearest to the picture. Where it is known in kind alone, the narrowest and the widest of those that come
-/// as near stand beside it, and itself with a tap as far off as the capture says that the filter reaches.
+/// as near stand beside it. So does itself with a tap as far off as the capture says that the filter reaches.
 void Redrawing::fit_kernel() {
   const std::vector<Fit> tried = tried_kernels();
   const auto by_error = [](const Fit& a, const Fit& b) { return a.error < b.error; };

@@ -37,8 +37,8 @@ constexpr std::size_t few_turned = 16;
 constexpr double few_against = 0.25;
 constexpr double most_of_map = 0.7;  ///< holds the scene once it is turned
 constexpr int turn_texels = 96;      ///< texels looked at of each face
-/// What a bias of casters, an average of depths and a step of the format leave of the right depth: a share of the depths' range,
-/// and halves of what the depth changes by over a texel.
+/// What a bias of casters, an average of depths and a step of the format leave of the right depth. It is a share of the depths'
+/// range, and halves of what the depth changes by over a texel.
 constexpr double loose_range = 0.005, loose_slope = 4.0;
 
 raster::CapturedTest::Part part_of(const raster::LightRecord& record, int face) {

@@ -178,7 +178,7 @@ Image<std::uint8_t> TemporalBudget::edge_steps() const {
   return out;
 }
 
-// The length of the true shadow's edge that receiver (x, y) stands for, world units, by Crofton's formula: a crossing
+// The length of the true shadow's edge that receiver (x, y) stands for, world units, by Crofton's formula. A crossing
 // between it and one of its eight neighbours stands for the receiver's area over the neighbour's distance, weighted by half
 // the angles that the neighbour's direction stands for. Right on average over the edge's direction, and within 4 % for each
 // of them (2 % on square pixels). Where a neighbour is on another surface, the grid's two directions serve.

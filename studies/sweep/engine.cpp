@@ -297,7 +297,7 @@ void add_probe(Probe&& of_view, Probe& sum) {
 
 }  // namespace
 
-// The bias that the gaps of all views say is best is asked for once for all lights: where the constant scales it is a
+// The bias that the gaps of all views say is best is asked for once for all lights. Where the constant scales it is a
 // number of texels, and each light has its own.
 Expected<Probe> Engine::probe(const Setting& setting, const Figure& measure) {
   Probe all;

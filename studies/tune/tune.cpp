@@ -208,7 +208,7 @@ void Tuner::stop_early(const Attempt& attempt, FamilyResult& result) const {
 }
 
 // The least size that is good enough, or the largest that is cheap enough: both goals change once along the
-// sizes. Where the middle one is not good enough the next larger ones come one by one, for the larger a map
+// sizes. Where the middle one is not good enough the next larger ones come one by one. The larger a map
 // the dearer the drawing, and the sooner a family can be left: before the drawing, where the two last tell its cost.
 Expected<FamilyResult> Tuner::bisect(const TuneFamily& family) {
   FamilyResult result;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Holds the sentences of the lab and of the grader to the one file in which they can be read through, prose.txt: a sentence that is
-new or changed is read there, by its author and in review, before it is a user's. Holds them and the sentences in headers' comments
-and in Markdown pages to a length that is understood at once.
+new or changed is read there, by its author and in review, before it is a user's. Holds them, the sentences in comments of what is no
+test, and those in Markdown pages to a length that is understood at once.
   project_prose_test.py [--fix]     --fix writes the file"""
 import pathlib
 import re
@@ -13,7 +13,7 @@ ROOT = HERE.parents[1]
 FOLDERS = ("app/view", "studies/grade")
 WORDS = 6  # from so many on it is a sentence
 MOST_WORDS = 30  # more must be read twice; a sign of a formula is no word
-NO_ROOMS = ("tests", "build", "out")
+NO_ROOMS = ("tests",)
 
 LITERALS = re.compile(r'(?:"(?:[^"\\\n]|\\.)*"\s*)+')
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
@@ -61,9 +61,9 @@ def word_count(sentence):
     return sum(any(c.isalnum() for c in word) for word in sentence.split())
 
 
-def headers():
-    rooms = (folder for folder in ROOT.iterdir() if folder.name not in NO_ROOMS and folder.name[0] != ".")
-    return sorted(path for room in rooms for path in room.rglob("*.h") if "node_modules" not in path.parts)
+def sources():
+    tracked = subprocess.run(["git", "-C", ROOT, "ls-files", "*.h", "*.cpp", "*.ts"], capture_output=True, text=True, check=True)
+    return [ROOT / name for name in tracked.stdout.split() if (ROOT / name).exists() and name.split("/")[0] not in NO_ROOMS]
 
 
 def page_parts(text):
@@ -92,7 +92,7 @@ def pages():
 
 
 def long_sentences():
-    files = [(path, comment_parts) for path in headers()] + [(path, page_parts) for path in pages()]
+    files = [(path, comment_parts) for path in sources()] + [(path, page_parts) for path in pages()]
     for path, parts_of in files:
         for line, part in parts_of(path.read_text(encoding="utf-8")):
             for sentence in SENTENCE_END.split(part):

@@ -15,7 +15,7 @@ namespace gnomon::app {
 
 namespace {
 
-/// Heights go by the square root of the share: without a bias half of the picture may be wrong, and what a good bias
+/// Heights go by the square root of the share. Without a bias half of the picture may be wrong, and what a good bias
 /// leaves, some per mille, has to be seen beside it.
 /// The marks' words stand in lines above the curves.
 struct Plot {

@@ -1,5 +1,5 @@
 // What lies over the pictures: their names, the line of a swipe, the pixel that is explained and the one under the
-// pointer in every pane, the light's handle, and the edges of the map.
+// pointer in every pane. So do the light's handle and the edges of the map.
 #include <fmt/core.h>
 #include <imgui/imgui.h>
 

@@ -1,4 +1,4 @@
-// Every constant bias from one render: a hard test shadows a pixel exactly when its gap exceeds the bias, so moving the
+// Every constant bias from one render. A hard test shadows a pixel exactly when its gap exceeds the bias. So moving the
 // slider (or the line in the chart) recolours the picture and counts again without rendering.
 import { page, type Light } from "./data";
 import { backdropOf, recolour } from "./pictures";

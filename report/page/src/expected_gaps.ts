@@ -1,4 +1,4 @@
-// What the gaps should be, in depth steps, from map positions, distances, normals and the map: the twin of ExpectedGaps in
+// What the gaps should be, in depth steps, from map positions, distances, normals and the map. They are the twin of ExpectedGaps in
 // ../../light_channels.cpp, by operations that IEEE 754 fixes to the last bit.
 import { page, type LightJson } from "./data";
 import type { Face, Vec3 } from "./light_view";

@@ -1,5 +1,5 @@
 // Puts a page together: the bar on top and its sections take the place of the plain page that readers without scripts see
-// (../../plain_page.h), whose pictures move to where the sections want them.
+// (../../plain_page.h). Its pictures move to where the sections want them.
 import { addCopyButtons } from "./clipboard";
 import { markup, type Markup } from "./template";
 

@@ -1,5 +1,5 @@
-// Where camera and maps lie, drawn from the side: what the camera sees, what each map covers, and the box around all that is
-// finite, as lines seen from where camera and light both look across.
+// Where camera and maps lie, drawn from the side. These are what the camera sees, what each map covers, and the box around all that
+// is finite, all as lines seen from where camera and light both look across.
 import { fixed } from "./log_chart";
 import { add, cross, dot, length, scaled, sub, unit, type Vec3 } from "./light_view";
 import { facts, result, type LightResult } from "./report_document";

@@ -1,5 +1,5 @@
 // What a page gains when scripts may run. Of a comparison: the viewer that swipes, flips and enlarges, the probe that
-// reads a pixel and draws it in light space, a bias to drag, labels to show alone, views to link to. Of a sweep: a grid
+// reads a pixel and draws it in light space. Also a bias to drag, labels to show alone, views to link to. Of a sweep: a grid
 // by any two parameters, cells that open in the viewer, a table to sort. Of shadows in time: the film and its probe. Without it everything is still on the page.
 import "./report.css";
 import { startComparison } from "./compare_page";

@@ -1,5 +1,5 @@
 // The picture alone, as large as the window, or picture, pixel drawing, cross-section and bias on one screen, as a lecture
-// wants them: the same elements as on the page, moved into a dialog that fills the window and back again, so that they stay
+// wants them. They are the same elements as on the page, moved into a dialog that fills the window and back again, so that they stay
 // linked as they are.
 import { html } from "./svg";
 

@@ -1,4 +1,4 @@
-// The scene cut by the plane of light rays through one row or column of the map: exact for spheres and planes, and for triangles
+// The scene cut by the plane of light rays through one row or column of the map. It is exact for spheres and planes, and for triangles
 // up to the rounding of the corners that the page carries (2^-20 of the scene's size).
 import type { Geometry } from "./data";
 import {

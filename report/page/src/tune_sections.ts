@@ -1,4 +1,4 @@
-// What the tuner says before the comparison at its answer: the answer, what accuracy costs, the runners-up with the
+// What the tuner says before the comparison at its answer. That is the answer, what accuracy costs, the runners-up with the
 // reasons, and how the error of each kind of bias depends on the bias (studies/tune/page.cpp).
 import { chartFrame, ChartLabels, chartSvg, fixed, leastError, LogPlot, logTicks, chartText } from "./log_chart";
 import { general, milliseconds, percent, plainNumber } from "./number_text";

@@ -43,7 +43,7 @@ bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return glm::length(glm::cross(ab, ac)) > narrowest_share * longest;
 }
 
-/// The mesh as a transform without inverse leaves it (a scale of 0 along one axis), in the world: what becomes a line or a
+/// The mesh as a transform without inverse leaves it (a scale of 0 along one axis), in the world. What becomes a line or a
 /// point is left out, normals are the triangles' own.
 Mesh flattened(const Mesh& mesh, const Mat4& world_from_object) {
   Mesh out = mesh;

@@ -13,7 +13,7 @@ namespace gnomon {
 namespace {
 
 /// An option of a texture statement (Wavefront's "MTL material format", section "Options for texture map
-/// statements"): how many words may follow, and how many of them must be numbers where they are there.
+/// statements"). It says how many words may follow, and how many of them must be numbers where they are there.
 struct TextureOption {
   std::string_view name;
   std::size_t most;  ///< words

@@ -93,7 +93,7 @@ std::string header_of(ImageSize size, const std::string& channels, bool long_nam
   return out.bytes();
 }
 
-/// What ZIP packs: the bytes of even places before those of odd ones, each but the first as its difference from the one
+/// What ZIP packs: the bytes of even places before those of odd ones. Each but the first is its difference from the one
 /// before plus 128 (OpenEXR, "ZIP" of "OpenEXR File Layout"; ImfZip.cpp).
 std::string prepared(std::string_view raw) {
   std::string bytes(raw.size(), '\0');

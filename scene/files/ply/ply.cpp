@@ -1,4 +1,4 @@
-// PLY models (Turk 1994), text and both binary encodings: vertices with positions, and normals and texture
+// PLY models (Turk 1994), text and both binary encodings. They have vertices with positions, and normals and texture
 // coordinates where they have them (v is turned over), colours, and faces of any number of corners.
 #include <fmt/core.h>
 

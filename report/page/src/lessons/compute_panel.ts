@@ -1,5 +1,5 @@
-// A figure of the lesson with other settings, computed by the program itself in a worker of the page: where a site is read over HTTP
-// and has the program for the web beside it. From the disk, and without it, the lesson's own figure stands.
+// A figure of the lesson with other settings, computed by the program itself in a worker of the page. That is where a site is read
+// over HTTP and has the program for the web beside it. From the disk, and without it, the lesson's own figure stands.
 import { putComparison, type ComparisonJson } from "../data";
 import { SettingsPanel } from "../lab/settings_panel";
 import { pageData } from "../parts";

@@ -1,5 +1,5 @@
-// A ray dragged before a box, a ball and a surface that is given by a function, and the three areas that decide about a
-// triangle: the numbers of each test, as the lesson derives them.
+// A ray dragged before a box, a ball and a surface that is given by a function, and the three areas that decide about a triangle. Shown
+// are the numbers of each test, as the lesson derives them.
 import { html, number } from "../svg";
 import { add, cross, dot, meetCircle, sub, unit, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";

@@ -1,4 +1,4 @@
-// A grid over a handful of discs, and the walk from cell to cell (Amanatides and Woo 1987): along each axis the t of the next wall
+// A grid over a handful of discs, and the walk from cell to cell (Amanatides and Woo 1987). Along each axis the t of the next wall
 // is known, the smaller one is crossed, and one addition gives that axis's next.
 import { meetCircle, type Circle, type Vec2 } from "./flatland";
 import { boxAround, lineInside, type WalkStep } from "./small_tree";

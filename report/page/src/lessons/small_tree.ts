@@ -1,4 +1,4 @@
-// Structures over a handful of discs in a plane, small enough to be built split by split: where each split goes and why, how a line
+// Structures over a handful of discs in a plane, small enough to be built split by split. Told is where each split goes and why, how a line
 // walks through the finished one, and what is on the stack at every step. Perimeters stand for the surface areas of space.
 import { add, dot, length, meetCircle, sub, unit, type Circle, type Vec2 } from "./flatland";
 import { clipped, outlineOf, type Box } from "./structure_walk";

@@ -1,4 +1,4 @@
-// Whitted's tree of rays, one ray after the other, in the upright plane through the centres of both balls of the scene: there
+// Whitted's tree of rays, one ray after the other, in the upright plane through the centres of both balls of the scene. There
 // every ray that begins in the plane stays in it.
 import { percent } from "../number_text";
 import { html, number, svg } from "../svg";
