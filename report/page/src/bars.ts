@@ -14,7 +14,9 @@ const pale = 0.35;
 export function twoSidedBar(done: TwoSides, left: TwoSides, scale: number): Markup {
   const bar = (v: number, kind: "minus" | "plus", opacity: number): Markup => {
     const width = v > 0 ? Math.max((490 * v) / scale, 1.5) : 0;
-    return markup`<rect class="${kind}" x="${fixed(kind === "minus" ? 500 - width : 500)}" y="5" width="${fixed(width)}" height="14" opacity="${opacity}"/>`;
+    return markup`<rect class="${kind}" x="${fixed(
+      kind === "minus" ? 500 - width : 500,
+    )}" y="5" width="${fixed(width)}" height="14" opacity="${opacity}"/>`;
   };
   return markup`<svg class="bar" viewBox="0 0 1000 24" preserveAspectRatio="none" aria-hidden="true" focusable="false">${bar(done.darker, "minus", pale)}${bar(
     done.lighter,

@@ -138,7 +138,10 @@ export class BiasPanel {
     this.said.dataset.missedShadow = String(counts.missedShadow);
     this.said.textContent =
       `At a ${this.kind} of ${number(bias)} (${texelsText(texels)}) ${percent(wrong / Math.max(1, this.compared))} ` +
-      `of the compared pixels are wrong: ${counted(counts.falseShadow, "pixel")} in false shadow, ${grouped(counts.missedShadow)} in missed shadow` +
+      `of the compared pixels are wrong: ${counted(
+        counts.falseShadow,
+        "pixel",
+      )} in false shadow, ${grouped(counts.missedShadow)} in missed shadow` +
       `${counts.ties > 0 ? `, ${grouped(counts.ties)} off by exactly one half (two count as one wrong)` : ""}.`;
     this.canvas.setAttribute("aria-label", `The picture with what is wrong at this bias. ${this.said.textContent}`);
   }

@@ -109,7 +109,9 @@ function marks(best: number, used: number, scale: Scale): Markup {
     isRight = at >= drawn;
   const note = (x: number, isRight: boolean, name: string): Markup =>
     label(x + (isRight ? 5 : -5), top - 7, isRight ? "note" : "note end", name);
-  return markup`${vertical(at, "best")}${note(at, isRight, "best")}${Math.abs(at - drawn) >= 1 && markup`${vertical(drawn, "used")}${note(drawn, !isRight, "used")}`}`;
+  return markup`${vertical(at, "best")}${note(at, isRight, "best")}${
+    Math.abs(at - drawn) >= 1 && markup`${vertical(drawn, "used")}${note(drawn, !isRight, "used")}`
+  }`;
 }
 
 /** Wrong pixels against the constant bias: false shadow, missed shadow, and both with half of the ties; null where there is no curve. */
@@ -132,6 +134,8 @@ export function biasChart(light: BiasCurve, id: string): Markup | null {
     scale,
   )}${axes(scale, bias.texel_world)}${curves.map(
     ([kind, , share]) =>
-      markup`<polyline class="curve ${kind}" points="${curve.map((p) => `${fixed(scale.x(p.bias))},${fixed(scale.y(share(p, compared)))}`).join(" ")}"/>`,
+      markup`<polyline class="curve ${kind}" points="${curve
+        .map((p) => `${fixed(scale.x(p.bias))},${fixed(scale.y(share(p, compared)))}`)
+        .join(" ")}"/>`,
   )}${marks(best.constant_world!, bias.constant_world ?? best.constant_world!, scale)}${curveNames(last, scale, compared)}</svg>`;
 }

@@ -9,11 +9,18 @@ function biasWords({ best_bias: best, map: { bias } }: LightResult, i: number): 
   const { contradiction, smaller } = facts.light_facts[i]!,
     key = `lights.${i}.best_bias`;
   const inTexels = (world: number): string => (bias.texel_world > 0 ? ` (${texelsText(world / bias.texel_world)})` : "");
-  return markup`A hard test shadows a pixel when its gap, the distance to the light minus the stored one${facts.bias_parts.length > 0 && " and the other parts of the bias"}, is
+  return markup`A hard test shadows a pixel when its gap, the distance to the light minus the stored one${
+    facts.bias_parts.length > 0 && " and the other parts of the bias"
+  }, is
 larger than the constant bias. Sorting the gaps of one render gives the exact error of every constant bias.
-The best is ${plain(`${key}.constant_world`)}${inTexels(best.constant_world!)}, which leaves ${keyed(`${key}.wrong_fraction`, percent)} wrong.${
+The best is ${plain(`${key}.constant_world`)}${inTexels(best.constant_world!)}, which leaves ${keyed(
+    `${key}.wrong_fraction`,
+    percent,
+  )} wrong.${
     smaller &&
-    ` The smaller ${plainNumber(smaller.constant_world)}${inTexels(smaller.constant_world)} is nearly as good: ${percent(smaller.wrong_fraction)}.`
+    ` The smaller ${plainNumber(
+      smaller.constant_world,
+    )}${inTexels(smaller.constant_world)} is nearly as good: ${percent(smaller.wrong_fraction)}.`
   } ${best.feasible ? "Some constant bias makes every compared pixel right." : contradiction}`;
 }
 
@@ -32,7 +39,9 @@ ${scrollRegion(
   markup`<table><thead><tr><th scope="col">kind</th><th scope="col">options</th><th scope="col"
 class="n">wrong</th><th scope="col">hardly differs</th></tr></thead><tbody>${kinds.map(
     (kind) =>
-      markup`<tr><th scope="row">${kind.kind}</th><td><code>${kind.options}</code></td><td class="n">${percent(kind.wrong_fraction)}</td><td>${range(kind)}</td></tr>\n`,
+      markup`<tr><th scope="row">${kind.kind}</th><td><code>${kind.options}</code></td><td class="n">${percent(
+        kind.wrong_fraction,
+      )}</td><td>${range(kind)}</td></tr>\n`,
   )}</tbody></table>`,
 )}`;
 }
@@ -42,7 +51,10 @@ function layersTable({ derived_bias: derived }: LightResult, i: number): Markup 
   if (derived === null) return null;
   const lengths = ({ world, texels, stored }: DerivedBias["layers"][number]["drawn"]): Markup =>
     markup`${[world, texels, stored].map((value) => markup`<td class="n">${general(value, 3)}</td>`)}`;
-  return markup`<p>A constant bias on each layer of the map, as it was drawn and as it follows from the map alone: ${general(derived.constant_texels, 3)}
+  return markup`<p>A constant bias on each layer of the map, as it was drawn and as it follows from the map alone: ${general(
+    derived.constant_texels,
+    3,
+  )}
 texels, beside a slope bias of ${plainNumber(derived.slope)} or a normal offset of ${general(derived.normal_offset_texels, 3)} texels.</p>
 ${scrollRegion(
   `The bias on each layer of light ${i + 1}`,
@@ -51,7 +63,10 @@ ${scrollRegion(
       markup`<th scope="col" class="n">${of}, world units</th><th scope="col" class="n">texels</th><th scope="col" class="n">stored depth</th>`,
   )}</tr></thead><tbody>${derived.layers.map(
     (layer, at) =>
-      markup`<tr><th scope="row">${at + 1}</th><td class="n">${general(layer.texel_world, 3)}</td>${lengths(layer.drawn)}${lengths(layer.derived)}</tr>\n`,
+      markup`<tr><th scope="row">${at + 1}</th><td class="n">${general(
+        layer.texel_world,
+        3,
+      )}</td>${lengths(layer.drawn)}${lengths(layer.derived)}</tr>\n`,
   )}</tbody></table>`,
 )}`;
 }
@@ -66,7 +81,9 @@ ${scrollRegion(
   markup`<table><thead><tr><th scope="col">engine</th><th scope="col">setting</th><th scope="col"
 class="n">value</th><th scope="col">formula</th></tr></thead><tbody>${units.map(
     ({ engine, setting, value, formula }) =>
-      markup`<tr><th scope="row">${engine}</th><td>${setting}</td><td class="n">${value === null ? "–" : plainNumber(value)}</td><td>${formula}</td></tr>\n`,
+      markup`<tr><th scope="row">${engine}</th><td>${setting}</td><td class="n">${
+        value === null ? "–" : plainNumber(value)
+      }</td><td>${formula}</td></tr>\n`,
   )}</tbody></table>`,
 )}${layersTable(light, i)}</details>
 `;
@@ -80,6 +97,9 @@ export function biasBlock(light: LightResult, i: number): Markup | null {
     chart &&
     markup`<h3>How the error depends on the bias, from this one render</h3>
 <p>${biasWords(light, i)}</p>
-${scrollRegion(`Chart of wrong pixels against the bias of light ${i + 1}`, chart)}${kindsTable(light, i)}${engineUnits(light, i)}${lessonDetails("bias")}`
+${scrollRegion(
+  `Chart of wrong pixels against the bias of light ${i + 1}`,
+  chart,
+)}${kindsTable(light, i)}${engineUnits(light, i)}${lessonDetails("bias")}`
   );
 }

@@ -69,7 +69,11 @@ export class Cell {
     const label = this.labels[index]!,
       words = wordsOf(label);
     return label > 0
-      ? `${words.name}, ${this.codes[index]! & small ? `drawn too ${this.codes[index]! & darker ? "dark" : "light"}` : `${this.codes[index]! & darker ? "false" : "missed"} shadow`}`
+      ? `${words.name}, ${
+          this.codes[index]! & small
+            ? `drawn too ${this.codes[index]! & darker ? "dark" : "light"}`
+            : `${this.codes[index]! & darker ? "false" : "missed"} shadow`
+        }`
       : words.name;
   }
 

@@ -143,10 +143,10 @@ function timeBudget(): Markup | null {
   return markup`<table class="times"><caption>The time budget: every stage of the run, up to this page</caption><thead><tr><th scope="col">stage</th><th scope="col">share of the longest</th><th
 scope="col" class="n">wall clock</th><th scope="col" class="n">processor</th></tr></thead><tbody>
 ${stages.map(
-  (
-    { stage, wall_ms },
-    i,
-  ) => markup`<tr><th scope="row">${stage}<small>${stageWords[stage]}</small></th><td class="wide">${shareBar(wall_ms / longest, "sum")}</td><td
+  ({ stage, wall_ms }, i) => markup`<tr><th scope="row">${stage}<small>${stageWords[stage]}</small></th><td class="wide">${shareBar(
+    wall_ms / longest,
+    "sum",
+  )}</td><td
 class="n">${keyed(`time_budget.${i}.wall_ms`, milliseconds)}</td><td
 class="n">${keyed(`time_budget.${i}.cpu_ms`, milliseconds)}</td></tr>\n`,
 )}<tr class="sum"><th scope="row">sum: the process</th><td class="wide"></td><td
@@ -165,7 +165,10 @@ function workTable(): Markup {
   const { costs, lights } = result,
     row = (name: string, key: string): Markup => plainRow(name, keyedCount(`costs.${key}`));
   return markup`<table><caption>Work, the same on every machine</caption><tbody>
-${row("depth-map texels rendered", "map_texels")}${plainRow("depth-map memory", keyed("costs.map_bytes", byteCount))}${row("primary rays", "primary_rays")}${row("shadow rays", "shadow_rays")}${
+${row("depth-map texels rendered", "map_texels")}${plainRow(
+    "depth-map memory",
+    keyed("costs.map_bytes", byteCount),
+  )}${row("primary rays", "primary_rays")}${row("shadow rays", "shadow_rays")}${
     costs.soft_shadow_rays_asked! > 0 &&
     markup`${row("rays to lights with size", "soft_shadow_rays")}${row("samples asked for", "soft_shadow_rays_asked")}`
   }${lights.map(

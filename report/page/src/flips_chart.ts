@@ -24,7 +24,12 @@ export function flipsChart(flips: number[], name: string): Markup {
   const most = Math.max(1, ...flips);
   const x = (step: number) => left + (right - left) * (flips.length > 1 ? step / (flips.length - 1) : 0.5);
   const y = (value: number) => bottom - ((bottom - top) * value) / most;
-  return markup`<svg class="chart flips-chart" viewBox="0 0 1000 264" role="img" aria-label="Flips from frame to frame of ${name}">${ticks(most, flips.length, x, y)}<polyline
+  return markup`<svg class="chart flips-chart" viewBox="0 0 1000 264" role="img" aria-label="Flips from frame to frame of ${name}">${ticks(
+    most,
+    flips.length,
+    x,
+    y,
+  )}<polyline
 class="flips-line" points="${flips.map((count, i) => `${x(i).toFixed(1)},${y(count).toFixed(1)}`).join(" ")}"/>${flips.map(
     (count, i) => markup`<circle
 class="dot" cx="${x(i).toFixed(1)}" cy="${y(count).toFixed(1)}" r="3"><title>to frame ${i + 2}: ${grouped(count)} flips</title></circle>`,

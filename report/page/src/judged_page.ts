@@ -24,8 +24,12 @@ function row(capture: Judged): Markup {
   if (refused) return markup`<tr><th scope="row">${name}</th><td colspan="7">not judged: ${refused}</td></tr>\n`;
   const head = markup`<tr><th scope="row"><a href="${folder}/report.html">${name}</a><small>${scene}</small></th><td>${renderer}</td>`;
   if (compared === 0) return markup`${head}<td colspan="5">nothing compared</td><td>${advice}</td></tr>\n`;
-  return markup`${head}<td class="n">${percent(capture.wrong)}</td><td class="n">${percent(capture.mean_error)}</td><td>${capture.labels}</td><td
-class="n">${plainNumber(capture.edge_pixels)}</td><td class="n">${capture.detachment_world === null ? "–" : plainNumber(capture.detachment_world)}</td><td>${advice}</td></tr>\n`;
+  return markup`${head}<td class="n">${percent(capture.wrong)}</td><td class="n">${percent(
+    capture.mean_error,
+  )}</td><td>${capture.labels}</td><td
+class="n">${plainNumber(capture.edge_pixels)}</td><td class="n">${
+    capture.detachment_world === null ? "–" : plainNumber(capture.detachment_world)
+  }</td><td>${advice}</td></tr>\n`;
 }
 
 export function startJudged(): void {

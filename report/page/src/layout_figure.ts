@@ -64,8 +64,12 @@ export function layoutFigure(light: LightResult, i: number): Markup | null {
 <p>${flowing(facts.light_facts[i]!.window)}</p>
 <figure><svg class="chart layout" viewBox="0 0 ${width} ${fixed(drawnHeight)}" role="img" aria-label="Camera, light and scene as lines">${
     bounds && lines(bounds, "bounds")
-  }${windows.map((box) => lines(box, "window"))}${lines(camera.corners, "seen")}<circle class="eye worst-eye" cx="${x}" cy="${y}" r="5"/></svg><figcaption>From
-the side: the camera (dot) and what it sees, <b class="window-text">what the light's map${cascades ? "s cover, a box for each" : " covers"}</b> between its near and far depth, and,
+  }${windows.map((box) =>
+    lines(box, "window"),
+  )}${lines(camera.corners, "seen")}<circle class="eye worst-eye" cx="${x}" cy="${y}" r="5"/></svg><figcaption>From
+the side: the camera (dot) and what it sees, <b class="window-text">what the light's map${
+    cascades ? "s cover, a box for each" : " covers"
+  }</b> between its near and far depth, and,
 dashed, the box around all that is finite. A caster outside the map's box casts no shadow; what is seen outside it is lit.</figcaption></figure>
 `;
 }

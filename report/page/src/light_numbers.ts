@@ -36,7 +36,13 @@ ${row(palette.surely_lit, "surely lit", keyedCount(`${key}.surely_lit`), surely_
   )}: ${share(rays, all_rays)}. The sheets took ${time("build")} to build and hold ${byteCount(bytes)}
 while light and scene stand still; each frame took ${time("receivers")} to find the receivers and ${time("shadow")} to decide and trace.</p>
 ${lessonDetails("hybrid")}</div>
-${decisions && markup`<figure>${picture(`decisions-${i}`, `picture-decisions-${i}`)}<figcaption>Rays were cast for the dark red pixels alone.</figcaption></figure>\n`}</div>
+${
+  decisions &&
+  markup`<figure>${picture(
+    `decisions-${i}`,
+    `picture-decisions-${i}`,
+  )}<figcaption>Rays were cast for the dark red pixels alone.</figcaption></figure>\n`
+}</div>
 `;
 }
 
@@ -47,12 +53,17 @@ export function ladderBlock({ ladder, budget }: LightResult, i: number): Markup 
     last = ladder.at(-1)!.mean;
   const step = (k: number): Markup => {
     const of = `${key}.budget.${k}`;
-    return markup`<td>${stepName(k)}</td><td class="n">${keyedDecrease(`${of}.darkened`)}</td><td class="n">${keyed(`${of}.lightened`, signedNumber)}</td><td
+    return markup`<td>${stepName(k)}</td><td class="n">${keyedDecrease(`${of}.darkened`)}</td><td class="n">${keyed(
+      `${of}.lightened`,
+      signedNumber,
+    )}</td><td
 class="n">${keyedSigned(`${of}.signed`, budget[k]!.absolute)}</td><td class="n">${keyed(`${of}.absolute`, unsignedNumber)}</td>`;
   };
   const rows = facts.rungs.map(
     ({ name, what }, k) => markup`<tr><th scope="row"><i>V</i><sub>${k}</sub> ${name}<small>${what}</small></th><td
-class="n">${keyed(`${key}.ladder.${k}.mean`, (mean) => mean.toFixed(4))}</td>${k === 0 || k > budget.length ? markup`<td></td><td></td><td></td><td></td><td></td>` : step(k - 1)}</tr>\n`,
+class="n">${keyed(`${key}.ladder.${k}.mean`, (mean) => mean.toFixed(4))}</td>${
+      k === 0 || k > budget.length ? markup`<td></td><td></td><td></td><td></td><td></td>` : step(k - 1)
+    }</tr>\n`,
   );
   return markup`<h3>The ladder, from the truth to what was drawn</h3>
 <p>Each rung changes one thing. The signed steps add up to the whole difference, exactly; an
@@ -78,7 +89,11 @@ function edgeFacts({ edges }: LightResult, key: string): Markup | null {
   return markup`${fact(
     "Edge error",
     keyedThings(`${key}.edges.rms_texels`, "texel", plainNumber),
-    markup`root mean square over ${keyedThings(`${key}.edges.count`, "pixel")} on true edges; ${keyedThings(`${key}.edges.rms_pixels`, "pixel", plainNumber)} on the screen`,
+    markup`root mean square over ${keyedThings(`${key}.edges.count`, "pixel")} on true edges; ${keyedThings(
+      `${key}.edges.rms_pixels`,
+      "pixel",
+      plainNumber,
+    )} on the screen`,
   )}${fact(
     "Edge offset",
     markup`${keyed(`${key}.edges.mean_texels`, signedNumber)} texels`,
@@ -90,7 +105,9 @@ function penumbraFacts({ penumbra, shadow_samples: samples }: LightResult, key: 
   if (!penumbra || penumbra.edges === 0) return null;
   const of = (rest: string): string => `${key}.penumbra.${rest}`;
   const both = (what: string, drawn: number, edges: string): Markup =>
-    markup`world units wide as drawn, ${plain(of(`true_${what}_world`))} in truth; medians over ${keyedThings(of(edges), "edge")}${drawn === 0 && "; the technique draws none"}`;
+    markup`world units wide as drawn, ${plain(of(`true_${what}_world`))} in truth; medians over ${keyedThings(of(edges), "edge")}${
+      drawn === 0 && "; the technique draws none"
+    }`;
   return markup`${fact("Penumbra", plain(of("drawn_penumbra_world")), both("penumbra", penumbra.drawn_penumbra_world, "edges"))}${
     penumbra.umbra_edges > 0 && fact("Umbra", plain(of("drawn_umbra_world")), both("umbra", penumbra.drawn_umbra_world, "umbra_edges"))
   }${
@@ -108,7 +125,11 @@ function penumbraFacts({ penumbra, shadow_samples: samples }: LightResult, key: 
 function theoryFacts({ theory }: LightResult, key: string): Markup | null {
   if (theory.acne_free_bias.count === 0) return null;
   const of = (rest: string): Markup => plain(`${key}.theory.${rest}`);
-  return markup`${fact("Bias that theory asks for", of("acne_free_bias.median"), markup`world units keep half of the pixels free of acne, ${of("acne_free_bias.p99")} keep 99 %`)}${
+  return markup`${fact(
+    "Bias that theory asks for",
+    of("acne_free_bias.median"),
+    markup`world units keep half of the pixels free of acne, ${of("acne_free_bias.p99")} keep 99 %`,
+  )}${
     theory.aliasing.count > 0 &&
     fact(
       "A texel on the screen",
@@ -155,8 +176,13 @@ function edgeMaps(i: number): Markup | null {
   if (!pictureNamed(`edges-${i}`)) return null;
   return markup`<div class="pair">
 <figure>${picture(`edges-${i}`)}<figcaption>How far drawn shadow edges lie from the true ones, on the band between the two. White: not
-at all. ${swatch(palette.false_shadow, "+")} the drawn shadow is larger, ${swatch(palette.missed_shadow, "−")} smaller; full colour from ${facts.edge_scale_texels} texels on.</figcaption></figure>
-<figure>${picture(`detachment-${i}`)}<figcaption>How far shadows stand off what casts them: black not at all, pale yellow ${facts.detachment_scale_texels} texels or
+at all. ${swatch(palette.false_shadow, "+")} the drawn shadow is larger, ${swatch(
+    palette.missed_shadow,
+    "−",
+  )} smaller; full colour from ${facts.edge_scale_texels} texels on.</figcaption></figure>
+<figure>${picture(`detachment-${i}`)}<figcaption>How far shadows stand off what casts them: black not at all, pale yellow ${
+    facts.detachment_scale_texels
+  } texels or
 more.</figcaption></figure>
 </div>
 `;
@@ -177,14 +203,21 @@ ${
   fact(
     "Seams",
     keyedThings(`${key}.seams.changed`, "receiver"),
-    markup`that the next ${light.light.type === "point" ? "face" : "cascade"} would draw otherwise, of ${keyedThings(`${key}.seams.at_border`, "receiver")} beside another ${light.light.type === "point" ? "face of the cube" : "cascade"}`,
+    markup`that the next ${
+      light.light.type === "point" ? "face" : "cascade"
+    } would draw otherwise, of ${keyedThings(`${key}.seams.at_border`, "receiver")} beside another ${
+      light.light.type === "point" ? "face of the cube" : "cascade"
+    }`,
   )
 }${terminatorFact(light, key)}${known && edgeFacts(light, key)}${
     detachment.pixels > 0 &&
     fact(
       "Detachment",
       plain(`${key}.detachment.mean_world`),
-      markup`world units from caster to drawn shadow on ${keyedThings(`${key}.detachment.pixels`, "pixel")}, ${plain(`${key}.detachment.max_world`)} at most`,
+      markup`world units from caster to drawn shadow on ${keyedThings(
+        `${key}.detachment.pixels`,
+        "pixel",
+      )}, ${plain(`${key}.detachment.max_world`)} at most`,
     )
   }${
     bleeding &&
@@ -192,7 +225,10 @@ ${
     fact(
       "Light bleeding",
       plain(`${key}.bleeding.mean`),
-      markup`mean light that the filter lets into closed shadow, on ${keyedThings(`${key}.bleeding.pixels`, "pixel")}; ${plain(`${key}.bleeding.max`)} at most`,
+      markup`mean light that the filter lets into closed shadow, on ${keyedThings(
+        `${key}.bleeding.pixels`,
+        "pixel",
+      )}; ${plain(`${key}.bleeding.max`)} at most`,
     )
   }${penumbraFacts(light, key)}${known && texelFact(light, key)}${known && theoryFacts(light, key)}${fact(
     "FLIP",
@@ -215,7 +251,9 @@ ${edgeMaps(i)}`;
 
 /** Viridis from far (left) to near (right). */
 const depthScale = (id: string): Markup => markup`<svg class="scale" viewBox="0 0 200 12" preserveAspectRatio="none" aria-hidden="true"
-focusable="false"><defs><linearGradient id="${id}">${palette.viridis.map((colour, k) => markup`<stop offset="${k / 8}" stop-color="${colour}"/>`)}</linearGradient></defs><rect width="200"
+focusable="false"><defs><linearGradient id="${id}">${palette.viridis.map(
+  (colour, k) => markup`<stop offset="${k / 8}" stop-color="${colour}"/>`,
+)}</linearGradient></defs><rect width="200"
 height="12" fill="url(#${id})"/></svg>`;
 
 export function depthMapBlock({ map }: LightResult, i: number): Markup | null {
@@ -223,7 +261,9 @@ export function depthMapBlock({ map }: LightResult, i: number): Markup | null {
   if (!depth) return null;
   const { near, far, perspective, texels_per_pixel: step } = depth;
   return markup`<h3>The depth map</h3>
-<figure class="depth">${picture(`depth-map-${i}`)}<figcaption><span class="scale-row"><span>far ${plainNumber(far)}</span>${depthScale(`depth-scale-${i}`)}<span>near ${plainNumber(near)}</span></span>
+<figure class="depth">${picture(`depth-map-${i}`)}<figcaption><span class="scale-row"><span>far ${plainNumber(far)}</span>${depthScale(
+    `depth-scale-${i}`,
+  )}<span>near ${plainNumber(near)}</span></span>
 Depth from the light in world units${perspective && ", on a logarithmic scale"}; dark grey where nothing is stored.${
     map.faces > 1 && (perspective ? " Six faces: +x, −x, +y above −y, +z, −z." : " Each cascade's own map, the finest first.")
   }${

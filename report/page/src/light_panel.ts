@@ -168,7 +168,10 @@ export class LightPanel {
     const { index, label } = this.shown,
       { flip, ssim } = this.light;
     this.line.textContent =
-      `Pixel ${x}, ${y}: ${wordsOf(label).name}; rasterized ${this.colour("raster", index)}; ray traced ${this.colour("raytraced", index)}` +
+      `Pixel ${x}, ${y}: ${wordsOf(label).name}; rasterized ${this.colour("raster", index)}; ray traced ${this.colour(
+        "raytraced",
+        index,
+      )}` +
       (flip && label >= 0 ? `; FLIP ${number(flip[index]! / 100, 2)}` : "") +
       (ssim && label >= 0 && ssim[index] !== -128 ? `, SSIM ${number(ssim[index]! / 100, 2)}` : "");
   }

@@ -60,14 +60,28 @@ function labelTable(light: LightResult, i: number): Markup {
   const others = ["uncertain", "silhouette", "facing_away", "background"].filter((key) => pixels[key]! > 0);
   return markup`<table class="labels"><caption>Labels</caption><thead><tr><td></td><th scope="col">label</th><th
 scope="col" class="n">pixels</th><th scope="col" class="n">share</th><th scope="col" class="n" title="What the label has of the mean absolute error">error</th></tr></thead><tbody>
-${occurring(light).map((label) => labelRow(label, keyedCount(`lights.${i}.classes.${label.key}`), shareOf(classes[label.key]!, compared), keyed(`lights.${i}.class_errors.${label.key}`, percent)))}<tr class="sum"><td></td><th
-scope="row">wrong</th><td class="n">${keyedCount(`lights.${i}.error.wrong`)}</td><td class="n">${keyed(`lights.${i}.error.wrong_fraction`, percent)}</td><td class="n">${keyed(`lights.${i}.error.mean_absolute`, percent)}</td></tr>
+${occurring(light).map((label) =>
+  labelRow(
+    label,
+    keyedCount(`lights.${i}.classes.${label.key}`),
+    shareOf(classes[label.key]!, compared),
+    keyed(`lights.${i}.class_errors.${label.key}`, percent),
+  ),
+)}<tr class="sum"><td></td><th
+scope="row">wrong</th><td class="n">${keyedCount(`lights.${i}.error.wrong`)}</td><td class="n">${keyed(
+    `lights.${i}.error.wrong_fraction`,
+    percent,
+  )}</td><td class="n">${keyed(`lights.${i}.error.mean_absolute`, percent)}</td></tr>
 ${
   error.ties > 0 &&
   markup`<tr><td></td><th scope="row">off by exactly one half (two count as one wrong)</th><td
 class="n">${keyedCount(`lights.${i}.error.ties`)}</td><td class="n">${shareOf(error.ties, compared)}</td><td></td></tr>
 `
-}${labelRow(labelled("right"), markup`${grouped(right)}`, shareOf(right, compared))}<tr class="sum"><td></td><th scope="row">compared</th><td
+}${labelRow(
+    labelled("right"),
+    markup`${grouped(right)}`,
+    shareOf(right, compared),
+  )}<tr class="sum"><td></td><th scope="row">compared</th><td
 class="n">${keyedCount(`lights.${i}.pixels.compared`)}</td><td class="n">${compared > 0 && "100 %"}</td><td></td></tr>
 ${others.map((key) => labelRow(labelled(key), keyedCount(`lights.${i}.pixels.${key}`), ""))}</tbody></table>
 `;

@@ -33,7 +33,12 @@ function shadowCostLine(): Markup | null {
     light = result.lights[i];
   if (!light?.times_ms.shadows) return null;
   return markup`<dl class="shadow-costs">
-${facts.shadow_situations.map(({ key, words }) => markup`<div><dt>Shadows${ofLight(i)}, ${words}</dt><dd>${shadowTime(light, i, `${key}_map`)} by the ${light.map.hybrid ? "hybrid" : "map"}, ${shadowTime(light, i, `${key}_rays`)} by rays</dd></div>\n`)}</dl>
+${facts.shadow_situations.map(
+  ({ key, words }) =>
+    markup`<div><dt>Shadows${ofLight(i)}, ${words}</dt><dd>${shadowTime(light, i, `${key}_map`)} by the ${
+      light.map.hybrid ? "hybrid" : "map"
+    }, ${shadowTime(light, i, `${key}_rays`)} by rays</dd></div>\n`,
+)}</dl>
 `;
 }
 
@@ -81,8 +86,15 @@ function budgetTable(light: LightResult, i: number): Markup {
   const rows = light.budget.map(
     (step, k) =>
       (step.absolute > 0 || step.false_shadow + step.missed_shadow > 0) &&
-      markup`<tr><th scope="row">${stepName(k)}</th><td class="wide">${twoSidedBar({ darker: step.darkened, lighter: step.lightened }, sides(step), scale)}</td><td
-class="n">${keyedDecrease(`lights.${i}.budget.${k}.darkened`)}</td><td class="n">${keyed(`lights.${i}.budget.${k}.lightened`, signedNumber)}</td></tr>\n`,
+      markup`<tr><th scope="row">${stepName(k)}</th><td class="wide">${twoSidedBar(
+        { darker: step.darkened, lighter: step.lightened },
+        sides(step),
+        scale,
+      )}</td><td
+class="n">${keyedDecrease(`lights.${i}.budget.${k}.darkened`)}</td><td class="n">${keyed(
+        `lights.${i}.budget.${k}.lightened`,
+        signedNumber,
+      )}</td></tr>\n`,
   );
   return markup`<table class="budget"><thead><tr><th scope="col">step</th><td class="wide"></td><th
 scope="col" class="n">darker</th><th scope="col" class="n">lighter</th></tr></thead><tbody>
@@ -140,7 +152,13 @@ export function overviewSection(): Markup {
   return markup`<section id="overview" aria-labelledby="title">
 <h1 id="title">${scene.name || "Scene without a name"}</h1>
 ${firstVerdict()}${viewsLine()}${settingLines()}<div class="${lights.length === 0 ? "pair" : "trio"}">
-${figure("raster", rasterCaption(), rasterRemark())}${figure("raytraced", markup`<b>Ray tracer</b>, exact shadows`, raytracedRemark())}${lights.length > 0 && labelFigure(labelledLight())}</div>
-${shadowCostLine()}${lights.map(card)}${lights.length === 0 && markup`<p class="verdict">The scene has no light: there is no shadow to compare.</p>\n`}</section>
+${figure("raster", rasterCaption(), rasterRemark())}${figure(
+    "raytraced",
+    markup`<b>Ray tracer</b>, exact shadows`,
+    raytracedRemark(),
+  )}${lights.length > 0 && labelFigure(labelledLight())}</div>
+${shadowCostLine()}${lights.map(card)}${
+    lights.length === 0 && markup`<p class="verdict">The scene has no light: there is no shadow to compare.</p>\n`
+  }</section>
 `;
 }

@@ -324,9 +324,24 @@ export function sectionDrawing(
     html(
       "figcaption",
       {},
-      `${outside ? "The pixel lies outside the map: no texel is asked about it. " : ""}Thin: the scene itself, cut exactly along the light rays through the pixel${scene.solidSectors > 0 ? `, curved solids other than spheres as meshes of ${scene.solidSectors} sectors or ${scene.solidSectors / 2} cells across` : ""}${scene.complete ? "" : " (some of it is too much for this page and left out)"}. ` +
-        `Thick steps: the depths stored in ${line}${light.map.step > 1 ? `, the nearest of ${light.map.step} × ${light.map.step} texels` : ""}. Shaded: shadow by the map, from the ${parts === "" ? "" : "constant "}bias on${parts === "" ? "" : `; ${parts}, which every pixel has its own of, cannot be drawn here`}. ` +
-        `Depth is drawn ${number(stretch, 2)} times as large as width. ${dots.length > mostMarks ? "Coloured bars, each split by what came out" : "Marks"}: the ${counted(dots.length, "pixel")} that look${dots.length === 1 ? "s" : ""} these texels up, from anywhere across the ${axis === 0 ? "row" : "column"}.`,
+      `${
+        outside ? "The pixel lies outside the map: no texel is asked about it. " : ""
+      }Thin: the scene itself, cut exactly along the light rays through the pixel${
+        scene.solidSectors > 0
+          ? `, curved solids other than spheres as meshes of ${scene.solidSectors} sectors or ${scene.solidSectors / 2} cells across`
+          : ""
+      }${scene.complete ? "" : " (some of it is too much for this page and left out)"}. ` +
+        `Thick steps: the depths stored in ${line}${
+          light.map.step > 1 ? `, the nearest of ${light.map.step} × ${light.map.step} texels` : ""
+        }. Shaded: shadow by the map, from the ${parts === "" ? "" : "constant "}bias on${
+          parts === "" ? "" : `; ${parts}, which every pixel has its own of, cannot be drawn here`
+        }. ` +
+        `Depth is drawn ${number(stretch, 2)} times as large as width. ${
+          dots.length > mostMarks ? "Coloured bars, each split by what came out" : "Marks"
+        }: the ${counted(
+          dots.length,
+          "pixel",
+        )} that look${dots.length === 1 ? "s" : ""} these texels up, from anywhere across the ${axis === 0 ? "row" : "column"}.`,
     ),
   );
 }

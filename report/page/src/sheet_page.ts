@@ -20,7 +20,10 @@ const column = ({ name, place, view, rows, command, units }: Candidate, i: numbe
 <p class="hint">The place that errs most, ${place}.${view !== null && ` View: ${view}.`}</p>
 <table><tbody>${rows.map(([head, text]) => markup`<tr><th scope="row">${head}</th><td>${flowing(text)}</td></tr>\n`)}</tbody></table>
 <p class="command"><code>${command}</code></p>
-${units.length > 0 && markup`<ul>${units.map(({ engine, setting, value }) => markup`<li>${engine} <code>${setting} ${value}</code></li>\n`)}</ul>`}</section>
+${
+  units.length > 0 &&
+  markup`<ul>${units.map(({ engine, setting, value }) => markup`<li>${engine} <code>${setting} ${value}</code></li>\n`)}</ul>`
+}</section>
 `;
 
 export function startSheet(): void {

@@ -84,7 +84,10 @@ class="n">${grouped(flips)}</td><td class="n">${plainNumber(absolute)}</td></tr>
 function edgesLine(light: string): Markup {
   const drawn = `${light}.edges.drawn_texels_per_frame`;
   if (Number.isNaN(numberAt(drawn))) return markup`<p>There is no true shadow edge.</p>\n`;
-  return markup`<p>Drawn shadow edges sweep ${keyedThings(drawn, "texel", plainNumber)} with each frame, the true ones ${keyed(`${light}.edges.true_texels_per_frame`, plainNumber)}.</p>\n`;
+  return markup`<p>Drawn shadow edges sweep ${keyedThings(drawn, "texel", plainNumber)} with each frame, the true ones ${keyed(
+    `${light}.edges.true_texels_per_frame`,
+    plainNumber,
+  )}.</p>\n`;
 }
 
 function lightSection(result: ShimmerResult, facts: ShimmerFacts, i: number): Markup {

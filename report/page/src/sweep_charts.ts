@@ -59,7 +59,9 @@ export function paretoChart(result: SweepResult): Markup | null {
       cell.front ? "dot best-dot" : "dot",
       ...at(cell),
       cell.front ? 5 : 3.5,
-      `${settingWords(axes, cell)}: ${measure === "wrong and mean" ? "" : `${cell.error_words}, `}${percent(cell.wrong_fraction)} wrong, mean error ${percent(cell.mean_absolute)}, ${milliseconds(cell.raster_ms!)}`,
+      `${settingWords(axes, cell)}: ${
+        measure === "wrong and mean" ? "" : `${cell.error_words}, `
+      }${percent(cell.wrong_fraction)} wrong, mean error ${percent(cell.mean_absolute)}, ${milliseconds(cell.raster_ms!)}`,
     );
   const diamond = (tracer: Tracer): Markup => {
     const error = errorOf(tracer, measure),

@@ -38,7 +38,10 @@ function overview(result: SweepResult): Markup {
       : markup`<li><span class="eyebrow">${title}</span> <a href="#cell-${cell}">${flowing(setting)}</a> <span>${flowing(figures)}</span></li>\n`,
   );
   return markup`<section id="overview" aria-labelledby="title"><h1 id="title">Sweep of ${result.configuration.scene.name ?? ""}</h1>
-${isBeside && markup`<p class="setting beside">The pictures would make this page too large for one file: they lie beside it, in <code>cells</code> and <code>thumbnails</code>. Keep the folder together.</p>\n`}<p
+${
+  isBeside &&
+  markup`<p class="setting beside">The pictures would make this page too large for one file: they lie beside it, in <code>cells</code> and <code>thumbnails</code>. Keep the folder together.</p>\n`
+}<p
 class="verdict">${sentence(result)}</p>
 ${items.length > 0 && markup`<ul class="headline">\n${items}</ul>\n`}</section>
 `;
@@ -68,9 +71,13 @@ class="cell-labels"></p>
 function rayTable(rays: RayPoint[], samples: number): Markup | null {
   if (rays.length === 0) return null;
   const row = (p: RayPoint): Markup => markup`<tr><th scope="row">${p.name}</th><td class="n">${milliseconds(p.times_ms.median)}</td><td
-class="n">${p.shadow_times_ms.runs.length === 0 ? "–" : milliseconds(p.shadow_times_ms.median)}</td><td class="n">${grouped(p.wrong)}</td><td
+class="n">${
+    p.shadow_times_ms.runs.length === 0 ? "–" : milliseconds(p.shadow_times_ms.median)
+  }</td><td class="n">${grouped(p.wrong)}</td><td
 class="n">${grouped(p.uncertain)}</td><td class="n">${plainNumber(p.mean_absolute)}</td><td class="n">${grouped(p.rays)}</td><td
-class="n">${p.boxes_per_ray.toFixed(1)}</td><td class="n">${p.primitives_per_ray.toFixed(1)}</td><td class="n">${byteCount(p.bytes)}</td></tr>\n`;
+class="n">${p.boxes_per_ray.toFixed(1)}</td><td class="n">${p.primitives_per_ray.toFixed(
+    1,
+  )}</td><td class="n">${byteCount(p.bytes)}</td></tr>\n`;
   return markup`<h3>The ray tracer itself</h3>
 ${scrollRegion(
   "The ray tracer itself",
@@ -91,14 +98,19 @@ function cost(result: SweepResult): Markup {
 ${
   pareto &&
   markup`<h3>Error against time</h3>
-<figure>${scrollRegion("Error against time", pareto)}<figcaption>Each cell is a point and opens its pictures. Error: ${result.measure.words}. ${
+<figure>${scrollRegion(
+    "Error against time",
+    pareto,
+  )}<figcaption>Each cell is a point and opens its pictures. Error: ${result.measure.words}. ${
     result.front.length > 0 &&
     `The line joins those that are faster than every cell with
 a smaller error, by more than the times' spread. `
   }${
     rays.length > 0
       ? "The diamonds are the ray tracer itself."
-      : `The diamond is the ray tracer, whose shadows are the truth here; ${milliseconds(cells[0]!.exact_shadow_ms ?? NaN)} of its time are its shadows.`
+      : `The diamond is the ray tracer, whose shadows are the truth here; ${milliseconds(
+          cells[0]!.exact_shadow_ms ?? NaN,
+        )} of its time are its shadows.`
   }${
     cells.some(({ derived }) => derived) && " Cells that differ in the constant bias alone come from one drawing and share its time."
   }</figcaption></figure>
@@ -164,16 +176,18 @@ function cellTable(result: SweepResult): Markup {
       const v = value(cell);
       return markup`<td class="n" data-sort="${v}">${v === null ? "–" : text(cell, v)}</td>`;
     };
-  const row = (
-    cell: SweepCell,
-  ): Markup => markup`<tr id="cell-${cell.cell}"${cell.front && markup` class="front-row"`}><th scope="row" class="n" data-sort="${cell.cell}"><a
+  const row = (cell: SweepCell): Markup => markup`<tr id="cell-${cell.cell}"${
+    cell.front && markup` class="front-row"`
+  }><th scope="row" class="n" data-sort="${cell.cell}"><a
 href="#cell-${cell.cell}">${cell.cell}</a>${cell.front && markup` <abbr title="worth having">★</abbr>`}</th>${axes.map(
     (axis, k) =>
       markup`<td class="n" data-sort="${cell.values[k]}">${cell.shown[k]}${cell.no_effect.includes(axis) && " (no effect)"}</td>`,
   )}${before.map(number(cell))}<td>${cell.mostly}</td>${after.map(number(cell))}<td class="run"><code>${cell.command}</code></td></tr>\n`;
   return markup`<section id="cells" aria-labelledby="cells-title"><h2 id="cells-title">Cells</h2>
 <p class="hint">Each cell is one combination of settings. ★: worth having. Time is that of map and shading. Shadows are
-what they add to a frame, by what has moved since the last one: ${result.situations.map(({ words, made }) => `${words} (${made})`).join(", ")}. Errors of visibility are between 0 and 1.</p>
+what they add to a frame, by what has moved since the last one: ${result.situations
+    .map(({ words, made }) => `${words} (${made})`)
+    .join(", ")}. Errors of visibility are between 0 and 1.</p>
 <div class="scroll" role="region" tabindex="0" aria-label="Table of cells"><table class="cells"><thead><tr>${head("cell")}${axes.map((axis) => head(inWords(axis)))}${before.map(
     ({ name }) => head(name),
   )}${head("mostly", true)}${after.map(({ name }) => head(name))}${head("command", true)}</tr></thead><tbody>
@@ -216,7 +230,11 @@ const provenance = ({
 }: SweepResult): Markup => markup`<section id="provenance" aria-labelledby="provenance-title"><h2
 id="provenance-title">Where this comes from</h2>
 <dl class="provenance">
-${[["Program", `gnomon ${version}`], ...settings(configuration), ...(load ? [["Load of the machine", load.map(plainNumber).join(" to ")] as [string, string]] : [])].map(([name, value]) => markup`<div><dt>${name}</dt><dd>${value}</dd></div>\n`)}</dl>
+${[
+  ["Program", `gnomon ${version}`],
+  ...settings(configuration),
+  ...(load ? [["Load of the machine", load.map(plainNumber).join(" to ")] as [string, string]] : []),
+].map(([name, value]) => markup`<div><dt>${name}</dt><dd>${value}</dd></div>\n`)}</dl>
 <p class="save"><a class="button" href="sweep.csv">sweep.csv</a> <a class="button" href="sweep.jsonl">sweep.jsonl</a> <a class="button" href="sweep_times.jsonl">sweep_times.jsonl</a></p></section>
 `;
 
@@ -234,6 +252,8 @@ export function sweepSections(): Section[] {
 
 /** "4.1 % wrong, mean error 4.1 %: false shadow 12, missed shadow 3, mostly acne; 12 ms …" */
 export const cellLine = (cell: SweepCell): string =>
-  `${isFilmed(cell) ? `${cell.error_words}; ` : ""}${percent(cell.wrong_fraction)} wrong, mean error ${percent(cell.mean_absolute)}: false shadow ${grouped(cell.false_shadow)}, missed shadow ${grouped(
+  `${
+    isFilmed(cell) ? `${cell.error_words}; ` : ""
+  }${percent(cell.wrong_fraction)} wrong, mean error ${percent(cell.mean_absolute)}: false shadow ${grouped(cell.false_shadow)}, missed shadow ${grouped(
     cell.missed_shadow,
   )}${cell.mostly && `, mostly ${cell.mostly}`}${cell.raster_ms === null ? "" : `; ${milliseconds(cell.raster_ms)} for map and shading`}`;

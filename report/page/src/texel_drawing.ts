@@ -266,7 +266,9 @@ export function texelDrawing(light: Light, pixel: Pixel, constant: number, id: s
       {},
       `To scale: a texel is ${number(frame.texel, 3)} wide here, depth has the same unit. Thick: stored depth. ` +
         `Dashed: stored depth and bias; what lies below it, the map takes for shadow. Slanted: the receiver's plane; ` +
-        `dotted: the ray through the texel's centre. The point is the pixel: ${dark ? "below the dashed line, so the test takes it for shadowed" : "not below the dashed line, so the test takes it for lit"}.` +
+        `dotted: the ray through the texel's centre. The point is the pixel: ${
+          dark ? "below the dashed line, so the test takes it for shadowed" : "not below the dashed line, so the test takes it for lit"
+        }.` +
         (light.json.bias.normal_offset > 0
           ? " Open circle: the point moved by the normal offset, which is what the map is asked about."
           : "") +

@@ -59,7 +59,9 @@ export interface TuneFacts {
 
 function verdict({ wanted, feasible, max_error: byError, families: [winner] }: TuneFacts): string {
   const { name, size, bias, words, time_ms: time } = winner!;
-  const answer = `${name}, ${size} × ${size} texels${bias === null ? "" : `, bias ${bias}`}. Compared as below it gives ${words}, in ${milliseconds(time)}.`;
+  const answer = `${name}, ${size} × ${size} texels${
+    bias === null ? "" : `, bias ${bias}`
+  }. Compared as below it gives ${words}, in ${milliseconds(time)}.`;
   if (!feasible) return `Wanted: ${wanted}. No map that was tried gives that. Nearest comes ${answer}`;
   return `Wanted: ${wanted}. ${byError === null ? "The best map within it" : "The cheapest map that gives it"}: ${answer}`;
 }
@@ -109,13 +111,23 @@ function costChart({ tried, families, max_error, max_time_ms, shares }: TuneFact
   const goal = (): Markup => {
     const right = LogPlot.width - LogPlot.right;
     if (max_time_ms === null)
-      return markup`${line(LogPlot.left, plot.y(max_error!), right, plot.y(max_error!))}${chartText(right, plot.y(max_error!) - 5, "note end", "wanted")}`;
-    return markup`${line(plot.x(max_time_ms), LogPlot.top, plot.x(max_time_ms), LogPlot.height - LogPlot.bottom)}${chartText(plot.x(max_time_ms) - 6, LogPlot.top + 10, "note end", "wanted")}`;
+      return markup`${line(
+        LogPlot.left,
+        plot.y(max_error!),
+        right,
+        plot.y(max_error!),
+      )}${chartText(right, plot.y(max_error!) - 5, "note end", "wanted")}`;
+    return markup`${line(
+      plot.x(max_time_ms),
+      LogPlot.top,
+      plot.x(max_time_ms),
+      LogPlot.height - LogPlot.bottom,
+    )}${chartText(plot.x(max_time_ms) - 6, LogPlot.top + 10, "note end", "wanted")}`;
   };
   const dot = (one: Tried, best: boolean): Markup =>
-    markup`<circle class="dot${best && " best-dot"}" cx="${fixed(at(one)[0])}" cy="${fixed(at(one)[1])}" r="${one.answer ? 8 : best ? 5 : 3.5}"><title>${
-      families[one.family]!.name
-    }, ${one.size} texels: ${one.words}; ${milliseconds(one.time_ms)}</title></circle>`;
+    markup`<circle class="dot${best && " best-dot"}" cx="${fixed(at(one)[0])}" cy="${fixed(at(one)[1])}" r="${
+      one.answer ? 8 : best ? 5 : 3.5
+    }"><title>${families[one.family]!.name}, ${one.size} texels: ${one.words}; ${milliseconds(one.time_ms)}</title></circle>`;
   return chartSvg(
     "Error against time, each map tried a point, the best of them joined",
     markup`${chartFrame(plot, logTicks(plot.minX, plot.maxX), "milliseconds for map and shading")}${goal()}<polyline
@@ -165,7 +177,9 @@ function biasChart({ lines, families }: TuneFacts): Markup | null {
       x(Math.min(Math.max(line.best_texels, 0), mostTexels)),
     )}" cy="${fixed(y(line.best_share))}" r="4"/><polyline class="curve line-${i}" points="${right},${fixed(end)} ${right + leader},${fixed(
       label - excess,
-    )}"/><text class="name" x="${right + leader + 6}" y="${fixed(label - excess + 4)}">${families[line.family]!.name} (${line.size})</text>`;
+    )}"/><text class="name" x="${right + leader + 6}" y="${fixed(label - excess + 4)}">${
+      families[line.family]!.name
+    } (${line.size})</text>`;
   return markup`<svg class="chart" viewBox="0 0 ${width} ${height}" role="img" aria-label="Wrong pixels against the constant bias, a line for each kind"><defs><clipPath
 id="tune-clip"><rect x="${left}" y="${top}" width="${right - left}" height="${bottom - top}"/></clipPath></defs>${niceTicks(
     0,
@@ -184,7 +198,9 @@ id="tune-clip"><rect x="${left}" y="${top}" width="${right - left}" height="${bo
 function familyTable({ families, feasible, head }: TuneFacts): Markup {
   const n = (text: string): Markup => markup`<td class="n">${text}</td>`;
   const row = (family: Family, i: number): Markup =>
-    markup`<tr${i === 0 && markup` class="front-row"`}><th scope="row">${family.name}${i === 0 && feasible && markup` <abbr title="the answer">★</abbr>`}<small>${
+    markup`<tr${i === 0 && markup` class="front-row"`}><th scope="row">${family.name}${
+      i === 0 && feasible && markup` <abbr title="the answer">★</abbr>`
+    }<small>${
       family.why
     }</small></th>${n(String(family.size))}${n(family.bias ?? "–")}${n(percent(family.wrong_fraction))}${n(percent(family.mean_absolute))}${head && n(plainNumber(family.figure))}${n(
       milliseconds(family.time_ms),
@@ -211,7 +227,10 @@ export function tuneSection(tune: TuneFacts): Markup {
 ${proofLine(tune)}${
     cost &&
     markup`<h2>What accuracy costs</h2>
-<figure>${scrollRegion("Error against time", cost)}<figcaption>Each point is a map that was drawn, at the best bias found for it; the line joins
+<figure>${scrollRegion(
+      "Error against time",
+      cost,
+    )}<figcaption>Each point is a map that was drawn, at the best bias found for it; the line joins
 those that no other beats in both, the large point is the answer.</figcaption></figure>
 `
   }<h2>What was tried</h2>
@@ -223,7 +242,10 @@ those that no other beats in both, the large point is the answer.</figcaption></
 ${familyTable(tune)}${
     biases &&
     markup`<h3>How the error depends on the bias</h3>
-<figure>${scrollRegion("Wrong pixels against the bias of each kind", biases)}<figcaption>At most six kinds: of those that are good enough the cheapest, then the nearest. Each at the
+<figure>${scrollRegion(
+      "Wrong pixels against the bias of each kind",
+      biases,
+    )}<figcaption>At most six kinds: of those that are good enough the cheapest, then the nearest. Each at the
 map size of its row above; a dot marks the best constant bias. Texels of the one map are not as wide as those of another.</figcaption></figure>
 `
   }<p>The answer and its rivals on <a href="sheet.html">one page to print</a>. What follows is the comparison at that answer.</p></section>

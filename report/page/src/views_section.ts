@@ -30,7 +30,9 @@ function placesMap(places: Places, { each, worst }: Views): Markup {
     size = places.side * scale;
   const square = ([column, row, pixels, error]: Places["cells"][number]): Markup => {
     const [x, y] = at(places.corner[0] + column * places.side, places.corner[1] + row * places.side);
-    return markup`<rect class="${error > 0 ? "place wrong" : "place"}" x="${fixed(x)}" y="${fixed(y)}" width="${fixed(size)}" height="${fixed(size)}"${
+    return markup`<rect class="${
+      error > 0 ? "place wrong" : "place"
+    }" x="${fixed(x)}" y="${fixed(y)}" width="${fixed(size)}" height="${fixed(size)}"${
       error > 0 && markup` fill-opacity="${strength(error).toFixed(2)}"`
     }><title>${percent(error)} of ${grouped(pixels)} pixels</title></rect>`;
   };
@@ -44,7 +46,9 @@ function placesMap(places: Places, { each, worst }: Views): Markup {
       flat = Math.hypot(direction[0], direction[2]) || 1,
       length = 26 * Math.min(1, flat + 0.3);
     const [dx, dy] = [(direction[0] / flat) * length, (direction[2] / flat) * length];
-    return markup`<g class="${view === worst ? "eye worst-eye" : "eye"}"><line x1="${fixed(x)}" y1="${fixed(y)}" x2="${fixed(x + dx)}" y2="${fixed(y + dy)}"/><circle
+    return markup`<g class="${
+      view === worst ? "eye worst-eye" : "eye"
+    }"><line x1="${fixed(x)}" y1="${fixed(y)}" x2="${fixed(x + dx)}" y2="${fixed(y + dy)}"/><circle
 cx="${fixed(x)}" cy="${fixed(y)}" r="5"/><title>${view}</title></g>`;
   };
   return markup`<svg class="chart places" viewBox="0 0 ${fixed(frame.width * scale)} ${fixed(frame.height * scale)}" role="img" aria-label="Where it fails, seen from above">${places.cells.map(
@@ -58,13 +62,18 @@ function placesFigure(places: Places, views: Views): Markup | null {
   const { worst, worst_share: share, corner, side, pixels_beyond: beyond, mean_absolute_beyond: error } = places;
   const middle = (k: 0 | 1): string => general(corner[k] + ((worst?.[k] ?? 0) + 0.5) * side, 3);
   return markup`<h3>Where it fails</h3>
-<figure>${placesMap(places, views)}<figcaption>The scene from above, x to the right and z downwards; a square is ${general(side, 3)} world units wide. Grey: right in all
+<figure>${placesMap(
+    places,
+    views,
+  )}<figcaption>The scene from above, x to the right and z downwards; a square is ${general(side, 3)} world units wide. Grey: right in all
 views; <b class="false-text">orange</b>: the stronger, the larger the mean error of the pixels that show it. ${
     worst
       ? `Framed: the square with most of the error (${percent(share!)} of it), around x ${middle(0)}, z ${middle(1)}.`
       : "Nothing is wrong anywhere."
   } Arrows: the views, the
-worst one filled.${beyond > 0 && ` Not drawn: ${grouped(beyond)} pixels farther away, with a mean error of ${percent(error!)}.`}</figcaption></figure>
+worst one filled.${
+    beyond > 0 && ` Not drawn: ${grouped(beyond)} pixels farther away, with a mean error of ${percent(error!)}.`
+  }</figcaption></figure>
 `;
 }
 
@@ -79,7 +88,10 @@ ${views.places && placesFigure(views.places, views)}${scrollRegion(
     markup`<table><thead><tr><th scope="col">view</th>${
       several && markup`<th scope="col">light that errs most</th>`
     }<th scope="col" class="n">${views.measure === "wrong and mean" ? "wrong pixels or mean error" : views.measure}</th></tr></thead><tbody>
-${views.each.map(({ view, light, error }) => markup`<tr><th scope="row">${view}</th>${several && markup`<td>${light}</td>`}<td class="n">${amount(error)}</td></tr>\n`)}</tbody></table>`,
+${views.each.map(
+  ({ view, light, error }) =>
+    markup`<tr><th scope="row">${view}</th>${several && markup`<td>${light}</td>`}<td class="n">${amount(error)}</td></tr>\n`,
+)}</tbody></table>`,
   )}</section>
 `;
 }

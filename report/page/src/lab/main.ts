@@ -275,8 +275,9 @@ class Lab {
     document.body.dataset.busy = String(!(isNow && isOwn));
     document.body.dataset.revision = String(isNow ? reading.revision : 0);
     if (reading.verdict)
-      this.part("lab-verdict").innerHTML =
-        markup`<p class="verdict">${flowing(reading.verdict.headline)}</p>${reading.verdict.detail && markup`<p class="verdict-detail">${flowing(reading.verdict.detail)}</p>`}`.text;
+      this.part("lab-verdict").innerHTML = markup`<p class="verdict">${flowing(reading.verdict.headline)}</p>${
+        reading.verdict.detail && markup`<p class="verdict-detail">${flowing(reading.verdict.detail)}</p>`
+      }`.text;
     const details = [...this.part("lab-results").querySelectorAll("details")].map(({ open }) => open);
     this.part("lab-results").innerHTML = resultsMarkup(reading, facts).text;
     this.part("lab-results")

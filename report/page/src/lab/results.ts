@@ -63,9 +63,13 @@ export function resultsMarkup(drawn: Drawn, facts: LabFacts): Markup {
   const light = drawn.result?.lights[0];
   if (!light) return markup`<p>Comparing…</p>`;
   const chart = biasChart(light, "lab-bias");
-  return markup`${labelRows(light, facts.labels)}${budget(light, facts)}${chart && markup`<h2>Every constant bias</h2>${scrollRegion("Wrong pixels at every constant bias", chart)}<p class="hint">A click takes the bias there.</p>`}${engineUnits(
-    light,
-  )}${drawn.times && timeTable(drawn.times)}`;
+  return markup`${labelRows(light, facts.labels)}${budget(light, facts)}${
+    chart &&
+    markup`<h2>Every constant bias</h2>${scrollRegion(
+      "Wrong pixels at every constant bias",
+      chart,
+    )}<p class="hint">A click takes the bias there.</p>`
+  }${engineUnits(light)}${drawn.times && timeTable(drawn.times)}`;
 }
 
 /** Stored depths of the texels as steps, the same with the bias, and the receiver: the light is above. */
@@ -84,24 +88,24 @@ function cutDrawing({ stored, receiver, first, at, distance, bias, along }: Cut)
       .join("");
   return markup`<svg class="cut" viewBox="0 0 ${width} ${height}" role="img" aria-label="Cut through the map along ${along}: stored depths, the same with the bias, and the receiver"><path class="stored" d="${steps(
     0,
-  )}"/><path class="biased" d="${steps(bias)}"/><polyline class="receiver" points="${receiver.map(([texel, depth]) => `${x(texel).toFixed(1)},${y(depth).toFixed(1)}`).join(" ")}"/><circle cx="${x(
-    at,
-  ).toFixed(
+  )}"/><path class="biased" d="${steps(bias)}"/><polyline class="receiver" points="${receiver
+    .map(([texel, depth]) => `${x(texel).toFixed(1)},${y(depth).toFixed(1)}`)
+    .join(" ")}"/><circle cx="${x(at).toFixed(
     1,
   )}" cy="${y(distance).toFixed(1)}" r="4"/></svg><p class="hint">Thick: stored depths; thin: the same with a bias of ${plainNumber(bias)}; line: the receiver. The light is above.</p>`;
 }
 
 export function pixelMarkup(story: PixelStory, facts: LabFacts): Markup {
   const label = facts.labels.find(({ value }) => value === story.label);
-  return markup`<h2>Pixel ${story.pixel[0]}, ${story.pixel[1]}${label && markup`: ${label.name}`}</h2><p>${story.words}</p>${story.remarks.map((remark) => markup`<p>${remark}</p>`)}${
-    story.cure !== "" && markup`<p><b>What helps:</b> ${story.cure}</p>`
-  }${story.cut && cutDrawing(story.cut)}${
+  return markup`<h2>Pixel ${story.pixel[0]}, ${story.pixel[1]}${label && markup`: ${label.name}`}</h2><p>${story.words}</p>${story.remarks.map(
+    (remark) => markup`<p>${remark}</p>`,
+  )}${story.cure !== "" && markup`<p><b>What helps:</b> ${story.cure}</p>`}${story.cut && cutDrawing(story.cut)}${
     story.seen &&
     markup`<table class="numbers"><caption>Visibility, step by step</caption><tbody>${story.rungs.map(
       (value, k) =>
-        markup`<tr${k === story.deciding && k > 0 ? markup` class="deciding"` : ""}><th scope="row">${facts.rungs[k]!.symbol} ${facts.rungs[k]!.name}</th><td class="n">${plainNumber(
-          value,
-        )}</td></tr>`,
+        markup`<tr${
+          k === story.deciding && k > 0 ? markup` class="deciding"` : ""
+        }><th scope="row">${facts.rungs[k]!.symbol} ${facts.rungs[k]!.name}</th><td class="n">${plainNumber(value)}</td></tr>`,
     )}</tbody></table>`
   }`;
 }

@@ -168,7 +168,13 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
       t: String(last?.t ?? Infinity),
       stack: (last?.stack ?? []).join(" "),
     });
-    said.textContent = say`${kind === "grid" ? "" : say`${many(made.length, "split", "splits")} of ${splits}${tried > 0 ? say`, the cheapest of ${grouped(tried)} tried` : ""}. `}The ray has met ${many(met, ...metBy(kind))} and tested ${many(tested, "disc", "discs")} of ${discs.length}. ${grid || !last ? "" : last.stack.length > 0 ? say`On the stack: ${last.stack.join(", ")}. ` : say("The stack is empty. ")}${kind === "grid" ? "" : costs(tree, said)}`;
+    said.textContent = say`${
+      kind === "grid"
+        ? ""
+        : say`${many(made.length, "split", "splits")} of ${splits}${tried > 0 ? say`, the cheapest of ${grouped(tried)} tried` : ""}. `
+    }The ray has met ${many(met, ...metBy(kind))} and tested ${many(tested, "disc", "discs")} of ${discs.length}. ${
+      grid || !last ? "" : last.stack.length > 0 ? say`On the stack: ${last.stack.join(", ")}. ` : say("The stack is empty. ")
+    }${kind === "grid" ? "" : costs(tree, said)}`;
   };
   const bar = sliders.bar;
   show();
@@ -193,5 +199,7 @@ function costs(tree: SmallTree, said: HTMLElement): string {
         ? tree.splits.reduce((sum, { children: [a, b] }) => sum + overlap(boxOfOutline(a!.outline), boxOfOutline(b!.outline)), 0)
         : 0;
   Object.assign(said.dataset, { expected: String(expected), counted: String(met), overlap: String(over) });
-  return say`A line meets Σ perimeters/perimeter = ${number(expected, 3)} of its ${tree.nodes().length} ${say(metBy(tree.kind)[1])}; counted: ${number(met, 3)}.${tree.kind === "bvh" ? say` Boxes overlap by ${number(over, 2)} in all.` : ""}`;
+  return say`A line meets Σ perimeters/perimeter = ${number(expected, 3)} of its ${tree.nodes().length} ${say(
+    metBy(tree.kind)[1],
+  )}; counted: ${number(met, 3)}.${tree.kind === "bvh" ? say` Boxes overlap by ${number(over, 2)} in all.` : ""}`;
 }

@@ -117,8 +117,13 @@ export function cubeFigure({ data }: FigureJson, id: string): HTMLElement {
       stored: String(stored),
     });
     said.textContent =
-      say`From the lamp to the point d = (${number(d[0], 3)}, ${number(d[1], 3)}): its largest part is along ${face.name}, z = ${number(z, 3)}, so u = ½ + ½·(${number(dot(face.across, d), 3)})/z = ${number(u, 3)}, texel ${texel} of ${n}. ` +
-      say`A texel is 2z/N = ${number(wide, 3)} wide there. It stores ${number(stored, 3)}: without a bias the point is drawn ${drawn ? say("lit") : say("in shadow")}; in truth it is ${lit ? say("lit") : say("in shadow")}.`;
+      say`From the lamp to the point d = (${number(d[0], 3)}, ${number(d[1], 3)}): its largest part is along ${face.name}, z = ${number(z, 3)}, so u = ½ + ½·(${number(
+        dot(face.across, d),
+        3,
+      )})/z = ${number(u, 3)}, texel ${texel} of ${n}. ` +
+      say`A texel is 2z/N = ${number(wide, 3)} wide there. It stores ${number(stored, 3)}: without a bias the point is drawn ${
+        drawn ? say("lit") : say("in shadow")
+      }; in truth it is ${lit ? say("lit") : say("in shadow")}.`;
   };
   show();
   return frame(

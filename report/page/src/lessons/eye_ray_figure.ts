@@ -127,7 +127,9 @@ export function eyeRayFigure(_: FigureJson, id: string): HTMLElement {
       dy: String(direction[1]),
       dz: String(direction[2]),
     });
-    said.textContent = say`Pixel (${x}, ${y}) of ${columns} × ${rows}: its centre is at u = ${number(u, 3)}, v = ${number(v, 3)} of the half picture. tan(${fov}°/2) = ${number(half / film, 3)}, the aspect ${columns}/${rows} = ${number(columns / rows, 3)}: d = (${direction.map((c) => number(c, 3)).join(", ")}) of length 1.`;
+    said.textContent = say`Pixel (${x}, ${y}) of ${columns} × ${rows}: its centre is at u = ${number(u, 3)}, v = ${number(v, 3)} of the half picture. tan(${fov}°/2) = ${number(half / film, 3)}, the aspect ${columns}/${rows} = ${number(columns / rows, 3)}: d = (${direction
+      .map((c) => number(c, 3))
+      .join(", ")}) of length 1.`;
   };
   show();
   return frame(

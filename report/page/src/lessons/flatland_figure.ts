@@ -208,8 +208,9 @@ function shadowFigure(json: FlatlandJson, settings: Record<string, string>, id: 
     // The first figure of a course: no word in it that a later lesson explains.
     said.textContent = stripes
       ? say`Nothing stands before the floor, and ${percent(shares.false)} of it is drawn dark (orange). A texel is ${number(map.texel, 2)} wide: one depth for all of it.`
-      : say`Of what faces the sun ${percent(shares.false)} is in false shadow (orange), ${percent(shares.missed)} in missed shadow (blue). A texel is ${number(map.texel, 2)} wide, the bias ${texelsText(bias / map.texel)}. ` +
-        (acne ? acneForm(map, bias, shares.false, said) : name === "wall" ? wallForm(world, map, pieces, bias, back, said) : "");
+      : say`Of what faces the sun ${percent(shares.false)} is in false shadow (orange), ${percent(shares.missed)} in missed shadow (blue). A texel is ${number(map.texel, 2)} wide, the bias ${texelsText(
+          bias / map.texel,
+        )}. ` + (acne ? acneForm(map, bias, shares.false, said) : name === "wall" ? wallForm(world, map, pieces, bias, back, said) : "");
   };
   show();
   return frame(
@@ -219,7 +220,9 @@ function shadowFigure(json: FlatlandJson, settings: Record<string, string>, id: 
     said,
     stripes
       ? say("Drag the sun. Thick steps: the depths that the map stores. Gold: drawn lit.")
-      : say`Drag the sun. Thick steps: the depths that the map stores${back ? say(", of the faces that the sun does not see") : ""}; dashed: with the bias. Gold: lit, rightly; dark: in shadow, rightly; dotted: turned away from the sun.`,
+      : say`Drag the sun. Thick steps: the depths that the map stores${
+          back ? say(", of the faces that the sun does not see") : ""
+        }; dashed: with the bias. Gold: lit, rightly; dark: in shadow, rightly; dotted: turned away from the sun.`,
   );
 }
 
@@ -252,5 +255,8 @@ function wallForm(
   const measured = drawn.length > 0 ? Math.min(...drawn) : NaN;
   Object.assign(said.dataset, { formula: String(formula), measured: String(measured) });
   if (drawn.length === 0) return say("Behind the wall no shadow is drawn.");
-  return say`The shadow starts ${number(measured, 2)} behind the wall; the formula ${back ? say("δ·sin θ") : say("max(0, δ·sin θ − w)")} says ${number(formula, 2)}, give or take a texel on the floor, ${number(map.texel / Math.max(Math.abs(map.light[1]), 1e-9), 2)}.`;
+  return say`The shadow starts ${number(measured, 2)} behind the wall; the formula ${back ? say("δ·sin θ") : say("max(0, δ·sin θ − w)")} says ${number(formula, 2)}, give or take a texel on the floor, ${number(
+    map.texel / Math.max(Math.abs(map.light[1]), 1e-9),
+    2,
+  )}.`;
 }

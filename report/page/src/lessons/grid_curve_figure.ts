@@ -67,7 +67,10 @@ export function gridCurveFigure({ data }: FigureJson, id: string): HTMLElement {
       triangles: String(shown.triangles),
       formula: String(formula(shown.density)),
     });
-    said.textContent = say`${shown.density} cells a primitive: a ray passes ${number(shown.cells, 3)} cells and tests ${number(shown.triangles, 3)} triangles. From 8 cells on, the cube root foretells ${number(formula(shown.density), 3)} cells.`;
+    said.textContent = say`${shown.density} cells a primitive: a ray passes ${number(shown.cells, 3)} cells and tests ${number(shown.triangles, 3)} triangles. From 8 cells on, the cube root foretells ${number(
+      formula(shown.density),
+      3,
+    )} cells.`;
   };
   range.addEventListener("input", show);
   show();

@@ -141,7 +141,11 @@ function drawBox(stage: Stage, o: Vec2, d: Vec2): Drawn {
       ),
       ...(hit ? [stage.circle("hit", add(o, d, entry), 8), stage.circle("hit far", add(o, d, exit), 6)] : []),
     ],
-    words: say`In the slab of x for t in [${intervals[0]!.map((t) => number(t, 4)).join(", ")}] (violet), of y for t in [${intervals[1]!.map((t) => number(t, 4)).join(", ")}] (blue): the last entry ${number(entry, 4)} is ${hit ? say("not after") : say("after")} the first exit ${number(exit, 4)}, so the ray ${hit ? say("hits") : say("misses")} the box.`,
+    words: say`In the slab of x for t in [${intervals[0]!.map((t) => number(t, 4)).join(", ")}] (violet), of y for t in [${intervals[1]!
+      .map((t) => number(t, 4))
+      .join(", ")}] (blue): the last entry ${number(entry, 4)} is ${
+      hit ? say("not after") : say("after")
+    } the first exit ${number(exit, 4)}, so the ray ${hit ? say("hits") : say("misses")} the box.`,
     numbers: { entry: String(entry), exit: String(exit), hit: String(hit) },
   };
 }
@@ -158,7 +162,12 @@ function drawSphere(stage: Stage, o: Vec2, d: Vec2): Drawn {
       stage.label("middle", add(foot, sub(ball.center, foot), 0.5), "l", -8),
       ...ahead.map((t, i) => stage.circle(i === 0 ? "hit" : "hit far", add(o, d, t), 8)),
     ],
-    words: say`From the ray's foot to the centre |l| = ${number(Math.hypot(...sub(ball.center, foot)), 4)}, the radius is ${ball.radius}: Δ = r² − l·l = ${number(discriminant, 4)}${discriminant < 0 ? say(" < 0, the ray misses.") : say`, and t = ${list(roots)}.`}`,
+    words: say`From the ray's foot to the centre |l| = ${number(
+      Math.hypot(...sub(ball.center, foot)),
+      4,
+    )}, the radius is ${ball.radius}: Δ = r² − l·l = ${number(discriminant, 4)}${
+      discriminant < 0 ? say(" < 0, the ray misses.") : say`, and t = ${list(roots)}.`
+    }`,
     numbers: { discriminant: String(discriminant), roots: roots.join(" "), check: check ? check.join(" ") : "" },
   };
 }
@@ -194,7 +203,13 @@ function drawImplicit(stage: Stage, o: Vec2, d: Vec2): Drawn {
       stage.path("normals", ticks),
       ...roots.map((t, i) => stage.circle(i === 0 ? "hit" : "hit far", add(o, d, t), 8)),
     ],
-    words: say`${many(leaves.length, "stretch", "stretches")} after ${many(stretches.length - leaves.length, "halving", "halvings")}: ${empty.length} ${empty.length === 1 ? say("is") : say("are")} proved to hold no root (grey), in the others (blue) there is at most one each. Roots: t = ${list(roots)}.`,
+    words: say`${many(leaves.length, "stretch", "stretches")} after ${many(
+      stretches.length - leaves.length,
+      "halving",
+      "halvings",
+    )}: ${empty.length} ${
+      empty.length === 1 ? say("is") : say("are")
+    } proved to hold no root (grey), in the others (blue) there is at most one each. Roots: t = ${list(roots)}.`,
     numbers: { roots: roots.join(" "), stretches: String(leaves.length) },
   };
 }
@@ -218,7 +233,11 @@ function drawPlane(stage: Stage, o: Vec2, d: Vec2): Drawn {
       stage.label("middle", p, "p", 30),
       ...(hit ? [stage.circle("hit", add(o, d, t), 8)] : []),
     ],
-    words: say`n·(p − o) = ${number(height, 4)}, how far the start is from the plane, and n·d = ${number(slope, 4)}, how fast the ray comes to it: ${slope === 0 ? say("the ray is parallel and never comes.") : `t = ${number(t, 4)}${hit ? "." : say(" lies behind the start, the ray misses.")}`}`,
+    words: say`n·(p − o) = ${number(height, 4)}, how far the start is from the plane, and n·d = ${number(slope, 4)}, how fast the ray comes to it: ${
+      slope === 0
+        ? say("the ray is parallel and never comes.")
+        : `t = ${number(t, 4)}${hit ? "." : say(" lies behind the start, the ray misses.")}`
+    }`,
     numbers: { roots: hit ? String(t) : "" },
   };
 }
@@ -257,7 +276,9 @@ function drawParity(stage: Stage, o: Vec2, d: Vec2): Drawn {
       ...crossings.map((t, i) => stage.label("middle", add(o, d, t - 0.13), String(i + 1), -14)),
       ...crossings.map((t) => stage.circle("hit", add(o, d, t), 8)),
     ],
-    words: `${many(crossings.length, "crossing", "crossings")}: ${inside ? say("an odd number, the start lies inside.") : say("an even number, the start lies outside.")}`,
+    words: `${many(crossings.length, "crossing", "crossings")}: ${
+      inside ? say("an odd number, the start lies inside.") : say("an even number, the start lies outside.")
+    }`,
     numbers: { roots: crossings.join(" "), inside: String(inside) },
   };
 }
@@ -400,7 +421,11 @@ function bothWays(corners: readonly [Vec3, Vec3, Vec3]): { words: string; number
     words:
       det === 0
         ? say("det = 0: the triangle has no area, or the ray runs in its plane; the ray misses.")
-        : say`In two steps: the plane at t = ${n3(two.t)}, and the point's share of each side ${two.sides.map(n3).join(", ")}: ${two.sides.every((side) => side >= 0) ? say("none is negative") : say("one is negative")}. Möller and Trumbore: det = ${n3(det)}, u = ${n3(u)}, v = ${n3(v)}, t = ${n3(t)}: ${hit ? say("the ray hits.") : say("the ray misses.")}`,
+        : say`In two steps: the plane at t = ${n3(two.t)}, and the point's share of each side ${two.sides.map(n3).join(", ")}: ${
+            two.sides.every((side) => side >= 0) ? say("none is negative") : say("one is negative")
+          }. Möller and Trumbore: det = ${n3(det)}, u = ${n3(u)}, v = ${n3(v)}, t = ${n3(t)}: ${
+            hit ? say("the ray hits.") : say("the ray misses.")
+          }`,
     numbers: {
       hit: String(hit),
       z: String(t),
@@ -482,7 +507,13 @@ function triangleFigure(id: string, both: boolean): HTMLElement {
       return;
     }
     Object.assign(said.dataset, { u: String(u), v: String(v), w: String(w), z: String(z), hit: String(inside) });
-    said.textContent = say`u = ${number(u, 3)} (violet), v = ${number(v, 3)} (blue), w = ${number(w, 3)} (gold): ${inside ? say`none has another sign than the others, the ray hits, at z = (u·Az + v·Bz + w·Cz)/(u + v + w) = ${number(z, 4)} for corners at depths 2, 3 and 5.` : sum === 0 ? say("their sum is 0, the triangle has no area, the ray misses.") : say("their signs differ, the ray misses.")}`;
+    said.textContent = say`u = ${number(u, 3)} (violet), v = ${number(v, 3)} (blue), w = ${number(w, 3)} (gold): ${
+      inside
+        ? say`none has another sign than the others, the ray hits, at z = (u·Az + v·Bz + w·Cz)/(u + v + w) = ${number(z, 4)} for corners at depths 2, 3 and 5.`
+        : sum === 0
+          ? say("their sum is 0, the triangle has no area, the ray misses.")
+          : say("their signs differ, the ray misses.")
+    }`;
   };
   show();
   return frame(
@@ -490,7 +521,9 @@ function triangleFigure(id: string, both: boolean): HTMLElement {
     stage,
     sliders.bar,
     said,
-    say`Drag a corner: seen along the ray the ray is the point in the middle. ${both ? say("The corners lie at depths 2, 3 and 5.") : say("Each coloured triangle is half of one of the three numbers.")}`,
+    say`Drag a corner: seen along the ray the ray is the point in the middle. ${
+      both ? say("The corners lie at depths 2, 3 and 5.") : say("Each coloured triangle is half of one of the three numbers.")
+    }`,
   );
 }
 

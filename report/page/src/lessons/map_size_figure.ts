@@ -77,7 +77,9 @@ export async function mapSizeFigure({ data }: FigureJson, id: string): Promise<H
     range.setAttribute("aria-valuetext", say`${size} texels`);
     Object.assign(said.dataset, { falseShadow: String(falseShadow), missedShadow: String(missedShadow), size: String(size) });
     said.textContent =
-      say`A map of ${size} × ${size} texels, each ${number(texel, 2)} wide: ${percent((falseShadow + missedShadow) / Math.max(1, compared))} of the compared pixels are wrong, ` +
+      say`A map of ${size} × ${size} texels, each ${number(texel, 2)} wide: ${percent(
+        (falseShadow + missedShadow) / Math.max(1, compared),
+      )} of the compared pixels are wrong, ` +
       say`${many(falseShadow, "pixel", "pixels")} in false shadow, ${grouped(missedShadow)} in missed shadow.`;
     canvas.setAttribute("aria-label", say`The picture with what is wrong at this size. ${said.textContent}`);
     charts.replaceChildren(chart(sizes, i) as unknown as Node);

@@ -59,6 +59,9 @@ export class NotesWindow {
   private tick(): void {
     const seconds = (Date.now() - this.begun) / 1000,
       ahead = 60 * this.planned - seconds;
-    this.time.textContent = say`${clock(seconds)} gone; this slide ends at ${this.planned}:00, ${ahead < 0 ? say`${clock(-ahead)} ago` : say`in ${clock(ahead)}`}. Now ${new Date().toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" })}.`;
+    this.time.textContent = say`${clock(seconds)} gone; this slide ends at ${this.planned}:00, ${ahead < 0 ? say`${clock(-ahead)} ago` : say`in ${clock(ahead)}`}. Now ${new Date().toLocaleTimeString(
+      [],
+      { hour: "2-digit", minute: "2-digit" },
+    )}.`;
   }
 }

@@ -95,7 +95,14 @@ export function penumbraFigure(json: FlatlandJson, id: string): HTMLElement {
       umbraFormula: String(formula.umbra),
       penumbraFormula: String(formula.penumbra),
     });
-    said.textContent = say`From the middle of the shadow the umbra reaches ${number(umbra, 4)}, the penumbra ${number(penumbra, 4)}. (aH − Rh)/(H − h) says ${number(formula.umbra, 4)}, (aH + Rh)/(H − h) ${number(formula.penumbra, 4)}: ${a * H > R * h ? say`the penumbra is 2Rh/(H − h) = ${number((2 * R * h) / (H - h), 3)} wide` : say("the lamp is so wide that there is no umbra")}.`;
+    said.textContent = say`From the middle of the shadow the umbra reaches ${number(umbra, 4)}, the penumbra ${number(penumbra, 4)}. (aH − Rh)/(H − h) says ${number(formula.umbra, 4)}, (aH + Rh)/(H − h) ${number(
+      formula.penumbra,
+      4,
+    )}: ${
+      a * H > R * h
+        ? say`the penumbra is 2Rh/(H − h) = ${number((2 * R * h) / (H - h), 3)} wide`
+        : say("the lamp is so wide that there is no umbra")
+    }.`;
   };
   show();
   return frame(

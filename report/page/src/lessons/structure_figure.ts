@@ -126,8 +126,14 @@ export function structureFigure({ settings, data }: FigureJson, id: string): HTM
       primitives = all ? walk.primitives : (last?.primitives ?? 0);
     Object.assign(said.dataset, { boxes: String(boxes), primitives: String(primitives), cells: String(seen) });
     said.textContent =
-      say`${seen} of ${many(walk.visits.length, "cell", "cells")}: ${many(boxes, ...asked[json.kind])} and ${many(primitives, "triangle", "triangles")} tested. ` +
-      say`Without a structure it would be all ${grouped(json.primitives)} triangles.${all ? (isFinite(walk.t) ? say(" The ray hits.") : say(" The ray hits nothing.")) : ""}`;
+      say`${seen} of ${many(
+        walk.visits.length,
+        "cell",
+        "cells",
+      )}: ${many(boxes, ...asked[json.kind])} and ${many(primitives, "triangle", "triangles")} tested. ` +
+      say`Without a structure it would be all ${grouped(json.primitives)} triangles.${
+        all ? (isFinite(walk.t) ? say(" The ray hits.") : say(" The ray hits nothing.")) : ""
+      }`;
   };
   show();
   return frame(

@@ -117,8 +117,10 @@ export function terminatorFigure(json: FlatlandJson, id: string): HTMLElement {
       formulaLeft: String(formula.left),
     });
     said.textContent =
-      say`Orange: the smooth normal faces the sun, the face does not, and stands in its own shadow: ${number(lost[-1]!, 2)}° on one side and ${number(lost[1]!, 2)}° on the other; by the angles of the faces ${number(formula.right, 2)}° and ${number(formula.left, 2)}°. ` +
-      say`It is never more than half a face, 180°/${sides} = ${number(180 / sides, 3)}°.`;
+      say`Orange: the smooth normal faces the sun, the face does not, and stands in its own shadow: ${number(lost[-1]!, 2)}° on one side and ${number(lost[1]!, 2)}° on the other; by the angles of the faces ${number(
+        formula.right,
+        2,
+      )}° and ${number(formula.left, 2)}°. ` + say`It is never more than half a face, 180°/${sides} = ${number(180 / sides, 3)}°.`;
   };
   show();
   return frame(

@@ -79,7 +79,9 @@ export async function twoPassesFigure({ data }: FigureJson, id: string): Promise
         ? say`Pass 1, from the light: each texel keeps the depth of what is nearest. ${rows} of ${size} rows.`
         : over
           ? say("Pass 2 is done: choose a pixel, by finger, mouse or arrow keys, to see the texel that it asked.")
-          : say`Pass 2, from the camera: each pixel asks its texel whether something stood before it. ${Math.round(100 * second)} % of the pixels.`;
+          : say`Pass 2, from the camera: each pixel asks its texel whether something stood before it. ${Math.round(
+              100 * second,
+            )} % of the pixels.`;
     words.textContent = asks ? story(light, shown, light.json.bias.constant) : "";
     drawing.replaceChildren(...(asks ? [texelDrawing(light, shown, light.json.bias.constant, `${id}-texel`)] : []));
   };

@@ -112,7 +112,11 @@ export function twoWaysFigure({ data }: FigureJson, id: string): HTMLElement {
       apart: String(apart),
       surfaces: String(count - 2),
     });
-    said.textContent = say`From the lamp ${percent(there.share)} of the light comes by ${many(count - 2, "surface", "surfaces")} to the eye. Followed backwards from the eye it is ${percent(back.share)}, by the same places: they are at most ${number(apart, 1)} apart.`;
+    said.textContent = say`From the lamp ${percent(there.share)} of the light comes by ${many(
+      count - 2,
+      "surface",
+      "surfaces",
+    )} to the eye. Followed backwards from the eye it is ${percent(back.share)}, by the same places: they are at most ${number(apart, 1)} apart.`;
   };
   show();
   return frame(

@@ -104,7 +104,11 @@ export class Tracer2 {
         depth,
         parent,
         blocked: false,
-        story: `${why}: ${hit ? say`it meets the ${hit.material?.name ?? say("floor")} after ${number(hit.t, 3)}` : say("it meets nothing and takes the background")}.`,
+        story: `${why}: ${
+          hit
+            ? say`it meets the ${hit.material?.name ?? say("floor")} after ${number(hit.t, 3)}`
+            : say("it meets nothing and takes the background")
+        }.`,
       });
       if (!hit) continue;
       const inside = dot(direction, hit.normal) > 0,
@@ -134,7 +138,9 @@ export class Tracer2 {
             "refracted",
             unit(add([ratio * direction[0], ratio * direction[1]], n, ratio * c - Math.sqrt(k))),
             transmission * (1 - R),
-            say`Refracted ${inside ? say("out of") : say("into")} the glass, from ${degrees(c)} to ${degrees(Math.sqrt(k))}, ${percent(1 - R)} of it`,
+            say`Refracted ${
+              inside ? say("out of") : say("into")
+            } the glass, from ${degrees(c)} to ${degrees(Math.sqrt(k))}, ${percent(1 - R)} of it`,
           );
       } else if (mirror > 0) follow("reflected", reflected, mirror, say`${mirrored}, ${percent(mirror)} by the mirror`);
     }
@@ -295,7 +301,9 @@ export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
     );
     tree.replaceChildren(treeOf(rays, last));
     Object.assign(said.dataset, { rays: String(rays.length), total: String(total), share: String(last?.share ?? 0) });
-    said.textContent = say`${rays.length} of ${many(total, "ray", "rays")}. ${last ? say`${last.story} It counts for ${percent(last.share)} of the pixel.` : ""}`;
+    said.textContent = say`${rays.length} of ${many(total, "ray", "rays")}. ${
+      last ? say`${last.story} It counts for ${percent(last.share)} of the pixel.` : ""
+    }`;
   };
   show();
   sliders.bar.prepend(html("div", { class: "steps" }, step(-1), step(1)));
@@ -304,7 +312,9 @@ export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
     stage,
     sliders.bar,
     said,
-    say`Drag the eye, what it looks at, and the lamp. Orange: the eye's ray; violet: reflected; blue: refracted; gold: a shadow ray that reaches the lamp; dotted: one that does not. The wider, the more it counts; below ${percent(json.least_share)} of the pixel a ray is not followed.`,
+    say`Drag the eye, what it looks at, and the lamp. Orange: the eye's ray; violet: reflected; blue: refracted; gold: a shadow ray that reaches the lamp; dotted: one that does not. The wider, the more it counts; below ${percent(
+      json.least_share,
+    )} of the pixel a ray is not followed.`,
   );
   said.after(tree);
   return figure;
