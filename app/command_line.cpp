@@ -13,11 +13,13 @@
 #include <optional>
 #include <vector>
 
+#include "app/commands.h"
 #include "app/console.h"
 #include "app/help/manual.h"
 #include "app/invocation.h"
-#include "app/lessons/lesson_scene.h"
+#include "app/lesson_scene.h"
 #include "app/options/options.h"
+#include "app/other_programs.h"
 #include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
 #include "app/session.h"
@@ -49,6 +51,11 @@ std::vector<std::string_view> command_names(const CLI::App& program) {
 int usage_error(const std::string& text) {
   print_error("gnomon " + one_line(text));
   return static_cast<int>(ErrorKind::usage);
+}
+
+int print_failure(const Error& error) {
+  print_error(error);
+  return static_cast<int>(error.kind);
 }
 
 bool looks_like_a_scene(const std::string& word) {
@@ -185,6 +192,12 @@ std::vector<std::string> replaced_values(const CLI::App& program) {
   return notes;
 }
 
+bool has_trace(std::string_view command) {
+  constexpr std::string_view names[] = {"compare",  "judge",   "lessons", "raster",
+                                        "raytrace", "shimmer", "sweep",   "tune"};
+  return std::find(std::begin(names), std::end(names), command) != std::end(names);
+}
+
 std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   auto program = std::make_unique<CLI::App>(
       "Gnomon renders a scene with shadow maps and with rays, and says for every pixel where the two shadows "
@@ -203,11 +216,12 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
   add_man_page(*program);
   add_manual(*program);
   program->require_subcommand(1);
-  add_commands(*program, invocation);
-  for (const std::string_view name :
-       {"compare", "judge", "lessons", "raster", "raytrace", "shimmer", "sweep", "tune"})
-    for (CLI::App* command : program->get_subcommands({}))
-      if (command->get_name() == name) add_trace(*command, invocation.trace);
+  for (const Command& command : all_commands()) {
+    CLI::App* added = program->add_subcommand(std::string(command.name), std::string(command.text));
+    if (command.add_options == nullptr) continue;
+    command.add_options(added, invocation);
+    if (has_trace(command.name)) add_trace(*added, invocation.trace);
+  }
   let_the_last_count(*program);
   return program;
 }
@@ -280,8 +294,7 @@ int run_action(const Invocation& invocation) {
   if (const int interrupted = interrupt_exit_code(); interrupted != 0) return interrupted;
   if (!code) {
     code.error() = placed(code.error(), invocation);
-    print_error(code.error());
-    return static_cast<int>(code.error().kind);
+    return print_failure(code.error());
   }
   return code_after_stdout(static_cast<int>(*code));
 }
@@ -307,6 +320,11 @@ Expected<void> finish_settings(const CLI::App& program, Invocation& invocation) 
   return {};
 }
 
+bool prints_all_commands(std::string_view option) {
+  return option == "--completion" || option == "--man-page" || option == "--manual" ||
+         option.starts_with("--completion=") || option.starts_with("--manual=");
+}
+
 /// "gnomon --help compare" asks what "gnomon compare --help" does.
 const CLI::App* asked_about(const CLI::App& program, int argc, const char* const* argv) {
   if (argc < 3 || (std::string_view(argv[1]) != "--help" && std::string_view(argv[1]) != "-h"))
@@ -329,14 +347,20 @@ int parse_and_run(int argc, const char* const* argv, bool runs) {
     print_data(help_text(*command));
     return code_after_stdout(0);
   }
+  if (const auto here = missing_program(first); !here) return print_failure(here.error());
+  if (first == "--describe") {
+    print_data(description_of(*program));
+    return code_after_stdout(0);
+  }
+  if (prints_all_commands(first))
+    if (const auto described = describe_others(*program); !described) return print_failure(described.error());
   const std::vector<std::string_view> known = command_names(*program);
   const bool is_command = std::find(known.begin(), known.end(), first) != known.end();
   if (!is_command && !first.starts_with("-")) return unknown_command(*program, first);
   try {
     program->parse(argc, argv);
     if (const auto finished = finish_settings(*program, invocation); !finished) {
-      print_error(finished.error());
-      return static_cast<int>(finished.error().kind);
+      return print_failure(finished.error());
     }
     if (!runs) return 0;
     apply_common_options(*program, invocation);
@@ -363,9 +387,7 @@ int run_command_line(int argc, const char* const* argv) {
   try {
     return parse_and_run(argc, argv, true);
   } catch (const std::exception& exception) {
-    const Error error = unforeseen(exception);
-    print_error(error);
-    return static_cast<int>(error.kind);
+    return print_failure(unforeseen(exception));
   }
 }
 

@@ -1,5 +1,4 @@
-// What a parsed command line asks for. Each subcommand has a file of its own in app/commands, whose add_…
-// function binds its options and, when it is the one that was named, sets `action`.
+// What a parsed command line asks for. The command that was named sets `action` (app/commands.h).
 #pragma once
 
 #include <functional>
@@ -8,10 +7,6 @@
 #include <vector>
 
 #include "scene/base/expected.h"
-
-namespace CLI {
-class App;
-}
 
 namespace gnomon::app {
 
@@ -29,28 +24,5 @@ struct Invocation {
   /// Where a scene's file set an option ("--bias"), as errors without a reason.
   std::map<std::string, Error> settings;
 };
-
-/// Adds the commands that there are on this platform (app/commands/all.cpp, or the platform's own list).
-void add_commands(CLI::App& program, Invocation& invocation);
-
-void add_compare(CLI::App& program, Invocation& invocation);
-void add_raster(CLI::App& program, Invocation& invocation);
-void add_raytrace(CLI::App& program, Invocation& invocation);
-void add_plan(CLI::App& program, Invocation& invocation);
-void add_scenes(CLI::App& program, Invocation& invocation);
-void add_export(CLI::App& program, Invocation& invocation);
-void add_grade(CLI::App& program, Invocation& invocation);
-void add_lessons(CLI::App& program, Invocation& invocation);
-void add_site(CLI::App& program, Invocation& invocation);
-void add_merge(CLI::App& program, Invocation& invocation);
-void add_shaders(CLI::App& program, Invocation& invocation);
-void add_sweep(CLI::App& program, Invocation& invocation);
-void add_tune(CLI::App& program, Invocation& invocation);
-void add_bench(CLI::App& program, Invocation& invocation);
-void add_verify(CLI::App& program, Invocation& invocation);
-void add_serve(CLI::App& program, Invocation& invocation);
-void add_view(CLI::App& program, Invocation& invocation);
-void add_judge(CLI::App& program, Invocation& invocation);
-void add_shimmer(CLI::App& program, Invocation& invocation);
 
 }  // namespace gnomon::app

@@ -1,7 +1,8 @@
-// The program `gnomon`.
+// The program `gnomon`, and those of other rooms: what commands they have is linked.
 #include <csignal>
 
 #include "app/command_line.h"
+#include "app/other_programs.h"
 #include "app/process/interrupt.h"
 #include "app/process/machine.h"
 #include "scene/base/freed_memory.h"
@@ -23,6 +24,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  gnomon::app::become_program_of_command(argc, argv);
   gnomon::app::start_with_large_pages(argv);
   return gnomon::app::with_enough_stack(run, argc, argv);
 }

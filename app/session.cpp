@@ -8,7 +8,7 @@
 #include <optional>
 #include <thread>
 
-#include "app/lessons/lesson_scene.h"
+#include "app/lesson_scene.h"
 #include "app/process/machine.h"
 #include "hybrid/visibility.h"
 #include "raster/programs/shader_folder.h"

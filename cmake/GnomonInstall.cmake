@@ -1,6 +1,7 @@
 # cmake --install BUILD [--prefix P]: the program, its licence, the manual, lessons, pictures and schemas, and what the
 # program prints of itself: chapters of the manual, its manual page, completion for bash, zsh and fish.
-install(TARGETS gnomon_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+# Beside each other: a program starts the others from its own folder.
+install(TARGETS gnomon_program gnomon_benchmark_program gnomon_grade_program gnomon_judge_program gnomon_lab_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 # Where scene/files/pictures/image_library.cpp looks for it from the folder of the program.
 install(TARGETS gnomon_images LIBRARY DESTINATION lib/gnomon)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/CITATION.cff" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
@@ -9,11 +10,11 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/manual" "${PROJECT_SOURCE_DIR}/doc
 file(GLOB documents CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/*.md")
 install(FILES ${documents} DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 install(FILES "${PROJECT_SOURCE_DIR}/scene/files/scene.schema.json" "${PROJECT_SOURCE_DIR}/app/outputs/render.schema.json"
-  "${PROJECT_SOURCE_DIR}/studies/functions/answers.schema.json" "${PROJECT_SOURCE_DIR}/studies/grade/rubric.schema.json" "${PROJECT_SOURCE_DIR}/studies/grade/grade.schema.json"
-  "${PROJECT_SOURCE_DIR}/studies/judge/capture.schema.json" "${PROJECT_SOURCE_DIR}/studies/shimmer/shimmer.schema.json"
+  "${PROJECT_SOURCE_DIR}/studies/functions/answers.schema.json" "${PROJECT_SOURCE_DIR}/grade/rubric.schema.json" "${PROJECT_SOURCE_DIR}/grade/grade.schema.json"
+  "${PROJECT_SOURCE_DIR}/judge/capture.schema.json" "${PROJECT_SOURCE_DIR}/studies/shimmer/shimmer.schema.json"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/gnomon/schema")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" FILES_MATCHING PATTERN "*.glsl" PATTERN "*.frag" PATTERN "*.vert" PATTERN "*.h")
-# What judge starts for a frame that RenderDoc recorded: where studies/judge/recorded_frame.cpp looks from the folder of the program.
+# What judge starts for a frame that RenderDoc recorded: where judge/recorded_frame.cpp looks from the folder of the program.
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/adapters/renderdoc" DESTINATION share/gnomon FILES_MATCHING PATTERN "*.py" PATTERN "*.json" PATTERN "__pycache__" EXCLUDE)
 
 # gnomon_install_printed(OPTION FOLDER FILE): what the program prints for OPTION; FOLDER is below the prefix.

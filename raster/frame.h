@@ -115,7 +115,7 @@ struct CapturedTest {
   };
   std::array<UnitAt, 2> units{};  ///< at the nearest and the farthest receiver; alike where it is one length
   double normal_offset_world =
-      0.0;  ///< along the receiver's normal; below 0 only where a mistake is tried (studies/judge)
+      0.0;  ///< along the receiver's normal; below 0 only where a mistake is tried (judge)
   /// By which the offset is multiplied; `none`: it has one length at every angle.
   AngleForm normal_offset_angle = AngleForm::none;
   /// By which the constant is multiplied; the product is held within `least` and `most`, stored numbers.

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/commands.h"
 #include "app/options/effect_options.h"
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
@@ -329,9 +330,8 @@ void add_options(CLI::App& app, CompareCommand& command) {
 
 }  // namespace
 
-void add_compare(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand(
-      "compare", "Render with shadow maps and with rays, and report where the two shadows differ and why.");
+GNOMON_COMMAND(compare, 10,
+               "Render with shadow maps and with rays, and report where the two shadows differ and why.") {
   app->footer(
       "gnomon compare fence\n"
       "gnomon compare model.glb --map-size 2048 --bias 0.5texel -o report\n"

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <memory>
 
+#include "app/commands.h"
 #include "app/console.h"
 #include "app/invocation.h"
-#include "app/lessons/lesson_scene.h"
+#include "app/lesson_scene.h"
 #include "app/options/effect_options.h"
 #include "app/options/options.h"
 #include "app/options/values.h"
@@ -98,9 +99,7 @@ void add_sectors(CLI::App& app, int& sectors) {
 
 }  // namespace
 
-void add_export(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand(
-      "export", "Write a scene as glTF 2.0, so that another renderer can draw it and be judged.");
+GNOMON_COMMAND(export, 80, "Write a scene as glTF 2.0, so that another renderer can draw it and be judged.") {
   app->footer(
       "gnomon export courtyard -o courtyard.glb\n"
       "gnomon export shapes --tessellate 128 -o shapes.gltf\n"

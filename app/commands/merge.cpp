@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/commands.h"
 #include "app/console.h"
 #include "app/invocation.h"
 #include "app/options/options.h"
@@ -52,8 +53,7 @@ Expected<ExitCode> run_merge(const MergeCommand& command) {
 
 }  // namespace
 
-void add_merge(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand("merge", "Put the shards of a sweep together.");
+GNOMON_COMMAND(merge, 90, "Put the shards of a sweep together.") {
   app->footer("gnomon merge part1 part2 part3 -o whole");
   const auto command = std::make_shared<MergeCommand>();
   app->add_option("SHARD", command->shards, "folders written by gnomon sweep --shard")->required();

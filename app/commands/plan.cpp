@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "app/commands.h"
 #include "app/invocation.h"
 #include "app/options/options.h"
 #include "app/outputs/picture_samples.h"
@@ -323,11 +324,9 @@ Expected<ExitCode> run_plan(const PlanCommand& command) {
 
 }  // namespace
 
-void add_plan(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand(
-      "plan",
-      "List the effects that a scene calls for, which light or material does, and the rays that each will "
-      "cost.");
+GNOMON_COMMAND(plan, 40,
+               "List the effects that a scene calls for, which light or material does, and the rays that "
+               "each will cost.") {
   app->footer(
       "gnomon plan whitted\n"
       "gnomon plan penumbra --size 1920x1080 --samples 256 --aa 4\n"

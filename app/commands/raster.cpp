@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/commands.h"
 #include "app/invocation.h"
 #include "app/options/effect_options.h"
 #include "app/options/map_options.h"
@@ -103,9 +104,7 @@ Expected<ExitCode> run_raster(RasterCommand& command) {
 
 }  // namespace
 
-void add_raster(CLI::App& program, Invocation& invocation) {
-  CLI::App* app =
-      program.add_subcommand("raster", "Render with shadow maps only: a PNG, or an EXR with its records.");
+GNOMON_COMMAND(raster, 20, "Render with shadow maps only: a PNG, or an EXR with its records.") {
   app->footer(
       "gnomon raster fence -o fence.png\n"
       "gnomon raster model.glb --map-size 512 --bias 0.01 -o model.exr");

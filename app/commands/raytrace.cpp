@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/commands.h"
 #include "app/invocation.h"
 #include "app/options/effect_options.h"
 #include "app/options/options.h"
@@ -120,9 +121,7 @@ Expected<ExitCode> run_raytrace(RaytraceCommand& command) {
 
 }  // namespace
 
-void add_raytrace(CLI::App& program, Invocation& invocation) {
-  CLI::App* app =
-      program.add_subcommand("raytrace", "Render with rays only: a PNG, or an EXR with its records.");
+GNOMON_COMMAND(raytrace, 30, "Render with rays only: a PNG, or an EXR with its records.") {
   app->footer(
       "gnomon raytrace whitted -o whitted.png\n"
       "gnomon raytrace model.glb --size 1920x1080 -o model.exr\n"

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/commands.h"
 #include "app/console.h"
 #include "app/help/manual.h"
 #include "app/invocation.h"
@@ -54,9 +55,7 @@ Expected<ExitCode> run_scenes(const std::string& json) {
 
 }  // namespace
 
-void add_scenes(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand(
-      "scenes", "List the built-in scenes and the lessons; any of their names serves as SCENE.");
+GNOMON_COMMAND(scenes, 50, "List the built-in scenes and the lessons; any of their names serves as SCENE.") {
   app->footer(
       "gnomon scenes\ngnomon compare courtyard\ngnomon compare acne            a lesson's scene and "
       "settings");

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/commands.h"
 #include "app/console.h"
 #include "app/invocation.h"
 #include "app/options/option_kinds.h"
@@ -164,10 +165,9 @@ Expected<ExitCode> run_shaders(const ShadersCommand& command) {
 
 }  // namespace
 
-void add_shaders(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand("shaders",
-                                         "List the rasterizer's shaders, write them into a folder to be "
-                                         "edited for --shader-dir, or try a function of one's own.");
+GNOMON_COMMAND(shaders, 60,
+               "List the rasterizer's shaders, write them into a folder to be edited for --shader-dir, or "
+               "try a function of one's own.") {
   app->footer(
       "gnomon shaders                  their names and what they are\n"
       "gnomon shaders -o mine          then edit mine/technique/hard.glsl\n"

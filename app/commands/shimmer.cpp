@@ -6,6 +6,7 @@
 #include <fstream>
 #include <memory>
 
+#include "app/commands.h"
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
 #include "app/options/shimmer_options.h"
@@ -184,10 +185,9 @@ void add_options(CLI::App& app, ShimmerCommand& command) {
 
 }  // namespace
 
-void add_shimmer(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand(
-      "shimmer",
-      "Move camera or light, and report what shadows do from frame to frame that they should not, and why.");
+GNOMON_COMMAND(
+    shimmer, 130,
+    "Move camera or light, and report what shadows do from frame to frame that they should not, and why.") {
   app->footer(
       "gnomon shimmer courtyard\n"
       "gnomon shimmer courtyard --technique csm --path walk --frames 120\n"

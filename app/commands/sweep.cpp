@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/commands.h"
 #include "app/options/option_kinds.h"
 #include "app/options/values.h"
 #include "app/outputs/run_files.h"
@@ -21,6 +22,7 @@
 #include "raster/programs/shader_folder.h"
 #include "scene/base/expected.h"
 #include "scene/base/timing.h"
+#include "scene/files/own_program.h"
 #include "scene/files/path_status.h"
 #include "scene/files/write_file.h"
 #include "studies/sweep/cell_files.h"
@@ -137,9 +139,8 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
   if (command.shard.of != 1)
     return fail(ErrorKind::usage, "--slurm: it makes the shards itself; leave out --shard");
   if (const auto plan = plan_of(command); !plan) return fail(plan.error());
-  std::error_code error;
-  const std::string program = std::filesystem::read_symlink("/proc/self/exe", error).string();
-  if (error) return fail(ErrorKind::graphics, "--slurm: cannot find the program itself: " + error.message());
+  const std::string program = own_program().string();
+  if (program.empty()) return fail(ErrorKind::graphics, "--slurm: cannot find the program itself");
   const std::string folder = std::filesystem::absolute(command.folder).lexically_normal().string();
   if (holds_line_break(program + folder + task_arguments(command)))
     return fail(ErrorKind::usage, "--slurm: a path or name holds a line break, which a batch script cannot");
@@ -308,11 +309,10 @@ void add_options(CLI::App& app, SweepCommand& command) {
 
 }  // namespace
 
-void add_sweep(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand(
-      "sweep",
-      "Compare at many settings. Each option of compare takes a list (128,512), a range of COUNT values "
-      "(START:END:COUNT) or a range by a factor (START:END:xFACTOR); every combination is one cell.");
+GNOMON_COMMAND(
+    sweep, 70,
+    "Compare at many settings. Each option of compare takes a list (128,512), a range of COUNT values "
+    "(START:END:COUNT) or a range by a factor (START:END:xFACTOR); every combination is one cell.") {
   app->footer(
       "gnomon sweep fence --bias 0:0.1:64                   64 biases from one drawing\n"
       "gnomon sweep courtyard --map-size 128:8192:x2 --slope-bias 0,1,2 -o sizes\n"

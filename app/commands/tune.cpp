@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "app/commands.h"
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
 #include "app/options/shimmer_options.h"
@@ -314,13 +315,10 @@ Expected<ExitCode> run_tune(TuneCommand& command) {
 
 }  // namespace
 
-void add_tune(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand("tune",
-                                         "Find the cheapest shadow map that is good enough, or the best that "
-                                         "is cheap enough, and say why the others "
-                                         "are not. The map's options take lists, as in sweep: what is given "
-                                         "restricts the search. Exit code 1 when the "
-                                         "goal cannot be met.");
+GNOMON_COMMAND(tune, 100,
+               "Find the cheapest shadow map that is good enough, or the best that is cheap enough, and say "
+               "why the others are not. The map's options take lists, as in sweep: what is given restricts "
+               "the search. Exit code 1 when the goal cannot be met.") {
   app->footer(
       "gnomon tune fence --max-error 0.5%\n"
       "gnomon tune penumbra --max-error mean:0.5%      also wrong:1%, flip:0.05, edge:0.5texel\n"

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/commands.h"
 #include "app/invocation.h"
 #include "app/options/options.h"
 #include "app/options/values.h"
@@ -140,11 +141,9 @@ Expected<void> store_cases(std::vector<int>& cases, const std::string& text) {
 
 }  // namespace
 
-void add_verify(CLI::App& program, Invocation& invocation) {
-  CLI::App* app = program.add_subcommand("verify",
-                                         "Run the hard cases of ray tracing and of shadow maps on this "
-                                         "machine: how many were wrong, and the worst "
-                                         "error.");
+GNOMON_COMMAND(verify, 110,
+               "Run the hard cases of ray tracing and of shadow maps on this machine: how many were wrong, "
+               "and the worst error.") {
   app->footer(
       "gnomon verify --rays 1e8\n"
       "gnomon verify --show-naive --case 1,5,10\n"

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
-#include "app/lessons/lesson_scene.h"
+#include "app/lesson_scene.h"
 #include "app/options/option_kinds.h"
 #include "app/session.h"
 #include "compare/result/figures.h"

@@ -8,6 +8,8 @@
 
 #include <filesystem>
 #include <fstream>
+
+#include "scene/files/own_program.h"
 #endif
 
 namespace gnomon::app {
@@ -24,9 +26,8 @@ void start_with_large_pages([[maybe_unused]] char** argv) {
   std::string choices;
   std::getline(std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"), choices);
   if (!are_asked_for(choices)) return;
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error || setenv(tunables, "glibc.malloc.hugetlb=1", 0) != 0) return;
+  const std::filesystem::path program = own_program();
+  if (program.empty() || setenv(tunables, "glibc.malloc.hugetlb=1", 0) != 0) return;
   execv(program.c_str(), argv);  // an error is no loss but of time
 #endif
 }

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/lessons/lesson_scene.h"
+#include "app/lesson_scene.h"
 #include "compare/result/figures.h"
 #include "compare/result/option_names.h"
 #include "scene/base/option_text.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/lessons/lesson_scene.h"
+#include "app/lesson_scene.h"
 #include "app/sweep/axes.h"
 #include "compare/result/engines.h"
 #include "studies/tune/tune.h"

@@ -6,7 +6,7 @@
 namespace gnomon::raster {
 namespace {
 
-/// What a query gives where the device lost count (GPU_DISJOINT_EXT, which cmake/platform/web asks), and where 32 bits of
+/// What a query gives where the device lost count (GPU_DISJOINT_EXT, which platform/web asks), and where 32 bits of
 /// nanoseconds are too few.
 constexpr GLuint lost = std::numeric_limits<GLuint>::max();
 constexpr double ms_per_ns = 1e-6;

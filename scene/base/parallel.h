@@ -1,6 +1,6 @@
 // Loops over all threads. oneTBB does the work, in parallel.cpp alone: its headers take seconds to compile in every file
 // that includes them, and a loop written with them as long again. A page has one thread
-// (cmake/platform/web/one_thread.cpp).
+// (platform/web/one_thread.cpp).
 #pragma once
 
 #include <algorithm>

@@ -11,10 +11,12 @@ gnomon_untimed(scene
   files/gltf/gltf_parse_nodes.cpp files/gltf/gltf_textures.cpp files/gltf/gltf_writer.cpp files/gltf/gltf_writer_materials.cpp
   files/json/json_document.cpp files/json/json_generate.cpp files/json/json_geometry.cpp files/json/json_lights.cpp
   files/json/json_materials.cpp files/json/json_reader.cpp files/json/json_repeat.cpp files/json/json_solids.cpp files/json/json_scene.cpp files/json/light_json.cpp
-  files/load.cpp files/material_notes.cpp files/obj/mtl.cpp files/obj/obj_materials.cpp files/obj/obj_textures.cpp files/path_keys.cpp files/path_status.cpp files/ply/ply_header.cpp
+  files/load.cpp files/material_notes.cpp files/obj/mtl.cpp files/obj/obj_materials.cpp files/obj/obj_textures.cpp files/path_keys.cpp files/own_program.cpp files/path_status.cpp files/ply/ply_header.cpp
   files/folder.cpp files/new_file.cpp files/publication.cpp files/shadow_variants.cpp files/staged_files.cpp files/staged_folder.cpp files/pictures/exr_file.cpp files/write_file.cpp
   LIBRARIES glm::glm tl::expected fmt::fmt nlohmann_json::nlohmann_json)
 target_link_libraries(gnomon_scene PRIVATE nlohmann_json::nlohmann_json PNG::PNG libdeflate ${TURBOJPEG_LIBRARY} ${NETTLE_LIBRARY} ${GNOMON_SCENE_LIBRARIES})
+# Where the programs are built.
+set_source_files_properties(files/own_program.cpp PROPERTIES COMPILE_DEFINITIONS "GNOMON_PROGRAMS_BUILT=\"${PROJECT_BINARY_DIR}/app\"")
 if(NOT GNOMON_PLATFORM STREQUAL native)
   return()
 endif()

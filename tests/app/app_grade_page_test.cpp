@@ -5,7 +5,7 @@
 #include <cctype>
 #include <set>
 
-#include "studies/grade/results.h"
+#include "grade/results.h"
 #include "tests/support/app_process.h"
 
 namespace gnomon::grade {

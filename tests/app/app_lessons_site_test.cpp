@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/lessons/figures.h"
-#include "app/lessons/flatland.h"
-#include "app/lessons/lecture.h"
-#include "app/lessons/lesson_text.h"
-#include "app/lessons/site.h"
+#include "lab/lessons/figures.h"
+#include "lab/lessons/flatland.h"
+#include "lab/lessons/lecture.h"
+#include "lab/lessons/lesson_text.h"
+#include "lab/lessons/site.h"
 #include "tests/support/app_process.h"
 
 namespace gnomon::app_test {

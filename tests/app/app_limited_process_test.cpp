@@ -6,7 +6,8 @@
 #include <string>
 #include <thread>
 
-#include "studies/grade/limited_process.h"
+#include "grade/limited_process.h"
+#include "scene/files/own_program.h"
 
 namespace gnomon::grade {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 /// This test program itself as the child: one of the cases below that are disabled otherwise.
 Outcome run_child(const std::string& name, const Limits& limits) {
   const auto outcome = run_limited(
+      own_program().string(),
       {"--gtest_also_run_disabled_tests", "--gtest_filter=LimitedProcessChild.DISABLED_" + name}, limits);
   EXPECT_TRUE(outcome) << outcome.error().message();
   return outcome.value_or(Outcome{});

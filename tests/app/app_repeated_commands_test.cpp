@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/lessons/lesson_scene.h"
+#include "app/lesson_scene.h"
 #include "app/options/options.h"
 #include "app/options/shimmer_options.h"
 #include "app/sweep/command.h"

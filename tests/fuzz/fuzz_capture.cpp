@@ -1,6 +1,6 @@
 // Captures of other renderers' shadows; the files that they name are not opened.
 #include "fuzz_target.h"
-#include "studies/judge/capture.h"
+#include "judge/capture.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace gnomon;

@@ -1,6 +1,6 @@
 // Rubrics of gnomon grade.
 #include "fuzz_target.h"
-#include "studies/grade/rubric.h"
+#include "grade/rubric.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace gnomon;

@@ -38,8 +38,8 @@ packages=(libc6-dev libembree-dev libgtest-dev librapidcheck-dev libstdc++-12-de
 while read -r package; do packages+=("$package"); done < <(
   printf '%s\n' "${run_packages[@]}" | grep -E '^(lib.*-dev|nettle-dev|nlohmann-json3-dev)$')
 
-# shellcheck source=cmake/platform/own_apt.sh
-source "$project/cmake/platform/own_apt.sh"
+# shellcheck source=platform/own_apt.sh
+source "$project/platform/own_apt.sh"
 fetch_libraries() {
   local apt=$folder/apt root=$folder/root package link
   rm -rf "$root"

@@ -19,7 +19,7 @@ cache=$(command -v ccache) || cache=
 # Libraries of headers alone are the same for all processors; beside them the compiler has its own.
 mkdir -p "$folder/headers"
 for library in fmt glm hwy tl; do ln -sfn "/usr/include/$library" "$folder/headers/$library"; done
-sources=(tests/platforms/small_rays{,_alone}.cpp cmake/platform/web/one_thread.cpp scene/world.cpp raytrace/huge_array.cpp
+sources=(tests/platforms/small_rays{,_alone}.cpp platform/web/one_thread.cpp scene/world.cpp raytrace/huge_array.cpp
   raytrace/bvh/{boxes,bvh,clusters,instance,leaf_primitives,treelet,wide_instances,wide_on_demand,wide_pack,wide_traverse,wide_tree}.cpp)
 # The flags that decide about numbers are gnomon_flags' own (cmake/GnomonTarget.cmake).
 read -ra deciding < <(sed -n 's/^target_compile_options(gnomon_flags INTERFACE \(-f[^)]*\))$/\1/p' cmake/GnomonTarget.cmake)

@@ -32,11 +32,15 @@ const std::map<std::string, std::set<std::string>, std::less<>> arrows = {
     {"report", {"scene", "compare"}},
     {"studies", {"scene", "raster", "raytrace", "compare", "report"}},
     {"verify", {"scene", "raster", "raytrace"}},
-    {"benchmark", {"scene", "raster", "raytrace", "hybrid", "compare", "studies", "verify"}},
-    {"app", {"scene", "raster", "raytrace", "hybrid", "compare", "report", "studies", "verify", "benchmark"}},
+    {"app", {"scene", "raster", "raytrace", "hybrid", "compare", "report", "studies", "verify"}},
+    {"judge", {"scene", "raster", "raytrace", "compare", "report", "app"}},
+    {"grade", {"scene", "raster", "raytrace", "compare", "report", "studies", "app"}},
+    {"lab", {"scene", "raster", "raytrace", "hybrid", "compare", "report", "studies", "app"}},
+    {"benchmark", {"scene", "raster", "raytrace", "hybrid", "compare", "studies", "verify", "app"}},
+    {"platform", {"scene", "raster", "app", "lab"}},
     {"tests",
-     {"scene", "shaders", "raster", "raytrace", "hybrid", "compare", "report", "studies", "verify",
-      "benchmark", "app"}},
+     {"scene", "shaders", "raster", "raytrace", "hybrid", "compare", "report", "studies", "verify", "app",
+      "judge", "grade", "lab", "benchmark", "platform"}},
 };
 
 bool is_room(std::string_view name) {
@@ -51,14 +55,20 @@ bool allowed(const std::string& from, const std::string& to) {
   return from == to || arrows.find(from)->second.contains(to);
 }
 
+/// The command line is seen by commands alone, and by the lab, whose states are command lines.
+bool may_see_app(std::string_view path) {
+  return path.starts_with("app/") || path.starts_with("lab/") || path.starts_with("platform/") ||
+         path.starts_with("tests/") || path.find("/commands/") != std::string_view::npos;
+}
+
 bool may_use_opengl(std::string_view path) {
-  return path.starts_with("raster/") || path.starts_with("app/view/") || path.starts_with("tests/");
+  return path.starts_with("raster/") || path.starts_with("lab/view/") || path.starts_with("tests/");
 }
 
 /// Loops over all threads are those of scene/base/parallel.h: oneTBB's headers take seconds to compile. What else there is of it,
 /// a sort, a limit and an observer of threads, is used where it is needed.
 bool may_use_tbb(std::string_view path) {
-  constexpr std::string_view files[] = {"scene/base/parallel.cpp", "app/view/work/priority.cpp"};
+  constexpr std::string_view files[] = {"scene/base/parallel.cpp", "lab/view/work/priority.cpp"};
   return path.starts_with("tests/") || std::find(std::begin(files), std::end(files), path) != std::end(files);
 }
 
@@ -142,6 +152,7 @@ std::string check_include(const std::string& file, const Include& include,
   const std::string to = room_of(include.path);
   if (!is_room(to)) return "own headers are included by their path from the root";
   if (!allowed(from, to)) return from + " may not include " + to;
+  if (to == "app" && !may_see_app(file)) return "the command line is for commands";
   if (include.path.starts_with("raytrace/packets/") && from != "raytrace" && from != "tests")
     return "packets/ is the tracer's own: raytrace/receiver_tiles.h is what others have of it";
   return {};
@@ -260,7 +271,7 @@ const std::vector<std::string> dropped_errors{"exists(",
 /// error is said where the files themselves are read, or there is nobody to be told).
 bool may_ask_about_paths(std::string_view path) {
   constexpr std::string_view files[] = {"scene/files/path_status.cpp", "app/outputs/run_files.cpp",
-                                        "app/view/work/file_watch.cpp", "raster/programs/shader_folder.cpp"};
+                                        "lab/view/work/file_watch.cpp", "raster/programs/shader_folder.cpp"};
   return path.starts_with("tests/") || std::find(std::begin(files), std::end(files), path) != std::end(files);
 }
 
@@ -309,6 +320,9 @@ TEST(Arrows, RenderersDoNotKnowEachOther) {
 TEST(Arrows, NobodyIncludesAppAndSceneIncludesNobody) {
   EXPECT_EQ(broken_by("compare/a.cpp", "#include \"app/options/options.h\"\n").size(), 1u);
   EXPECT_EQ(broken_by("scene/a.cpp", "#include \"compare/compare.h\"\n").size(), 1u);
+  EXPECT_EQ(broken_by("app/a.cpp", "#include \"judge/judge.h\"\n").size(), 1u);
+  EXPECT_EQ(broken_by("judge/a.cpp", "#include \"app/console.h\"\n").size(), 1u);
+  EXPECT_TRUE(broken_by("judge/commands/a.cpp", "#include \"app/console.h\"\n").empty());
   EXPECT_TRUE(broken_by("tests/a.cpp", "#include \"app/options/options.h\"\n").empty());
 }
 

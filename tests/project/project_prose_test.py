@@ -10,7 +10,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-FOLDERS = ("app/view", "studies/grade")
+FOLDERS = ("lab/view", "grade")
 WORDS = 6  # from so many on it is a sentence
 MOST_WORDS = 30  # more must be read twice; a sign of a formula is no word
 NO_ROOMS = ("tests",)

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/result/number_text.h"
+#include "judge/several.h"
 #include "report/write_outputs.h"
-#include "studies/judge/several.h"
 #include "tests/support/synthetic_comparison.h"
 
 namespace {

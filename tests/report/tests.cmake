@@ -1,6 +1,6 @@
 # The report page in a real browser: sample pages are written first, then looked at.
 add_executable(outputs_sample "${CMAKE_CURRENT_LIST_DIR}/report_sample_main.cpp")
-target_link_libraries(outputs_sample PRIVATE gnomon_flags gnomon_warnings gnomon::studies nlohmann_json::nlohmann_json)
+target_link_libraries(outputs_sample PRIVATE gnomon_flags gnomon_warnings gnomon::judge gnomon::studies nlohmann_json::nlohmann_json)
 
 gnomon_node_test(report_browser_test $<TARGET_FILE:outputs_sample> "${CMAKE_CURRENT_BINARY_DIR}/report_browser")
 gnomon_node_test(report_numbers_test $<TARGET_FILE:outputs_sample> "${CMAKE_CURRENT_BINARY_DIR}/report_numbers")

@@ -7,7 +7,7 @@
 #include <array>
 #include <regex>
 
-#include "studies/grade/alike.h"
+#include "grade/alike.h"
 
 namespace gnomon::grade {
 namespace {

@@ -19,7 +19,7 @@ using nlohmann::json;
 /// The shipped shader with its steps filled in.
 std::string exercise_solution() {
   const std::string skeleton =
-      read_file(gnomon::test::source_dir() + "/studies/grade/kits/first-shadow-map/shadow_map.glsl");
+      read_file(gnomon::test::source_dir() + "/grade/kits/first-shadow-map/shadow_map.glsl");
   return skeleton.substr(0, skeleton.find("  // TODO 1")) +
          read_file(gnomon::test::source_dir() + "/tests/data/grade/steps.glsl");
 }

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
+#include "judge/judge.h"
 #include "scene/files/pictures/image_io.h"
 #include "scene/load.h"
-#include "studies/judge/judge.h"
 
 namespace gnomon::test {
 namespace {

@@ -11,8 +11,8 @@
 #include "compare/ladder/labels.h"
 #include "compare/ladder/moments.h"
 #include "compare/truth/columns.h"
+#include "judge/stored_format.h"
 #include "scene/files/pictures/image_io.h"
-#include "studies/judge/stored_format.h"
 #include "tests/support/capture_support.h"
 
 namespace gnomon::test {

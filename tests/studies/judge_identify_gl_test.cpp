@@ -8,8 +8,8 @@
 
 #include "compare/result/option_names.h"
 #include "compare/result/outputs.h"
+#include "judge/identify.h"
 #include "scene/load.h"
-#include "studies/judge/identify.h"
 #include "tests/support/capture_support.h"
 #include "tests/support/synthetic_comparison.h"
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "judge/capture.h"
 #include "scene/files/write_file.h"
-#include "studies/judge/capture.h"
 #include "tests/support/json_schema_check.h"
 #include "tests/support/places.h"
 
@@ -27,7 +27,7 @@ std::pair<bool, bool> taken(const nlohmann::json& capture) {
   const std::string file = schema_folder() + "/schema.json";
   EXPECT_TRUE(write_file(file, capture.dump()));
   const auto read = compare::read_capture(file);
-  std::ifstream schema(source_dir() + "/studies/judge/capture.schema.json");
+  std::ifstream schema(source_dir() + "/judge/capture.schema.json");
   return {SchemaCheck(nlohmann::json::parse(schema)).violations(capture).empty(),
           read && compare::check_capture(*read)};
 }
@@ -159,7 +159,7 @@ TEST(CaptureSchema, TakesSeveralLightsThatShareTheRest) {
     "size": [64, 36], "position": "p.exr", "lights": [{"light": "sun", "visibility": "s.exr"},
     {"light": 1, "visibility": "l.exr", "strength": 0.5}, {"light": "lamp", "shadowed": "a.exr", "unshadowed": "b.exr"}]})");
   const std::string file = schema_folder() + "/schema.json";
-  std::ifstream schema(source_dir() + "/studies/judge/capture.schema.json");
+  std::ifstream schema(source_dir() + "/judge/capture.schema.json");
   SchemaCheck check(Json::parse(schema));
   const auto read_of = [&](const Json& capture) {
     EXPECT_TRUE(write_file(file, capture.dump()));

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "judge/several.h"
 #include "scene/files/read_file.h"
-#include "studies/judge/several.h"
 
 namespace gnomon::test {
 namespace {

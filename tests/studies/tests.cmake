@@ -4,13 +4,13 @@ gnomon_test(sweep_engine_gl_test TIMEOUT 900
   SOURCES sweep_engine_gl_test.cpp sweep_edge_gl_test.cpp sweep_theory_gl_test.cpp tune_grid_gl_test.cpp sweep_cell_pictures_gl_test.cpp
   LIBS compare_support gnomon::app)
 gnomon_test(sweep_program_gl_test TIMEOUT 900 SOURCES sweep_program_gl_test.cpp tune_program_gl_test.cpp tune_lights_gl_test.cpp views_program_gl_test.cpp LIBS gnomon::compare nlohmann_json::nlohmann_json)
-add_dependencies(sweep_program_gl_test gnomon_program)
+add_dependencies(sweep_program_gl_test gnomon_programs)
 
 gnomon_test(shimmer_gl_test
   SOURCES shimmer_gl_test.cpp shimmer_parts_test.cpp
   LIBS small_scenes gnomon::studies nlohmann_json::nlohmann_json)
 gnomon_test(shimmer_program_gl_test SOURCES shimmer_program_gl_test.cpp LIBS app_process gnomon::scene nlohmann_json::nlohmann_json)
-add_dependencies(shimmer_program_gl_test gnomon_program)
+add_dependencies(shimmer_program_gl_test gnomon_programs)
 
 gnomon_test(judge_gl_test
   SOURCES judge_gl_test.cpp judge_parts_gl_test.cpp judge_values_gl_test.cpp judge_described_gl_test.cpp
@@ -21,7 +21,7 @@ gnomon_test(judge_pictures_gl_test SOURCES judge_pictures_gl_test.cpp judge_word
   LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_test(judge_keys_gl_test SOURCES judge_keys_gl_test.cpp LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_test(judge_faults_gl_test SOURCES judge_faults_gl_test.cpp judge_places_gl_test.cpp LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
-gnomon_test(judge_bad_captures_test SOURCES judge_bad_captures_test.cpp judge_schema_test.cpp judge_several_test.cpp LIBS gnomon::studies fmt::fmt nlohmann_json::nlohmann_json)
+gnomon_test(judge_bad_captures_test SOURCES judge_bad_captures_test.cpp judge_schema_test.cpp judge_several_test.cpp LIBS gnomon::judge fmt::fmt nlohmann_json::nlohmann_json)
 gnomon_test(judge_identify_gl_test
   SOURCES judge_identify_gl_test.cpp
   LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
@@ -40,15 +40,15 @@ add_test(NAME renderdoc_engine_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT
 set_tests_properties(renderdoc_engine_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1500)
 
 # gnomon grade: answers that are alike; and the program on shaders with known faults.
-gnomon_test(grade_alike_test SOURCES grade_alike_test.cpp LIBS gnomon::studies)
+gnomon_test(grade_alike_test SOURCES grade_alike_test.cpp LIBS gnomon::grade)
 gnomon_test(grade_gl_test
   SOURCES grade_gl_test.cpp grade_rubrics_gl_test.cpp grade_class_gl_test.cpp
   LIBS app_process nlohmann_json::nlohmann_json TIMEOUT 1800)
-add_dependencies(grade_gl_test gnomon_program)
+add_dependencies(grade_gl_test gnomon_programs)
 gnomon_test(grade_functions_gl_test
   SOURCES grade_functions_gl_test.cpp grade_filter_gl_test.cpp
-  LIBS gnomon::studies app_process nlohmann_json::nlohmann_json TIMEOUT 1200)
-add_dependencies(grade_functions_gl_test gnomon_program)
+  LIBS gnomon::grade app_process nlohmann_json::nlohmann_json TIMEOUT 1200)
+add_dependencies(grade_functions_gl_test gnomon_programs)
 
 # The pages of sweeps and films in a real browser.
 gnomon_node_test(shimmer_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/shimmer_browser")

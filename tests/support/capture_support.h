@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "studies/judge/capture_pictures.h"
-#include "studies/judge/judge.h"
+#include "judge/capture_pictures.h"
+#include "judge/judge.h"
 #include "tests/support/compare_support.h"
 
 namespace gnomon::test {

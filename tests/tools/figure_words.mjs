@@ -1,12 +1,12 @@
 // The words of the lessons' live figures, as a table for another language (docs/lectures/README.md): every English sentence that
-// report/page/src/lessons has in say("…"), say`…` or many(n, "…", "…"), and app/lessons/site.cpp in said("…"). Usage:
+// report/page/src/lessons has in say("…"), say`…` or many(n, "…", "…"), and lab/lessons/site.cpp in said("…"). Usage:
 // node figure_words.mjs [FIGURES.json]: without a file the table is printed, with one what is missing in it and what is too much
 // is named, and the exit code is 1 where there is any.
 import { readdirSync, readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
 const folder = fileURLToPath(new URL("../../report/page/src/lessons/", import.meta.url));
-const site = new URL("../../app/lessons/site.cpp", import.meta.url);
+const site = new URL("../../lab/lessons/site.cpp", import.meta.url);
 
 /** The template that begins at a place behind its `, as a key; what its ${…} have is read as well, by the search of words(). */
 function templateKey(text, from) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/options/lab_options.h"
-#include "app/serve/lab_facts.h"
+#include "lab/lab_options.h"
+#include "lab/serve/lab_facts.h"
 #include "raster/settings.h"
 #include "scene/load.h"
 #include "tests/support/temporary_folder.h"

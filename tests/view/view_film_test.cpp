@@ -1,6 +1,6 @@
 // Films of the lab: where the camera and the lights stand at a moment, and how a state goes through them. Poses are held
 // against the closed forms of the paths.
-#include "app/view/state/film.h"
+#include "lab/view/state/film.h"
 
 #include <gtest/gtest.h>
 

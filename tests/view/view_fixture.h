@@ -1,7 +1,7 @@
 // A state over two lights, without a scene file.
 #pragma once
 
-#include "app/view/state/state.h"
+#include "lab/view/state/state.h"
 
 namespace gnomon::app {
 

@@ -1,5 +1,5 @@
 // Keys, wheel and drags as actions.
-#include "app/view/state/input.h"
+#include "lab/view/state/input.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

@@ -1,10 +1,10 @@
 // The lab's presets and bias in texels, and the window's arithmetic.
-#include "app/view/state/presets.h"
+#include "lab/view/state/presets.h"
 
 #include <gtest/gtest.h>
 
-#include "app/view/state/projection.h"
-#include "app/view/window/layout.h"
+#include "lab/view/state/projection.h"
+#include "lab/view/window/layout.h"
 #include "raster/technique_traits.h"
 #include "tests/view/view_fixture.h"
 

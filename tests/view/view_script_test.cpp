@@ -1,5 +1,5 @@
 // The script language: what is accepted, and where a mistake is said to be.
-#include "app/view/script/script.h"
+#include "lab/view/script/script.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // What each action does to the state; no display is needed for any of it.
-#include "app/view/state/state.h"
+#include "lab/view/state/state.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/view/work/worker.h"
+#include "lab/view/work/worker.h"
 #include "tests/view/view_fixture.h"
 
 namespace gnomon::app {

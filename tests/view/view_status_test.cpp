@@ -1,5 +1,5 @@
 // The title and the command line in words.
-#include "app/view/state/status.h"
+#include "lab/view/state/status.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // What the lab says of one pixel of a comparison, and the scene that it saves.
-#include "app/view/state/pixel_story.h"
+#include "lab/view/state/pixel_story.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "app/view/work/scene_source.h"
+#include "lab/view/work/scene_source.h"
 #include "scene/load.h"
 #include "tests/support/app_process.h"
 #include "tests/view/view_thread_fixture.h"

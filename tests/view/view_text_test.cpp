@@ -1,8 +1,8 @@
 // What the lab shows as text: lines that keep numbers whole, and a frame's parts that add up.
 #include <gtest/gtest.h>
 
-#include "app/view/window/frame_watch.h"
-#include "app/view/window/style.h"
+#include "lab/view/window/frame_watch.h"
+#include "lab/view/window/style.h"
 #include "scene/base/timing.h"
 
 namespace gnomon::app {

@@ -11,7 +11,7 @@
 #include <mutex>
 #include <set>
 
-#include "app/view/work/render_thread.h"
+#include "lab/view/work/render_thread.h"
 
 namespace gnomon::app {
 

@@ -1,7 +1,7 @@
 // The thread that draws and compares for the window, without a window: any offscreen context will do. Each test waits
 // for what it needs and for nothing else.
 #include "app/console.h"
-#include "app/view/work/render_thread.h"
+#include "lab/view/work/render_thread.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@
 #include <set>
 #include <thread>
 
-#include "app/view/state/presets.h"
-#include "app/view/state/projection.h"
+#include "lab/view/state/presets.h"
+#include "lab/view/state/projection.h"
 #include "raster/programs/shader_folder.h"
 #include "tests/support/app_process.h"
 #include "tests/view/view_thread_fixture.h"

@@ -3,7 +3,7 @@
 
 #include <deque>
 
-#include "app/view/work/shadow_times.h"
+#include "lab/view/work/shadow_times.h"
 
 namespace gnomon::app {
 namespace {

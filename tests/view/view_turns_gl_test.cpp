@@ -1,6 +1,6 @@
 // What is given up where drawing and comparing take turns on one thread, as in a page: built with that platform's turns.cpp, so that
 // each turn is this test's own.
-#include "app/view/work/turns.h"
+#include "lab/view/work/turns.h"
 
 #include "tests/view/view_thread_fixture.h"
 

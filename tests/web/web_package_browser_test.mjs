@@ -18,7 +18,7 @@ mkdirSync(path.join(folder, "empty"), { recursive: true });
 const root = fileURLToPath(new URL("../../", import.meta.url)),
   empty = path.join(folder, "empty"),
   small = { size: "96x54" };
-const tarball = execFileSync(process.execPath, [path.join(root, "cmake/platform/web/package/pack.mjs"), path.join(app, ".."), folder], {
+const tarball = execFileSync(process.execPath, [path.join(root, "platform/web/package/pack.mjs"), path.join(app, ".."), folder], {
   encoding: "utf8",
 }).trim();
 writeFileSync(path.join(empty, "package.json"), '{ "private": true, "type": "module" }\n');

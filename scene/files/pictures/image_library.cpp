@@ -7,6 +7,7 @@
 
 #include "scene/base/parallel.h"
 #include "scene/base/threads.h"
+#include "scene/files/own_program.h"
 #include "scene/files/path_status.h"
 
 namespace gnomon {
@@ -14,11 +15,10 @@ namespace {
 
 /// Beside the program when it is installed (bin and lib/gnomon), else where it was built.
 std::vector<std::string> module_paths() {
-  std::error_code none;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
+  const std::filesystem::path program = own_program();
   const std::filesystem::path file(GNOMON_IMAGE_MODULE);
   std::vector<std::string> paths;
-  if (!none)
+  if (!program.empty())
     paths.push_back((program.parent_path() / GNOMON_IMAGE_MODULE_FROM_BIN / file.filename()).string());
   paths.push_back(file.string());
   return paths;

@@ -14,7 +14,7 @@ const held = document.getElementById(id)?.textContent;
 /** What this page holds itself; null: its program lies beside it. */
 export const packed = held ? (JSON.parse(held) as Packed) : null;
 
-/** Two modules as one classic script: the one that is made by the compiler, and the one that imports it (cmake/platform/web). */
+/** Two modules as one classic script: the one that is made by the compiler, and the one that imports it (platform/web). */
 function asOneScript(program: string, worker: string): string {
   const plain = program.replaceAll("import.meta.url", `"file:///"`).replace(/export default (\w+);?\s*$/, "");
   return `(async () => {\n${plain}\n${worker.replace(/^import .*$/m, "")}\n})();`;

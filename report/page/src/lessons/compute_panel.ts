@@ -8,7 +8,7 @@ import { html, number } from "../svg";
 import type { FigureJson } from "./figures";
 import { say } from "./say";
 
-/** A page's data with one figure, as the program answers (app/lessons/figures.h). */
+/** A page's data with one figure, as the program answers (lab/lessons/figures.h). */
 interface ComputedJson {
   figures: [FigureJson<{ comparison?: string }>];
   comparisons: Record<string, ComparisonJson>;

@@ -1,5 +1,5 @@
 // The live figures of a lesson, each in the place of its picture; the picture stays where its figure cannot be made. What the
-// program says of them (app/lessons/figures.h) is in the page's data.
+// program says of them (lab/lessons/figures.h) is in the page's data.
 import { page } from "../data";
 import type { SettingFacts } from "../lab/engine";
 import { addressOf } from "../lab/lab_state";

@@ -243,7 +243,7 @@ function drawPlane(stage: Stage, o: Vec2, d: Vec2): Drawn {
   };
 }
 
-// A body that is not convex; app/lessons/intersection.cpp has the same corners.
+// A body that is not convex; lab/lessons/intersection.cpp has the same corners.
 const zigzag: Vec2[] = [
   [-1.6, -0.9],
   [1.6, -0.9],

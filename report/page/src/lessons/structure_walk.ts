@@ -1,4 +1,4 @@
-// Rays through the program's own structures, in the plane that app/lessons/figures.h cut them by: the walks of
+// Rays through the program's own structures, in the plane that lab/lessons/figures.h cut them by: the walks of
 // raytrace/accel/*.h, step by step, with what they count there.
 import { meetSegment, type Vec2 } from "./flatland";
 

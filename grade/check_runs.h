@@ -1,0 +1,67 @@
+// The drawings of one student (or of the program's own shader), each made once however many checks look at it.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "grade/figures.h"
+#include "grade/rubric.h"
+
+namespace gnomon::grade {
+
+/// A drawing, or why there is none.
+struct Drawing {
+  std::optional<RunResult> result;
+  std::string failure;  ///< one line
+  bool out_of_time = false;
+  /// Something else than the shader may have ended it: it is worth another try with nothing else drawn.
+  bool disturbed = false;
+};
+
+class CheckRuns {
+ public:
+  /// `shaders`: the student's folder, or what was made of it; empty for the program's own. Drawings lie below `folder`.
+  CheckRuns(const Rubric& rubric, std::string shaders, std::string folder);
+  /// What the messages of shaders' mistakes call the folder.
+  void call_shaders(std::string name) { shown_shaders_ = std::move(name); }
+
+  /// A drawing that was disturbed is handed out as such the first time; drawn again it is an error, or the shader's
+  /// own fault.
+  /// Errors (resources): no process, or nobody can tell what the shader draws; (cannot_write): no room for the drawing.
+  Expected<const Drawing*> draw(const Run& run);
+  /// Once more, timed by the very drawing that is judged, with its values; to be called when nothing else runs.
+  Expected<Drawing> draw_timed(const Run& run);
+  /// The program's own shader with this bias in place of the run's, world units.
+  Expected<Drawing> draw_own_with_bias(const Run& run, double bias) const;
+  /// "gnomon compare …" or "gnomon shaders --call …", which draws it again in the exercise's folder, where student/ holds what was handed in.
+  std::string command(const Run& run) const;
+
+ private:
+  /// The command line without what says where things lie.
+  std::vector<std::string> words_of(const Run& run, const std::string& folder) const;
+  bool needs_values(const Run& run) const;
+  /// Whether a check asks on which side of the truth the drawing errs.
+  bool needs_sides(const Run& run) const;
+  /// How a drawing is made, besides what the run says.
+  struct Manner {
+    bool timed = false, values = false;
+    bool again = false;  ///< after one that was disturbed
+  };
+  Expected<Drawing> make(const Run& run, const std::string& folder, Manner manner) const;
+  /// Again where it was disturbed.
+  Expected<Drawing> make_undisturbed(const Run& run, const std::string& folder, Manner manner) const;
+  /// With its values, and with its ties in its figures.
+  Expected<Drawing> make_with_ties(const Run& run, const std::string& folder, bool again) const;
+
+  struct Made {
+    Run run;
+    Drawing drawing;
+  };
+  const Rubric* rubric_;
+  std::string shaders_, folder_;
+  std::string shown_shaders_;  ///< empty: as they are
+  std::deque<Made> made_;      ///< what was handed out stays where it is
+};
+
+}  // namespace gnomon::grade

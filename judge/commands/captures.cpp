@@ -1,0 +1,147 @@
+#include "judge/commands/captures.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "app/process/interrupt.h"
+#include "judge/recorded_frame.h"
+#include "scene/files/path_status.h"
+#include "scene/files/staged_folder.h"
+
+namespace gnomon::app {
+namespace {
+
+/// Makes a capture of a recorded frame in `folder` and puts its capture.json in the frame's place.
+Expected<void> make_capture(std::string& path, const std::string& light, const std::string& folder,
+                            Console& console) {
+  const OutputGuard whole_outputs;
+  auto staged = StagedFolder::open(folder);
+  if (!staged) return fail(staged.error());
+  console.progress("replaying the frame", 0.0);
+  const auto found = compare::capture_recorded_frame(path, staged->path(), light);
+  if (!found) return fail(found.error());
+  if (const auto sealed = staged->seal(std::vector{path}); !sealed) return sealed;
+  if (const auto published = staged->publish("capture.json"); !published) return published;
+  for (const std::string& finding : *found) console.note(finding);
+  path = folder + "/capture.json";
+  return {};
+}
+
+std::string unused_name(const std::string& base, std::set<std::string>& taken) {
+  std::string name = base;
+  for (int count = 2; !taken.insert(name).second; ++count) name = fmt::format("{}-{}", base, count);
+  return name;
+}
+
+/// A letter, digit, dot, dash or underscore stays; what else a light's name has becomes a dash.
+std::string file_name_of(std::string light) {
+  for (char& c : light)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_') c = '-';
+  return light;
+}
+
+}  // namespace
+
+Expected<std::vector<compare::Capture>> lights_of(const CaptureOptions& options, const std::string& path) {
+  std::vector<compare::Capture> lights(1);
+  CaptureOptions parts = options;
+  if (!path.empty()) {
+    auto read = compare::read_captures(path);
+    if (!read) return fail(read.error());
+    lights = std::move(*read);
+  }
+  if (!lights.front().within.empty() && !parts.given.light.empty()) {
+    auto chosen = compare::read_capture(path, parts.given.light);
+    if (!chosen) return fail(chosen.error());
+    lights = {std::move(*chosen)}, parts.given.light.clear();
+  }
+  for (compare::Capture& light : lights) {
+    auto whole = with_options(std::move(light), parts);
+    if (!whole) return fail(whole.error());
+    light = std::move(*whole);
+    if (const auto sound = compare::check_capture(light); !sound)
+      return fail(light.path.empty() ? usage_error(sound.error(), parts) : sound.error());
+  }
+  return lights;
+}
+
+RunFiles inputs_of(const compare::Capture& capture) {
+  RunFiles files;
+  files.reads(capture.path);
+  files.reads(SceneArgument{capture.scene});
+  for (const std::string* picture :
+       {&capture.visibility, &capture.shadowed, &capture.unshadowed, &capture.also, &capture.position})
+    files.reads(*picture);
+  if (capture.depth) files.reads(capture.depth->file);
+  for (const compare::CapturedLayer& layer : capture.map) files.reads(layer.depth);
+  return files;
+}
+
+std::string name_of(const std::string& path) {
+  const std::filesystem::path file(path);
+  if (file.stem() != "capture" || !file.parent_path().has_filename()) return file.stem().string();
+  std::error_code unknown;  // the current folder: then the path as it was given
+  const auto whole = std::filesystem::absolute(file, unknown);
+  return (unknown ? file : whole).lexically_normal().parent_path().filename().string();
+}
+
+Expected<void> make_captures(std::vector<std::string>& captures, bool alone, CaptureOptions& options,
+                             std::string& folder, Console& console) {
+  if (std::ranges::none_of(captures, compare::is_recorded_frame)) return {};
+  const std::string light = std::exchange(options.given.light, "");
+  const bool single = captures.size() == 1 && alone;
+  if (folder.empty()) folder = single ? "out/" + name_of(captures.front()) : "out/judge";
+  for (std::string& path : captures) {
+    if (!compare::is_recorded_frame(path)) continue;
+    const std::string place = single ? folder + "-capture" : folder + "-captures/" + name_of(path);
+    if (const auto made = make_capture(path, light, place, console); !made) return made;
+  }
+  return {};
+}
+
+std::vector<NamedCapture> all_lights(const std::vector<std::string>& captures,
+                                     const CaptureOptions& options) {
+  std::vector<NamedCapture> out;
+  std::set<std::string> taken;
+  for (const std::string& path : captures) {
+    const std::string base = name_of(path);
+    auto lights = lights_of(options, path);
+    if (!lights) out.push_back({unused_name(base, taken), fail(lights.error())});
+    if (!lights) continue;
+    for (compare::Capture& light : *lights) {
+      const bool alone = lights->size() == 1;
+      const std::string name = alone ? base : base + "-" + file_name_of(light.light);
+      out.push_back({unused_name(name, taken), std::move(light)});
+    }
+  }
+  return out;
+}
+
+Expected<std::vector<std::string>> captures_below(const std::string& folder) {
+  std::vector<std::string> found;
+  const auto add = [&](const std::filesystem::path& file) -> Expected<void> {
+    const auto kind = file_kind(file.string());
+    if (!kind) return fail(kind.error());
+    if (*kind != FileKind::none && *kind != FileKind::folder) found.push_back(file.string());
+    return {};
+  };
+  if (auto added = add(std::filesystem::path(folder) / "capture.json"); !added) return fail(added.error());
+  const auto names = names_if_there(folder);
+  if (!names) return fail(names.error());
+  for (const std::string& name : *names) {
+    const std::filesystem::path below = std::filesystem::path(folder) / name;
+    if (file_kind_or_none(below.string()) != FileKind::folder) continue;  // a link in a circle is none either
+    if (auto added = add(below / "capture.json"); !added) return fail(added.error());
+  }
+  if (found.empty())
+    return fail(ErrorKind::bad_input, fmt::format("--suite: no capture.json in {} or its folders", folder));
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace gnomon::app

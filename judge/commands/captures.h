@@ -1,0 +1,41 @@
+// What the words of `gnomon judge` name: captures of files, folders and options, and those made of recorded frames.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/console.h"
+#include "app/outputs/run_files.h"
+#include "judge/commands/judge_options.h"
+
+namespace gnomon::app {
+
+/// One of several: a light of a capture, or why the capture cannot be read.
+struct NamedCapture {
+  std::string name;  ///< no two have one name
+  Expected<compare::Capture> capture;
+};
+
+/// A capture's lights, each with the options' parts in place of its own; of several the options' light chooses one. Without a
+/// path the options alone say it. Errors (bad input, usage) name the field or the option.
+Expected<std::vector<compare::Capture>> lights_of(const CaptureOptions& options, const std::string& path);
+
+/// The lights of all captures; those of a capture of several are called by it and the light.
+std::vector<NamedCapture> all_lights(const std::vector<std::string>& captures, const CaptureOptions& options);
+
+/// The files that a capture names, its own among them.
+RunFiles inputs_of(const compare::Capture& capture);
+
+/// "wall" of wall/capture.json, "wall" of wall.json.
+std::string name_of(const std::string& path);
+
+/// Every capture.json of a folder and of those directly below it, by name; an error (bad input) where there is none.
+Expected<std::vector<std::string>> captures_below(const std::string& folder);
+
+/// Makes captures of all recorded frames among `captures` and puts them in their place. They lie beside their verdicts in
+/// `folder`. Where that is empty it gets its default: "wall-capture" of "wall", "walls-captures/a" of "walls/a". `alone`: no
+/// others are judged beside them. The options' light is then a frame's, counted from 1, and taken away.
+Expected<void> make_captures(std::vector<std::string>& captures, bool alone, CaptureOptions& options,
+                             std::string& folder, Console& console);
+
+}  // namespace gnomon::app
