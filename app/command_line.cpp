@@ -2,7 +2,7 @@
 // suggestion.
 #include "app/command_line.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

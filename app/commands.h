@@ -31,8 +31,8 @@ struct Registered {
   explicit Registered(const Command& command);
 };
 
-/// Begins the definition of a command: a body follows, which binds the options of `app` (not null) and, where the command is the one
-/// that was named, sets the invocation's action. cmake/GnomonProgram.cmake reads name, place and text from here, too.
+/// Begins the definition of a command. The body that follows binds the options of `app` (not null). Where the command is the one that
+/// was named, it sets the invocation's action. cmake/GnomonProgram.cmake reads name, place and text from here, too.
 #define GNOMON_COMMAND(name, place, text)                                                 \
   static void add_##name##_options(CLI::App* app, ::gnomon::app::Invocation& invocation); \
   static const ::gnomon::app::Registered name##_is_registered(                            \

@@ -34,7 +34,8 @@ def prose():
     parts = []
     for folder in FOLDERS:
         for path in sorted((ROOT / folder).rglob("*.cpp")):
-            if found := sentences(path.read_text(encoding="utf-8")):
+            # Help is held by the manual that is made of it; its examples are no sentences.
+            if path.parent.name != "commands" and (found := sentences(path.read_text(encoding="utf-8"))):
                 parts.append(f"{path.relative_to(ROOT)}\n" + "".join(f"  {text}\n" for text in found))
     return "\n".join(parts)
 
