@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/session.h"
-#include "studies/shimmer/path.h"
+#include "compare/path.h"
 
 namespace gnomon::app {
 

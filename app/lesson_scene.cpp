@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/options/map_options.h"
+#include "app/options/setting_options.h"
 #include "app/options/shimmer_options.h"
-#include "app/sweep/axes.h"
 #include "raster/settings.h"
 #include "report/lessons.h"
 #include "scene/files/json/json_reader.h"

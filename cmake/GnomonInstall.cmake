@@ -1,7 +1,8 @@
 # cmake --install BUILD [--prefix P]: the program, its licence, the manual, lessons, pictures and schemas, and what the
 # program prints of itself: chapters of the manual, its manual page, completion for bash, zsh and fish.
 # Beside each other: a program starts the others from its own folder.
-install(TARGETS gnomon_program gnomon_benchmark_program gnomon_grade_program gnomon_judge_program gnomon_lab_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+install(TARGETS gnomon_program gnomon_benchmark_program gnomon_grade_program gnomon_judge_program gnomon_lab_program
+  gnomon_studies_program gnomon_verify_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 # Where scene/files/pictures/image_library.cpp looks for it from the folder of the program.
 install(TARGETS gnomon_images LIBRARY DESTINATION lib/gnomon)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/CITATION.cff" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
@@ -10,7 +11,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/manual" "${PROJECT_SOURCE_DIR}/doc
 file(GLOB documents CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/*.md")
 install(FILES ${documents} DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 install(FILES "${PROJECT_SOURCE_DIR}/scene/files/scene.schema.json" "${PROJECT_SOURCE_DIR}/app/outputs/render.schema.json"
-  "${PROJECT_SOURCE_DIR}/studies/functions/answers.schema.json" "${PROJECT_SOURCE_DIR}/grade/rubric.schema.json" "${PROJECT_SOURCE_DIR}/grade/grade.schema.json"
+  "${PROJECT_SOURCE_DIR}/functions/answers.schema.json" "${PROJECT_SOURCE_DIR}/grade/rubric.schema.json" "${PROJECT_SOURCE_DIR}/grade/grade.schema.json"
   "${PROJECT_SOURCE_DIR}/judge/capture.schema.json" "${PROJECT_SOURCE_DIR}/studies/shimmer/shimmer.schema.json"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/gnomon/schema")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" FILES_MATCHING PATTERN "*.glsl" PATTERN "*.frag" PATTERN "*.vert" PATTERN "*.h")

@@ -3,7 +3,7 @@
 # the commands' own lines.
 
 # What each room's program is called.
-set(GNOMON_PROGRAMS app=gnomon benchmark=gnomon-bench grade=gnomon-grade judge=gnomon-judge lab=gnomon-lab)
+set(GNOMON_PROGRAMS app=gnomon benchmark=gnomon-bench grade=gnomon-grade judge=gnomon-judge lab=gnomon-lab studies=gnomon-studies verify=gnomon-verify)
 
 # Run as a script, -DSOURCE=... -DFILE=... writes the table; -DALONE=ON: an empty one, for a program that has no others beside it.
 if(CMAKE_SCRIPT_MODE_FILE)

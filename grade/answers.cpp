@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "functions/functions.h"
 #include "scene/files/pictures/image_io.h"
-#include "studies/functions/functions.h"
 
 namespace gnomon::grade {
 namespace {

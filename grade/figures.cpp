@@ -10,10 +10,10 @@
 #include "compare/bias/bias_curve.h"
 #include "compare/ladder/budget.h"
 #include "compare/result/figures.h"
+#include "functions/functions.h"
 #include "scene/files/path_status.h"
 #include "scene/files/pictures/image_io.h"
 #include "scene/files/read_file.h"
-#include "studies/functions/functions.h"
 
 namespace gnomon::grade {
 

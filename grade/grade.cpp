@@ -13,13 +13,13 @@
 #include <utility>
 
 #include "compare/result/number_text.h"
+#include "functions/functions.h"
 #include "grade/answers.h"
 #include "grade/judgement.h"
 #include "scene/base/expected.h"
 #include "scene/base/threads.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
-#include "studies/functions/functions.h"
 
 namespace gnomon::grade {
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "functions/functions.h"
 #include "scene/files/path_status.h"
 #include "scene/files/write_file.h"
-#include "studies/functions/functions.h"
 
 namespace gnomon::grade {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "compare/comparison.h"
 #include "compare/result/figures.h"
+#include "functions/functions.h"
 #include "raster/programs/shader_folder.h"
 #include "raster/settings.h"
 #include "raster/technique_traits.h"
@@ -17,7 +18,6 @@
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/load.h"
-#include "studies/functions/functions.h"
 
 namespace gnomon::grade {
 

@@ -21,7 +21,7 @@ struct Run {
   std::string scene;  ///< a built-in scene's name, or a path that the caller can open
   std::string named;  ///< the scene as the rubric names it, from its own folder
   std::vector<std::pair<std::string, std::string>> options;  ///< {"map-size", "512"}, in the rubric's order
-  std::string function;  ///< "ray_box" (studies/functions/functions.h); empty: a comparison
+  std::string function;  ///< "ray_box" (functions/functions.h); empty: a comparison
   std::string cases;     ///< of the function: a group's name
   bool operator==(const Run&) const = default;
 };

@@ -9,7 +9,6 @@ set(GNOMON_SCENE_PLATFORM
   files/pictures/image_library.cpp)
 set(GNOMON_RASTER_PLATFORM gl/context.cpp gl/context_egl.cpp gl/context_osmesa.cpp gl/dynamic_library.cpp)
 set(GNOMON_LAB_PLATFORM view/work/job.cpp view/work/priority.cpp view/work/turns.cpp)
-set(GNOMON_APP_ROOMS gnomon::verify)  # that commands of gnomon itself need beside those that every platform has
 set(GNOMON_PROGRAM_PLATFORM main.cpp process/stack.cpp process/thread_start.cpp process/out_of_memory.cpp)
 
 find_package(glm REQUIRED)

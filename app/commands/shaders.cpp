@@ -15,12 +15,12 @@
 #include "app/outputs/render_json.h"
 #include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
+#include "functions/functions.h"
 #include "raster/programs/shader_folder.h"
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
-#include "studies/functions/functions.h"
 
 namespace gnomon::app {
 

@@ -11,14 +11,12 @@
 #include <vector>
 
 #include "app/options/map_options.h"
-#include "app/options/pose_options.h"
 #include "app/outputs/heatmap.h"
 #include "app/outputs/run_files.h"
 #include "compare/compare.h"
 #include "compare/result/engines.h"
 #include "raytrace/frame.h"
 #include "scene/base/expected.h"
-#include "studies/sweep/engine.h"
 
 namespace CLI {
 class App;
@@ -100,20 +98,5 @@ struct RunOptions {
 };
 /// --backend, --threads, --exposure, --seed.
 void add_run_options(CLI::App& command, RunOptions& options);
-
-// The options that say what is compared: those that `compare` takes once and `sweep` and `tune` vary.
-
-struct SettingOptions {
-  compare::CompareOptions options;
-  std::string light;  ///< name of the one light to compare; empty: all
-  PoseOptions poses;
-};
-
-/// --size, the map's options, --light, the poses, the ray tracer's options.
-void add_setting_options(CLI::App& command, SettingOptions& setting);
-
-/// What a comparison needs to know. `given` is the scene as it was loaded.
-Expected<compare::Setting> resolve_setting(const SettingOptions& setting, const Scene& given,
-                                           const World& world);
 
 }  // namespace gnomon::app

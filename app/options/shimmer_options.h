@@ -5,9 +5,9 @@
 
 #include "app/film_stages.h"
 #include "app/session.h"
+#include "compare/path.h"
 #include "compare/result/figures.h"
 #include "compare/result/threshold.h"
-#include "studies/shimmer/shimmer.h"
 
 namespace CLI {
 class App;

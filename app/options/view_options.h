@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/options/shimmer_options.h"
-#include "studies/sweep/engine.h"
+#include "compare/setting.h"
 
 namespace gnomon::app {
 

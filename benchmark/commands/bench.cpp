@@ -18,7 +18,6 @@
 #include "app/process/interrupt.h"
 #include "app/process/machine.h"
 #include "app/session.h"
-#include "app/tune/tune_families.h"
 #include "benchmark/row.h"
 #include "benchmark/techniques.h"
 #include "benchmark/tuning.h"
@@ -26,6 +25,7 @@
 #include "scene/base/parallel.h"
 #include "scene/files/own_program.h"
 #include "scene/files/write_file.h"
+#include "studies/commands/tune_families.h"
 
 namespace gnomon::app {
 

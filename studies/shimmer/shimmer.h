@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "compare/compare.h"
+#include "compare/path.h"
 #include "raytrace/sheets/sheets.h"
-#include "studies/shimmer/path.h"
 #include "studies/shimmer/temporal.h"
 
 namespace gnomon::compare {

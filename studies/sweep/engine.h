@@ -11,20 +11,9 @@
 
 #include "compare/bias/bias_curve.h"
 #include "compare/compare.h"
-#include "studies/shimmer/path.h"
+#include "compare/setting.h"
 
 namespace gnomon::compare {
-
-/// Everything that a cell of a sweep may change.
-struct Setting {
-  raster::RasterOptions raster;
-  raytrace::RaytraceOptions raytrace;
-  raytrace::Accel accel = raytrace::Accel::bvh;
-  raytrace::Precision precision = raytrace::Precision::robust;
-  Camera camera;
-  std::vector<Light> lights;            ///< the scene's, of the same types; some may be left out
-  std::vector<std::uint32_t> compared;  ///< indices in `lights`
-};
 
 enum class Detail : std::uint8_t { numbers, images };
 
@@ -55,12 +44,6 @@ struct Probe {
   std::uint64_t rays = 0;  ///< of the hybrid
   /// A shader of the user's own decided; `reads_bias`: and it has the bias in it, as every technique has.
   bool custom_shader = false, reads_bias = true;
-};
-
-/// One place that a setting is judged from.
-struct JudgedView {
-  std::string name;
-  std::function<Pose(const Pose& own)> pose;  ///< what stands there, from the setting's own camera and lights
 };
 
 class Engine {

@@ -6,9 +6,9 @@
 #include "app/lesson_scene.h"
 #include "app/options/options.h"
 #include "app/options/shimmer_options.h"
-#include "app/sweep/command.h"
-#include "app/tune/tune_answer.h"
 #include "raster/settings.h"
+#include "studies/commands/sweep_command.h"
+#include "studies/commands/tune_answer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gnomon::app {

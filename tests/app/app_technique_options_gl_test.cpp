@@ -10,7 +10,7 @@
 #include "app/options/effect_options.h"
 #include "app/options/map_options.h"
 #include "app/options/options.h"
-#include "app/sweep/axes.h"
+#include "studies/commands/axes.h"
 #include "tests/support/raster_fixture.h"
 
 namespace gnomon::test {

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "studies/functions/functions.h"
+#include "functions/functions.h"
 #include "tests/studies/grade_support.h"
 #include "tests/studies/wrong_functions.h"
 #include "tests/support/json_schema_check.h"
@@ -237,8 +237,7 @@ TEST_F(GradeFunctions, AFunctionIsTriedByHand) {
   EXPECT_EQ(inside.exit_code, 0) << inside.err;
   EXPECT_EQ(inside.out.find("right  the ray from ("), 0u) << inside.out;
   EXPECT_EQ(std::count(inside.out.begin(), inside.out.end(), '\n'), 12);
-  SchemaCheck schema(
-      json::parse(read_file(gnomon::test::source_dir() + "/studies/functions/answers.schema.json")));
+  SchemaCheck schema(json::parse(read_file(gnomon::test::source_dir() + "/functions/answers.schema.json")));
   const json answers = json::parse(read_file(folder / "answers.json"));
   EXPECT_EQ(schema.violations(answers), Words{});
   EXPECT_EQ(answers["groups"][0]["wrong"], 0);

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <thread>
 
-#include "app/sweep/make_cells.h"
+#include "studies/commands/make_cells.h"
 #include "studies/sweep/cell_files.h"
 #include "tests/support/one_world.h"
 #include "tests/support/small_scenes.h"

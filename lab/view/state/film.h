@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/pose.h"
-#include "studies/shimmer/path.h"
+#include "compare/path.h"
 
 namespace gnomon::app {
 
