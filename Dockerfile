@@ -4,7 +4,7 @@ FROM debian:bookworm-slim AS build
 RUN apt-get update && apt-get install -y --no-install-recommends ca-certificates dpkg-dev git
 COPY . /gnomon
 WORKDIR /gnomon
-RUN ./gnomon --version && cpack --config build/release/CPackConfig.cmake -B /package
+RUN ./gnomon build && cpack --config build/release/CPackConfig.cmake -B /package
 
 FROM debian:bookworm-slim
 COPY --from=build /package/gnomon_*.deb /tmp/

@@ -12,7 +12,17 @@ target_compile_definitions(gnomon_flags INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FO
 
 # A definition for targets with files that Highway compiles once per instruction set: for AVX-512, AVX2, SSE4 and a baseline,
 # which is one number at a time.
+# Without GNOMON_ALL_VECTORS it is compiled for this machine's and the baseline, which is a quarter of the whole time less:
+# another machine, if it ever runs that, falls back to the baseline.
 set(GNOMON_INSTRUCTION_SETS HWY_DISABLED_TARGETS=HWY_SSSE3)
+if(NOT GNOMON_ALL_VECTORS AND CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64)
+  execute_process(COMMAND "${CMAKE_CXX_COMPILER}" -march=native -dM -E -x c++ /dev/null OUTPUT_VARIABLE macros ERROR_QUIET)
+  if(macros MATCHES "__AVX512F__" AND macros MATCHES "__AVX512VL__" AND macros MATCHES "__AVX512BW__" AND macros MATCHES "__AVX512DQ__")
+    set(GNOMON_INSTRUCTION_SETS "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX2)")
+  elseif(macros MATCHES "__AVX2__" AND macros MATCHES "__FMA__" AND macros MATCHES "__BMI2__" AND macros MATCHES "__F16C__")
+    set(GNOMON_INSTRUCTION_SETS "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3)")
+  endif()
+endif()
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)  # NEON alone, without a choice: SVE's vectors cannot stand in arrays
   set(GNOMON_INSTRUCTION_SETS TOOLCHAIN_MISS_SYS_AUXV_H)
 endif()
