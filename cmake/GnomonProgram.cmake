@@ -40,19 +40,36 @@ ${rows}  };
   return()
 endif()
 
-# gnomon_commands(ROOM [LIBRARIES targets...]): the files of ROOM/commands, but those that this platform leaves out, as objects:
-# a command registers itself, so that a linker which leaves out what nobody calls must not have the choice.
+# gnomon_commands(ROOM [LIBRARIES targets...]): the commands of ROOM/commands, but those that this platform leaves out, as objects
+# gnomon_ROOM_commands: a command registers itself, so that a linker which leaves out what nobody calls must not have the choice.
+# What else stands in that folder is the library gnomon_ROOM_options.
 function(gnomon_commands room)
   cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/commands/*.cpp")
-  foreach(command IN LISTS GNOMON_COMMANDS_LEFT_OUT)
-    list(FILTER sources EXCLUDE REGEX "/${command}[.]cpp$")
+  set(commands)
+  set(options)
+  foreach(source IN LISTS sources)
+    file(STRINGS "${source}" command REGEX "^GNOMON_COMMAND" LIMIT_COUNT 1)
+    get_filename_component(name "${source}" NAME_WE)
+    if(NOT command)
+      list(APPEND options "${source}")
+    elseif(NOT name IN_LIST GNOMON_COMMANDS_LEFT_OUT)
+      list(APPEND commands "${source}")
+    endif()
   endforeach()
-  set(target gnomon_${room}_commands)
-  add_library(${target} OBJECT ${sources})
-  target_link_libraries(${target} PUBLIC gnomon_flags ${ARG_LIBRARIES} PRIVATE gnomon_warnings CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json)
-  gnomon_compile_for_text(${target})
-  gnomon_compile_together(${target} 64)
+  add_library(gnomon_${room}_commands OBJECT ${commands})
+  set(targets gnomon_${room}_commands)
+  if(options)
+    add_library(gnomon_${room}_options STATIC ${options})
+    target_link_libraries(gnomon_${room}_commands PUBLIC gnomon_${room}_options)
+    list(APPEND targets gnomon_${room}_options)
+  endif()
+  foreach(target IN LISTS targets)
+    target_link_libraries(${target} PUBLIC gnomon_flags ${ARG_LIBRARIES}
+      PRIVATE gnomon_warnings CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json)
+    gnomon_compile_for_text(${target})
+    gnomon_compile_together(${target} 64)
+  endforeach()
 endfunction()
 
 # gnomon_command_table(TARGET): a source of the target that lists the commands of all programs (commands_of_programs()).

@@ -14,6 +14,7 @@
 #include "app/options/effect_options.h"
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
+#include "app/options/setting_options.h"
 #include "app/options/view_options.h"
 #include "app/outputs/result_output.h"
 #include "app/outputs/run_files.h"

@@ -8,6 +8,7 @@
 #include "app/lesson_scene.h"
 #include "app/options/map_options.h"
 #include "app/options/options.h"
+#include "app/options/setting_options.h"
 #include "app/session.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"

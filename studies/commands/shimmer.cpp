@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
+#include "app/options/setting_options.h"
 #include "app/options/shimmer_options.h"
 #include "app/outputs/render_json.h"
 #include "app/outputs/run_files.h"
