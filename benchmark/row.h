@@ -26,10 +26,10 @@ struct BenchPeer {
 };
 
 struct BenchRow {
-  std::string name, scene;
+  std::string name{}, scene{};
   int threads = 0;
   double value = 0.0;
-  std::string unit;
+  std::string unit{};
   bool more_is_better = true;
   std::optional<BenchPeer> peer{};
   std::optional<double> goal{};  ///< of the ratio

@@ -18,6 +18,7 @@
 #include "app/process/interrupt.h"
 #include "app/process/machine.h"
 #include "app/session.h"
+#include "benchmark/build_time.h"
 #include "benchmark/row.h"
 #include "benchmark/techniques.h"
 #include "benchmark/tuning.h"
@@ -41,6 +42,7 @@ struct BenchCommand {
   bool precision = false;
   std::vector<std::string> techniques, tune;  ///< scenes; empty: not asked for
   raster::RasterOptions raster;               ///< of `techniques`
+  std::string build;                          ///< folder of the sources; empty: not asked for
   std::string page;                           ///< of `techniques`, Markdown; empty: none
   std::vector<std::string> tuned_techniques;  ///< of `tune`; empty: all
   double max_error = 0.01;                    ///< of `tune`
@@ -102,6 +104,23 @@ Expected<ExitCode> run_techniques(const BenchCommand& command) {
     tables.push_back(std::move(*table));
   }
   return hand_out_tables(command, tables, rows);
+}
+
+Expected<ExitCode> run_build(const BenchCommand& command) {
+  Console console(command.quiet);
+  RunFiles files;
+  files.writes("--json", command.json);
+  if (const auto fine = files.check(); !fine) return fail(fine.error());
+  std::vector<std::string> programs;
+  for (const Command& each : all_commands())
+    if (const std::string name(each.program.empty() ? "gnomon-bench" : each.program);
+        std::find(programs.begin(), programs.end(), name) == programs.end())
+      programs.push_back(name);
+  const auto result = bench::bench_build(command.build, programs, shown_on(console));
+  if (!result) return fail(result.error());
+  console.clear_progress();
+  if (command.prints_tables()) print_data(result->table);
+  return hand_out_rows(command, result->rows);
 }
 
 /// Every family that the scene's lights have a map for, of the techniques named.
@@ -194,6 +213,7 @@ Expected<ExitCode> run_bench(const BenchCommand& command) {
   if (!command.meaningless.empty())
     return fail(ErrorKind::usage,
                 fmt::format("{}: has no meaning here (see gnomon bench --help)", command.meaningless));
+  if (!command.build.empty()) return run_build(command);
   if (!command.techniques.empty()) return run_techniques(command);
   if (!command.tune.empty()) return run_tuning(command);
   if (command.scene.name.empty() && command.precision)
@@ -274,6 +294,7 @@ GNOMON_COMMAND(
       "gnomon bench --precision bunny.ply     speed and wrong shadows of fast, robust and exact\n"
       "gnomon bench --techniques fence,teapot -o table.md   every shadow technique on the same pixels\n"
       "gnomon bench --tune fence,teapot       the tuner's answers against full grids\n"
+      "gnomon bench --build .                 what compiling costs, program by program\n"
       "gnomon bench stadium --accel all       where a grid loses\n"
       "gnomon bench field --accel bvh,grid    where it is at its best\n"
       "gnomon bench orchard --accel bvh,two-level   what sharing one tree's structure saves");
@@ -285,6 +306,11 @@ GNOMON_COMMAND(
   app->add_flag("--precision", command->precision,
                 "fast, robust and exact side by side: rays per second, and wrong shadows on adversarial rays "
                 "[default off]");
+  app->add_option("--build", command->build,
+                  "compile the sources from nothing, in a folder of its own: processor seconds of each "
+                  "program [a folder; "
+                  "default off]")
+      ->type_name("DIR");
   add_technique_options(*app, *command);
   add_tune_options(*app, *command);
   add_ray_count(*app, command->rays);
@@ -301,11 +327,14 @@ GNOMON_COMMAND(
     };
     const bool techniques = !command->techniques.empty();
     const bool tune = !command->tune.empty();
-    reject(techniques || tune, {"SCENE", "--accel", "--precision"});
+    const bool build = !command->build.empty();
+    reject(techniques || tune || build, {"SCENE", "--accel", "--precision"});
+    reject(build, {"--techniques", "--tune", "--runs", "--size", "--threads"});
     reject(techniques, {"--tune"});
     reject(!tune, {"--max-error", "--technique"});
     reject(!techniques, {"--map-size", "--output"});
-    reject(command->scene.name.empty() && !techniques && !tune, {"--accel", "--threads", "--quiet"});
+    reject(command->scene.name.empty() && !techniques && !tune && !build,
+           {"--accel", "--threads", "--quiet"});
     reject(command->precision, {"--accel"});
     reject(!command->precision, {"--rays", "--seed"});
     command->size_given = app->count("--size") > 0;

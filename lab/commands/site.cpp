@@ -19,7 +19,9 @@
 #include "lab/lessons/site.h"
 #include "lab/serve/lab_answers.h"
 #include "report/html.h"
+#include "scene/base/run_program.h"
 #include "scene/base/timing.h"
+#include "scene/files/own_program.h"
 #include "scene/files/read_file.h"
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
@@ -114,14 +116,19 @@ void add_below(const std::string& folder, std::vector<SitePage> pages, std::vect
   for (SitePage& page : pages) files.push_back({folder + "/" + page.file, std::move(page.html)});
 }
 
-std::vector<lessons::ManualChapter> printed_chapters(const CLI::App& program) {
+/// The chapters that gnomon makes of all programs' commands.
+Expected<std::vector<lessons::ManualChapter>> printed_chapters() {
   std::vector<lessons::ManualChapter> chapters;
-  for (const std::string_view name : written_chapters)
-    chapters.push_back({fmt::format("{}.md", name), manual_chapter(program, name)});
+  for (const std::string_view name : written_chapters) {
+    auto printed = run_and_listen({program_beside("gnomon"), "--manual", std::string(name)});
+    if (!printed) return fail(printed.error());
+    if (printed->code != 0) return fail(ErrorKind::graphics, one_line(printed->said));
+    chapters.push_back({fmt::format("{}.md", name), std::move(printed->said)});
+  }
   return chapters;
 }
 
-Expected<ExitCode> run_site(const SiteCommand& command, const CLI::App& program) {
+Expected<ExitCode> run_site(const SiteCommand& command) {
   const Stopwatch total;
   Console console(command.quiet);
   RunFiles paths;
@@ -132,7 +139,9 @@ Expected<ExitCode> run_site(const SiteCommand& command, const CLI::App& program)
   if (!files) return fail(files.error());
   auto lesson_pages = lessons::make_site({}, console, "../lab.html");
   if (!lesson_pages) return fail(lesson_pages.error());
-  auto manual = lessons::manual_pages(printed_chapters(program));
+  const auto chapters = printed_chapters();
+  if (!chapters) return fail(chapters.error());
+  auto manual = lessons::manual_pages(*chapters);
   if (!manual) return fail(manual.error());
   LabOptions lab;
   lab.scene = lab.scene.named("acne-floor");
@@ -175,9 +184,7 @@ GNOMON_COMMAND(site, 170,
          "program was built]")
       ->type_name("DIR");
   add_quiet(*app, command->quiet);
-  app->callback([command, &program, &invocation] {
-    invocation.action = [command, &program] { return run_site(*command, program); };
-  });
+  app->callback([command, &invocation] { invocation.action = [command] { return run_site(*command); }; });
 }
 
 }  // namespace gnomon::app

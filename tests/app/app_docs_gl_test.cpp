@@ -11,9 +11,9 @@
 
 #include "app/command_line.h"
 #include "app/help/manual.h"
-#include "app/lessons/site.h"
 #include "compare/comparison.h"
 #include "compare/ladder/labels.h"
+#include "lab/lessons/site.h"
 #include "report/lessons.h"
 #include "scene/load.h"
 #include "tests/support/app_process.h"
