@@ -38,7 +38,7 @@ const std::map<std::string, std::set<std::string>, std::less<>> arrows = {
     {"grade", {"scene", "raster", "raytrace", "compare", "report", "functions", "app"}},
     {"lab", {"scene", "raster", "raytrace", "hybrid", "compare", "report", "app"}},
     {"benchmark", {"scene", "raster", "raytrace", "hybrid", "compare", "studies", "verify", "app"}},
-    {"platform", {"scene", "raster", "app", "lab"}},
+    {"platform", {"scene", "shaders", "raster", "app", "lab"}},
     {"tests",
      {"scene", "shaders", "raster", "raytrace", "hybrid", "compare", "report", "functions", "studies",
       "verify", "app", "judge", "grade", "lab", "benchmark", "platform"}},
@@ -63,7 +63,8 @@ bool may_see_app(std::string_view path) {
 }
 
 bool may_use_opengl(std::string_view path) {
-  return path.starts_with("raster/") || path.starts_with("lab/view/") || path.starts_with("tests/");
+  return path.starts_with("raster/") || path.starts_with("lab/view/") ||
+         path.starts_with("platform/web/webgl/") || path.starts_with("tests/");
 }
 
 /// Loops over all threads are those of scene/base/parallel.h: oneTBB's headers take seconds to compile. What else there is of it,

@@ -51,16 +51,16 @@ expect() {
   [[ $(<"$work/asked") == "$wanted" ]] || fail "$1: cmake was asked '$(<"$work/asked")', not '$wanted'"
 }
 
-expect 'first place' '--fresh -DGNOMON_TESTS=OFF'
+expect 'first place' '--fresh -DGNOMON_TESTS=OFF -DGNOMON_ALL_VECTORS=OFF'
 expect 'first place' -
 touch "$work/first place/CMakePresets.json"
 expect 'first place' ''
 expect 'first place' -
 mv "$work/first place" "$work/second"
-expect second '--fresh -DGNOMON_TESTS=OFF'
+expect second '--fresh -DGNOMON_TESTS=OFF -DGNOMON_ALL_VECTORS=OFF'
 expect second -
 cp -a "$work/second" "$work/copy"
-expect copy '--fresh -DGNOMON_TESTS=OFF'
+expect copy '--fresh -DGNOMON_TESTS=OFF -DGNOMON_ALL_VECTORS=OFF'
 expect second -
 
 # expect_build yes|no WHEN: whether Ninja is asked.
@@ -94,6 +94,29 @@ expect_build yes 'another version of a package'
 sed -i /libpng-dev/d "$work/installed" && touch "$work/dpkg/status"
 expect_build yes 'a package that is gone'
 expect_build no 'built since'
+
+# expect_targets TARGETS ARGUMENTS...: what Ninja is asked for: gnomon itself, the program that has the command, or all.
+expect_targets() {
+  local targets=$1
+  shift
+  rm -f "$work"/copy/build/release/up-to-date*
+  : >"$work/built"
+  "$work/copy/gnomon" "$@" >/dev/null 2>"$work/said" || fail "$*: $(cat "$work/said")"
+  [[ $(<"$work/built") == *" -j $(nproc) $targets" ]] || fail "$*: Ninja was asked '$(<"$work/built")', not for $targets"
+}
+mkdir -p "$work"/copy/{app,judge}/commands
+printf 'GNOMON_COMMAND(\n    judge, 140, "") {\n' >"$work/copy/judge/commands/judge.cpp"
+printf 'GNOMON_COMMAND(compare, 10, "") {\n' >"$work/copy/app/commands/compare.cpp"
+expect_targets app/gnomon compare fence
+expect_targets app/gnomon no-such-command
+expect_targets app/gnomon --version
+expect_targets 'app/gnomon gnomon_judge_program' judge compare
+expect_targets 'app/gnomon gnomon_judge_program' --help judge
+expect_targets gnomon_programs --man-page
+
+: >"$work/asked"
+"$work/copy/gnomon" build 2>"$work/said" || fail "build: $(cat "$work/said")"
+[[ $(<"$work/asked") == *-DGNOMON_ALL_VECTORS=ON ]] || fail "build: not for every processor: $(<"$work/asked")"
 
 # expect_end CODE WORDS ARGUMENTS...: in the copy, with nothing on stdout.
 as=()
