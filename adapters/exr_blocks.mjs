@@ -1,5 +1,5 @@
 // OpenEXR files of 32-bit channels in scan lines, uncompressed or by ZIP (openexr.com, "OpenEXR File Layout"), taken apart and put
-// together: in between somebody inflates the blocks, which Node and pages do each in a way of their own.
+// together. In between somebody inflates the blocks, which Node and pages do each in a way of their own.
 
 /** {width, height, names, blocks: [{y, lines, deflated, data}]} of a file's bytes; the rows of a block count from 0 at the top. */
 export function exrBlocks(bytes) {

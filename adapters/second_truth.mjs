@@ -1,5 +1,5 @@
-// Why a second truth differs from Gnomon's at single pixels: how far a receiver would have to be moved for the exact
-// answer to change, beside the spacing of the 32-bit floats in which the other tracer keeps its places.
+// Why a second truth differs from Gnomon's at single pixels. It says how far a receiver would have to be moved for the exact
+// answer to change. Beside it stands the spacing of the 32-bit floats in which the other tracer keeps its places.
 //   node adapters/second_truth.mjs SCENE.glb AOV.exr CAPTURE_FOLDER
 // AOV.exr is that of `gnomon judge CAPTURE --aov`. Prints a line for each differing pixel. Works in 64-bit floats on the file's own
 // numbers, with code of its own: no structure, every triangle is tried.

@@ -32,8 +32,8 @@ vec2 i_inverse(vec2 a) {
   if (a.x <= 0.0 && a.y >= 0.0) return anything();
   return checked(1.0 / a.yx);
 }
-// n from 0 to 64 (Expression::max_whole_power), a constant wherever it is called, so that of this only the products stay:
-// as a loop, each call would be one for the compiler to reason about, which took it minutes in larger programs.
+// n from 0 to 64 (Expression::max_whole_power), a constant wherever it is called, so that of this only the products stay.
+// As a loop, each call would be one for the compiler to reason about, which took it minutes in larger programs.
 float f_power(float a, int n) {
   float a2 = a * a, a4 = a2 * a2, a8 = a4 * a4, a16 = a8 * a8, a32 = a16 * a16;
   float result = (n & 1) != 0 ? a : 1.0;

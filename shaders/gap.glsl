@@ -1,4 +1,4 @@
-// The hard shadow test: how far the receiver lies behind what the map stored, along the receiver's own light ray, in world
+// The gap of the hard shadow test: how far the receiver lies behind what the map stored, along its own light ray. It is in world
 // units, less every part of the bias but the constant. Twin of compare/ladder/biased_test.cpp. Permutations SLOPE_BIAS,
 // NORMAL_OFFSET (Holbein 2010), RECEIVER_PLANE (Isidoro 2006; less what rounding may do to the plane and the map) and
 // ADAPTIVE_BIAS (Dou et al. 2014); TEXEL_BIAS takes the constant, and so the gap, in multiples of the texel looked up.

@@ -1,6 +1,6 @@
 // The light's depth map: which texel a point looks up, and what a stored depth means. Twin of scene/light_map/light_view.h.
-// Permutations PERSPECTIVE (spot and point lights; else orthographic), CUBE (six faces; no point falls beside
-// its own), CASCADES (several orthographic faces, finest first), WARP (a face warped along up) and REVERSED
+// Permutations PERSPECTIVE (spot and point lights; else orthographic), CUBE (six faces; no point falls beside its own).
+// Others are CASCADES (several orthographic faces, finest first), WARP (a face warped along up) and REVERSED
 // (stored depth is 1 at the near depth and 0 at the far one).
 
 layout(std140, binding = light_block) uniform Light {

@@ -1,4 +1,4 @@
-// What the filterable techniques store instead of depth: a function of the distance along the light ray, chosen by
+// What the filterable techniques store instead of depth. It is a function of the distance along the light ray, chosen by
 // MOMENTS_VSM, _ESM, _EVSM or _MSM, that may be averaged like a colour. A cube's faces get a border of MOMENT_BORDER
 // texels that repeats their neighbours, so that no average stops at an edge.
 

@@ -1,4 +1,4 @@
-// The surface point of a pixel, from the primitive that the rasterizer found visible there: the exact meeting of
+// The surface point of a pixel, from the primitive that the rasterizer found visible there. It is the exact meeting of
 // the pixel's ray with the primitive's plane or sphere, rather than an interpolated position (Burns and Hunt 2013, "The Visibility
 // Buffer"). Permutations SMOOTH_NORMALS (some mesh has normals), VERTEX_COLORS (some mesh has them), TEXTURES and
 // ALPHA_MASK.
@@ -26,7 +26,7 @@ struct Receiver {
 
 vec3 face_forward(vec3 n, vec3 direction) { return dot(n, direction) > 0.0 ? -n : n; }
 
-// Where the ray meets the plane n . p = d, put back onto the plane: a rounding error then moves the point along the
+// Where the ray meets the plane n . p = d, put back onto the plane. A rounding error then moves the point along the
 // surface, by far less than a pixel, and not off it, which a shadow test would see.
 vec3 meet_plane(vec3 origin, vec3 direction, vec3 n, float d, float t_min, float t_max) {
   float t = (d - dot(n, origin)) / dot(n, direction);

@@ -1,7 +1,7 @@
 // The world's primitives as the shaders see them: triangles 0 ... T-1, then shapes. Everything is relative to the
 // frame's reference point. Twin of raster/world/world_buffers.h.
 //
-// Shapes, like materials and textures, are read through buffer textures: where pixels of one vector want different
+// Shapes, like materials and textures, are read through buffer textures. Where pixels of one vector want different
 // elements, drivers in software read a storage block one number and one pixel at a time.
 
 struct ShapeData {

@@ -1,5 +1,5 @@
 // Babylon.js. Options, by its own names: --type none | poisson | pcf | pcss | esm (its filters), --mapSize, --bias,
-// --normalBias, --full_float 0 | 1 (a map of 32-bit floats, which its shadow generators do not take by themselves). Defaults
+// --normalBias. Also --full_float 0 | 1 (a map of 32-bit floats, which its shadow generators do not take by themselves). Defaults
 // are Babylon's; it has none for mapSize, and its guide's 1024 is taken. A sun is moved before the scene's box.
 // The visibility is the ratio of two pictures in a white matte material, with shadows and without.
 import { channel, loadScript, readGltf, settled, shadowFlags } from "./common.js";

@@ -1,5 +1,5 @@
 // The program for the web in a worker, of a page or of Node. It runs command lines over files in memory ("run"), computes a lesson's
-// figure ("figure"), and is the engine of the lab's page: it takes the page's requests, and draws and compares between them.
+// figure ("figure"), and is the engine of the lab's page. It takes the page's requests, and draws and compares between them.
 import gnomon from "./gnomon.mjs";
 
 const quiet_turns = 8; // that nothing came of, more than a comparison takes: then there is nothing to do

@@ -7,7 +7,7 @@ int right_child(int node);
 float hit_in_leaf(int node);  // the t at which the ray meets what is in the leaf; -1.0: it does not
 
 // Returns the least t at which the ray meets anything, and -1.0 where it meets nothing. Leaves and boxes that need not be asked cost
-// points: of two children the nearer box comes first, and nothing is asked in a box that begins behind the nearest hit so far.
+// points. Of two children the nearer box comes first, and nothing is asked in a box that begins behind the nearest hit so far.
 float bvh_walk() {
   // TODO 1: is the root's box met? Then push the root.
   // TODO 2: until the stack is empty: pop a node. Does its box begin behind the nearest hit?

@@ -1,4 +1,4 @@
-// First pass of the irregular z-buffer: each pixel's receiver, worked out as the ray tracer does, is tested against the
+// First pass of the irregular z-buffer. Each pixel's receiver, worked out as the ray tracer does, is tested against the
 // infinite planes and linked into the list of the texel that it falls into. Pixels that no light can reach are left out.
 #include "shared_constants.h"
 layout(binding = visibility_unit) uniform usampler2D visible_primitive;

@@ -1,5 +1,5 @@
 // The irregular z-buffer (Johnson et al. 2005, "The irregular Z-buffer: Hardware acceleration for irregular data
-// structures"; Story 2015, "Hybrid Ray-Traced Shadows"): each texel of a light's grid holds the list of the pixels whose
+// structures"; Story 2015, "Hybrid Ray-Traced Shadows"). Each texel of a light's grid holds the list of the pixels whose
 // receivers fall into it, and each triangle tests the pixels of every texel that it touches. Everything is in world space
 // and double precision; receivers, shadow rays and tests follow ray_offset.h and visibility.cpp in raytrace/precision,
 // tracer.cpp and shapes/intersect.h, so that they decide like the ray tracer wherever that one is certain. Twin of raster/passes/izb_pass.cpp.

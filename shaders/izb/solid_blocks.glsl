@@ -1,5 +1,5 @@
-// Whether a shadow ray crosses a solid: a quadric in closed form, a torus or an implicit surface by bounds in floats
-// (solid_slope.glsl) that pass over what is surely free, and by the signs of the double-precision function where they leave
+// Whether a shadow ray crosses a solid. A quadric is decided in closed form. Of a torus or an implicit surface bounds in floats
+// (solid_slope.glsl) pass over what is surely free, and the signs of the double-precision function decide where they leave
 // it open. So no crossing is skipped that floats could not tell from none. Twin of raytrace/shapes/solid.cpp and solid_visibility.cpp.
 #include "izb/solid.glsl"
 

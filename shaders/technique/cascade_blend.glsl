@@ -1,5 +1,5 @@
-// Cascades without seams: along the border of a cascade its hard test is mixed with that of the next one which holds the
-// receiver, from all of the one where the band begins to all of the other on the border. Twin of compare/truth/cascades.cpp.
+// Cascades without seams. Along the border of a cascade its hard test is mixed with that of the next one which holds the
+// receiver. It is all of the one where the band begins, and all of the other on the border. Twin of compare/truth/cascades.cpp.
 
 // The next cascade's share, of a receiver at `own`: the band is so wide a share of the face, but for its border of a texel.
 float share_of_next(Texel own) {

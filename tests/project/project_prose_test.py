@@ -14,6 +14,7 @@ FOLDERS = ("lab/view", "grade")
 WORDS = 6  # from so many on it is a sentence
 MOST_WORDS = 30  # more must be read twice; a sign of a formula is no word
 NO_ROOMS = ("tests",)
+ENDINGS = ("h", "cpp", "ts", "js", "mjs", "glsl", "vert", "frag", "comp")
 
 LITERALS = re.compile(r'(?:"(?:[^"\\\n]|\\.)*"\s*)+')
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
@@ -62,9 +63,15 @@ def word_count(sentence):
     return sum(any(c.isalnum() for c in word) for word in sentence.split())
 
 
+def tracked(*patterns):
+    said = subprocess.run(["git", "-C", ROOT, "ls-files", *patterns], capture_output=True, text=True, check=True).stdout
+    return [name for name in said.split() if (ROOT / name).exists()]
+
+
 def sources():
-    tracked = subprocess.run(["git", "-C", ROOT, "ls-files", "*.h", "*.cpp", "*.ts"], capture_output=True, text=True, check=True)
-    return [ROOT / name for name in tracked.stdout.split() if (ROOT / name).exists() and name.split("/")[0] not in NO_ROOMS]
+    """But the mistakes of the grader, whose comments are lists."""
+    names = tracked(*(f"*.{ending}" for ending in ENDINGS))
+    return [ROOT / name for name in names if name.split("/")[0] not in NO_ROOMS and "/mistakes/" not in name]
 
 
 def page_parts(text):
@@ -88,8 +95,7 @@ def page_parts(text):
 
 
 def pages():
-    tracked = subprocess.run(["git", "-C", ROOT, "ls-files", "*.md"], capture_output=True, text=True, check=True).stdout.split()
-    return [path for path in map(ROOT.joinpath, tracked) if path.exists()]
+    return [ROOT / name for name in tracked("*.md")]
 
 
 def long_sentences():
