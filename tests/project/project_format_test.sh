@@ -10,8 +10,8 @@ cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../.."
 files_of() {
   local names=()
   for ending in "$@"; do names+=(-o -name "*.$ending"); done
-  find adapters app benchmark cmake compare hybrid raster raytrace report scene shaders studies tests verify -name node_modules -prune -o \
-    \( -name dist -o -name generated \) -prune -o -type f \( "${names[@]:1}" \) -print | sort
+  find . \( -name node_modules -o -name dist -o -name generated -o -path ./build -o -path ./out -o -path './.*' \) -prune -o \
+    -type f \( "${names[@]:1}" \) -printf '%P\n' | sort
 }
 
 skipped=0 failed=0

@@ -5,13 +5,13 @@ import { execFileSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import path from "node:path";
-import { schemaTypes } from "../../../../report/page/schema_types.mjs";
+import { schemaTypes } from "../../../report/page/schema_types.mjs";
 import { optionTypes } from "./types.mjs";
 
 const [build, out = build] = process.argv.slice(2).map((word) => path.resolve(word));
 const app = path.join(build, "app"),
   folder = path.join(out, "package");
-const root = fileURLToPath(new URL("../../../../", import.meta.url)),
+const root = fileURLToPath(new URL("../../../", import.meta.url)),
   here = fileURLToPath(new URL("./", import.meta.url));
 const gnomon = (...words) =>
   execFileSync(process.execPath, [path.join(app, "gnomon.js"), ...words], { encoding: "utf8", maxBuffer: 1 << 26 });

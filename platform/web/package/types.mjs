@@ -1,6 +1,6 @@
 // What the package's functions take, as TypeScript declarations, from the manual's chapter "options". What they give:
 // report/page/schema_types.mjs.
-import { comment } from "../../../../report/page/schema_types.mjs";
+import { comment } from "../../../report/page/schema_types.mjs";
 
 const own = new Set(["output", "json", "aov", "quiet", "verbose", "trace", "help", "suite", "list"]); // what index.mjs asks for itself
 const key = (name) => name.replaceAll("-", "_");
