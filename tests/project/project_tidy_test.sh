@@ -6,7 +6,8 @@
 #
 #   project_tidy_test.sh [FILE...]         each file by itself
 #   project_tidy_test.sh --together ROOM   a room's sources as the release preset compiles them, which takes a tenth of
-#                                          the time: most of it goes into the headers that they share
+#                                          the time: most of it goes into the headers that they share. What it found
+#                                          clean is looked at again once a file that it is made of is another
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/../.."
 
@@ -38,13 +39,40 @@ unneeded_using='
     /^using [A-Za-z0-9_:]+::[A-Za-z0-9_]+;/ { named[word[n]] = 1 }
     END { unneeded(); exit found }'
 
-# What Highway compiles several times stands alone in the release preset, too, and is told by its own name.
+# key_of FOLDER COMMAND: stands for all that clang-tidy's answer depends on: itself, what it is asked, how the unit is compiled, and
+# each file that the compiler read for it. Fails where the build does not know these, or one of them is newer than the object.
+key_of() {
+  local object files
+  object=$(sed -E 's/.* -o ([^ ]+) -c .*/\1/' <<<"$2")
+  mapfile -t files < <(ninja -C "$built" -t deps "$object" 2>/dev/null | sed -n 's/^    //p')
+  cd -- "$1" || return 1
+  ((${#files[@]})) && [[ -z $(find -L "${files[@]}" -newer "$object" -print -quit 2>&1) ]] || return 1
+  { printf '%s\n' "$version" "$2" "${files[@]}"; cat -- "$here/.clang-tidy" "$here/tests/project/project_tidy_test.sh" "${files[@]}"; } |
+    sha256sum | cut -d ' ' -f 1
+}
+
+# What Highway compiles several times stands alone in the release preset, too, and is told by its own name. A unit that was
+# found clean has a file in $built/tidy, named by its key.
 tidy_together() {
-  local room=$1 units status=0
+  local room=$1 units unit folder command key status=0 any=0 here=$PWD look=() keys=()
   units="/(gnomon_${room}(_untimed)?\\.dir/Unity/unity_part_[0-9]+_cxx\\.cxx|$room/(base/)?[^/]*\\.cpp)\$"
-  grep -qE "\"file\": \"[^\"]*${units%\$}\"" "$built/compile_commands.json" || { echo "nothing of $room is compiled in $built"; return 1; }
+  while IFS=$'\t' read -r folder command unit; do
+    [[ $unit =~ $units ]] || continue
+    any=1
+    key=$(key_of "$folder" "$command") || key=
+    [[ -z $key || ! -f $built/tidy/$key ]] || continue
+    look+=("^$unit\$")
+    [[ -z $key ]] || keys+=("$built/tidy/$key")
+  done < <(sed -nE '/^ *"directory": /h; /^ *"(command|file)": /H; /^ *"file": /{x; s/\n/\t/g; s/ *"(directory|command|file)": "//g; s/",?(\t|$)/\1/g; p}' \
+    "$built/compile_commands.json")
+  ((any)) || { echo "nothing of $room is compiled in $built"; return 1; }
   # CMake's own file of a unit includes sources.
-  tidy "$built" -checks=-bugprone-suspicious-include -header-filter="/$room/.*" "$units" || status=1
+  if ((${#look[@]})) && tidy "$built" -checks=-bugprone-suspicious-include -header-filter="/$room/.*" "${look[@]}"; then
+    mkdir -p "$built/tidy"
+    ((${#keys[@]} == 0)) || touch "${keys[@]}"
+  elif ((${#look[@]})); then
+    status=1
+  fi
   find "$room" -name '*.cpp' -print0 | sort -z | xargs -0 awk "$unneeded_using" || status=1
   return "$status"
 }
