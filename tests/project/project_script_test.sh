@@ -214,6 +214,11 @@ EOF
   "$work/copy/gnomon" scenes >"$work/out" 2>"$work/said" || fail "with its packages again: $(cat "$work/said")"
 fi
 
+# Who sees no test end for long is told which of them run.
+told=$({ printf '%s\n' '      Start  1: a' '      Start  2: b_1' '1/2 Test  #1: a ....   Passed    0.1 sec' && sleep 3; } |
+  bash -c "$(sed -n '/^say() /p; /^say_what_runs()/,/^}/p' "$source/gnomon"); say_what_runs 2" 2>&1)
+[[ $told == *'Passed'*$'\n''gnomon: still running: b_1 ('[23]' s)' ]] || fail "what runs is not said: $told"
+
 # After a long run the words of what failed stand last, with ctest's own summary below them.
 printf '%s\n' '      Start 1: a' '      Start 2: b' '1/3 Test #1: a ....   Passed    1.56 sec' '2/3 Test #2: b ....***Failed    0.10 sec' \
   'why b failed' '      Start 3: c' '3/3 Test #3: c ....***Skipped   0.10 sec' 'no tool for c' '' '67% tests passed, 1 tests failed out of 3' \
