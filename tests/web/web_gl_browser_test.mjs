@@ -71,7 +71,11 @@ const techniques = listed.split(/\s+or\s+/).filter((name) => name !== "izb");
 // of a light with size one of the samples may fall to either side.
 const exact = new Set(["hard", "pcf", "second-depth", "midpoint", "cube"]);
 async function drawsLikeTheNative(web, words, begin = "") {
-  const both = await channelsOf(web, "raster", ...words);
+  const [scene, ...options] = words;
+  // Of the usual map most texels would be drawn and never seen. Where many edges of triangles are in the picture a texel that is
+  // filled otherwise counts by its size, so that these scenes keep it.
+  const map = ["fence", "acne-floor"].includes(scene) ? [] : ["--map-size", "256"];
+  const both = await channelsOf(web, "raster", scene, ...map, ...options);
   if (!both) return; // no such light in this scene
   const { others, mean, colours } = apart(both),
     analytic = words[0] === twoLights || (words[0] === "sphere-plane" && exact.has(words[2]));

@@ -1,6 +1,7 @@
 // The site that `gnomon site` writes, on a host of plain files: the lab's page with an engine of its own, whose labels are the native
 // command's, whose files come by drop, whose report is saved, and which says what it cannot do; start page, manual and lessons beside
-// it (their figures: web_lessons_browser_test.mjs). Usage: web_lab_browser_test.mjs GNOMON FOLDER. Exit code 77 where the program for the web has not been built.
+// it (their figures: web_lessons_browser_test.mjs). Usage: web_lab_browser_test.mjs GNOMON FOLDER SITE, the last by web_site.mjs. Exit code
+// 77 where the program for the web has not been built.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -10,12 +11,11 @@ import { browser, close, colours, openAt, violations } from "../browser/open_pag
 import { hasThree, serveThree } from "../support/three_page.mjs";
 import { app, isBuilt, serveFolder, skip } from "./program_in_browser.mjs";
 
-const [native, folder] = process.argv.slice(2);
+const [native, folder, site] = process.argv.slice(2);
 if (!isBuilt) skip("the program for the web is not here (./gnomon web builds it)");
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
-execFileSync(native, ["site", "-o", path.join(folder, "site"), "--web", app, "--quiet"], { stdio: "inherit" });
-const host = await serveFolder(path.join(folder, "site"));
+const host = await serveFolder(site);
 const openLab = (hash, options = {}) => openAt(`${host.url}lab.html`, host.url, options, hash);
 /** What was asked for last is compared in full. */
 const done = (page) =>
@@ -296,12 +296,12 @@ async function saysThatItTakesLong() {
 
 /** From the disk all opens, and the lab says what it needs. */
 async function opensFromTheDisk() {
-  const page = await openAt(pathToFileURL(path.join(folder, "site", "lab.html")).href, null);
+  const page = await openAt(pathToFileURL(path.resolve(site, "lab.html")).href, null);
   await page.locator("#lab-gone").waitFor({ timeout: 10000 });
   assert.match(await page.locator("#lab-gone").textContent(), /needs a host.*python3 -m http.server/);
   assert.equal(await page.locator("#lab-verdict").textContent(), "", "nothing is said to be drawn");
   await close(page);
-  const start = await openAt(pathToFileURL(path.join(folder, "site", "index.html")).href, null);
+  const start = await openAt(pathToFileURL(path.resolve(site, "index.html")).href, null);
   assert.ok(
     await start.locator(".cards img").evaluateAll((all) => all.length > 10 && all.every(({ naturalWidth }) => naturalWidth === 320)),
     "a picture of each scene",

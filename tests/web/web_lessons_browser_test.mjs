@@ -1,20 +1,16 @@
 // The lessons of the site that `gnomon site` writes: figures computed by the program in the page. With the lesson's settings they are the
 // lesson's, with others what the native command says; what cannot be computed is said, and the figure stays.
-// Usage: web_lessons_browser_test.mjs GNOMON FOLDER. Exit code 77 where the program for the web has not been built.
+// Usage: web_lessons_browser_test.mjs GNOMON SITE, the last by web_site.mjs. Exit code 77 where the program for the web has not been built.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
 import { browser, close, colours, openAt, pixelsOf, violations } from "../browser/open_page.mjs";
-import { app, isBuilt, serveFolder, skip } from "./program_in_browser.mjs";
+import { isBuilt, serveFolder, skip } from "./program_in_browser.mjs";
 
-const [native, folder] = process.argv.slice(2),
-  site = `${folder}/site`;
+const [native, site] = process.argv.slice(2);
 if (!isBuilt) skip("the program for the web is not here (./gnomon web builds it)");
-rmSync(folder, { recursive: true, force: true });
-mkdirSync(folder, { recursive: true });
-execFileSync(native, ["site", "-o", site, "--web", app, "--quiet"], { stdio: "inherit" });
 const server = await serveFolder(site),
   host = server.url;
 
