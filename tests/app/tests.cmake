@@ -1,7 +1,7 @@
 # The command line: its values, its signals, and the program seen from outside.
 find_package(rapidcheck REQUIRED)
-# 800 starts of the program: five minutes where nothing else is at work, and several times that where something is.
-gnomon_test(app_test TIMEOUT 1800
+# 800 starts of the program.
+gnomon_test(app_test PARTS 8
   SOURCES app_heatmap_test.cpp app_values_test.cpp app_interrupt_test.cpp app_large_pages_test.cpp app_lesson_gl_test.cpp app_lessons_site_test.cpp app_completion_test.cpp app_docs_gl_test.cpp app_faults_gl_test.cpp app_few_resources_gl_test.cpp app_grade_page_test.cpp app_page_policy_gl_test.cpp app_limited_process_test.cpp app_many_lights_gl_test.cpp app_names_gl_test.cpp app_no_data_lost_gl_test.cpp app_shaders_gl_test.cpp app_answers_gl_test.cpp app_bench_gl_test.cpp app_repeated_commands_test.cpp app_cli_gl_test.cpp app_usage_gl_test.cpp app_technique_options_gl_test.cpp app_time_budget_gl_test.cpp app_pictures_gl_test.cpp app_judge_gl_test.cpp
   LIBS app_process gnomon_app_commands gnomon_studies_commands gnomon_verify_commands gnomon_judge_commands gnomon_grade_commands gnomon_lab_commands gnomon_benchmark_commands gnomon::scene OpenImageIO::OpenImageIO nlohmann_json::nlohmann_json rapidcheck rapidcheck_gtest)
 add_dependencies(app_test gnomon_programs fault_injector)

@@ -43,11 +43,11 @@ set_tests_properties(renderdoc_engine_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOU
 gnomon_test(grade_alike_test SOURCES grade_alike_test.cpp LIBS gnomon::grade)
 gnomon_test(grade_gl_test
   SOURCES grade_gl_test.cpp grade_rubrics_gl_test.cpp grade_class_gl_test.cpp
-  LIBS app_process nlohmann_json::nlohmann_json TIMEOUT 1800)
+  LIBS app_process nlohmann_json::nlohmann_json PARTS 5)
 add_dependencies(grade_gl_test gnomon_programs)
 gnomon_test(grade_functions_gl_test
   SOURCES grade_functions_gl_test.cpp grade_filter_gl_test.cpp
-  LIBS gnomon::grade app_process nlohmann_json::nlohmann_json TIMEOUT 1200)
+  LIBS gnomon::grade app_process nlohmann_json::nlohmann_json PARTS 4)
 add_dependencies(grade_functions_gl_test gnomon_programs)
 
 # The pages of sweeps and films in a real browser.

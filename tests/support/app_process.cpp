@@ -23,6 +23,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Tests that are run in parts (gnomon_test PARTS) start programs of tests that are not.
+struct WholePrograms : ::testing::Environment {
+  void SetUp() override {
+    unsetenv("GTEST_TOTAL_SHARDS");
+    unsetenv("GTEST_SHARD_INDEX");
+  }
+};
+const ::testing::Environment* const whole_programs = ::testing::AddGlobalTestEnvironment(new WholePrograms);
+
 struct Pipe {
   int read_end = -1, write_end = -1;
   Pipe() {
