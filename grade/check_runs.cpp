@@ -9,9 +9,11 @@
 
 #include "grade/limited_process.h"
 #include "grade/mistakes.h"
+#include "raster/use_shaders.h"
 #include "scene/base/expected.h"
 #include "scene/base/option_text.h"
 #include "scene/files/own_program.h"
+#include "scene/files/path_status.h"
 
 namespace gnomon::grade {
 
@@ -166,6 +168,26 @@ Expected<const Drawing*> CheckRuns::draw(const Run& asked) {
   }
   known->drawing = std::move(*drawing);
   return &known->drawing;
+}
+
+Expected<void> CheckRuns::draw_each(const Run& run, const std::string& shaders,
+                                    const std::string& place) const {
+  const auto names = names_in(shaders);
+  if (!names) return fail(names.error());
+  std::vector<std::string> words = words_of(run, place);
+  if (run.function.empty()) words.insert(words.end(), {"--aov", place + "/values.exr"});
+  Limits limits = rubric_->limits;
+  limits.seconds *= static_cast<double>(names->size());
+  for (const bool again : {false, true}) {
+    const auto outcome = run_limited(program_beside("gnomon"), words, limits,
+                                     fmt::format("{}={}", raster::each_folder_variable, shaders));
+    if (!outcome) return fail(outcome.error());
+    if (outcome->end == Outcome::End::exited && outcome->code == static_cast<int>(ErrorKind::cannot_write))
+      return fail(ErrorKind::cannot_write, failure_words(*outcome, limits));
+    if (!may_be_disturbed(*outcome) || is_shaders_fault(*outcome)) break;
+    if (again) return fail(ErrorKind::graphics, "drawing failed twice: " + failure_words(*outcome, limits));
+  }
+  return {};
 }
 
 Expected<Drawing> CheckRuns::draw_own_with_bias(const Run& run, double bias) const {

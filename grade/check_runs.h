@@ -34,6 +34,9 @@ class CheckRuns {
   Expected<Drawing> draw_timed(const Run& run);
   /// The program's own shader with this bias in place of the run's, world units.
   Expected<Drawing> draw_own_with_bias(const Run& run, double bias) const;
+  /// One process draws the run with each folder of `shaders`, which are the program's own. PLACE/NAME then holds values or
+  /// answers, and nothing where that could not be drawn. Errors as those of draw().
+  Expected<void> draw_each(const Run& run, const std::string& shaders, const std::string& place) const;
   /// "gnomon compare …" or "gnomon shaders --call …", which draws it again in the exercise's folder, where student/ holds what was handed in.
   std::string command(const Run& run) const;
 

@@ -110,14 +110,16 @@ bool is_alike(float a, float b) {
 }
 
 /// Adds one light's compared pixels.
-Expected<void> add_values(const std::string& values, DrawnValues& sum) {
+Expected<void> add_values(const std::string& folder, const std::string& name, DrawnValues& sum) {
+  const std::string values = file_in(folder, name);
   const auto image = read_channels(values);
   if (!image) return fail(image.error());
   const Channel *drawn = image->find("drawn.V"), *label = image->find("class.V");
   if (drawn == nullptr || label == nullptr)
     return fail(Error{ErrorKind::internal, "holds no visibility to compare", values});
-  for (std::size_t i = 0; i < drawn->values.size(); ++i)
-    if (label->values[i] >= 0.0f) sum.visibility.push_back(drawn->values[i]);
+  auto& compared = sum.compared.emplace_back(name, std::vector<std::uint32_t>()).second;
+  for (std::uint32_t i = 0; i < drawn->values.size(); ++i)
+    if (label->values[i] >= 0.0f) compared.push_back(i), sum.visibility.push_back(drawn->values[i]);
   return {};
 }
 
@@ -251,9 +253,33 @@ Expected<DrawnValues> read_values(const Run& run, const RunResult& result) {
   const auto names = value_files(folder);
   if (!names) return fail(names.error());
   for (const std::string& name : *names)
-    if (const auto added = add_values(file_in(folder, name), sum); !added) return fail(added.error());
+    if (const auto added = add_values(folder, name, sum); !added) return fail(added.error());
   sum.is_uniform = are_all_alike(sum.visibility);
   return sum;
+}
+
+Expected<DrawnValues> read_drawn(const std::string& folder, const DrawnValues& right) {
+  DrawnValues out;
+  const auto names = names_if_there(folder, ErrorKind::internal);
+  if (!names) return fail(names.error());
+  if (names->empty()) return out;
+  for (const auto& [name, pixels] : right.compared) {
+    const auto image = read_channels(file_in(folder, name));
+    if (!image) return fail(image.error());
+    const Channel* drawn = image->find("drawn.V");
+    if (drawn == nullptr) return fail(Error{ErrorKind::internal, "holds no visibility to compare", folder});
+    for (const std::uint32_t pixel : pixels) out.visibility.push_back(drawn->values.at(pixel));
+  }
+  return out;
+}
+
+Expected<std::optional<RunResult>> read_each_called(const Run& run, const std::string& folder) {
+  const auto names = names_if_there(folder, ErrorKind::internal);
+  if (!names) return fail(names.error());
+  if (names->empty()) return std::optional<RunResult>();
+  auto called = read_called(run, folder);
+  if (!called) return fail(called.error());
+  return std::optional<RunResult>(std::move(*called));
 }
 
 Agreement compare_drawings(const DrawnValues& drawn, const DrawnValues& other, const DrawnValues& right) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compare/comparison.h"
@@ -65,9 +67,16 @@ struct Agreement {
 struct DrawnValues {
   std::vector<float> visibility;
   bool is_uniform = false;  ///< all alike, to half an 8-bit step; of a function all answers to whatever cases
+  /// Which pixels these are, of each light in turn: the name of its file, and their indices.
+  std::vector<std::pair<std::string, std::vector<std::uint32_t>>> compared{};
 };
 /// Errors as count_different().
 Expected<DrawnValues> read_values(const Run& run, const RunResult& result);
+/// Reads a folder that CheckRuns::draw_each() left: what is drawn at the pixels that are compared in `right`. Empty where it holds
+/// nothing.
+Expected<DrawnValues> read_drawn(const std::string& folder, const DrawnValues& right);
+/// Reads such a folder of a function's calls; nothing where it holds nothing.
+Expected<std::optional<RunResult>> read_each_called(const Run& run, const std::string& folder);
 
 /// All three are of the same run.
 Agreement compare_drawings(const DrawnValues& drawn, const DrawnValues& other, const DrawnValues& right);

@@ -34,7 +34,8 @@ void set_limit(decltype(RLIMIT_CPU) which, rlim_t value) {
 }
 
 /// Between fork and exec: system calls alone.
-[[noreturn]] void become(const char* program, char* const* words, int err, const Limits& limits) {
+[[noreturn]] void become(const char* program, char* const* words, char* const* environment, int err,
+                         const Limits& limits) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int nothing = open("/dev/null", O_RDWR);
   dup2(nothing, STDIN_FILENO);
@@ -47,7 +48,7 @@ void set_limit(decltype(RLIMIT_CPU) which, rlim_t value) {
 #endif
   set_limit(RLIMIT_FSIZE, largest_file);
   set_limit(RLIMIT_CORE, 0);
-  execv(program, words);
+  execve(program, words, environment);
   _exit(127);
 }
 
@@ -132,10 +133,14 @@ Outcome follow(pid_t child, int from, const Limits& limits) {
 }  // namespace
 
 Expected<Outcome> run_limited(const std::string& program, const std::vector<std::string>& words,
-                              const Limits& limits) {
+                              const Limits& limits, const std::string& variable) {
   std::vector<char*> arguments{const_cast<char*>("gnomon")};
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  std::vector<char*> environment;
+  for (char** own = environ; *own != nullptr; ++own) environment.push_back(*own);
+  if (!variable.empty()) environment.push_back(const_cast<char*>(variable.c_str()));
+  environment.push_back(nullptr);
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     return fail(ErrorKind::graphics, std::string("cannot open a pipe: ") + std::strerror(errno));
@@ -144,7 +149,7 @@ Expected<Outcome> run_limited(const std::string& program, const std::vector<std:
   const pid_t child = fork();
   if (child < 0)
     return fail(ErrorKind::graphics, std::string("cannot start a process: ") + std::strerror(errno));
-  if (child == 0) become(program.c_str(), arguments.data(), in.number(), limits);
+  if (child == 0) become(program.c_str(), arguments.data(), environment.data(), in.number(), limits);
   in.close();
   return follow(child, out.number(), limits);
 }

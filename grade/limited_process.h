@@ -24,9 +24,9 @@ struct Outcome {
 };
 
 /// Runs the program with these words. It has no stdin, its stdout is thrown away, and it dies with the caller. The time of all
-/// its threads counts.
+/// its threads counts. `variable`, "NAME=VALUE", stands in its environment besides the caller's own.
 /// Error (resources): the process cannot be started.
 Expected<Outcome> run_limited(const std::string& program, const std::vector<std::string>& words,
-                              const Limits& limits);
+                              const Limits& limits, const std::string& variable = {});
 
 }  // namespace gnomon::grade

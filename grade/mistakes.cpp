@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "functions/functions.h"
-#include "scene/files/path_status.h"
 #include "scene/files/write_file.h"
 
 namespace gnomon::grade {
@@ -66,49 +65,87 @@ Expected<void> write_right_functions(const Rubric& rubric, const std::string& fo
   return {};
 }
 
-Mistakes::Mistakes(const Rubric& rubric, const std::string& folder) {
-  for (const embedded::Entry* list : lists_of(rubric)) add_list(rubric, *list, folder);
+Mistakes::Mistakes(const Rubric& rubric, const std::string& folder)
+    : runs_(rubric, "", folder), folder_(folder) {
+  for (const embedded::Entry* list : lists_of(rubric)) add_list(rubric, *list);
 }
 
-void Mistakes::add_list(const Rubric& rubric, const embedded::Entry& list, const std::string& folder) {
-  const std::string file = file_of(list), name(list.name.substr(0, list.name.rfind('.')));
+void Mistakes::add_list(const Rubric& rubric, const embedded::Entry& list) {
+  const std::string name(list.name.substr(0, list.name.rfind('.')));
   std::size_t number = 0;
-  for (Named& named : mistakes_in(list.bytes)) {
-    const std::string own = fmt::format("{}/{}", folder, all_.size() + 1), shaders = own + "/shaders";
-    all_.emplace_back(rubric.technique.empty() ? name : "", std::move(named.words), named.hides_rest,
-                      fmt::format("{}/{}", shaders, file),
-                      fmt::format("#define MISTAKE {}\n{}", ++number, list.bytes),
-                      CheckRuns(rubric, shaders, own));
+  for (Named& named : mistakes_in(list.bytes))
+    all_.push_back({rubric.technique.empty() ? name : "", std::move(named.words), named.hides_rest,
+                    file_of(list), fmt::format("#define MISTAKE {}\n{}", ++number, list.bytes)});
+}
+
+std::string Mistakes::shaders_of(const std::string& function) const {
+  return fmt::format("{}/shaders/{}", folder_, function.empty() ? "technique" : function);
+}
+
+Expected<void> Mistakes::write_shaders(const std::string& function) const {
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    if (all_[i].function != function) continue;
+    const std::string path = fmt::format("{}/{}/{}", shaders_of(function), i, all_[i].file);
+    if (const auto made = make_folder_for(path); !made) return made;
+    if (const auto written = write_file(path, all_[i].text); !written) return written;
   }
+  return {};
 }
 
-Expected<void> Mistakes::write_shader(const Mistake& mistake) {
-  const auto there = is_there(mistake.path, ErrorKind::cannot_write);
-  if (!there) return fail(there.error());
-  if (*there) return {};
-  if (const auto made = make_folder_for(mistake.path); !made) return made;
-  return write_file(mistake.path, mistake.text);
+Expected<void> Mistakes::read_called_of(Files& files) const {
+  files.called.resize(all_.size());
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    if (all_[i].function != files.run.function) continue;
+    auto called = read_each_called(files.run, fmt::format("{}/{}", files.place, i));
+    if (!called) return fail(called.error());
+    files.called[i] = std::move(*called);
+  }
+  return {};
 }
 
-Expected<const DrawnValues*> Mistakes::draw(Mistake& mistake, const Run& run) {
-  const std::lock_guard lock(mistake.drawing);
-  for (const auto& [known, values] : mistake.drawn)
-    if (known == run) return &values;
-  if (const auto written = write_shader(mistake); !written) return fail(written.error());
-  const auto drawing = mistake.runs.draw(run);
-  if (!drawing) return fail(drawing.error());
-  auto values = (*drawing)->result ? read_values(run, *(*drawing)->result) : DrawnValues{};
-  if (!values) return fail(values.error());
-  return &mistake.drawn.emplace_back(run, std::move(*values)).second;
+Expected<const Mistakes::Files*> Mistakes::draw_files(Run run) {
+  run.cases.clear();  // one call of a function answers all of them
+  const std::string& function = run.function;
+  const auto known = std::ranges::find(files_, run, &Files::run);
+  if (known != files_.end()) return &*known;
+  const bool first = std::ranges::none_of(files_, [&](const Files& f) { return f.run.function == function; });
+  if (first)
+    if (const auto written = write_shaders(function); !written) return fail(written.error());
+  Files files{run, fmt::format("{}/{}", folder_, files_.size()), {}};
+  if (const auto drawn = runs_.draw_each(run, shaders_of(function), files.place); !drawn)
+    return fail(drawn.error());
+  if (!function.empty())
+    if (const auto read = read_called_of(files); !read) return fail(read.error());
+  return &files_.emplace_back(std::move(files));
+}
+
+Expected<const Mistakes::DrawnRun*> Mistakes::draw(const Run& run, const DrawnValues& right) {
+  const std::lock_guard lock(drawing_);
+  if (const auto known = std::ranges::find(drawn_, run, &DrawnRun::run); known != drawn_.end())
+    return &*known;
+  const auto files = draw_files(run);
+  if (!files) return fail(files.error());
+  DrawnRun drawn{run, std::vector<DrawnValues>(all_.size())};
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    if (all_[i].function != run.function) continue;
+    const bool is_function = !run.function.empty();
+    if (is_function && !(*files)->called[i]) continue;
+    auto values = is_function ? read_values(run, *(*files)->called[i])
+                              : read_drawn(fmt::format("{}/{}", (*files)->place, i), right);
+    if (!values) return fail(values.error());
+    drawn.values[i] = std::move(*values);
+  }
+  return &drawn_.emplace_back(std::move(drawn));
 }
 
 Expected<Agreement> Mistakes::agreement(std::size_t mistake, const Run& run, const DrawnValues& drawn,
                                         const DrawnValues& right) {
-  if (all_[mistake].function != run.function) return Agreement{.either = 1, .unlike = 1};
-  const auto values = draw(all_[mistake], run);
-  if (!values) return fail(values.error());
-  if ((*values)->visibility.empty()) return Agreement{.either = 1, .unlike = 1};
-  return compare_drawings(drawn, **values, right);
+  constexpr Agreement none{.either = 1, .unlike = 1};
+  if (all_[mistake].function != run.function) return none;
+  const auto all = draw(run, right);
+  if (!all) return fail(all.error());
+  const DrawnValues& values = (*all)->values[mistake];
+  return values.visibility.empty() ? none : compare_drawings(drawn, values, right);
 }
 
 Expected<std::vector<std::size_t>> Mistakes::explaining(const Run& run, const DrawnValues& drawn,

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,23 +46,34 @@ class Mistakes {
     std::string function;  ///< which it is a mistake of; empty: a technique's
     std::string words;
     bool hides_rest;
-    std::string path, text;  ///< its shader's file and what that holds
-    CheckRuns runs;
-    std::deque<std::pair<Run, DrawnValues>>
-        drawn{};  ///< what was drawn so far; empty values: nothing that counts
-    std::mutex drawing{};
-    Mistake(std::string f, std::string w, bool h, std::string p, std::string t, CheckRuns r)
-        : function(std::move(f)),
-          words(std::move(w)),
-          hides_rest(h),
-          path(std::move(p)),
-          text(std::move(t)),
-          runs(std::move(r)) {}
+    std::string file, text;  ///< "technique/hard.glsl", and what that holds
   };
-  void add_list(const Rubric& rubric, const embedded::Entry& list, const std::string& folder);
-  static Expected<void> write_shader(const Mistake& mistake);
-  static Expected<const DrawnValues*> draw(Mistake& mistake, const Run& run);
-  std::deque<Mistake> all_;  ///< may be drawn by several threads
+  /// What every mistake draws of a run; empty values: nothing that counts.
+  struct DrawnRun {
+    Run run;
+    std::vector<DrawnValues> values;
+  };
+  /// What one process left of a run, whatever its cases.
+  struct Files {
+    Run run;
+    std::string place;  ///< holds a folder for each mistake, named as that of its shaders
+    std::vector<std::optional<RunResult>> called;  ///< of a function, by mistake, read once
+  };
+  void add_list(const Rubric& rubric, const embedded::Entry& list);
+  /// Where the shaders of a function's mistakes lie, or of a technique's: a folder for each mistake, named by its number.
+  std::string shaders_of(const std::string& function) const;
+  Expected<void> write_shaders(const std::string& function) const;
+  /// Draws them all at once when they are first asked for.
+  Expected<const DrawnRun*> draw(const Run& run, const DrawnValues& right);
+  Expected<const Files*> draw_files(Run run);
+  Expected<void> read_called_of(Files& files) const;
+
+  CheckRuns runs_;
+  std::string folder_;
+  std::vector<Mistake> all_;
+  std::mutex drawing_;  ///< several threads ask
+  std::deque<Files> files_;
+  std::deque<DrawnRun> drawn_;  ///< what was handed out stays where it is
 };
 
 }  // namespace gnomon::grade

@@ -45,6 +45,7 @@ class GlRenderer final : public Renderer {
     external_.use(std::move(visibility));
   }
   void fit_maps_to(const std::optional<MapCamera>& camera) { map_camera_ = camera; }
+  Expected<void> use_shaders(const std::string& folder);
   void draw_rows(const std::optional<PictureRows>& rows) { rows_ = rows; }
   std::size_t most_pixels(const MapOptions& map) const;
 

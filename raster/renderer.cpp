@@ -13,6 +13,7 @@
 #include "raster/passes/map_shape.h"
 #include "raster/programs/shader_folder.h"
 #include "raster/technique_traits.h"
+#include "raster/use_shaders.h"
 #include "scene/base/interruptible.h"
 #include "scene/base/stages.h"
 #include "shaders/shared_constants.h"
@@ -223,6 +224,28 @@ void GlRenderer::restore_state() const {
 
 void set_map_camera(Renderer& renderer, const std::optional<MapCamera>& camera) {
   static_cast<GlRenderer&>(renderer).fit_maps_to(camera);  // the one kind that Renderer::create makes
+}
+
+Expected<void> GlRenderer::use_shaders(const std::string& path) {
+  if (!context_->make_current())
+    return fail(ErrorKind::graphics, "the OpenGL context cannot be made current");
+  auto folder = ShaderFolder::read(path);
+  if (!folder) return fail(folder.error());
+  static_cast<void>(gl_->check("the shaders before"));  // what the driver said of those is no fault of these
+  std::set<std::string> others;
+  for (const ShaderFolder* of : {&gl_->shader_folder(), &*folder})
+    for (const ReplacedShader& file : of->replaced()) others.insert(file.name);
+  gl_->shader_folder() = std::move(*folder);
+  programs_.forget(others);
+  technique_pass_.reset();  // which has programs of its own
+  technique_ = Technique::hard;
+  kept_map_.reset(), kept_time_.reset();
+  warm_camera_ = false, warm_shadings_.clear(), warm_maps_.clear();
+  return {};
+}
+
+Expected<void> use_shaders(Renderer& renderer, const std::string& folder) {
+  return static_cast<GlRenderer&>(renderer).use_shaders(folder);  // the one kind that Renderer::create makes
 }
 
 Expected<std::unique_ptr<Renderer>> Renderer::create(std::unique_ptr<Context> context, const World& world,

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "app/options/options.h"
 #include "app/options/setting_options.h"
 #include "app/options/view_options.h"
+#include "app/outputs/each_shader.h"
 #include "app/outputs/result_output.h"
 #include "app/outputs/run_files.h"
 #include "app/process/machine.h"
@@ -24,9 +26,11 @@
 #include "compare/advice/tried.h"
 #include "compare/measure/reduced.h"
 #include "compare/result/figures.h"
+#include "compare/result/output_parts.h"
 #include "compare/result/places.h"
 #include "compare/result/views.h"
 #include "raster/bands.h"
+#include "raster/use_shaders.h"
 #include "scene/base/stages.h"
 #include "scene/base/timing.h"
 
@@ -242,6 +246,38 @@ Expected<compare::ViewErrors> judge_views(const CompareCommand& command, LoadedS
   return errors;
 }
 
+/// Compares nothing: keeps what the shaders of each folder draw, where the channels would go.
+Expected<ExitCode> draw_each(const CompareCommand& command, const LoadedScene& loaded, Console& console) {
+  const auto lights = choose_lights(*loaded.scene, command.setting.light);
+  if (!lights) return fail(lights.error());
+  raster::RasterOptions options =
+      compare::drawing_options(command.setting.options.raster, command.setting.options.raytrace);
+  options.runs = 0, options.shadow_cost = false, options.map_contents = false;
+  compare::Comparison names;
+  names.world = loaded.world.get();
+  for (const std::uint32_t light : *lights) names.lights.emplace_back().light = light;
+  std::unique_ptr<raster::Renderer> renderer;
+  return for_each_shader(
+      command.output.aov, [&](const std::string& shaders, const std::string& place) -> Expected<void> {
+        if (!renderer) {
+          auto made = make_renderer(command.backend, loaded, console, shaders);
+          if (!made) return fail(made.error());
+          renderer = std::move(*made);
+        } else if (auto used = raster::use_shaders(*renderer, shaders); !used) {
+          return used;
+        }
+        auto frame = renderer->render(options, *lights);
+        if (!frame) return fail(frame.error());
+        for (std::size_t i = 0; i < lights->size(); ++i) {
+          const std::array channels{Channel{"drawn.V", std::move(frame->lights[i].visibility.data)}};
+          const auto written =
+              write_exr(compare::aov_path(names, names.lights[i], place), options.size, channels);
+          if (!written) return written;
+        }
+        return {};
+      });
+}
+
 /// One rule for both renderers.
 void set_runs(CompareCommand& command) {
   raster::RasterOptions& raster = command.setting.options.raster;
@@ -283,6 +319,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   if (!posed) return fail(posed.error());
   const auto views = resolve_views(command.views, command.path, false, *loaded, *loaded->scene, console);
   if (!views) return fail(views.error());
+  if (is_asked_for_each_shader()) return draw_each(command, *loaded, console);
   compare::ViewErrors errors;
   if (!views->empty()) {
     auto judged = judge_views(command, *loaded, *views, console);

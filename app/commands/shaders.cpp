@@ -12,6 +12,7 @@
 #include "app/invocation.h"
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
+#include "app/outputs/each_shader.h"
 #include "app/outputs/render_json.h"
 #include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
@@ -128,6 +129,13 @@ Expected<void> check_call(const ShadersCommand& command) {
 Expected<ExitCode> run_call(const ShadersCommand& command) {
   if (const auto fine = check_call(command); !fine) return fail(fine.error());
   const functions::Function& function = *functions::find_function(command.function);
+  if (is_asked_for_each_shader())
+    return for_each_shader(command.json,
+                           [&](const std::string& shaders, const std::string& place) -> Expected<void> {
+                             const auto answers = functions::ask(function, command.backend, shaders);
+                             return answers ? write_file(place, functions::answers_json(function, *answers))
+                                            : fail(answers.error());
+                           });
   const auto answers = functions::ask(function, command.backend, command.shader_folder);
   if (!answers) return fail(answers.error());
   if (command.json != "-" && !command.quiet) print_data(answers_text(function, command.group, *answers));

@@ -177,12 +177,12 @@ Expected<Program> Program::link(const Gl& gl, std::string_view vertex, std::stri
   Expansion text = expand_file(vertex, defines, gl.shader_folder());
   if (auto ok = vertex_stage.compile(text, vertex); !ok) return fail(ok.error());
   gl->AttachShader(program.id(), vertex_stage.id);
-  program.replaced_ = text.replaced();
+  program.note_sources(text);
   if (!fragment.empty()) {
     text = expand_file(fragment, defines, gl.shader_folder());
     if (auto ok = fragment_stage.compile(text, fragment); !ok) return fail(ok.error());
     gl->AttachShader(program.id(), fragment_stage.id);
-    for (std::string& name : text.replaced()) program.replaced_.push_back(std::move(name));
+    program.note_sources(text);
   }
   if (auto ok = link_stages(gl, program.id(), fragment.empty() ? vertex : fragment, text); !ok)
     return fail(ok.error());
@@ -198,6 +198,18 @@ Expected<Program> Program::link_compute(const Gl& gl, std::string_view source) {
   gl->AttachShader(program.id(), stage.id);
   if (auto ok = link_stages(gl, program.id(), "compute", text); !ok) return fail(ok.error());
   return program;
+}
+
+void Program::note_sources(const Expansion& text) {
+  for (const Expansion::File& file : text.files) {
+    sources_.push_back(file.name);
+    if (file.replaced) replaced_.push_back(file.name);
+  }
+}
+
+bool Program::reads(const std::set<std::string>& names) const {
+  return std::any_of(sources_.begin(), sources_.end(),
+                     [&](const std::string& name) { return names.contains(name); });
 }
 
 void Program::use() const {

@@ -4,6 +4,7 @@
 // raster.
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,8 @@
 #include "raster/gl/gl_objects.h"
 
 namespace gnomon::raster {
+
+struct Expansion;
 
 class Program : public GlObject<GlKind::program> {
  public:
@@ -25,11 +28,15 @@ class Program : public GlObject<GlKind::program> {
   static Expected<Program> link_compute(const Gl& gl, std::string_view source);
   /// The shader folder's files among its sources count as used from here on (ShaderFolder::used).
   void use() const;
+  /// Whether it was made of one of these files.
+  bool reads(const std::set<std::string>& names) const;
 
  protected:
   using GlObject::GlObject;
 
  private:
+  void note_sources(const Expansion& text);
+  std::vector<std::string> sources_;
   std::vector<std::string> replaced_;  ///< sources from the shader folder
 };
 

@@ -269,6 +269,16 @@ Expected<const Program*> ProgramCache::fullscreen(const std::string& fragment,
   });
 }
 
+void ProgramCache::forget(const std::set<std::string>& files) {
+  const auto forget_in = [&](auto& programs) {
+    std::erase_if(programs, [&](const auto& made) { return made.second.reads(files); });
+  };
+  forget_in(triangles_);
+  forget_in(impostors_);
+  forget_in(shades_);
+  forget_in(fullscreens_);
+}
+
 Expected<const Program*> ProgramCache::shade(const ShadePermutation& key) {
   return find_or_link(shades_, key, [&] { return link_shade_program(*gl_, key, features_); });
 }

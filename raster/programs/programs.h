@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -149,6 +150,8 @@ class ProgramCache {
   Expected<const Program*> shade(const ShadePermutation& permutation);
   /// A fragment shader over the whole viewport.
   Expected<const Program*> fullscreen(const std::string& fragment, const std::vector<std::string>& defines);
+  /// What reads one of these files is linked anew when it is next asked for.
+  void forget(const std::set<std::string>& files);
 
  private:
   const Gl* gl_;

@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "raster/programs/shader_folder.h"
 #include "scene/files/encodings.h"
+#include "scene/files/pictures/image_io.h"
 #include "tests/support/app_process.h"
+#include "tests/support/places.h"
 
 namespace gnomon::app_test {
 namespace {
@@ -163,6 +166,51 @@ TEST_F(ShaderFolder, ValuesThatAreNoVisibilityNameThePixel) {
 }
 
 // A cell of a sweep is what compare gives; nothing is derived from gaps that the shader may not look at.
+// One process for many folders leaves nothing of one to the next; a mistake in one costs the others nothing.
+TEST_F(ShaderFolder, EachOfManyDrawsWhatItDrawsAlone) {
+  const std::map<std::string, std::string> bodies = {{"a", "  return 0.25;"},
+                                                     {"b", "  return nothing;"},
+                                                     {"c", "  return test.gap > 0.0 ? 0.0 : 1.0;"},
+                                                     {"d", "  return test.gap > light.bias.x ? 0.0 : 0.75;"}};
+  for (const auto& [name, body] : bodies) {
+    write_hard(body);
+    std::filesystem::create_directories(folder / "each");
+    std::filesystem::rename(folder / "mine", folder / ("each/" + name));
+  }
+  const std::string lights = "\"lights\": [";
+  std::string scene = read_file(gnomon::test::source_dir() + "/scene/builtin/sphere-plane.json");
+  scene.insert(scene.find(lights) + lights.size(),
+               R"({"name": "second", "type": "point", "position": [3, 2.6, 0.5]},)");
+  write_text(folder / "two.json", scene);
+  const Words call = Words{"compare", "two.json", "-o", "out", "--no-report", "--runs", "1", "-q"} + small;
+  const ProcessResult all =
+      run_gnomon(call + Words{"--aov", "all/v.exr"},
+                 {.folder = folder.path(), .environment = {"GNOMON_EACH_SHADER_FOLDER=each"}});
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  for (const auto& [name, body] : bodies) {
+    const ProcessResult alone = gnomon(call + Words{"--shader-dir", "each/" + name, "--aov", "alone/v.exr"});
+    EXPECT_EQ(alone.exit_code, name == "b" ? 3 : 0) << alone.err;
+    EXPECT_EQ(std::filesystem::is_empty(folder / ("all/" + name)), name == "b");
+    if (name == "b") continue;
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "alone"), {}), 2)
+        << "one file for each light";
+    for (const auto& light : std::filesystem::directory_iterator(folder / "alone")) {
+      const auto right = read_channels(light.path().string());
+      const auto drawn = read_channels((folder / ("all/" + name)) + "/" + light.path().filename().string());
+      ASSERT_TRUE(right.has_value() && drawn.has_value()) << name << light.path();
+      const std::vector<float>& label = right->find("class.V")->values;
+      std::size_t compared = 0;
+      for (std::size_t i = 0; i < label.size(); ++i) {
+        if (label[i] < 0.0f) continue;
+        ++compared;
+        EXPECT_EQ(drawn->find("drawn.V")->values[i], right->find("drawn.V")->values[i])
+            << name << light.path();
+      }
+      EXPECT_GT(compared, 0u);
+    }
+  }
+}
+
 TEST_F(ShaderFolder, SweepsTakeIt) {
   write_hard("  return test.gap > 0.5 * light.bias.x ? 0.0 : 1.0;");
   const Words scene = {"floating-box", "--size", "64x36", "--map-size", "64", "--shader-dir", "mine"};
