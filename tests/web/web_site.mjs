@@ -8,4 +8,4 @@ const [native, folder] = process.argv.slice(2);
 if (!isBuilt) skip("the program for the web is not here (./gnomon web builds it)");
 rmSync(folder, { recursive: true, force: true });
 execFileSync(native, ["site", "-o", folder, "--web", app, "--quiet"], { stdio: "inherit" });
-process.exit(0);  // the browser that comes along
+process.exit(0); // the browser that comes along
