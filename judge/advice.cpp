@@ -55,11 +55,11 @@ void Advisor::propose_on_receivers() {
   static_cast<AdvisedSetting&>(alone) = constant(best.stored);
   propose({alone, unchanged, best.stored});
   double least = best.left;
-  if (reads_moments()) return propose_on_moments(least);
+  if (reads_averages()) return propose_on_own_settings(least);
   std::optional<Candidate> pair;
   for (const double offset : offsets_to_try(test().normal_offset_world, record().texel_world)) {
     const auto change = [offset](raster::LightRecord& one) {
-      one.captured->test->normal_offset_world = offset;
+      changed_test(one).normal_offset_world = offset;
     };
     tested.change(change);
     const GoodConstant there = search_.best_beside(tested);
@@ -76,6 +76,42 @@ void Advisor::propose_on_receivers() {
   propose_on_layers(least);
 }
 
+/// One setting that the test alone has, and that with the constant that suits it.
+void Advisor::propose_on_own_settings(double least) {
+  constexpr double like_drawn = 0.1;
+  TestedRecord tested = redrawing_.as_drawn();
+  const auto left_after = [&](const RecordChange& change) {
+    tested.take_tests(redrawing_.as_drawn());
+    if (change) tested.change(change);
+    return search_.left_at(tested, search_.now);
+  };
+  std::optional<Candidate> best;
+  for (const OtherSettings& group : test().other_settings(in_, record())) {
+    if (group.as_is) {
+      const double drawn = left_after({});
+      if (std::abs(left_after(group.as_is) - drawn) > like_drawn * drawn) continue;
+    }
+    for (const OtherSetting& other : group.settings) {
+      const double left = left_after(other.change);
+      if (!(left < worth_changing * least)) continue;
+      least = left;
+      Advice advice;
+      static_cast<AdvisedSetting&>(advice) = other.setting;
+      advice.with = other.with;
+      best = Candidate{advice, other.change, search_.now, other.about};
+    }
+  }
+  if (!best) return;
+  propose(*best);
+  if (best->advice.with) return;
+  tested.take_tests(redrawing_.as_drawn());
+  tested.change(best->change);
+  const GoodConstant there = search_.best_beside(tested);
+  if (!(there.left < worth_changing * least)) return;
+  best->advice.with = constant(there.stored), best->stored = there.stored;
+  propose(std::move(*best));
+}
+
 void Advisor::propose_on_layers(double least) {
   if (!has_layers(record())) return;
   for (const auto advise : {advise_in_texels, advise_on_layers}) {
@@ -83,7 +119,7 @@ void Advisor::propose_on_layers(double least) {
     std::vector<double> stored{advice.instead};
     for (const AdvisedSetting& layer : advice.layers) stored.push_back(layer.instead);
     const auto change = [stored](raster::LightRecord& one) {
-      auto& layers = one.captured->test->layers;
+      auto& layers = changed_test(one).layers;
       layers.resize(stored.size());
       for (std::size_t i = 0; i < stored.size(); ++i) layers[i].constant = stored[i] - stored.front();
     };
@@ -199,7 +235,7 @@ std::vector<EngineUnit> units_with(const Advice& advice, double AdvisedSetting::
                                    const raster::LightRecord& record, const World& world) {
   raster::Bias bias;
   const double texel = record.texel_world;
-  bias.normal_offset_texels = record.captured->test->normal_offset_world / texel;
+  bias.normal_offset_texels = captured_test(record).normal_offset_world / texel;
   double constant = record.bias_constant_world;
   const auto take = [&](const AdvisedSetting& one) {
     if (one.setting.find("normal_offset") != std::string::npos)

@@ -161,8 +161,7 @@ struct LayerConstant {
 
   LayerConstant(const raster::LightRecord& record, int of_face)
       : face(of_face), texel_world(texel_world_size(record.map.view, of_face, 1.0)) {
-    const auto& layers = record.captured->test->layers;
-    beside = layers.empty() ? 0.0 : layers[static_cast<std::size_t>(face)].constant;
+    beside = captured_test(record).constant_beside(face);
     const LightFace& f = record.map.view.face(face);
     range = f.far_depth - f.near_depth;
   }
@@ -220,7 +219,7 @@ double filtered_texels(const ConstantSearch& search, const std::vector<LayerCons
   for (const double t : texels) {
     const double tried = rounded_to_three(t);
     record.change([&](raster::LightRecord& one) {
-      auto& own = one.captured->test->layers;
+      auto& own = changed_test(one).layers;
       own.resize(layers.size());
       for (std::size_t i = 0; i < layers.size(); ++i)
         own[i].constant = tried * layers[i].texel_world / layers[i].range;
@@ -235,7 +234,7 @@ double filtered_texels(const ConstantSearch& search, const std::vector<LayerCons
 bool has_layers(const raster::LightRecord& record) {
   const LightView& view = record.map.view;
   return view.face_count >= 2 && view.projection == LightProjection::orthographic &&
-         !record.captured->test->has_angle();
+         !captured_test(record).has_angle();
 }
 
 Advice advise_in_texels(const ConstantSearch& search) {

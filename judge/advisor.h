@@ -24,7 +24,7 @@ class Advisor {
 
   std::vector<Advice> advise() {
     if (!redrawing_.is_known()) return {};
-    if (!casters_.faces.empty() && !reads_moments())
+    if (!casters_.faces.empty() && !reads_averages())
       propose_on_casters();
     else
       propose_on_receivers();
@@ -35,16 +35,15 @@ class Advisor {
   /// What is tried, and how a test's record is changed by it; a constant in stored numbers goes with it.
   struct Candidate {
     Advice advice;
-    std::function<void(raster::LightRecord&)> change;
+    RecordChange change;
     double stored = 0.0;
     bool about = false;  ///< `change` puts an estimate in the map's place
   };
 
-  bool reads_moments() const { return test().read == raster::CapturedTest::Read::moments; }
+  bool reads_averages() const { return test().reads() == CapturedTest::Reads::averages; }
   const raster::LightRecord& record() const { return frame_.lights.front(); }
-  const raster::CapturedTest& test() const { return *record().captured->test; }
+  const CapturedTest& test() const { return captured_test(record()); }
   AdvisedSetting constant(double instead) const {
-    using Stores = raster::CapturedTest::Stores;
     const bool stored = test().stores == Stores::depths || test().unit_world != 1.0;
     const double described = record().bias_constant_world / test().unit_world;
     return {"bias.constant_depth", described,           instead, stored ? "stored depth" : "world units",
@@ -52,9 +51,7 @@ class Advisor {
   }
   void propose_on_receivers();
   void propose_on_layers(double least);
-  void propose_on_moments(double least);
-  void try_moment_settings(double& least, std::optional<Candidate>& best);
-  void try_exponents(double& least, std::optional<Candidate>& best);
+  void propose_on_own_settings(double least);
   void propose_on_casters();
   void propose(Candidate candidate) { candidates_.push_back(std::move(candidate)); }
   std::vector<Advice> drawn_again();

@@ -36,7 +36,7 @@ class AtlasReader {
     const auto lookup =
         biased_lookup(record_, map_.bias, light_at(light_, receiver.position).to_light, receiver, pixel);
     if (!lookup) return std::nullopt;
-    const Part part = part_of(lookup->at.face);
+    const Part part = captured_test(record_).part(record_.map.view, lookup->at.face);
     const double radius = map_.filter.radius_texels, u = lookup->at.u, v = lookup->at.v;
     if (u - radius >= part.column && u + radius <= part.column + part.width && v - radius >= part.row &&
         v + radius <= part.row + part.height)
@@ -63,13 +63,8 @@ class AtlasReader {
   }
 
  private:
-  using Part = raster::CapturedTest::Part;
+  using Part = CapturedTest::Part;
   static int floor_of(double place) { return static_cast<int>(std::floor(place)); }
-  Part part_of(int face) const {
-    const auto& parts = record_.captured->test->parts;
-    const int n = record_.map.view.size;
-    return parts.empty() ? Part{0, 0, n, n} : parts[static_cast<std::size_t>(face)];
-  }
   double lit(const BiasedLookup& lookup, const Vec3& normal, raytrace::TexelKey key,
              const std::optional<double>& depth) const {
     BiasedLookup there = lookup;

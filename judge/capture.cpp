@@ -66,39 +66,10 @@ Expected<void> check_caster_bias(const Capture& capture, std::size_t i) {
   return {};
 }
 
-/// What a capture of paraboloids cannot say.
-Expected<void> check_halves(const Capture& capture) {
-  const auto wrong = [&](const std::string& field, const char* reason) {
-    return capture_error(capture, field, reason);
-  };
-  if (capture.map.size() != 2) return wrong("map", "of paraboloids has two layers, one for each half");
-  if (capture.filter && capture.filter->read != raster::CapturedTest::Read::nearest)
-    return wrong("filter.read", "is nearest of paraboloids, whose comparisons may be averaged (kind pcf)");
-  if (capture.filter && capture.filter->kind > FilterName::pcf)
-    return wrong("filter.kind", "is none or pcf of paraboloids");
-  if (capture.bias && capture.bias->slope != 0.0)
-    return wrong(
-        "bias.slope",
-        "is not of paraboloids, whose texels differ in size; constant_depth and normal_offset_world are");
-  for (std::size_t i = 0; i < 2; ++i) {
-    const CapturedLayer& layer = capture.map[i];
-    const std::string field = fmt::format("map[{}].", i);
-    if (layer.select) return wrong(field + "select", "is not of paraboloids: the way to the light chooses");
-    if (layer.bias) return wrong(field + "bias", "is not of paraboloids: `bias` is that of both halves");
-    if (layer.caster_bias != capture.map.front().caster_bias)
-      return wrong(field + "caster_bias", "differs from that of the other half");
-  }
-  return {};
-}
-
 Expected<void> check_map(const Capture& capture) {
   const std::size_t layers = capture.map.size();
   if (layers > most_layers)
     return capture_error(capture, "map", fmt::format("needs one layer to {}", most_layers));
-  const bool moments = reads_moments(capture);
-  if (moments && (capture.filter->kind == FilterName::esm || capture.filter->kind == FilterName::evsm) &&
-      capture.filter->exponents.empty())
-    return capture_error(capture, "filter.exponents", "is missing");
   for (std::size_t i = 0; i < layers; ++i) {
     const CapturedLayer& layer = capture.map[i];
     const auto wrong = [&](const char* field, std::string reason) {
@@ -110,19 +81,11 @@ Expected<void> check_map(const Capture& capture) {
     if (!layer.clip_from_world) return wrong("clip_from_world", "is missing");
     if (const auto sound = check_caster_bias(capture, i); !sound) return sound;
     if (layer.convention != capture.map.front().convention)
-      return wrong(
-          "convention",
-          fmt::format("differs from that of map[0] (got {}, there {})",
-                      stored_depth_names[static_cast<std::size_t>(*layer.convention)],
-                      stored_depth_names[static_cast<std::size_t>(*capture.map.front().convention)]));
+      return wrong("convention", fmt::format("differs from that of map[0] (got {}, there {})",
+                                             convention_of(*layer.convention).name,
+                                             convention_of(*capture.map.front().convention).name));
     if (layer.range && !is_linear(*layer.convention))
       return wrong("range", "is of distance and linear_z; the matrix says it of the others");
-    if (moments &&
-        (layer.convention == StoredDepth::reversed || (layer.range && layer.range->x > layer.range->y)))
-      return wrong(
-          "convention",
-          "is not read of moments whose numbers fall with the distance; zero_to_one, minus_one_to_one, "
-          "distance and linear_z are, the last two with a `range` that rises");
     if (layer.range != capture.map.front().range) return wrong("range", "differs from that of map[0]");
     if (layer.select && layer.select->blend > 0.0 && i + 1 == layers)
       return wrong("select.blend",
@@ -134,8 +97,12 @@ Expected<void> check_map(const Capture& capture) {
     return capture_error(capture, "map",
                          "has a select in some layers; it needs one in all of them or in none");
   if (const auto alike = check_layer_biases(capture); !alike) return alike;
-  if (has_paraboloids(capture))
-    if (const auto sound = check_halves(capture); !sound) return sound;
+  if (layers > 0) {
+    const FilterRead read = capture.filter ? capture.filter->read : FilterRead::nearest;
+    if (const auto sound = convention_of(read).check(capture); !sound) return sound;
+    if (const auto sound = convention_of(*capture.map.front().convention).layout->check(capture); !sound)
+      return sound;
+  }
   if (layers == 0 && capture.bias) return capture_error(capture, "bias", "says nothing without map");
   if (layers == 0 && capture.filter) return capture_error(capture, "filter", "says nothing without map");
   if (layers == 0 && capture.fade) return capture_error(capture, "fade", "says nothing without map");

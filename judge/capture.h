@@ -9,36 +9,21 @@
 #include <utility>
 #include <vector>
 
-#include "raster/frame.h"
+#include "raster/options.h"
 #include "scene/base/expected.h"
 #include "scene/image.h"
 #include "scene/math.h"
+#include "judge/conventions.h"
 
 namespace gnomon::compare {
 
 /// What a depth buffer of the camera holds.
 enum class PixelDepth : std::uint8_t { view_z, distance, zero_to_one, reversed };
-/// What the light's matrix makes of depth, and what a texel of its map holds.
-enum class StoredDepth : std::uint8_t {
-  zero_to_one,
-  minus_one_to_one,
-  reversed,
-  distance,
-  linear_z,
-  paraboloid,
-};
 enum class RowOrder : std::uint8_t { top_down, bottom_up };
 enum class FilterName : std::uint8_t { none, pcf, pcss, vsm, esm, evsm, msm };
 
 inline constexpr std::array<std::string_view, 4> pixel_depth_names{"view_z", "distance", "zero_to_one",
                                                                    "reversed"};
-inline constexpr std::array<std::string_view, 6> stored_depth_names{
-    "zero_to_one", "minus_one_to_one", "reversed", "distance", "linear_z", "paraboloid"};
-/// Whether stored numbers are world units, or evenly spaced in them (CapturedLayer::range), whatever the matrix makes of depth.
-constexpr bool is_linear(StoredDepth stored) {
-  return stored == StoredDepth::distance || stored == StoredDepth::linear_z ||
-         stored == StoredDepth::paraboloid;
-}
 inline constexpr std::array<std::string_view, 2> row_order_names{"top_down", "bottom_up"};
 constexpr raster::Technique technique_of(FilterName filter) {
   using enum raster::Technique;
@@ -48,7 +33,6 @@ constexpr raster::Technique technique_of(FilterName filter) {
 constexpr bool has_moments(FilterName kind) {
   return kind >= FilterName::vsm;
 }
-inline constexpr std::array<std::string_view, 3> filter_read_names{"nearest", "linear_depths", "moments"};
 inline constexpr std::array<std::string_view, 2> select_names{"view_z", "distance"};
 /// How its renderer makes shadows. A ray tracer has no map.
 enum class RendererKind : std::uint8_t { rasterizer, ray_tracer };
@@ -77,9 +61,9 @@ struct CapturedBias {
   double slope = 0.0;           ///< as raster::Bias::slope
   double normal_offset_world = 0.0;
   /// By what the constant is multiplied before it is held within `min` and `max`, stored numbers.
-  raster::AngleForm angle = raster::AngleForm::none;
+  BiasAngle angle = BiasAngle::none;
   double min = -infinity, max = infinity;
-  raster::AngleForm normal_offset_angle = raster::AngleForm::none;  ///< no tangent
+  BiasAngle normal_offset_angle = BiasAngle::none;  ///< no tangent
 };
 
 /// Which pixels look a layer up, by how far they lie from the camera.
@@ -118,7 +102,7 @@ struct CapturedLayer {
 struct CapturedFilter {
   FilterName kind = FilterName::none;
   double radius_texels = 1.5;  ///< in (0, 64]
-  raster::CapturedTest::Read read = raster::CapturedTest::Read::nearest;
+  FilterRead read = FilterRead::nearest;
   // Of moments alone.
   std::vector<double> exponents{};  ///< esm: one; evsm: that of the positive warp, and of the negative one
   double light_bleeding_reduction = 0.0;                     ///< in [0, 1)
@@ -145,16 +129,6 @@ struct Capture {
   std::string also;    ///< file: what else darkens the picture, to be divided out
   std::string within;  ///< "lights[1]." before the fields of one light of several; else empty
 };
-
-/// Whether the test reads moments, of which a layer's picture then has a channel each.
-inline bool reads_moments(const Capture& capture) {
-  return capture.filter && capture.filter->read == raster::CapturedTest::Read::moments;
-}
-
-/// Whether the map is one of both halves of a dual paraboloid, whose texels hold distances from the light.
-inline bool has_paraboloids(const Capture& capture) {
-  return !capture.map.empty() && capture.map.front().convention == StoredDepth::paraboloid;
-}
 
 /// Reads a capture's lights: one Capture for each of `lights`, each with what they share; of a capture without `lights` one.
 /// Errors (bad input) name file, line, column and field. Whether the parts go together is check_capture's.

@@ -50,8 +50,7 @@ class CaptureReader {
   void read_light(const JsonObject& object);
   std::vector<Capture> read_lights(const JsonObject& root);
   void read_fade(const JsonNode& node);
-  raster::AngleForm angle_of(const JsonObject& object, const char* key,
-                             const std::vector<std::string_view>& forms);
+  BiasAngle angle_of(const JsonObject& object, const char* key, const std::vector<std::string_view>& forms);
   void read_filter(const JsonNode& node);
   void read_moments(const JsonObject& object, CapturedFilter& filter);
   std::string text(const JsonNode& node);
@@ -139,9 +138,9 @@ void CaptureReader::read_layer(const JsonNode& node) {
   CapturedLayer& layer = out_.map.emplace_back();
   if (const auto named = object.require("depth")) layer.depth = file(*named);
   if (const auto convention = object.require("convention")) {
-    layer.convention = static_cast<StoredDepth>(convention->as_choice(choices(stored_depth_names)));
-    if (*layer.convention >= StoredDepth::linear_z)
-      since_2(*convention, stored_depth_names[static_cast<std::size_t>(*layer.convention)].data());
+    layer.convention = static_cast<StoredDepth>(convention->as_choice(choices(names_of(stored_conventions))));
+    const StoredConvention& row = convention_of(*layer.convention);
+    if (row.since_2) since_2(*convention, row.name.data());
   }
   if (const auto rows = object.require("rows"))
     layer.rows = static_cast<RowOrder>(rows->as_choice(choices(row_order_names)));
@@ -194,14 +193,14 @@ void CaptureReader::read_select(const JsonNode& node, CapturedLayer& layer) {
     node.error("blend must not be more than from near to far");
 }
 
-raster::AngleForm CaptureReader::angle_of(const JsonObject& object, const char* key,
-                                          const std::vector<std::string_view>& forms) {
+BiasAngle CaptureReader::angle_of(const JsonObject& object, const char* key,
+                                  const std::vector<std::string_view>& forms) {
   const auto node = object.find(key);
-  if (!node) return raster::AngleForm::none;
+  if (!node) return BiasAngle::none;
   since_2(*node, key);
   const std::size_t chosen = node->as_choice(forms);
-  const auto all = choices(raster::angle_form_names);
-  return static_cast<raster::AngleForm>(std::find(all.begin(), all.end(), forms[chosen]) - all.begin());
+  const auto all = choices(bias_angle_names);
+  return static_cast<BiasAngle>(std::find(all.begin(), all.end(), forms[chosen]) - all.begin());
 }
 
 CapturedBias CaptureReader::bias_of(const JsonNode& node) {
@@ -209,7 +208,7 @@ CapturedBias CaptureReader::bias_of(const JsonNode& node) {
       node, {"constant_depth", "slope", "normal_offset_world", "angle", "min", "max", "normal_offset_angle"});
   CapturedBias bias{object.number("constant_depth", 0.0), object.number("slope", 0.0),
                     object.number("normal_offset_world", 0.0, non_negative_number)};
-  bias.angle = angle_of(object, "angle", choices(raster::angle_form_names));
+  bias.angle = angle_of(object, "angle", choices(bias_angle_names));
   bias.normal_offset_angle = angle_of(object, "normal_offset_angle", {"none", "sine", "one_minus_cosine"});
   for (const auto& [key, field] :
        {std::pair{"min", &CapturedBias::min}, std::pair{"max", &CapturedBias::max}})
@@ -239,19 +238,18 @@ void CaptureReader::read_filter(const JsonNode& node) {
   if (filter.kind == FilterName::none)
     object.forbid("radius_texels", "is of filters: kind none reads one texel");
   filter.radius_texels = object.number("radius_texels", filter.radius_texels, radius_range);
-  using Read = raster::CapturedTest::Read;
   if (const auto read = object.find("read")) {
     since_2(*read, "read");
-    filter.read = static_cast<Read>(read->as_choice(choices(filter_read_names)));
-    if (filter.read == Read::linear_depths && filter.kind != FilterName::none)
+    filter.read = static_cast<FilterRead>(read->as_choice(choices(names_of(read_conventions))));
+    if (filter.read == FilterRead::linear_depths && filter.kind != FilterName::none)
       read->error(
           "linear_depths is one comparison, with kind none; pcf averages comparisons of single texels");
-    if (filter.read == Read::moments && !has_moments(filter.kind))
+    if (filter.read == FilterRead::moments && !has_moments(filter.kind))
       read->error("moments are of the kinds vsm, esm, evsm and msm");
   }
   for (const char* key : {"exponents", "light_bleeding_reduction", "minimum_variance", "moment_bias"})
-    if (filter.read != Read::moments) object.forbid(key, "is of moments (`read`)");
-  if (filter.read == Read::moments) read_moments(object, filter);
+    if (filter.read != FilterRead::moments) object.forbid(key, "is of moments (`read`)");
+  if (filter.read == FilterRead::moments) read_moments(object, filter);
 }
 
 void CaptureReader::read_moments(const JsonObject& object, CapturedFilter& filter) {

@@ -4,7 +4,6 @@
 
 #include "compare/ladder/biased_test.h"
 #include "compare/truth/texel_groups.h"
-#include "judge/captured_moments.h"
 #include "judge/outside_map.h"
 #include "judge/stored_depths.h"
 #include "scene/base/parallel.h"
@@ -26,27 +25,10 @@ raster::MapOptions map_options(const Capture& capture, int size) {
   map.filter.blur_radius_texels = static_cast<int>(std::ceil(filter.radius_texels - 0.5));
   map.filter.receiver_plane = map.filter.mipmaps = false;
   map.filter.light_bleeding_reduction = 0.0;
-  if (!reads_moments(capture)) return map;
-  const raster::FilterOptions said = moments_of(capture).filter;
-  map.filter.light_bleeding_reduction = said.light_bleeding_reduction;
-  map.filter.esm_exponent = said.esm_exponent, map.filter.moment_bias = said.moment_bias;
-  map.filter.evsm_positive_exponent = said.evsm_positive_exponent;
-  map.filter.evsm_negative_exponent = said.evsm_negative_exponent;
   return map;
 }
 
-/// Of the filter's settings by name those that the capture says; what is not said is the schema's default.
-std::vector<std::string_view> said_settings(const Capture& capture) {
-  if (!capture.filter) return {};
-  const CapturedFilter& filter = *capture.filter;
-  std::vector<std::string_view> said{"filter-radius", "search-radius", "blur-radius"};
-  if (!reads_moments(capture)) return said;
-  said.insert(said.end(), {"bleeding-reduction", "esm-exponent", "evsm-exponent", "moment-bias"});
-  if (filter.exponents.size() > 1) said.emplace_back("evsm-negative-exponent");
-  return said;
-}
-
-using UnitAt = raster::CapturedTest::UnitAt;
+using raster::UnitAt;
 
 /// World units of distance that 1 of a stored depth counts for: at the nearest, the middle and the farthest receiver.
 std::array<UnitAt, 3> units_of_depth(const raster::ShadowMap& map, const raytrace::RayTracedFrame& traced) {
@@ -165,7 +147,7 @@ Expected<raster::ShadowMap> empty_map(const FrameInput& in, const Light& light) 
 
 /// The layer of which most is drawn: where one gives way to the next that is the next from the middle on.
 std::uint8_t selected_face(const View& view, const std::vector<CapturedSelect>& select, const Vec3& place) {
-  using Test = raster::CapturedTest;
+  using Test = CapturedTest;
   if (select.empty()) return Test::any_face;
   for (std::size_t k = 0; k < select.size(); ++k) {
     const double distance = from_camera(view, select[k].by_distance, place);
@@ -176,22 +158,10 @@ std::uint8_t selected_face(const View& view, const std::vector<CapturedSelect>& 
   return Test::no_face;
 }
 
-void fill_test(const FrameInput& in, const CapturedMap& map, raster::CapturedTest& test,
-               const raster::LightRecord& record) {
-  using Stores = raster::CapturedTest::Stores;
-  test.stores = map.stored == StoredDepth::linear_z ? Stores::linear_z
-                : is_linear(map.stored)             ? Stores::distances
-                                                    : Stores::depths;
-  test.units.fill({0.0, map.unit_world}), test.unit_world = map.unit_world;
-  if (test.stores == Stores::depths) {
-    const std::array<UnitAt, 3> units = units_of_depth(record.map, in.traced);
-    test.units = {units.front(), units.back()}, test.unit_world = units[1].world;
-  }
-  test.parts = map.parts;
-  if (in.capture.filter) test.read = in.capture.filter->read;
-  test.moments = map.moments;
-  test.paraboloids = map.paraboloids;
-  if (!test.paraboloids.empty()) test.read = raster::CapturedTest::Read::paraboloids;
+/// Gives a test the capture's bias and numbers.
+void fill_test(const FrameInput& in, const CapturedMap& map, CapturedTest& test) {
+  test.stores = convention_of(map.stored).stores, test.unit_world = map.unit_world;
+  test.range = in.capture.map.front().range.value_or(Vec2(0.0, 1.0));
   const CapturedBias& first = map.bias.front();
   test.normal_offset_world = first.normal_offset_world;
   test.normal_offset_angle = first.normal_offset_angle, test.constant_angle = first.angle;
@@ -199,7 +169,7 @@ void fill_test(const FrameInput& in, const CapturedMap& map, raster::CapturedTes
   for (const CapturedBias& bias : map.bias)
     test.layers.push_back(
         {bias.constant_depth - first.constant_depth, bias.normal_offset_world - first.normal_offset_world});
-  const auto alike = [](const raster::CapturedTest::LayerBias& b) {
+  const auto alike = [](const CapturedTest::LayerBias& b) {
     return b.constant == 0.0 && b.normal_offset_world == 0.0;
   };
   if (std::all_of(test.layers.begin(), test.layers.end(), alike)) test.layers.clear();
@@ -209,13 +179,22 @@ void fill_test(const FrameInput& in, const CapturedMap& map, raster::CapturedTes
 void fill_light(const FrameInput& in, const CapturedMap* captured, raster::RasterFrame& frame,
                 raster::LightRecord& record) {
   raster::MapOptions& map = frame.options.map;
-  record.captured.emplace().said = said_settings(in.capture);
+  raster::ForeignPicture& picture = record.foreign.emplace();
+  if (in.capture.filter) picture.said = {"filter-radius", "search-radius", "blur-radius"};
   record.texel_world = raster::texel_world(record.map.view, in.world);
   record.rounding = rounding_of(record.map.view, in);
   record.rounding_world = raster::rounding_world(record.rounding, record.map.view, in.world);
   if (captured == nullptr) return fill_record(in, map.bias, record);
-  raster::CapturedTest& test = record.captured->test.emplace();
-  fill_test(in, *captured, test, record);
+  CapturedTest& test = *captured->test;
+  picture.test = captured->test;
+  fill_test(in, *captured, test);
+  picture.units.fill({0.0, test.unit_world});
+  if (test.stores == Stores::depths) {
+    const std::array<UnitAt, 3> units = units_of_depth(record.map, in.traced);
+    picture.units = {units.front(), units.back()}, test.unit_world = units[1].world;
+  }
+  picture.unit_world = test.unit_world;
+  test.describe(map, picture);
   const CapturedBias& bias = captured->bias.front();
   record.bias_constant_world = map.bias.constant = bias.constant_depth * test.unit_world;
   map.bias.slope = bias.slope;
@@ -238,7 +217,7 @@ std::vector<CapturedSelect> captured_selects(const Capture& capture) {
 Image<std::uint8_t> looked_up_faces(const FrameInput& in, const std::vector<CapturedSelect>& select,
                                     const std::optional<CapturedFade>& fade) {
   if (select.empty() && !fade) return {};
-  Image<std::uint8_t> faces(in.capture.size, raster::CapturedTest::no_face);
+  Image<std::uint8_t> faces(in.capture.size, CapturedTest::no_face);
   const View view = make_view(in.camera, in.capture.size);
   parallel_for(faces.data.size(), [&](std::size_t i) {
     const SurfacePoint& point = in.traced.receiver.data[i];
@@ -253,8 +232,8 @@ Image<std::uint8_t> looked_up_faces(const FrameInput& in, const std::vector<Capt
 void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRecord& record) {
   const ImageSize size = in.capture.size;
   record.texel_uv = Image<Vec2f>(size, Vec2f(0.0f));
-  const raster::CapturedTest* test = !record.has_known_map() ? nullptr : &*record.captured->test;
-  using Test = raster::CapturedTest;
+  const CapturedTest* test = !record.has_known_map() ? nullptr : &captured_test(record);
+  using Test = CapturedTest;
   record.face = Image<std::uint8_t>(size, 0);
   record.distance = record.gap = Image<float>(size, 0.0f);
   record.outside_map = Image<std::uint8_t>(size, 0);

@@ -42,7 +42,7 @@ double from_camera(const View& view, bool by_distance, const Vec3& place);
 /// By which distances the capture says that its layers are looked up; empty where it does not.
 std::vector<CapturedSelect> captured_selects(const Capture& capture);
 
-/// raster::CapturedTest::faces: which face a pixel looks up; no_face where its distance is no layer's or more than half of its
+/// CapturedTest::faces: which face a pixel looks up; no_face where its distance is no layer's or more than half of its
 /// shadow has faded. Empty where neither says anything.
 Image<std::uint8_t> looked_up_faces(const FrameInput& input, const std::vector<CapturedSelect>& select,
                                     const std::optional<CapturedFade>& fade);

@@ -5,8 +5,6 @@
 #include <algorithm>
 
 #include "judge/capture_pictures.h"
-#include "judge/captured_moments.h"
-#include "judge/captured_paraboloids.h"
 #include "scene/light.h"
 
 namespace gnomon::compare {
@@ -24,8 +22,7 @@ Vec4 row(const Mat4& m, int i) {
 
 /// Returns the row as stored: z/w or (z/w + 1)/2, so that both run over [0, 1].
 Vec4 stored_row(const Vec4& z, const Vec4& w, StoredDepth convention) {
-  const bool halves = convention == StoredDepth::minus_one_to_one || is_linear(convention);
-  return halves ? 0.5 * (z + w) : z;
+  return convention_of(convention).halves ? 0.5 * (z + w) : z;
 }
 
 bool square(const Vec3& a, const Vec3& b) {
@@ -132,24 +129,15 @@ Mat4 clip_of_rect(const CapturedLayer& layer, ImageSize picture) {
   return rect_from_picture * *layer.clip_from_world;
 }
 
-Expected<LayerNumbers> read_numbers(const Capture& capture, std::size_t i, const CapturedMap& map) {
-  if (reads_moments(capture)) return read_moments(capture, i, map.moments);
-  LayerNumbers out;
-  auto channel = read_layer_numbers(capture, i, out.size);
-  if (!channel) return fail(channel.error());
-  out.values = std::move(channel->values);
-  return out;
-}
-
 Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored, int face, CapturedMap& out) {
   const CapturedLayer& layer = capture.map[i];
   const std::string field = fmt::format("map[{}].depth", i);
-  auto numbers = read_numbers(capture, i, out);
+  auto numbers = out.test->read_layer(capture, i);
   if (!numbers) return fail(numbers.error());
   const ImageSize size = numbers->size;
   const auto wrong = [&](std::string reason) { return capture_error(capture, field, std::move(reason)); };
   raster::ShadowMap& map = out.map;
-  const raster::CapturedTest::Part& part = out.parts[static_cast<std::size_t>(face)];
+  const CapturedTest::Part& part = out.test->parts[static_cast<std::size_t>(face)];
   const LayerTexels texels{
       layer.rect.value_or(CapturedRect{0, 0, size.width, size.height}), *layer.rows, mirrored, size, {}};
   const bool linear = is_linear(out.stored);
@@ -163,14 +151,14 @@ Expected<void> read_texels(const Capture& capture, std::size_t i, bool mirrored,
       beyond += !linear && (value < 0.0f || value > 1.0f) ? 1 : 0;
       const int column = part.column + u, row = part.row + v;
       const std::size_t index = map.texel_index(face, column, row);
-      if (!numbers->moments.empty()) out.moments.texels[index] = numbers->moments[at];
+      out.test->take(*numbers, at, index, map.depth.size());
       map.depth[index] = linear ? stored_of_linear(map.view, out.stored, face, column, row,
                                                    linear_world(layer.range, double{value}))
                                 : value;
       if (index % step == 0 && holds_caster(map.view, double{map.depth[index]}))
         out.captured_numbers.push_back(value);
     }
-  if (layer.rect && numbers->moments.empty()) out.atlas.resize(capture.map.size());
+  if (layer.rect && numbers->averages.empty()) out.atlas.resize(capture.map.size());
   if (!out.atlas.empty())
     out.atlas[static_cast<std::size_t>(face)] = texels,
     out.atlas[static_cast<std::size_t>(face)].numbers = std::move(numbers->values);
@@ -191,11 +179,12 @@ Expected<void> lay_out(const Capture& capture, const std::vector<int>& order, Ca
     sizes.push_back(*picture);
     view.size = std::max({view.size, picture->width, picture->height});
   }
-  out.parts.resize(sizes.size());
+  std::vector<CapturedTest::Part>& parts = out.test->parts;
+  parts.resize(sizes.size());
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const auto face = static_cast<std::size_t>(order[i]);
     const int left = view.size - sizes[i].width, below = view.size - sizes[i].height;
-    out.parts[face] = {left / 2, below / 2, sizes[i].width, sizes[i].height};
+    parts[face] = {left / 2, below / 2, sizes[i].width, sizes[i].height};
     if (view.projection == LightProjection::perspective && (left % 2 != 0 || below % 2 != 0 || view.seamless))
       if (left != 0 || below != 0)
         return capture_error(capture, fmt::format("map[{}].depth", i),
@@ -210,7 +199,6 @@ Expected<void> lay_out(const Capture& capture, const std::vector<int>& order, Ca
   out.map.depth.assign(static_cast<std::size_t>(view.face_count) * static_cast<std::size_t>(view.size) *
                            static_cast<std::size_t>(view.size),
                        nothing);
-  if (reads_moments(capture)) out.moments.texels.resize(out.map.depth.size());
   return {};
 }
 
@@ -247,7 +235,7 @@ std::size_t LayerTexels::at(int u, int v) const {
 float stored_of_linear(const LightView& view, StoredDepth stored, int face, int u, int v, double value) {
   const float nothing = view.reversed ? 0.0f : 1.0f;
   if (!(value > 0.0) || !std::isfinite(value)) return nothing;
-  const bool distance = stored == StoredDepth::distance;
+  const bool distance = convention_of(stored).stores == Stores::distances;
   const double to_depth =
       distance ? glm::dot(texel_ray(view, face, u + 0.5, v + 0.5).direction, view.face(face).forward) : 1.0;
   // A cube's corner lies that much farther than its far plane; a number that is kept may round beyond it.
@@ -267,7 +255,7 @@ tl::expected<MatrixFace, std::string> take_apart(const Mat4& m, StoredDepth conv
       return tl::unexpected<std::string>("has numbers that are not finite");
   const Vec4 x = row(m, 0), y = row(m, 1), w = row(m, 3);
   const Vec4 s = stored_row(row(m, 2), w, convention);
-  const bool reversed = convention == StoredDepth::reversed;
+  const bool reversed = convention_of(convention).reversed;
   const bool parallel = glm::length(Vec3(w)) < 1e-12 * std::max(1.0, std::abs(w.w));
   // The way along the light: of a perspective whose far plane is infinitely far the depth's row has none.
   const Vec3 along(parallel ? row(m, 2) : w);
@@ -326,16 +314,17 @@ Capture in_world_of_scene(Capture capture, const Mat3& scene_from_captured) {
   return capture;
 }
 
-Expected<void> check_map_matrices(const Capture& capture, const Light& light, const World& world) {
-  if (has_paraboloids(capture)) return check_paraboloids(capture, light, world);
+namespace {
+
+Expected<void> check_projections(const Capture& capture, const Light& light, const World& world) {
   const auto faces = read_faces(capture, light, world);
   if (!faces) return fail(faces.error());
   return {};
 }
 
-Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world) {
-  if (has_paraboloids(capture)) return read_paraboloids(capture, light, world);
+Expected<CapturedMap> read_projections(const Capture& capture, const Light& light, const World& world) {
   CapturedMap out;
+  out.test = convention_of(capture.filter ? capture.filter->read : FilterRead::nearest).make(capture);
   const StoredDepth convention = *capture.map.front().convention;
   out.stored = convention;
   const bool linear = is_linear(convention);
@@ -355,9 +344,9 @@ Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const
         capture, "map[0].convention",
         fmt::format("{} does not go with an orthographic matrix, whose own depths are linear: "
                     "zero_to_one, minus_one_to_one or reversed says how they are stored",
-                    stored_depth_names[static_cast<std::size_t>(convention)]));
+                    convention_of(convention).name));
   view.origin = faces.front().origin;
-  view.reversed = convention == StoredDepth::reversed || linear;
+  view.reversed = convention_of(convention).reversed || linear;
   view.seamless = !parallel && faces.size() == 6;
   if (view.seamless && capture.map.front().select)
     return capture_error(capture, "map[0].select", "is not of a cube: the way to the light chooses the face");
@@ -374,16 +363,27 @@ Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const
         capture.map[i].caster_bias.value_or(CapturedCasterBias{});
     if (linear) bias.constant_world += bias.constant * out.unit_world, bias.constant = 0.0;
   }
-  if (reads_moments(capture)) out.moments = moments_of(capture);
   if (const auto laid = lay_out(capture, *order, out); !laid) return fail(laid.error());
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (const auto read = read_texels(capture, i, faces[i].mirrored, (*order)[i], out); !read)
       return fail(read.error());
-  const raster::CapturedTest::Part whole{0, 0, view.size, view.size};
-  if (std::all_of(out.parts.begin(), out.parts.end(), [&](const auto& part) { return part == whole; }))
-    out.parts.clear();
+  std::vector<CapturedTest::Part>& parts = out.test->parts;
+  const CapturedTest::Part whole{0, 0, view.size, view.size};
+  if (std::all_of(parts.begin(), parts.end(), [&](const auto& part) { return part == whole; })) parts.clear();
   out.map.format = view.reversed ? raster::DepthFormat::d32f_reversed : raster::DepthFormat::d32f;
   return out;
+}
+
+}  // namespace
+
+const MapLayout projected_layout{check_nothing, check_projections, read_projections};
+
+Expected<void> check_map_matrices(const Capture& capture, const Light& light, const World& world) {
+  return convention_of(*capture.map.front().convention).layout->check_matrices(capture, light, world);
+}
+
+Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const World& world) {
+  return convention_of(*capture.map.front().convention).layout->read(capture, light, world);
 }
 
 }  // namespace gnomon::compare

@@ -4,6 +4,7 @@
 
 #include "judge/capture.h"
 #include "raster/frame.h"
+#include "judge/captured_test.h"
 
 namespace gnomon::compare {
 
@@ -26,12 +27,10 @@ struct CapturedMap {
   StoredDepth stored = StoredDepth::zero_to_one;
   std::vector<float> captured_numbers;  ///< some of the layers' own, of texels that hold a caster
   double unit_world = 1.0;              ///< where is_linear(stored): world units in one of the stored numbers
-  std::vector<CapturedCasterBias> caster_bias;          ///< by face
-  std::vector<raster::CapturedTest::Part> parts;        ///< by face: where its layer lies; empty: all over it
-  std::vector<CapturedBias> bias;                       ///< by face
-  std::vector<CapturedSelect> select;                   ///< by face; empty: the first that holds a place
-  raster::CapturedMoments moments;                      ///< of a filter that reads them; else without texels
-  std::vector<raster::CapturedParaboloid> paraboloids;  ///< two, beside which `map` is a cube; else none
+  std::vector<CapturedCasterBias> caster_bias;  ///< by face
+  std::vector<CapturedBias> bias;               ///< by face
+  std::vector<CapturedSelect> select;           ///< by face; empty: the first that holds a place
+  std::shared_ptr<CapturedTest> test;           ///< its parts and what it reads; the bias is not yet in it
 };
 
 /// Errors (bad input): a matrix that is singular, shears, or is not the light's (its rays run elsewhere).

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <span>
 
-#include "compare/ladder/moments.h"
 #include "compare/result/number_text.h"
 #include "judge/stored_depths.h"
 #include "scene/base/parallel.h"
@@ -338,7 +337,7 @@ CasterBiases take_out_caster_bias(const FrameInput& in, const std::vector<Captur
   const auto moves = [](const CapturedCasterBias& bias) { return bias.moves(); };
   if (std::none_of(given.begin(), given.end(), moves)) {
     // Averages lie behind the nearest of what they are taken of (Jensen's inequality), which no caster's bias makes.
-    if (reads_moments(record)) return {};
+    if (captured_test(record).reads() == CapturedTest::Reads::averages) return {};
     out.faces.assign(static_cast<std::size_t>(map.view.face_count), {});
     for (int face = 0; face < map.view.face_count; ++face)
       if (const auto bias = find_bias(depths, map, face))

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "compare/ladder/biased_test.h"
-#include "compare/ladder/paraboloids.h"
 #include "compare/metrics/pixel_list.h"
 #include "compare/result/number_text.h"
 #include "judge/identify.h"
@@ -23,17 +22,19 @@ constexpr double few_share = 1e-3;
 constexpr std::size_t few_pixels = 10;
 
 class Checker {
+  using Reads = CapturedTest::Reads;
+
  public:
   Checker(const FrameInput& in, const raster::RasterFrame& drawn)
       : in_(in),
         map_(drawn.options.map),
         record_(drawn.lights.front()),
         light_(in.world.scene->lights[record_.light]),
-        slack_(record_.rounding_world + lookup_rounding_stored * record_.captured->test->unit_world),
-        reads_between_(record_.captured->test->read != raster::CapturedTest::Read::nearest) {
+        slack_(record_.rounding_world + lookup_rounding_stored * captured_test(record_).unit_world),
+        reads_(captured_test(record_).reads()) {
     using raster::Technique;
-    const bool compares =
-        map_.technique == Technique::pcf || map_.technique == Technique::pcss || is_hard() || reads_between_;
+    const bool compares = map_.technique == Technique::pcf || map_.technique == Technique::pcss ||
+                          is_hard() || reads_ != Reads::texel;
     // Far from the origin a receiver's floats lie that far apart, in whatever a renderer works out of them.
     place_ = lookup_rounding_texels + record_.rounding.float_world / record_.texel_world;
     reach_ = compares ? place_ + (is_hard() ? 0.0 : map_.filter.radius_texels) : infinity;
@@ -69,7 +70,7 @@ class Checker {
   const raster::LightRecord& record_;
   const Light& light_;
   double slack_;  // world units
-  bool reads_between_;
+  Reads reads_;
   double place_ = 0.0, reach_ = 0.0;  // texels
 };
 
@@ -85,12 +86,12 @@ bool Checker::read_between_draws(const BiasedLookup& lookup, const Vec3& normal,
 
 /// What lies beyond the map's border is the renderer's own choice.
 bool Checker::some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit, double reach) const {
-  if (reads_paraboloids(record_)) {
-    const auto depths = casters_around(record_, lookup, reach);
+  if (reads_ == Reads::elsewhere) {
+    const auto depths = captured_test(record_).casters_within(record_, lookup, reach);
     return std::any_of(depths.begin(), depths.end(),
                        [&](const auto& depth) { return draws(lookup, normal, depth, lit); });
   }
-  if (reads_between_) return read_between_draws(lookup, normal, lit);
+  if (reads_ != Reads::texel) return read_between_draws(lookup, normal, lit);
   const auto texel = [](double place) { return static_cast<int>(std::floor(place)); };
   const int left = texel(lookup.at.u - reach), right = texel(lookup.at.u + reach);
   const int low = texel(lookup.at.v - reach), high = texel(lookup.at.v + reach);
@@ -107,14 +108,14 @@ bool Checker::some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, b
 
 bool Checker::may_draw(std::size_t pixel, float visibility, bool any_cascade) const {
   if (std::isinf(reach_)) return true;
-  if (record_.captured->test->face_of(pixel) == raster::CapturedTest::no_face) return visibility > 0.5f;
+  if (!captured_test(record_).looks_up(pixel)) return visibility > 0.5f;
   auto lookup = lookup_of(pixel);
   if (!lookup) return true;
   const Vec3& normal = in_.traced.receiver.data[pixel].normal;
   const bool lit = visibility > 0.5f;
   if (some_texel_draws(*lookup, normal, lit, reach_)) return true;
   const LightView& view = record_.map.view;
-  const bool by_place = record_.captured->test->face_of(pixel) == raster::CapturedTest::any_face;
+  const bool by_place = captured_test(record_).face_of(pixel) == CapturedTest::any_face;
   if (!any_cascade || !by_place || view.projection != LightProjection::orthographic) return false;
   for (int face = 0; face < view.face_count; ++face) {
     lookup->at = project_to_face(view, face, lookup->position);
@@ -141,7 +142,7 @@ bool Checker::is_mixed(std::size_t pixel) const {
 bool Checker::may_draw_partly_lit(std::size_t pixel) const {
   const bool averages = map_.technique == raster::Technique::pcf;
   if (!(averages || is_hard()) || is_mixed(pixel)) return true;
-  if (record_.captured->test->face_of(pixel) == raster::CapturedTest::no_face) return false;
+  if (!captured_test(record_).looks_up(pixel)) return false;
   const auto lookup = record_.outside_map.data[pixel] != 0 ? std::nullopt : lookup_of(pixel);
   if (!lookup) return true;
   const Vec3& normal = in_.traced.receiver.data[pixel].normal;
@@ -152,7 +153,7 @@ bool Checker::may_draw_partly_lit(std::size_t pixel) const {
 std::optional<double> Checker::filtered_light(std::size_t pixel, const FilterKernel& kernel,
                                               std::vector<double>& weights) const {
   const auto lookup = lookup_of(pixel);
-  if (!lookup || reads_paraboloids(record_)) return std::nullopt;
+  if (!lookup || reads_ == Reads::elsewhere) return std::nullopt;
   const int column = lookup->at.column(), row = lookup->at.row(), reach = kernel.reach(),
             last = record_.map.view.size - 1;
   if (std::min(column, row) < reach || std::max(column, row) + reach > last) return std::nullopt;

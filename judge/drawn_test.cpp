@@ -47,7 +47,7 @@ enum class Drawn : std::uint8_t { lit, dark, unknown };
 
 Drawn drawn_by(const raster::LightRecord& record, std::size_t i) {
   // What looks nothing up is lit.
-  if (record.captured->test->face_of(i) == raster::CapturedTest::no_face) return Drawn::lit;
+  if (!captured_test(record).looks_up(i)) return Drawn::lit;
   if (record.outside_map.data[i] != 0) return Drawn::unknown;
   return double{record.gap.data[i]} > record.bias_constant_world ? Drawn::dark : Drawn::lit;
 }
@@ -105,7 +105,7 @@ class Search {
         described_(drawn.lights.front()),
         light_(light),
         now_(fit_of(described_, light)) {
-    if (described_.captured->test->normal_offset_world > 0.0) by_fronts_ = receivers_by_fronts(in);
+    if (captured_test(described_).normal_offset_world > 0.0) by_fronts_ = receivers_by_fronts(in);
   }
 
   void try_suspects(std::initializer_list<const TestSuspect*> suspects) {
@@ -142,7 +142,7 @@ class Search {
         find_best_bias(sort_gaps(described_, light_.rungs[6], light_.labels)).constant_world;
     const Fit fit = fit_of(record, light_);
     if (fit.of[1] < few_of_either) return;
-    const double stored = record.bias_constant_world / described_.captured->test->unit_world;
+    const double stored = record.bias_constant_world / captured_test(described_).unit_world;
     // It is the least of those that draw the picture, which may have no end.
     raster::LightRecord larger = record;
     larger.bias_constant_world = infinity;

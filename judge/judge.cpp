@@ -243,7 +243,7 @@ void finish(Judging& in, Comparison& out) {
   if (judged->has_map) {
     const raster::LightRecord& record = out.raster.lights.front();
     judged->biased_is_drawn = biased_is_drawn(light);
-    judged->unit_world = record.captured->test->unit_world, judged->units = record.captured->test->units;
+    judged->unit_world = record.foreign->unit_world, judged->units = record.foreign->units;
     const FrameInput frame = frame_input(in, out);
     const auto note = [&](std::vector<std::string> notes) {
       for (std::string& one : notes) judged->notes.push_back(std::move(one));
@@ -257,8 +257,8 @@ void finish(Judging& in, Comparison& out) {
     note(no_shadow_notes(light, record));
     note(caster_bias_notes(in.casters, record));
     const bool even = record.map.view.projection == LightProjection::orthographic ||
-                      record.captured->test->stores != raster::CapturedTest::Stores::depths;
-    note(format_notes(in.facts.format, even ? record.captured->test->unit_world : 0.0));
+                      captured_test(record).stores != Stores::depths;
+    note(format_notes(in.facts.format, even ? judged->unit_world : 0.0));
     const auto turned = test.is_drawn() ? find_turned_map(frame, out.raster, light) : std::nullopt;
     if (turned) note({turned_map_note(*turned, light)}), judged->cure = turned_map_cure(*turned);
     const bool described = advice_holds(test, other) && !turned;
@@ -303,7 +303,7 @@ Expected<void> take_frame(Judging& in, Comparison& out) {
   const FrameInput input = frame_input(in, out);
   if (in.map) in.facts.atlas = std::move(in.map->atlas);
   // Averages have the bits of sums, not those of depths.
-  if (in.map && in.map->moments.texels.empty())
+  if (in.map && in.map->test->reads() != CapturedTest::Reads::averages)
     in.facts.format = find_format(std::move(in.map->captured_numbers));
   auto frame = make_frame(input, std::move(in.map));
   in.map.reset();

@@ -1,6 +1,5 @@
 #include "judge/map_casters.h"
 
-#include "compare/ladder/moments.h"
 #include "scene/base/parallel.h"
 
 namespace gnomon::compare {
@@ -84,7 +83,8 @@ void MapCasters::judge_objects() {
     count(all_), count(objects_[object(t.first())]), count(t.first().front ? fronts_ : backs_);
     whole.push_back(&t), by_object[object(t.first())].push_back(&t);
   }
-  const bool averaged = reads_moments(record_);  // which lies behind the nearest depth
+  const bool averaged =
+      captured_test(record_).reads() == CapturedTest::Reads::averages;  // which lies behind the nearest depth
   if (!averaged && all_.of_held() < half) find_bias(whole, whole_bias_);
   for (const auto& [number, group] : by_object) {
     std::optional<CasterLine> bias;

@@ -17,11 +17,14 @@ constexpr std::size_t few_told = 20;  ///< tell nothing of how a renderer treats
 constexpr double nearly_all_lit = 0.95;
 constexpr std::size_t few_outside = 10;  ///< of which nothing is said in a note
 
-using Stores = raster::CapturedTest::Stores;
-
 /// The receiver's number in what the layer stores, as a length from the light.
 double length_of(const raster::LightRecord& record, const TexelCoordinate& at) {
-  return record.captured->test->stores == Stores::distances ? at.distance : at.depth;
+  return captured_test(record).stores == Stores::distances ? at.distance : at.depth;
+}
+
+/// What is looked up elsewhere has neither a near plane nor a far one.
+bool has_planes(const CapturedTest& test) {
+  return test.reads() != CapturedTest::Reads::elsewhere;
 }
 
 bool is_behind(const raster::LightRecord& record, const TexelCoordinate& at) {
@@ -89,7 +92,7 @@ std::string far_plane_words(const LightView& view, const Reach& reach) {
 }
 
 std::string beyond_words(const raster::LightRecord& record) {
-  if (record.captured->test->stores != Stores::depths) return "what lies farther than the map reaches";
+  if (captured_test(record).stores != Stores::depths) return "what lies farther than the map reaches";
   return fmt::format("what lies beyond depth {}", record.map.view.reversed ? 0 : 1);
 }
 
@@ -146,16 +149,15 @@ WrongOutside sort_wrong(const FrameInput& in, const LightComparison& light,
 
 bool lies_beyond_depths(const raster::LightRecord& record, const raster::Bias& bias, const Light& light,
                         const raytrace::SurfacePoint& receiver, std::size_t pixel) {
-  const raster::CapturedTest& test = *record.captured->test;
-  if (!test.paraboloids.empty()) return false;
+  const CapturedTest& test = captured_test(record);
+  if (!has_planes(test)) return false;
   const TexelCoordinate own = place_of(record, receiver.position, pixel);
   if (!own.inside || !is_beyond(record, own)) return false;
   const auto lookup =
       biased_lookup(record, bias, light_at(light, receiver.position).to_light, receiver, pixel);
   if (!lookup || !is_beyond(record, lookup->at) || compared_caster(record, *lookup)) return false;
   const LightView& view = record.map.view;
-  if (view.projection != LightProjection::orthographic ||
-      test.face_of(pixel) != raster::CapturedTest::any_face)
+  if (view.projection != LightProjection::orthographic || test.face_of(pixel) != CapturedTest::any_face)
     return true;
   for (int face = own.face + 1; face < view.face_count; ++face) {
     const TexelCoordinate next = project_to_face(view, face, receiver.position);
@@ -165,17 +167,16 @@ bool lies_beyond_depths(const raster::LightRecord& record, const raster::Bias& b
 }
 
 bool lies_behind_far_plane(const raster::LightRecord& record, const Vec3& position, std::size_t pixel) {
-  if (!record.captured->test->paraboloids.empty()) return false;
+  if (!has_planes(captured_test(record))) return false;
   const TexelCoordinate at = place_of(record, position, pixel);
   return at.inside && is_behind(record, at);
 }
 
 void find_lit_depths(const FrameInput& in, raster::RasterFrame& frame, MapFacts& facts) {
   raster::LightRecord& record = frame.lights.front();
-  raster::CapturedTest& test = *record.captured->test;
-  if (!test.paraboloids.empty()) return;
+  if (!has_planes(captured_test(record))) return;
   const StoredDepth convention = *in.capture.map.front().convention;
-  const bool from_below_zero = convention == StoredDepth::minus_one_to_one || is_linear(convention);
+  const bool from_below_zero = convention_of(convention).halves;
   const Light& light = in.world.scene->lights[record.light];
   LitCount behind, nearer, farther;
   for (std::size_t i = 0; i < record.gap.data.size(); ++i) {
@@ -192,7 +193,8 @@ void find_lit_depths(const FrameInput& in, raster::RasterFrame& frame, MapFacts&
   facts.lights_behind = behind.is_nearly_all() && !nearer.is_nearly_all() && !farther.is_nearly_all();
   facts.lights_nearer_half = from_below_zero && nearer.is_nearly_all() && farther.is_hardly_any();
   if (!facts.lights_behind && !facts.lights_nearer_half) return;
-  using Test = raster::CapturedTest;
+  using Test = CapturedTest;
+  Test& test = changed_test(record);
   if (test.faces.data.empty()) test.faces = Image<std::uint8_t>(in.capture.size, Test::any_face);
   for (std::size_t i = 0; i < test.faces.data.size(); ++i) {
     const raytrace::SurfacePoint& point = in.traced.receiver.data[i];

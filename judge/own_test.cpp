@@ -30,7 +30,7 @@ class OwnTester {
   OwnTester(const FrameInput& in, const raster::RasterFrame& drawn)
       : in_(in), drawn_(drawn), record_(drawn.lights.front()), light_(in.world.scene->lights[record_.light]) {
     const bool once = drawn.options.map.technique == raster::Technique::hard ||
-                      record_.captured->test->read != raster::CapturedTest::Read::nearest;
+                      captured_test(record_).reads() != CapturedTest::Reads::texel;
     reach_ = once ? 0.0 : std::max(1.0, drawn.options.map.filter.radius_texels);
   }
 

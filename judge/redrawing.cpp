@@ -5,39 +5,18 @@
 
 #include "compare/ladder/biased_test.h"
 #include "compare/ladder/budget.h"
-#include "compare/ladder/moments.h"
-#include "compare/ladder/paraboloids.h"
 #include "scene/base/parallel.h"
 #include "scene/light.h"
 
 namespace gnomon::compare {
 namespace {
 
-using raster::CapturedTest;
 using raster::LightRecord;
 
 /// By how many roundings of a place a lookup may be off: onto a neighbour's side of a texel's border.
 constexpr std::array<Vec2, Redrawing::shift_count> lookup_shifts{Vec2(0, 0), Vec2(-1, -1), Vec2(1, -1),
                                                                  Vec2(-1, 1), Vec2(1, 1)};
 constexpr std::size_t most_sampled = 10000, most_told = 24;
-
-/// Returns the receiver's number as moments are stored, its slope bias taken off.
-double number_of(const LightRecord& record, double slope_world, const BiasedLookup& lookup) {
-  const CapturedTest& test = *record.captured->test;
-  const TexelCoordinate& at = lookup.at;
-  const double depth = at.depth - slope_world * at.depth / at.distance;
-  if (test.stores == CapturedTest::Stores::depths)
-    return stored_from_depth(record.map.view, lookup.key.face(), lookup.key.row() + 0.5, depth);
-  const Vec2& range = test.moments.range;
-  const double world = test.stores == CapturedTest::Stores::distances ? at.distance - slope_world : depth;
-  return (world - range.x) / (range.y - range.x);
-}
-
-/// Returns what the test takes off for a constant: multiplied by the angle's factor and held within its limits.
-double taken_off(const CapturedTest& test, double constant, double cosine) {
-  if (!test.has_angle() || constant == 0.0) return std::clamp(constant, test.least, test.most);
-  return std::clamp(constant * angle_factor(test.constant_angle, cosine), test.least, test.most);
-}
 
 void add_redrawn(const Redrawn& one, Redrawn& sum) {
   sum.wrong_fraction += one.wrong_fraction, sum.mean_absolute += one.mean_absolute;
@@ -49,10 +28,7 @@ Redrawn scaled_redrawn(const Redrawn& one, double by) {
 }
 
 raytrace::TexelKey texel_at(const LightRecord& record, int face, int column, int row) {
-  const auto& parts = record.captured->test->parts;
-  const int size = record.map.view.size;
-  const CapturedTest::Part part =
-      parts.empty() ? CapturedTest::Part{0, 0, size, size} : parts[static_cast<std::size_t>(face)];
+  const CapturedTest::Part part = captured_test(record).part(record.map.view, face);
   return raytrace::TexelKey::pack(face, std::clamp(column, part.column, part.column + part.width - 1),
                                   std::clamp(row, part.row, part.row + part.height - 1));
 }
@@ -64,15 +40,15 @@ Redrawing::Redrawing(const FrameInput& in, const raster::RasterFrame& drawn, con
     : in_(in), frame_(drawn), light_(light), constant_world_(constant_world) {
   const LightRecord& record = drawn.lights.front();
   drawn_.own = record;
-  slack_world_ = record.rounding_world + lookup_rounding_stored * record.captured->test->unit_world;
-  reads_moments_ = reads_moments(record);
+  slack_world_ = record.rounding_world + lookup_rounding_stored * captured_test(record).unit_world;
+  reads_ = captured_test(record).reads();
   take_layers();
   Fit& fit = fits_.emplace_back();
   for (std::uint32_t i = 0; i < light.labels.data.size(); ++i)
     if (is_compared(light.labels.data[i])) fit.pixels.push_back({.index = i});
   fit.step = std::max<std::size_t>(1, fit.pixels.size() / most_sampled);
-  const bool once = drawn.options.map.technique == raster::Technique::hard || reads_moments_ ||
-                    record.captured->test->read == CapturedTest::Read::linear_depths;
+  const bool once = drawn.options.map.technique == raster::Technique::hard || reads_ == Reads::averages ||
+                    reads_ == Reads::between;
   if (!once) fit_kernel();
   if (!known_) return;
   look_outside();
@@ -109,10 +85,10 @@ void Redrawing::take_layers() {
     }
   });
   const raster::Bias& bias = frame_.options.map.bias;
-  drawn_.own.captured->test->faces = std::move(own);
+  changed_test(drawn_.own).faces = std::move(own);
   if (blends) {
     drawn_.next = drawn_.own;
-    drawn_.next->captured->test->faces = std::move(next);
+    changed_test(*drawn_.next).faces = std::move(next);
     fill_record(in_, bias, *drawn_.next);
   }
   fill_record(in_, bias, drawn_.own);
@@ -130,8 +106,8 @@ void Redrawing::read(const TestedRecord& record, std::uint32_t index, int shift,
 bool Redrawing::read_layer(const LightRecord& record, std::uint32_t index, int shift, double share,
                            Reading& reading) const {
   if (share == 0.0) return true;
-  const CapturedTest& test = *record.captured->test;
-  if (test.face_of(index) == CapturedTest::no_face) return reading.lit += share, true;
+  const CapturedTest& test = captured_test(record);
+  if (!test.looks_up(index)) return reading.lit += share, true;
   const raytrace::SurfacePoint& point = in_.traced.receiver.data[index];
   const raster::Bias& bias = frame_.options.map.bias;
   const Vec3 to_light = light_at(in_.world.scene->lights[record.light], point.position).to_light;
@@ -143,19 +119,18 @@ bool Redrawing::read_layer(const LightRecord& record, std::uint32_t index, int s
     lookup->at.u += by.x, lookup->at.v += by.y;
     lookup->key = texel_at(record, face, lookup->at.column(), lookup->at.row());
   }
-  if (reads_moments_) {
+  if (reads_ == Reads::averages) {
     const double slope = bias.slope == 0.0 ? 0.0
                                            : bias.slope * texel_depth_slope(record.map.view, lookup->at,
                                                                             lookup->position, point.normal);
-    reading.moments.push_back({moments_between(record, lookup->at), number_of(record, slope, *lookup),
-                               lookup->cosine, share, face});
+    reading.averages.push_back({test.read_averages(record, *lookup, slope), share, face});
     return true;
   }
   const auto add = [&](const BiasedLookup& at, const std::optional<double>& depth, double weight) {
     reading.taps.push_back({depth ? gap_before(record, bias, point.normal, at, *depth) : -infinity, weight});
   };
-  if (reads_paraboloids(record) && reading.kernel.shape != FilterKernel::Shape::one) {
-    const auto depths = casters_around(record, *lookup, frame_.options.map.filter.radius_texels);
+  if (reads_ == Reads::elsewhere && reading.kernel.shape != FilterKernel::Shape::one) {
+    const auto depths = test.casters_within(record, *lookup, frame_.options.map.filter.radius_texels);
     for (const auto& depth : depths) add(*lookup, depth, share / static_cast<double>(depths.size()));
     return true;
   }
@@ -178,13 +153,12 @@ bool Redrawing::read_layer(const LightRecord& record, std::uint32_t index, int s
 double Redrawing::light(const LightRecord& record, const Reading& reading, double constant_world) const {
   double light = reading.lit;
   for (const Tap& tap : reading.taps) light += tap.gap <= constant_world ? tap.weight : 0.0;
-  if (reading.moments.empty()) return light;
-  const CapturedTest& test = *record.captured->test;
-  for (const MomentsRead& read : reading.moments) {
-    const double beside =
-        test.layers.empty() ? 0.0 : test.layers[static_cast<std::size_t>(read.face)].constant;
-    const double off = taken_off(test, constant_world / test.unit_world + beside, read.cosine);
-    light += read.share * light_of_moments(test.moments, read.averages, read.x - off);
+  if (reading.averages.empty()) return light;
+  const CapturedTest& test = captured_test(record);
+  for (const auto& [read, share, face] : reading.averages) {
+    const double off =
+        test.taken_off(constant_world / test.unit_world + test.constant_beside(face), read.cosine);
+    light += share * test.light_of(read.averages, read.x - off);
   }
   return light;
 }
@@ -271,7 +245,8 @@ Redrawn Redrawing::redraw(const TestedRecord& record, double constant_world) con
 
 std::vector<double> Redrawing::telling_constants(const TestedRecord& record, const Pixels& pixels) const {
   std::vector<double> out{0.0, constant_world_};
-  for (int k = -4; reads_moments_ && k <= 2; ++k)
+  const bool compares = reads_ != Reads::averages;
+  for (int k = -4; !compares && k <= 2; ++k)
     for (const double sign : {-1.0, 1.0}) out.push_back(sign * std::ldexp(record.own.texel_world, k));
   std::array<std::vector<double>, 2> gaps;  // of lit pixels, and of shadowed ones
   // The widest filter meets the farthest of them.
@@ -281,7 +256,7 @@ std::vector<double> Redrawing::telling_constants(const TestedRecord& record, con
   const Fit& fit = *std::max_element(fits_.begin(), fits_.end(), by_width);
   Reading reading{.kernel = fit.kernel};
   for (std::size_t i = 0; i < fit.pixels.size(); ++i) {
-    if (reads_moments_ || !is_asked(fit, i, pixels)) continue;
+    if (!compares || !is_asked(fit, i, pixels)) continue;
     read(record, fit.pixels[i].index, fit.pixels[i].shift, reading);
     const bool shadowed = light_.rungs[0].data[fit.pixels[i].index] < 0.5f;
     for (const Tap& tap : reading.taps)

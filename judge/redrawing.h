@@ -34,9 +34,16 @@ struct TestedRecord {
     change(own);
     if (next) change(*next);
   }
+  /// Takes over what the other record is tested by.
+  void take_tests(const TestedRecord& other) {
+    own.foreign->test = other.own.foreign->test;
+    if (next) next->foreign->test = other.next->foreign->test;
+  }
 };
 
 class Redrawing {
+  using Reads = CapturedTest::Reads;
+
  public:
   static constexpr std::size_t shift_count = 5;  ///< places of a lookup that rounding reaches
 
@@ -48,7 +55,7 @@ class Redrawing {
   bool is_known() const { return known_; }
   /// Tells whether each lookup compares once, so that every constant follows from the gaps.
   bool compares_once() const {
-    return fits_.front().kernel.shape == FilterKernel::Shape::one && !reads_moments_;
+    return fits_.front().kernel.shape == FilterKernel::Shape::one && reads_ != Reads::averages;
   }
   const TestedRecord& as_drawn() const { return drawn_; }
 
@@ -62,7 +69,7 @@ class Redrawing {
                               const Pixels& pixels) const;
   Redrawn redraw(const TestedRecord& record, double constant_world) const;
   /// Returns constants between which what is drawn changes, ascending, in world units. They are some of the gaps of lit
-  /// pixels and of shadowed ones. Where moments are read they are some parts and multiples of a texel.
+  /// pixels and of shadowed ones. Where averages are read they are some parts and multiples of a texel.
   std::vector<double> telling_constants(const TestedRecord& record, const Pixels& pixels) const;
 
  private:
@@ -82,20 +89,21 @@ class Redrawing {
   struct Tap {
     double gap = 0.0, weight = 0.0;
   };
-  struct MomentsRead {
-    std::array<double, 4> averages{};
-    double x = 0.0, cosine = 1.0, share = 0.0;
+  /// Averages, how much of the light they make, and which face's constant goes with them.
+  struct SharedRead {
+    AveragesRead read{};
+    double share = 0.0;
     int face = 0;
   };
   struct Reading {
     bool known = true;  ///< false: the place lies outside the map
     double lit = 0.0;   ///< the share of the light that no map is asked for
     std::vector<Tap> taps{};
-    std::vector<MomentsRead> moments{};
+    std::vector<SharedRead> averages{};
     FilterKernel kernel{};
     std::vector<double> weights{};  ///< scratch
 
-    void clear() { known = true, lit = 0.0, taps.clear(), moments.clear(); }
+    void clear() { known = true, lit = 0.0, taps.clear(), averages.clear(); }
   };
 
   static constexpr double light_rounding = 0.02;  ///< five steps of eight bits
@@ -124,7 +132,8 @@ class Redrawing {
   double constant_world_, slack_world_;
   TestedRecord drawn_;
   Image<float> next_share_, faded_;  ///< by pixel, in [0, 1]; empty where nothing blends, or fades
-  bool reads_moments_ = false, known_ = true, exact_ = true;
+  Reads reads_ = Reads::texel;
+  bool known_ = true, exact_ = true;
   double outside_light_ = 1.0;  ///< what is drawn outside the map
   bool outside_is_told_ = false;
   std::vector<Fit> fits_;  ///< the best one first

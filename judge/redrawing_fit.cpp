@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "compare/ladder/budget.h"
-#include "compare/ladder/paraboloids.h"
 #include "judge/redrawing.h"
 #include "scene/base/parallel.h"
 
@@ -23,7 +22,7 @@ constexpr double nearly_all_beside = 0.95;
 /// Kernels that the filter may have, with how far each is off the picture where that is partly lit.
 std::vector<Redrawing::Fit> Redrawing::tried_kernels() const {
   std::vector<FilterKernel> kernels = kernels_of_reach(frame_.options.map.filter.radius_texels);
-  if (reads_paraboloids(drawn_.own)) kernels = {{FilterKernel::Shape::taps, 1}};
+  if (reads_ == Reads::elsewhere) kernels = {{FilterKernel::Shape::taps, 1}};
   std::vector<std::uint32_t> partly;
   for (const Pixel& pixel : fits_.front().pixels)
     if (is_partly_lit(double{light_.rungs[6].data[pixel.index]})) partly.push_back(pixel.index);
@@ -64,7 +63,7 @@ void Redrawing::fit_kernel() {
   }
   for (const Fit* other : {narrowest, widest})
     if (other != &best) fits_.push_back(*other);
-  if (reads_paraboloids(drawn_.own)) return;
+  if (reads_ == Reads::elsewhere) return;
   Fit& rimmed = fits_.emplace_back(best);
   rimmed.kernel.rim_radius = frame_.options.map.filter.radius_texels, rimmed.kernel.rim_share = a_tap;
 }

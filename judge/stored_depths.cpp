@@ -4,8 +4,6 @@
 #include <tuple>
 
 #include "compare/ladder/biased_test.h"
-#include "compare/ladder/moments.h"
-#include "compare/ladder/paraboloids.h"
 
 namespace gnomon::compare {
 namespace {
@@ -32,15 +30,13 @@ StoredDepths::StoredDepths(const FrameInput& in, const raster::LightRecord& reco
     : in_(in), record_(record), view_(record.map.view) {}
 
 double StoredDepths::step(raytrace::TexelKey key, double depth) const {
-  const raster::CapturedTest& test = *record_.captured->test;
+  const CapturedTest& test = captured_test(record_);
   const LightFace& face = view_.face(key.face());
   const double own = stored_from_depth(view_, key.face(), key.row() + 0.5, depth);
-  using Stores = raster::CapturedTest::Stores;
   const StoredFormat& format = in_.facts.format;
   if (test.stores == Stores::depths) return step_near(format, own);
   const double along = test.stores == Stores::distances ? glm::dot(ray(key).direction, face.forward) : 1.0;
-  const double zero_world = in_.capture.map.front().range.value_or(Vec2(0.0)).x;
-  const double number = std::abs(depth / along - zero_world) / test.unit_world;
+  const double number = std::abs(depth / along - test.range.x) / test.unit_world;
   const double next = depth + step_near(format, number) * test.unit_world * along;
   return std::abs(stored_from_depth(view_, key.face(), key.row() + 0.5, next) - own);
 }
@@ -54,8 +50,12 @@ double StoredDepths::depth(raytrace::TexelKey key) const {
 }
 
 bool StoredDepths::may_be_empty(raytrace::TexelKey key) const {
-  if (!reads_moments(record_)) return is_empty(key);
-  return averaged_depths(record_, key).max >= view_.face(key.face()).far_depth;
+  if (!stores_averages()) return is_empty(key);
+  return captured_test(record_).averaged_depths(record_, key).max >= view_.face(key.face()).far_depth;
+}
+
+bool StoredDepths::stores_averages() const {
+  return captured_test(record_).reads() == CapturedTest::Reads::averages;
 }
 
 SurfaceOnRay StoredDepths::surface(const Ray& ray, const raytrace::Hit& hit, int face,
@@ -80,14 +80,8 @@ SurfaceOnRay StoredDepths::surface(const Ray& ray, const raytrace::Hit& hit, int
 }
 
 Ray StoredDepths::ray(raytrace::TexelKey key, const Vec2& off) const {
-  const Vec2 middle(key.column() + 0.5, key.row() + 0.5);
-  if (!reads_paraboloids(record_))
-    return caster_ray(in_.world, view_, key.face(), middle.x + off.x, middle.y + off.y);
-  const auto& halves = record_.captured->test->paraboloids;
-  ParaboloidPlace place = texel_centre(
-      halves, paraboloid_place(halves, texel_ray(view_, key.face(), middle.x, middle.y).direction));
-  place.u += off.x, place.v += off.y;
-  return {view_.origin, paraboloid_direction(halves, place), {0.0, infinity}};
+  if (const auto own = captured_test(record_).stored_ray(view_, key, off)) return *own;
+  return caster_ray(in_.world, view_, key.face(), key.column() + 0.5 + off.x, key.row() + 0.5 + off.y);
 }
 
 std::optional<SurfaceOnRay> StoredDepths::first(raytrace::TexelKey key, const Vec2& off) const {
@@ -127,8 +121,8 @@ bool StoredDepths::is_stored(raytrace::TexelKey key, double depth, double slack)
   const double allowed =
       steps_allowed * step(key, std::clamp(depth, face.near_depth, face.far_depth)) + arithmetic;
   double least = stored(key), most = least;
-  if (reads_moments(record_)) {
-    const Interval own = averaged_depths(record_, key);
+  if (stores_averages()) {
+    const Interval own = captured_test(record_).averaged_depths(record_, key);
     std::tie(least, most) = std::minmax({number(own.min), number(own.max)});
   }
   return most >= low - allowed && least <= high + allowed;

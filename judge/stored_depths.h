@@ -35,7 +35,7 @@ class StoredDepths {
   /// The stored number as a depth along the map's forward axis.
   double depth(raytrace::TexelKey key) const;
 
-  /// The ray of what a texel holds, or so many texels beside its middle. Of paraboloids: of the one that has its middle.
+  /// The ray of what a texel holds, or so many texels beside its middle. Where the record's map is none of the renderer's own: of the texel that has its middle.
   Ray ray(raytrace::TexelKey key, const Vec2& off = Vec2(0.0)) const;
   /// What the light meets first on that ray.
   std::optional<SurfaceOnRay> first(raytrace::TexelKey key, const Vec2& off = Vec2(0.0)) const;
@@ -54,6 +54,7 @@ class StoredDepths {
   bool holds_neighbours(raytrace::TexelKey key) const;
 
  private:
+  bool stores_averages() const;
   bool holds_within(raytrace::TexelKey key, double reach, int steps, double slope_texels) const;
   SurfaceOnRay surface(const Ray& ray, const raytrace::Hit& hit, int face, const Vec2& place) const;
 

@@ -3,11 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "compare/bias/bias_curve.h"
-#include "judge/captured_moments.h"
-#include "judge/captured_paraboloids.h"
 #include "judge/turned_map.h"
 #include "scene/base/parallel.h"
 
@@ -15,21 +14,15 @@ namespace gnomon::compare {
 namespace {
 
 using raster::LightRecord;
-using Stores = raster::CapturedTest::Stores;
+using Reads = CapturedTest::Reads;
 
-raster::CapturedTest& test_of(LightRecord& record) {
-  return *record.captured->test;
-}
-
-/// Exchanges the numbers of so many texels from two on, and their moments.
+/// Exchanges the numbers of so many texels from two on, a before b.
 void exchange_texels(LightRecord& record, std::size_t a, std::size_t b, std::size_t count) {
-  const auto exchange = [&](auto& texels) {
-    const auto first = texels.begin() + static_cast<std::ptrdiff_t>(a);
-    std::swap_ranges(first, first + static_cast<std::ptrdiff_t>(count),
-                     texels.begin() + static_cast<std::ptrdiff_t>(b));
-  };
-  exchange(record.map.depth);
-  if (!test_of(record).moments.texels.empty()) exchange(test_of(record).moments.texels);
+  std::vector<std::size_t> from(b + count - a);
+  std::iota(from.begin(), from.end(), a);
+  std::swap_ranges(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count),
+                   from.end() - static_cast<std::ptrdiff_t>(count));
+  reorder_texels(record, a, from);
 }
 
 bool turn_faces(LightRecord& record, const MapTurn& turn) {
@@ -63,7 +56,7 @@ bool take_off_texture_matrix(LightRecord& record) {
 /// The depths' range so many times as long, up to the same far plane.
 bool stretch_depths(LightRecord& record, double times) {
   if (record.map.view.reversed) return false;
-  test_of(record).unit_world *= times, record.bias_constant_world *= times;
+  changed_test(record).unit_world *= times, record.bias_constant_world *= times;
   return change_faces(record, [=](LightFace& face) {
     face.near_depth = face.far_depth - times * (face.far_depth - face.near_depth);
   });
@@ -82,11 +75,11 @@ bool move_by_texels(LightRecord& record, Vec2 texels) {
 }
 
 bool has_offset(LightRecord& record) {
-  return test_of(record).normal_offset_world > 0.0;
+  return captured_test(record).normal_offset_world > 0.0;
 }
 
 bool turn_offset(LightRecord& record) {
-  raster::CapturedTest& test = test_of(record);
+  CapturedTest& test = changed_test(record);
   test.normal_offset_world *= -1.0;
   for (auto& layer : test.layers) layer.normal_offset_world *= -1.0;
   return test.normal_offset_world != 0.0 || !test.layers.empty();
@@ -99,10 +92,11 @@ bool keep(LightRecord&) {
 /// Each texel's number taken for a distance where it was taken for a depth along the axis, or the reverse.
 bool take_for_other_linear(LightRecord& record) {
   raster::ShadowMap& map = record.map;
-  Stores& stores = test_of(record).stores;
-  if (stores == Stores::depths || !map.unbiased.empty() || !test_of(record).paraboloids.empty()) return false;
+  const CapturedTest& test = captured_test(record);
+  if (test.stores == Stores::depths || !map.unbiased.empty() || test.reads() == Reads::elsewhere)
+    return false;
   const LightView& view = map.view;
-  const bool distances = stores == Stores::distances;
+  const bool distances = test.stores == Stores::distances;
   parallel_for(view.face_count * view.size, [&](int line) {
     const int face = line / view.size, row = line % view.size;
     for (int column = 0; column < view.size; ++column) {
@@ -115,7 +109,7 @@ bool take_for_other_linear(LightRecord& record) {
           stored_from_depth(view, face, row + 0.5, distances ? depth / along : depth * along));
     }
   });
-  stores = distances ? Stores::linear_z : Stores::distances;
+  changed_test(record).stores = distances ? Stores::linear_z : Stores::distances;
   return true;
 }
 
@@ -161,43 +155,46 @@ void add_conventions(const LightRecord& described, std::vector<TestSuspect>& out
       .by_fronts = true;
   out.push_back({"the picture has 1 for shadow and 0 for light, or the comparison is swapped", "", keep});
   out.back().swapped = out.back().of_sign = true;
-  const bool distances = described.captured->test->stores == Stores::distances;
+  const bool distances = captured_test(described).stores == Stores::distances;
   out.push_back({distances ? "`convention` of the map is linear_z" : "`convention` of the map is distance",
                  "", take_for_other_linear});
 }
 
 /// How stored numbers are read and biased.
 void add_keys_of_test(const LightRecord& described, std::vector<TestSuspect>& out) {
-  const raster::CapturedTest& test = *described.captured->test;
-  using Read = raster::CapturedTest::Read;
-  for (const Read read : {Read::nearest, Read::linear_depths})
-    if (read != test.read && test.paraboloids.empty())
-      out.push_back({fmt::format("`filter.read` is {}", filter_read_names[static_cast<std::size_t>(read)]),
-                     "", [read](LightRecord& record) { return test_of(record).read = read, true; }});
-  for (std::size_t i = 0; i < raster::angle_form_names.size(); ++i) {
-    const auto form = static_cast<raster::AngleForm>(i);
+  const CapturedTest& test = captured_test(described);
+  for (const Reads read : {Reads::texel, Reads::between}) {
+    if (read == test.reads() || test.reads() == Reads::elsewhere) continue;
+    const bool between = read == Reads::between;
+    out.push_back({between ? "`filter.read` is linear_depths" : "`filter.read` is nearest", "",
+                   [between](LightRecord& record) {
+                     record.foreign->test = std::make_shared<DepthsTest>(captured_test(record), between);
+                     return true;
+                   }});
+  }
+  for (std::size_t i = 0; i < bias_angle_names.size(); ++i) {
+    const auto form = static_cast<BiasAngle>(i);
     if (form != test.constant_angle)
-      out.push_back(
-          {fmt::format("`bias.angle` is {}", raster::angle_form_names[i]), "", [form](LightRecord& record) {
-             test_of(record).constant_angle = form;
-             return record.bias_constant_world != 0.0;
-           }});
-    if (form != test.normal_offset_angle && form != raster::AngleForm::tangent)
-      out.push_back({fmt::format("`bias.normal_offset_angle` is {}", raster::angle_form_names[i]), "",
+      out.push_back({fmt::format("`bias.angle` is {}", bias_angle_names[i]), "", [form](LightRecord& record) {
+                       changed_test(record).constant_angle = form;
+                       return record.bias_constant_world != 0.0;
+                     }});
+    if (form != test.normal_offset_angle && form != BiasAngle::tangent)
+      out.push_back({fmt::format("`bias.normal_offset_angle` is {}", bias_angle_names[i]), "",
                      [form](LightRecord& record) {
-                       test_of(record).normal_offset_angle = form;
+                       changed_test(record).normal_offset_angle = form;
                        return has_offset(record);
                      }});
   }
   out.push_back({"nothing limits the bias (`bias.min`, `bias.max`)", "", [](LightRecord& record) {
-                   raster::CapturedTest& changed = test_of(record);
+                   CapturedTest& changed = changed_test(record);
                    const bool limited = changed.least != -infinity || changed.most != infinity;
                    changed.least = -infinity, changed.most = infinity;
                    return limited;
                  }});
   out.push_back(
       {"no offset along the normal is drawn (`bias.normal_offset_world` is 0)", "", [](LightRecord& record) {
-         raster::CapturedTest& changed = test_of(record);
+         CapturedTest& changed = changed_test(record);
          const bool any = changed.normal_offset_world != 0.0 || !changed.layers.empty();
          changed.normal_offset_world = 0.0;
          for (auto& layer : changed.layers) layer.normal_offset_world = 0.0;
@@ -205,8 +202,9 @@ void add_keys_of_test(const LightRecord& described, std::vector<TestSuspect>& ou
        }});
   out.push_back({"no slope bias is drawn (`bias.slope` is 0)", "", keep});
   out.back().of_slope = 0.0;
-  out.push_back({"the layers' own biases (`map[].bias`) are not drawn", "",
-                 [](LightRecord& record) { return !std::exchange(test_of(record).layers, {}).empty(); }});
+  out.push_back({"the layers' own biases (`map[].bias`) are not drawn", "", [](LightRecord& record) {
+                   return !std::exchange(changed_test(record).layers, {}).empty();
+                 }});
 }
 
 /// Half a texel and a whole one to all sides: matrices to texel centres, parts of atlases with and without their border.
@@ -283,7 +281,7 @@ class ByPicture {
   bool drawn_dark(std::size_t i) const { return light_.rungs[6].data[i] < 0.5f; }
   static TestSuspect with_faces(std::string what, Image<std::uint8_t> faces) {
     return {std::move(what), "", [faces = std::move(faces)](LightRecord& record) {
-              test_of(record).faces = faces;
+              changed_test(record).faces = faces;
               return true;
             }};
   }
@@ -331,7 +329,7 @@ void ByPicture::add_layer_constants(std::vector<TestSuspect>& out) const {
   constexpr double well_drawn = 0.999;
   const int faces = described_.map.view.face_count;
   if (faces < 2 || described_.map.view.seamless) return;
-  const double unit = described_.captured->test->unit_world;
+  const double unit = captured_test(described_).unit_world;
   std::vector<double> more(static_cast<std::size_t>(faces), 0.0);  // stored numbers
   std::string what;
   for (int face = 0; face < faces; ++face) {
@@ -354,7 +352,7 @@ void ByPicture::add_layer_constants(std::vector<TestSuspect>& out) const {
   }
   if (what.empty()) return;
   out.push_back({what, "", [more](LightRecord& record) {
-                   auto& layers = test_of(record).layers;
+                   auto& layers = changed_test(record).layers;
                    layers.resize(more.size());
                    for (std::size_t i = 0; i < more.size(); ++i) layers[i].constant += more[i];
                    return true;
@@ -368,8 +366,7 @@ std::vector<TestSuspect> test_suspects(const FrameInput& in, const LightRecord& 
   std::vector<TestSuspect> out;
   add_conventions(described, out);
   add_keys_of_test(described, out);
-  add_moment_suspects(described.captured->test->moments, out);
-  add_paraboloid_suspects(*described.captured->test, out);
+  captured_test(described).add_suspects(out);
   add_shifts(described, out);
   add_own_matrices(in.capture, described, out);
   add_exchanged_layers(described, out);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "compare/ladder/biased_test.h"
 #include "compare/result/number_text.h"
@@ -41,14 +42,8 @@ constexpr int turn_texels = 96;      ///< texels looked at of each face
 /// range, and halves of what the depth changes by over a texel.
 constexpr double loose_range = 0.005, loose_slope = 4.0;
 
-raster::CapturedTest::Part part_of(const raster::LightRecord& record, int face) {
-  const auto& parts = record.captured->test->parts;
-  const int n = record.map.view.size;
-  return parts.empty() ? raster::CapturedTest::Part{0, 0, n, n} : parts[static_cast<std::size_t>(face)];
-}
-
 /// Where the number of a texel stands that is read so.
-TexelKey source_of(const MapTurn& turn, const raster::CapturedTest::Part& part, TexelKey key) {
+TexelKey source_of(const MapTurn& turn, const CapturedTest::Part& part, TexelKey key) {
   int u = key.column() - part.column, v = key.row() - part.row;
   if (turn.transposed) std::swap(u, v);
   if (turn.columns) u = part.width - 1 - u;
@@ -82,7 +77,7 @@ class TurnReader {
       : record_(record), view_(record.map.view), stored_(in, record) {}
 
   TurnScore score(int face, bool loose) const {
-    const raster::CapturedTest::Part part = part_of(record_, face);
+    const CapturedTest::Part part = captured_test(record_).part(view_, face);
     std::vector<TexelKey> keys;
     const int step = std::max(1, std::max(part.width, part.height) / turn_texels);
     for (int v = step / 2; v < part.height; v += step)
@@ -101,8 +96,7 @@ class TurnReader {
   }
 
  private:
-  std::array<bool, map_turns.size()> held_by(TexelKey key, const raster::CapturedTest::Part& part,
-                                             bool loose) const {
+  std::array<bool, map_turns.size()> held_by(TexelKey key, const CapturedTest::Part& part, bool loose) const {
     const auto first = stored_.first(key);
     const LightFace& face = view_.face(key.face());
     const bool empty = !first || first->depth >= face.far_depth;
@@ -158,27 +152,36 @@ std::vector<std::size_t> find_turns(const TurnReader& reader, int faces, bool lo
 
 bool turn_face(const MapTurn& turn, int face, raster::LightRecord& record) {
   raster::ShadowMap& map = record.map;
-  const raster::CapturedTest::Part part = part_of(record, face);
-  if (!record.captured->test->paraboloids.empty() || (turn.transposed && part.width != part.height))
+  const CapturedTest& described = captured_test(record);
+  const CapturedTest::Part part = described.part(map.view, face);
+  if (described.reads() == CapturedTest::Reads::elsewhere || (turn.transposed && part.width != part.height))
     return false;
-  const auto turned = [&](auto& texels) {
-    const auto from = texels;
-    for (int v = part.row; v < part.row + part.height; ++v)
-      for (int u = part.column; u < part.column + part.width; ++u) {
-        const TexelKey source = source_of(turn, part, TexelKey::pack(face, u, v));
-        texels[map.texel_index(face, u, v)] = from[map.texel_index(face, source.column(), source.row())];
-      }
-  };
-  turned(map.depth);
-  if (!map.unbiased.empty()) turned(map.unbiased);
-  if (auto& moments = record.captured->test->moments.texels; !moments.empty()) turned(moments);
+  const std::size_t first = map.texel_index(face, 0, 0), count = map.texel_index(face + 1, 0, 0) - first;
+  std::vector<std::size_t> from(count);
+  std::iota(from.begin(), from.end(), first);
+  for (int v = part.row; v < part.row + part.height; ++v)
+    for (int u = part.column; u < part.column + part.width; ++u) {
+      const TexelKey source = source_of(turn, part, TexelKey::pack(face, u, v));
+      from[map.texel_index(face, u, v) - first] = map.texel_index(face, source.column(), source.row());
+    }
+  reorder_texels(record, first, from);
   return true;
+}
+
+void reorder_texels(raster::LightRecord& record, std::size_t first, std::span<const std::size_t> from) {
+  for (std::vector<float>* texels : {&record.map.depth, &record.map.unbiased}) {
+    if (texels->empty()) continue;
+    const std::vector<float> own = *texels;
+    for (std::size_t i = 0; i < from.size(); ++i) (*texels)[first + i] = own[from[i]];
+  }
+  changed_test(record).reorder(first, from);
 }
 
 std::optional<TurnedMap> find_turned_map(const FrameInput& in, const raster::RasterFrame& drawn,
                                          const LightComparison& light) {
   const raster::LightRecord& record = drawn.lights.front();
-  if (light.error.wrong < few_turned || !record.captured->test->paraboloids.empty()) return std::nullopt;
+  if (light.error.wrong < few_turned || captured_test(record).reads() == CapturedTest::Reads::elsewhere)
+    return std::nullopt;
   const TimedStage stage("map's content");
   const LightView& view = record.map.view;
   const TurnReader reader(in, record);

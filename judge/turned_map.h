@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct MapTurn {
   bool transposed = false, columns = false, rows = false;
   bool is_none() const { return !transposed && !columns && !rows; }
 };
+
+/// Puts the number of texel from[i] in the place of texel first + i, of all that the record's test reads.
+void reorder_texels(raster::LightRecord& record, std::size_t first, std::span<const std::size_t> from);
 
 /// Turns the numbers of a face, or of the part of it that is a picture; false where that is not square and would have to be.
 bool turn_face(const MapTurn& turn, int face, raster::LightRecord& record);

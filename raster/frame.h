@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -77,93 +78,29 @@ double constant_bias_world(const Bias& bias, const BiasRounding& rounding, const
 /// lispsm) and it is in texels, on a texel of texel_world().
 double caster_bias_world(const Bias& bias, const LightView& view, const World& world);
 
-/// How a bias grows with the angle between the receiver's normal and the light.
-enum class AngleForm : std::uint8_t { none, sine, tangent, one_minus_cosine };
-inline constexpr std::array<std::string_view, 4> angle_form_names{"none", "sine", "tangent",
-                                                                  "one_minus_cosine"};
+class MapTest;
 
-/// A map whose texels hold averages of functions of the stored number x, and how another renderer makes light of them: by the
-/// technique's own formula (compare/ladder/moments.h).
-struct CapturedMoments {
-  using Texel = std::array<float, 4>;
-  Technique technique = Technique::vsm;  ///< vsm, esm, evsm or msm
-  FilterOptions
-      filter;  ///< its exponents (evsm: a negative one of 0, where none is stored), bleeding and bias
-  double minimum_variance = 0.0;  ///< of x, of evsm of 2 x - 1
-  double own_share = 1.0;         ///< the least share that a texel's own depth has of its average
-  Vec2 range{0.0,
-             1.0};  ///< where CapturedTest::stores is not depths: world units that are stored as 0 and as 1
-  std::vector<Texel> texels{};  ///< as ShadowMap::depth, whose numbers are these texels' means
-};
-
-/// One half of a dual paraboloid map (Brabec, Annen and Seidel 2002, section 3). Let something lie from the light in the unit
-/// direction d, in the half's own axes. It is looked up at d.xy / (1 + d.z), which runs from -1 to 1 where d.z >= 0.
-struct CapturedParaboloid {
-  Mat3 half_from_world{1.0};       ///< of directions: a turn, or one that mirrors
-  int width = 0, height = 0;       ///< texels
-  std::vector<float> distances{};  ///< from the light, world units, rows from y = -1 on; 0: nothing is stored
-};
-
-/// How another renderer tests a map that it drew: by stored numbers, and in its own units.
-struct CapturedTest {
-  /// World units that 1 of a stored number counts for; gaps and constant bias are differences of stored
-  /// numbers times this, as the renderer itself tests.
-  double unit_world = 1.0;
-  /// World units that 1 of a stored number counts for at so far from the light.
-  struct UnitAt {
-    double distance = 0.0, world = 1.0;
-  };
-  std::array<UnitAt, 2> units{};  ///< at the nearest and the farthest receiver; alike where it is one length
-  double normal_offset_world =
-      0.0;  ///< along the receiver's normal; below 0 only where a mistake is tried (judge)
-  /// By which the offset is multiplied; `none`: it has one length at every angle.
-  AngleForm normal_offset_angle = AngleForm::none;
-  /// By which the constant is multiplied; the product is held within `least` and `most`, stored numbers.
-  AngleForm constant_angle = AngleForm::none;
-  double least = -infinity, most = infinity;
-  bool has_angle() const {
-    return constant_angle != AngleForm::none || least != -infinity || most != infinity;
-  }
-  /// What the renderer stores: the depths of its matrix, distances from the light, or depths along the light's axis that
-  /// are linear in world units.
-  enum class Stores : std::uint8_t { depths, distances, linear_z } stores = Stores::depths;
-  /// What is compared once: the texel's stored number; what is read between the four nearest texels, each weighed by how near it
-  /// is; the number up to which moments that are so read leave half of the light; or the number of a paraboloid's texel, beside
-  /// which the record's own map, a cube, has the same at its texels' centres.
-  enum class Read : std::uint8_t { nearest, linear_depths, moments, paraboloids } read = Read::nearest;
-  CapturedMoments moments{};
-  std::vector<CapturedParaboloid> paraboloids{};  ///< empty, or two that look opposite ways
-  /// By face, where a picture of the renderer's fills a part of the face alone: columns and rows from the lowest u and v.
-  struct Part {
-    int column = 0, row = 0, width = 0, height = 0;
-    bool holds(int u, int v) const {
-      return u >= column && v >= row && u < column + width && v < row + height;
-    }
-    bool operator==(const Part&) const = default;
-  };
-  std::vector<Part> parts{};  ///< empty: all of each face
-  bool holds(int face, int column, int row) const {
-    return parts.empty() || parts[static_cast<std::size_t>(face)].holds(column, row);
-  }
-  /// By pixel, the face that it looks up, whichever hold its place; no_face: it looks up none and is lit; any_face: the
-  /// first that holds it. Empty: any_face for all.
-  Image<std::uint8_t> faces{};
-  static constexpr std::uint8_t no_face = 255, any_face = 254;
-  /// Returns any_face or the one that the pixel looks up, or no_face.
-  std::uint8_t face_of(std::size_t pixel) const { return faces.data.empty() ? any_face : faces.data[pixel]; }
-  /// By face, what the test has beside the bias of the first: stored numbers, and world units along the normal.
-  struct LayerBias {
-    double constant = 0.0, normal_offset_world = 0.0;
-  };
-  std::vector<LayerBias> layers{};
+/// World units that 1 of a stored number counts for at so far from the light.
+struct UnitAt {
+  double distance = 0.0, world = 1.0;
 };
 
 /// Another renderer's picture.
-struct CapturedPicture {
+struct ForeignPicture {
   /// How its map is tested. None: the map is not known; the record's holds nothing, and no technique is known to have
   /// drawn the picture.
-  std::optional<CapturedTest> test;
-  std::vector<std::string_view> said{};  ///< MapSetting::name of the filter's settings that its capture says
+  std::shared_ptr<const MapTest> test;
+  std::vector<std::string_view> said{};  ///< MapSetting::name of the filter's settings that it says
+  std::string_view stores = "depths";    ///< what a texel holds
+  /// A number of the filter's that the rasterizer has no setting for.
+  struct Number {
+    const char* key;
+    const char* words;
+    double value = 0.0;
+  };
+  std::vector<Number> numbers{};
+  double unit_world = 1.0;        ///< that 1 of a stored number counts for, as the test is told
+  std::array<UnitAt, 2> units{};  ///< at the nearest and the farthest receiver; alike where it is one length
 };
 
 /// One light's records, per pixel. Only where a primitive is visible; elsewhere visibility is 1, the rest 0.
@@ -202,11 +139,10 @@ struct LightRecord {
   /// What each pixel's visibility took of the map: texels compared, or filtered reads of moments.
   Image<std::uint16_t> lookups;
   std::optional<ExternalCosts> external;  ///< Technique::hybrid
-  std::optional<CapturedPicture>
-      captured;  ///< another renderer drew `visibility`, and the map if it is known
+  std::optional<ForeignPicture> foreign;  ///< another renderer drew `visibility`, and the map if it is known
 
   /// False where another renderer drew the picture and its map was not handed on.
-  bool has_known_map() const { return !captured || captured->test; }
+  bool has_known_map() const { return !foreign || foreign->test; }
 };
 
 /// A file of the user's that was compiled in place of the program's own (--shader-dir).
@@ -244,7 +180,7 @@ struct RasterFrame {
   std::uint64_t map_texels = 0;  ///< texels rendered, all lights, blur and the like included
   std::uint64_t map_bytes = 0;   ///< device memory of maps at one time: the lights take turns in it
 
-  /// Tells for all lights whether their maps are known: one picture is captured at a time.
+  /// Tells for all lights whether their maps are known: another renderer's picture is of one light.
   bool has_known_map() const { return lights.empty() || lights.front().has_known_map(); }
 };
 

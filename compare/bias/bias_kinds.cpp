@@ -55,9 +55,9 @@ double gap_per_caster_slope(const raster::LightRecord& record, const raster::Map
 
 /// Returns the record with a map that has no bias in it: on another renderer's map, too, Gnomon's own kinds are tried.
 std::optional<raster::LightRecord> record_to_try(const raster::LightRecord& record) {
-  if (!record.captured && record.map.unbiased.empty()) return std::nullopt;
+  if (!record.foreign && record.map.unbiased.empty()) return std::nullopt;
   raster::LightRecord own = record;
-  own.captured.reset();
+  own.foreign.reset();
   if (!own.map.unbiased.empty()) own.map.depth = std::move(own.map.unbiased), own.map.unbiased.clear();
   return own;
 }

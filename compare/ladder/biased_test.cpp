@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "compare/ladder/moments.h"
-#include "compare/ladder/paraboloids.h"
 #include "compare/truth/texel_groups.h"
 
 namespace gnomon::compare {
@@ -47,110 +45,46 @@ double texel_depth_slope(const LightView& view, const TexelCoordinate& at, const
   return (slope(0.5, 0.0) + slope(0.0, 0.5)) * scale;
 }
 
-double angle_factor(raster::AngleForm form, double cosine) {
-  const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-  switch (form) {
-    case raster::AngleForm::sine:
-      return sine;
-    case raster::AngleForm::tangent:
-      return cosine > 0.0 ? sine / cosine : infinity;
-    case raster::AngleForm::one_minus_cosine:
-      return 1.0 - cosine;
-    case raster::AngleForm::none:
-      break;
-  }
-  return 1.0;
-}
-
 namespace {
 
-/// Returns by how much another renderer moves a receiver along its normal, world units.
-double captured_offset(const raster::CapturedTest& test, int face, double cosine) {
-  double offset = test.normal_offset_world;
-  if (!test.layers.empty()) offset += test.layers[static_cast<std::size_t>(face)].normal_offset_world;
-  return offset == 0.0 ? 0.0 : offset * angle_factor(test.normal_offset_angle, cosine);
-}
+/// The rasterizer's own maps.
+class OwnTest final : public raster::MapTest {
+ public:
+  std::optional<BiasedLookup> lookup(const raster::LightRecord& record, const raster::Bias& bias,
+                                     const raster::MapReceiver& receiver) const override;
+  std::optional<double> caster(const raster::LightRecord& record, const BiasedLookup& lookup) const override {
+    return stored_caster(record, lookup.key);
+  }
+  double gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
+             const BiasedLookup& lookup, double caster_depth) const override;
+  std::optional<double> reach_texels(const raster::MapOptions& map) const override;
+  double constant_world(const raster::LightRecord& record, int /*face*/, double texel_world,
+                        double /*stored_per_world*/) const override {
+    const double constant = record.bias_constant_world + record.caster_constant_world;
+    const double base = record.rounding.constant_texel_world;
+    return base > 0.0 ? constant * texel_world / base : constant;
+  }
+};
 
-}  // namespace
-
-std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, const raster::Bias& bias,
-                                          const Vec3& to_light, const raytrace::SurfacePoint& receiver,
-                                          std::size_t pixel) {
+std::optional<BiasedLookup> OwnTest::lookup(const raster::LightRecord& record, const raster::Bias& bias,
+                                            const raster::MapReceiver& receiver) const {
   const LightView& view = record.map.view;
   BiasedLookup out;
   out.position = receiver.position;
-  out.at = project_to_face(view, record.face.data[pixel], receiver.position);
-  out.cosine = std::clamp(glm::dot(receiver.normal, to_light), 0.0, 1.0);
-  const raster::CapturedTest* test = record.captured ? &*record.captured->test : nullptr;
-  const double given = test != nullptr ? captured_offset(*test, record.face.data[pixel], out.cosine) : 0.0;
-  if (bias.normal_offset_texels > 0.0 || given != 0.0) {
-    const double sine = glm::length(glm::cross(receiver.normal, to_light));
-    const double texels = bias.normal_offset_texels * texel_world_size(view, out.at) * sine;
-    out.position += receiver.normal * (texels + given);
-    const bool by_place = test == nullptr || test->face_of(pixel) == raster::CapturedTest::any_face;
-    out.at = by_place ? project_to_texel(view, out.position)
-                      : project_to_face(view, record.face.data[pixel], out.position);
-    if (!out.at.inside) return std::nullopt;
-    if (test != nullptr && !test->holds(out.at.face, out.at.column(), out.at.row())) return std::nullopt;
-    out.key = raytrace::TexelKey::pack(out.at.face, out.at.column(), out.at.row());
-  } else if (!texel_of_pixel(record, pixel, out.key)) {
-    return std::nullopt;
-  }
+  out.at = project_to_face(view, record.face.data[receiver.pixel], receiver.position);
+  out.cosine = std::clamp(glm::dot(receiver.normal, receiver.to_light), 0.0, 1.0);
+  if (!(bias.normal_offset_texels > 0.0))
+    return texel_of_pixel(record, receiver.pixel, out.key) ? std::optional(out) : std::nullopt;
+  const double sine = glm::length(glm::cross(receiver.normal, receiver.to_light));
+  out.position += receiver.normal * (bias.normal_offset_texels * texel_world_size(view, out.at) * sine);
+  out.at = project_to_texel(view, out.position);
+  if (!out.at.inside) return std::nullopt;
+  out.key = TexelKey::pack(out.at.face, out.at.column(), out.at.row());
   return out;
 }
 
-namespace {
-
-/// Returns the constant, stored numbers, from which on the test draws light where the receiver lies this far behind what is
-/// stored. The two are compared after the constant was multiplied by the angle's factor and held within its limits.
-double constant_that_lights(const raster::CapturedTest& test, double behind, double cosine) {
-  if (!test.has_angle()) return behind;
-  if (behind <= test.least) return -infinity;
-  if (behind > test.most) return infinity;
-  const double factor = angle_factor(test.constant_angle, cosine);
-  if (factor == 0.0) return behind > 0.0 ? infinity : -infinity;
-  return std::isinf(factor) ? 0.0 : behind / factor;
-}
-
-/// Returns by how many stored numbers the receiver lies behind a caster, its slope bias taken off.
-double stored_behind(const raster::LightRecord& record, double slope_world, const BiasedLookup& lookup,
-                     double caster_depth) {
-  const LightView& view = record.map.view;
-  const TexelCoordinate& at = lookup.at;
-  const raster::CapturedTest& test = *record.captured->test;
-  const int face = lookup.key.face();
-  const double u = lookup.key.column() + 0.5, v = lookup.key.row() + 0.5;
-  if (test.stores == raster::CapturedTest::Stores::distances) {
-    const double along = glm::dot(texel_ray(view, face, u, v).direction, view.face(face).forward);
-    return (at.distance - caster_depth / along - slope_world) / test.unit_world;
-  }
-  if (test.stores == raster::CapturedTest::Stores::linear_z)
-    return (at.depth - caster_depth - slope_world * at.depth / at.distance) / test.unit_world;
-  const double own = stored_from_depth(view, face, v, at.depth);
-  const double before = stored_from_depth(view, face, v, at.depth - slope_world * at.depth / at.distance);
-  const double caster = stored_from_depth(view, face, v, caster_depth);
-  const double behind = view.reversed ? caster - own : own - caster;
-  return behind - std::abs(own - before);
-}
-
-/// Returns the gap as another renderer tests its own map: a difference of stored numbers.
-double captured_gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
-                    const BiasedLookup& lookup, double caster_depth) {
-  const raster::CapturedTest& test = *record.captured->test;
-  const double slope =
-      bias.slope != 0.0 ? bias.slope * texel_depth_slope(record.map.view, lookup.at, lookup.position, normal)
-                        : 0.0;
-  const double behind = stored_behind(record, slope, lookup, caster_depth);
-  const double beside =
-      test.layers.empty() ? 0.0 : test.layers[static_cast<std::size_t>(lookup.key.face())].constant;
-  return (constant_that_lights(test, behind, lookup.cosine) - beside) * test.unit_world;
-}
-
-}  // namespace
-
-double gap_before(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
-                  const BiasedLookup& lookup, double caster_depth) {
-  if (record.captured) return captured_gap(record, bias, normal, lookup, caster_depth);
+double OwnTest::gap(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
+                    const BiasedLookup& lookup, double caster_depth) const {
   const LightView& view = record.map.view;
   const TexelCoordinate& at = lookup.at;
   const int face = lookup.key.face();
@@ -174,6 +108,54 @@ double gap_before(const raster::LightRecord& record, const raster::Bias& bias, c
   return gap;
 }
 
+std::optional<double> OwnTest::reach_texels(const raster::MapOptions& map) const {
+  using raster::Technique;
+  constexpr double own_texel = 0.5, two_by_two = 1.0;
+  switch (map.technique) {
+    case Technique::hard:
+    case Technique::csm:
+    case Technique::cube:
+      return own_texel;
+    case Technique::pcf:
+      break;
+    default:
+      return std::nullopt;
+  }
+  const double radius = map.filter.radius_texels;
+  switch (map.filter.kernel) {
+    case raster::FilterKernel::hardware:
+      return two_by_two;
+    case raster::FilterKernel::box:
+      return std::floor(radius) + own_texel;
+    default:
+      return radius + own_texel;
+  }
+}
+
+}  // namespace
+
+const raster::MapTest& test_of(const raster::LightRecord& record) {
+  static const OwnTest own;
+  const bool is_foreign = record.foreign && record.foreign->test;
+  return is_foreign ? *record.foreign->test : static_cast<const raster::MapTest&>(own);
+}
+
+std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, const raster::Bias& bias,
+                                          const Vec3& to_light, const raytrace::SurfacePoint& receiver,
+                                          std::size_t pixel) {
+  return test_of(record).lookup(record, bias, {receiver.position, receiver.normal, to_light, pixel});
+}
+
+double gap_before(const raster::LightRecord& record, const raster::Bias& bias, const Vec3& normal,
+                  const BiasedLookup& lookup, double caster_depth) {
+  return test_of(record).gap(record, bias, normal, lookup, caster_depth);
+}
+
+double depth_of_distance(const LightView& view, raytrace::TexelKey key, double distance) {
+  const Ray ray = texel_ray(view, key.face(), key.column() + 0.5, key.row() + 0.5);
+  return distance * glm::dot(ray.direction, view.face(key.face()).forward);
+}
+
 namespace {
 
 std::optional<double> caster_in(const std::vector<float>& depths, const raster::ShadowMap& map,
@@ -189,36 +171,8 @@ std::optional<double> stored_caster(const raster::LightRecord& record, raytrace:
   return caster_in(record.map.depth, record.map, key);
 }
 
-std::array<WeighedTexel, 4> texels_between(const raster::LightRecord& record, const TexelCoordinate& at) {
-  const raster::ShadowMap& map = record.map;
-  const auto& parts = record.captured->test->parts;
-  const raster::CapturedTest::Part part = parts.empty()
-                                              ? raster::CapturedTest::Part{0, 0, map.view.size, map.view.size}
-                                              : parts[static_cast<std::size_t>(at.face)];
-  const double u = at.u - 0.5, v = at.v - 0.5;
-  const int column = static_cast<int>(std::floor(u)), row = static_cast<int>(std::floor(v));
-  const auto texel = [&](int du, int dv) {
-    const double across = du == 0 ? column + 1 - u : u - column, up = dv == 0 ? row + 1 - v : v - row;
-    return WeighedTexel{
-        map.texel_index(at.face, std::clamp(column + du, part.column, part.column + part.width - 1),
-                        std::clamp(row + dv, part.row, part.row + part.height - 1)),
-        across * up};
-  };
-  return {texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1)};
-}
-
 std::optional<double> compared_caster(const raster::LightRecord& record, const BiasedLookup& lookup) {
-  using Read = raster::CapturedTest::Read;
-  const Read how = record.captured ? record.captured->test->read : Read::nearest;
-  if (how == Read::nearest) return stored_caster(record, lookup.key);
-  if (how == Read::moments) return caster_of_moments(record, lookup);
-  if (how == Read::paraboloids) return caster_of_paraboloids(record, lookup);
-  const raster::ShadowMap& map = record.map;
-  double read = 0.0;
-  for (const WeighedTexel& near : texels_between(record, lookup.at))
-    read += near.weight * double{map.depth[near.index]};
-  if (!holds_caster(map.view, read)) return std::nullopt;
-  return depth_from_stored(map.view, lookup.at.face, lookup.key.row() + 0.5, read);
+  return test_of(record).caster(record, lookup);
 }
 
 std::optional<double> unbiased_caster(const raster::LightRecord& record, raytrace::TexelKey key) {

@@ -1,11 +1,11 @@
-// The hard shadow test in double precision, with the technique's bias: rung V5. The GLSL twin is
+// The hard shadow test in double precision, with the technique's bias: rung V5 (raster::MapTest). The GLSL twin is
 // shaders/gap.glsl; a test holds the two together. Gaps are world units along the receiver's own light ray.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "raster/frame.h"
+#include "raster/map_test.h"
 #include "raytrace/sheets/sheets.h"
 #include "raytrace/tracer.h"
 
@@ -22,30 +22,20 @@ double texel_depth_slope(const LightView& view, const TexelCoordinate& at, const
 double plane_depth(const LightView& view, int face, double u, double v, const Vec3& position,
                    const Vec3& normal);
 
-/// Returns the factor >= 0 at the angle with this cosine, which is at least 0; infinite for the tangent of a right angle.
-double angle_factor(raster::AngleForm form, double cosine);
+using BiasedLookup = raster::MapLookup;
 
-/// Where the biased test looks: the receiver's own place, or that of its normal offset.
-struct BiasedLookup {
-  raytrace::TexelKey key;
-  TexelCoordinate at;
-  Vec3 position;
-  double cosine = 1.0;  ///< of the angle between the receiver's normal and the light, in [0, 1]
-};
+/// Returns how the record's map is tested: as another renderer does it, or as the rasterizer's own hard test.
+const raster::MapTest& test_of(const raster::LightRecord& record);
+
 /// None where the lookup is outside the map.
 std::optional<BiasedLookup> biased_lookup(const raster::LightRecord& record, const raster::Bias& bias,
                                           const Vec3& to_light, const raytrace::SurfacePoint& receiver,
                                           std::size_t pixel);
+/// A distance from the light as a depth along forward on the ray through a texel's centre.
+double depth_of_distance(const LightView& view, raytrace::TexelKey key, double distance);
 /// The depth along forward that is stored in a texel, if a caster is.
 std::optional<double> stored_caster(const raster::LightRecord& record, raytrace::TexelKey key);
-/// One of the four texels around a place, and how much of it is read there: weights add up to 1.
-struct WeighedTexel {
-  std::size_t index = 0;  ///< ShadowMap::texel_index
-  double weight = 0.0;
-};
-/// A sampler's linear filter: of the texels that the face, or the part of it that is a picture, has not, the nearest ones.
-std::array<WeighedTexel, 4> texels_between(const raster::LightRecord& record, const TexelCoordinate& at);
-/// The depth along forward that the test compares with: the stored one, or what is read between texels (CapturedTest::read).
+/// The depth along forward that the test compares with (raster::MapTest::caster).
 std::optional<double> compared_caster(const raster::LightRecord& record, const BiasedLookup& lookup);
 /// The stored depth before the casters' own bias.
 std::optional<double> unbiased_caster(const raster::LightRecord& record, raytrace::TexelKey key);

@@ -212,7 +212,7 @@ Json steps_json(const Budget& budget) {
 std::vector<CascadeSums> sums_of_cascades(const raster::RasterFrame& drawn,
                                           const raster::LightRecord& record) {
   std::vector<CascadeSums> sums;
-  if (drawn.options.map.technique != raster::Technique::csm || record.captured) return sums;
+  if (drawn.options.map.technique != raster::Technique::csm || record.foreign) return sums;
   for (int face = 0; face < record.map.view.face_count; ++face) sums.emplace_back(face);
   return sums;
 }

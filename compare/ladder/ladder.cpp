@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "compare/ladder/biased_test.h"
 #include "compare/ladder/labelling.h"
 #include "compare/metrics/pixel_list.h"
 #include "compare/truth/columns.h"
@@ -163,17 +164,11 @@ float point_rung(const LadderInput& in, std::size_t pixel) {
   return lit(in.truth().centre.data[pixel] == PointVisibility::lit);
 }
 
-// Another renderer's test of a pixel that looks up none of its layers.
-bool is_lit_without_map(const raster::LightRecord& record, std::size_t pixel) {
-  return record.captured && record.captured->test &&
-         record.captured->test->face_of(pixel) == raster::CapturedTest::no_face;
-}
-
 void climb_outside(const LadderInput& in, std::size_t pixel, Climb& out) {
   const float truth = out.rungs[0].data[pixel];
   const float drawn = in.record().visibility.data[pixel];
   out.rungs[1].data[pixel] = point_rung(in, pixel);
-  const float test = is_lit_without_map(in.record(), pixel) ? 1.0f : drawn;
+  const float test = test_of(in.record()).looks_up(pixel) ? drawn : 1.0f;
   for (std::size_t k = 2; k < 6; ++k) out.rungs[k].data[pixel] = test;
   out.rungs[6].data[pixel] = drawn;
   if (is_compared(out.labels.data[pixel]) && has_error(drawn, truth))

@@ -106,7 +106,7 @@ std::vector<std::uint32_t> sample_of(const LadderInput& in, const Image<Label>& 
 bool other_sizes_apply(const raster::RasterFrame& drawn, const raster::LightRecord& record) {
   const raster::MapOptions& map = drawn.options.map;
   const raster::TechniqueTraits& traits = raster::traits_of(map.technique);
-  if (drawn.custom_shader || record.captured || map.cull != raster::Cull::none) return false;
+  if (drawn.custom_shader || record.foreign || map.cull != raster::Cull::none) return false;
   if (map.bias.moves_casters()) return false;
   if (traits.contents != raster::MapContents::nearest_depth) return false;
   if (map.technique == raster::Technique::csm && map.cascades.blend > 0.0) return false;

@@ -77,7 +77,7 @@ void StandardErrors::write_to(PenumbraStats& out) const {
 }
 
 std::string_view why_no_curve(const raster::RasterFrame& drawn, const raster::LightRecord& record) {
-  if (record.captured && !drawn.custom_shader)
+  if (record.foreign && !drawn.custom_shader)
     return !record.has_known_map()
                ? std::string_view("The picture came without its map: there are no gaps to follow.")
                : std::string_view();

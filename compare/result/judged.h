@@ -43,7 +43,7 @@ struct AdvisedSetting {
   /// World units in one of the unit, and in a texel of the layer; 0: the setting is no length.
   double unit_world = 0.0, texel_world = 0.0;
   /// What one of the unit is at the nearest and the farthest receiver, where it is no single length.
-  std::array<raster::CapturedTest::UnitAt, 2> units = {};
+  std::array<raster::UnitAt, 2> units = {};
 };
 struct Advice : AdvisedSetting {
   /// Shares of all compared pixels, those outside the map among them. One is of what was drawn, one of what the filter and
@@ -93,8 +93,8 @@ struct Judged {
   /// With a map: the share of the compared pixels whose V5 is V6; of a map without filter all but those on
   /// the borders of texels.
   double biased_is_drawn = 0.0;
-  double unit_world = 0.0;  ///< world units that 1 of the map's stored numbers counts for
-  std::array<raster::CapturedTest::UnitAt, 2> units{};  ///< as of CapturedTest
+  double unit_world = 0.0;                ///< world units that 1 of the map's stored numbers counts for
+  std::array<raster::UnitAt, 2> units{};  ///< as of ForeignPicture
 };
 
 struct Comparison;

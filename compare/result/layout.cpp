@@ -32,7 +32,7 @@ double depth_seen(const World& world, const Camera& camera) {
 /// Of another renderer's map its size; of a window that was given which casters it lacks.
 std::string casters_words(const Comparison& c, const LightView& view) {
   const LightFace& face = view.face(0);
-  if (c.raster.lights.front().captured)
+  if (c.raster.lights.front().foreign)
     return fmt::format("The capture's map is {} x {}.", plain_number(2.0 * face.half_extent.x),
                        plain_number(2.0 * face.half_extent.y));
   if (c.raster.options.map.window.empty()) return "The map was fitted to hold the casters.";

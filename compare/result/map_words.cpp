@@ -12,10 +12,6 @@
 namespace gnomon::compare {
 namespace {
 
-const raster::CapturedTest* captured_test(const raster::LightRecord& record) {
-  return record.captured && record.captured->test ? &*record.captured->test : nullptr;
-}
-
 std::string bias_words(const raster::LightRecord& record, double texel_world) {
   return ", bias " + constant_text(record, texel_world);
 }
@@ -23,15 +19,11 @@ std::string bias_words(const raster::LightRecord& record, double texel_world) {
 }  // namespace
 
 std::string stored_text(const raster::LightRecord& record) {
-  const raster::CapturedTest* test = captured_test(record);
-  if (test == nullptr) return std::string(depth_format_name(record.map.format));
-  using Test = raster::CapturedTest;
-  if (test->read == Test::Read::moments) return "moments";
-  if (test->stores == Test::Stores::depths) return "depths";
-  return test->stores == Test::Stores::distances ? "distances" : "linear depths";
+  const bool is_foreign = record.foreign && record.foreign->test;
+  return std::string(is_foreign ? record.foreign->stores : depth_format_name(record.map.format));
 }
 
-std::string two_lengths(const std::array<raster::CapturedTest::UnitAt, 2>& units, double stored) {
+std::string two_lengths(const std::array<raster::UnitAt, 2>& units, double stored) {
   constexpr double hardly = 1.05;  // of lengths that are said with three digits as one
   const auto& [near, far] = units;
   if (!(far.world > hardly * near.world) || stored == 0.0) return {};
@@ -42,9 +34,9 @@ std::string two_lengths(const std::array<raster::CapturedTest::UnitAt, 2>& units
 
 std::string constant_text(const raster::LightRecord& record, double texel_world) {
   const double world = record.bias_constant_world;
-  if (const raster::CapturedTest* test = captured_test(record)) {
-    const double stored = world / test->unit_world;
-    if (const std::string two = two_lengths(test->units, stored); !two.empty())
+  if (record.foreign && record.foreign->test) {
+    const double stored = world / record.foreign->unit_world;
+    if (const std::string two = two_lengths(record.foreign->units, stored); !two.empty())
       return fmt::format("{} of stored depth ({})", plain_number(stored), two);
   }
   if (!(texel_world > 0.0)) return plain_number(world);
@@ -63,18 +55,18 @@ std::string map_details(const Comparison& c, const LightComparison* light) {
 }
 
 std::vector<const raster::MapSetting*> filter_settings(const raster::RasterFrame& drawn) {
-  const auto& captured = drawn.lights.front().captured;
+  const auto& foreign = drawn.lights.front().foreign;
   std::vector<const raster::MapSetting*> out;
   for (const raster::MapSetting& setting : raster::map_settings()) {
     if (setting.group != raster::SettingGroup::filter || !raster::reads(drawn.options.map, setting)) continue;
-    if (!captured || std::ranges::count(captured->said, setting.name) > 0) out.push_back(&setting);
+    if (!foreign || std::ranges::count(foreign->said, setting.name) > 0) out.push_back(&setting);
   }
   return out;
 }
 
 std::string_view shown_filter_kind(const raster::RasterFrame& drawn) {
   const raster::MapOptions& map = drawn.options.map;
-  const bool unsaid = drawn.lights.front().captured && map.technique == raster::Technique::pcf;
+  const bool unsaid = drawn.lights.front().foreign && map.technique == raster::Technique::pcf;
   return unsaid ? "pcf" : filter_kind(map);
 }
 
@@ -85,9 +77,9 @@ std::string filter_text(const raster::RasterFrame& drawn) {
     // Neither the kind nor how the receiver's depth is taken is a parameter.
     if (setting->name != "filter-kernel" && setting->name != "filter-plane")
       text += ", " + setting_words(*setting, drawn.options.map);
-  const raster::CapturedTest* test = captured_test(drawn.lights.front());
-  if (test != nullptr && test->moments.minimum_variance > 0.0)
-    text += fmt::format(", minimum variance {}", plain_number(test->moments.minimum_variance));
+  if (const auto& foreign = drawn.lights.front().foreign)
+    for (const auto& [key, words, value] : foreign->numbers)
+      text += fmt::format(", {} {}", words, plain_number(value));
   return text;
 }
 

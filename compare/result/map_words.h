@@ -19,7 +19,7 @@ std::string stored_text(const raster::LightRecord& record);
 std::string constant_text(const raster::LightRecord& record, double texel_world);
 /// "0.06 world units at 10 from the light, 0.96 at 40": so many stored numbers at the nearest and the farthest receiver. Empty
 /// where they are one length.
-std::string two_lengths(const std::array<raster::CapturedTest::UnitAt, 2>& units, double stored);
+std::string two_lengths(const std::array<raster::UnitAt, 2>& units, double stored);
 
 /// ", d32f, bias 0.02 (0.5 texels; a texel is 0.04 wide), slope bias 1": what follows the map's size. Of several lights the
 /// constant is left out, which is each light's own: `light` is then null.

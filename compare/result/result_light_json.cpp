@@ -53,9 +53,8 @@ Json filter_json(const raster::RasterFrame& drawn) {
   const raster::MapOptions& map = drawn.options.map;
   Json json{{"kind", shown_filter_kind(drawn)}, {"radius_texels", filter_reach_texels(map)}};
   for (const raster::MapSetting* setting : filter_settings(drawn)) add_setting(json, *setting, map);
-  const auto& captured = drawn.lights.front().captured;
-  if (captured && captured->test && captured->test->moments.minimum_variance > 0.0)
-    json["minimum_variance"] = number(captured->test->moments.minimum_variance);
+  if (const auto& foreign = drawn.lights.front().foreign)
+    for (const auto& one : foreign->numbers) json[one.key] = number(one.value);
   return json;
 }
 
@@ -178,8 +177,8 @@ Json map_json(const Comparison& c, const LightComparison& light) {
             {"size", known ? Json(record.map.view.size) : Json(nullptr)},
             {"inferred", c.judged && c.judged->identified.has_value()},
             {"faces", record.map.view.face_count},
-            {"depth_format", record.captured ? Json(nullptr) : Json(depth_format_name(record.map.format))},
-            {"stores", known ? Json(record.captured ? stored_text(record) : "depths") : Json(nullptr)},
+            {"depth_format", record.foreign ? Json(nullptr) : Json(depth_format_name(record.map.format))},
+            {"stores", known ? Json(record.foreign ? stored_text(record) : "depths") : Json(nullptr)},
             {"cull", cull_name(map.cull)},
             {"bias", bias_json(c, light)},
             {"custom_shader", custom_shader_json(c.raster)},

@@ -112,7 +112,7 @@ std::optional<SeamCount> count_seams(const LadderInput& in, const Image<Label>& 
                                      const PictureRows& within) {
   const raster::LightRecord& record = in.record();
   const bool hard = raster::traits_of(in.drawn.options.map.technique).test == raster::ShadowTest::single;
-  if (!hard || record.captured || in.drawn.custom_shader || record.map.view.face_count < 2 ||
+  if (!hard || record.foreign || in.drawn.custom_shader || record.map.view.face_count < 2 ||
       record.map.depth.empty() || record.face.data.size() != labels.data.size())
     return std::nullopt;
   const SeamCounter counter(in, labels);

@@ -2,12 +2,13 @@
 
 #include "compare/ladder/biased_test.h"
 #include "compare/ladder/labelling.h"
-#include "compare/ladder/paraboloids.h"
 #include "compare/truth/stored_surface.h"
 #include "raster/technique_traits.h"
 
 namespace gnomon::compare {
 namespace {
+
+using Reads = raster::MapTest::Reads;
 
 // Infinite where the ray meets nothing.
 std::optional<double> depth_of_stored(const LadderInput& in, raytrace::TexelKey key, double first_depth) {
@@ -45,22 +46,19 @@ double gap_with_bias(const LowerClimb& lower, const LadderInput& in, std::size_t
   const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
   const double exact = lower.centres[group];
   const double moved = caster_offset(in.record(), texel);
+  const Reads reads = test_of(in.record()).reads();
   const bool of_texel =
-      texel == lower.groups.keys[group] && !reads_moments(in.record()) && !reads_paraboloids(in.record());
+      texel == lower.groups.keys[group] && (reads == Reads::texel || reads == Reads::between);
   if (of_texel && is_exact(in, texel, *depth - moved, exact))
     return gap_before_exact(in, *lookup, receiver, exact + moved);
   return gap_before(in.record(), in.drawn.options.map.bias, receiver.normal, *lookup, *depth);
 }
 
-/// The depth of what the ray through the middle of the paraboloid's texel meets first.
-double exact_depth_of_paraboloid(const LadderInput& in, const BiasedLookup& lookup) {
+/// The distance to what the test's own ray meets first, as a depth on the ray through the looked-up texel's centre.
+double exact_depth_elsewhere(const LadderInput& in, const BiasedLookup& lookup) {
   const raster::LightRecord& record = in.record();
-  const auto& halves = record.captured->test->paraboloids;
-  const Vec3& origin = record.map.view.origin;
-  const ParaboloidPlace place = paraboloid_place(halves, glm::normalize(lookup.position - origin));
-  const Ray ray{origin, paraboloid_direction(halves, texel_centre(halves, place)), {0.0, infinity}};
-  const auto hit = in.tracer.closest_hit(ray, raytrace::Sides::casting);
-  return hit ? depth_of_distance(record, lookup, hit->t) : infinity;
+  const auto hit = in.tracer.closest_hit(test_of(record).exact_ray(record, lookup), raytrace::Sides::casting);
+  return hit ? depth_of_distance(record.map.view, lookup.key, hit->t) : infinity;
 }
 
 /// The depth at which the ray through the looked-up texel's centre meets what the texel stores.
@@ -74,11 +72,10 @@ std::optional<double> gap_to_exact(const LowerClimb& lower, const LadderInput& i
                                    std::size_t pixel) {
   const auto lookup = lookup_of(in, pixel);
   if (!lookup) return std::nullopt;
-  const auto& captured = in.record().captured;
-  if (captured && captured->test && captured->test->read == raster::CapturedTest::Read::linear_depths)
-    return std::nullopt;  // it reads no one texel
-  const auto depth = reads_paraboloids(in.record()) ? exact_depth_of_paraboloid(in, *lookup)
-                                                    : exact_depth(lower, in, group, lookup->key);
+  const Reads reads = test_of(in.record()).reads();
+  if (reads == Reads::between) return std::nullopt;
+  const auto depth = reads == Reads::elsewhere ? exact_depth_elsewhere(in, *lookup)
+                                               : exact_depth(lower, in, group, lookup->key);
   if (!depth) return std::nullopt;
   if (std::isinf(*depth) || is_moved_out(in.record(), lookup->key)) return -infinity;
   return gap_before_exact(in, *lookup, in.traced.receiver.data[pixel],
@@ -88,7 +85,7 @@ std::optional<double> gap_to_exact(const LowerClimb& lower, const LadderInput& i
 /// Whether the test reads averages among which that depth may be.
 bool averages_exact(const LowerClimb& lower, const LadderInput& in, std::size_t group,
                     raytrace::TexelKey key) {
-  if (!reads_moments(in.record())) return false;
+  if (test_of(in.record()).reads() != Reads::averages) return false;
   const auto depth = exact_depth(lower, in, group, key);
   return depth && is_exact(in, key, *depth, *depth);
 }

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "compare/ladder/moments.h"
+#include "compare/ladder/biased_test.h"
 #include "compare/truth/columns.h"
 
 namespace gnomon::compare {
@@ -16,8 +16,10 @@ namespace gnomon::compare {
 inline bool is_exact(const LadderInput& input, raytrace::TexelKey key, double stored_depth,
                      double exact_depth) {
   const double rounding = input.record().rounding.float_world;
-  if (!reads_moments(input.record())) return std::abs(stored_depth - exact_depth) <= rounding;
-  const Interval averaged = averaged_depths(input.record(), key);
+  const raster::MapTest& test = test_of(input.record());
+  if (test.reads() != raster::MapTest::Reads::averages)
+    return std::abs(stored_depth - exact_depth) <= rounding;
+  const Interval averaged = test.averaged_depths(input.record(), key);
   const double far = input.record().map.view.face(key.face()).far_depth;
   return exact_depth >= averaged.min - rounding && std::min(exact_depth, far) <= averaged.max + rounding;
 }

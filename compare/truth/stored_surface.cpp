@@ -20,7 +20,7 @@ double rounding_at(const raster::LightRecord& record, raytrace::TexelKey key) {
 }
 
 raytrace::Sides sides_left(const raster::LightRecord& record, raster::Cull cull) {
-  if (record.captured || cull == raster::Cull::none) return raytrace::Sides::both;
+  if (record.foreign || cull == raster::Cull::none) return raytrace::Sides::both;
   return cull == raster::Cull::front ? raytrace::Sides::backs : raytrace::Sides::fronts;
 }
 

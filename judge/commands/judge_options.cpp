@@ -63,7 +63,8 @@ void add_lists(CLI::App& app, CaptureOptions& options) {
 void add_map_parts(CLI::App& app, CaptureOptions& o) {
   add_lists(app, o);
   add_named<compare::StoredDepth>(app, "--map-convention", "what the map's texels hold",
-                                  compare::stored_depth_names, o, [&o](auto v) { o.map_convention = v; });
+                                  compare::names_of(compare::stored_conventions), o,
+                                  [&o](auto v) { o.map_convention = v; });
   add_named<compare::RowOrder>(app, "--map-rows", "which row of the map comes first",
                                compare::row_order_names, o, [&o](auto v) { o.map_rows = v; });
   add_real(app, "--map-bias", raster::bias_range, "stored depth",

@@ -17,21 +17,11 @@
 #include "raytrace/huge_array.h"
 #include "raytrace/tracer.h"
 #include "scene/light_map/light_view.h"
+#include "scene/light_map/texel_key.h"
 
 namespace gnomon::raytrace {
 
-/// One texel of a map, packed so that a sorted list groups columns.
-struct TexelKey {
-  std::uint64_t value = 0;
-  static TexelKey pack(int face, int column, int row) {
-    return {(static_cast<std::uint64_t>(face) << 56) | (static_cast<std::uint64_t>(row) << 28) |
-            static_cast<std::uint64_t>(column)};
-  }
-  int face() const { return static_cast<int>(value >> 56); }
-  int row() const { return static_cast<int>((value >> 28) & 0xfffffff); }
-  int column() const { return static_cast<int>(value & 0xfffffff); }
-  auto operator<=>(const TexelKey&) const = default;
-};
+using gnomon::TexelKey;
 
 /// Triangle adjacency with vertices welded by exact position; built once per world, whose meshes must outlive it.
 class Topology {

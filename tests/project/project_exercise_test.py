@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Counts the files that a new metric, label, setting, technique, light shape, file format and lesson take.
+"""Counts the files that a new metric, label, setting, technique, light shape, file format, convention and lesson take.
 
     project_exercise_test.py SOURCE          counts, and holds the table of CONTRIBUTING.md to the counts
     project_exercise_test.py SOURCE --apply  makes all changes there, to be built and tried
 
-Each exercise is a small one that works: its lines are all that it takes beside tests, manual and changelog. An anchor that
+Each exercise is the hardest of its kind that is still small, and works: its lines are all that it takes beside tests, manual and
+changelog. An anchor that
 is gone, or stands there several times, fails the test: then the exercise is to be done again by hand, and the table with it.
 """
 import pathlib
@@ -99,6 +100,44 @@ EXERCISES = {
          "  std::istringstream in{std::string(text)};\n  std::string obj, x, y, z;\n"
          '  for (int corner = 1; in >> x >> y >> z; ++corner) {\n    obj += "v " + x + " " + y + " " + z + "\\n";\n'
          '    if (corner % 3 == 0) obj += "f -3 -2 -1\\n";\n  }\n  return read_obj(obj, file, {}, options);\n}\n\n}  // namespace gnomon\n'),
+    ],
+    "a convention of captured maps": [  # all directions unfolded onto one square: an octahedron (Meyer et al. 2010)
+        ("judge/conventions.h", "  paraboloid,\n};", REPLACE, "  paraboloid,\n  octahedron,\n};"),
+        ("judge/conventions.h", "extern const MapLayout paraboloid_layout;  ///< paraboloids.cpp\n", AFTER,
+         "extern const MapLayout octahedron_layout;  ///< octahedron.cpp\n"),
+        ("judge/conventions.h", "std::array<StoredConvention, 6>", REPLACE, "std::array<StoredConvention, 7>"),
+        ("judge/conventions.h", "&paraboloid_layout}}};", REPLACE,
+         '&paraboloid_layout},\n     {"octahedron", Stores::distances, true, false, true, &octahedron_layout}}};'),
+        ("judge/octahedron.cpp", None, None,
+         "// Octahedral maps: a direction's place on the octahedron |x| + |y| + |z| = 1, whose half with z < 0 is folded outwards.\n"
+         "#include \"judge/directions_test.h\"\n\nnamespace gnomon::compare {\nnamespace {\n\n"
+         "Vec2 folded(const Vec2& p) {\n  return (1.0 - glm::abs(Vec2(p.y, p.x))) * Vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);\n}\n\n"
+         "class OctahedronTest final : public DirectionsTest {\n public:\n  Mat3 turn{1.0};\n"
+         "  DirectionPlace place(const Vec3& direction) const override {\n    Vec3 d = turn * direction;\n"
+         "    d /= std::abs(d.x) + std::abs(d.y) + std::abs(d.z);\n    const Vec2 p = d.z < 0.0 ? folded(Vec2(d)) : Vec2(d);\n"
+         "    return {0, 0.5 * (p.x + 1.0) * pictures[0].width, 0.5 * (p.y + 1.0) * pictures[0].height};\n  }\n"
+         "  Vec3 direction(const DirectionPlace& place) const override {\n"
+         "    const Vec2 p(2.0 * place.u / pictures[0].width - 1.0, 2.0 * place.v / pictures[0].height - 1.0);\n"
+         "    const double z = 1.0 - std::abs(p.x) - std::abs(p.y);\n"
+         "    return glm::transpose(turn) * glm::normalize(Vec3(z < 0.0 ? folded(p) : p, z));\n  }\n"
+         "  std::shared_ptr<CapturedTest> clone() const override { return std::make_shared<OctahedronTest>(*this); }\n};\n\n"
+         "Expected<LightTurn> turn_of(const Capture& capture, const Light& light, const World& world) {\n"
+         "  return read_turn(capture, 0, light, world, \"the matrix is the light's view without a projection\");\n}\n\n"
+         "Expected<void> check_octahedron(const Capture& capture) {\n  if (capture.map.size() != 1) return capture_error(capture, \"map\", "
+         "\"of an octahedron has one layer\");\n  return check_directions(capture, \"octahedra\");\n}\n\n"
+         "Expected<void> check_turn(const Capture& capture, const Light& light, const World& world) {\n"
+         "  const auto turn = turn_of(capture, light, world);\n  if (!turn) return fail(turn.error());\n  return {};\n}\n\n"
+         "Expected<CapturedMap> read_octahedron(const Capture& capture, const Light& light, const World& world) {\n"
+         "  const auto turn = turn_of(capture, light, world);\n  if (!turn) return fail(turn.error());\n"
+         "  const auto test = std::make_shared<OctahedronTest>();\n  test->turn = turn->turn;\n"
+         "  return read_directions(capture, turn->origin, test, 1.0);\n}\n\n}  // namespace\n\n"
+         "const MapLayout octahedron_layout{check_octahedron, check_turn, read_octahedron};\n\n}  // namespace gnomon::compare\n"),
+        ("judge/CMakeLists.txt", "own_test.cpp", BEFORE, "octahedron.cpp "),
+        ("judge/capture.schema.json", '"linear_z", "paraboloid"],\n', REPLACE, '"linear_z", "paraboloid", "octahedron"],\n'),
+        ("judge/capture.schema.json", "Nothing drawn: the far end's number;", BEFORE,
+         "octahedron: the same of one layer, onto which an octahedron is unfolded. "),
+        ("docs/capture.md", "| `paraboloid` | no depth: it turns and shifts, the light at 0 | distance from the light, world units | the same |\n", AFTER,
+         "| `octahedron` | the same, of one layer onto which an octahedron is unfolded | the same | the same |\n"),
     ],
     "a lesson": [
         ("docs/lessons/tides.md <- docs/lessons/precision.md", "# Precision", REPLACE, "# Tides"),

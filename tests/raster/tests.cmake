@@ -3,7 +3,7 @@ gnomon_test(raster_gl_test
   SOURCES raster_acne_gl_test.cpp raster_alpha_gl_test.cpp raster_bias_gl_test.cpp raster_caster_bias_gl_test.cpp raster_clip_sides_test.cpp raster_triangle_runs_test.cpp raster_constants_gl_test.cpp
           raster_context_gl_test.cpp raster_custom_shader_test.cpp raster_depth_map_gl_test.cpp raster_filter_gl_test.cpp raster_filter_scenes_gl_test.cpp raster_frame_gl_test.cpp raster_ids_gl_test.cpp raster_instances_gl_test.cpp
           raster_limits_gl_test.cpp raster_picture_gl_test.cpp raster_present_gl_test.cpp raster_settings_test.cpp raster_shape_bounds_test.cpp
-  LIBS gnomon::compare gnomon::raster gnomon_raster_private)
+  LIBS gnomon::judge gnomon::raster gnomon_raster_private)
 # Pictures made in bands, by both renderers.
 gnomon_test(bands_gl_test
   SOURCES bands_gl_test.cpp

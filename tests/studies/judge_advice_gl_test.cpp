@@ -108,7 +108,7 @@ struct Engine {
 
   /// Draws the capture's picture with the settings of this one. A map of moments is made from its depths with them.
   void draw(Capture settings) const {
-    if (compare::reads_moments(settings)) {
+    if (settings.filter && settings.filter->read == compare::FilterRead::moments) {
       for (const compare::CapturedLayer& layer : settings.map)
         std::filesystem::copy_file(layer.depth + ".depths.exr", layer.depth,
                                    std::filesystem::copy_options::overwrite_existing);
@@ -137,7 +137,7 @@ void choose_filter(Random& random, Engine& engine) {
     filter.kind = kind;
     filter.light_bleeding_reduction = random.one_of({0.0, 0.0, 0.2});
     filter.minimum_variance = random.one_of({0.0, 1e-6, 1e-4});
-    filter.read = raster::CapturedTest::Read::moments, filter.radius_texels = 2.5;
+    filter.read = compare::FilterRead::moments, filter.radius_texels = 2.5;
     for (const compare::CapturedLayer& layer : engine.capture.map)
       std::filesystem::copy_file(layer.depth, layer.depth + ".depths.exr");
   };

@@ -125,7 +125,7 @@ TEST(BadCaptures, OfParaboloidsNameTheField) {
   capture.map[1].bias.reset(), capture.map[1].caster_bias = compare::CapturedCasterBias{.constant = 0.1};
   expect_named(capture, "map[1].caster_bias: differs from that of the other half");
   capture.map = {half(1.0), half(1.0)};
-  capture.filter = compare::CapturedFilter{.read = raster::CapturedTest::Read::linear_depths};
+  capture.filter = compare::CapturedFilter{.read = compare::FilterRead::linear_depths};
   expect_named(capture, "filter.read: is nearest of paraboloids");
   capture.filter.reset(), capture.map[1].select = compare::CapturedSelect{};
   expect_named(capture, "map: has a select in some layers");
@@ -158,7 +158,7 @@ TEST(BadCaptures, OfMapsNameTheField) {
   expect_named(capture, "map[0].select.blend: is towards the next layer, and there is none");
   capture.map.push_back(layer(Mat4(1.0)));
   capture.map[0].select.reset();
-  capture.map[1].bias = compare::CapturedBias{.angle = raster::AngleForm::sine};
+  capture.map[1].bias = compare::CapturedBias{.angle = compare::BiasAngle::sine};
   expect_named(capture, "map[1].bias.angle: differs from that of map[0]");
 }
 

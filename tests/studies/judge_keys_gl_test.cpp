@@ -6,10 +6,10 @@
 namespace gnomon::test {
 namespace {
 
+using compare::BiasAngle;
 using compare::FilterName;
 using compare::StoredDepth;
-using raster::AngleForm;
-using Read = raster::CapturedTest::Read;
+using Read = compare::FilterRead;
 using raster::Technique;
 
 /// What an Engine is made with.
@@ -82,14 +82,14 @@ const Drawing lamp_linear{.light = "lamp", .stored = StoredDepth::linear_z, .con
 const Drawing bulb{.light = "bulb", .stored = StoredDepth::distance, .constant = 0.02};
 const Drawing wide{.constant = 0.03};
 // So little that some acne stays, which no other constant draws.
-const CapturedBias sine{.constant_depth = 0.006, .angle = AngleForm::sine};
-const CapturedBias tangent{.constant_depth = 0.005, .angle = AngleForm::tangent, .min = 0.0001, .max = 2.0};
-const CapturedBias haversine{.constant_depth = 0.02, .angle = AngleForm::one_minus_cosine, .min = 0.0001};
+const CapturedBias sine{.constant_depth = 0.006, .angle = BiasAngle::sine};
+const CapturedBias tangent{.constant_depth = 0.005, .angle = BiasAngle::tangent, .min = 0.0001, .max = 2.0};
+const CapturedBias haversine{.constant_depth = 0.02, .angle = BiasAngle::one_minus_cosine, .min = 0.0001};
 const CapturedBias plain{.constant_depth = 0.3};
 const CapturedBias offset_sine{
-    .constant_depth = 0.02, .normal_offset_world = 0.2, .normal_offset_angle = AngleForm::sine};
+    .constant_depth = 0.02, .normal_offset_world = 0.2, .normal_offset_angle = BiasAngle::sine};
 const CapturedBias offset_haversine{
-    .constant_depth = 0.02, .normal_offset_world = 0.6, .normal_offset_angle = AngleForm::one_minus_cosine};
+    .constant_depth = 0.02, .normal_offset_world = 0.6, .normal_offset_angle = BiasAngle::one_minus_cosine};
 const CapturedBias offset{.constant_depth = 0.02, .normal_offset_world = 0.2};
 
 const KeyCase key_cases[] = {
@@ -149,22 +149,22 @@ const KeyCase key_cases[] = {
     // the bias
     {"constant", wide, nothing, said_bias({}), "`constant_depth` is about 0.03"},
     {"sign", {}, nothing, turn_sign, sign_words},
-    {"sine", lamp_distance, with_bias(sine), [](Capture& c) { c.bias->angle = AngleForm::none; },
+    {"sine", lamp_distance, with_bias(sine), [](Capture& c) { c.bias->angle = BiasAngle::none; },
      "`bias.angle` is sine"},
-    {"tangent", lamp_distance, with_bias(tangent), [](Capture& c) { c.bias->angle = AngleForm::none; },
+    {"tangent", lamp_distance, with_bias(tangent), [](Capture& c) { c.bias->angle = BiasAngle::none; },
      "`bias.angle` is tangent"},
-    {"haversine", lamp_distance, with_bias(haversine), [](Capture& c) { c.bias->angle = AngleForm::none; },
+    {"haversine", lamp_distance, with_bias(haversine), [](Capture& c) { c.bias->angle = BiasAngle::none; },
      "`bias.angle` is one_minus_cosine"},
     {"no_angle", lamp_distance, with_bias(plain),
-     [](Capture& c) { c.bias->angle = AngleForm::one_minus_cosine; }, "`bias.angle` is none"},
+     [](Capture& c) { c.bias->angle = BiasAngle::one_minus_cosine; }, "`bias.angle` is none"},
     {"limits", lamp_distance, with_bias(plain), [](Capture& c) { c.bias->max = 0.05; },
      "nothing limits the bias (`bias.min`, `bias.max`)"},
     {"offset", lamp_distance, with_bias(offset),
-     [](Capture& c) { c.bias->normal_offset_angle = AngleForm::sine; }, "`bias.normal_offset_angle` is none"},
+     [](Capture& c) { c.bias->normal_offset_angle = BiasAngle::sine; }, "`bias.normal_offset_angle` is none"},
     {"offset_sine", lamp_distance, with_bias(offset_sine), said_bias(offset),
      "`bias.normal_offset_angle` is sine"},
     {"offset_haversine", lamp_distance, with_bias(offset_haversine),
-     [](Capture& c) { c.bias->normal_offset_angle = AngleForm::none; },
+     [](Capture& c) { c.bias->normal_offset_angle = BiasAngle::none; },
      "`bias.normal_offset_angle` is one_minus_cosine"},
     {"no_offset", lamp_distance, nothing, said_bias(offset), "no offset along the normal is drawn"},
     {"caster_constant",

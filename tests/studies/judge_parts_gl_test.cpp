@@ -21,7 +21,7 @@ struct Kind {
 
 std::string name_of(const Kind& kind) {
   return kind.light + (kind.technique == Technique::csm ? "_cascades_" : "_") +
-         std::string(compare::stored_depth_names[static_cast<std::size_t>(kind.stored)]);
+         std::string(compare::convention_of(kind.stored).name);
 }
 
 std::vector<Kind> kinds(bool distances) {

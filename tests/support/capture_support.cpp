@@ -157,8 +157,7 @@ std::string map_json(const compare::Capture& c) {
   std::string out;
   for (const compare::CapturedLayer& layer : c.map) {
     out += (out.empty() ? "" : ", ") + std::string("{\"depth\": ") + quoted(layer.depth) +
-           ", \"convention\": " +
-           quoted(std::string(compare::stored_depth_names[static_cast<std::size_t>(*layer.convention)])) +
+           ", \"convention\": " + quoted(std::string(compare::convention_of(*layer.convention).name)) +
            ", \"rows\": " +
            quoted(std::string(compare::row_order_names[static_cast<std::size_t>(*layer.rows)])) +
            ", \"clip_from_world\": [";

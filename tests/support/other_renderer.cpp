@@ -21,7 +21,7 @@ class OtherRenderer {
   }
 
   float visibility(const Vec3& surface, const Vec3& normal) const {
-    const bool halves = has_paraboloids(capture_);
+    const bool halves = capture_.map.front().convention == StoredDepth::paraboloid;
     const auto seen = halves ? std::nullopt : layer_of(surface);
     float light = halves ? paraboloid_visibility(surface, normal) : layer_visibility(surface, normal, seen);
     if (selects() && seen && capture_.map[*seen].select->blend > 0.0) {
@@ -60,7 +60,7 @@ class OtherRenderer {
     const Vec2 range = capture_.map[*layer].range.value_or(Vec2(0.0, 1.0));
     const auto stored = [&](double world) { return (world - range.x) / (range.y - range.x); };
     const double sign = range.y > range.x ? 1.0 : -1.0;
-    if (reads_moments(capture_))
+    if (capture_.filter && capture_.filter->read == compare::FilterRead::moments)
       return float(light_of(
           *layer, ndc,
           number_of(ndc.z, stored(clip.w), stored(glm::length(place - light_.position))) - constant));
@@ -116,15 +116,15 @@ class OtherRenderer {
   }
 
   /// As shaders write it, of the dot product of normal and light.
-  static double by_angle(raster::AngleForm form, double cosine) {
+  static double by_angle(compare::BiasAngle form, double cosine) {
     switch (form) {
-      case raster::AngleForm::sine:
+      case compare::BiasAngle::sine:
         return std::sqrt(1.0 - cosine * cosine);
-      case raster::AngleForm::tangent:
+      case compare::BiasAngle::tangent:
         return std::tan(std::acos(cosine));
-      case raster::AngleForm::one_minus_cosine:
+      case compare::BiasAngle::one_minus_cosine:
         return 1.0 - cosine;
-      case raster::AngleForm::none:
+      case compare::BiasAngle::none:
         break;
     }
     return 1.0;
@@ -217,7 +217,7 @@ class OtherRenderer {
   double read(std::size_t layer, const Vec3& ndc, std::size_t channel) const {
     const ImageSize size = texels_[layer].size;
     const Vec2 at = (0.5 * Vec2(ndc) + 0.5) * Vec2(size.width, size.height);
-    if (!capture_.filter || capture_.filter->read == raster::CapturedTest::Read::nearest)
+    if (!capture_.filter || capture_.filter->read == compare::FilterRead::nearest)
       return texel(layer, static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), channel);
     const Vec2 corner = glm::floor(at - 0.5), share = at - 0.5 - corner;
     const int x = static_cast<int>(corner.x), y = static_cast<int>(corner.y);
@@ -288,7 +288,7 @@ std::array<double, 4> moments_of(const compare::CapturedFilter& filter, double x
 }  // namespace
 
 void store_moments(Capture& capture) {
-  capture.filter->read = raster::CapturedTest::Read::moments, capture.filter->radius_texels = 2.5;
+  capture.filter->read = compare::FilterRead::moments, capture.filter->radius_texels = 2.5;
   constexpr const char* names[] = {"R", "G", "B", "A"};
   const compare::CapturedFilter& filter = *capture.filter;
   const int reach = static_cast<int>(filter.radius_texels);
