@@ -63,9 +63,10 @@ MapOptions effective_options(const MapOptions& options) {
 
 Expected<void> check_map_options(const MapOptions& options) {
   if (auto ok = check_ranges(options); !ok) return ok;
-  if (options.technique == Technique::second_depth && options.cull == Cull::back)
-    return fail(
-        usage("technique second-depth", "leaves out front faces (got --cull back, allowed none, front)"));
+  const TechniqueTraits& traits = traits_of(options.technique);
+  if (traits.contents == MapContents::back_depth && options.cull == Cull::back)
+    return fail(usage(fmt::format("technique {}", traits.name),
+                      "leaves out front faces (got --cull back, allowed none, front)"));
   if (!options.cascades.splits.empty() && options.cascades.fit_samples)
     return fail(
         usage("cascade splits", "are given, or fitted to the surfaces that the camera sees: not both"));
@@ -86,9 +87,11 @@ Expected<void> check_options(const RasterOptions& options, const ContextInfo& co
   if (auto ok = check_size("image height", "pixels", options.size.height, limit, limits); !ok) return ok;
   if (options.runs < 0)
     return fail(usage("runs", fmt::format("must not be negative (got {})", options.runs)));
-  if (options.map.technique == Technique::izb && !is_whole(context.backend))
-    return fail(ErrorKind::graphics,
-                "technique izb writes storage buffers, which WebGL 2 lacks (the native program draws it)");
+  if (traits_of(options.map.technique).contents == MapContents::pixels && !is_whole(context.backend))
+    return fail(
+        ErrorKind::graphics,
+        fmt::format("technique {} writes storage buffers, which WebGL 2 lacks (the native program draws it)",
+                    technique_name(options.map.technique)));
   return check_map_options(options.map);
 }
 

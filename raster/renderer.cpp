@@ -188,7 +188,7 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
                        map,      &job.view, &shading_, caster_bias(map, *view, *world_)};
   const VisibilityRequest request{
       index, *view, job.view, job.options.shadow_samples, job.options.seed, job.options.analysis};
-  if (map.technique == Technique::hybrid) {
+  if (is_external(map.technique)) {
     kept_map_.reset();
     if (auto ok = prepare_external(job, request, record); !ok) return ok;
     if (record == nullptr || !hands_on_map(job.options)) return shade(job, map_job, request, record);

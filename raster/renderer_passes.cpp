@@ -133,11 +133,12 @@ Expected<LightView> GlRenderer::fit(Job& job, const Light& light, const MapOptio
 
 Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map) {
   if (technique_ != map.options.technique) {
-    technique_pass_ = make_technique_pass(*gl_, programs_, map.options.technique);
     technique_ = map.options.technique;
+    const auto make_pass = traits_of(technique_).drawing->make_pass;
+    technique_pass_ = make_pass != nullptr ? make_pass(*gl_, programs_) : nullptr;
   }
   if (auto ok = map_pass_.prepare(map.view, map.options.depth_format); !ok) return ok;
-  if (map.options.technique == Technique::hybrid) return {};  // drawn for the records alone
+  if (is_external(map.options.technique)) return {};  // drawn for the records alone
   const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
   if (!replaced) job.frame.map_texels += texels_of(map.view);
   std::uint64_t bytes = replaced ? 0 : map_pass_.bytes();
@@ -175,7 +176,7 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
     job.visibility_drawn = true;
   }
   const bool timed =
-      record != nullptr && !job.goes_on && job.options.runs > 0 && map.options.technique != Technique::hybrid;
+      record != nullptr && !job.goes_on && job.options.runs > 0 && !is_external(map.options.technique);
   if (timed) {
     const Pass pass = [&]() -> Expected<void> {
       if (fits_to_samples(map.options)) {

@@ -96,7 +96,7 @@ Expected<void> GlRenderer::time_shading_as_judged(Job& job, const MapJob& map_jo
 }
 
 bool GlRenderer::has_spans(const Job& job, const LightRecord* record) {
-  return job.options.span_drawings > 0 && job.options.map.technique != Technique::hybrid &&
+  return job.options.span_drawings > 0 && !is_external(job.options.map.technique) &&
          !job.frame.lights.empty() && record == &job.frame.lights.front();
 }
 
@@ -233,7 +233,7 @@ Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const V
 Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const VisibilityRequest& request,
                                  LightRecord* record) {
   const MapOptions& map = map_job.options;
-  const VisibilityRequest* asked = map.technique == Technique::hybrid ? &request : nullptr;
+  const VisibilityRequest* asked = is_external(map.technique) ? &request : nullptr;
   const bool records = record != nullptr && job.options.analysis;
   if (asked == nullptr || records) map_pass_.bind_for_lookup();
   if (technique_pass_ != nullptr) technique_pass_->bind_for_lookup();
@@ -280,7 +280,7 @@ Expected<void> GlRenderer::read_shading(Job& job, const MapJob& map_job, LightRe
 }
 
 std::size_t GlRenderer::most_pixels(const MapOptions& map) const {
-  if (map.technique != Technique::izb || !context_->make_current()) return 0;
+  if (traits_of(map.technique).contents != MapContents::pixels || !context_->make_current()) return 0;
   return IzbPass::most_pixels(*gl_);
 }
 

@@ -48,6 +48,15 @@ bool lies_still(const Traits& t) {
 bool has_a_window(const Traits& t) {
   return lies_still(t) && t.lights.has(LightType::directional);
 }
+bool averages_kernel(const Traits& t) {
+  return t.filter == EdgeFilter::kernel;
+}
+bool searches_penumbra(const Traits& t) {
+  return t.filter == EdgeFilter::penumbra;
+}
+bool cascades(const Traits& t) {
+  return t.texels == TexelShape::cascades;
+}
 template <Technique only>
 bool is(const Traits& t) {
   return t.technique == only;
@@ -248,7 +257,7 @@ constexpr MapSetting rows[] = {
     {.name = "filter-kernel",
      .group = SettingGroup::filter,
      .kind = choice<&kernel_values, of_filter, &F::kernel>(),
-     .read_by = is<Technique::pcf>,
+     .read_by = averages_kernel,
      .type = "NAME",
      .help = "N x N texels alike, 2 x 2 bilinear, a disc turned at every pixel, or a sliding square",
      .title = "Kernel",
@@ -258,7 +267,7 @@ constexpr MapSetting rows[] = {
     {.name = "filter-radius",
      .group = SettingGroup::filter,
      .kind = number<of_filter, &F::radius_texels>("texels", {0.001, 64.0}, {0.5, 16.0}, true),
-     .read_by = is<Technique::pcf>,
+     .read_by = averages_kernel,
      .read_by_kernel = has_radius,
      .type = "NUMBER",
      .help = "half the kernel's width; box covers 2 floor(radius) + 1",
@@ -290,7 +299,7 @@ constexpr MapSetting rows[] = {
      .key = "blocker_samples",
      .group = SettingGroup::filter,
      .kind = integer<of_filter, &F::blocker_samples>("lookups", 1, 1024, 1, 128),
-     .read_by = is<Technique::pcss>,
+     .read_by = searches_penumbra,
      .type = "N",
      .help = "points of the search for what blocks the light",
      .title = "Blocker samples",
@@ -299,7 +308,7 @@ constexpr MapSetting rows[] = {
      .key = "search_radius_texels",
      .group = SettingGroup::filter,
      .kind = number<of_filter, &F::search_radius_texels>("texels", {0.001, 1024.0}, {1.0, 256.0}, true),
-     .read_by = is<Technique::pcss>,
+     .read_by = searches_penumbra,
      .type = "NUMBER",
      .help = "the search goes no farther, however large the light",
      .title = "Search radius",
@@ -388,7 +397,7 @@ constexpr MapSetting rows[] = {
      .key = "count",
      .group = SettingGroup::cascades,
      .kind = integer<of_cascades, &C::count>("", 1, 6, 1, 6),
-     .read_by = is<Technique::csm>,
+     .read_by = cascades,
      .type = "N",
      .help = "slices of the view, one map each",
      .title = "Cascades",
@@ -399,7 +408,7 @@ constexpr MapSetting rows[] = {
      .key = "lambda",
      .group = SettingGroup::cascades,
      .kind = number<of_cascades, &C::lambda>("share", {0.0, 1.0}, {0.0, 1.0}),
-     .read_by = is<Technique::csm>,
+     .read_by = cascades,
      .type = "NUMBER",
      .help = "how the view's depth is split: 0 evenly, 1 evenly in its logarithm",
      .title = "Split",
@@ -410,7 +419,7 @@ constexpr MapSetting rows[] = {
      .key = "splits",
      .group = SettingGroup::cascades,
      .kind = list<of_cascades, &C::splits>("world units", {0.0, 1e30, true}, 1, 6, true),
-     .read_by = is<Technique::csm>,
+     .read_by = cascades,
      .type = "D1,D2,...",
      .help = "the depth from the camera at which each slice ends, as your engine has them; as many as there "
              "are cascades",
@@ -423,7 +432,7 @@ constexpr MapSetting rows[] = {
      .key = "snap",
      .group = SettingGroup::cascades,
      .kind = on_off<of_cascades, &C::snap>(SwitchForm::off_flag),
-     .read_by = is<Technique::csm>,
+     .read_by = cascades,
      .help = "fit each cascade tightly instead of moving it by whole texels; shadows then swim",
      .title = "Snap to texels",
      .what = "Moves each cascade by whole texels, so that shadows do not swim."},
@@ -431,7 +440,7 @@ constexpr MapSetting rows[] = {
      .key = "fit_samples",
      .group = SettingGroup::cascades,
      .kind = on_off<of_cascades, &C::fit_samples>(SwitchForm::flag),
-     .read_by = is<Technique::csm>,
+     .read_by = cascades,
      .help = "fit splits and cascades to the surfaces that the camera sees; implies --no-snap",
      .title = "Fit to surfaces",
      .what = "Fits splits and cascades to the surfaces that the camera sees; they then swim.",
@@ -441,7 +450,7 @@ constexpr MapSetting rows[] = {
      .key = "blend",
      .group = SettingGroup::cascades,
      .kind = number<of_cascades, &C::blend>("share of a cascade's width", {0.0, 0.5}, {0.0, 0.5}),
-     .read_by = is<Technique::csm>,
+     .read_by = cascades,
      .type = "NUMBER",
      .help = "how far from its border on a cascade is mixed with the next; 0 leaves a seam",
      .title = "Blend",
@@ -481,7 +490,7 @@ bool reads(const TechniqueTraits& technique, const MapSetting& setting) {
 
 bool reads(const MapOptions& map, const MapSetting& setting) {
   if (!reads(traits_of(map.technique), setting)) return false;
-  return map.technique != Technique::pcf || setting.read_by_kernel == nullptr ||
+  return !has_kernel(map.technique) || setting.read_by_kernel == nullptr ||
          setting.read_by_kernel(map.filter.kernel);
 }
 

@@ -1,44 +1,83 @@
 #include "raster/technique_traits.h"
 
 namespace gnomon::raster {
+
+// Each in the file of its pass, those without one in passes/technique.cpp.
+extern const TechniqueDrawing hard_drawing, pcf_drawing, pcss_drawing, csm_drawing, lispsm_drawing,
+    hybrid_drawing;
+extern const TechniqueDrawing vsm_drawing, esm_drawing, evsm_drawing, msm_drawing;
+extern const TechniqueDrawing midpoint_drawing;
+extern const TechniqueDrawing izb_drawing;
+
 namespace {
 
-using Lights = LightTypeSet;
+constexpr LightTypeSet sun(LightType::directional);
 
-constexpr Lights every_light(LightType::directional, LightType::point, LightType::spot);
-constexpr Lights sun(LightType::directional);
-
-constexpr double planar = 1.0;  // the slope bias that leaves no acne on a plane
+constexpr TechniqueTraits moments_of(Technique technique, std::string_view name,
+                                     const TechniqueDrawing* drawing, int floats_per_texel) {
+  return {.technique = technique,
+          .name = name,
+          .drawing = drawing,
+          .contents = MapContents::moments,
+          .floats_per_texel = floats_per_texel,
+          .test = ShadowTest::moments,
+          .filter = EdgeFilter::moments};
+}
 
 constexpr TechniqueTraits techniques[] = {
-    {Technique::hard, "hard", MapContents::nearest_depth, 1, ShadowTest::single, every_light,
-     TexelShape::of_light, false, planar},
-    {Technique::pcf, "pcf", MapContents::nearest_depth, 1, ShadowTest::averaged, every_light,
-     TexelShape::of_light, false, 0.0},
-    {Technique::pcss, "pcss", MapContents::nearest_depth, 1, ShadowTest::averaged, every_light,
-     TexelShape::of_light, true, 0.0},
-    {Technique::vsm, "vsm", MapContents::moments, 2, ShadowTest::moments, every_light, TexelShape::of_light,
-     false, planar},
-    {Technique::esm, "esm", MapContents::moments, 1, ShadowTest::moments, every_light, TexelShape::of_light,
-     false, planar},
-    {Technique::evsm, "evsm", MapContents::moments, 4, ShadowTest::moments, every_light, TexelShape::of_light,
-     false, planar},
-    {Technique::msm, "msm", MapContents::moments, 4, ShadowTest::moments, every_light, TexelShape::of_light,
-     false, planar},
-    {Technique::second_depth, "second-depth", MapContents::back_depth, 1, ShadowTest::single, every_light,
-     TexelShape::of_light, false, planar},
-    {Technique::midpoint, "midpoint", MapContents::midpoint_depth, 1, ShadowTest::single, every_light,
-     TexelShape::of_light, false, planar},
-    {Technique::csm, "csm", MapContents::nearest_depth, 1, ShadowTest::single, sun, TexelShape::cascades,
-     false, planar},
-    {Technique::lispsm, "lispsm", MapContents::nearest_depth, 1, ShadowTest::single, sun, TexelShape::warped,
-     false, planar},
-    {Technique::cube, "cube", MapContents::nearest_depth, 1, ShadowTest::single, Lights(LightType::point),
-     TexelShape::of_light, false, planar},
-    {Technique::izb, "izb", MapContents::pixels, 0, ShadowTest::exact, every_light, TexelShape::of_light,
-     false, planar},
-    {Technique::hybrid, "hybrid", MapContents::sheets, 0, ShadowTest::exact, every_light,
-     TexelShape::of_light, true, planar}};
+    {.technique = Technique::hard, .name = "hard", .drawing = &hard_drawing},
+    {.technique = Technique::pcf,
+     .name = "pcf",
+     .drawing = &pcf_drawing,
+     .test = ShadowTest::averaged,
+     .filter = EdgeFilter::kernel,
+     .default_slope_bias = 0.0},
+    {.technique = Technique::pcss,
+     .name = "pcss",
+     .drawing = &pcss_drawing,
+     .test = ShadowTest::averaged,
+     .filter = EdgeFilter::penumbra,
+     .soft = true,
+     .default_slope_bias = 0.0},
+    moments_of(Technique::vsm, "vsm", &vsm_drawing, 2),
+    moments_of(Technique::esm, "esm", &esm_drawing, 1),
+    moments_of(Technique::evsm, "evsm", &evsm_drawing, 4),
+    moments_of(Technique::msm, "msm", &msm_drawing, 4),
+    {.technique = Technique::second_depth,
+     .name = "second-depth",
+     .drawing = &hard_drawing,
+     .contents = MapContents::back_depth},
+    {.technique = Technique::midpoint,
+     .name = "midpoint",
+     .drawing = &midpoint_drawing,
+     .contents = MapContents::midpoint_depth},
+    {.technique = Technique::csm,
+     .name = "csm",
+     .drawing = &csm_drawing,
+     .lights = sun,
+     .texels = TexelShape::cascades},
+    {.technique = Technique::lispsm,
+     .name = "lispsm",
+     .drawing = &lispsm_drawing,
+     .lights = sun,
+     .texels = TexelShape::warped},
+    {.technique = Technique::cube,
+     .name = "cube",
+     .drawing = &hard_drawing,
+     .lights = LightTypeSet(LightType::point)},
+    {.technique = Technique::izb,
+     .name = "izb",
+     .drawing = &izb_drawing,
+     .contents = MapContents::pixels,
+     .floats_per_texel = 0,
+     .test = ShadowTest::exact},
+    {.technique = Technique::hybrid,
+     .name = "hybrid",
+     .drawing = &hybrid_drawing,
+     .contents = MapContents::sheets,
+     .floats_per_texel = 0,
+     .test = ShadowTest::exact,
+     .soft = true}};
 
 constexpr FilterKernelTraits kernels[] = {{FilterKernel::box, "box"},
                                           {FilterKernel::hardware, "hardware"},

@@ -1,7 +1,6 @@
-// What each technique is: one table, which the shader's choice, the command line, the comparison, the tuner, the
-// viewer, the manual and the report page read. A new technique adds a row here, a case to technique_shader()
-// and, where it draws something of its own, a TechniquePass; which settings it reads follows from the row
-// (settings.cpp), and what it alone reads is a row there.
+// What each technique is: one table, which the command line, the comparison, the tuner, the viewer, the manual and the report
+// page read. A new technique adds a row here, whose `drawing` says how it draws (passes/technique_pass.h). Which settings it
+// reads follows from the row (settings.cpp), and what it alone reads is a row there.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +36,16 @@ enum class TexelShape : std::uint8_t {
   warped     ///< follows the camera: a width that grows with the distance to it
 };
 
+/// What makes the edges of shadows soft.
+enum class EdgeFilter : std::uint8_t {
+  none,
+  kernel,    ///< a mean over FilterOptions::kernel
+  penumbra,  ///< a mean over a width that is searched for, up to FilterOptions::search_radius_texels
+  moments    ///< the blur of a map of moments
+};
+
+struct TechniqueDrawing;
+
 /// A set of the members of an enumeration of at most 32, a bit for each.
 template <class Enum>
 class EnumSet {
@@ -61,16 +70,19 @@ using LightTypeSet = EnumSet<LightType>;
 
 struct TechniqueTraits {
   Technique technique;
-  std::string_view name;  ///< on the command line and in files
-  MapContents contents;
-  int floats_per_texel;  ///< of what the shader looks up; 0: lists of any length
-  ShadowTest test;
-  LightTypeSet lights;  ///< those that it has a map for
-  TexelShape texels;
-  bool soft;  ///< draws the penumbra of a light with size; others draw the shadow of its centre
-  /// The slope bias where no bias is asked for and the filter has its default plane (default_bias()); without
-  /// effect where the test is exact.
-  double default_slope_bias;
+  std::string_view name;            ///< on the command line and in files
+  const TechniqueDrawing* drawing;  ///< private to raster
+  MapContents contents = MapContents::nearest_depth;
+  int floats_per_texel = 1;  ///< of what the shader looks up; 0: lists of any length
+  ShadowTest test = ShadowTest::single;
+  EdgeFilter filter = EdgeFilter::none;
+  LightTypeSet lights{LightType::directional, LightType::point,
+                      LightType::spot};  ///< those that it has a map for
+  TexelShape texels = TexelShape::of_light;
+  bool soft = false;  ///< draws the penumbra of a light with size; others draw the shadow of its centre
+  /// The slope bias where no bias is asked for and the filter has its default plane (default_bias()): what leaves no acne on a
+  /// plane. It is without effect where the test is exact.
+  double default_slope_bias = 1.0;
 };
 
 /// One row for each technique, in the order of the enumeration.
@@ -91,6 +103,24 @@ inline std::string_view technique_name(Technique technique) {
 /// Whether a stored depth is compared with the receiver's, with a bias.
 inline bool compares_depths(Technique technique) {
   return traits_of(technique).test != ShadowTest::exact;
+}
+
+/// Its filter is FilterOptions::kernel.
+inline bool has_kernel(Technique technique) {
+  return traits_of(technique).filter == EdgeFilter::kernel;
+}
+
+/// Visibility comes from outside OpenGL (ExternalVisibility).
+inline bool is_external(Technique technique) {
+  return traits_of(technique).contents == MapContents::sheets;
+}
+
+inline bool has_cascades(Technique technique) {
+  return traits_of(technique).texels == TexelShape::cascades;
+}
+/// Two cascades are mixed where one gives way to the next.
+inline bool mixes_cascades(const MapOptions& map) {
+  return has_cascades(map.technique) && map.cascades.blend > 0.0;
 }
 
 /// The map is fitted to what the camera sees.

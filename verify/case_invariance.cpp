@@ -47,7 +47,7 @@ void scale_invariance(Run& run) {
     for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
       const Technique technique = traits.technique;
       // Nothing of the hybrid is drawn: it asks the tracer.
-      if (!traits.lights.has(type) || technique == Technique::hybrid) continue;
+      if (!traits.lights.has(type) || raster::is_external(technique)) continue;
       const auto options = options_of(technique);
       const auto a = here.draw(options), b = there.draw(options), c = tiny.draw(options);
       const std::string row = std::string(type_name) + ", " + std::string(traits.name);

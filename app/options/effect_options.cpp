@@ -56,12 +56,12 @@ std::vector<std::string> options_without_effect(std::span<const std::string> giv
     return std::any_of(lights.begin(), lights.end(),
                        [&](std::uint32_t light) { return holds_for(scene.lights[light]); });
   };
-  if (map.technique == raster::Technique::pcss && !any(has_size))
+  if (raster::traits_of(map.technique).filter == raster::EdgeFilter::penumbra && !any(has_size))
     all_idle({"filter-samples", "blocker-samples", "search-radius"},
              "pcss is the hard test for lights without a size");
   if (map.snap && !any([](const Light& light) { return light.type == LightType::directional; }))
     all_idle({"snap"}, "no light is directional");
-  if (map.technique == raster::Technique::csm && map.cascades.count == 1)
+  if (raster::has_cascades(map.technique) && map.cascades.count == 1)
     all_idle({"cascade-lambda", "cascade-blend"}, "there is one cascade");
   return notes;
 }

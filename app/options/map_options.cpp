@@ -38,7 +38,7 @@ std::string techniques_text(const MapSetting& setting, bool reading) {
   std::vector<std::string> names;
   for (const TechniqueTraits& traits : raster::all_technique_traits()) {
     if (raster::reads(traits, setting) != reading) continue;
-    const bool some = traits.technique == Technique::pcf && setting.read_by_kernel != nullptr;
+    const bool some = raster::has_kernel(traits.technique) && setting.read_by_kernel != nullptr;
     names.push_back(some ? fmt::format("{} ({})", traits.name, kernels_reading(setting))
                          : std::string(traits.name));
   }
@@ -51,7 +51,7 @@ std::string remedy(const MapSetting& setting, bool is_pcf) {
     if (!raster::reads(traits, setting)) continue;
     const std::string kernels = kernels_reading(setting);
     const std::string kernel = "--filter-kernel " + kernels.substr(0, kernels.find(','));
-    const bool pcf = traits.technique == Technique::pcf;
+    const bool pcf = raster::has_kernel(traits.technique);
     if (!pcf || read_by_kernel(setting, FilterKernel::box))
       return is_pcf && pcf ? kernel : fmt::format("--technique {}", traits.name);
     return is_pcf ? kernel : "--technique pcf " + kernel;
@@ -67,7 +67,7 @@ std::string given_text(std::span<const Technique> techniques, std::span<const Fi
   std::vector<std::string> names;
   for (const Technique technique : techniques) {
     std::string name(raster::technique_name(technique));
-    if (technique == Technique::pcf)
+    if (raster::has_kernel(technique))
       name += fmt::format(" with --filter-kernel {}", fmt::join(kernel_names, ", "));
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
   }
@@ -136,7 +136,7 @@ Expected<void> check_read(std::string_view option, std::span<const Technique> te
       if (raster::reads_setting(map, option)) return {};
     }
   const MapSetting& setting = *raster::find_setting(option);
-  const bool pcf = std::find(techniques.begin(), techniques.end(), Technique::pcf) != techniques.end();
+  const bool pcf = std::any_of(techniques.begin(), techniques.end(), raster::has_kernel);
   Error error{ErrorKind::usage,
               fmt::format("belongs to {}; --technique is {}; did you mean {}?", readers_text(setting),
                           given_text(techniques, kernels), remedy(setting, pcf))};

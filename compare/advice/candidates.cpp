@@ -65,9 +65,10 @@ std::optional<MapOptions> with_less_bleeding(MapOptions map) {
   raster::FilterOptions& filter = map.filter;
   const raster::FilterOptions usual;
   const raster::FilterOptions before = filter;
-  if (map.technique == Technique::esm)
+  if (raster::reads_setting(map, "esm-exponent"))
     filter.esm_exponent = std::max(filter.esm_exponent, usual.esm_exponent);
-  if (map.technique == Technique::evsm && filter.evsm_positive_exponent < usual.evsm_positive_exponent)
+  if (raster::reads_setting(map, "evsm-exponent") &&
+      filter.evsm_positive_exponent < usual.evsm_positive_exponent)
     filter.evsm_positive_exponent = usual.evsm_positive_exponent;
   else if (raster::reads_setting(map, "bleeding-reduction"))
     filter.light_bleeding_reduction = std::max(filter.light_bleeding_reduction, strong_reduction);

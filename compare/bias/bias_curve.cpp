@@ -124,8 +124,7 @@ std::vector<BiasCurvePoint> draw_bias_curve(const GapLists& gaps, double texel_w
 }
 
 bool biases_follow_from_gaps(const raster::MapOptions& map) {
-  const bool mixes = map.technique == raster::Technique::csm && map.cascades.blend > 0.0;
-  return raster::traits_of(map.technique).test == raster::ShadowTest::single && !mixes;
+  return raster::traits_of(map.technique).test == raster::ShadowTest::single && !raster::mixes_cascades(map);
 }
 
 bool biases_follow_from_gaps(const raster::RasterFrame& drawn) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compare/truth/texel_groups.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::compare {
 
@@ -109,18 +110,12 @@ double OwnTest::gap(const raster::LightRecord& record, const raster::Bias& bias,
 }
 
 std::optional<double> OwnTest::reach_texels(const raster::MapOptions& map) const {
-  using raster::Technique;
   constexpr double own_texel = 0.5, two_by_two = 1.0;
-  switch (map.technique) {
-    case Technique::hard:
-    case Technique::csm:
-    case Technique::cube:
-      return own_texel;
-    case Technique::pcf:
-      break;
-    default:
-      return std::nullopt;
-  }
+  const raster::TechniqueTraits& traits = raster::traits_of(map.technique);
+  if (traits.contents != raster::MapContents::nearest_depth || traits.texels == raster::TexelShape::warped)
+    return std::nullopt;
+  if (traits.test == raster::ShadowTest::single) return own_texel;
+  if (traits.filter != raster::EdgeFilter::kernel) return std::nullopt;
   const double radius = map.filter.radius_texels;
   switch (map.filter.kernel) {
     case raster::FilterKernel::hardware:

@@ -4,6 +4,7 @@
 #include "compare/ladder/labels.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/result_parts.h"
+#include "raster/technique_traits.h"
 #include "scene/base/parallel.h"
 
 namespace gnomon::compare {
@@ -212,7 +213,7 @@ Json steps_json(const Budget& budget) {
 std::vector<CascadeSums> sums_of_cascades(const raster::RasterFrame& drawn,
                                           const raster::LightRecord& record) {
   std::vector<CascadeSums> sums;
-  if (drawn.options.map.technique != raster::Technique::csm || record.foreign) return sums;
+  if (!raster::has_cascades(drawn.options.map.technique) || record.foreign) return sums;
   for (int face = 0; face < record.map.view.face_count; ++face) sums.emplace_back(face);
   return sums;
 }

@@ -7,6 +7,7 @@
 #include "compare/ladder/biased_test.h"
 #include "compare/result/option_names.h"
 #include "compare/truth/columns.h"
+#include "raster/technique_traits.h"
 #include "scene/base/parallel.h"
 #include "scene/camera.h"
 
@@ -166,7 +167,7 @@ bool shadowed_within_reach(const LadderInput& in, std::size_t pixel) {
 double true_average(const LowerClimb& lower, const LadderInput& in, std::size_t pixel) {
   const TrueTexels texels(lower, in, pixel);
   const raster::MapOptions& map = in.drawn.options.map;
-  const bool compares = map.technique == raster::Technique::pcf;
+  const bool compares = raster::has_kernel(map.technique);
   const bool disc = compares && map.filter.kernel == raster::FilterKernel::vogel;
   const double reach = compares ? 0.0 : pixel_reach_texels(in, pixel);
   const auto texel = [&](double at, int k) {
@@ -193,8 +194,8 @@ double true_average(const LowerClimb& lower, const LadderInput& in, std::size_t 
 
 namespace {
 
+using raster::EdgeFilter;
 using raster::FilterKernel;
-using raster::Technique;
 
 // The square of texels around the receiver's own, or around the receiver.
 double pcf_reach(const raster::FilterOptions& filter) {
@@ -213,15 +214,17 @@ double pcf_reach(const raster::FilterOptions& filter) {
 }  // namespace
 
 std::string_view filter_kind(const raster::MapOptions& map) {
-  if (map.technique == Technique::pcf) return raster::traits_of(map.filter.kernel).name;
-  if (map.technique == Technique::pcss) return "penumbra";
-  return raster::uses_moments(map.technique) ? "moments" : "none";
+  const EdgeFilter filter = raster::traits_of(map.technique).filter;
+  if (filter == EdgeFilter::kernel) return raster::traits_of(map.filter.kernel).name;
+  if (filter == EdgeFilter::penumbra) return "penumbra";
+  return filter == EdgeFilter::moments ? "moments" : "none";
 }
 
 double filter_reach_texels(const raster::MapOptions& map, double level) {
-  if (map.technique == Technique::pcf) return pcf_reach(map.filter);
-  if (map.technique == Technique::pcss) return map.filter.search_radius_texels + 1.0;
-  if (!raster::uses_moments(map.technique)) return 0.0;
+  const EdgeFilter filter = raster::traits_of(map.technique).filter;
+  if (filter == EdgeFilter::kernel) return pcf_reach(map.filter);
+  if (filter == EdgeFilter::penumbra) return map.filter.search_radius_texels + 1.0;
+  if (filter != EdgeFilter::moments) return 0.0;
   const double side = std::exp2(std::ceil(level));
   return map.filter.blur_radius_texels + side + 0.5 * (side - 1.0);
 }

@@ -44,8 +44,7 @@ Label bias_label(const LadderInput& in, Column& column, const WrongPixel& wrong)
 // those with the map are at fault, and what they find dark is the surface itself. Of moments the least is
 // known: only where nothing within reach is shadowed is the surface itself the caster.
 bool filters_own_surface(const LowerClimb& lower, const LadderInput& in, const WrongPixel& wrong) {
-  if (in.drawn.options.map.technique != raster::Technique::pcf)
-    return !shadowed_within_reach(in, wrong.pixel);
+  if (!raster::has_kernel(in.drawn.options.map.technique)) return !shadowed_within_reach(in, wrong.pixel);
   return !(std::abs(true_average(lower, in, wrong.pixel) - double{wrong.truth}) > 0.5);
 }
 
@@ -55,9 +54,7 @@ bool has_filter(const LadderInput& in) {
 
 /// Returns the label where the technique has no filter: V5 and V6 differ by rounding, or where cascades are mixed.
 Label unfiltered_label(const LadderInput& in) {
-  const raster::MapOptions& map = in.drawn.options.map;
-  const bool mixes = map.technique == raster::Technique::csm && map.cascades.blend > 0.0;
-  return mixes ? Label::blur : Label::stored_depth;
+  return raster::mixes_cascades(in.drawn.options.map) ? Label::blur : Label::stored_depth;
 }
 
 // Light where nothing within the filter's reach is lit has leaked; near an edge it is the edge's blur.

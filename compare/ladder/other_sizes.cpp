@@ -51,7 +51,7 @@ std::vector<Tap> box_taps(const TexelCoordinate& at, int n) {
 }
 
 std::vector<Tap> taps_at(const raster::MapOptions& map, const TexelCoordinate& at) {
-  if (map.technique != raster::Technique::pcf) return {{at.column(), at.row(), 1.0}};
+  if (!raster::has_kernel(map.technique)) return {{at.column(), at.row(), 1.0}};
   switch (map.filter.kernel) {
     case raster::FilterKernel::box:
       return box_taps(at, static_cast<int>(map.filter.radius_texels));
@@ -109,9 +109,9 @@ bool other_sizes_apply(const raster::RasterFrame& drawn, const raster::LightReco
   if (drawn.custom_shader || record.foreign || map.cull != raster::Cull::none) return false;
   if (map.bias.moves_casters()) return false;
   if (traits.contents != raster::MapContents::nearest_depth) return false;
-  if (map.technique == raster::Technique::csm && map.cascades.blend > 0.0) return false;
+  if (raster::mixes_cascades(map)) return false;
   if (traits.test == raster::ShadowTest::single) return true;
-  return map.technique == raster::Technique::pcf && map.filter.kernel != raster::FilterKernel::vogel;
+  return raster::has_kernel(map.technique) && map.filter.kernel != raster::FilterKernel::vogel;
 }
 
 struct OtherSize::Receiver {
@@ -132,7 +132,7 @@ bool OtherSize::is_lit(const Receiver& receiver, int column, int row) const {
   const auto stored = rounded_depth(record_, face, row + 0.5, depth);
   if (!stored) return true;
   raster::Bias bias = in_.drawn.options.map.bias;
-  bias.receiver_plane = bias.receiver_plane || (in_.drawn.options.map.technique == raster::Technique::pcf &&
+  bias.receiver_plane = bias.receiver_plane || (raster::has_kernel(in_.drawn.options.map.technique) &&
                                                 in_.drawn.options.map.filter.receiver_plane);
   return !(gap_before(record_, bias, receiver.normal, lookup, *stored) > receiver.slack);
 }

@@ -205,7 +205,7 @@ bool TunedEngine::draws(const raster::MapOptions& map, LightType light) const {
   const bool has_constant_part = has(BiasPart::constant) || bias.constant != 0.0;
   if (!has_constant_part && slope == 0.0 && bias.normal_offset_texels == 0.0) return false;
   const auto is_told = [&](bool has, BiasPart part) {
-    return !has || tells(*this, part, light, map.technique == Technique::csm);
+    return !has || tells(*this, part, light, raster::has_cascades(map.technique));
   };
   return is_told(has_constant_part, BiasPart::constant) && is_told(slope != 0.0, BiasPart::slope) &&
          is_told(bias.normal_offset_texels != 0.0, BiasPart::normal_offset);

@@ -66,7 +66,7 @@ std::vector<const raster::MapSetting*> filter_settings(const raster::RasterFrame
 
 std::string_view shown_filter_kind(const raster::RasterFrame& drawn) {
   const raster::MapOptions& map = drawn.options.map;
-  const bool unsaid = drawn.lights.front().foreign && map.technique == raster::Technique::pcf;
+  const bool unsaid = drawn.lights.front().foreign && raster::has_kernel(map.technique);
   return unsaid ? "pcf" : filter_kind(map);
 }
 

@@ -15,6 +15,7 @@
 #include "compare/result/result_parts.h"
 #include "compare/result/shadow_cost.h"
 #include "compare/result/views.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::compare {
 namespace {
@@ -288,7 +289,7 @@ Json cell_times_json(const Comparison& c, std::size_t cell, const CellMade& made
           {"derived", made.derived},
           {"cell_ms", number(made.ms)},
           {"view", made.view},
-          {"hybrid", c.raster.options.map.technique == raster::Technique::hybrid},
+          {"hybrid", raster::is_external(c.raster.options.map.technique)},
           {"load", load_json(c.machine)},
           {"accel_build", times_json(c.raytraced.structure)},
           {"primary_rays", times_json(c.raytraced.primary_rays)},

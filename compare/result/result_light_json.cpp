@@ -11,6 +11,7 @@
 #include "compare/result/output_parts.h"
 #include "compare/result/result_parts.h"
 #include "compare/result/shadow_cost.h"
+#include "raster/technique_traits.h"
 #include "scene/files/json/light_json.h"
 #include "scene/light_map/light_view.h"
 
@@ -83,7 +84,7 @@ Json hybrid_json(const raster::ExternalCosts& e) {
 
 // null for a technique without cascades.
 Json cascades_json(const raster::MapOptions& map, const LightView& view) {
-  if (map.technique != raster::Technique::csm) return nullptr;
+  if (!raster::has_cascades(map.technique)) return nullptr;
   Json faces = Json::array();
   for (int i = 0; i < view.face_count; ++i) {
     const LightFace& face = view.face(i);

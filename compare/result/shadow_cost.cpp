@@ -33,7 +33,7 @@ ShadowParts shadow_parts(const Comparison& c, const LightComparison& light) {
           .lookups = shadow_lookups(drawn),
           .rays = with_spread(true_record(c, light).exact_times()),
           .tree = with_spread(c.raytraced.structure),
-          .hybrid = c.raster.options.map.technique == raster::Technique::hybrid};
+          .hybrid = raster::is_external(c.raster.options.map.technique)};
 }
 
 namespace {

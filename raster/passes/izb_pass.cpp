@@ -23,7 +23,7 @@ struct DoubleShape {
   Vec4 center_and_radius, normal, tangent, bitangent, coefficients, box_min, box_max;
 };
 
-static_assert(sizeof(DoubleShape) == shaders::double_shape_texel_count * 4 * sizeof(std::uint32_t));
+static_assert(sizeof(DoubleShape) == sizeof(std::uint32_t) * 4 * shaders::double_shape_texel_count);
 
 constexpr std::size_t point_bytes = 3 * sizeof(double), error_bytes = 3 * sizeof(float), link_bytes = 8,
                       shadow_bytes = 4;
@@ -63,7 +63,20 @@ DoubleShape double_shape(const Shape& shape) {
   return out;
 }
 
+constexpr std::string_view izb_stages[] = {"izb/triangle.vert", "izb/insert.frag", "izb/block.frag"};
+
 }  // namespace
+
+extern const TechniqueDrawing izb_drawing{
+    .shader = [](const MapOptions&, const Light&) -> TechniqueShader {
+      return {"izb", {}};
+    },
+    .make_pass = [](Gl& gl, ProgramCache& programs) -> std::unique_ptr<TechniquePass> {
+      return std::make_unique<IzbPass>(gl, programs);
+    },
+    .stages = izb_stages,
+    .stages_decide = true,
+    .reads_gap = false};
 
 IzbPass::IzbPass(Gl& gl, ProgramCache& programs)
     : gl_(&gl),

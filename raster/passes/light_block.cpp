@@ -1,5 +1,7 @@
 #include "raster/passes/light_block.h"
 
+#include "raster/passes/technique_pass.h"
+#include "raster/technique_traits.h"
 #include "scene/light.h"
 
 namespace gnomon::raster {
@@ -28,9 +30,7 @@ LightBlock make_light_block(const Light& light, const LightView& view, const Map
   const FilterOptions& f = map.filter;
   block.filter_radii =
       Vec4f(Vec4(f.radius_texels, f.search_radius_texels, f.light_bleeding_reduction, map.cascades.blend));
-  block.moments = map.technique == Technique::evsm
-                      ? Vec4f(Vec4(f.evsm_positive_exponent, f.evsm_negative_exponent, 0.0, 0.0))
-                      : Vec4f(Vec4(f.esm_exponent, 0.0, f.moment_bias, 0.0));
+  if (const auto moments = traits_of(map.technique).drawing->moments) block.moments = Vec4f(moments(f));
   return block;
 }
 

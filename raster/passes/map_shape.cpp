@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raster/passes/technique_pass.h"
 #include "raster/technique_traits.h"
 #include "scene/light.h"
-#include "scene/light_map/cascade_fit.h"
 
 namespace gnomon::raster {
 
@@ -29,27 +29,25 @@ std::string techniques_for(LightType type) {
 
 Expected<void> check_light(Technique technique, const Light& light) {
   if (has_map_for(technique, light.type)) return {};
-  const bool cube = technique == Technique::cube;
+  const bool has_point = has_map_for(technique, LightType::point);
   Error error{ErrorKind::usage,
               fmt::format("is made for {} lights alone (got the {} light {}, allowed there {}); --light "
                           "chooses one",
-                          cube ? "point" : "directional", light_type_name(light.type), light.name,
+                          has_point ? "point" : "directional", light_type_name(light.type), light.name,
                           techniques_for(light.type))};
   error.field = fmt::format("technique {}", technique_name(technique));
   return fail(std::move(error));
 }
 
 bool fits_to_samples(const MapOptions& options) {
-  return options.technique == Technique::csm && options.cascades.fit_samples;
+  return has_cascades(options.technique) && options.cascades.fit_samples;
 }
 
 Expected<LightView> fit_map(const World& world, const Light& light, const Camera& camera, double aspect,
                             const MapOptions& options, std::span<const Vec3> visible) {
-  auto view = options.technique == Technique::csm
-                  ? fit_cascades(world, light, camera, aspect, options.size, options.cascades, visible)
-              : options.technique == Technique::lispsm
-                  ? fit_warped(world, light, camera, aspect, options.size, options.snap)
-                  : fit_light_view(world, light, camera, aspect, options.size, options.window);
+  const auto fit = traits_of(options.technique).drawing->fit;
+  auto view = fit != nullptr ? fit(world, light, camera, aspect, options, visible)
+                             : fit_light_view(world, light, camera, aspect, options.size, options.window);
   if (!view) return view;
   view->seamless = light.type == LightType::point;
   view->reversed = options.depth_format == DepthFormat::d32f_reversed;
@@ -92,8 +90,8 @@ bool same_window(const LightView& a, const LightView& b) {
 
 std::vector<std::string> map_defines(const MapOptions& options) {
   std::vector<std::string> defines;
-  if (options.technique == Technique::csm) defines.emplace_back("CASCADES");
-  if (options.technique == Technique::lispsm) defines.emplace_back("WARP");
+  const std::string_view of_faces = traits_of(options.technique).drawing->map_define;
+  if (!of_faces.empty()) defines.emplace_back(of_faces);
   if (options.depth_format == DepthFormat::d32f_reversed) defines.emplace_back("REVERSED");
   if (scales_bias(options)) defines.emplace_back("TEXEL_BIAS");
   if (options.bias.adaptive) defines.emplace_back("ADAPTIVE_BIAS");

@@ -4,6 +4,17 @@
 #include "shaders/shared_constants.h"
 
 namespace gnomon::raster {
+namespace {
+
+constexpr std::string_view midpoint_stages[] = {"midpoint.frag"};
+
+}  // namespace
+
+extern const TechniqueDrawing midpoint_drawing{
+    .make_pass = [](Gl& gl, ProgramCache& programs) -> std::unique_ptr<TechniquePass> {
+      return std::make_unique<MidpointPass>(gl, programs);
+    },
+    .stages = midpoint_stages};
 
 Expected<void> MidpointPass::prepare(const MapJob& job) {
   const LightView& view = job.view;

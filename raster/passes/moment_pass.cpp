@@ -41,6 +41,60 @@ int moment_max_level(const FilterOptions& filter, LightType light, int map_size)
   return light == LightType::point ? std::min(cube_mip_levels, most) : most;
 }
 
+namespace {
+
+/// "MOMENTS_VSM" of vsm.
+std::string kind_define(Technique technique) {
+  std::string define = "MOMENTS_";
+  for (const char c : technique_name(technique)) define += static_cast<char>(c - 'a' + 'A');
+  return define;
+}
+
+std::vector<std::string> moment_defines(const MapOptions& options, const Light& light) {
+  return {kind_define(options.technique), define("MOMENT_BORDER", moment_border(options.filter, light.type))};
+}
+
+TechniqueShader moment_lookup(const MapOptions& options, const Light& light) {
+  TechniqueShader shader{std::string(technique_name(options.technique)), moment_defines(options, light)};
+  if (!options.filter.mipmaps) return shader;
+  shader.defines.emplace_back("MIPMAPS");
+  shader.defines.push_back(define("MAX_LEVEL", moment_max_level(options.filter, light.type, options.size)));
+  return shader;
+}
+
+std::unique_ptr<TechniquePass> make_moment_pass(Gl& gl, ProgramCache& programs) {
+  return std::make_unique<MomentPass>(gl, programs);
+}
+
+constexpr std::string_view moment_stages[] = {"moments.frag", "blur.frag"};
+
+constexpr TechniqueDrawing draw_with(Vec4 (*moments)(const FilterOptions& filter)) {
+  return {.shader = moment_lookup,
+          .make_pass = make_moment_pass,
+          .stages = moment_stages,
+          .stages_decide = true,
+          .moments = moments};
+}
+
+}  // namespace
+
+extern const TechniqueDrawing vsm_drawing = draw_with(nullptr);
+extern const TechniqueDrawing esm_drawing =
+    draw_with([](const FilterOptions& f) { return Vec4(f.esm_exponent, 0.0, 0.0, 0.0); });
+extern const TechniqueDrawing evsm_drawing = draw_with([](const FilterOptions& f) {
+  return Vec4(f.evsm_positive_exponent, f.evsm_negative_exponent, 0.0, 0.0);
+});
+extern const TechniqueDrawing msm_drawing =
+    draw_with([](const FilterOptions& f) { return Vec4(0.0, 0.0, f.moment_bias, 0.0); });
+
+std::vector<std::string> moment_shader(const MapOptions& options, const Light& light, const LightView& view) {
+  std::vector<std::string> defines = moment_defines(options, light);
+  if (light.type != LightType::directional) defines.emplace_back("PERSPECTIVE");
+  if (light.type == LightType::point) defines.emplace_back("CUBE");
+  if (view.reversed) defines.emplace_back("REVERSED");
+  return defines;
+}
+
 Expected<void> MomentPass::prepare(const MapJob& job) {
   Gl& gl = *gl_;
   const FilterOptions& filter = job.options.filter;

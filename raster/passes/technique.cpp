@@ -1,24 +1,19 @@
-// Which shader each technique is drawn by, and which pass of its own it has.
+// How techniques without a pass of their own draw.
 #include <fmt/core.h>
 
 #include <cmath>
 
-#include "raster/passes/izb_pass.h"
-#include "raster/passes/midpoint_pass.h"
-#include "raster/passes/moment_pass.h"
 #include "raster/passes/technique_pass.h"
 #include "raster/programs/programs.h"
 #include "raster/technique_traits.h"
 #include "scene/light.h"
+#include "scene/light_map/cascade_fit.h"
 
 namespace gnomon::raster {
 namespace {
 
-std::string define(const char* name, int value) {
-  return fmt::format("{} {}", name, value);
-}
-
-TechniqueShader pcf_shader(const FilterOptions& filter) {
+TechniqueShader pcf_shader(const MapOptions& options, const Light& /*light*/) {
+  const FilterOptions& filter = options.filter;
   switch (filter.kernel) {
     case FilterKernel::box:
       return {"pcf_box", {define("BOX_SIZE", 2 * static_cast<int>(filter.radius_texels) + 1)}};
@@ -34,67 +29,45 @@ TechniqueShader pcf_shader(const FilterOptions& filter) {
   return {"pcf_optimised", {define("PAIRS", (texels + 1) / 2)}};
 }
 
-TechniqueShader pcss_shader(const FilterOptions& filter, const Light& light) {
+TechniqueShader pcss_shader(const MapOptions& options, const Light& light) {
   if (!has_size(light)) return {};  // no penumbra: the hard test
+  const FilterOptions& filter = options.filter;
   return {"pcss",
           {std::string(shape_define(light.extent)), define("FILTER_SAMPLES", filter.samples),
            define("BLOCKER_SAMPLES", filter.blocker_samples)}};
 }
 
-std::vector<std::string> moment_defines(const MapOptions& options, const Light& light) {
-  const FilterOptions& filter = options.filter;
-  const char* kind = options.technique == Technique::vsm    ? "MOMENTS_VSM"
-                     : options.technique == Technique::esm  ? "MOMENTS_ESM"
-                     : options.technique == Technique::evsm ? "MOMENTS_EVSM"
-                                                            : "MOMENTS_MSM";
-  return {kind, define("MOMENT_BORDER", moment_border(filter, light.type))};
+TechniqueShader cascade_shader(const MapOptions& options, const Light& /*light*/) {
+  return mixes_cascades(options) ? TechniqueShader{"cascade_blend", {}} : TechniqueShader{};
 }
 
-TechniqueShader moment_technique(const MapOptions& options, const Light& light) {
-  TechniqueShader shader{std::string(technique_name(options.technique)), moment_defines(options, light)};
-  if (!options.filter.mipmaps) return shader;
-  shader.defines.emplace_back("MIPMAPS");
-  shader.defines.push_back(define("MAX_LEVEL", moment_max_level(options.filter, light.type, options.size)));
-  return shader;
+TechniqueShader external_shader(const MapOptions& /*options*/, const Light& /*light*/) {
+  return {"external", {"EXTERNAL"}};
+}
+
+Expected<LightView> fit_to_cascades(const World& world, const Light& light, const Camera& camera,
+                                    double aspect, const MapOptions& options, std::span<const Vec3> visible) {
+  return fit_cascades(world, light, camera, aspect, options.size, options.cascades, visible);
+}
+
+Expected<LightView> fit_to_warp(const World& world, const Light& light, const Camera& camera, double aspect,
+                                const MapOptions& options, std::span<const Vec3> /*visible*/) {
+  return fit_warped(world, light, camera, aspect, options.size, options.snap);
 }
 
 }  // namespace
 
-std::vector<std::string> moment_shader(const MapOptions& options, const Light& light, const LightView& view) {
-  std::vector<std::string> defines = moment_defines(options, light);
-  if (light.type != LightType::directional) defines.emplace_back("PERSPECTIVE");
-  if (light.type == LightType::point) defines.emplace_back("CUBE");
-  if (view.reversed) defines.emplace_back("REVERSED");
-  return defines;
-}
+extern const TechniqueDrawing hard_drawing{};
+extern const TechniqueDrawing pcf_drawing{.shader = pcf_shader};
+extern const TechniqueDrawing pcss_drawing{.shader = pcss_shader};
+extern const TechniqueDrawing csm_drawing{
+    .shader = cascade_shader, .fit = fit_to_cascades, .map_define = "CASCADES"};
+extern const TechniqueDrawing lispsm_drawing{.fit = fit_to_warp, .map_define = "WARP"};
+extern const TechniqueDrawing hybrid_drawing{.shader = external_shader, .reads_gap = false};
 
 TechniqueShader technique_shader(const MapOptions& options, const Light& light) {
-  switch (options.technique) {
-    case Technique::pcf:
-      return pcf_shader(options.filter);
-    case Technique::pcss:
-      return pcss_shader(options.filter, light);
-    case Technique::vsm:
-    case Technique::esm:
-    case Technique::evsm:
-    case Technique::msm:
-      return moment_technique(options, light);
-    case Technique::hybrid:
-      return {"external", {"EXTERNAL"}};
-    case Technique::izb:
-      return {"izb", {}};
-    case Technique::csm:
-      return options.cascades.blend > 0.0 ? TechniqueShader{"cascade_blend", {}} : TechniqueShader{};
-    default:
-      return {};  // the hard test
-  }
-}
-
-std::unique_ptr<TechniquePass> make_technique_pass(Gl& gl, ProgramCache& programs, Technique technique) {
-  if (uses_moments(technique)) return std::make_unique<MomentPass>(gl, programs);
-  if (technique == Technique::midpoint) return std::make_unique<MidpointPass>(gl, programs);
-  if (technique == Technique::izb) return std::make_unique<IzbPass>(gl, programs);
-  return nullptr;
+  const auto shader = traits_of(options.technique).drawing->shader;
+  return shader != nullptr ? shader(options, light) : TechniqueShader{};
 }
 
 }  // namespace gnomon::raster

@@ -1,9 +1,9 @@
-// What a technique draws between the depth map and the shading (moments, blur, lists ...). A new technique
-// adds a case to technique_shader(), a file to shaders/technique/ and, if it needs one, a TechniquePass.
-// Private to raster.
+// How a technique draws, and what it draws between the depth map and the shading (moments, blur, lists ...). A new technique
+// names its TechniqueDrawing in its row and adds a file to shaders/technique/; the drawing says the rest. Private to raster.
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "raster/passes/depth_map_pass.h"
 #include "raster/passes/shading_pass.h"
@@ -43,7 +43,21 @@ class TechniquePass {
   virtual std::uint64_t bytes() const = 0;   ///< device memory held
 };
 
-/// Null for a technique that looks up nothing but the depth map.
-std::unique_ptr<TechniquePass> make_technique_pass(Gl& gl, ProgramCache& programs, Technique technique);
+/// The first two are functions of the technique's own, or null.
+struct TechniqueDrawing {
+  /// Which shader turns the map into visibility; null: the hard test.
+  TechniqueShader (*shader)(const MapOptions& options, const Light& light) = nullptr;
+  /// Null where it looks up nothing but the depth map.
+  std::unique_ptr<TechniquePass> (*make_pass)(Gl& gl, ProgramCache& programs) = nullptr;
+  /// Stages that the pass begins with, and whether it is they that turn the map into visibility.
+  std::span<const std::string_view> stages{};
+  bool stages_decide = false;
+  bool reads_gap = true;  ///< the visibility comes from light.glsl and gap.glsl, too
+  /// Fits the map's faces; null: one window, or a cube about its light. `visible`: as of fit_map().
+  Expected<LightView> (*fit)(const World& world, const Light& light, const Camera& camera, double aspect,
+                             const MapOptions& options, std::span<const Vec3> visible) = nullptr;
+  std::string_view map_define{};  ///< what shaders/light_map.glsl is to know of these faces
+  Vec4 (*moments)(const FilterOptions& filter) = nullptr;  ///< LightBlock::moments; null: all 0
+};
 
 }  // namespace gnomon::raster

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "raster/passes/technique_pass.h"
 #include "raster/programs/shader_text.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::raster {
 namespace {
@@ -20,16 +22,11 @@ std::string without_comments(std::string_view text) {
   return out;
 }
 
-/// One that gets its visibility from elsewhere needs neither the map nor the test of depths.
 std::vector<std::string> deciding_files(const MapOptions& map, const std::string& technique) {
+  const TechniqueDrawing& drawing = *traits_of(map.technique).drawing;
   std::vector<std::string> files{technique};
-  if (map.technique == Technique::hybrid) return files;
-  if (map.technique == Technique::izb) {
-    files.insert(files.end(), {"izb/triangle.vert", "izb/insert.frag", "izb/block.frag"});
-    return files;
-  }
-  files.insert(files.end(), {"light.glsl", "gap.glsl"});
-  if (uses_moments(map.technique)) files.insert(files.end(), {"moments.frag", "blur.frag"});
+  if (drawing.reads_gap) files.insert(files.end(), {"light.glsl", "gap.glsl"});
+  if (drawing.stages_decide) files.insert(files.end(), drawing.stages.begin(), drawing.stages.end());
   return files;
 }
 

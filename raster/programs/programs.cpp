@@ -32,6 +32,10 @@ Expected<Typed> typed(Expected<Program> program) {
 
 }  // namespace
 
+std::string define(const char* name, int value) {
+  return fmt::format("{} {}", name, value);
+}
+
 std::string functions_define(const FunctionTable& table, std::size_t first, std::size_t count,
                              std::initializer_list<FunctionForm> forms) {
   if (count == 0) return {};

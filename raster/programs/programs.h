@@ -27,6 +27,8 @@ struct TechniqueShader {
   std::vector<std::string> defines;  ///< "NAME" or "NAME value"
   auto operator<=>(const TechniqueShader&) const = default;
 };
+/// "NAME value"
+std::string define(const char* name, int value);
 TechniqueShader technique_shader(const MapOptions& options, const Light& light);
 /// What moments.frag is specialised by.
 std::vector<std::string> moment_shader(const MapOptions& options, const Light& light, const LightView& view);

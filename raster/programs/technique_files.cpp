@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "raster/passes/technique_pass.h"
 #include "raster/programs/shader_text.h"
 #include "raster/technique_traits.h"
 #include "scene/light.h"
@@ -18,12 +19,8 @@ std::vector<std::string_view> first_files(Technique technique) {
   std::vector<std::string_view> files = {
       "triangle.vert",     "triangle.frag",   "impostor.vert", "impostor_camera.frag",
       "impostor_map.frag", "fullscreen.vert", "shade.frag"};
-  const auto add = [&](std::initializer_list<std::string_view> more) {
-    files.insert(files.end(), more.begin(), more.end());
-  };
-  if (uses_moments(technique)) add({"moments.frag", "blur.frag"});
-  if (technique == Technique::midpoint) add({"midpoint.frag"});
-  if (technique == Technique::izb) add({"izb/triangle.vert", "izb/insert.frag", "izb/block.frag"});
+  const auto stages = traits_of(technique).drawing->stages;
+  files.insert(files.end(), stages.begin(), stages.end());
   return files;
 }
 

@@ -208,7 +208,7 @@ Expected<std::vector<OptionFamily>> fitting_families(const std::vector<OptionFam
   const bool sizeless = std::none_of(lights.begin(), lights.end(),
                                      [&](std::uint32_t light) { return has_size(scene.lights[light]); });
   const auto is_pcss = [](const OptionFamily& family) {
-    return family.tuned.map.technique == raster::Technique::pcss;
+    return raster::traits_of(family.tuned.map.technique).filter == raster::EdgeFilter::penumbra;
   };
   if (sizeless && !std::all_of(out.begin(), out.end(), is_pcss)) std::erase_if(out, is_pcss);
   if (out.empty() && !families.empty())

@@ -63,17 +63,57 @@ EXERCISES = {
     "a technique with a parameter": [  # lets a share of the light into every shadow
         ("raster/options.h", "  izb,\n  hybrid\n", REPLACE, "  izb,\n  hybrid,\n  veil\n"),
         ("raster/options.h", "  int samples = 32;          ///< pcf vogel", BEFORE, "  int veil = 50;             ///< veil: per cent\n"),
-        ("raster/technique_traits.cpp", "     TexelShape::of_light, true, planar}};\n", REPLACE,
-         "     TexelShape::of_light, true, planar},\n    {Technique::veil, \"veil\", MapContents::nearest_depth, 1, "
-         "ShadowTest::averaged, every_light,\n     TexelShape::of_light, false, planar}};\n"),
+        ("raster/technique_traits.cpp", "hybrid_drawing;\n", REPLACE, "hybrid_drawing, veil_drawing;\n"),
+        ("raster/technique_traits.cpp", "     .soft = true}};\n", REPLACE, "     .soft = true},\n"
+         '    {.technique = Technique::veil, .name = "veil", .drawing = &veil_drawing, .test = ShadowTest::averaged}};\n'),
         ("raster/technique_traits.cpp", "static_cast<std::size_t>(Technique::hybrid) + 1", REPLACE, "static_cast<std::size_t>(Technique::veil) + 1"),
         ("raster/settings.cpp", '    {.name = "blocker-samples",\n', BEFORE,
          row("veil", 'integer<of_filter, &F::veil>("per cent", 0, 100, 0, 100)', "is<Technique::veil>", "what the shadow lets through")),
-        ("raster/passes/technique.cpp", "    case Technique::hybrid:\n", BEFORE,
-         '    case Technique::veil:\n      return {"veil", {define("VEIL", options.filter.veil)}};\n'),
+        ("raster/passes/technique.cpp", "extern const TechniqueDrawing hybrid_drawing{", BEFORE,
+         "extern const TechniqueDrawing veil_drawing{.shader = [](const MapOptions& options, const Light&) -> TechniqueShader {\n"
+         '  return {"veil", {define("VEIL", options.filter.veil)}};\n}};\n'),
         ("shaders/technique/veil.glsl", None, None,
          "float technique_visibility(ShadowTest test, vec3 position, vec3 normal, vec3 to_light) {\n  COUNT_LOOKUPS(1);\n"
          "  return test.gap > light.bias.x ? float(VEIL) / 100.0 : 1.0;\n}\n"),
+    ],
+    "a technique with a map of its own": [  # the depth a quarter of the way to the next surface behind (after Weiskopf and Ertl 2003)
+        ("raster/options.h", "  midpoint,\n", AFTER, "  quarter,\n"),
+        ("raster/technique_traits.cpp", "extern const TechniqueDrawing midpoint_drawing;\n", AFTER, "extern const TechniqueDrawing quarter_drawing;\n"),
+        ("raster/technique_traits.cpp", "     .contents = MapContents::midpoint_depth},\n", AFTER,
+         '    {.technique = Technique::quarter, .name = "quarter", .drawing = &quarter_drawing, .contents = MapContents::midpoint_depth},\n'),
+        ("raster/passes/quarter_pass.cpp", None, None,
+         "// A map of the depth a quarter of the way from the first surface to the next one behind it.\n"
+         '#include "raster/gl/fill.h"\n#include "raster/passes/technique_pass.h"\n#include "shaders/shared_constants.h"\n\n'
+         "namespace gnomon::raster {\nnamespace {\n\nclass QuarterPass final : public TechniquePass {\n public:\n"
+         "  QuarterPass(Gl& gl, ProgramCache& programs) : gl_(&gl), second_(gl, programs) {}\n"
+         "  Expected<void> prepare(const MapJob& job) override {\n    const ImageSize size{job.view.size, job.view.size};\n"
+         "    if (auto ok = second_.prepare(job.view, job.options.depth_format); !ok) return ok;\n"
+         "    map_ = Texture2D(*gl_, GL_R32F, size, job.view.face_count);\n    faces_.clear();\n"
+         "    for (int i = 0; i < job.view.face_count; ++i) {\n      Framebuffer& face = faces_.emplace_back(*gl_);\n"
+         "      face.attach(GL_COLOR_ATTACHMENT0, map_, i);\n      face.draw_to(1);\n"
+         "      if (auto ok = face.check_complete(); !ok) return ok;\n    }\n    return gl_->check(\"a map of quarters\");\n  }\n"
+         "  Expected<void> draw(const MapJob& job) override {\n"
+         "    if (auto ok = second_.draw(job.world, job.view, job.options.cull, {}, &job.map); !ok) return ok;\n"
+         "    std::vector<std::string_view> defines;\n"
+         "    if (job.view.projection == LightProjection::perspective) defines.emplace_back(\"PERSPECTIVE\");\n"
+         "    if (job.view.reversed) defines.emplace_back(\"REVERSED\");\n"
+         '    auto program = Program::link(*gl_, "fullscreen.vert", "technique/quarter.frag", defines);\n'
+         "    if (!program) return fail(program.error());\n    program->use();\n    job.map.bind(shaders::depth_map_unit);\n"
+         "    second_.bind(shaders::second_layer_unit);\n    const Gl& gl = *gl_;\n    gl->Disable(GL_DEPTH_TEST);\n    gl->Disable(GL_CULL_FACE);\n"
+         "    gl->Viewport(0, 0, map_.size().width, map_.size().height);\n    for (int face = 0; face < job.view.face_count; ++face) {\n"
+         "      gl->BindFramebuffer(GL_FRAMEBUFFER, faces_[static_cast<std::size_t>(face)].id());\n"
+         "      gl->ProgramUniform1i(program->id(), shaders::face_uniform, face);\n      fill(gl, map_.size());\n    }\n    return {};\n  }\n"
+         "  void bind_for_lookup() const override { map_.bind(shaders::depth_map_unit); }\n"
+         "  void read(ShadowMap& map) const override {\n    map_.read(GL_RED, GL_FLOAT, std::as_writable_bytes(std::span(map.depth)));\n  }\n"
+         "  std::uint64_t texels() const override { return 2 * map_.size().pixels() * static_cast<std::uint64_t>(map_.layers()); }\n"
+         "  std::uint64_t bytes() const override { return second_.bytes() + 2 * texels(); }\n\n private:\n"
+         "  Gl* gl_;\n  DepthMapPass second_;\n  Texture2D map_;\n  std::vector<Framebuffer> faces_;\n};\n\n"
+         'constexpr std::string_view quarter_stages[] = {"technique/quarter.frag"};\n\n}  // namespace\n\n'
+         "extern const TechniqueDrawing quarter_drawing{\n"
+         "    .make_pass = [](Gl& gl, ProgramCache& programs) -> std::unique_ptr<TechniquePass> {\n"
+         "      return std::make_unique<QuarterPass>(gl, programs);\n    },\n    .stages = quarter_stages};\n\n}  // namespace gnomon::raster\n"),
+        ("shaders/technique/quarter.frag <- shaders/midpoint.frag", "0.5 * (next - depth)", REPLACE, "0.25 * (next - depth)"),
+        ("raster/CMakeLists.txt", "passes/moment_pass.cpp", AFTER, " passes/quarter_pass.cpp"),
     ],
     "a light's shape": [  # the disc under another name
         ("scene/light_shape/light_shape.h", "struct RectangleLight {\n", BEFORE,

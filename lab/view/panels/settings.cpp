@@ -214,7 +214,7 @@ bool group(PanelContext& context, raster::MapOptions& map, raster::SettingGroup 
 void choose(raster::MapOptions& map, raster::Technique technique) {
   map.technique = technique;
   if (raster::uses_moments(technique)) map.bias.receiver_plane = map.bias.adaptive = false;
-  if (technique == raster::Technique::second_depth) map.cull = raster::Cull::none;
+  if (raster::traits_of(technique).contents == raster::MapContents::back_depth) map.cull = raster::Cull::none;
   if (!raster::reads_setting(map, "snap")) map.snap = false;
 }
 

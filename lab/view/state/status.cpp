@@ -195,7 +195,7 @@ compare::ShadowParts parts_of(const ShadowTimes& times, const compare::Compariso
           .lookups = times.lookups(),
           .rays = with_spread(comparison.raytraced.lights.front().exact_times()),
           .tree = with_spread(comparison.raytraced.structure),
-          .hybrid = comparison.raster.options.map.technique == raster::Technique::hybrid};
+          .hybrid = raster::is_external(comparison.raster.options.map.technique)};
 }
 
 }  // namespace

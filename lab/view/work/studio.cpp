@@ -4,6 +4,7 @@
 
 #include "compare/result/layout.h"
 #include "compare/result/outputs.h"
+#include "raster/technique_traits.h"
 #include "scene/base/interruptible.h"
 #include "scene/base/timing.h"
 #include "scene/exposure.h"
@@ -122,7 +123,7 @@ Expected<void> Studio::time_shadows(const DrawOrder& order) {
   if (worker_.busy() || shadow_timer_.knows(order.revision)) return {};
   if (!outcome_ || outcome_->preview || outcome_->revision != order.revision) return {};
   if (raster::draws_in_software(renderer_->info().renderer)) return time_in_software(order);
-  if (order.setup.map.technique == raster::Technique::hybrid) return {};
+  if (raster::is_external(order.setup.map.technique)) return {};
   return shadow_timer_.take_turn(order.revision, *renderer_, [&](int drawings) -> Expected<void> {
     raster::RasterOptions options = raster_options(order.setup, order.setup.size);
     options.span_drawings = drawings;
