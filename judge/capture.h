@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "judge/conventions.h"
 #include "raster/options.h"
 #include "scene/base/expected.h"
 #include "scene/image.h"
 #include "scene/math.h"
-#include "judge/conventions.h"
 
 namespace gnomon::compare {
 

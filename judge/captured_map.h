@@ -3,8 +3,8 @@
 #pragma once
 
 #include "judge/capture.h"
-#include "raster/frame.h"
 #include "judge/captured_test.h"
+#include "raster/frame.h"
 
 namespace gnomon::compare {
 

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "compare/result/judged.h"
+#include "judge/conventions.h"
 #include "raster/frame.h"
 #include "raster/map_test.h"
 #include "scene/image.h"
-#include "judge/conventions.h"
 
 namespace gnomon::compare {
 

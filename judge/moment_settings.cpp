@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/base/parallel.h"
 #include "judge/moments_test.h"
 #include "judge/stored_depths.h"
+#include "scene/base/parallel.h"
 
 namespace gnomon::compare {
 namespace {

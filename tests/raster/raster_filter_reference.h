@@ -7,9 +7,9 @@
 #include <functional>
 #include <vector>
 
+#include "judge/moments.h"
 #include "raster/passes/light_block.h"
 #include "scene/light.h"
-#include "judge/moments.h"
 #include "tests/support/raster_fixture.h"
 
 namespace gnomon::test {

@@ -10,9 +10,9 @@
 
 #include "compare/ladder/labels.h"
 #include "compare/truth/columns.h"
+#include "judge/moments.h"
 #include "judge/stored_format.h"
 #include "scene/files/pictures/image_io.h"
-#include "judge/moments.h"
 #include "tests/support/capture_support.h"
 
 namespace gnomon::test {
