@@ -54,6 +54,43 @@ if(GNOMON_FUZZ)
   target_link_options(gnomon_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
+# What nearly every file includes is parsed once, where files are compiled together; and with it, for sources that are text,
+# JSON. A precompiled header holds for the flags that it was made with. Without GNOMON_UNITY each file is compiled with what it
+# includes itself.
+function(gnomon_headers name)
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/${name}.cpp" CONTENT "// Generated: what ${name} is made with.\n")
+  add_library(${name} OBJECT "${PROJECT_BINARY_DIR}/${name}.cpp")
+  target_link_libraries(${name} PRIVATE gnomon_flags gnomon_warnings fmt::fmt glm::glm tl::expected nlohmann_json::nlohmann_json)
+  target_precompile_headers(${name} PRIVATE <algorithm> <array> <cmath> <functional> <memory> <optional> <span> <string> <string_view>
+    <vector> <glm/glm.hpp> <tl/expected.hpp> <fmt/core.h> ${ARGN})
+  target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # tells ccache which one was read
+endfunction()
+
+# gnomon_use_headers(TARGET): those of gnomon_headers that suit it.
+function(gnomon_use_headers target)
+  if(NOT GNOMON_UNITY OR NOT GNOMON_PLATFORM STREQUAL native)
+    return()
+  endif()
+  foreach(name gnomon_common_headers gnomon_text_headers)
+    if(NOT TARGET ${name})
+      if(name STREQUAL gnomon_text_headers)
+        gnomon_headers(${name} <nlohmann/json.hpp>)
+        gnomon_compile_for_text(${name})
+      else()
+        gnomon_headers(${name})
+      endif()
+    endif()
+  endforeach()
+  get_target_property(is_text ${target} GNOMON_TEXT)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:fmt::fmt>)
+  if(is_text)
+    target_precompile_headers(${target} REUSE_FROM gnomon_text_headers)
+  else()
+    target_precompile_headers(${target} REUSE_FROM gnomon_common_headers)
+  endif()
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()
+
 function(gnomon_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   add_library(gnomon_${name} STATIC ${ARG_SOURCES})
@@ -68,6 +105,7 @@ endfunction()
 # pixels, triangles or a model's data is no text.
 function(gnomon_compile_for_text target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${GNOMON_TEXT_OPTIMIZATION}>)
+  set_target_properties(${target} PROPERTIES GNOMON_TEXT ON)
 endfunction()
 
 # gnomon_untimed(ROOM SOURCES... [LIBRARIES targets...]): the sources of a room that are text.
@@ -94,6 +132,9 @@ function(gnomon_compile_together target)
   endif()
   if(NOT GNOMON_UNITY)
     return()
+  endif()
+  if(NOT target MATCHES "_test$")  # whose headers are tests_headers
+    gnomon_use_headers(${target})
   endif()
   get_target_property(sources ${target} SOURCES)
   set(together)
