@@ -12,7 +12,7 @@ gnomon_test(shimmer_gl_test
 gnomon_test(shimmer_program_gl_test SOURCES shimmer_program_gl_test.cpp LIBS app_process gnomon::scene nlohmann_json::nlohmann_json)
 add_dependencies(shimmer_program_gl_test gnomon_programs)
 
-gnomon_test(judge_gl_test
+gnomon_test(judge_gl_test PARTS 3
   SOURCES judge_gl_test.cpp judge_parts_gl_test.cpp judge_values_gl_test.cpp judge_described_gl_test.cpp
           judge_content_gl_test.cpp judge_far_plane_gl_test.cpp judge_own_test_gl_test.cpp
   LIBS capture_support fmt::fmt nlohmann_json::nlohmann_json)
