@@ -28,6 +28,7 @@ std::string said_by(const std::string& command) {
 TEST(WholeBench, TakesTheWordsAndCanBeEnded) {
   const TemporaryFolder folder;
   fs::copy_file(gnomon::test::program(), folder / "gnomon");
+  fs::copy_file(fs::path(gnomon::test::program()).replace_filename("gnomon-bench"), folder / "gnomon-bench");
   write_text(folder / "gnomon_bench", "#!/bin/sh\necho \"$@\"\nkill -TERM $$\necho survived\n");
   fs::permissions(folder / "gnomon_bench", fs::perms::owner_all);
   const std::string program = "'" + folder / "gnomon" + "' bench --json ";

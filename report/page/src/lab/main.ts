@@ -194,6 +194,7 @@ class Lab {
 
   // One wish at a time: of those that come meanwhile the newest is asked for next.
   private ask(): void {
+    history.replaceState(null, "", addressOf(this.state)); // at once: an engine that is lost answers no more
     if (this.asking) {
       this.again = true;
       return;
@@ -202,7 +203,6 @@ class Lab {
     this.again = false;
     const preset = this.preset;
     this.preset = undefined;
-    history.replaceState(null, "", addressOf(this.state));
     document.body.dataset.busy = "true";
     this.say("");
     this.wait();
