@@ -344,6 +344,7 @@ int parse_and_run(int argc, const char* const* argv, bool runs) {
   }
   const std::string first = argv[1];
   if (const CLI::App* command = asked_about(*program, argc, argv); command != nullptr) {
+    if (const auto here = missing_program(command->get_name()); !here) return print_failure(here.error());
     print_data(help_text(*command));
     return code_after_stdout(0);
   }

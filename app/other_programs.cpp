@@ -55,10 +55,11 @@ void add_description(CLI::App& program, const Json& commands) {
   }
 }
 
-tl::unexpected<Error> not_there(std::string_view program, std::string_view what) {
-  return fail(ErrorKind::graphics, fmt::format("{0} is not beside this program, which {1} (a package of "
-                                               "Gnomon has it; in its sources ./gnomon builds it)",
-                                               program, what));
+/// `what`: "judge is a command of gnomon-judge".
+tl::unexpected<Error> not_there(std::string_view what) {
+  return fail(ErrorKind::graphics, fmt::format("{}, which is not beside this program; it comes with Gnomon's "
+                                               "package, or by ./gnomon build in its sources",
+                                               what));
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ void become_program_of_command(int argc, char** argv) {
 Expected<void> missing_program(const std::string& command) {
   const Command* elsewhere = command_elsewhere(command);
   if (elsewhere == nullptr) return {};
-  return not_there(elsewhere->program, fmt::format("{} is a command of", command));
+  return not_there(fmt::format("{} is a command of {}", command, elsewhere->program));
 }
 
 std::string description_of(const CLI::App& program) {
@@ -95,9 +96,8 @@ Expected<void> describe_others(CLI::App& program) {
     if (!command.add_options) others.insert(command.program);
   for (const std::string_view other : others) {
     const auto end = run_and_listen({program_beside(other), "--describe"});
-    if (!end) return fail(end.error());
-    const Json described = Json::parse(end->said, nullptr, false);
-    if (end->code != 0 || !described.is_object()) return not_there(other, "describes its own commands");
+    const Json described = end && end->code == 0 ? Json::parse(end->said, nullptr, false) : Json();
+    if (!described.is_object()) return not_there(fmt::format("some commands are described by {}", other));
     add_description(program, described);
   }
   return {};
