@@ -63,9 +63,9 @@ LessonCommand read_command(std::string_view text) {
 }
 
 std::optional<LessonCommand> find_lesson(std::string_view name) {
-  const auto all = compare::all_lessons();
+  const auto all = report::all_lessons();
   const auto found =
-      std::find_if(all.begin(), all.end(), [&](const compare::Lesson& l) { return l.name == name; });
+      std::find_if(all.begin(), all.end(), [&](const report::Lesson& l) { return l.name == name; });
   if (found == all.end()) return std::nullopt;
   return read_command(found->command);
 }
@@ -142,8 +142,8 @@ std::string scene_of_lesson(const std::string& path_or_name) {
 }
 
 std::string lesson_note(const std::string& path_or_name) {
-  const auto all = compare::all_lessons();
-  for (const compare::Lesson& lesson : all) {
+  const auto all = report::all_lessons();
+  for (const report::Lesson& lesson : all) {
     if (lesson.name == path_or_name) return fmt::format("lesson \"{}\": {}", lesson.title, lesson.command);
   }
   return {};

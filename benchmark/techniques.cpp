@@ -104,7 +104,7 @@ std::string markdown_row(const TechniqueRow& row) {
 
 Expected<TechniqueTable> bench_techniques(Scene& scene, const World& world, raster::Renderer& renderer,
                                           const raster::RasterOptions& base, const Progress& progress) {
-  compare::Engine engine(scene, world, renderer, false);
+  studies::Engine engine(scene, world, renderer, false);
   TechniqueTable table{scene.name, base.size, base.map.size, {}};
   const auto techniques = raster::all_technique_traits();
   for (const raster::TechniqueTraits& traits : techniques) {

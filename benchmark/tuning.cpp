@@ -40,18 +40,19 @@ constexpr const char* columns = "{:<14}{:>7}{:>10}{:>7}{:>8}{:>8}{:>7}  {}\n";
 
 }  // namespace
 
-Expected<compare::GridCheck> bench_tuning(const TuningInput& input, const Progress& progress) {
-  compare::TuneOptions options;
+Expected<studies::GridCheck> bench_tuning(const TuningInput& input, const Progress& progress) {
+  studies::TuneOptions options;
   options.goal.max_error = compare::Threshold{compare::find_measure("wrong"), input.max_error};
   options.sizes = grid_sizes(input.renderer.info().max_map_size);
   options.families = input.families;
-  compare::Engine engine(input.scene, input.world, input.renderer, false);
+  studies::Engine engine(input.scene, input.world, input.renderer, false);
   const double drawings_expected = static_cast<double>(options.families.size() * options.sizes.size() * 3);
-  return check_against_grid(engine, base_setting(input), options, grid_biases(), input.runs,
-                            [&](const compare::TuneFamily& family, int size, std::uint64_t drawings) {
-                              progress(fmt::format("{}: {}, {} texels", input.scene.name, family.name, size),
-                                       static_cast<double>(drawings) / drawings_expected);
-                            });
+  return studies::check_against_grid(
+      engine, base_setting(input), options, grid_biases(), input.runs,
+      [&](const studies::TuneFamily& family, int size, std::uint64_t drawings) {
+        progress(fmt::format("{}: {}, {} texels", input.scene.name, family.name, size),
+                 static_cast<double>(drawings) / drawings_expected);
+      });
 }
 
 std::string tuning_head(double max_error, ImageSize size, int runs) {
@@ -63,7 +64,7 @@ std::string tuning_head(double max_error, ImageSize size, int runs) {
                      "the tuner's answer; the grid's best");
 }
 
-std::string tuning_line(const std::string& scene, const compare::GridCheck& check) {
+std::string tuning_line(const std::string& scene, const studies::GridCheck& check) {
   const std::string name = one_line(scene);
   if (!check.tuned.feasible || !check.best)
     return fmt::format("{:<14}{:>7}{:>10}{:>7}  {}\n", name, check.cells, check.good_cells,
@@ -71,7 +72,7 @@ std::string tuning_line(const std::string& scene, const compare::GridCheck& chec
                        check.tuned.feasible == check.best.has_value() ? "no setting meets the goal"
                                                                       : "only one of them meets the goal");
   const auto& families = check.tuned.families;
-  const compare::Attempt& answer = *families[check.tuned.winner].answer;
+  const studies::Attempt& answer = *families[check.tuned.winner].answer;
   const std::string names_of_both =
       fmt::format("{} {}; {} {}", families[check.tuned.winner].family.name, answer.size,
                   families[check.best->family].family.name, check.best->attempt.size);
@@ -80,7 +81,7 @@ std::string tuning_line(const std::string& scene, const compare::GridCheck& chec
                      fmt::format("{:.3f}", check.ratio()), names_of_both);
 }
 
-std::vector<BenchRow> tuning_rows(const std::string& scene, const compare::GridCheck& check) {
+std::vector<BenchRow> tuning_rows(const std::string& scene, const studies::GridCheck& check) {
   std::vector<BenchRow> rows;
   const BenchPeer grid{"full grid", check.best_cost};
   const int threads = threads_in_use();

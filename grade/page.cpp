@@ -17,15 +17,18 @@ namespace gnomon::grade {
 
 namespace {
 
-using compare::escaped;
-using compare::flowing;
+using report::escaped;
+using report::flowing;
+
+using report::escaped;
+using report::flowing;
 
 std::string page(const std::string& title, const std::string& body) {
   const std::string style = fmt::format("\n{}", embedded::grade_page("page.css"));
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{}\n<style>{}</style>\n"
       "</head>\n<body>\n{}</body>\n</html>\n",
-      compare::page_head({title, style}), style, body);
+      report::page_head({title, style}), style, body);
 }
 
 // "[A] acne, [D] peter-panning"
@@ -34,7 +37,7 @@ std::string key_html(const std::vector<compare::Label>& labels) {
   for (const compare::Label label : labels) {
     const compare::LabelText& text = compare::label_text(label);
     html += fmt::format("{}<span class=\"key\">{} {}</span>", html.empty() ? ": " : ", ",
-                        compare::swatch(compare::label_colour(label), text.letter), text.name);
+                        report::swatch(compare::label_colour(label), text.letter), text.name);
   }
   return html;
 }
@@ -44,7 +47,7 @@ std::string figures_html(const CheckResult& result) {
   std::string html = "<div class=\"pictures\">\n";
   for (const Picture& picture : result.pictures)
     html += fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}{}</figcaption></figure>\n",
-                        compare::data_uri("image/png", picture.png), escaped(picture.caption),
+                        report::data_uri("image/png", picture.png), escaped(picture.caption),
                         escaped(picture.caption), key_html(picture.labels));
   return html + "</div>\n";
 }

@@ -10,8 +10,11 @@
 #include "compare/result/number_text.h"
 #include "judge/advisor.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::Advice;
+using compare::AdvisedSetting;
 
 /// World units, ascending: none, half of the present one, one texel and two. The present one is not among them.
 std::vector<double> offsets_to_try(double now, double texel_world) {
@@ -201,7 +204,7 @@ bool Advisor::fill(const Candidate& candidate, Advice& advice) const {
   if (!is_told(left.wrong_fraction, left.wrong_spread) || !is_told(left.mean_absolute, left.mean_spread))
     return false;
   const double factor = advice.about ? 1.0 + off_by : 1.0;
-  return is_worth_advising(
+  return compare::is_worth_advising(
       {factor * left.wrong_fraction, factor * left.mean_absolute, factor * left.mean_absolute},
       {advice.wrong_now, *advice.mean_now, *advice.mean_now}, light_.pixels.compared);
 }
@@ -223,7 +226,7 @@ std::vector<Advice> Advisor::drawn_again() {
 }
 
 std::vector<Advice> give_advice(const FrameInput& in, const raster::RasterFrame& drawn,
-                                const LightComparison& light, const CasterBiases& casters,
+                                const compare::LightComparison& light, const CasterBiases& casters,
                                 double drawn_constant) {
   return Advisor(in, drawn, light, casters, drawn_constant).advise();
 }
@@ -231,8 +234,9 @@ std::vector<Advice> give_advice(const FrameInput& in, const raster::RasterFrame&
 namespace {
 
 /// What engines know of a captured test with other numbers: `value` of each setting that the advice names.
-std::vector<EngineUnit> units_with(const Advice& advice, double AdvisedSetting::*value, LightType light,
-                                   const raster::LightRecord& record, const World& world) {
+std::vector<compare::EngineUnit> units_with(const Advice& advice, double AdvisedSetting::*value,
+                                            LightType light, const raster::LightRecord& record,
+                                            const World& world) {
   raster::Bias bias;
   const double texel = record.texel_world;
   bias.normal_offset_texels = captured_test(record).normal_offset_world / texel;
@@ -247,7 +251,7 @@ std::vector<EngineUnit> units_with(const Advice& advice, double AdvisedSetting::
   };
   take(advice);
   if (advice.with) take(*advice.with);
-  return engine_units(bias, constant, light, record, world);
+  return compare::engine_units(bias, constant, light, record, world);
 }
 
 }  // namespace
@@ -257,7 +261,7 @@ std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view 
                                                                const raster::LightRecord& record,
                                                                const World& world) {
   std::vector<std::pair<std::string, double>> out;
-  const TunedEngine* known = engine_of_renderer(engine);
+  const compare::TunedEngine* known = compare::engine_of_renderer(engine);
   if (known == nullptr || advice.setting.starts_with("filter.")) return out;
   const bool in_texels = advice.texels_of_each && known->constant_in_texels;
   if (!advice.layers.empty() && !in_texels) return out;
@@ -269,4 +273,4 @@ std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view 
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -5,7 +5,7 @@
 #include "compare/result/judged.h"
 #include "judge/caster_bias.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// The constant that leaves least; it may be below 0. Beside it stands the best normal offset of a few, with its best constant,
 /// where that leaves clearly less. Tried are the present offset, smaller ones, none among them, and larger ones. Of layers it is
@@ -13,15 +13,15 @@ namespace gnomon::compare {
 /// of casters are then tried, the map's depths moved accordingly. Each is drawn again with the filter (redrawing.h) over all
 /// compared pixels. What is not worth advising is left out (compare/advice/rule.h); where nothing is worth it, nothing is
 /// advised. `drawn_constant`: world units, of what was drawn, where that is not what the capture says.
-std::vector<Advice> give_advice(const FrameInput& input, const raster::RasterFrame& drawn,
-                                const LightComparison& light, const CasterBiases& casters,
-                                double drawn_constant);
+std::vector<compare::Advice> give_advice(const FrameInput& input, const raster::RasterFrame& drawn,
+                                         const compare::LightComparison& light, const CasterBiases& casters,
+                                         double drawn_constant);
 
 /// What an advice changes in an engine's settings (EngineUnit::engine); none where it sets the layers apart, or the engine
 /// has no number for it.
-std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view engine, const Advice& advice,
-                                                               LightType light,
+std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view engine,
+                                                               const compare::Advice& advice, LightType light,
                                                                const raster::LightRecord& record,
                                                                const World& world);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

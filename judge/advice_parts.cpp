@@ -7,8 +7,13 @@
 #include "compare/bias/bias_kinds.h"
 #include "scene/base/parallel.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::Advice;
+using compare::AdvisedSetting;
+using compare::BiasRange;
+using compare::short_number_in;
 
 /// Hardly worse than the best: by one compared pixel in 100,000, or by one wrong pixel in fifty.
 constexpr double hardly_pixels = 1e-5, few_wrong = 0.02;
@@ -18,7 +23,7 @@ double hardly_more(double least) {
 }
 
 /// A constant below 0 that is hardly wrong more often than the best of those, the one nearest to 0.
-std::optional<BiasRange> good_range_below_zero(const GapLists& gaps) {
+std::optional<BiasRange> good_range_below_zero(const compare::GapLists& gaps) {
   std::vector<float> starts;  // ascending: between two of them nothing changes
   for (const std::vector<float>* list : {&gaps.lit, &gaps.shadowed})
     for (const float gap : *list)
@@ -27,7 +32,7 @@ std::optional<BiasRange> good_range_below_zero(const GapLists& gaps) {
   starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
   std::vector<std::uint64_t> wrong(starts.size());
   parallel_for(starts.size(), [&](std::size_t i) {
-    const BiasCurvePoint point = gaps.at(double{starts[i]});
+    const compare::BiasCurvePoint point = gaps.at(double{starts[i]});
     wrong[i] = point.false_shadow + point.missed_shadow;
   });
   if (starts.empty()) return std::nullopt;
@@ -47,12 +52,12 @@ double TriedConstants::wrong(std::uint64_t inside) const {
 }
 
 std::uint64_t TriedConstants::inside_at(double bias) const {
-  const BiasCurvePoint point = gaps.at(bias);
+  const compare::BiasCurvePoint point = gaps.at(bias);
   return point.false_shadow + point.missed_shadow;
 }
 
 GoodConstant good_constant(const TriedConstants& tried, double unit_world, double now) {
-  const BiasRange range = smallest_good_range(tried.gaps);
+  const BiasRange range = compare::smallest_good_range(tried.gaps);
   const auto at = [&](double stored) { return GoodConstant{stored, tried.wrong_at(stored * unit_world)}; };
   GoodConstant best = at(short_number_in(range.from / unit_world, range.to / unit_world));
   if (const auto below = good_range_below_zero(tried.gaps)) {
@@ -65,17 +70,18 @@ GoodConstant good_constant(const TriedConstants& tried, double unit_world, doubl
   return present.left <= hardly_more(best.left) ? present : best;
 }
 
-TriedConstants try_constants(const raster::LightRecord& record, const LightComparison& light, int face) {
+TriedConstants try_constants(const raster::LightRecord& record, const compare::LightComparison& light,
+                             int face) {
   TriedConstants out;
-  Image<Label> inside = light.labels;
+  Image<compare::Label> inside = light.labels;
   for (std::size_t i = 0; i < inside.data.size(); ++i) {
-    if (face >= 0 && record.face.data[i] != face) inside.data[i] = Label::background;
-    if (!is_compared(inside.data[i]) || record.outside_map.data[i] == 0) continue;
-    inside.data[i] = Label::background;
+    if (face >= 0 && record.face.data[i] != face) inside.data[i] = compare::Label::background;
+    if (!compare::is_compared(inside.data[i]) || record.outside_map.data[i] == 0) continue;
+    inside.data[i] = compare::Label::background;
     const float off = std::abs(light.rungs[6].data[i] - light.rungs[0].data[i]);
     ++out.outside, out.outside_wrong += off > 0.5f ? 1 : 0, out.outside_ties += off == 0.5f ? 1 : 0;
   }
-  out.gaps = sort_gaps(record, light.rungs[0], inside);
+  out.gaps = compare::sort_gaps(record, light.rungs[0], inside);
   return out;
 }
 
@@ -217,7 +223,7 @@ double filtered_texels(const ConstantSearch& search, const std::vector<LayerCons
                      layer.range / layer.texel_world);
   double best = 0.0, least = infinity;
   for (const double t : texels) {
-    const double tried = rounded_to_three(t);
+    const double tried = compare::rounded_to_three(t);
     record.change([&](raster::LightRecord& one) {
       auto& own = changed_test(one).layers;
       own.resize(layers.size());
@@ -241,7 +247,7 @@ Advice advise_in_texels(const ConstantSearch& search) {
   const std::vector<LayerConstant> layers = layers_of(search);
   double texels = 0.0;
   if (search.redrawing.compares_once()) {
-    const BiasRange range = smallest_good_range(tried_in_texels(search, layers).gaps);
+    const BiasRange range = compare::smallest_good_range(tried_in_texels(search, layers).gaps);
     texels = short_number_in(range.from, range.to);
   } else {
     texels = filtered_texels(search, layers);
@@ -263,4 +269,4 @@ Advice advise_on_layers(const ConstantSearch& search) {
   return of_layers(settings);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

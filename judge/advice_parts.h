@@ -6,12 +6,12 @@
 #include "judge/captured_frame.h"
 #include "judge/redrawing.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// What a test that compares once draws with every constant: of pixels inside the map by their gaps; those outside stay as
 /// they are.
 struct TriedConstants {
-  GapLists gaps;
+  compare::GapLists gaps;
   std::uint64_t outside = 0, outside_wrong = 0, outside_ties = 0;
 
   double pixels() const { return static_cast<double>(gaps.count() + outside); }
@@ -21,7 +21,8 @@ struct TriedConstants {
   double wrong_at(double bias_world) const { return wrong(inside_at(bias_world)); }
 };
 /// `face`: of the pixels that look this one up alone; below 0: of all.
-TriedConstants try_constants(const raster::LightRecord& record, const LightComparison& light, int face = -1);
+TriedConstants try_constants(const raster::LightRecord& record, const compare::LightComparison& light,
+                             int face = -1);
 
 /// A constant that leaves hardly more than the best one: the present one if it does, else the one nearest to 0.
 struct GoodConstant {
@@ -38,7 +39,7 @@ inline constexpr double worth_changing = 0.9;
 struct ConstantSearch {
   const FrameInput& in;
   const raster::Bias& bias;
-  const LightComparison& light;
+  const compare::LightComparison& light;
   const Redrawing& redrawing;
   double unit_world = 1.0;
   double now = 0.0;  ///< stored numbers
@@ -53,8 +54,8 @@ struct ConstantSearch {
 bool has_layers(const raster::LightRecord& record);
 
 /// One constant in texels for all layers of a directional light's map, each of its own.
-Advice advise_in_texels(const ConstantSearch& search);
+compare::Advice advise_in_texels(const ConstantSearch& search);
 /// Each layer of a directional light's map with a constant of its own.
-Advice advise_on_layers(const ConstantSearch& search);
+compare::Advice advise_on_layers(const ConstantSearch& search);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

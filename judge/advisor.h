@@ -8,11 +8,11 @@
 #include "judge/advice_parts.h"
 #include "judge/caster_bias.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 class Advisor {
  public:
-  Advisor(const FrameInput& in, const raster::RasterFrame& drawn, const LightComparison& light,
+  Advisor(const FrameInput& in, const raster::RasterFrame& drawn, const compare::LightComparison& light,
           const CasterBiases& casters, double drawn_constant)
       : in_(in),
         frame_(drawn),
@@ -22,7 +22,7 @@ class Advisor {
         search_{in,         drawn.options.map.bias, light,
                 redrawing_, test().unit_world,      drawn_constant / test().unit_world} {}
 
-  std::vector<Advice> advise() {
+  std::vector<compare::Advice> advise() {
     if (!redrawing_.is_known()) return {};
     if (!casters_.faces.empty() && !reads_averages())
       propose_on_casters();
@@ -34,7 +34,7 @@ class Advisor {
  private:
   /// What is tried, and how a test's record is changed by it; a constant in stored numbers goes with it.
   struct Candidate {
-    Advice advice;
+    compare::Advice advice;
     RecordChange change;
     double stored = 0.0;
     bool about = false;  ///< `change` puts an estimate in the map's place
@@ -43,7 +43,7 @@ class Advisor {
   bool reads_averages() const { return test().reads() == CapturedTest::Reads::averages; }
   const raster::LightRecord& record() const { return frame_.lights.front(); }
   const CapturedTest& test() const { return captured_test(record()); }
-  AdvisedSetting constant(double instead) const {
+  compare::AdvisedSetting constant(double instead) const {
     const bool stored = test().stores == Stores::depths || test().unit_world != 1.0;
     const double described = record().bias_constant_world / test().unit_world;
     return {"bias.constant_depth", described,           instead, stored ? "stored depth" : "world units",
@@ -54,12 +54,12 @@ class Advisor {
   void propose_on_own_settings(double least);
   void propose_on_casters();
   void propose(Candidate candidate) { candidates_.push_back(std::move(candidate)); }
-  std::vector<Advice> drawn_again();
-  bool fill(const Candidate& candidate, Advice& advice) const;
+  std::vector<compare::Advice> drawn_again();
+  bool fill(const Candidate& candidate, compare::Advice& advice) const;
 
   const FrameInput& in_;
   const raster::RasterFrame& frame_;
-  const LightComparison& light_;
+  const compare::LightComparison& light_;
   const CasterBiases& casters_;
   Redrawing redrawing_;
   ConstantSearch search_;
@@ -67,4 +67,4 @@ class Advisor {
       candidates_;  ///< the simplest first, each likely to leave clearly less than those before it
 };
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -6,8 +6,11 @@
 #include "judge/captured_map.h"
 #include "scene/base/stages.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::Judged;
+using compare::Mended;
 
 /// Right captures agree on more than 0.98 of each (the rest are a rasterizer's own pixels along edges); half a
 /// pixel off leaves 0.7 to 0.85 of the silhouettes and none of the positions.
@@ -321,7 +324,7 @@ void Aligner::note_resolution() {
   judged_.notes.push_back(
       fmt::format("the shadow consists of blocks of {0} x {0} pixels, as if drawn at 1/{0} of the picture's "
                   "resolution and enlarged: edges are wrong by up to {1} for that reason alone",
-                  block, counted(static_cast<std::uint64_t>(block - 1), "pixel")));
+                  block, compare::counted(static_cast<std::uint64_t>(block - 1), "pixel")));
 }
 
 }  // namespace
@@ -372,4 +375,4 @@ Expected<Mat3> align_map(const AlignInput& in, const Error& error, const Light& 
   return fail(error);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -7,7 +7,7 @@
 
 #include "judge/evidence.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 struct AlignInput {
   const Capture& capture;
@@ -35,23 +35,24 @@ struct Aligned {
 /// named in `judged`, and undone in scene, sight and pictures. Error (bad input) with the agreement before and after: a
 /// suspect fits and `fix` is false, or nothing fits.
 Expected<Aligned> align_geometry(const AlignInput& input, Scene& scene, Sight& sight,
-                                 CapturedPictures& pictures, Judged& judged);
+                                 CapturedPictures& pictures, compare::Judged& judged);
 /// Does the same for the shadows, once the rest agrees. `frame` must then be traced from the sight.
 Expected<Aligned> align_shadows(const AlignInput& input, Scene& scene, Sight& sight,
-                                CapturedPictures& pictures, Judged& judged);
+                                CapturedPictures& pictures, compare::Judged& judged);
 
 /// A world in which the map's matrices are the light's, where they are not in the scene's: an error without `fix`, with it
 /// the captured world, named in `judged`. `error`: what is wrong with them as they are.
-Expected<Mat3> align_map(const AlignInput& input, const Error& error, const Light& light, Judged& judged);
+Expected<Mat3> align_map(const AlignInput& input, const Error& error, const Light& light,
+                         compare::Judged& judged);
 
 /// Tells of a ratio whether the picture with shadows is the one that is named as the one without. That is so where it is
 /// often brighter and hardly ever darker. An error without `fix`; with it the pictures are read again, in the other order.
 Expected<void> check_order(const Capture& capture, bool orthographic, bool fix, CapturedPictures& pictures,
-                           Judged& judged);
+                           compare::Judged& judged);
 
 /// What the visibility's values were encoded with for a display.
 struct Encoding {
-  Mended mended;
+  compare::Mended mended;
   float (*decode)(float) = nullptr;  ///< stored to linear, both in [0, 1]
 };
 /// sRGB, or a gamma of 2.2, where the greys are multiples of one part once they are decoded. None where they are not,
@@ -63,4 +64,4 @@ std::optional<Encoding> find_encoding(const CapturedPictures& pictures,
 /// picture's resolution and enlarged without interpolation. 1: no such blocks, or too few edges to tell.
 int shadow_block(const CapturedPictures& pictures, const raytrace::RayTracedFrame& frame);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

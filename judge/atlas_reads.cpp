@@ -11,8 +11,10 @@
 #include "judge/identify.h"
 #include "scene/light.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::Label;
 
 constexpr std::size_t few_reads = 10;  ///< of which nothing is said in a note
 constexpr double nearer_by =
@@ -33,8 +35,8 @@ class AtlasReader {
   };
   std::optional<Means> means(std::size_t pixel) const {
     const raytrace::SurfacePoint& receiver = in_.traced.receiver.data[pixel];
-    const auto lookup =
-        biased_lookup(record_, map_.bias, light_at(light_, receiver.position).to_light, receiver, pixel);
+    const auto lookup = compare::biased_lookup(record_, map_.bias,
+                                               light_at(light_, receiver.position).to_light, receiver, pixel);
     if (!lookup) return std::nullopt;
     const Part part = captured_test(record_).part(record_.map.view, lookup->at.face);
     const double radius = map_.filter.radius_texels, u = lookup->at.u, v = lookup->at.v;
@@ -51,7 +53,7 @@ class AtlasReader {
         const int own_column = std::clamp(column, part.column, part.column + part.width - 1);
         const int own_row = std::clamp(row, part.row, part.row + part.height - 1);
         const auto key = raytrace::TexelKey::pack(lookup->at.face, own_column, own_row);
-        const double own = lit(*lookup, receiver.normal, key, stored_caster(record_, key));
+        const double own = lit(*lookup, receiver.normal, key, compare::stored_caster(record_, key));
         const bool beyond = column != own_column || row != own_row;
         out.own += weight * own;
         out.neighbours +=
@@ -65,15 +67,18 @@ class AtlasReader {
  private:
   using Part = CapturedTest::Part;
   static int floor_of(double place) { return static_cast<int>(std::floor(place)); }
-  double lit(const BiasedLookup& lookup, const Vec3& normal, raytrace::TexelKey key,
+  double lit(const compare::BiasedLookup& lookup, const Vec3& normal, raytrace::TexelKey key,
              const std::optional<double>& depth) const {
-    BiasedLookup there = lookup;
+    compare::BiasedLookup there = lookup;
     there.key = key;
-    return depth && gap_before(record_, map_.bias, normal, there, *depth) > record_.bias_constant_world ? 0.0
-                                                                                                        : 1.0;
+    return depth && compare::gap_before(record_, map_.bias, normal, there, *depth) >
+                        record_.bias_constant_world
+               ? 0.0
+               : 1.0;
   }
   /// The depth that a number of another layer stands for where it is read as one of this.
-  std::optional<double> neighbour(const Part& part, const BiasedLookup& lookup, int column, int row) const {
+  std::optional<double> neighbour(const Part& part, const compare::BiasedLookup& lookup, int column,
+                                  int row) const {
     const LightView& view = record_.map.view;
     const int face = lookup.at.face;
     const LayerTexels& texels = in_.facts.atlas[static_cast<std::size_t>(face)];
@@ -96,13 +101,14 @@ class AtlasReader {
 
 }  // namespace
 
-AtlasReads label_atlas_reads(const FrameInput& in, const raster::RasterFrame& drawn, LightComparison& light) {
+AtlasReads label_atlas_reads(const FrameInput& in, const raster::RasterFrame& drawn,
+                             compare::LightComparison& light) {
   const bool filters = drawn.options.map.technique == raster::Technique::pcf;
   if (in.facts.atlas.empty() || !filters || !(drawn.options.map.filter.radius_texels > 0.0)) return {};
   const AtlasReader reader(in, drawn);
-  const auto found = pixels_where(light.labels.data.size(), [&](std::size_t i) {
+  const auto found = compare::pixels_where(light.labels.data.size(), [&](std::size_t i) {
     const Label label = light.labels.data[i];
-    if (!has_cause(label) || label == Label::outside_map || label == Label::light_size) return false;
+    if (!compare::has_cause(label) || label == Label::outside_map || label == Label::light_size) return false;
     const auto means = reader.means(i);
     const double truth = double{light.rungs[0].data[i]}, is_drawn = double{light.rungs[6].data[i]};
     const double error = std::abs(is_drawn - truth);
@@ -114,19 +120,20 @@ AtlasReads label_atlas_reads(const FrameInput& in, const raster::RasterFrame& dr
   count_labels_again(light);
   if (found.size() < few_reads) return {};
   const std::string border =
-      with_noun(fmt::format("{:.0f}", std::ceil(drawn.options.map.filter.radius_texels)), "texel");
-  const auto wrong = std::count_if(found.begin(), found.end(),
-                                   [&](std::uint32_t i) { return is_wrong(rungs_at(light.rungs, i)); });
+      compare::with_noun(fmt::format("{:.0f}", std::ceil(drawn.options.map.filter.radius_texels)), "texel");
+  const auto wrong = std::count_if(found.begin(), found.end(), [&](std::uint32_t i) {
+    return compare::is_wrong(compare::rungs_at(light.rungs, i));
+  });
   AtlasReads out;
   out.notes = {
       fmt::format("in {} pixels with an error the filter reads beyond its layer's part of the atlas, where a "
                   "neighbour's depths "
                   "are: clamp its reads to the part, or leave a border of {}",
-                  grouped(found.size()), border)};
+                  compare::grouped(found.size()), border)};
   if (2 * static_cast<std::uint64_t>(wrong) > light.error.wrong)
     out.cure = fmt::format(
         "Clamp the filter's reads to the layer's part of the atlas, or leave a border of {}.", border);
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -7,7 +7,7 @@
 #include "compare/comparison.h"
 #include "judge/captured_frame.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 struct AtlasReads {
   std::vector<std::string> notes;  ///< how many, and what helps
@@ -17,6 +17,6 @@ struct AtlasReads {
 /// Labels errors of filters that their layer's own texels would not make, and that its neighbours' in the picture make, as
 /// outside the map.
 AtlasReads label_atlas_reads(const FrameInput& input, const raster::RasterFrame& drawn,
-                             LightComparison& light);
+                             compare::LightComparison& light);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

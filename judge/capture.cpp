@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 Expected<void> check_depth(const Capture& capture) {
@@ -140,4 +140,4 @@ Expected<void> check_capture(const Capture& capture) {
   return check_map(capture);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -15,7 +15,7 @@
 #include "scene/image.h"
 #include "scene/math.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// What a depth buffer of the camera holds.
 enum class PixelDepth : std::uint8_t { view_z, distance, zero_to_one, reversed };
@@ -143,4 +143,4 @@ Expected<void> check_capture(const Capture& capture);
 /// An error of a field of this capture.
 tl::unexpected<Error> capture_error(const Capture& capture, const std::string& field, std::string reason);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -7,7 +7,7 @@
 
 #include "scene/files/path_status.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 constexpr std::array<std::string_view, 3> visibility_names{"V", "Y", "R"};
@@ -348,4 +348,4 @@ Expected<Channel> read_layer_numbers(const Capture& capture, std::size_t layer, 
                              size);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

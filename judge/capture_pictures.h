@@ -7,7 +7,7 @@
 #include "judge/capture.h"
 #include "scene/files/pictures/image_io.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// Images are of the capture's size, row 0 at the top.
 struct CapturedPictures {
@@ -59,4 +59,4 @@ Expected<Channel> read_single_channel(const Capture& capture, const std::string&
                                       const std::string& field, std::span<const std::string_view> names,
                                       ImageSize& size);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -11,7 +11,7 @@
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 constexpr std::string_view schema_names[] = {"gnomon/capture/1", "gnomon/capture/2"};
@@ -371,4 +371,4 @@ Expected<Capture> read_capture(const std::string& path, const std::string& light
                     : fmt::format("has no such light (got {}, allowed {})", light, fmt::join(names, ", ")));
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

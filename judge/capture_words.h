@@ -3,7 +3,7 @@
 
 #include "scene/files/json/json_reader.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// Words of engines and of earlier captures for what the format says elsewhere.
 inline constexpr KeyMeaning capture_words[] = {
@@ -43,4 +43,4 @@ inline constexpr KeyMeaning capture_words[] = {
     {"positions", "position"},
 };
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -9,7 +9,7 @@
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 using raytrace::SurfacePoint;
@@ -118,7 +118,7 @@ bool is_culled(const FrameInput& in, const raster::LightRecord& record) {
   const std::size_t step = std::max<std::size_t>(1, in.traced.receiver.data.size() / 4096);
   for (std::size_t i = 0; i < in.traced.receiver.data.size(); i += step) {
     raytrace::TexelKey key;
-    if (in.traced.receiver.data[i].primitive == no_id || !texel_of_pixel(record, i, key)) continue;
+    if (in.traced.receiver.data[i].primitive == no_id || !compare::texel_of_pixel(record, i, key)) continue;
     if (depths.is_empty(key)) continue;
     const std::vector<SurfaceOnRay> met = depths.all(key, 8);
     const auto back = std::find_if(met.begin(), met.end(), [](const SurfaceOnRay& s) { return !s.front; });
@@ -256,8 +256,8 @@ void fill_record(const FrameInput& in, const raster::Bias& bias, raster::LightRe
     if (!record.has_known_map()) return;
     if (looks_up && lies_beyond_depths(record, bias, light, point, i))
       record.texel_uv.data[i] = Vec2f(-1.0f), record.outside_map.data[i] = 1;
-    record.gap.data[i] =
-        static_cast<float>(biased_gap(record, bias, light_at(light, point.position).to_light, point, i));
+    record.gap.data[i] = static_cast<float>(
+        compare::biased_gap(record, bias, light_at(light, point.position).to_light, point, i));
   });
 }
 
@@ -291,4 +291,4 @@ Expected<raster::RasterFrame> make_frame(const FrameInput& in, std::optional<Cap
   return frame;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

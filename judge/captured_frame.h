@@ -5,7 +5,7 @@
 #include "judge/receivers.h"
 #include "judge/stored_format.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// A renderer's floats place a receiver that far from where doubles do, texels; and the last bits of a depth between 1/2 and 1,
 /// with those of the matrix that made it.
@@ -54,4 +54,4 @@ void find_culling(const FrameInput& input, raster::RasterFrame& frame);
 /// Fills `record`'s gaps from its map and bias, and the other fields that follow from positions alone.
 void fill_record(const FrameInput& input, const raster::Bias& bias, raster::LightRecord& record);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -7,7 +7,7 @@
 #include "judge/capture_pictures.h"
 #include "scene/light.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 /// Engines keep matrices as floats: 2^-24 of each entry, some of them sums of a few.
@@ -386,4 +386,4 @@ Expected<CapturedMap> read_map(const Capture& capture, const Light& light, const
   return convention_of(*capture.map.front().convention).layout->read(capture, light, world);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

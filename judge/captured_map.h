@@ -6,7 +6,7 @@
 #include "judge/captured_test.h"
 #include "raster/frame.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// A layer's texels in its picture: rows from the bottom, and mirrored where the matrix was. Places beyond the layer are those
 /// of its neighbours.
@@ -65,4 +65,4 @@ std::optional<std::string> not_of_light(const MatrixFace& face, std::size_t face
 
 tl::expected<MatrixFace, std::string> take_apart(const Mat4& clip_from_world, StoredDepth convention);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -7,7 +7,7 @@
 #include "compare/truth/texel_groups.h"
 #include "judge/capture_pictures.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 using raster::LightRecord;
@@ -48,7 +48,7 @@ double constant_that_lights(const CapturedTest& test, double behind, double cosi
 }
 
 double depth_along(const LightView& view, TexelKey key) {
-  return depth_of_distance(view, key, 1.0);
+  return compare::depth_of_distance(view, key, 1.0);
 }
 
 /// Returns by how many stored numbers the receiver lies behind a caster, its slope bias taken off.
@@ -102,7 +102,7 @@ std::optional<MapLookup> CapturedTest::lookup(const LightRecord& record, const r
   out.cosine = std::clamp(glm::dot(receiver.normal, receiver.to_light), 0.0, 1.0);
   const double offset = offset_of(*this, face, out.cosine);
   if (offset == 0.0)
-    return texel_of_pixel(record, receiver.pixel, out.key) ? std::optional(out) : std::nullopt;
+    return compare::texel_of_pixel(record, receiver.pixel, out.key) ? std::optional(out) : std::nullopt;
   out.position += receiver.normal * offset;
   out.at = face_of(receiver.pixel) == any_face ? project_to_texel(view, out.position)
                                                : project_to_face(view, face, out.position);
@@ -114,9 +114,9 @@ std::optional<MapLookup> CapturedTest::lookup(const LightRecord& record, const r
 /// A difference of stored numbers.
 double CapturedTest::gap(const LightRecord& record, const raster::Bias& bias, const Vec3& normal,
                          const MapLookup& lookup, double caster_depth) const {
-  const double slope =
-      bias.slope != 0.0 ? bias.slope * texel_depth_slope(record.map.view, lookup.at, lookup.position, normal)
-                        : 0.0;
+  const double slope = bias.slope != 0.0 ? bias.slope * compare::texel_depth_slope(record.map.view, lookup.at,
+                                                                                   lookup.position, normal)
+                                         : 0.0;
   const double behind = stored_behind(record, *this, slope, lookup, caster_depth);
   return (constant_that_lights(*this, behind, lookup.cosine) - constant_beside(lookup.key.face())) *
          unit_world;
@@ -171,7 +171,7 @@ std::array<WeighedTexel, 4> texels_between(const LightRecord& record, const Capt
 }
 
 std::optional<double> DepthsTest::caster(const LightRecord& record, const MapLookup& lookup) const {
-  if (!between_) return stored_caster(record, lookup.key);
+  if (!between_) return compare::stored_caster(record, lookup.key);
   const raster::ShadowMap& map = record.map;
   double read = 0.0;
   for (const WeighedTexel& near : texels_between(record, *this, lookup.at))
@@ -189,4 +189,4 @@ std::shared_ptr<CapturedTest> make_depths_test(const Capture& capture) {
   return std::make_shared<DepthsTest>(capture.filter && capture.filter->read == FilterRead::linear_depths);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -14,7 +14,7 @@
 #include "raster/map_test.h"
 #include "scene/image.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 struct FrameInput;
 struct TestSuspect;
@@ -36,8 +36,8 @@ struct AveragesRead {
 using RecordChange = std::function<void(raster::LightRecord&)>;
 /// Another value of a setting that a test has beside its bias.
 struct OtherSetting {
-  AdvisedSetting setting;
-  std::optional<AdvisedSetting> with{};
+  compare::AdvisedSetting setting;
+  std::optional<compare::AdvisedSetting> with{};
   RecordChange change;
   bool about = false;  ///< `change` puts an estimate in the map's place
 };
@@ -191,4 +191,4 @@ Test& changed_test(raster::LightRecord& record) {
   return static_cast<Test&>(*own);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

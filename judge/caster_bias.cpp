@@ -10,7 +10,7 @@
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 using raytrace::TexelKey;
@@ -434,4 +434,4 @@ std::vector<std::string> caster_bias_notes(const CasterBiases& casters, const ra
           "capture)"};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -9,7 +9,7 @@
 #include "compare/result/judged.h"
 #include "judge/captured_frame.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// What moved the casters of a map, by face.
 struct CasterBiases {
@@ -34,4 +34,4 @@ std::vector<float> with_caster_bias(const raster::ShadowMap& map, const CasterBi
 /// That a bias of casters was found, as a sentence.
 std::vector<std::string> caster_bias_notes(const CasterBiases& casters, const raster::LightRecord& record);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

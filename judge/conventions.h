@@ -11,7 +11,7 @@
 #include "scene/light.h"
 #include "scene/world.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 struct Capture;
 struct CapturedMap;
@@ -105,4 +105,4 @@ enum class BiasAngle : std::uint8_t { none, sine, tangent, one_minus_cosine };
 inline constexpr std::array<std::string_view, 4> bias_angle_names{"none", "sine", "tangent",
                                                                   "one_minus_cosine"};
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

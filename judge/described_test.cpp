@@ -12,8 +12,12 @@
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::BiasedLookup;
+using compare::grouped;
+using compare::Label;
 
 using raytrace::SurfacePoint;
 
@@ -52,12 +56,13 @@ class Checker {
   bool is_hard() const { return map_.technique == raster::Technique::hard; }
   std::optional<BiasedLookup> lookup_of(std::size_t pixel) const {
     const SurfacePoint& receiver = in_.traced.receiver.data[pixel];
-    return biased_lookup(record_, map_.bias, light_at(light_, receiver.position).to_light, receiver, pixel);
+    return compare::biased_lookup(record_, map_.bias, light_at(light_, receiver.position).to_light, receiver,
+                                  pixel);
   }
   /// Whether the test draws it where the lookup reads this depth.
   bool draws(const BiasedLookup& lookup, const Vec3& normal, const std::optional<double>& depth,
              bool lit) const {
-    const double gap = depth ? gap_before(record_, map_.bias, normal, lookup, *depth) : -infinity;
+    const double gap = depth ? compare::gap_before(record_, map_.bias, normal, lookup, *depth) : -infinity;
     const double over = gap - record_.bias_constant_world;
     return lit ? over <= slack_ : over > -slack_;
   }
@@ -79,7 +84,7 @@ bool Checker::read_between_draws(const BiasedLookup& lookup, const Vec3& normal,
   for (const Vec2& off : {Vec2(0, 0), Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)}) {
     BiasedLookup there = lookup;
     there.at.u += place_ * off.x, there.at.v += place_ * off.y;
-    if (draws(lookup, normal, compared_caster(record_, there), lit)) return true;
+    if (draws(lookup, normal, compare::compared_caster(record_, there), lit)) return true;
   }
   return false;
 }
@@ -101,7 +106,7 @@ bool Checker::some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, b
     for (int column = left; column <= right; ++column) {
       BiasedLookup there = lookup;
       there.key = raytrace::TexelKey::pack(lookup.at.face, column, row);
-      if (draws(there, normal, stored_caster(record_, there.key), lit)) return true;
+      if (draws(there, normal, compare::stored_caster(record_, there.key), lit)) return true;
     }
   return false;
 }
@@ -166,8 +171,8 @@ std::optional<double> Checker::filtered_light(std::size_t pixel, const FilterKer
     const int i = static_cast<int>(k) % kernel.width() - reach,
               j = static_cast<int>(k) / kernel.width() - reach;
     there.key = raytrace::TexelKey::pack(lookup->at.face, column + i, row + j);
-    const auto depth = stored_caster(record_, there.key);
-    const double gap = depth ? gap_before(record_, map_.bias, normal, there, *depth) : -infinity;
+    const auto depth = compare::stored_caster(record_, there.key);
+    const double gap = depth ? compare::gap_before(record_, map_.bias, normal, there, *depth) : -infinity;
     if (gap <= record_.bias_constant_world) light += weights[k];
   }
   return light;
@@ -184,7 +189,7 @@ bool keeps_label(Label label) {
 }
 
 /// The filter that comes nearest to what was drawn of these pixels, where one comes near.
-void find_filter(const Checker& checker, const LightComparison& light,
+void find_filter(const Checker& checker, const compare::LightComparison& light,
                  const std::vector<std::uint32_t>& not_drawn, DescribedTest& out) {
   constexpr double near_enough = 0.15;  // a mean difference; kernels differ in their weights
   constexpr std::size_t most_asked = 1000;
@@ -218,7 +223,7 @@ std::string filter_words(const FilterKernel& filter, bool is_known) {
   if (!is_known || !taps || filter.spacing != 1.0)
     return fmt::format(
         "an average over {} to each side would draw them (`filter.kind`, `filter.radius_texels`)",
-        with_noun(fmt::format("{:g}", filter.half_width()), "texel"));
+        compare::with_noun(fmt::format("{:g}", filter.half_width()), "texel"));
   return fmt::format("{0} x {0} comparisons{1} draw them (`filter.kind` pcf, `filter.radius_texels` {2:g})",
                      filter.side, filter.shape == Shape::linear_taps ? ", each of four texels," : "",
                      filter.half_width());
@@ -241,22 +246,23 @@ bool DescribedTest::is_mostly_drawn() const {
 }
 
 DescribedTest check_described_test(const FrameInput& in, const raster::RasterFrame& drawn,
-                                   LightComparison& light) {
+                                   compare::LightComparison& light) {
   const TimedStage stage("described test");
   const Checker checker(in, drawn);
   const auto differs = [&](std::size_t i) {
-    return is_compared(light.labels.data[i]) &&
+    return compare::is_compared(light.labels.data[i]) &&
            std::abs(light.rungs[5].data[i] - light.rungs[6].data[i]) > 0.5f;
   };
   const auto is_partly_lit = [&](std::size_t i) {
-    return is_compared(light.labels.data[i]) && is_between(light.rungs[6].data[i]) &&
+    return compare::is_compared(light.labels.data[i]) && is_between(light.rungs[6].data[i]) &&
            !checker.may_draw_partly_lit(i);
   };
   const std::size_t pixels = light.labels.data.size();
   DescribedTest out;
-  out.compared =
-      pixels_where(pixels, [&](std::size_t i) { return is_compared(light.labels.data[i]); }).size();
-  const auto not_drawn = pixels_where(pixels, [&](std::size_t i) {
+  out.compared = compare::pixels_where(pixels, [&](std::size_t i) {
+                   return compare::is_compared(light.labels.data[i]);
+                 }).size();
+  const auto not_drawn = compare::pixels_where(pixels, [&](std::size_t i) {
     const bool may =
         is_partly_lit(i) ? false : !differs(i) || checker.may_draw(i, light.rungs[6].data[i], true);
     return !may && !lies_behind_far_plane(drawn.lights.front(), in.traced.receiver.data[i].position, i);
@@ -267,9 +273,9 @@ DescribedTest check_described_test(const FrameInput& in, const raster::RasterFra
     out.drawn_darker += light.rungs[6].data[i] < light.rungs[5].data[i] ? 1 : 0;
   // Where the test is another, it is chance that some texel nearby agrees with the picture.
   const bool is_drawn = out.is_drawn();
-  const auto unexplained = pixels_where(pixels, [&](std::size_t i) {
+  const auto unexplained = compare::pixels_where(pixels, [&](std::size_t i) {
     const Label label = light.labels.data[i];
-    if (!has_cause(label) || keeps_label(label)) return false;
+    if (!compare::has_cause(label) || keeps_label(label)) return false;
     return is_partly_lit(i) ||
            (differs(i) && (!is_drawn || !checker.may_draw(i, light.rungs[6].data[i], false)));
   });
@@ -292,8 +298,8 @@ std::vector<std::string> far_places_notes(const FrameInput& in, const raster::Li
       fmt::format("places of 32 bits lie {} apart so far from the origin ({:.3g}), {} of the map: move the "
                   "origin nearer, or "
                   "work with places relative to the camera",
-                  with_noun(fmt::format("{:.2g}", spacing), "world unit"), farthest,
-                  texels_text(spacing / record.texel_world))};
+                  compare::with_noun(fmt::format("{:.2g}", spacing), "world unit"), farthest,
+                  compare::texels_text(spacing / record.texel_world))};
 }
 
 std::vector<std::string> described_test_notes(const DescribedTest& test,
@@ -314,8 +320,8 @@ std::vector<std::string> described_test_notes(const DescribedTest& test,
         : other                    ? "advice starts from the bias as described"
                                    : "advice leaves them as they were drawn");
     if (other)
-      note +=
-          fmt::format("; if {}, it is the one drawn in {} of the pixels", other->what, percent(other->share));
+      note += fmt::format("; if {}, it is the one drawn in {} of the pixels", other->what,
+                          compare::percent(other->share));
     else if (test.filter)
       note += "; " + filter_words(*test.filter, test.filter_is_known());
     else if (test.is_mostly_drawn() && 20 * test.drawn_darker > 19 * test.not_drawn)
@@ -325,4 +331,4 @@ std::vector<std::string> described_test_notes(const DescribedTest& test,
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

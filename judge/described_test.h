@@ -6,7 +6,7 @@
 #include "judge/captured_frame.h"
 #include "judge/filter_kernel.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 struct DescribedTest {
   std::size_t compared = 0;  ///< pixels
@@ -31,7 +31,7 @@ struct DescribedTest {
 /// Wrong pixels that the described test cannot have made get the label `unexplained`. Needs a
 /// map. `light` is that of `drawn`'s only record.
 DescribedTest check_described_test(const FrameInput& input, const raster::RasterFrame& drawn,
-                                   LightComparison& light);
+                                   compare::LightComparison& light);
 
 /// Where receivers stand so far from the world's origin that floats of their places are coarse against the map's texels: by how
 /// much two of them differ.
@@ -46,7 +46,7 @@ struct OtherTest {
   double constant_world = 0.0;  ///< where it is `of_constant`: the one that was drawn, as of LightRecord
 };
 std::optional<OtherTest> find_drawn_test(const FrameInput& input, const raster::RasterFrame& drawn,
-                                         const LightComparison& light);
+                                         const compare::LightComparison& light);
 /// Tells before anything is compared whether there is such a mistake. Needs a map; `drawn`: the capture's frame.
 bool is_drawn_but_for_a_mistake(const FrameInput& input, const raster::RasterFrame& drawn);
 
@@ -59,4 +59,4 @@ inline bool advice_holds(const DescribedTest& test, const std::optional<OtherTes
 std::vector<std::string> described_test_notes(const DescribedTest& test,
                                               const std::optional<OtherTest>& other);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -9,7 +9,7 @@
 #include "judge/capture_pictures.h"
 #include "judge/test_suspects.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 constexpr double rigid_slack = 1e-4;  ///< floats, some of them sums of a few
@@ -113,7 +113,7 @@ std::optional<double> DirectionsTest::caster(const raster::LightRecord& record,
                                              const raster::MapLookup& lookup) const {
   const auto stored = distance(place_of(*this, record, lookup));
   if (!stored) return std::nullopt;
-  return depth_of_distance(record.map.view, lookup.key, *stored);
+  return compare::depth_of_distance(record.map.view, lookup.key, *stored);
 }
 
 Ray DirectionsTest::exact_ray(const raster::LightRecord& record, const raster::MapLookup& lookup) const {
@@ -128,7 +128,7 @@ std::vector<std::optional<double>> DirectionsTest::casters_within(const raster::
   for (double v = std::floor(middle.v - reach); v <= middle.v + reach; v += 1.0)
     for (double u = std::floor(middle.u - reach); u <= middle.u + reach; u += 1.0) {
       const auto stored = distance({middle.layer, u, v});
-      out.push_back(stored ? std::optional(depth_of_distance(record.map.view, lookup.key, *stored))
+      out.push_back(stored ? std::optional(compare::depth_of_distance(record.map.view, lookup.key, *stored))
                            : std::nullopt);
     }
   return out;
@@ -221,4 +221,4 @@ Expected<CapturedMap> read_directions(const Capture& capture, const Vec3& origin
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

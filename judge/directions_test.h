@@ -5,7 +5,7 @@
 #include "judge/captured_map.h"
 #include "judge/captured_test.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// A place on one of the layers, texels from its lowest x and y.
 struct DirectionPlace {
@@ -64,4 +64,4 @@ Expected<void> check_directions(const Capture& capture, std::string_view what);
 Expected<CapturedMap> read_directions(const Capture& capture, const Vec3& origin,
                                       std::shared_ptr<DirectionsTest> test, double share);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -10,8 +10,11 @@
 #include "scene/base/parallel.h"
 #include "scene/light.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::Label;
+using compare::LightComparison;
 
 /// The test must then be drawn nearly everywhere, on most of the pixels where it was not. Likewise on most of those that are
 /// drawn dark, and of those that are drawn lit.
@@ -64,7 +67,7 @@ Fit fit_of(const raster::LightRecord& record, const LightComparison& light, bool
     out.wrong += std::abs(test - light.rungs[0].data[i]) > 0.5f ? 1 : 0;
   };
   for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
-    if (!is_compared(light.labels.data[i])) continue;
+    if (!compare::is_compared(light.labels.data[i])) continue;
     const Drawn by = drawn_by(record, i);
     if (by != Drawn::unknown)
       take(i, (by == Drawn::dark) != swapped);
@@ -72,7 +75,7 @@ Fit fit_of(const raster::LightRecord& record, const LightComparison& light, bool
       ++beyond, beyond_dark += light.rungs[6].data[i] < 0.5f ? 1 : 0;
   }
   for (std::size_t i = 0; beyond > 0 && i < light.labels.data.size(); ++i)
-    if (is_compared(light.labels.data[i]) && drawn_by(record, i) == Drawn::unknown)
+    if (compare::is_compared(light.labels.data[i]) && drawn_by(record, i) == Drawn::unknown)
       take(i, 2 * beyond_dark > beyond);
   return out;
 }
@@ -90,7 +93,7 @@ LightComparison asked_pixels(const FrameInput& in, const raster::LightRecord& re
   LightComparison out;
   out.labels = std::move(labels), out.rungs[0] = std::move(truth), out.rungs[6] = std::move(picture);
   for (std::size_t i = 0; i < out.labels.data.size(); ++i)
-    if (is_compared(out.labels.data[i]) &&
+    if (compare::is_compared(out.labels.data[i]) &&
         lies_behind_far_plane(record, in.traced.receiver.data[i].position, i))
       out.labels.data[i] = Label::background;
   return out;
@@ -139,7 +142,8 @@ class Search {
   void try_constant() {
     raster::LightRecord record = described_;
     record.bias_constant_world =
-        find_best_bias(sort_gaps(described_, light_.rungs[6], light_.labels)).constant_world;
+        compare::find_best_bias(compare::sort_gaps(described_, light_.rungs[6], light_.labels))
+            .constant_world;
     const Fit fit = fit_of(record, light_);
     if (fit.of[1] < few_of_either) return;
     const double stored = record.bias_constant_world / captured_test(described_).unit_world;
@@ -230,4 +234,4 @@ bool is_drawn_but_for_a_mistake(const FrameInput& in, const raster::RasterFrame&
       .has_value();
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -8,7 +8,7 @@
 #include "judge/align.h"
 #include "scene/files/pictures/image_io.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 constexpr std::size_t few_greys = 100;
@@ -56,7 +56,7 @@ constexpr Curve curves[] = {
     {"the values are encoded with a gamma of 2.2", [](float v) { return std::pow(v, 1.0f / 2.2f); },
      [](float v) { return std::pow(v, 2.2f); }}};
 
-std::optional<Mended> find_curve(const std::vector<float>& greys, const Curve& curve) {
+std::optional<compare::Mended> find_curve(const std::vector<float>& greys, const Curve& curve) {
   std::vector<float> decoded;
   for (const float v : greys) decoded.push_back(curve.decode(v));
   const auto as_is = [&](int taps) { return on_multiples(greys, greys, taps, [](float v) { return v; }); };
@@ -67,7 +67,7 @@ std::optional<Mended> find_curve(const std::vector<float>& greys, const Curve& c
     for (int other = 3; other <= taps; ++other)
       if (const auto now = as_is(other); now.share > most_as_is && now.levels >= least_levels(other))
         return std::nullopt;
-    return Mended{curve.what, "greys", as_is(taps).share, after.share};
+    return compare::Mended{curve.what, "greys", as_is(taps).share, after.share};
   }
   return std::nullopt;
 }
@@ -89,4 +89,4 @@ std::optional<Encoding> find_encoding(const CapturedPictures& pictures,
   return std::nullopt;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -5,8 +5,10 @@
 
 #include "scene/base/parallel.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::Agreement;
 
 constexpr std::size_t most_samples = 40000;
 constexpr std::size_t least_border = 40;  ///< pixels; fewer say nothing
@@ -322,4 +324,4 @@ std::vector<Agreement> Evidence::all() const {
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -5,7 +5,7 @@
 #include "judge/suspects.h"
 #include "scene/light_map/light_view.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 struct EvidenceInput {
   const raytrace::Tracer& tracer;
@@ -38,11 +38,11 @@ struct Evidence {
   float darkest = 1.0f, lightest = 0.0f;  ///< of the picture at these
 
   /// By positions, depths or silhouettes, the first that there is: its name and share.
-  std::optional<Agreement> geometry() const;
-  std::vector<Agreement> all() const;
+  std::optional<compare::Agreement> geometry() const;
+  std::vector<compare::Agreement> all() const;
 };
 
 /// The capture with what the suspect undoes.
 Evidence gather(const EvidenceInput& input, const Samples& samples, const Suspect& suspect);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -6,7 +6,7 @@
 
 #include "compare/result/number_text.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 constexpr double absurd = 100.0;  ///< times the reach of most triangles, or of what is seen
@@ -54,8 +54,8 @@ std::vector<std::string> far_triangle_notes(const World& world, const raytrace::
   return {fmt::format(
       "{} of {} triangles ({}) reach{} absurdly far, up to {:.3g} world units in '{}': a corner is "
       "broken there; lengths are measured by the others",
-      grouped(static_cast<std::uint64_t>(count)), grouped(reaches.size()),
-      percent(double(count) / double(reaches.size())), count == 1 ? "es" : "", farthest, name)};
+      compare::grouped(static_cast<std::uint64_t>(count)), compare::grouped(reaches.size()),
+      compare::percent(double(count) / double(reaches.size())), count == 1 ? "es" : "", farthest, name)};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

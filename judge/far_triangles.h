@@ -6,7 +6,7 @@
 
 #include "compare/comparison.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// Returns the diagonal of the box of what the picture shows; 0 of nothing.
 double seen_diagonal(const raytrace::RayTracedFrame& traced);
@@ -15,4 +15,4 @@ double seen_diagonal(const raytrace::RayTracedFrame& traced);
 /// that.
 std::vector<std::string> far_triangle_notes(const World& world, const raytrace::RayTracedFrame& traced);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

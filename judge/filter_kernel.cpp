@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 using Shape = FilterKernel::Shape;
@@ -121,4 +121,4 @@ std::vector<FilterKernel> kernels_of_reach(double radius) {
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -7,7 +7,7 @@
 
 #include "scene/math.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 struct FilterKernel {
   enum class Shape : std::uint8_t {
@@ -39,4 +39,4 @@ struct FilterKernel {
 /// Returns the kernels to be tried of a filter that is said to reach so far, the usual ones first.
 std::vector<FilterKernel> kernels_of_reach(double radius_texels);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -15,8 +15,11 @@
 #include "scene/base/stages.h"
 #include "scene/light.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::Comparison;
+using compare::LightComparison;
 
 using raster::Technique;
 
@@ -49,11 +52,11 @@ struct Model {
 
 class Identifier {
  public:
-  Identifier(Comparison& judged, raster::Renderer& renderer, const Progress& progress)
+  Identifier(Comparison& judged, raster::Renderer& renderer, const compare::Progress& progress)
       : judged_(judged), renderer_(renderer), progress_(progress) {
     const LightComparison& light = judged.lights.front();
     for (std::size_t i = 0; i < light.labels.data.size(); ++i)
-      if (is_compared(light.labels.data[i])) pixels_.push_back(static_cast<std::uint32_t>(i));
+      if (compare::is_compared(light.labels.data[i])) pixels_.push_back(static_cast<std::uint32_t>(i));
   }
 
   Expected<void> run();
@@ -77,7 +80,7 @@ class Identifier {
 
   Comparison& judged_;
   raster::Renderer& renderer_;
-  const Progress& progress_;
+  const compare::Progress& progress_;
   std::vector<std::uint32_t> pixels_;
   Model best_;
   std::array<double, map_sizes.size()> hard_bias_{}, texel_{};
@@ -284,18 +287,18 @@ Expected<void> put_below(Comparison& judged, raster::RasterFrame model, const Id
   model.context = judged.raster.context;
   judged.raster = std::move(model);
   const std::vector<std::uint32_t> lights{judged.lights.front().light};
-  const Plan plan{.tracer = tracer,
-                  .picture = judged.raster.primitive.size,
-                  .lights = lights,
-                  .measure = {.bias_curve_points = options.bias_curve_points}};
-  if (const auto measured = measure_frames(judged, plan); !measured) return measured;
+  const compare::Plan plan{.tracer = tracer,
+                           .picture = judged.raster.primitive.size,
+                           .lights = lights,
+                           .measure = {.bias_curve_points = options.bias_curve_points}};
+  if (const auto measured = compare::measure_frames(judged, plan); !measured) return measured;
   mark_unexplained(drawn_by_model, judged.lights.front());
   return {};
 }
 
 /// Names a sun that stands elsewhere where that explains most of the error, and clearly more than the nearest setting
 /// does. No setting labels anything then.
-bool note_turned_sun(Judged& told, double explained_by_setting, const Comparison& judged,
+bool note_turned_sun(compare::Judged& told, double explained_by_setting, const Comparison& judged,
                      const IdentifyOptions& options) {
   if (explained_by_setting >= well_explained) return false;
   const raytrace::Tracer tracer(*judged.world, options.accel, options.precision);
@@ -308,50 +311,50 @@ bool note_turned_sun(Judged& told, double explained_by_setting, const Comparison
       "the sun stands elsewhere: shadows are those of a light along ({:.4g}, {:.4g}, {:.4g}), {:.3g} "
       "degrees from what the capture says, which explains {} of the error; correct the capture's "
       "direction, or look for what clamps or delays it in the renderer",
-      d.x, d.y, d.z, sun->angle_degrees, percent(sun->explained)));
+      d.x, d.y, d.z, sun->angle_degrees, compare::percent(sun->explained)));
   return true;
 }
 
 }  // namespace
 
 void mark_unexplained(const Image<float>& drawn_by_model, LightComparison& light) {
-  mark_unexplained(pixels_where(light.labels.data.size(),
-                                [&](std::size_t i) {
-                                  const float drawn = light.rungs[6].data[i];
-                                  const float error = std::abs(drawn - light.rungs[0].data[i]);
-                                  return has_cause(light.labels.data[i]) &&
-                                         std::abs(drawn_by_model.data[i] - drawn) >
-                                             (error > 0.5f ? 0.5f : 0.5f * error);
-                                }),
+  mark_unexplained(compare::pixels_where(light.labels.data.size(),
+                                         [&](std::size_t i) {
+                                           const float drawn = light.rungs[6].data[i];
+                                           const float error = std::abs(drawn - light.rungs[0].data[i]);
+                                           return compare::has_cause(light.labels.data[i]) &&
+                                                  std::abs(drawn_by_model.data[i] - drawn) >
+                                                      (error > 0.5f ? 0.5f : 0.5f * error);
+                                         }),
                    light);
 }
 
 void mark_unexplained(const std::vector<std::uint32_t>& pixels, LightComparison& light) {
   for (const std::uint32_t i : pixels) {
-    light.labels.data[i] = Label::unexplained;
+    light.labels.data[i] = compare::Label::unexplained;
     light.detachment_map.data[i] = std::numeric_limits<float>::quiet_NaN();
   }
   count_labels_again(light);
 }
 
 void count_labels_again(LightComparison& light) {
-  PixelSums sums;
+  compare::PixelSums sums;
   sums.add(light.rungs, light.labels);
   light.classes = sums.terms().classes(), light.class_errors = sums.terms().class_errors();
   light.budget = sums.terms().budget();
-  light.detachment = measure_detachment(light.detachment_map);
+  light.detachment = compare::measure_detachment(light.detachment_map);
 }
 
 Expected<void> identify(Comparison& judged, raster::Renderer& renderer, const IdentifyOptions& options,
-                        const Progress& progress) {
+                        const compare::Progress& progress) {
   const TimedStage stage("identify");
   Identifier identifier(judged, renderer, progress);
   if (const auto run = identifier.run(); !run) return run;
   const Model& best = identifier.best();
   auto model = identifier.draw(best.map);
   if (!model) return fail(model.error());
-  auto told = std::make_shared<Judged>(*judged.judged);
-  Identified& found = told->identified.emplace();
+  auto told = std::make_shared<compare::Judged>(*judged.judged);
+  compare::Identified& found = told->identified.emplace();
   found.technique = technique_name(best.map.technique);
   found.options = options_text(best.map);
   found.map_size = best.map.size;
@@ -368,7 +371,7 @@ Expected<void> identify(Comparison& judged, raster::Renderer& renderer, const Id
     return {};
   }
   const auto explained = fmt::format("the nearest setting ({}) explains {} of the error", found.options,
-                                     percent(found.explained));
+                                     compare::percent(found.explained));
   const bool labels = found.explained >= least_explained;
   if (!labels)
     told->notes.push_back(explained + ": too little to label anything by it");
@@ -379,4 +382,4 @@ Expected<void> identify(Comparison& judged, raster::Renderer& renderer, const Id
   return labels ? put_below(judged, std::move(*model), options) : Expected<void>{};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

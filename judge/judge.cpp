@@ -24,8 +24,11 @@
 #include "scene/exposure.h"
 #include "scene/light.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::Comparison;
+using compare::Judged;
 
 struct Judging {
   Capture capture;  ///< in the scene's world
@@ -120,7 +123,7 @@ void undo_strength(Judging& in, const raytrace::RayTracedFrame& traced, Judged& 
     std::nth_element(darker.begin(), middle, darker.end());
     judged.notes.push_back(fmt::format(
         "`strength` is more than {:.3g}: {} pixels are darker than {:.3g}, half of them than {:.3g}",
-        *capture.strength, grouped(darker.size()), double{full}, double{*middle}));
+        *capture.strength, compare::grouped(darker.size()), double{full}, double{*middle}));
   }
   stretch_to_full_shadow(1.0 - *capture.strength, visibility);
 }
@@ -196,10 +199,10 @@ Expected<void> trace_truth(Judging& in, Comparison& out, Judged& judged) {
 }
 
 /// The share of the compared pixels whose test, as climbed, is what was drawn.
-double biased_is_drawn(const LightComparison& light) {
+double biased_is_drawn(const compare::LightComparison& light) {
   std::size_t same = 0, count = 0;
   for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
-    if (!is_compared(light.labels.data[i])) continue;
+    if (!compare::is_compared(light.labels.data[i])) continue;
     ++count;
     same += std::abs(light.rungs[5].data[i] - light.rungs[6].data[i]) <= 0.5f ? 1 : 0;
   }
@@ -207,7 +210,7 @@ double biased_is_drawn(const LightComparison& light) {
 }
 
 /// Lengths in texels of a map that is not known.
-void forget_texels(LightComparison& light) {
+void forget_texels(compare::LightComparison& light) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   light.texel_world.fill(unknown);
   light.bias_texel_world = unknown;
@@ -215,9 +218,9 @@ void forget_texels(LightComparison& light) {
   light.theory = {};
 }
 
-Judged describe_capture(const Capture& capture, const TunedEngine* engine) {
+Judged describe_capture(const Capture& capture, const compare::TunedEngine* engine) {
   Judged judged;
-  if (engine == nullptr) engine = engine_of_renderer(capture.renderer);
+  if (engine == nullptr) engine = compare::engine_of_renderer(capture.renderer);
   if (engine != nullptr) judged.engine = engine->name;
   judged.capture = capture.path;
   judged.renderer = capture.renderer, judged.version = capture.version;
@@ -239,7 +242,7 @@ std::optional<std::uint32_t> place_of(const std::string& text, std::size_t count
 
 void finish(Judging& in, Comparison& out) {
   auto judged = std::make_shared<Judged>(*out.judged);
-  LightComparison& light = out.lights.front();
+  compare::LightComparison& light = out.lights.front();
   if (judged->has_map) {
     const raster::LightRecord& record = out.raster.lights.front();
     judged->biased_is_drawn = biased_is_drawn(light);
@@ -279,7 +282,7 @@ void finish(Judging& in, Comparison& out) {
       judged->advice =
           give_advice(frame, out.raster, light, in.casters,
                       other && other->of_constant ? other->constant_world : record.bias_constant_world);
-    for (Advice& advice : judged->advice) {
+    for (compare::Advice& advice : judged->advice) {
       if (advice.unit == "stored depth") advice.units = judged->units;
       if (advice.with && advice.with->unit == "stored depth") advice.with->units = judged->units;
       advice.in_engine =
@@ -336,7 +339,7 @@ Expected<std::uint32_t> captured_light(const Capture& capture, const Scene& scen
 }
 
 Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const World& world,
-                                   const JudgeOptions& options, const Progress& progress) {
+                                   const JudgeOptions& options, const compare::Progress& progress) {
   const auto report = [&](std::string_view stage, double done) {
     if (progress) progress(stage, done);
   };
@@ -373,14 +376,14 @@ Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const W
   out.exposure = scene.exposure ? *scene.exposure : auto_exposure(out.raytraced.color);
   report("comparing", 0.6);
   if (const auto taken = take_frame(judging, out); !taken) return fail(taken.error());
-  const Plan plan{.tracer = tracer,
-                  .picture = capture.size,
-                  .lights = {&*light, 1},
-                  .measure = {.bias_curve_points = options.bias_curve_points}};
-  if (const auto measured = measure_frames(out, plan); !measured) return fail(measured.error());
+  const compare::Plan plan{.tracer = tracer,
+                           .picture = capture.size,
+                           .lights = {&*light, 1},
+                           .measure = {.bias_curve_points = options.bias_curve_points}};
+  if (const auto measured = compare::measure_frames(out, plan); !measured) return fail(measured.error());
   finish(judging, out);
   report("compared", 1.0);
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

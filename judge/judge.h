@@ -7,7 +7,7 @@
 #include "compare/result/judged.h"
 #include "judge/capture.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 struct JudgeOptions {
   raytrace::RaytraceOptions raytrace;
@@ -16,7 +16,7 @@ struct JudgeOptions {
   bool fix = false;  ///< apply what mends the capture's conventions; false: such a capture is an error
   int bias_curve_points = 129;
   /// In whose settings advice is given, too; none: that which the renderer's name begins with.
-  const TunedEngine* engine = nullptr;
+  const compare::TunedEngine* engine = nullptr;
 };
 
 /// The light that the capture names, or the scene's only one. Error (bad input) where there is none, or none
@@ -25,7 +25,8 @@ Expected<std::uint32_t> captured_light(const Capture& capture, const Scene& scen
 
 /// `scene`: of `world`; its camera and light are changed by what --fix mends. Errors (bad input) as of
 /// read_capture and align(); nothing is drawn by OpenGL.
-Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const World& world,
-                                   const JudgeOptions& options, const Progress& progress = {});
+Expected<compare::Comparison> judge_capture(const Capture& capture, Scene& scene, const World& world,
+                                            const JudgeOptions& options,
+                                            const compare::Progress& progress = {});
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

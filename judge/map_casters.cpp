@@ -2,8 +2,10 @@
 
 #include "scene/base/parallel.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::Label;
 
 using raytrace::TexelKey;
 
@@ -230,4 +232,4 @@ std::string MapCasters::object_name(std::uint32_t primitive) const {
   return world.part_of(primitive).mesh->name;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -14,7 +14,7 @@
 #include "judge/captured_frame.h"
 #include "judge/stored_depths.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// How the scene's casters stand in one texel.
 struct CasterTexel {
@@ -59,7 +59,7 @@ class MapCasters {
   /// Finds what holds of whole objects, of the texels that were looked at.
   void judge_objects();
   /// Nothing: the map holds the scene's depth there, and what is off is precision.
-  std::optional<Label> label_of(raytrace::TexelKey key, bool false_shadow) const;
+  std::optional<compare::Label> label_of(raytrace::TexelKey key, bool false_shadow) const;
   /// One that was looked at.
   const CasterTexel& texel(raytrace::TexelKey key) const {
     const auto found = std::lower_bound(texels_.begin(), texels_.end(), key,
@@ -96,7 +96,7 @@ class MapCasters {
   }
   bool is_masked_out(const CasterTexel& t) const;
   bool is_pushed_out(const CasterTexel& t) const;
-  Label missing_label(const CasterTexel& t) const;
+  compare::Label missing_label(const CasterTexel& t) const;
 
   const FrameInput& in_;
   const raster::MapOptions& map_;
@@ -114,4 +114,4 @@ class MapCasters {
   std::map<std::uint32_t, std::size_t> biased_;  ///< texels of each object that a bias of casters explains
 };
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -14,8 +14,11 @@
 #include "judge/map_casters.h"
 #include "scene/base/stages.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::Label;
+using compare::LightComparison;
 
 using raytrace::TexelKey;
 
@@ -26,8 +29,8 @@ std::optional<TexelKey> lookup_of(const FrameInput& in, const raster::RasterFram
   const raster::LightRecord& record = drawn.lights.front();
   const Light& light = in.world.scene->lights[record.light];
   const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
-  const auto lookup = biased_lookup(record, drawn.options.map.bias,
-                                    light_at(light, receiver.position).to_light, receiver, pixel);
+  const auto lookup = compare::biased_lookup(record, drawn.options.map.bias,
+                                             light_at(light, receiver.position).to_light, receiver, pixel);
   if (!lookup) return std::nullopt;
   return lookup->key;
 }
@@ -47,7 +50,7 @@ class Findings {
   void add(std::size_t pixel, Label label, const CasterTexel& t) {
     Kind& kind = kinds_[label];
     ++kind.finding.pixels;
-    kind.finding.wrong += is_wrong(rungs_at(light_.rungs, pixel)) ? 1 : 0;
+    kind.finding.wrong += compare::is_wrong(compare::rungs_at(light_.rungs, pixel)) ? 1 : 0;
     const bool of_scene =
         t.has_first() && label != Label::ignored_alpha && (t.empty || t.depth > t.first().depth);
     if (of_scene) ++kind.objects[content_.object_name(t.first().primitive)];
@@ -96,7 +99,7 @@ std::string reason_words(const ContentFinding& found, const raster::LightRecord&
       return fmt::format(
           "a bias of the casters: the map holds surfaces some {} behind where they are (a polygon offset, or "
           "casters moved when the map is drawn)",
-          with_noun(fmt::format("{:.3g}", found.bias_world), "world unit"));
+          compare::with_noun(fmt::format("{:.3g}", found.bias_world), "world unit"));
     case Label::missing_caster:
       return "a caster that is missing from the map";
     case Label::moved_caster:
@@ -107,11 +110,13 @@ std::string reason_words(const ContentFinding& found, const raster::LightRecord&
                        "a caster before the map's near plane: it reaches to {} before it, and a near plane "
                        "there, or depths "
                        "clamped to it, would hold it",
-                       with_noun(plain_number_up(face.near_depth - *found.nearest), "world unit"))
+                       compare::with_noun(compare::plain_number_up(face.near_depth - *found.nearest),
+                                          "world unit"))
                  : fmt::format(
                        "a caster behind the map's far plane, by {}",
-                       with_noun(plain_number_up(found.farthest.value_or(face.far_depth) - face.far_depth),
-                                 "world unit"));
+                       compare::with_noun(
+                           compare::plain_number_up(found.farthest.value_or(face.far_depth) - face.far_depth),
+                           "world unit"));
     case Label::culled_caster:
       return "a caster of which the side that faces the light was culled";
     case Label::ignored_alpha:
@@ -135,8 +140,8 @@ MapContent label_map_content(const FrameInput& in, const raster::RasterFrame& dr
   const TimedStage stage("map's content");
   const bool culled = drawn.options.map.cull != raster::Cull::none;
   std::vector<std::pair<std::uint32_t, TexelKey>> asked;
-  for (const std::uint32_t i : pixels_where(light.labels.data.size(), [&](std::size_t i) {
-         return has_cause(light.labels.data[i]) && may_be_content(light, i, culled);
+  for (const std::uint32_t i : compare::pixels_where(light.labels.data.size(), [&](std::size_t i) {
+         return compare::has_cause(light.labels.data[i]) && may_be_content(light, i, culled);
        }))
     if (const auto key = lookup_of(in, drawn, i)) asked.emplace_back(i, *key);
   if (asked.empty()) return {};
@@ -164,8 +169,8 @@ std::vector<std::string> map_content_notes(const MapContent& content, const rast
     if (found.pixels >= few_of_a_kind)
       out.push_back(
           fmt::format("in {} pixels with an error{} the map does not hold what the light meets first: {}",
-                      grouped(found.pixels), object_words(found), reason_words(found, record)));
+                      compare::grouped(found.pixels), object_words(found), reason_words(found, record)));
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -9,11 +9,11 @@
 #include "compare/comparison.h"
 #include "judge/captured_frame.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// What is found of the map's casters, by label: the one with the most pixels first.
 struct ContentFinding {
-  Label label = Label::right;
+  compare::Label label = compare::Label::right;
   std::size_t pixels = 0;  ///< whose error has this label
   std::size_t wrong = 0;   ///< of them those that are off by more than one half
   std::string object;      ///< the caster with most of them; empty where that is none of the scene's
@@ -26,15 +26,15 @@ struct ContentFinding {
 struct MapContent {
   std::vector<ContentFinding> found;
   /// Most of the wrong pixels inside the map are due to casters that no bias mends.
-  bool is_main_cause(const LightComparison& light) const;
+  bool is_main_cause(const compare::LightComparison& light) const;
 };
 
 /// Gives labels of casters to pixels of `light`, that of `drawn`'s only record, whose map is another renderer's. Where the
 /// test is not the one described, they are unexplained instead: the map may be looked up elsewhere.
 MapContent label_map_content(const FrameInput& input, const raster::RasterFrame& drawn,
-                             LightComparison& light, bool is_as_described);
+                             compare::LightComparison& light, bool is_as_described);
 
 /// One sentence for each kind that has some pixels.
 std::vector<std::string> map_content_notes(const MapContent& content, const raster::LightRecord& record);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

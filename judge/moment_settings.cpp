@@ -7,7 +7,7 @@
 #include "judge/stored_depths.h"
 #include "scene/base/parallel.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 using raster::Technique;
@@ -201,7 +201,7 @@ OtherSettings other_exponents(const FrameInput& in, const raster::LightRecord& r
                           formula.filter.evsm_negative_exponent};
   OtherSettings out{with_exponents(maps, now)};
   for (const WarpExponents& other : tries) {
-    const AdvisedSetting first{"filter.exponents[0]", now.positive, other.positive, "no unit"},
+    const compare::AdvisedSetting first{"filter.exponents[0]", now.positive, other.positive, "no unit"},
         second{"filter.exponents[1]", now.negative, other.negative, "no unit"};
     const bool is_first = other.positive != now.positive, is_second = other.negative != now.negative;
     if (!is_first && !is_second) continue;
@@ -218,4 +218,4 @@ std::vector<OtherSettings> MomentsTest::other_settings(const FrameInput& in,
   return {other_numbers(formula), other_exponents(in, record, formula)};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 using raster::Technique;
@@ -109,4 +109,4 @@ Interval MomentFormula::own_numbers(const Averages& a) const {
   }
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

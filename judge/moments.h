@@ -8,7 +8,7 @@
 #include "raster/options.h"
 #include "scene/math.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 using Averages = std::array<double, 4>;
 
@@ -36,4 +36,4 @@ double chebyshev(double mean, double square, double x, double least_variance = 0
 /// solved for directly (Peters and Klein 2015, section 3.2), the weights by Cramer's rule. Not a number where all are one number.
 double least_share_before(const Averages& means, double x);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

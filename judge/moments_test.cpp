@@ -10,7 +10,7 @@
 #include "judge/capture_pictures.h"
 #include "judge/test_suspects.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 using raster::Technique;
@@ -23,7 +23,8 @@ Averages averages_of(const MomentsTest::Texel& texel) {
 Interval ends_of(const MomentsTest& test, const LightView& view, TexelKey key) {
   if (test.stores == Stores::depths) return {0.0, 1.0};
   const Vec2& range = test.range;
-  const double per_depth = test.stores == Stores::distances ? 1.0 / depth_of_distance(view, key, 1.0) : 1.0;
+  const double per_depth =
+      test.stores == Stores::distances ? 1.0 / compare::depth_of_distance(view, key, 1.0) : 1.0;
   const auto number = [&](double depth) { return (depth * per_depth - range.x) / (range.y - range.x); };
   return {number(view.face(key.face()).near_depth), number(view.face(key.face()).far_depth)};
 }
@@ -110,7 +111,7 @@ std::optional<double> MomentsTest::caster(const raster::LightRecord& record,
 
 Expected<LayerNumbers> MomentsTest::read_layer(const Capture& capture, std::size_t layer) const {
   static constexpr std::array<std::string_view, 4> all{"R", "G", "B", "A"};
-  const auto picture = gnomon::compare::read_layer(capture, layer);
+  const auto picture = gnomon::judge::read_layer(capture, layer);
   if (!picture) return fail(picture.error());
   const auto wrong = [&](std::string reason) {
     return capture_error(capture, fmt::format("map[{}].depth", layer), std::move(reason));
@@ -205,4 +206,4 @@ void MomentsTest::add_suspects(std::vector<TestSuspect>& suspects) const {
                         }});
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -4,7 +4,7 @@
 #include "judge/captured_test.h"
 #include "judge/moments.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 class MomentsTest final : public CapturedTest {
  public:
@@ -42,4 +42,4 @@ class MomentsTest final : public CapturedTest {
   Averages between(const raster::LightRecord& record, const TexelCoordinate& at) const;
 };
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -15,8 +15,10 @@
 #include "judge/evidence.h"
 #include "scene/files/pictures/image_io.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::OtherLight;
 
 using raytrace::SurfacePoint;
 
@@ -308,7 +310,7 @@ Expected<std::optional<OtherLight>> undo_other_light(const Capture& capture, con
             "both pictures hold other light (ambient light, a sky), and how dark a full shadow is does "
             "not show: of the {} pixels that differ only {} agree on it; draw this light alone, or "
             "give its `strength`",
-            grouped(found.pixels), percent(found.agree)));
+            compare::grouped(found.pixels), compare::percent(found.agree)));
   write_visibility(fit, places, noise, pictures);
   divide_by_also(pictures);
   return std::optional(found);
@@ -320,12 +322,12 @@ std::vector<std::string> other_light_notes(const OtherLight& found) {
   return {fmt::format(
               "both pictures hold other light (ambient light, a sky): a full shadow takes {} of a pixel's "
               "light, not all of it, and visibilities count from there",
-              percent(found.full_shadow)),
+              compare::percent(found.full_shadow)),
           fmt::format(
               "that share is found from the {} pixels that differ, {} of them in full shadow; the numbers "
               "are read as {}{}",
-              grouped(found.pixels), percent(found.agree), found.read_as,
+              compare::grouped(found.pixels), compare::percent(found.agree), found.read_as,
               assumed ? ", which matters to greys alone" : ", which fits best")};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -7,7 +7,7 @@
 #include "judge/capture_pictures.h"
 #include "raytrace/frame.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// Returns whether the pictures of a ratio hold other light: what the light cannot reach in the scene (a background, surfaces
 /// that face away) is bright in them. Where the view shows nothing of the kind: whether no pixel is in full darkness.
@@ -17,11 +17,11 @@ bool holds_other_light(const CapturedPictures& pictures, const raytrace::RayTrac
 /// Works out the visibility of pictures that hold other light, and undoes their tone curve where it is known. Pixels of which
 /// the light has too small a share to tell are no longer `reached`. Error (bad input): how dark a full shadow is does not
 /// show. None, and nothing is changed: the pictures are alike.
-Expected<std::optional<OtherLight>> undo_other_light(const Capture& capture, const Light& light,
-                                                     const raytrace::RayTracedFrame& frame,
-                                                     CapturedPictures& pictures);
+Expected<std::optional<compare::OtherLight>> undo_other_light(const Capture& capture, const Light& light,
+                                                              const raytrace::RayTracedFrame& frame,
+                                                              CapturedPictures& pictures);
 
 /// Sentences on what was found and assumed.
-std::vector<std::string> other_light_notes(const OtherLight& found);
+std::vector<std::string> other_light_notes(const compare::OtherLight& found);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

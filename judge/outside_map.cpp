@@ -10,8 +10,10 @@
 #include "compare/result/number_text.h"
 #include "scene/light.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::LightComparison;
 
 constexpr std::size_t few_told = 20;  ///< tell nothing of how a renderer treats them
 constexpr double nearly_all_lit = 0.95;
@@ -71,7 +73,7 @@ Reach farthest_reach(const FrameInput& in, const LightComparison& light, const r
   Reach out;
   out.face = static_cast<int>(std::max_element(by_face.begin(), by_face.end()) - by_face.begin());
   for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
-    if (!is_compared(light.labels.data[i]) || record.face.data[i] != out.face) continue;
+    if (!compare::is_compared(light.labels.data[i]) || record.face.data[i] != out.face) continue;
     const TexelCoordinate at = place_of(record, in.traced.receiver.data[i].position, i);
     if (at.inside) out.far = std::max(out.far, length_of(record, at));
   }
@@ -85,9 +87,9 @@ std::string far_plane_words(const LightView& view, const Reach& reach) {
       view.face_count > 1 && !view.seamless ? fmt::format(" of layer {}", reach.face) : "";
   if (view.projection == LightProjection::perspective)
     return fmt::format("a far plane{} of {} (now {:.3g})", of_layer,
-                       with_noun(plain_number_up(reach.far), "world unit"), face.far_depth);
+                       compare::with_noun(compare::plain_number_up(reach.far), "world unit"), face.far_depth);
   return fmt::format("a far plane{} at {} from the near one (now {:.3g})", of_layer,
-                     with_noun(plain_number_up(reach.far - face.near_depth), "world unit"),
+                     compare::with_noun(compare::plain_number_up(reach.far - face.near_depth), "world unit"),
                      face.far_depth - face.near_depth);
 }
 
@@ -106,18 +108,18 @@ std::string window_words(const FrameInput& in, const LightComparison& light, con
   const LightFace& face = view.face(0);
   Vec2 reach(0.0);
   for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
-    if (!is_compared(light.labels.data[i])) continue;
+    if (!compare::is_compared(light.labels.data[i])) continue;
     const Vec3 place = in.traced.receiver.data[i].position - view.origin;
     const Vec2 at(glm::dot(place, face.right), glm::dot(place, face.up));
     reach = glm::max(reach, glm::abs(at - face.center));
   }
   const auto side = [](double needed, double now) {
-    return needed > now ? plain_number_up(2.0 * needed) : plain_number(2.0 * now);
+    return needed > now ? compare::plain_number_up(2.0 * needed) : compare::plain_number(2.0 * now);
   };
   return fmt::format(
       "a window of {} x {} world units about the same middle (now {} x {}) holds all that the picture shows",
       side(reach.x, face.half_extent.x), side(reach.y, face.half_extent.y),
-      plain_number(2.0 * face.half_extent.x), plain_number(2.0 * face.half_extent.y));
+      compare::plain_number(2.0 * face.half_extent.x), compare::plain_number(2.0 * face.half_extent.y));
 }
 
 /// The wrong pixels outside a map, by where they lie.
@@ -130,8 +132,9 @@ WrongOutside sort_wrong(const FrameInput& in, const LightComparison& light,
                         const raster::LightRecord& record) {
   WrongOutside out;
   for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
-    const bool outside = light.labels.data[i] == Label::outside_map && record.outside_map.data[i] != 0;
-    if (!outside || !is_wrong(rungs_at(light.rungs, i))) continue;
+    const bool outside =
+        light.labels.data[i] == compare::Label::outside_map && record.outside_map.data[i] != 0;
+    if (!outside || !compare::is_wrong(compare::rungs_at(light.rungs, i))) continue;
     const TexelCoordinate at = place_of(record, in.traced.receiver.data[i].position, i);
     const std::size_t dark = light.rungs[6].data[i] < 0.5f ? 1 : 0;
     if (at.inside && is_behind(record, at)) {
@@ -154,8 +157,8 @@ bool lies_beyond_depths(const raster::LightRecord& record, const raster::Bias& b
   const TexelCoordinate own = place_of(record, receiver.position, pixel);
   if (!own.inside || !is_beyond(record, own)) return false;
   const auto lookup =
-      biased_lookup(record, bias, light_at(light, receiver.position).to_light, receiver, pixel);
-  if (!lookup || !is_beyond(record, lookup->at) || compared_caster(record, *lookup)) return false;
+      compare::biased_lookup(record, bias, light_at(light, receiver.position).to_light, receiver, pixel);
+  if (!lookup || !is_beyond(record, lookup->at) || compare::compared_caster(record, *lookup)) return false;
   const LightView& view = record.map.view;
   if (view.projection != LightProjection::orthographic || test.face_of(pixel) != CapturedTest::any_face)
     return true;
@@ -212,9 +215,10 @@ OutsideFindings find_outside_map(const FrameInput& in, const LightComparison& li
   const WrongOutside wrong = sort_wrong(in, light, record);
   const LightView& view = record.map.view;
   OutsideFindings out;
-  const std::string of_all = grouped(light.error.wrong);
+  const std::string of_all = compare::grouped(light.error.wrong);
   const auto say = [&](std::size_t count, const std::string& what, const std::string& cure) {
-    out.notes.push_back(fmt::format("{} of {} wrong pixels {}: {}", grouped(count), of_all, what, cure));
+    out.notes.push_back(
+        fmt::format("{} of {} wrong pixels {}: {}", compare::grouped(count), of_all, what, cure));
     if (2 * count > light.error.wrong) out.cure = capital(cure) + ".";
   };
   if (wrong.behind.size() >= few_outside) {
@@ -238,4 +242,4 @@ OutsideFindings find_outside_map(const FrameInput& in, const LightComparison& li
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

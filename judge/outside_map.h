@@ -8,7 +8,7 @@
 #include "compare/comparison.h"
 #include "judge/captured_frame.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// Tells whether a receiver lies before or behind the depths of the layers that hold its place, and the map has no depth to
 /// compare it with. As for Gnomon's own maps it is outside then.
@@ -30,7 +30,7 @@ struct OutsideFindings {
   /// What helps, as a sentence of its own, where most wrong pixels lie outside.
   std::string cure;
 };
-OutsideFindings find_outside_map(const FrameInput& input, const LightComparison& light,
+OutsideFindings find_outside_map(const FrameInput& input, const compare::LightComparison& light,
                                  const raster::LightRecord& record);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

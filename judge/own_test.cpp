@@ -11,7 +11,7 @@
 #include "scene/base/stages.h"
 #include "scene/light.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 constexpr std::size_t most_tried = 40000;
@@ -43,7 +43,7 @@ class OwnTester {
       return std::nullopt;
     const raster::Bias& bias = drawn_.options.map.bias;
     const Vec3 to_light = light_at(light_, point.position).to_light;
-    const auto lookup = biased_lookup(record_, bias, to_light, point, pixel);
+    const auto lookup = compare::biased_lookup(record_, bias, to_light, point, pixel);
     if (!lookup) return std::nullopt;
     int lit = 0;
     const int side = reach_ > 0.0 ? reach_steps : 0;
@@ -54,9 +54,9 @@ class OwnTester {
   }
 
  private:
-  bool is_dark(const BiasedLookup& lookup, const raster::Bias& bias, const Vec3& normal,
+  bool is_dark(const compare::BiasedLookup& lookup, const raster::Bias& bias, const Vec3& normal,
                const Vec2& off) const {
-    BiasedLookup there = lookup;
+    compare::BiasedLookup there = lookup;
     const int last = record_.map.view.size - 1;
     const auto texel = [last](double place) {
       return std::clamp(static_cast<int>(std::floor(place)), 0, last);
@@ -64,8 +64,9 @@ class OwnTester {
     if (off != Vec2(0.0))
       there.key =
           raytrace::TexelKey::pack(lookup.at.face, texel(lookup.at.u + off.x), texel(lookup.at.v + off.y));
-    const auto depth = off == Vec2(0.0) ? compared_caster(record_, there) : stored_caster(record_, there.key);
-    return depth && gap_before(record_, bias, normal, there, *depth) > record_.bias_constant_world;
+    const auto depth = off == Vec2(0.0) ? compare::compared_caster(record_, there)
+                                        : compare::stored_caster(record_, there.key);
+    return depth && compare::gap_before(record_, bias, normal, there, *depth) > record_.bias_constant_world;
   }
 
   const FrameInput& in_;
@@ -129,11 +130,12 @@ void stretch_to_full_shadow(double full_shadow, Image<float>& visibility) {
     v = static_cast<float>(std::clamp((double{v} - full_shadow) / (1.0 - full_shadow), 0.0, 1.0));
 }
 
-std::vector<std::string> no_shadow_notes(const LightComparison& light, const raster::LightRecord& record) {
+std::vector<std::string> no_shadow_notes(const compare::LightComparison& light,
+                                         const raster::LightRecord& record) {
   std::size_t shadowed = 0, dark = 0;
   double most = -infinity;
   for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
-    if (!is_compared(light.labels.data[i]) || record.outside_map.data[i] != 0) continue;
+    if (!compare::is_compared(light.labels.data[i]) || record.outside_map.data[i] != 0) continue;
     dark += light.rungs[6].data[i] < 0.5f || light.rungs[5].data[i] < 0.5f ? 1 : 0;
     if (!(light.rungs[0].data[i] < 0.5f)) continue;
     ++shadowed;
@@ -146,4 +148,4 @@ std::vector<std::string> no_shadow_notes(const LightComparison& light, const ras
       record.bias_constant_world, most)};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -6,7 +6,7 @@
 #include "compare/comparison.h"
 #include "judge/captured_frame.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// Samples inside the map, and on how many of them the test is the picture.
 struct OwnTestCount {
@@ -33,9 +33,10 @@ struct OwnTest {
 OwnTest try_own_test(const FrameInput& input, const raster::RasterFrame& drawn);
 
 /// That no shadow is drawn, and why, as a sentence; `drawn` shows none where the truth has some.
-std::vector<std::string> no_shadow_notes(const LightComparison& light, const raster::LightRecord& record);
+std::vector<std::string> no_shadow_notes(const compare::LightComparison& light,
+                                         const raster::LightRecord& record);
 
 /// The visibility with what is drawn as `full_shadow` in [0, 1) as 0.
 void stretch_to_full_shadow(double full_shadow, Image<float>& visibility);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

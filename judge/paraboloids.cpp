@@ -5,7 +5,7 @@
 
 #include "judge/directions_test.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 constexpr double axis_slack = 1e-4;
@@ -81,4 +81,4 @@ Expected<CapturedMap> read_paraboloids(const Capture& capture, const Light& ligh
 
 const MapLayout paraboloid_layout{check_halves, check_half_matrices, read_paraboloids};
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

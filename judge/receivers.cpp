@@ -6,7 +6,7 @@
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 using raytrace::PointVisibility;
@@ -105,4 +105,4 @@ Retraced retrace(const raytrace::Tracer& tracer, const Sight& sight, const Captu
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -5,7 +5,7 @@
 #include "raytrace/frame.h"
 #include "scene/camera.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// Where a picture was seen from: a view, and how far its samples lie from the pixels' centres.
 struct Sight {
@@ -29,4 +29,4 @@ struct Retraced {
 Retraced retrace(const raytrace::Tracer& tracer, const Sight& sight, const CapturedPictures& pictures,
                  bool everywhere, const raytrace::RaytraceOptions& options, raytrace::RayTracedFrame& frame);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -9,7 +9,7 @@
 #include "scene/files/own_program.h"
 #include "scene/files/path_status.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 constexpr double longest_s = 600.0;
@@ -80,4 +80,4 @@ Expected<std::vector<std::string>> recorded_lights(const std::string& frame) {
   return lines_with(*said, "light ", true);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

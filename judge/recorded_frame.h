@@ -7,7 +7,7 @@
 
 #include "scene/base/expected.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// Whether a path names a recorded frame, by its end.
 bool is_recorded_frame(std::string_view path);
@@ -25,4 +25,4 @@ Expected<std::vector<std::string>> capture_recorded_frame(const std::string& fra
 /// above.
 Expected<std::vector<std::string>> recorded_lights(const std::string& frame);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

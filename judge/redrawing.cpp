@@ -8,7 +8,7 @@
 #include "scene/base/parallel.h"
 #include "scene/light.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 using raster::LightRecord;
@@ -35,8 +35,8 @@ raytrace::TexelKey texel_at(const LightRecord& record, int face, int column, int
 
 }  // namespace
 
-Redrawing::Redrawing(const FrameInput& in, const raster::RasterFrame& drawn, const LightComparison& light,
-                     double constant_world)
+Redrawing::Redrawing(const FrameInput& in, const raster::RasterFrame& drawn,
+                     const compare::LightComparison& light, double constant_world)
     : in_(in), frame_(drawn), light_(light), constant_world_(constant_world) {
   const LightRecord& record = drawn.lights.front();
   drawn_.own = record;
@@ -45,7 +45,7 @@ Redrawing::Redrawing(const FrameInput& in, const raster::RasterFrame& drawn, con
   take_layers();
   Fit& fit = fits_.emplace_back();
   for (std::uint32_t i = 0; i < light.labels.data.size(); ++i)
-    if (is_compared(light.labels.data[i])) fit.pixels.push_back({.index = i});
+    if (compare::is_compared(light.labels.data[i])) fit.pixels.push_back({.index = i});
   fit.step = std::max<std::size_t>(1, fit.pixels.size() / most_sampled);
   const bool once = drawn.options.map.technique == raster::Technique::hard || reads_ == Reads::averages ||
                     reads_ == Reads::between;
@@ -111,7 +111,7 @@ bool Redrawing::read_layer(const LightRecord& record, std::uint32_t index, int s
   const raytrace::SurfacePoint& point = in_.traced.receiver.data[index];
   const raster::Bias& bias = frame_.options.map.bias;
   const Vec3 to_light = light_at(in_.world.scene->lights[record.light], point.position).to_light;
-  auto lookup = biased_lookup(record, bias, to_light, point, index);
+  auto lookup = compare::biased_lookup(record, bias, to_light, point, index);
   if (!lookup) return false;
   const int face = lookup->at.face;
   if (shift != 0) {
@@ -120,14 +120,16 @@ bool Redrawing::read_layer(const LightRecord& record, std::uint32_t index, int s
     lookup->key = texel_at(record, face, lookup->at.column(), lookup->at.row());
   }
   if (reads_ == Reads::averages) {
-    const double slope = bias.slope == 0.0 ? 0.0
-                                           : bias.slope * texel_depth_slope(record.map.view, lookup->at,
-                                                                            lookup->position, point.normal);
+    const double slope = bias.slope == 0.0
+                             ? 0.0
+                             : bias.slope * compare::texel_depth_slope(record.map.view, lookup->at,
+                                                                       lookup->position, point.normal);
     reading.averages.push_back({test.read_averages(record, *lookup, slope), share, face});
     return true;
   }
-  const auto add = [&](const BiasedLookup& at, const std::optional<double>& depth, double weight) {
-    reading.taps.push_back({depth ? gap_before(record, bias, point.normal, at, *depth) : -infinity, weight});
+  const auto add = [&](const compare::BiasedLookup& at, const std::optional<double>& depth, double weight) {
+    reading.taps.push_back(
+        {depth ? compare::gap_before(record, bias, point.normal, at, *depth) : -infinity, weight});
   };
   if (reads_ == Reads::elsewhere && reading.kernel.shape != FilterKernel::Shape::one) {
     const auto depths = test.casters_within(record, *lookup, frame_.options.map.filter.radius_texels);
@@ -135,17 +137,17 @@ bool Redrawing::read_layer(const LightRecord& record, std::uint32_t index, int s
     return true;
   }
   if (reading.kernel.shape == FilterKernel::Shape::one)
-    return add(*lookup, compared_caster(record, *lookup), share), true;
+    return add(*lookup, compare::compared_caster(record, *lookup), share), true;
   const int column = lookup->at.column(), row = lookup->at.row(), reach = reading.kernel.reach();
   reading.kernel.weigh(Vec2(lookup->at.u - column, lookup->at.v - row), reading.weights);
-  BiasedLookup there = *lookup;
+  compare::BiasedLookup there = *lookup;
   std::size_t k = 0;
   for (int j = -reach; j <= reach; ++j)
     for (int i = -reach; i <= reach; ++i) {
       const double weight = reading.weights[k++];
       if (weight == 0.0) continue;
       there.key = texel_at(record, face, column + i, row + j);
-      add(there, stored_caster(record, there.key), weight * share);
+      add(there, compare::stored_caster(record, there.key), weight * share);
     }
   return true;
 }
@@ -272,4 +274,4 @@ std::vector<double> Redrawing::telling_constants(const TestedRecord& record, con
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -10,7 +10,7 @@
 #include "judge/captured_frame.h"
 #include "judge/filter_kernel.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// Is what a drawing leaves, over all pixels that were looked at.
 struct Redrawn {
@@ -48,7 +48,7 @@ class Redrawing {
   static constexpr std::size_t shift_count = 5;  ///< places of a lookup that rounding reaches
 
   /// `drawn`: the capture's frame; `constant_world`: the constant that it was drawn with. All parts must outlive this.
-  Redrawing(const FrameInput& in, const raster::RasterFrame& drawn, const LightComparison& light,
+  Redrawing(const FrameInput& in, const raster::RasterFrame& drawn, const compare::LightComparison& light,
             double constant_world);
 
   /// Tells whether the filter is known well enough to draw anything again.
@@ -128,7 +128,7 @@ class Redrawing {
 
   const FrameInput& in_;
   const raster::RasterFrame& frame_;
-  const LightComparison& light_;
+  const compare::LightComparison& light_;
   double constant_world_, slack_world_;
   TestedRecord drawn_;
   Image<float> next_share_, faded_;  ///< by pixel, in [0, 1]; empty where nothing blends, or fades
@@ -139,4 +139,4 @@ class Redrawing {
   std::vector<Fit> fits_;  ///< the best one first
 };
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -6,7 +6,7 @@
 #include "judge/redrawing.h"
 #include "scene/base/parallel.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 constexpr double of_like_kernels = 0.25;  ///< what filters differ by that are known in kind alone
@@ -158,4 +158,4 @@ Redrawing::Pixel Redrawing::look_at(std::uint32_t index, double kernel_error, Re
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -5,7 +5,7 @@
 
 #include "judge/align.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 constexpr int largest_block = 8;
@@ -82,4 +82,4 @@ int shadow_block(const CapturedPictures& pictures, const raytrace::RayTracedFram
   return 1;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -14,7 +14,7 @@
 #include "scene/base/expected.h"
 #include "scene/files/write_file.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -22,16 +22,18 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view no_figures = "nothing compared";
 
 /// The two labels with most of the error.
-std::string main_labels(const LightComparison& light) {
+std::string main_labels(const compare::LightComparison& light) {
   std::vector<std::pair<double, std::string>> shares;
-  for (std::size_t k = 0; k < class_count; ++k)
+  for (std::size_t k = 0; k < compare::class_count; ++k)
     if (light.class_errors[k] > 0.0)
-      shares.emplace_back(light.class_errors[k], label_text(static_cast<Label>(k + 1)).name);
+      shares.emplace_back(light.class_errors[k],
+                          compare::label_text(static_cast<compare::Label>(k + 1)).name);
   std::stable_sort(shares.begin(), shares.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
   for (std::size_t k = 0; k < std::min<std::size_t>(2, shares.size()); ++k)
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", shares[k].second, percent(shares[k].first));
+    text +=
+        fmt::format("{}{} {}", text.empty() ? "" : ", ", shares[k].second, compare::percent(shares[k].first));
   return text;
 }
 
@@ -53,7 +55,7 @@ Json row_json(const JudgedRow& row) {
     json["refused"] = row.refused;
     return json;
   }
-  json.update({{"folder", url_segment(row.name)},
+  json.update({{"folder", report::url_segment(row.name)},
                {"scene", row.scene},
                {"renderer", row.renderer},
                {"compared", row.compared},
@@ -70,25 +72,25 @@ std::string judged_line(const JudgedRow& row, std::size_t width) {
   const std::string name = one_line(row.name);
   if (!row.refused.empty()) return fmt::format("{:{}}  not judged: {}\n", name, width, one_line(row.refused));
   if (row.compared == 0) return fmt::format("{:{}}  {}\n", name, width, no_figures);
-  return fmt::format("{:{}}  {:>8}  {:>8}  {:>7.3f}  {:8}  {}\n", name, width, percent(row.wrong),
-                     percent(row.mean_error), row.edge_pixels, row.ladder, row.labels);
+  return fmt::format("{:{}}  {:>8}  {:>8}  {:>7.3f}  {:8}  {}\n", name, width, compare::percent(row.wrong),
+                     compare::percent(row.mean_error), row.edge_pixels, row.ladder, row.labels);
 }
 
 std::string judged_page(const JudgedSet& set) {
   Json captures = Json::array();
   for (const JudgedRow* row : worst_first(set)) captures.push_back(row_json(*row));
-  PageShell shell;
+  report::PageShell shell;
   shell.title = "Captures judged \u2013 Gnomon";
   shell.result = Json{{"captures", std::move(captures)}}.dump(-1, ' ', false, Json::error_handler_t::replace);
   shell.data = R"({"kind": "judged", "labels": []})";
-  return build_page(shell).html;
+  return report::build_page(shell).html;
 }
 
 }  // namespace
 
-JudgedRow judged_row(const std::string& name, const Comparison& c) {
-  const LightComparison& light = c.lights.front();
-  const Judged& judged = *c.judged;
+JudgedRow judged_row(const std::string& name, const compare::Comparison& c) {
+  const compare::LightComparison& light = c.lights.front();
+  const compare::Judged& judged = *c.judged;
   JudgedRow row;
   row.name = name, row.scene = c.world->scene->name;
   row.renderer = judged.renderer + (judged.version.empty() ? "" : " " + judged.version);
@@ -98,15 +100,16 @@ JudgedRow judged_row(const std::string& name, const Comparison& c) {
   row.wrong = light.error.wrong_fraction, row.mean_error = light.error.mean_absolute;
   row.edge_pixels = light.edges.rms_pixels;
   if (light.detachment.pixels > 0) row.detachment_world = light.detachment.mean_world;
-  for (const Advice& advice : judged.advice)
-    row.advice += (row.advice.empty() ? "" : "; ") + advice_text(advice);
+  for (const compare::Advice& advice : judged.advice)
+    row.advice += (row.advice.empty() ? "" : "; ") + compare::advice_text(advice);
   return row;
 }
 
-void JudgedSet::add(const std::string& name, const Comparison& comparison) {
-  const Json line = line_json(comparison, {{"capture", name}});
-  lines += on_one_line(line);
-  table.add(rows.size(), line, cell_times_json(comparison, rows.size(), {.ms = comparison.total_ms}));
+void JudgedSet::add(const std::string& name, const compare::Comparison& comparison) {
+  const Json line = compare::line_json(comparison, {{"capture", name}});
+  lines += compare::on_one_line(line);
+  table.add(rows.size(), line,
+            compare::cell_times_json(comparison, rows.size(), {.ms = comparison.total_ms}));
   rows.push_back(judged_row(name, comparison));
 }
 
@@ -131,4 +134,4 @@ Expected<void> write_judged_set(const JudgedSet& set, const std::string& folder)
   return write_file(folder + "/report.html", judged_page(set));
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

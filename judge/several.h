@@ -10,7 +10,7 @@
 #include "compare/result/result_table.h"
 #include "scene/base/expected.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// One capture, judged or refused. `compared` 0: judged, but its shares say nothing.
 struct JudgedRow {
@@ -22,14 +22,14 @@ struct JudgedRow {
   double edge_pixels = 0.0;                ///< RMS displacement of shadow edges
   std::optional<double> detachment_world;  ///< mean; none where no shadow stands off
 };
-JudgedRow judged_row(const std::string& name, const Comparison& comparison);
+JudgedRow judged_row(const std::string& name, const compare::Comparison& comparison);
 
 /// What was judged so far: rows, the lines of judge.jsonl, the table of judge.csv.
 struct JudgedSet {
   std::vector<JudgedRow> rows;
   std::string lines;
-  ResultTable table;
-  void add(const std::string& name, const Comparison& comparison);
+  compare::ResultTable table;
+  void add(const std::string& name, const compare::Comparison& comparison);
   void add_refused(const std::string& name, const std::string& why);
 };
 
@@ -38,4 +38,4 @@ std::string judged_table(const JudgedSet& set);
 /// report.html, judge.jsonl (one result.json a line, with "axes": {"capture": NAME}) and judge.csv.
 Expected<void> write_judged_set(const JudgedSet& set, const std::string& folder);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -5,7 +5,7 @@
 
 #include "compare/ladder/biased_test.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 constexpr double arithmetic =
@@ -68,8 +68,10 @@ SurfaceOnRay StoredDepths::surface(const Ray& ray, const raytrace::Hit& hit, int
     double depth = infinity, stored = infinity;  // over a texel
   };
   const auto change = [&](double du, double dv) -> Change {
-    const double below = plane_depth(view_, face, place.x - du, place.y - dv, point.position, normal);
-    const double above = plane_depth(view_, face, place.x + du, place.y + dv, point.position, normal);
+    const double below =
+        compare::plane_depth(view_, face, place.x - du, place.y - dv, point.position, normal);
+    const double above =
+        compare::plane_depth(view_, face, place.x + du, place.y + dv, point.position, normal);
     if (std::isinf(below) || std::isinf(above)) return {};
     return {std::abs(above - below), std::abs(stored_from_depth(view_, face, place.y + dv, above) -
                                               stored_from_depth(view_, face, place.y - dv, below))};
@@ -81,7 +83,8 @@ SurfaceOnRay StoredDepths::surface(const Ray& ray, const raytrace::Hit& hit, int
 
 Ray StoredDepths::ray(raytrace::TexelKey key, const Vec2& off) const {
   if (const auto own = captured_test(record_).stored_ray(view_, key, off)) return *own;
-  return caster_ray(in_.world, view_, key.face(), key.column() + 0.5 + off.x, key.row() + 0.5 + off.y);
+  return compare::caster_ray(in_.world, view_, key.face(), key.column() + 0.5 + off.x,
+                             key.row() + 0.5 + off.y);
 }
 
 std::optional<SurfaceOnRay> StoredDepths::first(raytrace::TexelKey key, const Vec2& off) const {
@@ -100,7 +103,7 @@ std::vector<SurfaceOnRay> StoredDepths::all(const raytrace::Tracer& tracer, rayt
   std::vector<SurfaceOnRay> out;
   const Vec2 place(key.column() + 0.5, key.row() + 0.5);
   const Ray from = ray(key);
-  visit_hits(
+  compare::visit_hits(
       from, [&](const Ray& rest) { return tracer.closest_hit(rest, raytrace::Sides::casting); },
       [&](const raytrace::Hit& hit) {
         out.push_back(surface(from, hit, key.face(), place));
@@ -150,4 +153,4 @@ bool StoredDepths::holds_neighbours(raytrace::TexelKey key) const {
   return holds_within(key, 1.0, 2, 0.25);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

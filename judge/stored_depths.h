@@ -7,7 +7,7 @@
 #include "compare/truth/columns.h"
 #include "judge/captured_frame.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// A surface on the ray through a place of the map.
 struct SurfaceOnRay {
@@ -63,4 +63,4 @@ class StoredDepths {
   const LightView& view_;
 };
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

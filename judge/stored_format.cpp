@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 /// The whole numbers that 1 is in formats of that many bits. Two bytes of which the first is the whole part make the products.
@@ -80,4 +80,4 @@ std::vector<std::string> format_notes(const StoredFormat& format, double unit_wo
                           : fmt::format("floats of {:.0f} bits", -std::log2(format.step)))};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// What numbers have in common.
 struct StoredFormat {
@@ -22,4 +22,4 @@ double step_near(const StoredFormat& format, double number);
 /// coarser. `unit_world`: world units in 1 of the numbers; 0: not the same everywhere.
 std::vector<std::string> format_notes(const StoredFormat& format, double unit_world);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

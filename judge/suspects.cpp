@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 void add_flips(std::vector<Suspect>& out) {
@@ -244,4 +244,4 @@ void undo(const Suspect& suspect, CapturedPictures& pictures, Sight& sight) {
   if (suspect.other_depth) pictures.depth_is_distance = !pictures.depth_is_distance;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

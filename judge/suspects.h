@@ -6,7 +6,7 @@
 
 #include "judge/receivers.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 struct Suspect {
   std::string what;                     ///< "the picture is upside down"; empty: the capture as it is
@@ -47,4 +47,4 @@ inline std::pair<int, int> flipped(bool flip_x, bool flip_y, const ImageSize& si
 /// Undoes a suspect in the pictures and the sight.
 void undo(const Suspect& suspect, CapturedPictures& pictures, Sight& sight);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

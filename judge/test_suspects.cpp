@@ -10,7 +10,7 @@
 #include "judge/turned_map.h"
 #include "scene/base/parallel.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 using raster::LightRecord;
@@ -264,7 +264,7 @@ void add_exchanged_layers(const LightRecord& described, std::vector<TestSuspect>
 
 class ByPicture {
  public:
-  ByPicture(const FrameInput& in, const LightRecord& described, const LightComparison& light)
+  ByPicture(const FrameInput& in, const LightRecord& described, const compare::LightComparison& light)
       : in_(in), described_(described), light_(light), view_(make_view(in.camera, in.capture.size)) {}
 
   void add_selections(std::vector<TestSuspect>& out) const;
@@ -273,7 +273,7 @@ class ByPicture {
 
  private:
   bool is_asked(std::size_t i) const {
-    return is_compared(light_.labels.data[i]) && described_.outside_map.data[i] == 0;
+    return compare::is_compared(light_.labels.data[i]) && described_.outside_map.data[i] == 0;
   }
   bool test_is_dark(std::size_t i) const {
     return double{described_.gap.data[i]} > described_.bias_constant_world;
@@ -287,7 +287,7 @@ class ByPicture {
   }
   const FrameInput& in_;
   const LightRecord& described_;
-  const LightComparison& light_;
+  const compare::LightComparison& light_;
   View view_;
 };
 
@@ -333,17 +333,18 @@ void ByPicture::add_layer_constants(std::vector<TestSuspect>& out) const {
   std::vector<double> more(static_cast<std::size_t>(faces), 0.0);  // stored numbers
   std::string what;
   for (int face = 0; face < faces; ++face) {
-    Image<Label> own = light_.labels;
+    Image<compare::Label> own = light_.labels;
     std::size_t asked = 0, as_drawn = 0;
     for (std::size_t i = 0; i < own.data.size(); ++i) {
       if (!is_asked(i) || described_.face.data[i] != face)
-        own.data[i] = Label::background;
+        own.data[i] = compare::Label::background;
       else
         ++asked, as_drawn += test_is_dark(i) == drawn_dark(i) ? 1 : 0;
     }
     if (double(as_drawn) >= well_drawn * double(asked)) continue;
-    const double constant = find_best_bias(sort_gaps(described_, light_.rungs[6], own)).constant_world -
-                            described_.bias_constant_world;
+    const double constant =
+        compare::find_best_bias(compare::sort_gaps(described_, light_.rungs[6], own)).constant_world -
+        described_.bias_constant_world;
     more[static_cast<std::size_t>(face)] = constant / unit;
     const CapturedBias said = in_.capture.map[static_cast<std::size_t>(face)].bias.value_or(
         in_.capture.bias.value_or(CapturedBias{}));
@@ -362,7 +363,7 @@ void ByPicture::add_layer_constants(std::vector<TestSuspect>& out) const {
 }  // namespace
 
 std::vector<TestSuspect> test_suspects(const FrameInput& in, const LightRecord& described,
-                                       const LightComparison& light) {
+                                       const compare::LightComparison& light) {
   std::vector<TestSuspect> out;
   add_conventions(described, out);
   add_keys_of_test(described, out);
@@ -377,4 +378,4 @@ std::vector<TestSuspect> test_suspects(const FrameInput& in, const LightRecord& 
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -8,7 +8,7 @@
 #include "compare/comparison.h"
 #include "judge/captured_frame.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 struct TestSuspect {
   std::string of_capture;   ///< what is wrong where the test so changed is the better one
@@ -26,6 +26,6 @@ struct TestSuspect {
 /// `described`: the record as the capture says it; `light`: what was drawn on it. Places and numbers that a mistake leaves
 /// open (where shadows end, a layer's constant) are those with which the picture agrees best.
 std::vector<TestSuspect> test_suspects(const FrameInput& input, const raster::LightRecord& described,
-                                       const LightComparison& light);
+                                       const compare::LightComparison& light);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -12,8 +12,11 @@
 #include "scene/base/parallel.h"
 #include "scene/light.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
+
+using compare::Label;
+using compare::LightComparison;
 
 using raytrace::PointVisibility;
 using raytrace::SurfacePoint;
@@ -47,9 +50,9 @@ class TracedPixels {
       : in_(in), light_(light), shines_(in.world.scene->lights[light.light]) {}
 
   TracedFinding run() {
-    const std::vector<std::uint32_t> wrong = pixels_where(light_.labels.data.size(), [&](std::size_t i) {
-      return light_.labels.data[i] == Label::unexplained;
-    });
+    const std::vector<std::uint32_t> wrong =
+        compare::pixels_where(light_.labels.data.size(),
+                              [&](std::size_t i) { return light_.labels.data[i] == Label::unexplained; });
     found_.wrong = wrong.size();
     find_self_intersection();
     find_skipped_casters();
@@ -164,7 +167,7 @@ void TracedPixels::count_offset(const std::vector<std::uint32_t>& pixels) {
       light_.labels.data.size(), 1024, std::size_t{0},
       [&](std::size_t first, std::size_t last, std::size_t sum) {
         for (std::size_t i = first; i < last; ++i) {
-          if (!is_compared(light_.labels.data[i])) continue;
+          if (!compare::is_compared(light_.labels.data[i])) continue;
           SurfacePoint from = point(i);
           from.position += found_.offset * from.normal;
           const PointVisibility moved = in_.tracer.centre_visibility(from, shines_);
@@ -192,9 +195,10 @@ double TracedPixels::farthest_caster(const SurfacePoint& from) const {
 /// The distance below which casters are not met: the one that explains most missed shadows, less those that are drawn though
 /// they, too, would be missed.
 void TracedPixels::find_skipped_casters() {
-  const std::vector<std::uint32_t> shadowed = pixels_where(light_.labels.data.size(), [&](std::size_t i) {
-    return is_compared(light_.labels.data[i]) && light_.rungs[1].data[i] < 0.5f;
-  });
+  const std::vector<std::uint32_t> shadowed =
+      compare::pixels_where(light_.labels.data.size(), [&](std::size_t i) {
+        return compare::is_compared(light_.labels.data[i]) && light_.rungs[1].data[i] < 0.5f;
+      });
   struct Reach {
     double distance;
     std::uint32_t pixel;
@@ -223,7 +227,7 @@ void TracedPixels::find_skipped_casters() {
 }
 
 std::string share_of_wrong(std::size_t part, const TracedFinding& found) {
-  return fmt::format("{} of {} pixels with an error", grouped(part), grouped(found.wrong));
+  return fmt::format("{} of {} pixels with an error", compare::grouped(part), compare::grouped(found.wrong));
 }
 
 }  // namespace
@@ -242,7 +246,7 @@ std::vector<std::string> traced_notes(const TracedFinding& found) {
     out.push_back(
         fmt::format("at {} from the origin places of 32 bits are {:.2g} apart: rounding moves them by up to "
                     "{:.2g} along the normal; an offset of that, or places relative to the camera, mends it",
-                    plain_number(found.from_origin), found.spacing, found.offset));
+                    compare::plain_number(found.from_origin), found.spacing, found.offset));
   }
   if (found.terminator > 0)
     out.push_back(
@@ -263,12 +267,12 @@ std::string traced_advice(const TracedFinding& found, const LightComparison& lig
         "Start shadow rays {:.2g} off the surface: by Gnomon's own rays from there {} of the pixels are "
         "wrong.",
         found.offset,
-        percent(static_cast<double>(found.left) /
-                static_cast<double>(std::max<std::uint64_t>(1, light.pixels.compared))));
+        compare::percent(static_cast<double>(found.left) /
+                         static_cast<double>(std::max<std::uint64_t>(1, light.pixels.compared))));
   if (2 * found.too_far > found.wrong)
     return fmt::format("Start shadow rays nearer to the surface: casters up to {:.2g} away are left out.",
                        found.skipped);
   return {};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

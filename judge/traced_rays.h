@@ -9,7 +9,7 @@
 #include "compare/comparison.h"
 #include "judge/captured_frame.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// Counts of wrong pixels, and what they were told by.
 struct TracedFinding {
@@ -29,10 +29,10 @@ struct TracedFinding {
 
 /// Gives labels to pixels of `light` that are unexplained, and makes its rungs say the step: slope for acne, bias for
 /// peter-panning.
-TracedFinding label_traced_rays(const FrameInput& input, LightComparison& light);
+TracedFinding label_traced_rays(const FrameInput& input, compare::LightComparison& light);
 
 std::vector<std::string> traced_notes(const TracedFinding& found);
 /// What to do, as one sentence; empty: nothing is known.
-std::string traced_advice(const TracedFinding& found, const LightComparison& light);
+std::string traced_advice(const TracedFinding& found, const compare::LightComparison& light);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -13,7 +13,7 @@
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 using raytrace::TexelKey;
@@ -123,10 +123,10 @@ std::string name_of_face(const LightView& view, int face) {
 }
 
 /// Wrong pixels of the hard test that a record describes; what lies outside the map stays as drawn.
-std::size_t count_wrong(const raster::LightRecord& record, const LightComparison& light) {
+std::size_t count_wrong(const raster::LightRecord& record, const compare::LightComparison& light) {
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
-    if (!is_compared(light.labels.data[i])) continue;
+    if (!compare::is_compared(light.labels.data[i])) continue;
     const bool outside = record.outside_map.data[i] != 0;
     const float lit = double{record.gap.data[i]} > record.bias_constant_world ? 0.0f : 1.0f;
     wrong += std::abs((outside ? light.rungs[6].data[i] : lit) - light.rungs[0].data[i]) > 0.5f ? 1 : 0;
@@ -178,7 +178,7 @@ void reorder_texels(raster::LightRecord& record, std::size_t first, std::span<co
 }
 
 std::optional<TurnedMap> find_turned_map(const FrameInput& in, const raster::RasterFrame& drawn,
-                                         const LightComparison& light) {
+                                         const compare::LightComparison& light) {
   const raster::LightRecord& record = drawn.lights.front();
   if (light.error.wrong < few_turned || captured_test(record).reads() == CapturedTest::Reads::elsewhere)
     return std::nullopt;
@@ -206,12 +206,12 @@ std::optional<TurnedMap> find_turned_map(const FrameInput& in, const raster::Ras
   return out;
 }
 
-std::string turned_map_note(const TurnedMap& turned, const LightComparison& light) {
-  return fmt::format("the map is {} for its reader{}: read the other way it holds the scene{}", turned.how,
-                     turned.of_faces,
-                     turned.counts_wrong ? fmt::format(", and {} pixels are wrong in the place of {}",
-                                                       grouped(turned.wrong), grouped(light.error.wrong))
-                                         : std::string());
+std::string turned_map_note(const TurnedMap& turned, const compare::LightComparison& light) {
+  return fmt::format(
+      "the map is {} for its reader{}: read the other way it holds the scene{}", turned.how, turned.of_faces,
+      turned.counts_wrong ? fmt::format(", and {} pixels are wrong in the place of {}",
+                                        compare::grouped(turned.wrong), compare::grouped(light.error.wrong))
+                          : std::string());
 }
 
 std::string turned_map_cure(const TurnedMap& turned) {
@@ -219,4 +219,4 @@ std::string turned_map_cure(const TurnedMap& turned) {
                      turned.how, turned.of_faces);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -10,7 +10,7 @@
 #include "compare/comparison.h"
 #include "judge/captured_frame.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 /// A way to read a layer's texels: columns and rows exchanged, then either run the other way.
 struct MapTurn {
@@ -33,10 +33,10 @@ struct TurnedMap {
 
 /// Looks for turned layers where the map holds the scene at more places once it is read so, and at nearly all then.
 std::optional<TurnedMap> find_turned_map(const FrameInput& input, const raster::RasterFrame& drawn,
-                                         const LightComparison& light);
+                                         const compare::LightComparison& light);
 
 /// That the map is turned, with what it draws otherwise; and as a sentence that says what to do.
-std::string turned_map_note(const TurnedMap& turned, const LightComparison& light);
+std::string turned_map_note(const TurnedMap& turned, const compare::LightComparison& light);
 std::string turned_map_cure(const TurnedMap& turned);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

@@ -7,7 +7,7 @@
 #include "scene/base/parallel.h"
 #include "scene/light.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 namespace {
 
 constexpr std::size_t pixels_searched = 1200;        // pixels of a direction
@@ -24,11 +24,12 @@ struct Candidate {
 
 class SunSearch {
  public:
-  SunSearch(const Comparison& judged, const raytrace::Tracer& tracer) : judged_(judged), tracer_(tracer) {
-    const LightComparison& light = judged.lights.front();
+  SunSearch(const compare::Comparison& judged, const raytrace::Tracer& tracer)
+      : judged_(judged), tracer_(tracer) {
+    const compare::LightComparison& light = judged.lights.front();
     std::vector<std::size_t> compared;
     for (std::size_t i = 0; i < light.labels.data.size(); ++i)
-      if (is_compared(light.labels.data[i])) compared.push_back(i);
+      if (compare::is_compared(light.labels.data[i])) compared.push_back(i);
     const std::size_t step = std::max<std::size_t>(1, compared.size() / pixels_searched);
     for (std::size_t k = 0; k < compared.size(); k += step) pixels_.push_back(compared[k]);
   }
@@ -88,7 +89,7 @@ class SunSearch {
     return out;
   }
 
-  const Comparison& judged_;
+  const compare::Comparison& judged_;
   const raytrace::Tracer& tracer_;
   std::vector<std::size_t> pixels_;
 };
@@ -106,7 +107,7 @@ std::vector<Vec3> all_directions() {
 
 }  // namespace
 
-std::optional<TurnedSun> find_turned_sun(const Comparison& judged, const raytrace::Tracer& tracer) {
+std::optional<TurnedSun> find_turned_sun(const compare::Comparison& judged, const raytrace::Tracer& tracer) {
   const Light& light = judged.world->scene->lights[judged.lights.front().light];
   if (light.type != LightType::directional) return std::nullopt;
   const SunSearch search(judged, tracer);
@@ -126,4 +127,4 @@ std::optional<TurnedSun> find_turned_sun(const Comparison& judged, const raytrac
                    std::clamp(1.0 - best.error / now, 0.0, 1.0)};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

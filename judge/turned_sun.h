@@ -6,7 +6,7 @@
 
 #include "compare/comparison.h"
 
-namespace gnomon::compare {
+namespace gnomon::judge {
 
 struct TurnedSun {
   Vec3 direction;              ///< unit, the way the light travels
@@ -16,6 +16,6 @@ struct TurnedSun {
 
 /// Searches all directions: a grid of five degrees first, then ever smaller steps from the best of it. None for a light that is
 /// not a sun, or where nothing compared is off. `judged`: a comparison of the whole picture.
-std::optional<TurnedSun> find_turned_sun(const Comparison& judged, const raytrace::Tracer& tracer);
+std::optional<TurnedSun> find_turned_sun(const compare::Comparison& judged, const raytrace::Tracer& tracer);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::judge

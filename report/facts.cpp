@@ -21,8 +21,11 @@
 #include "report/html.h"
 #include "report/lessons.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 namespace {
+
+using compare::Comparison;
+using compare::Json;
 
 using Json = nlohmann::ordered_json;
 
@@ -33,10 +36,10 @@ std::string hex(const glm::u8vec3& colour) {
 /// Returns the lessons that the page shows: of the errors that occur, and of its own parts.
 Json lesson_facts(const Comparison& c) {
   std::set<std::string_view> shown{"error-budget", "bias"};
-  for (const LightComparison& light : c.lights) {
-    if (drawn_record(c, light).external) shown.insert("hybrid");
-    for (std::size_t k = 0; k < class_count; ++k)
-      if (light.classes[k] > 0) shown.insert(lesson_of(static_cast<Label>(k + 1)).name);
+  for (const compare::LightComparison& light : c.lights) {
+    if (compare::drawn_record(c, light).external) shown.insert("hybrid");
+    for (std::size_t k = 0; k < compare::class_count; ++k)
+      if (light.classes[k] > 0) shown.insert(lesson_of(static_cast<compare::Label>(k + 1)).name);
   }
   Json lessons = Json::object();
   for (const std::string_view name : shown) {
@@ -53,36 +56,36 @@ std::string map_words(const Comparison& c) {
   const std::string_view how = c.judged && c.judged->identified ? "inferred: " : "";
   return fmt::format("{}{} shadows, map {}\u202f\u00d7\u202f{}", how, technique_name(map.technique), map.size,
                      map.size) +
-         map_details(c, c.lights.size() == 1 ? &c.lights[0] : nullptr);
+         compare::map_details(c, c.lights.size() == 1 ? &c.lights[0] : nullptr);
 }
 
 Json depth_facts(const PageInput& in, std::size_t index) {
   const Comparison& c = in.comparison;
   if (!c.raster.has_known_map()) return nullptr;
-  const LightView& view = drawn_record(c, c.lights[index]).map.view;
+  const LightView& view = compare::drawn_record(c, c.lights[index]).map.view;
   return {{"near", view.depth_range().min},
           {"far", view.depth_range().max},
           {"perspective", view.projection == LightProjection::perspective},
           {"texels_per_pixel", in.pictures.lights[index].depth_map_small_step}};
 }
 
-Json smaller_facts(const BestBias& best) {
+Json smaller_facts(const compare::BestBias& best) {
   if (!best.smaller) return nullptr;
   return {{"constant_world", best.smaller->constant_world}, {"wrong_fraction", best.smaller->wrong_fraction}};
 }
 
 Json light_facts(const PageInput& in, std::size_t index) {
   const Comparison& c = in.comparison;
-  const LightComparison& light = c.lights[index];
-  const Verdict verdict = verdict_on(c, light);
+  const compare::LightComparison& light = c.lights[index];
+  const compare::Verdict verdict = compare::verdict_on(c, light);
   const bool has_curve = light.bias_curve_withheld.empty() && !light.bias_curve.empty();
   return {
       {"name", shown_light_name(c, index)},
       {"verdict", {{"headline", verdict.headline()}, {"detail", verdict.detail}, {"whole", verdict.whole()}}},
-      {"window", window_words(c, light)},
+      {"window", compare::window_words(c, light)},
       {"contradiction",
        has_curve && !light.best_bias.feasible
-           ? contradiction(light.best_bias, light.bias_texel_world, c.raster.options.map.bias)
+           ? compare::contradiction(light.best_bias, light.bias_texel_world, c.raster.options.map.bias)
            : std::string()},
       {"smaller", smaller_facts(light.best_bias)},
       {"depth", depth_facts(in, index)}};
@@ -92,8 +95,9 @@ Json light_facts(const PageInput& in, std::size_t index) {
 
 Json label_facts() {
   Json list = Json::array();
-  for (int k = static_cast<int>(Label::uncertain); k <= static_cast<int>(class_count); ++k) {
-    const LabelText& text = label_text(static_cast<Label>(k));
+  for (int k = static_cast<int>(compare::Label::uncertain); k <= static_cast<int>(compare::class_count);
+       ++k) {
+    const compare::LabelText& text = compare::label_text(static_cast<compare::Label>(k));
     list.push_back({{"value", k},
                     {"key", text.key},
                     {"name", text.name},
@@ -109,10 +113,10 @@ Json label_facts() {
 
 Json rung_facts() {
   Json list = Json::array();
-  for (std::size_t k = 0; k < rung_count; ++k) {
-    const RungText& rung = rung_text(static_cast<Rung>(k));
+  for (std::size_t k = 0; k < compare::rung_count; ++k) {
+    const compare::RungText& rung = compare::rung_text(static_cast<compare::Rung>(k));
     Json json{{"name", rung.name}, {"what", rung.what}};
-    if (k > 0) json["step"] = step_text(static_cast<Cause>(k - 1)).name;
+    if (k > 0) json["step"] = compare::step_text(static_cast<compare::Cause>(k - 1)).name;
     list.push_back(std::move(json));
   }
   return list;
@@ -120,7 +124,7 @@ Json rung_facts() {
 
 Json situation_facts() {
   Json list = Json::array();
-  for (const ShadowSituation& one : shadow_situations())
+  for (const compare::ShadowSituation& one : compare::shadow_situations())
     list.push_back({{"key", one.key}, {"words", one.words}, {"made", one.made}});
   return list;
 }
@@ -131,22 +135,22 @@ Json report_facts(const PageInput& in) {
   for (std::size_t i = 0; i < c.lights.size(); ++i) lights.push_back(light_facts(in, i));
   Json facts{{"lessons", lesson_facts(c)},
              {"map", map_words(c)},
-             {"bias_parts", bias_parts(c.raster.options.map.bias)},
-             {"compares_depths", compares_depths(c)},
-             {"edge_scale_texels", edge_scale_texels},
-             {"detachment_scale_texels", detachment_scale_texels},
+             {"bias_parts", compare::bias_parts(c.raster.options.map.bias)},
+             {"compares_depths", compare::compares_depths(c)},
+             {"edge_scale_texels", compare::edge_scale_texels},
+             {"detachment_scale_texels", compare::detachment_scale_texels},
              {"reduced", reduced_words(c)},
              {"peak_memory_bytes", c.peak_memory_bytes},
-             {"software_note", software_note},
+             {"software_note", compare::software_note},
              {"shadow_situations", situation_facts()},
              {"light_facts", std::move(lights)}};
-  if (c.judged) facts["judged"] = judged_lines(c);
+  if (c.judged) facts["judged"] = compare::judged_lines(c);
   if (in.introduction != nullptr) facts["tune"] = Json::parse(in.introduction->facts);
   return facts;
 }
 
 std::string reduced_words(const Comparison& c) {
-  const int step = image_step(c.raster.options.size);
+  const int step = compare::image_step(c.raster.options.size);
   if (step == 1) return {};
   return fmt::format(
       "This page shows one pixel of every {0} \u00d7 {0} (a place is counted in these); its numbers, and the "
@@ -155,13 +159,13 @@ std::string reduced_words(const Comparison& c) {
 }
 
 std::string shown_light_name(const Comparison& c, std::size_t index) {
-  const std::string& name = light_of(c, c.lights[index]).name;
+  const std::string& name = compare::light_of(c, c.lights[index]).name;
   const std::uint32_t number = c.lights[index].light + 1;
   if (name.empty()) return fmt::format("light {}", number);
   for (std::size_t i = 0; i < c.lights.size(); ++i)
-    if (i != index && light_of(c, c.lights[i]).name == name)
+    if (i != index && compare::light_of(c, c.lights[i]).name == name)
       return fmt::format("{} (light {})", name, number);
   return name;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

@@ -8,7 +8,7 @@
 #include "scene/base/expected.h"
 #include "scene/files/encodings.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 std::string escaped(std::string_view raw) {
   // Control characters first: one_line() would show them.
@@ -148,4 +148,4 @@ std::string page_head(const PageHead& head) {
       security_policy(head), escaped(head.title));
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

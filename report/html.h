@@ -7,7 +7,7 @@
 
 #include "scene/image.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 /// Text for element content and quoted attributes. Control characters of ASCII become spaces; those of Unicode, and what is
 /// not UTF-8, escapes (scene/base/expected.h).
@@ -48,4 +48,4 @@ struct PageHead {
 /// Elements of <head>, to follow the one that names the encoding; the style and the script themselves are not among them.
 std::string page_head(const PageHead& head);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

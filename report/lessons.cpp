@@ -11,7 +11,7 @@
 #include "compare/ladder/labels.h"
 #include "report/html.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 namespace {
 
 // In the order in which to read them; docs/lessons/README.md has the same.
@@ -84,8 +84,8 @@ const Lesson& lesson(std::string_view name) {
   return *found;
 }
 
-const Lesson& lesson_of(Label label) {
-  return lesson(label_text(label).lesson);
+const Lesson& lesson_of(compare::Label label) {
+  return lesson(compare::label_text(label).lesson);
 }
 
 std::string lesson_html(const Lesson& lesson) {
@@ -101,4 +101,4 @@ std::string lesson_html(const Lesson& lesson) {
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

@@ -8,7 +8,7 @@
 
 #include "compare/comparison.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 struct Lesson {
   std::string_view name;     ///< "peter-panning": docs/lessons/peter-panning.md
@@ -22,8 +22,8 @@ std::span<const Lesson> all_lessons();
 /// The lesson of that name, which must exist.
 const Lesson& lesson(std::string_view name);
 /// The lesson that explains a wrong pixel.
-const Lesson& lesson_of(Label label);
+const Lesson& lesson_of(compare::Label label);
 
 /// The short form as HTML paragraphs.
 std::string lesson_html(const Lesson& lesson);
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

@@ -14,16 +14,17 @@
 #include "report/pixels/page_data.h"
 #include "report/write_outputs.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 namespace {
 
 std::string title(const PageInput& in) {
-  const Comparison& c = in.comparison;
+  const compare::Comparison& c = in.comparison;
   const std::string& scene = c.world->scene->name;
   if (in.introduction != nullptr) return in.introduction->title;
-  if (c.judged) return "Judging " + renderer_text(*c.judged) + ": " + scene + " \u2013 Gnomon";
+  if (c.judged) return "Judging " + compare::renderer_text(*c.judged) + ": " + scene + " \u2013 Gnomon";
   const bool one = c.lights.size() == 1 && c.lights[0].pixels.compared > 0;
-  return scene + (one ? ": " + percent(c.lights[0].error.wrong_fraction) + " wrong" : "") + " \u2013 Gnomon";
+  return scene + (one ? ": " + compare::percent(c.lights[0].error.wrong_fraction) + " wrong" : "") +
+         " \u2013 Gnomon";
 }
 
 /// The pictures' names, by which the sections ask for them, and what they show.
@@ -39,7 +40,7 @@ class Pictures {
   }
 
  private:
-  void add(std::string name, const EncodedPicture& encoded, std::string alt) {
+  void add(std::string name, const compare::EncodedPicture& encoded, std::string alt) {
     if (encoded.png.empty()) return;
     pictures_.push_back(
         {.name = std::move(name),
@@ -50,7 +51,7 @@ class Pictures {
   }
 
   void add_light(std::size_t i) {
-    const LightPictures& of = in_.pictures.lights[i];
+    const compare::LightPictures& of = in_.pictures.lights[i];
     const auto name = [i](std::string_view kind) { return fmt::format("{}-{}", kind, i); };
     add(name("difference"), of.difference,
         "The picture in grey; pixels with a false shadow in orange, with a missed shadow in light blue.");
@@ -89,12 +90,12 @@ std::vector<PageLink> links(const PageInput& in) {
           {"result.csv", in.beside ? "result.csv" : data_uri("text/csv", in.csv)}};
 }
 
-std::vector<std::string> said_first(const Comparison& c) {
+std::vector<std::string> said_first(const compare::Comparison& c) {
   std::vector<std::string> sentences;
   if (const std::string reduced = reduced_words(c); !reduced.empty()) sentences.push_back(reduced);
   for (std::size_t i = 0; i < c.lights.size(); ++i)
     sentences.push_back((c.lights.size() > 1 ? shown_light_name(c, i) + ": " : std::string()) +
-                        verdict_on(c, c.lights[i]).whole());
+                        compare::verdict_on(c, c.lights[i]).whole());
   return sentences;
 }
 
@@ -123,13 +124,13 @@ BuiltPage report_page(PageInput in, PageData& data, double max_mb) {
   return build_page(shell);
 }
 
-Expected<std::string> report_html(const Comparison& comparison) {
-  const Expected<PictureSet> pictures = encode_pictures(comparison);
+Expected<std::string> report_html(const compare::Comparison& comparison) {
+  const Expected<compare::PictureSet> pictures = compare::encode_pictures(comparison);
   if (!pictures) return fail(pictures.error());
-  const std::string json = result_json(comparison), csv = result_csv(comparison);
+  const std::string json = compare::result_json(comparison), csv = compare::result_csv(comparison);
   const PageInput input{comparison, *pictures, json, csv};
   PageData data = page_data(input);
   return report_page(input, data, std::numeric_limits<double>::infinity()).html;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

@@ -12,7 +12,7 @@
 #include "compare/result/picture_set.h"
 #include "report/shell.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 /// What stands before a comparison on a page that is about more than that: the page of the tuner.
 struct PageIntroduction {
@@ -23,8 +23,8 @@ struct PageIntroduction {
 struct PageData;  // page_data.h
 
 struct PageInput {
-  const Comparison& comparison;
-  const PictureSet& pictures;
+  const compare::Comparison& comparison;
+  const compare::PictureSet& pictures;
   std::string_view json;  ///< result.json's text so far, embedded in the page and offered for saving
   std::string_view csv;
   const PageIntroduction* introduction = nullptr;
@@ -48,8 +48,8 @@ nlohmann::ordered_json situation_facts();
 /// Everything that the sections of the page ask for (page/src/report_document.ts: Facts).
 nlohmann::ordered_json report_facts(const PageInput& input);
 /// What the page leaves out of a picture with more pixels than it has room for; empty where it has them all.
-std::string reduced_words(const Comparison& comparison);
+std::string reduced_words(const compare::Comparison& comparison);
 /// The name that the page gives a light: as in the file, "light 2" where it has none, both where two share one.
-std::string shown_light_name(const Comparison& comparison, std::size_t index);
+std::string shown_light_name(const compare::Comparison& comparison, std::size_t index);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

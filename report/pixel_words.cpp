@@ -19,8 +19,11 @@
 #include "compare/result/number_text.h"
 #include "compare/result/output_parts.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 namespace {
+
+using compare::Cause;
+using compare::Label;
 
 /// What holds of a pixel and what its phrases' places are filled with; the phrases (phrases.json) follow from these. The
 /// first of a phrase's forms whose words all hold is told; a place that has no value is a phrase itself.
@@ -71,7 +74,7 @@ std::string three_digits(double value) {
   return fmt::format("{:.3g}", value);
 }
 
-void add_material(Telling& telling, const ShownMaterial& material, bool is_glass) {
+void add_material(Telling& telling, const compare::ShownMaterial& material, bool is_glass) {
   telling.holds("glass", is_glass);
   telling.holds("named", !material.name.empty());
   telling.put("name", material.name);
@@ -89,11 +92,12 @@ std::string add_parts(Telling& telling, const raster::Bias& own) {
   return fmt::format("{}", fmt::join(parts, telling.say("and")));
 }
 
-void add_map_test(Telling& telling, const Comparison& c, const LightComparison& light,
+void add_map_test(Telling& telling, const compare::Comparison& c, const compare::LightComparison& light,
                   const PixelFacts& pixel) {
-  const raster::LightRecord& record = drawn_record(c, light);
+  const raster::LightRecord& record = compare::drawn_record(c, light);
   const int size = record.map.view.size;
-  const double bias = draws_bias(c) ? record.bias_constant_world : 0.0, texel = light.bias_texel_world;
+  const double bias = compare::draws_bias(c) ? record.bias_constant_world : 0.0,
+               texel = light.bias_texel_world;
   telling.holds("outside", pixel.u < 0.0 || pixel.v < 0.0 || pixel.u >= size || pixel.v >= size);
   telling.holds("empty", !std::isfinite(pixel.gap));
   if (!std::isfinite(pixel.gap)) return;
@@ -104,12 +108,12 @@ void add_map_test(Telling& telling, const Comparison& c, const LightComparison& 
   telling.put("v", std::to_string(static_cast<int>(std::floor(pixel.v))));
   telling.put("bias", three_digits(bias));
   telling.put("distance", three_digits(std::abs(pixel.gap)));
-  telling.put("texels", texels_text(texel > 0.0 ? pixel.gap / texel : 0.0));
+  telling.put("texels", compare::texels_text(texel > 0.0 ? pixel.gap / texel : 0.0));
 }
 
 /// Tells which step made it wrong; of a caster that is not the scene's that is the caster.
 void add_step(Telling& telling, const PixelFacts& pixel) {
-  const LabelText& label = label_text(pixel.label);
+  const compare::LabelText& label = compare::label_text(pixel.label);
   telling.put("what", std::string(label.what));
   telling.holds("by_precision", pixel.label == Label::stored_depth);
   const int step = deciding_rung(pixel);
@@ -117,7 +121,7 @@ void add_step(Telling& telling, const PixelFacts& pixel) {
   const Cause cause = label.step == Cause::caster ? Cause::caster : static_cast<Cause>(step - 1);
   telling.put("before", std::to_string(step - 1));
   telling.put("step", std::to_string(step));
-  telling.put("change", std::string(step_text(cause).name));
+  telling.put("change", std::string(compare::step_text(cause).name));
 }
 
 /// Tells how a technique that decides exactly did it.
@@ -130,23 +134,24 @@ void add_decision(Telling& telling, const PixelFacts& pixel) {
 }  // namespace
 
 int deciding_rung(const PixelFacts& pixel) {
-  if (!has_cause(pixel.label)) return 0;
+  if (!compare::has_cause(pixel.label)) return 0;
   const auto rung_of = [](Cause step) { return static_cast<int>(step) + 1; };
   if (pixel.label == Label::stored_depth) return rung_of(Cause::precision);
-  std::array<float, rung_count> rungs{};
-  for (std::size_t k = 0; k < rung_count; ++k) rungs[k] = static_cast<float>(pixel.rungs[k]);
-  if (!is_wrong(rungs) && (pixel.label == Label::blur || pixel.label == Label::light_size))
-    return rung_of(*label_text(pixel.label).step);
-  return rung_of(deciding_step(rungs));
+  std::array<float, compare::rung_count> rungs{};
+  for (std::size_t k = 0; k < compare::rung_count; ++k) rungs[k] = static_cast<float>(pixel.rungs[k]);
+  if (!compare::is_wrong(rungs) && (pixel.label == Label::blur || pixel.label == Label::light_size))
+    return rung_of(*compare::label_text(pixel.label).step);
+  return rung_of(compare::deciding_step(rungs));
 }
 
-std::string pixel_words(const Comparison& c, const LightComparison& light, const PixelFacts& pixel) {
+std::string pixel_words(const compare::Comparison& c, const compare::LightComparison& light,
+                        const PixelFacts& pixel) {
   const double truth = pixel.rungs[0], single = pixel.rungs[5], drawn = pixel.rungs[6];
   Telling telling;
-  telling.holds("not_compared", !is_compared(pixel.label));
+  telling.holds("not_compared", !compare::is_compared(pixel.label));
   telling.holds("without_map", !c.raster.has_known_map());
-  telling.holds("exact", !compares_depths(c));
-  telling.holds("filtered", !biases_follow_from_gaps(c.raster));
+  telling.holds("exact", !compare::compares_depths(c));
+  telling.holds("filtered", !compare::biases_follow_from_gaps(c.raster));
   telling.holds("right", pixel.label == Label::right);
   telling.holds("shows_more", pixel.material.has_value());
   telling.holds("lit", truth > 0.5);
@@ -154,9 +159,9 @@ std::string pixel_words(const Comparison& c, const LightComparison& light, const
   telling.holds("unchanged", drawn == single);
   telling.put("truth", three_digits(truth)), telling.put("single", three_digits(single)),
       telling.put("drawn", three_digits(drawn));
-  telling.put("technique", std::string(drawn_technique(c)));
+  telling.put("technique", std::string(compare::drawn_technique(c)));
   add_step(telling, pixel);
-  if (is_compared(pixel.label) && c.raster.has_known_map()) add_map_test(telling, c, light, pixel);
+  if (compare::is_compared(pixel.label) && c.raster.has_known_map()) add_map_test(telling, c, light, pixel);
   add_decision(telling, pixel);
   return telling.say("story");
 }
@@ -164,7 +169,7 @@ std::string pixel_words(const Comparison& c, const LightComparison& light, const
 std::vector<std::string> pixel_remarks(const PixelFacts& pixel) {
   std::vector<std::string> list;
   if (!pixel.seen) return list;
-  const auto remark = [&](const char* name, const ShownMaterial& material, bool is_glass) {
+  const auto remark = [&](const char* name, const compare::ShownMaterial& material, bool is_glass) {
     Telling telling;
     add_material(telling, material, is_glass);
     list.push_back(telling.say(name));
@@ -174,4 +179,4 @@ std::vector<std::string> pixel_remarks(const PixelFacts& pixel) {
   return list;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

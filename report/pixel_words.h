@@ -12,17 +12,17 @@
 #include "compare/comparison.h"
 #include "compare/truth/shown_materials.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 struct PixelFacts {
-  Label label = Label::background;
-  std::array<double, rung_count> rungs{};  ///< V0 ... V6; 1 lit, 0 in shadow
+  compare::Label label = compare::Label::background;
+  std::array<double, compare::rung_count> rungs{};  ///< V0 ... V6; 1 lit, 0 in shadow
   double gap = 0.0;         ///< world units along the light ray; minus infinity: nothing is stored
   double u = 0.0, v = 0.0;  ///< where it looks the map up, texels
   bool seen = true;         ///< a surface that both renderers see
-  std::optional<ShownMaterial> material{};      ///< its own, where that mirrors or transmits
-  std::optional<ShownMaterial> stored_glass{};  ///< what its texel holds, where that is other glass
-  std::optional<std::uint8_t> decision{};       ///< of the hybrid: 0 surely in shadow, 1 surely lit, 2 traced
+  std::optional<compare::ShownMaterial> material{};      ///< its own, where that mirrors or transmits
+  std::optional<compare::ShownMaterial> stored_glass{};  ///< what its texel holds, where that is other glass
+  std::optional<std::uint8_t> decision{};  ///< of the hybrid: 0 surely in shadow, 1 surely lit, 2 traced
 };
 
 /// The step that the label of an error names (docs/labels.md), by the rung it leads to, 1 to 6; 0: it is right, or
@@ -30,9 +30,10 @@ struct PixelFacts {
 int deciding_rung(const PixelFacts& pixel);
 
 /// At the bias that was drawn.
-std::string pixel_words(const Comparison& comparison, const LightComparison& light, const PixelFacts& pixel);
+std::string pixel_words(const compare::Comparison& comparison, const compare::LightComparison& light,
+                        const PixelFacts& pixel);
 
 /// What the pictures show there beside what is compared: mirrors and glass; empty for a plain surface in plain light.
 std::vector<std::string> pixel_remarks(const PixelFacts& pixel);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

@@ -8,7 +8,7 @@
 #include "compare/result/text_layout.h"
 #include "report/html.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -70,7 +70,8 @@ class PlainTables {
  private:
   void add_row(const std::string& key, const std::string& cell) {
     if (cell.empty()) return;
-    rows_ += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(spoken(key)), cell);
+    rows_ +=
+        fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(compare::spoken(key)), cell);
   }
 
   static std::vector<std::string> columns_of(const Json& list) {
@@ -85,9 +86,9 @@ class PlainTables {
   void add_table(const std::string& key, const Json& list) {
     constexpr std::size_t most_rows = 25;
     const std::vector<std::string> columns = columns_of(list);
-    tables_ += fmt::format("<table><caption>{}</caption><thead><tr>", escaped(spoken(key)));
+    tables_ += fmt::format("<table><caption>{}</caption><thead><tr>", escaped(compare::spoken(key)));
     for (const std::string& name : columns)
-      tables_ += fmt::format("<th scope=\"col\">{}</th>", escaped(spoken(name)));
+      tables_ += fmt::format("<th scope=\"col\">{}</th>", escaped(compare::spoken(name)));
     tables_ += "</tr></thead><tbody>\n";
     for (std::size_t i = 0; i < std::min(list.size(), most_rows); ++i) {
       const Json& row = list[i];
@@ -124,7 +125,7 @@ std::string plain_page(const PlainPage& page) {
   for (const std::string& sentence : page.said) out += "<p>" + flowing(sentence) + "</p>\n";
   for (const PagePicture& picture : page.pictures) out += figure_of(picture);
   PlainTables tables;
-  tables.add("", Json::parse(page.document));
+  tables.add("", compare::Json::parse(page.document));
   out += R"(<div class="scroll" role="region" tabindex="0" aria-label="The result as tables">)" +
          std::move(tables).text() + "</div>\n";
   std::string links;
@@ -134,4 +135,4 @@ std::string plain_page(const PlainPage& page) {
   return out + (links.empty() ? "" : "<p class=\"save\">" + links + "</p>\n") + "</section>\n";
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

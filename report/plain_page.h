@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 /// A picture that stands once in the page.
 struct PagePicture {
@@ -38,4 +38,4 @@ struct PlainPage {
 /// none: they have a table of their own, of which the first 25 rows are shown.
 std::string plain_page(const PlainPage& page);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

@@ -7,7 +7,7 @@
 #include "compare/result/palette.h"
 #include "report/html.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 namespace {
 
 // The built page: style and script inline, with two places left for what is written here.
@@ -44,8 +44,9 @@ std::string palette_json() {
   };
   return fmt::format(
       R"({{"false_shadow":{},"missed_shadow":{},"surely_lit":{},"surely_shadowed":{},"traced":{},"viridis":{},"magma":{}}})",
-      quoted(false_shadow_colour), quoted(missed_shadow_colour), quoted(surely_lit_colour),
-      quoted(surely_shadowed_colour), quoted(traced_colour), stops(viridis), stops(magma));
+      quoted(compare::false_shadow_colour), quoted(compare::missed_shadow_colour),
+      quoted(compare::surely_lit_colour), quoted(compare::surely_shadowed_colour),
+      quoted(compare::traced_colour), stops(compare::viridis), stops(compare::magma));
 }
 
 // The data with its parts, which are large, or with the folder that holds them.
@@ -130,4 +131,4 @@ BuiltPage build_page(const PageShell& shell) {
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

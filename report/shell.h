@@ -11,7 +11,7 @@
 #include "report/html.h"
 #include "report/plain_page.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 /// A file beside report.html; the name is relative to its folder.
 struct PageFile {
@@ -53,4 +53,4 @@ BuiltPage build_page(const PageShell& shell);
 std::string data_file(const DataPart& part);
 std::string_view data_in_file(std::string_view file);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

@@ -15,8 +15,11 @@
 #include "scene/base/threads.h"
 #include "scene/files/write_file.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 namespace {
+
+using compare::Comparison;
+using compare::PictureSet;
 
 struct File {
   std::string name;
@@ -26,8 +29,8 @@ struct File {
 std::vector<File> picture_files(const PictureSet& pictures) {
   std::vector<File> files{{pictures.raster.file_name, pictures.raster.png},
                           {pictures.raytraced.file_name, pictures.raytraced.png}};
-  for (const LightPictures& light : pictures.lights) {
-    for (const EncodedPicture* picture :
+  for (const compare::LightPictures& light : pictures.lights) {
+    for (const compare::EncodedPicture* picture :
          {&light.difference, &light.labels, &light.error, &light.flip, &light.ssim, &light.edges,
           &light.detachment, &light.decisions, &light.depth_map})
       if (!picture->png.empty()) files.push_back({picture->file_name, picture->png});
@@ -38,7 +41,7 @@ std::vector<File> picture_files(const PictureSet& pictures) {
 /// The page last; before it what only the page shows, if it has files beside it, and the table.
 std::vector<File> other_files(const PictureSet& pictures, const BuiltPage& page, std::string_view csv) {
   std::vector<File> files;
-  for (const LightPictures& light : pictures.lights)
+  for (const compare::LightPictures& light : pictures.lights)
     if (!page.files.empty() && light.depth_map_small.file_name != light.depth_map.file_name)
       files.push_back({light.depth_map_small.file_name, light.depth_map_small.png});
   for (const PageFile& file : page.files) files.push_back({file.name, file.bytes});
@@ -73,23 +76,23 @@ struct Texts {
   BuiltPage page;
 };
 
-Texts make_texts(const Comparison& comparison, const BandedParts* parts, const PictureSet& pictures,
+Texts make_texts(const Comparison& comparison, const compare::BandedParts* parts, const PictureSet& pictures,
                  const OutputFolder& output, const Stopwatch& watch) {
   // Bands leave only the images that the page has room for.
-  const int step = parts != nullptr ? 1 : image_step(comparison.raster.options.size);
+  const int step = parts != nullptr ? 1 : compare::image_step(comparison.raster.options.size);
   std::optional<Comparison> reduced;
-  if (output.page && step > 1) reduced = reduced_images(comparison, step);
+  if (output.page && step > 1) reduced = compare::reduced_images(comparison, step);
   PageInput input{reduced ? *reduced : comparison, pictures, {}, {}, output.introduction};
   PageData data;
   if (output.page) data = page_data(input);
   // What the files say about the time of their own making: up to the point where their text is fixed.
   const double report_ms = comparison.report_ms + watch.elapsed_ms();
   const double total_ms = comparison.total_ms + watch.elapsed_ms();
-  Texts out{result_json(comparison, report_ms, total_ms), {}, {}};
-  out.csv = result_csv(out.result);
+  Texts out{compare::result_json(comparison, report_ms, total_ms), {}, {}};
+  out.csv = compare::result_csv(out.result);
   if (!output.page) return out;
   const StageLog* log = StageLog::current();
-  const std::string json = log != nullptr ? with_time_budget(out.result, log->budget()) : out.result;
+  const std::string json = log != nullptr ? compare::with_time_budget(out.result, log->budget()) : out.result;
   input.json = json, input.csv = out.csv;
   out.page = report_page(input, data, output.report_max_mb);
   return out;
@@ -97,7 +100,7 @@ Texts make_texts(const Comparison& comparison, const BandedParts* parts, const P
 
 }  // namespace
 
-Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, BandedParts* parts,
+Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, compare::BandedParts* parts,
                                               OutputFolder output) {
   const Stopwatch watch;
   auto staged = StagedFolder::open(output.folder);
@@ -105,8 +108,8 @@ Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, Band
   const std::string folder = staged->path();
   TimedStage encoding("pictures");
   const Expected<PictureSet> pictures =
-      encode_pictures(comparison, parts != nullptr ? &parts->pictures : nullptr);
-  if (parts != nullptr) parts->pictures = PictureStore({}, 0);
+      compare::encode_pictures(comparison, parts != nullptr ? &parts->pictures : nullptr);
+  if (parts != nullptr) parts->pictures = compare::PictureStore({}, 0);
   encoding.end();
   if (!pictures) return fail(pictures.error());
   // Waiting for the disk, while the page is made.
@@ -151,7 +154,7 @@ Expected<Names> places_of_result(WrittenOutputs& written) {
 
 /// Once the disk has all, writes again how long that took: a reading is as long as another.
 Expected<void> write_and_seal(WrittenOutputs& written, const Names& places) {
-  const auto with_times = [&] { return with_time_budget(written.result); };
+  const auto with_times = [&] { return compare::with_time_budget(written.result); };
   TimedStage writing("write");
   const std::string early = with_times();
   for (const std::string& place : places)
@@ -195,4 +198,4 @@ Expected<WrittenOutputs> write_outputs(const Comparison& comparison, OutputFolde
   return written;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

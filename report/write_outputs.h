@@ -11,12 +11,15 @@
 #include "scene/files/staged_folder.h"
 
 namespace gnomon::compare {
+struct BandedParts;  // compare/measure/measure.h
+}
+
+namespace gnomon::report {
 
 struct PageIntroduction;  // report/page.h
-struct BandedParts;       // compare/measure/measure.h
 
 /// The whole report page: one file, offline, readable without scripts.
-Expected<std::string> report_html(const Comparison& comparison);
+Expected<std::string> report_html(const compare::Comparison& comparison);
 
 inline constexpr double default_report_max_mb = 40.0;  ///< megabytes, of a page that is one file
 
@@ -55,16 +58,16 @@ struct OutputFolder {
 /// Writes report.html, result.json, result.csv and the PNG pictures into a folder, which appears whole
 /// (scene/files/staged_folder.h). The times "report" and "total" in these files are the comparison's own plus
 /// the time spent here until their text is fixed.
-Expected<WrittenOutputs> write_outputs(const Comparison& comparison, OutputFolder output);
+Expected<WrittenOutputs> write_outputs(const compare::Comparison& comparison, OutputFolder output);
 
 /// The first of two steps that write_outputs() is made of: all but result.json. `parts`: of a comparison that was made
 /// in bands; null: of any other.
-Expected<WrittenOutputs> write_all_but_result(const Comparison& comparison, BandedParts* parts,
-                                              OutputFolder output);
+Expected<WrittenOutputs> write_all_but_result(const compare::Comparison& comparison,
+                                              compare::BandedParts* parts, OutputFolder output);
 
 /// The last of two steps (the first: write_all_but_result()), so that the time budget in
 /// result.json holds what the other files took and whatever is done in between. Where no StageLog runs it has none. The
 /// folder is in its place afterwards, and what appears with it in its own.
 Expected<void> write_result(WrittenOutputs& written);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

@@ -28,7 +28,7 @@ std::string scenes_json() {
     scenes.push_back({{"name", scene.name}, {"description", scene.description}});
   }
   nlohmann::ordered_json lessons = nlohmann::ordered_json::array();
-  for (const compare::Lesson& lesson : compare::all_lessons())
+  for (const report::Lesson& lesson : report::all_lessons())
     lessons.push_back({{"name", lesson.name}, {"title", lesson.title}, {"command", lesson.command}});
   return nlohmann::ordered_json{{"scenes", scenes}, {"lessons", lessons}}.dump(2) + "\n";
 }
@@ -40,7 +40,7 @@ std::string scenes_table() {
     text += fmt::format("{:<{}}{}", scene.name, name_column, description.substr(name_column));
   }
   text += "\nLessons, in docs/lessons; the name of one stands for the scene and settings of its command:\n";
-  for (const compare::Lesson& lesson : compare::all_lessons())
+  for (const report::Lesson& lesson : report::all_lessons())
     text += fmt::format("{:<{}}{}\n{:{}}{}\n", lesson.name, name_column, lesson.title, "", name_column,
                         lesson.command);
   return text;

@@ -55,7 +55,7 @@ std::string scene_names() {
   std::string names;
   for (const BuiltinScene& scene : builtin_scenes())
     names += (names.empty() ? "" : " ") + std::string(scene.name);
-  for (const compare::Lesson& lesson : compare::all_lessons()) names += " " + std::string(lesson.name);
+  for (const report::Lesson& lesson : report::all_lessons()) names += " " + std::string(lesson.name);
   return names;
 }
 

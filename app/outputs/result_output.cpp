@@ -34,7 +34,7 @@ Expected<void> check_aov(const ResultOutput& output, const compare::Comparison& 
 
 /// The channels, where they wait for the folder.
 Expected<void> write_aov(const ResultOutput& output, const compare::Comparison& comparison,
-                         compare::WrittenOutputs& written, compare::BandedParts* parts) {
+                         report::WrittenOutputs& written, compare::BandedParts* parts) {
   if (output.aov.empty()) return {};
   const TimedStage stage("write");
   std::vector<std::string> places;
@@ -50,15 +50,15 @@ Expected<void> write_aov(const ResultOutput& output, const compare::Comparison& 
 }
 
 /// All but result.json.
-Expected<compare::WrittenOutputs> write_all(const ResultOutput& output, const compare::Comparison& comparison,
-                                            const RunFiles& files, Console& console,
-                                            compare::BandedParts* parts) {
+Expected<report::WrittenOutputs> write_all(const ResultOutput& output, const compare::Comparison& comparison,
+                                           const RunFiles& files, Console& console,
+                                           compare::BandedParts* parts) {
   if (const auto apart = check_aov(output, comparison, files); !apart) return fail(apart.error());
-  auto written = compare::write_all_but_result(comparison, parts,
-                                               {.folder = output.folder,
-                                                .report_max_mb = output.report_max_mb,
-                                                .page = !output.no_report,
-                                                .inputs = files.inputs()});
+  auto written = report::write_all_but_result(comparison, parts,
+                                              {.folder = output.folder,
+                                               .report_max_mb = output.report_max_mb,
+                                               .page = !output.no_report,
+                                               .inputs = files.inputs()});
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, output.report_max_mb));
   if (output.json != "-") written->result_copy = output.json;
@@ -128,7 +128,7 @@ Expected<void> check_outputs(const ResultOutput& output, RunFiles& files) {
     if (const auto known = check_extension("--aov", output.aov, ".exr"); !known) return known;
   files.writes("--aov", output.aov);
   files.writes("--json", output.json);
-  files.writes_folder("-o", output.folder, compare::page_file_names);
+  files.writes_folder("-o", output.folder, report::page_file_names);
   return files.check();
 }
 
@@ -160,7 +160,7 @@ Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison&
                                        : compare::summary_in_short(comparison, place, colour);
   const ExitCode code = judge_lights(output, comparison, console);
   give_back(comparison, loaded);
-  if (const auto result = compare::write_result(*written); !result) return fail(result.error());
+  if (const auto result = report::write_result(*written); !result) return fail(result.error());
   if (output.json == "-") print_data(written->result);
   whole_outputs.reset();
   if (const StageLog* log = StageLog::current(); log != nullptr && output.verbose)

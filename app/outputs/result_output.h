@@ -19,7 +19,7 @@ struct ResultOutput {
   std::string shown_folder{};  ///< what messages call the folder; empty: by its path
   const compare::Figure* measure = &compare::wrong_and_mean();  ///< what errors are counted in
   std::optional<compare::Threshold> fail_above;
-  double report_max_mb = compare::default_report_max_mb;
+  double report_max_mb = report::default_report_max_mb;
   bool no_report = false;  ///< no page; all other files as ever
   bool quiet = false, verbose = false;
 };

@@ -124,14 +124,14 @@ Expected<ExitCode> run_build(const BenchCommand& command) {
 }
 
 /// Every family that the scene's lights have a map for, of the techniques named.
-Expected<std::vector<compare::TuneFamily>> families_of(const BenchCommand& command, const Scene& scene) {
+Expected<std::vector<studies::TuneFamily>> families_of(const BenchCommand& command, const Scene& scene) {
   std::vector<std::uint32_t> lights;
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) lights.push_back(i);
   const auto all = make_families({});
   if (!all) return fail(all.error());
   const auto fitting = fitting_families(*all, scene, lights);
   if (!fitting) return fail(fitting.error());
-  std::vector<compare::TuneFamily> families;
+  std::vector<studies::TuneFamily> families;
   const std::vector<std::string>& named = command.tuned_techniques;
   for (const OptionFamily& family : *fitting)
     if (named.empty() || std::find(named.begin(), named.end(),
@@ -140,7 +140,7 @@ Expected<std::vector<compare::TuneFamily>> families_of(const BenchCommand& comma
   return families;
 }
 
-Expected<compare::GridCheck> check_tuning(const BenchCommand& command, int runs, const LoadedScene& loaded,
+Expected<studies::GridCheck> check_tuning(const BenchCommand& command, int runs, const LoadedScene& loaded,
                                           Console& console) {
   const auto renderer = make_renderer(raster::Backend::automatic, loaded, console);
   if (!renderer) return fail(renderer.error());

@@ -23,7 +23,7 @@ Expected<void> make_capture(std::string& path, const std::string& light, const s
   auto staged = StagedFolder::open(folder);
   if (!staged) return fail(staged.error());
   console.progress("replaying the frame", 0.0);
-  const auto found = compare::capture_recorded_frame(path, staged->path(), light);
+  const auto found = judge::capture_recorded_frame(path, staged->path(), light);
   if (!found) return fail(found.error());
   if (const auto sealed = staged->seal(std::vector{path}); !sealed) return sealed;
   if (const auto published = staged->publish("capture.json"); !published) return published;
@@ -47,30 +47,30 @@ std::string file_name_of(std::string light) {
 
 }  // namespace
 
-Expected<std::vector<compare::Capture>> lights_of(const CaptureOptions& options, const std::string& path) {
-  std::vector<compare::Capture> lights(1);
+Expected<std::vector<judge::Capture>> lights_of(const CaptureOptions& options, const std::string& path) {
+  std::vector<judge::Capture> lights(1);
   CaptureOptions parts = options;
   if (!path.empty()) {
-    auto read = compare::read_captures(path);
+    auto read = judge::read_captures(path);
     if (!read) return fail(read.error());
     lights = std::move(*read);
   }
   if (!lights.front().within.empty() && !parts.given.light.empty()) {
-    auto chosen = compare::read_capture(path, parts.given.light);
+    auto chosen = judge::read_capture(path, parts.given.light);
     if (!chosen) return fail(chosen.error());
     lights = {std::move(*chosen)}, parts.given.light.clear();
   }
-  for (compare::Capture& light : lights) {
+  for (judge::Capture& light : lights) {
     auto whole = with_options(std::move(light), parts);
     if (!whole) return fail(whole.error());
     light = std::move(*whole);
-    if (const auto sound = compare::check_capture(light); !sound)
+    if (const auto sound = judge::check_capture(light); !sound)
       return fail(light.path.empty() ? usage_error(sound.error(), parts) : sound.error());
   }
   return lights;
 }
 
-RunFiles inputs_of(const compare::Capture& capture) {
+RunFiles inputs_of(const judge::Capture& capture) {
   RunFiles files;
   files.reads(capture.path);
   files.reads(SceneArgument{capture.scene});
@@ -78,7 +78,7 @@ RunFiles inputs_of(const compare::Capture& capture) {
        {&capture.visibility, &capture.shadowed, &capture.unshadowed, &capture.also, &capture.position})
     files.reads(*picture);
   if (capture.depth) files.reads(capture.depth->file);
-  for (const compare::CapturedLayer& layer : capture.map) files.reads(layer.depth);
+  for (const judge::CapturedLayer& layer : capture.map) files.reads(layer.depth);
   return files;
 }
 
@@ -92,12 +92,12 @@ std::string name_of(const std::string& path) {
 
 Expected<void> make_captures(std::vector<std::string>& captures, bool alone, CaptureOptions& options,
                              std::string& folder, Console& console) {
-  if (std::ranges::none_of(captures, compare::is_recorded_frame)) return {};
+  if (std::ranges::none_of(captures, judge::is_recorded_frame)) return {};
   const std::string light = std::exchange(options.given.light, "");
   const bool single = captures.size() == 1 && alone;
   if (folder.empty()) folder = single ? "out/" + name_of(captures.front()) : "out/judge";
   for (std::string& path : captures) {
-    if (!compare::is_recorded_frame(path)) continue;
+    if (!judge::is_recorded_frame(path)) continue;
     const std::string place = single ? folder + "-capture" : folder + "-captures/" + name_of(path);
     if (const auto made = make_capture(path, light, place, console); !made) return made;
   }
@@ -113,7 +113,7 @@ std::vector<NamedCapture> all_lights(const std::vector<std::string>& captures,
     auto lights = lights_of(options, path);
     if (!lights) out.push_back({unused_name(base, taken), fail(lights.error())});
     if (!lights) continue;
-    for (compare::Capture& light : *lights) {
+    for (judge::Capture& light : *lights) {
       const bool alone = lights->size() == 1;
       const std::string name = alone ? base : base + "-" + file_name_of(light.light);
       out.push_back({unused_name(name, taken), std::move(light)});

@@ -13,18 +13,18 @@ namespace gnomon::app {
 /// One of several: a light of a capture, or why the capture cannot be read.
 struct NamedCapture {
   std::string name;  ///< no two have one name
-  Expected<compare::Capture> capture;
+  Expected<judge::Capture> capture;
 };
 
 /// A capture's lights, each with the options' parts in place of its own; of several the options' light chooses one. Without a
 /// path the options alone say it. Errors (bad input, usage) name the field or the option.
-Expected<std::vector<compare::Capture>> lights_of(const CaptureOptions& options, const std::string& path);
+Expected<std::vector<judge::Capture>> lights_of(const CaptureOptions& options, const std::string& path);
 
 /// The lights of all captures; those of a capture of several are called by it and the light.
 std::vector<NamedCapture> all_lights(const std::vector<std::string>& captures, const CaptureOptions& options);
 
 /// The files that a capture names, its own among them.
-RunFiles inputs_of(const compare::Capture& capture);
+RunFiles inputs_of(const judge::Capture& capture);
 
 /// "wall" of wall/capture.json, "wall" of wall.json.
 std::string name_of(const std::string& path);

@@ -27,7 +27,7 @@ namespace {
 struct JudgeCommand : RunOptions {
   std::vector<std::string> captures;
   CaptureOptions parts;
-  compare::JudgeOptions options;
+  judge::JudgeOptions options;
   ResultOutput output;
   bool identify = false;
   std::string suite;
@@ -47,13 +47,13 @@ Expected<void> identify_map(const JudgeCommand& command, JudgedScene& judged, Co
   }
   auto renderer = make_renderer(command.backend, judged.loaded, console);
   if (!renderer) return fail(renderer.error());
-  return compare::identify(
+  return judge::identify(
       judged.comparison, **renderer,
       {command.options.accel, command.options.precision, command.options.bias_curve_points},
       [&](std::string_view stage, double done) { console.progress(stage, done); });
 }
 
-Expected<JudgedScene> judge_one(const JudgeCommand& command, const compare::Capture& capture, RunFiles& files,
+Expected<JudgedScene> judge_one(const JudgeCommand& command, const judge::Capture& capture, RunFiles& files,
                                 Console& console) {
   JudgedScene out;
   auto loaded = load({capture.scene}, files, console, 0, capture.camera);
@@ -61,8 +61,8 @@ Expected<JudgedScene> judge_one(const JudgeCommand& command, const compare::Capt
   out.loaded = std::move(*loaded);
   if (command.exposure) out.loaded.scene->exposure = *command.exposure;
   auto comparison =
-      compare::judge_capture(capture, *out.loaded.scene, *out.loaded.world, command.options,
-                             [&](std::string_view stage, double done) { console.progress(stage, done); });
+      judge::judge_capture(capture, *out.loaded.scene, *out.loaded.world, command.options,
+                           [&](std::string_view stage, double done) { console.progress(stage, done); });
   if (!comparison)
     return fail(capture.path.empty() ? named_by_option(comparison.error(), command.parts)
                                      : comparison.error());
@@ -84,15 +84,15 @@ Expected<JudgedScene> judge_one(const JudgeCommand& command, const compare::Capt
 }
 
 Expected<ExitCode> list_lights(const JudgeCommand& command) {
-  if (command.captures.size() != 1 || !compare::is_recorded_frame(command.captures.front()))
+  if (command.captures.size() != 1 || !judge::is_recorded_frame(command.captures.front()))
     return fail(ErrorKind::usage, "--list: needs one frame that RenderDoc recorded (.rdc)");
-  const auto lights = compare::recorded_lights(command.captures.front());
+  const auto lights = judge::recorded_lights(command.captures.front());
   if (!lights) return fail(lights.error());
   for (const std::string& light : *lights) print_data(light + "\n");
   return ExitCode::done;
 }
 
-Expected<ExitCode> judge_single(JudgeCommand& command, const compare::Capture& capture, Console& console) {
+Expected<ExitCode> judge_single(JudgeCommand& command, const judge::Capture& capture, Console& console) {
   const Stopwatch total;
   if (command.output.folder.empty() && !only_prints_json(command.output))
     command.output.folder =
@@ -131,7 +131,7 @@ Expected<void> check_folders(const JudgeCommand& command, const std::vector<Name
 /// What several captures become: pages in the making, and files that these must not replace.
 struct SetInTheMaking {
   StagedFolder staged;
-  compare::JudgedSet set{};
+  judge::JudgedSet set{};
   std::vector<std::string> inputs{};
 };
 
@@ -152,7 +152,7 @@ Expected<ExitCode> judge_next(JudgeCommand& command, const NamedCapture& named, 
 
 Expected<void> publish_set(SetInTheMaking& making) {
   const OutputGuard whole_outputs;
-  if (auto written = compare::write_judged_set(making.set, making.staged.path()); !written) return written;
+  if (auto written = judge::write_judged_set(making.set, making.staged.path()); !written) return written;
   if (auto sealed = making.staged.seal(making.inputs); !sealed) return sealed;
   return making.staged.publish("report.html");
 }
@@ -191,7 +191,7 @@ Expected<ExitCode> judge_several(JudgeCommand& command, const std::vector<NamedC
     making->set.add_refused(named.name, refused->message());
   }
   if (const auto published = publish_set(*making); !published) return fail(published.error());
-  if (!command.output.quiet) print_data(compare::judged_table(making->set));
+  if (!command.output.quiet) print_data(judge::judged_table(making->set));
   console.message("report: " + command.output.folder + "/report.html");
   if (refused) return fail(*refused);
   return code;

@@ -8,7 +8,7 @@
 namespace gnomon::app {
 namespace {
 
-using compare::Capture;
+using judge::Capture;
 
 void add_text(CLI::App& app, const char* name, const char* type, const char* text, CaptureOptions& options,
               std::string& field) {
@@ -62,11 +62,11 @@ void add_lists(CLI::App& app, CaptureOptions& options) {
 
 void add_map_parts(CLI::App& app, CaptureOptions& o) {
   add_lists(app, o);
-  add_named<compare::StoredDepth>(app, "--map-convention", "what the map's texels hold",
-                                  compare::names_of(compare::stored_conventions), o,
-                                  [&o](auto v) { o.map_convention = v; });
-  add_named<compare::RowOrder>(app, "--map-rows", "which row of the map comes first",
-                               compare::row_order_names, o, [&o](auto v) { o.map_rows = v; });
+  add_named<judge::StoredDepth>(app, "--map-convention", "what the map's texels hold",
+                                judge::names_of(judge::stored_conventions), o,
+                                [&o](auto v) { o.map_convention = v; });
+  add_named<judge::RowOrder>(app, "--map-rows", "which row of the map comes first", judge::row_order_names, o,
+                             [&o](auto v) { o.map_rows = v; });
   add_real(app, "--map-bias", raster::bias_range, "stored depth",
            "constant bias of the test; positive takes shadow away", o,
            [&o](double v) { o.bias_constant = v; });
@@ -84,14 +84,14 @@ void add_map_parts(CLI::App& app, CaptureOptions& o) {
            "factor of the casters' polygon offset", o, [&o](double v) { o.caster_slope = v; });
   add_real(app, "--map-caster-bias-clamp", raster::bias_range, "stored depth",
            "the most that constant and slope add; 0 is no limit", o, [&o](double v) { o.caster_clamp = v; });
-  add_named<compare::FilterName>(app, "--map-filter", "what the renderer averages", compare::filter_names, o,
-                                 [&o](auto v) { o.filter_kind = v; });
+  add_named<judge::FilterName>(app, "--map-filter", "what the renderer averages", judge::filter_names, o,
+                               [&o](auto v) { o.filter_kind = v; });
   add_real(app, "--map-filter-radius", {0.0, 64.0, true}, "texels", "how far the filter reads", o,
            [&o](double v) { o.filter_radius = v; });
 }
 
 void add_depth_parts(CLI::App& app, CaptureOptions& o) {
-  const auto depth = [&o]() -> compare::CapturedDepth& {
+  const auto depth = [&o]() -> judge::CapturedDepth& {
     if (!o.given.depth) o.given.depth.emplace();
     return *o.given.depth;
   };
@@ -100,8 +100,8 @@ void add_depth_parts(CLI::App& app, CaptureOptions& o) {
               depth().file = value, o.any = true;
               return {};
             });
-  add_named<compare::PixelDepth>(app, "--depth-convention", "what it holds", compare::pixel_depth_names, o,
-                                 [depth](auto v) { depth().convention = v; });
+  add_named<judge::PixelDepth>(app, "--depth-convention", "what it holds", judge::pixel_depth_names, o,
+                               [depth](auto v) { depth().convention = v; });
   add_real(app, "--depth-near", {0.0, 1e30}, "world units", "of zero_to_one and reversed", o,
            [depth](double v) { depth().near = v; });
   add_real(app, "--depth-far", {0.0, 1e30}, "world units", "of zero_to_one and reversed", o,
@@ -126,8 +126,8 @@ Expected<Mat4> parse_matrix(const std::string& text) {
   return matrix;
 }
 
-void set_caster_bias(compare::CapturedLayer& layer, const CaptureOptions& o) {
-  using Bias = compare::CapturedCasterBias;
+void set_caster_bias(judge::CapturedLayer& layer, const CaptureOptions& o) {
+  using Bias = judge::CapturedCasterBias;
   for (const auto& [given, field] :
        {std::pair(o.caster_constant, &Bias::constant),
         std::pair(o.caster_constant_world, &Bias::constant_world), std::pair(o.caster_slope, &Bias::slope),
@@ -152,7 +152,7 @@ Expected<void> set_map(Capture& capture, const CaptureOptions& o) {
     if (!matrix) return fail(matrix.error());
     capture.map[i].clip_from_world = *matrix;
   }
-  for (compare::CapturedLayer& layer : capture.map) {
+  for (judge::CapturedLayer& layer : capture.map) {
     if (o.map_convention) layer.convention = o.map_convention;
     if (o.map_rows) layer.rows = o.map_rows;
     set_caster_bias(layer, o);
@@ -219,8 +219,8 @@ void add_capture_options(CLI::App& app, CaptureOptions& o) {
   Capture& c = o.given;
   add_text(app, "--renderer", "NAME", "who drew it [default the capture's]", o, c.renderer);
   add_text(app, "--renderer-version", "TEXT", "its version [default the capture's]", o, c.version);
-  add_named<compare::RendererKind>(app, "--renderer-kind", "how it makes shadows",
-                                   compare::renderer_kind_names, o, [&c](auto v) { c.kind = v; });
+  add_named<judge::RendererKind>(app, "--renderer-kind", "how it makes shadows", judge::renderer_kind_names,
+                                 o, [&c](auto v) { c.kind = v; });
   add_text(app, "--scene", "SCENE", "what it loaded [default the capture's]", o, c.scene);
   add_text(app, "--camera", "NAME", "name or number, from 0 [default the capture's]", o, c.camera);
   add_text(
@@ -261,22 +261,22 @@ Expected<Capture> with_options(Capture capture, const CaptureOptions& o) {
   if (given.kind) capture.kind = given.kind;
   if (const auto set = set_settings(capture, o.settings); !set) return fail(set.error());
   if (given.depth) {
-    compare::CapturedDepth& depth = capture.depth ? *capture.depth : capture.depth.emplace();
+    judge::CapturedDepth& depth = capture.depth ? *capture.depth : capture.depth.emplace();
     if (!given.depth->file.empty()) depth.file = given.depth->file;
     if (given.depth->convention) depth.convention = given.depth->convention;
     if (given.depth->near) depth.near = given.depth->near;
     if (given.depth->far) depth.far = given.depth->far;
   }
   if (o.bias_constant || o.bias_slope || o.bias_normal_offset) {
-    compare::CapturedBias& bias = capture.bias ? *capture.bias : capture.bias.emplace();
+    judge::CapturedBias& bias = capture.bias ? *capture.bias : capture.bias.emplace();
     bias.constant_depth = o.bias_constant.value_or(bias.constant_depth);
     bias.slope = o.bias_slope.value_or(bias.slope);
     bias.normal_offset_world = o.bias_normal_offset.value_or(bias.normal_offset_world);
   }
   if (o.filter_kind || o.filter_radius) {
-    compare::CapturedFilter& filter = capture.filter ? *capture.filter : capture.filter.emplace();
+    judge::CapturedFilter& filter = capture.filter ? *capture.filter : capture.filter.emplace();
     filter.kind = o.filter_kind.value_or(filter.kind);
-    if (o.filter_radius && filter.kind == compare::FilterName::none)
+    if (o.filter_radius && filter.kind == judge::FilterName::none)
       return fail(ErrorKind::usage, "--map-filter-radius: is of filters: --map-filter none reads one texel");
     filter.radius_texels = o.filter_radius.value_or(filter.radius_texels);
   }

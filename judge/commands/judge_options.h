@@ -11,14 +11,14 @@ namespace gnomon::app {
 
 /// Parts given on the command line; they take the place of the file's.
 struct CaptureOptions {
-  compare::Capture given;
+  judge::Capture given;
   std::vector<std::string> map_files, map_matrices, settings;
-  std::optional<compare::StoredDepth> map_convention;
-  std::optional<compare::RowOrder> map_rows;
-  std::optional<double> bias_constant, bias_slope, bias_normal_offset;  ///< as compare::CapturedBias
-  /// These mean what compare::CapturedCasterBias says, and hold for all layers.
+  std::optional<judge::StoredDepth> map_convention;
+  std::optional<judge::RowOrder> map_rows;
+  std::optional<double> bias_constant, bias_slope, bias_normal_offset;  ///< as judge::CapturedBias
+  /// These mean what judge::CapturedCasterBias says, and hold for all layers.
   std::optional<double> caster_constant, caster_constant_world, caster_slope, caster_clamp;
-  std::optional<compare::FilterName> filter_kind;
+  std::optional<judge::FilterName> filter_kind;
   std::optional<double> filter_radius;  ///< texels
   bool any = false;
 };
@@ -34,6 +34,6 @@ Error usage_error(Error error, const CaptureOptions& options);
 /// The capture with the options' parts in place of its own: a part alone, such as one of the bias' numbers, leaves the
 /// others as they are; a picture of another kind (visibility for a ratio, positions for depths) replaces that. Error (usage) where matrices and layers do not go
 /// together.
-Expected<compare::Capture> with_options(compare::Capture capture, const CaptureOptions& options);
+Expected<judge::Capture> with_options(judge::Capture capture, const CaptureOptions& options);
 
 }  // namespace gnomon::app

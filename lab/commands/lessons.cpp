@@ -28,11 +28,11 @@ struct LessonsCommand {
   bool quiet = false;
 };
 
-Expected<void> write_pages(const std::vector<lessons::SitePage>& pages, const std::string& folder) {
+Expected<void> write_pages(const std::vector<lab::lessons::SitePage>& pages, const std::string& folder) {
   const OutputGuard whole_outputs;
   auto staged = StagedFolder::open(folder);
   if (!staged) return fail(staged.error());
-  for (const lessons::SitePage& page : pages)
+  for (const lab::lessons::SitePage& page : pages)
     if (const auto written = write_file(staged->path() + "/" + page.file, page.html); !written)
       return written;
   if (const auto sealed = staged->seal({}); !sealed) return sealed;
@@ -40,11 +40,11 @@ Expected<void> write_pages(const std::vector<lessons::SitePage>& pages, const st
 }
 
 /// The last one is that to open.
-Expected<std::vector<lessons::SitePage>> make_pages(const LessonsCommand& command, Console& console) {
-  if (command.lecture.empty()) return lessons::make_site(command.only, console);
-  auto page = lessons::make_lecture(command.lecture, console);
+Expected<std::vector<lab::lessons::SitePage>> make_pages(const LessonsCommand& command, Console& console) {
+  if (command.lecture.empty()) return lab::lessons::make_site(command.only, console);
+  auto page = lab::lessons::make_lecture(command.lecture, console);
   if (!page) return fail(page.error());
-  std::vector<lessons::SitePage> pages;
+  std::vector<lab::lessons::SitePage> pages;
   pages.push_back(std::move(*page));
   return pages;
 }
@@ -66,7 +66,7 @@ Expected<ExitCode> run_lessons(const LessonsCommand& command) {
   if (const auto written = write_pages(*pages, folder); !written) return fail(written.error());
   console.clear_progress();
   double bytes = 0.0;
-  for (const lessons::SitePage& page : *pages) bytes += static_cast<double>(page.html.size());
+  for (const lab::lessons::SitePage& page : *pages) bytes += static_cast<double>(page.html.size());
   console.message(fmt::format("{}: {}/{} ({} page{}, {:.1f} MB, {:.1f} s)",
                               is_lecture ? "lecture" : "lessons", folder, first, pages->size(),
                               pages->size() == 1 ? "" : "s", bytes / 1e6, total.elapsed_ms() / 1000.0));
@@ -93,7 +93,7 @@ GNOMON_COMMAND(lessons, 160,
           ->type_name("NAMES");
   app->add_option(
          "--lecture", command->lecture,
-         fmt::format("in place of the site a lecture: {}", fmt::join(lessons::lecture_names(), ", ")))
+         fmt::format("in place of the site a lecture: {}", fmt::join(lab::lessons::lecture_names(), ", ")))
       ->excludes(only)
       ->type_name("NAME");
   add_quiet(*app, command->quiet);

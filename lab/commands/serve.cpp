@@ -17,12 +17,12 @@ GNOMON_COMMAND(serve, 180,
   app->footer(
       "gnomon serve fence                     open the address that it prints\n"
       "ssh -L 8484:localhost:8484 HOST gnomon serve model.glb --port 8484");
-  const auto options = std::make_shared<ServeOptions>();
+  const auto options = std::make_shared<lab::ServeOptions>();
   options->compare.raster.size = {960, 540};
   add_scene(*app, options->scene);
   add_camera(*app, options->camera);
   add_size(*app, options->compare.raster.size);
-  add_lab_setting(*app, *options);
+  lab::add_lab_setting(*app, *options);
   add_integer(*app, "--port", options->place.port, 0, 65535, "0 is any that is free", "port to listen at");
   app->add_option("--listen", options->place.address,
                   "address to listen at; another than the default lets others on the network try to reach it "
@@ -37,7 +37,7 @@ GNOMON_COMMAND(serve, 180,
   add_quiet(*app, options->quiet);
   app->callback([options, &invocation, app] {
     invocation.finish = [options, app] { finish_map_options(*app, options->compare.raster.map); };
-    invocation.action = [options] { return run_serve(*options); };
+    invocation.action = [options] { return lab::run_serve(*options); };
   });
 }
 

@@ -31,7 +31,7 @@ namespace gnomon::app {
 
 namespace {
 
-using lessons::SitePage;
+using lab::lessons::SitePage;
 
 struct SiteCommand {
   std::string folder = "out/site", web = GNOMON_WEB_PROGRAM;
@@ -57,13 +57,13 @@ Expected<std::string> gallery(Console& console) {
   std::string cards;
   for (const BuiltinScene& scene : builtin_scenes()) {
     if (scene.large) continue;
-    const auto picture = lessons::labels_png(std::string(scene.name), console);
+    const auto picture = lab::lessons::labels_png(std::string(scene.name), console);
     if (!picture) return fail(picture.error());
     cards += fmt::format(
         "<li><a href=\"lab.html#scene={0}\"><span class=\"card-picture\"><img src=\"{1}\" "
         "alt=\"\"></span><b>{0}</b> "
         "<span>{2}</span></a></li>\n",
-        scene.name, compare::data_uri("image/png", *picture), compare::escaped(scene.description));
+        scene.name, report::data_uri("image/png", *picture), report::escaped(scene.description));
   }
   return cards;
 }
@@ -95,7 +95,7 @@ is drawn and compared in this page, on your own machine.</li>
 {}</ul>
 )",
       decks, *cards);
-  return SitePage{"index.html", lessons::page_of_text("Gnomon", "", main)};
+  return SitePage{"index.html", lab::lessons::page_of_text("Gnomon", "", main)};
 }
 
 /// All of them, or none.
@@ -117,8 +117,8 @@ void add_below(const std::string& folder, std::vector<SitePage> pages, std::vect
 }
 
 /// The chapters that gnomon makes of all programs' commands.
-Expected<std::vector<lessons::ManualChapter>> printed_chapters() {
-  std::vector<lessons::ManualChapter> chapters;
+Expected<std::vector<lab::lessons::ManualChapter>> printed_chapters() {
+  std::vector<lab::lessons::ManualChapter> chapters;
   for (const std::string_view name : written_chapters) {
     auto printed = run_and_listen({program_beside("gnomon"), "--manual", std::string(name)});
     if (!printed) return fail(printed.error());
@@ -137,21 +137,21 @@ Expected<ExitCode> run_site(const SiteCommand& command) {
   if (const auto fine = paths.check(); !fine) return fail(fine.error());
   auto files = engine_files(command.web);
   if (!files) return fail(files.error());
-  auto lesson_pages = lessons::make_site({}, console, "../lab.html");
+  auto lesson_pages = lab::lessons::make_site({}, console, "../lab.html");
   if (!lesson_pages) return fail(lesson_pages.error());
   const auto chapters = printed_chapters();
   if (!chapters) return fail(chapters.error());
-  auto manual = lessons::manual_pages(*chapters);
+  auto manual = lab::lessons::manual_pages(*chapters);
   if (!manual) return fail(manual.error());
-  LabOptions lab;
+  lab::LabOptions lab;
   lab.scene = lab.scene.named("acne-floor");
   lab.compare.raster.size = {640, 360};
-  files->push_back({"lab.html", lab_page(lab, true)});
+  files->push_back({"lab.html", lab::lab_page(lab, true)});
   for (const embedded::Entry& script : embedded::page_scripts_entries())
     files->push_back({std::string(script.name), std::string(script.bytes)});
   std::vector<SitePage> lectures;
-  for (const std::string_view name : lessons::lecture_names()) {
-    auto lecture = lessons::make_lecture(name, console);
+  for (const std::string_view name : lab::lessons::lecture_names()) {
+    auto lecture = lab::lessons::make_lecture(name, console);
     if (!lecture) return fail(lecture.error());
     lectures.push_back(std::move(*lecture));
   }

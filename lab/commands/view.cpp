@@ -23,11 +23,12 @@ constexpr const char* script_help =
     "click X Y, point X Y, drop FILE, key NAME, wait N (frames), wait done (until the comparison is shown), "
     "screenshot FILE.png, save-scene FILE.json, print, quit; # starts a comment; docs/lab.md explains every "
     "step and key [default off]";
-constexpr std::pair<std::string_view, Theme> themes[] = {{"dark", Theme::dark}, {"light", Theme::light}};
+constexpr std::pair<std::string_view, lab::Theme> themes[] = {{"dark", lab::Theme::dark},
+                                                              {"light", lab::Theme::light}};
 
-void add_look(CLI::App& app, ViewOptions& options) {
+void add_look(CLI::App& app, lab::ViewOptions& options) {
   add_choice(app, "--theme", options.theme, themes, "NAME", "colours of the panels");
-  add_number(app, "--ui-scale", options.ui_scale, {least_ui_scale, most_ui_scale},
+  add_number(app, "--ui-scale", options.ui_scale, {lab::least_ui_scale, lab::most_ui_scale},
              "times the display's own scale", "size of text and panels");
   app.add_flag("--large-type", options.large_type, "half as large again, for projectors [default off]");
   app.add_flag("--no-panels", options.no_panels,
@@ -51,12 +52,12 @@ GNOMON_COMMAND(view, 190,
       "gnomon view fence                      F1 shows the keys\n"
       "gnomon view model.glb --size 1600x900 --bias 0.5texel\n"
       "gnomon view floating-box --script tour.txt");
-  const auto options = std::make_shared<ViewOptions>();
+  const auto options = std::make_shared<lab::ViewOptions>();
   add_scene(*app, options->scene);
   add_scene_time(*app, options->scene);
   add_camera(*app, options->camera);
   add_window_size(*app, options->compare.raster.size);
-  add_lab_setting(*app, *options);
+  lab::add_lab_setting(*app, *options);
   add_look(*app, *options);
   app->add_option("--script", options->script, script_help)->type_name("FILE");
   add_backend(*app, options->backend);
@@ -64,7 +65,7 @@ GNOMON_COMMAND(view, 190,
   add_quiet(*app, options->quiet);
   app->callback([options, &invocation, app] {
     invocation.finish = [options, app] { finish_map_options(*app, options->compare.raster.map); };
-    invocation.action = [options] { return run_view(*options); };
+    invocation.action = [options] { return lab::run_view(*options); };
   });
 }
 

@@ -17,9 +17,11 @@
 #include "report/pixels/page_data.h"
 #include "scene/files/pictures/image_io.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 namespace {
+
+using app::Console;
 
 using Json = nlohmann::ordered_json;
 
@@ -27,24 +29,24 @@ constexpr ImageSize picture_size{480, 270};  // pixels: one for all, as the page
 constexpr ImageSize card_size{320, 180};     // of a picture alone
 
 struct Words {
-  SceneArgument scene;
-  SettingOptions setting;
+  app::SceneArgument scene;
+  app::SettingOptions setting;
 };
 
 /// Reads the settings as the command line of `gnomon compare` does, a lesson's and a scene's own among them.
 Expected<void> read_settings(const std::string& scene, const Settings& settings, ImageSize size,
                              Words& words) {
   CLI::App app("", "compare");
-  add_scene(app, words.scene);
-  add_setting_options(app, words.setting);
+  app::add_scene(app, words.scene);
+  app::add_setting_options(app, words.setting);
   std::vector<std::string> line{scene};
   for (const auto& [key, value] : settings) line.push_back(fmt::format("--{}={}", key, value));
   std::reverse(line.begin(), line.end());  // CLI11 takes the last one first
   try {
     app.parse(std::move(line));
-    add_lesson_settings(app);
-    if (const auto added = add_scene_settings(app); !added) return fail(added.error());
-    finish_map_options(app, words.setting.options.raster.map);
+    app::add_lesson_settings(app);
+    if (const auto added = app::add_scene_settings(app); !added) return fail(added.error());
+    app::finish_map_options(app, words.setting.options.raster.map);
   } catch (const CLI::ParseError& error) {
     return fail(ErrorKind::internal, fmt::format("a live figure of {}: {}", scene, error.what()));
   }
@@ -55,17 +57,17 @@ Expected<void> read_settings(const std::string& scene, const Settings& settings,
   return {};
 }
 
-Expected<compare::Comparison> compared(const Words& words, const LoadedScene& loaded, Console& console) {
-  const auto lights = choose_lights(*loaded.scene, words.setting.light);
+Expected<compare::Comparison> compared(const Words& words, const app::LoadedScene& loaded, Console& console) {
+  const auto lights = app::choose_lights(*loaded.scene, words.setting.light);
   if (!lights) return fail(lights.error());
-  auto renderer = make_renderer(raster::Backend::automatic, loaded, console);
+  auto renderer = app::make_renderer(raster::Backend::automatic, loaded, console);
   if (!renderer) return fail(renderer.error());
   const std::vector<std::uint32_t> first{lights->front()};
   return compare::compare_world(*loaded.world, **renderer, first, words.setting.options);
 }
 
 struct Compared {
-  LoadedScene loaded;  ///< which the comparison points to
+  app::LoadedScene loaded;  ///< which the comparison points to
   compare::Comparison comparison;
   raster::MapOptions asked;
 };
@@ -74,10 +76,10 @@ Expected<Compared> load_and_compare(const std::string& scene, const Settings& se
                                     Console& console) {
   Words words;
   if (const auto read = read_settings(scene, settings, size, words); !read) return fail(read.error());
-  RunFiles files;
-  auto loaded = load(words.scene, files, console);
+  app::RunFiles files;
+  auto loaded = app::load(words.scene, files, console);
   if (!loaded) return fail(loaded.error());
-  const auto posed = apply_poses(words.setting.poses, words.setting.light, *loaded);
+  const auto posed = app::apply_poses(words.setting.poses, words.setting.light, *loaded);
   if (!posed) return fail(posed.error());
   auto comparison = compared(words, *loaded, console);
   if (!comparison) return fail(comparison.error());
@@ -112,7 +114,7 @@ Expected<SmallComparison> compare_small(const std::string& scene, const Settings
   const compare::Comparison& comparison = made->comparison;
   const compare::LightComparison& light = comparison.lights.front();
   const compare::PictureSet none;
-  compare::PageData data = compare::page_data({comparison, none, {}, {}});
+  report::PageData data = report::page_data({comparison, none, {}, {}});
   const Json head = Json::parse(data.head);
   SmallComparison out;
   out.words = part_of(head, {"labels", "rungs", "width", "height", "position_steps", "visibility_steps",
@@ -128,4 +130,4 @@ Expected<SmallComparison> compare_small(const std::string& scene, const Settings
   return out;
 }
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

@@ -3,7 +3,7 @@
 #include "lab/lessons/figures.h"
 #include "scene/camera.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 nlohmann::ordered_json eye_ray_checks() {
   nlohmann::ordered_json checks = nlohmann::ordered_json::array();
@@ -27,4 +27,4 @@ nlohmann::ordered_json eye_ray_checks() {
   return {{"checks", checks}};
 }
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

@@ -11,7 +11,7 @@
 #include "lab/serve/setting_facts.h"
 #include "scene/base/stages.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 namespace {
 
@@ -103,7 +103,7 @@ std::string PageFigures::keep(const std::string& key, SmallComparison&& comparis
   words_ = std::move(comparison.words);
   drawn_ = std::move(comparison.drawn);
   if (!comparisons_.contains(key)) comparisons_[key] = std::move(comparison.shared);
-  for (compare::DataPart& part : comparison.parts) {
+  for (report::DataPart& part : comparison.parts) {
     part.name = part.name == "light-0" ? fmt::format("{}light-{}", key, light) : key + part.name;
     if (kept_.insert(part.name).second) parts_.push_back(std::move(part));
   }
@@ -196,14 +196,14 @@ PageFigures::Json PageFigures::data() const {
   return json;
 }
 
-Expected<std::string> compute_figure(const LiveMark& mark, Console& console) {
+Expected<std::string> compute_figure(const LiveMark& mark, app::Console& console) {
   PageFigures page(console, "lab.html");
   if (const auto added = page.add(mark); !added) return fail(added.error());
   nlohmann::ordered_json json = page.data();
   json["parts"] = nlohmann::ordered_json::object();
-  for (const compare::DataPart& part : page.parts())
+  for (const report::DataPart& part : page.parts())
     json["parts"][part.name] = nlohmann::ordered_json::parse(part.json);
   return json.dump();
 }
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

@@ -13,19 +13,20 @@
 #include "lab/lessons/lesson_text.h"
 #include "scene/base/expected.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 class PageFigures {
  public:
   /// `lab`: where the lab's page is, seen from this one, and beside it the program for the web; empty where there is none.
-  explicit PageFigures(Console& console, std::string lab = {}) : console_(console), lab_(std::move(lab)) {}
+  explicit PageFigures(app::Console& console, std::string lab = {})
+      : console_(console), lab_(std::move(lab)) {}
 
   /// Adds the figure of the next mark. Errors: of its scene and its settings.
   Expected<void> add(const LiveMark& mark);
 
   /// The page's data without its parts.
   nlohmann::ordered_json data() const;
-  const std::vector<compare::DataPart>& parts() const { return parts_; }
+  const std::vector<report::DataPart>& parts() const { return parts_; }
 
  private:
   using Json = nlohmann::ordered_json;
@@ -40,17 +41,17 @@ class PageFigures {
   /// The key of a comparison that is now among the page's; all its parts, or the light's alone as light `light`.
   std::string keep(const std::string& key, SmallComparison&& comparison, int light);
 
-  Console& console_;
+  app::Console& console_;
   std::string lab_;
   Json figures_ = Json::array(), comparisons_ = Json::object(), words_ = Json::object(),
        drawn_ = Json::object();
   std::set<std::string> kept_;  ///< names of parts
-  std::vector<compare::DataPart> parts_;
+  std::vector<report::DataPart> parts_;
 };
 
 /// One figure as a page of its own would have it, data and parts: what the program for the web answers a lesson's page that asks for
 /// other settings. JSON. Errors: of the mark's scene and its settings, of the graphics.
-Expected<std::string> compute_figure(const LiveMark& mark, Console& console);
+Expected<std::string> compute_figure(const LiveMark& mark, app::Console& console);
 
 // What the ray tracer finds for rays at the surfaces of the intersection figures (report/page/src/lessons), whose
 // numbers the page works out by itself.
@@ -89,4 +90,4 @@ Expected<nlohmann::ordered_json> structure_cut(const std::string& kind, const st
 /// triangles. Errors: of the scene.
 Expected<nlohmann::ordered_json> grid_curve(const std::string& scene);
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

@@ -11,7 +11,7 @@
 #include "report/pixels/page_data.h"
 #include "scene/load.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 namespace {
 
@@ -111,7 +111,7 @@ Json light_json(const Light& light, const Cut& cut) {
 
 nlohmann::ordered_json cut_world(const World& world, const CutPlane& plane, const CutWindow& window) {
   Cut cut(plane, window);
-  const compare::SectionMesh mesh = compare::section_mesh(world);
+  const report::SectionMesh mesh = report::section_mesh(world);
   for (const auto& [a, b, c] : mesh.triangles)
     cut.triangle({mesh.positions[a], mesh.positions[b], mesh.positions[c]});
   for (const Shape& shape : world.shapes) {
@@ -159,4 +159,4 @@ Expected<nlohmann::ordered_json> whitted_cut() {
   return json;
 }
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

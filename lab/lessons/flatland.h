@@ -8,7 +8,7 @@
 #include "scene/base/expected.h"
 #include "scene/world.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 /// An upright plane through `origin`; across it x counts along `right` (unit, horizontal), y upwards.
 struct CutPlane {
@@ -37,4 +37,4 @@ Expected<nlohmann::ordered_json> flatland(const std::string& name);
 /// - "fresnel" [{cosine, ratio, reflected}]: what the ray tracer computes
 Expected<nlohmann::ordered_json> whitted_cut();
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

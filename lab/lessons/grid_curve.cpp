@@ -8,7 +8,7 @@
 #include "scene/camera.h"
 #include "scene/load.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 namespace {
 
@@ -98,4 +98,4 @@ Expected<nlohmann::ordered_json> grid_curve(const std::string& scene_name) {
   return json;
 }
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

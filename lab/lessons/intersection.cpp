@@ -8,7 +8,7 @@
 #include "scene/shapes/expression.h"
 #include "scene/world.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 namespace {
 
@@ -150,4 +150,4 @@ Expected<nlohmann::ordered_json> intersection_checks(const std::string& kind) {
   return json;
 }
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

@@ -9,7 +9,7 @@
 #include "lab/lessons/lesson_text.h"
 #include "report/lessons.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 namespace {
 
@@ -137,9 +137,9 @@ Expected<std::string> steps_of(std::string_view shown) {
   const std::size_t first = shown.find(' '), second = shown.find(' ', first + 1);
   if (second == std::string_view::npos) return fail(not_there(shown));
   const std::string_view name = shown.substr(0, first), kind = shown.substr(first + 1, second - first - 1);
-  const auto all = compare::all_lessons();
+  const auto all = report::all_lessons();
   const auto lesson =
-      std::find_if(all.begin(), all.end(), [&](const compare::Lesson& one) { return one.name == name; });
+      std::find_if(all.begin(), all.end(), [&](const report::Lesson& one) { return one.name == name; });
   if (lesson == all.end()) return fail(not_there(shown));
   const bool is_pair = kind == "pair";
   const auto part = lesson_part(lesson->text, is_pair ? "figure" : kind, shown.substr(second + 1));
@@ -210,4 +210,4 @@ Expected<std::string> lecture_text(std::string_view deck) {
   return text;
 }
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

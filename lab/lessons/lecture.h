@@ -17,7 +17,7 @@
 
 #include "scene/base/expected.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 /// The part of a lesson's Markdown that `words` name, as Markdown. `kind`: sentence, formula, table and question begin with them;
 /// a figure's mark or picture holds them, and what follows " with " is set in the mark instead of the lesson's own.
@@ -29,4 +29,4 @@ Expected<std::string> lesson_part(std::string_view markdown, std::string_view ki
 /// Error (internal): a lesson or a part that is not there, a slide without minutes.
 Expected<std::string> lecture_text(std::string_view deck);
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

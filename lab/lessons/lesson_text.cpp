@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 namespace {
 
@@ -75,4 +75,4 @@ LessonText read_lesson(std::string_view markdown) {
   return text;
 }
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

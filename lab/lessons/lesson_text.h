@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 /// A live figure as the text asks for it.
 struct LiveMark {
@@ -32,4 +32,4 @@ struct LessonText {
 
 LessonText read_lesson(std::string_view markdown);
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

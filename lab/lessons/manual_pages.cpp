@@ -7,7 +7,7 @@
 
 #include "lab/lessons/site.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 namespace {
 
 std::string stem_of(std::string_view file) {
@@ -98,4 +98,4 @@ Expected<std::vector<SitePage>> manual_pages(std::vector<ManualChapter> chapters
   return pages;
 }
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

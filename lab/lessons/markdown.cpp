@@ -7,7 +7,7 @@
 
 #include "report/html.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 namespace {
 
@@ -88,7 +88,7 @@ Expected<std::string> picture_html(std::string_view path, std::string_view alt) 
   if (bytes.empty())
     return fail(ErrorKind::internal, fmt::format("a lesson's picture is missing (got {})", path));
   return fmt::format("<img src=\"{}\" alt=\"{}\">",
-                     compare::data_uri(path.ends_with(".svg") ? "image/svg+xml" : "image/png", bytes), alt);
+                     report::data_uri(path.ends_with(".svg") ? "image/svg+xml" : "image/png", bytes), alt);
 }
 
 Expected<std::string> with_pictures(const std::string& html) {
@@ -104,4 +104,4 @@ Expected<std::string> with_pictures(const std::string& html) {
   return out;
 }
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

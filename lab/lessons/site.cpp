@@ -17,12 +17,14 @@
 #include "scene/base/option_text.h"
 #include "scene/base/stages.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 namespace {
 
-using compare::escaped;
-using compare::Lesson;
+using app::Console;
+
+using report::escaped;
+using report::Lesson;
 
 using Lessons = std::vector<const Lesson*>;
 
@@ -57,26 +59,26 @@ std::string said(const std::string& english) {
   return figure_words().value(english, english);
 }
 
-std::string page_html(compare::PageShell shell, const PageFigures& figures) {
+std::string page_html(report::PageShell shell, const PageFigures& figures) {
   nlohmann::ordered_json data = figures.data();
   if (!figure_words().empty()) data["figure_words"] = figure_words();
   shell.data = data.dump();
   shell.parts = figures.parts();
   shell.built = "lesson.html";
-  return compare::build_page(shell).html;
+  return report::build_page(shell).html;
 }
 
 /// A page of a lesson's or a lecture's, in the language of the lessons.
 std::string lesson_html(const std::string& title, std::string links, std::string main,
                         const PageFigures& figures, bool computes = false) {
   const std::string skip = said("Skip to the lesson");
-  compare::PageShell shell;
+  report::PageShell shell;
   shell.title = title + " \u2013 Gnomon";
   shell.links = std::move(links);
   shell.main = std::move(main);
   shell.skip = skip;
   shell.language = GNOMON_LANGUAGE;
-  if (computes) shell.live = compare::LivePage::worker;
+  if (computes) shell.live = report::LivePage::worker;
   return page_html(std::move(shell), figures);
 }
 
@@ -136,7 +138,7 @@ Expected<std::string> card(const Lesson& lesson, std::size_t number) {
   }
   return fmt::format(
       "<li><a href=\"{}\"><span class=\"card-picture\">{}</span><b>{}. {}</b> <span>{}</span></a></li>\n",
-      page_name(lesson), picture, number, escaped(name), escaped(more));
+      page_name(lesson), picture, number, report::escaped(name), report::escaped(more));
 }
 
 /// What stands in docs/lessons/README.md before its list, and a card for each lesson.
@@ -158,7 +160,7 @@ Expected<SitePage> index_page(const Lessons& written) {
 Expected<Lessons> chosen(const std::vector<std::string>& only) {
   Lessons all, some;
   std::vector<std::string_view> names;
-  for (const Lesson& lesson : compare::all_lessons()) {
+  for (const Lesson& lesson : report::all_lessons()) {
     all.push_back(&lesson);
     names.push_back(lesson.name);
   }
@@ -176,7 +178,7 @@ Expected<Lessons> chosen(const std::vector<std::string>& only) {
 
 std::string page_of_text(const std::string& title, const std::string& links, const std::string& main) {
   Console quiet(true);
-  compare::PageShell shell;
+  report::PageShell shell;
   shell.title = title;
   shell.links = links;
   shell.main = main;
@@ -224,4 +226,4 @@ Expected<SitePage> make_lecture(std::string_view name, Console& console) {
   return SitePage{fmt::format("{}.html", name), *html};
 }
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

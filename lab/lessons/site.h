@@ -11,10 +11,12 @@
 #include "scene/base/expected.h"
 
 namespace gnomon::app {
+class Console;
+}
+
+namespace gnomon::lab::lessons {
 
 // Markdown as HTML, by md4c; and what a page of the site does with links and pictures.
-
-namespace lessons {
 
 /// GitHub's dialect, with HTML in it left as it is: the text is the program's own. Error (internal): md4c fails.
 Expected<std::string> html_of(std::string_view markdown);
@@ -31,12 +33,6 @@ std::string first_picture(std::string_view markdown);
 /// <img> of that picture. Error (internal): the program does not hold it.
 Expected<std::string> picture_html(std::string_view path, std::string_view alt);
 
-}  // namespace lessons
-class Console;
-}  // namespace gnomon::app
-
-namespace gnomon::app::lessons {
-
 struct SitePage {
   std::string file;  ///< "acne.html"
   std::string html;
@@ -45,13 +41,13 @@ struct SitePage {
 /// The pages of the lessons of those names, all of them where there are none, and the index of these.
 /// `lab`: where a lesson finds the lab's page, to which its figures of comparisons lead then; empty: nowhere.
 /// Errors: (usage) a name that no lesson has; those of a live figure's scene, of its settings, of the graphics.
-Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, Console& console,
+Expected<std::vector<SitePage>> make_site(const std::vector<std::string>& only, app::Console& console,
                                           const std::string& lab = {});
 
 /// "shadows", "rays": the decks of docs/lectures/en.
 std::vector<std::string_view> lecture_names();
 /// The lecture of that name as one page, "shadows.html". Errors: (usage) no such lecture; as above.
-Expected<SitePage> make_lecture(std::string_view name, Console& console);
+Expected<SitePage> make_lecture(std::string_view name, app::Console& console);
 
 struct ManualChapter {
   std::string file;  ///< "options.md"
@@ -64,4 +60,4 @@ Expected<std::vector<SitePage>> manual_pages(std::vector<ManualChapter> chapters
 /// A page in the lessons' style. `links`: <li> items of the bar on top; `main`: what <main> holds.
 std::string page_of_text(const std::string& title, const std::string& links, const std::string& main);
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

@@ -11,7 +11,7 @@
 #include "raytrace/accel/any_structure.h"
 #include "scene/load.h"
 
-namespace gnomon::app::lessons {
+namespace gnomon::lab::lessons {
 
 namespace {
 
@@ -232,4 +232,4 @@ Expected<nlohmann::ordered_json> structure_cut(const std::string& kind, const st
   return json;
 }
 
-}  // namespace gnomon::app::lessons
+}  // namespace gnomon::lab::lessons

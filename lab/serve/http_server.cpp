@@ -23,7 +23,7 @@
 #include "lab/serve/waiting_room.h"
 #include "scene/base/threads.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 namespace asio = boost::asio;
@@ -338,4 +338,4 @@ void HttpServer::run() {
   inside_->network.run();
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

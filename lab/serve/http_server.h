@@ -12,7 +12,7 @@
 #include "lab/serve/lab_answers.h"
 #include "scene/base/expected.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 struct ServerPlace {
   std::string address = "127.0.0.1";  ///< that is listened at
@@ -59,4 +59,4 @@ class HttpServer {
 /// "[::1]" of "::1": an address as an URL has it.
 std::string in_url(const std::string& address);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

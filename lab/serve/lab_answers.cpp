@@ -10,7 +10,7 @@
 #include "scene/files/pictures/image_io.h"
 #include "scene/files/write_file.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 using nlohmann::json;
@@ -126,16 +126,16 @@ LabAnswer LabAnswers::take_file(const LabRequest& request) {
 }
 
 std::string lab_page(const LabOptions& options, bool worker) {
-  compare::PageShell shell;
+  report::PageShell shell;
   shell.title = "Lab – Gnomon";
   shell.main =
       "<noscript><p>The lab is drawn by scripts, which this browser does not run. "
       "<code>gnomon compare</code> writes a page that needs none.</p></noscript>";
   shell.data = lab_facts(options, worker);
   shell.built = "lab.html";
-  shell.live = worker ? compare::LivePage::worker : compare::LivePage::served;
+  shell.live = worker ? report::LivePage::worker : report::LivePage::served;
   shell.skip = "Skip to the pictures";
-  return compare::build_page(shell).html;
+  return report::build_page(shell).html;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

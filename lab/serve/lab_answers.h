@@ -9,7 +9,7 @@
 
 #include "lab/serve/lab_engine.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 struct LabRequest {
   std::string name;                                          ///< "wish", "news", "picture", "pixel", "file"
@@ -51,4 +51,4 @@ class LabAnswers {
 /// in the files beside it (gnomon_worker.mjs), and asks no program.
 std::string lab_page(const LabOptions& options, bool worker);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

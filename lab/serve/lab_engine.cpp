@@ -18,12 +18,12 @@
 #include "report/lessons.h"
 #include "scene/load.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
 bool has_map_options(const std::vector<std::string>& words) {
-  const std::vector<std::string> names = map_setting_names();
+  const std::vector<std::string> names = app::map_setting_names();
   return std::ranges::any_of(words, [&](const std::string& word) {
     return word.starts_with("--") &&
            std::ranges::find(names, word.substr(2, word.find('=') - 2)) != names.end();
@@ -42,8 +42,8 @@ std::string camera_of(const std::vector<std::string>& words) {
 
 bool is_own_scene(const std::string& name) {
   return find_builtin_scene(name) ||
-         std::ranges::any_of(compare::all_lessons(),
-                             [&](const compare::Lesson& lesson) { return lesson.name == name; });
+         std::ranges::any_of(report::all_lessons(),
+                             [&](const report::Lesson& lesson) { return lesson.name == name; });
 }
 
 // Beyond this a single call of the driver can take seconds, and images gigabytes: gnomon compare takes both.
@@ -81,7 +81,7 @@ std::string shown_words(const Preset& preset, const compare::LightComparison& li
 }  // namespace
 
 Expected<std::unique_ptr<LabEngine>> LabEngine::start(const LabOptions& options, SceneSource first) {
-  const LoadedScene& loaded = *first.loaded;
+  const app::LoadedScene& loaded = *first.loaded;
   auto state = first_state(options, given_scene(*loaded.scene, *loaded.world, loaded.paths));
   if (!state) return fail(state.error());
   if (const auto fits = check_load(*state); !fits) return fail(fits.error());
@@ -93,8 +93,8 @@ Expected<std::unique_ptr<LabEngine>> LabEngine::start(const LabOptions& options,
   const std::lock_guard lock(engine->mutex_);  // notice() waits until the thread is known
   engine->thread_ = std::make_unique<RenderThread>(
       [backend = options.backend, quiet = options.quiet] {
-        Console console(quiet);
-        return make_context(backend, console);
+        app::Console console(quiet);
+        return app::make_context(backend, console);
       },
       std::move(first), std::move(studio), [raw = engine.get()] { raw->notice(); });
   return engine;
@@ -136,16 +136,16 @@ Expected<ViewState> LabEngine::state_of(const std::vector<std::string>& words, c
   if (sets_map || !is_first) options.compare.raster.map = sets_map ? raster::MapOptions{} : scene.map;
   CLI::App command;
   command.set_help_flag();
-  add_camera(command, options.camera);
-  add_size(command, options.compare.raster.size);
-  add_map_options(command, options.compare.raster.map);
-  add_light(command, options.light, "the light");
-  add_pose_options(command, options.poses);
-  add_precision(command, options.compare.precision);
+  app::add_camera(command, options.camera);
+  app::add_size(command, options.compare.raster.size);
+  app::add_map_options(command, options.compare.raster.map);
+  app::add_light(command, options.light, "the light");
+  app::add_pose_options(command, options.poses);
+  app::add_precision(command, options.compare.precision);
   try {
     std::vector<std::string> reversed(words.rbegin(), words.rend());
     command.parse(reversed);
-    if (sets_map) finish_map_options(command, options.compare.raster.map);
+    if (sets_map) app::finish_map_options(command, options.compare.raster.map);
   } catch (const CLI::ParseError& error) {
     return fail(ErrorKind::usage, error.what());
   }
@@ -194,7 +194,7 @@ Expected<std::uint64_t> LabEngine::ask(const LabWish& wish) {
     now_.client = wish.client;
     now_.error.clear();
     ++now_.number;
-    SceneArgument scene_to_open = given_.scene.named(path);
+    app::SceneArgument scene_to_open = given_.scene.named(path);
     // What the command line lets its own scene do is not for files that are dropped on the page.
     if (given_.scene.name != path) scene_to_open.allow_outside = false;
     thread_->open(std::move(scene_to_open), camera_of(wish.words));
@@ -264,10 +264,10 @@ LabMoment LabEngine::wait(std::uint64_t after, std::chrono::milliseconds most) {
 std::vector<std::string> LabEngine::compare_words(const LabMoment& moment) const {
   std::vector<std::string> words{"compare"};
   if (!moment.shown->scene) return words;
-  const SceneArgument& scene = moment.shown->scene->argument;
+  const app::SceneArgument& scene = moment.shown->scene->argument;
   for (const auto& part : {scene.plain_words(), setting_words(moment.state, moment.options, scene.name)})
     words.insert(words.end(), part.begin(), part.end());
   return words;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -17,7 +17,7 @@
 #include "lab/view/work/render_thread.h"
 #include "lab/view/work/scene_source.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// What a page wants to see.
 struct LabWish {
@@ -80,4 +80,4 @@ class LabEngine {
   std::unique_ptr<RenderThread> thread_;  ///< last: it calls notice()
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

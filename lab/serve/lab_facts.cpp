@@ -15,18 +15,18 @@
 #include "report/page.h"
 #include "scene/load.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json pose_json(const CameraPose& pose) {
+Json pose_json(const app::CameraPose& pose) {
   return {
       {"azimuth", pose.azimuth_degrees}, {"elevation", pose.elevation_degrees}, {"distance", pose.distance}};
 }
 
 Json light_json(const ViewState& state) {
-  const LightPose pose = current_light(state);
+  const app::LightPose pose = current_light(state);
   const Light& given = state.given.lights[state.setup.light];
   const bool sun = given.type == LightType::directional;
   const double own = sun ? 0.0 : glm::length(given.position - state.given.centre);
@@ -71,7 +71,7 @@ std::string lab_facts(const LabOptions& options, bool worker) {
   for (const Preset& preset : presets()) shown.push_back({{"title", preset.title}, {"what", preset.what}});
   for (const BuiltinScene& scene : builtin_scenes())
     if (!scene.large) scenes.push_back({{"name", scene.name}, {"what", scene.description}});
-  for (const compare::Lesson& lesson : compare::all_lessons())
+  for (const report::Lesson& lesson : report::all_lessons())
     lessons.push_back({{"name", lesson.name}, {"what", lesson.title}});
   const ImageSize size = options.compare.raster.size;
   const Json facts = {{"kind", "lab"},
@@ -81,8 +81,8 @@ std::string lab_facts(const LabOptions& options, bool worker) {
                       {"scene", options.scene.name},
                       {"settings", settings},
                       {"techniques", techniques},
-                      {"labels", compare::label_facts()},
-                      {"rungs", compare::rung_facts()},
+                      {"labels", report::label_facts()},
+                      {"rungs", report::rung_facts()},
                       {"pictures", pictures},
                       {"presets", shown},
                       {"scenes", scenes},
@@ -148,4 +148,4 @@ std::string lab_pixel(const LabMoment& moment, PixelPlace place) {
   return out.dump();
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

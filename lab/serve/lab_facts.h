@@ -6,7 +6,7 @@
 
 #include "lab/serve/lab_engine.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// Settings by group with their ranges and notes, techniques and what they read, labels, pictures, presets, scenes.
 /// `worker`: the page has its engine itself.
@@ -19,4 +19,4 @@ std::string lab_reading(const LabMoment& moment, const std::vector<std::string>&
 /// One pixel explained (pixel_story.h); "null" where nothing is compared yet. `place`: in the picture's full size.
 std::string lab_pixel(const LabMoment& moment, PixelPlace place);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -14,7 +14,7 @@
 #include "lab/view/work/job.h"
 #include "scene/files/read_file.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 constexpr std::chrono::seconds longest_wait{10};
@@ -108,7 +108,7 @@ LabAnswer LabServer::Inside::make_report() {
   const std::uint64_t own = ++report;
   const LabMoment moment = engine.wait(0, std::chrono::milliseconds(0));
   std::vector<std::string> words = engine.compare_words(moment);
-  const TemporaryFolder written("gnomon-report");
+  const app::TemporaryFolder written("gnomon-report");
   if (written.path().empty()) return lab_refusal(500, "No folder can be made for the report.");
   const std::string out = written.path() + "/out";
   words.insert(words.end(), {"-o", out, "--quiet", "--report-max-mb", "1000"});
@@ -155,4 +155,4 @@ void LabServer::run() {
   inside_->server->run();
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -9,7 +9,7 @@
 #include "lab/serve/lab_engine.h"
 #include "scene/base/expected.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 class LabServer {
  public:
@@ -31,4 +31,4 @@ class LabServer {
   std::unique_ptr<Inside> inside_;
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

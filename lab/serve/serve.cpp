@@ -6,23 +6,23 @@
 #include "app/process/interrupt.h"
 #include "lab/serve/lab_engine.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
-Expected<ExitCode> run_serve(const ServeOptions& options) {
-  Console console(options.quiet);
+Expected<app::ExitCode> run_serve(const ServeOptions& options) {
+  app::Console console(options.quiet);
   auto source = first_source(options, console);
   if (!source) return fail(source.error());
-  const TemporaryFolder folder("gnomon-serve");
+  const app::TemporaryFolder folder("gnomon-serve");
   if (folder.path().empty())
     return fail(ErrorKind::cannot_write, "no folder can be made for what is dropped on the page");
   auto engine = LabEngine::start(options, std::move(*source));
   if (!engine) return fail(engine.error());
   const auto server = LabServer::open(options.place, **engine, options, folder.path());
   if (!server) return fail(server.error());
-  print_data(fmt::format("{}\n", (*server)->url()));
+  app::print_data(fmt::format("{}\n", (*server)->url()));
   console.message("open this address in a browser; it is the only key to the lab. Ctrl+C ends it.");
   (*server)->run();
-  return ExitCode::done;
+  return app::ExitCode::done;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -5,13 +5,13 @@
 #include "lab/lab_options.h"
 #include "lab/serve/lab_server.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 struct ServeOptions : LabOptions {
   ServerPlace place;
 };
 
 /// Serves the lab's page until the process is ended. Errors: of the scene, of the place.
-Expected<ExitCode> run_serve(const ServeOptions& options);
+Expected<app::ExitCode> run_serve(const ServeOptions& options);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

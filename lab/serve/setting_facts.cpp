@@ -1,6 +1,6 @@
 #include "lab/serve/setting_facts.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -63,4 +63,4 @@ nlohmann::ordered_json setting_values(const raster::MapOptions& map) {
   return values;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -6,7 +6,7 @@
 
 #include "raster/settings.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// Name, group, title, notes, who reads it, and what a control of its kind needs.
 nlohmann::ordered_json setting_facts(const raster::MapSetting& row);
@@ -14,4 +14,4 @@ nlohmann::ordered_json setting_facts(const raster::MapSetting& row);
 /// The settings that the technique reads, with their values as the command line takes them.
 nlohmann::ordered_json setting_values(const raster::MapOptions& map);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

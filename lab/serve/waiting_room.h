@@ -5,7 +5,7 @@
 #include <functional>
 #include <list>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// Who has waited longest has to go when another comes and there is no room. An honest client is quick; so it is the slow who go.
 class WaitingRoom {
@@ -42,4 +42,4 @@ class WaitingRoom {
   std::list<Guest> guests_;  ///< the oldest first
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -8,7 +8,7 @@
 #include "lab/view/viewer.h"
 #include "scene/files/read_file.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -23,7 +23,7 @@ std::string output_of(const ScriptStep& step) {
 Expected<void> check_step_output(const ScriptStep& step, const std::string& script) {
   const std::string path = output_of(step);
   if (path.empty()) return {};
-  const Expected<void> writable = check_output_file(path);
+  const Expected<void> writable = app::check_output_file(path);
   if (writable) return {};
   Error error = writable.error();
   error.reason = error.message();
@@ -33,7 +33,8 @@ Expected<void> check_step_output(const ScriptStep& step, const std::string& scri
 }
 
 /// `files` learns what its steps read and write.
-Expected<std::vector<ScriptStep>> read_script(const std::string& path, const Scene& scene, RunFiles& files) {
+Expected<std::vector<ScriptStep>> read_script(const std::string& path, const Scene& scene,
+                                              app::RunFiles& files) {
   if (path.empty()) return std::vector<ScriptStep>{};
   files.reads(path);
   const Expected<std::string> text = read_file(path);
@@ -52,12 +53,12 @@ Expected<std::vector<ScriptStep>> read_script(const std::string& path, const Sce
 
 }  // namespace
 
-Expected<ExitCode> run_view(const ViewOptions& options) {
-  Console console(options.quiet);
+Expected<app::ExitCode> run_view(const ViewOptions& options) {
+  app::Console console(options.quiet);
   auto source = first_source(options, console);
   if (!source) return fail(source.error());
-  const LoadedScene& loaded = *source->loaded;
-  RunFiles files;  // with the script's, which the window does not watch
+  const app::LoadedScene& loaded = *source->loaded;
+  app::RunFiles files;  // with the script's, which the window does not watch
   if (const auto reads = files.also_reads(source->files); !reads) return fail(reads.error());
   auto state = first_state(options, given_scene(*loaded.scene, *loaded.world, loaded.paths));
   if (!state) return fail(state.error());
@@ -70,7 +71,7 @@ Expected<ExitCode> run_view(const ViewOptions& options) {
       Viewer::open(options, std::move(*source), std::move(*state), std::move(*script), console);
   if (!viewer) return fail(viewer.error());
   if (const auto ran = (*viewer)->run(); !ran) return fail(ran.error());
-  return ExitCode::done;
+  return app::ExitCode::done;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

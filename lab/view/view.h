@@ -7,7 +7,7 @@
 #include "lab/lab_options.h"
 #include "lab/view/state/look.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 struct ViewOptions : LabOptions {
   std::string script;  ///< a file of steps that drives the window (script.h); empty: none
@@ -18,6 +18,6 @@ struct ViewOptions : LabOptions {
 };
 
 /// Opens the window and returns when it is closed or its script has ended.
-Expected<ExitCode> run_view(const ViewOptions& options);
+Expected<app::ExitCode> run_view(const ViewOptions& options);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

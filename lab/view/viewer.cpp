@@ -10,7 +10,7 @@
 #include "raster/gl/context.h"
 #include "scene/base/expected.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -30,7 +30,7 @@ raster::Scaling scaling_of(Picture picture, const Look& look) {
 
 Expected<std::unique_ptr<Viewer>> Viewer::open(const ViewOptions& options, SceneSource source,
                                                ViewState state, std::vector<ScriptStep> script,
-                                               Console& console) {
+                                               app::Console& console) {
   std::unique_ptr<Viewer> viewer(new Viewer(options, std::move(state), std::move(script), console));
   auto window = Window::open("gnomon", options.compare.raster.size);
   if (!window) return fail(window.error());
@@ -60,15 +60,16 @@ Expected<RenderThread::MakeContext> Viewer::choose_context() {
   using Made = Expected<std::unique_ptr<raster::Context>>;
   if (options_.backend != raster::Backend::automatic || raster::draws_in_software(presenter_->renderer()))
     return [backend = options_.backend, quiet = options_.quiet]() -> Made {
-      Console console(quiet);
-      return make_context(backend, console);
+      app::Console console(quiet);
+      return app::make_context(backend, console);
     };
   if (const auto added = window_->add_hidden_context(); !added) return fail(added.error());
   options_.backend = raster::Backend::egl_hardware;  // what the commands need to draw the same
   return [w = window_.get()]() -> Made { return w->hidden_context(); };
 }
 
-Viewer::Viewer(const ViewOptions& options, ViewState state, std::vector<ScriptStep> script, Console& console)
+Viewer::Viewer(const ViewOptions& options, ViewState state, std::vector<ScriptStep> script,
+               app::Console& console)
     : options_(options), console_(console), state_(std::move(state)), script_(std::move(script)) {}
 
 void Viewer::listen() {
@@ -96,7 +97,7 @@ void Viewer::act(const Action& action) {
   busy_frames_ = 3;
   if (const auto* change = std::get_if<Change>(&action)) {
     const std::uint64_t before = state_.revision;
-    app::carry_out(state_, *change);
+    lab::carry_out(state_, *change);
     if (state_.revision != before) note_.clear(), preset_ = nullptr;  // it was said of another setting
     return;
   }
@@ -106,7 +107,7 @@ void Viewer::act(const Action& action) {
   }
   if (const auto* use = std::get_if<UsePreset>(&action)) {
     preset_ = &presets()[use->preset], preset_bias_raised_ = false;
-    app::carry_out(state_, SetMap{preset_->apply(state_.setup.map)});
+    lab::carry_out(state_, SetMap{preset_->apply(state_.setup.map)});
     return note(fmt::format("{}: {}", preset_->title, preset_->what));
   }
   carry_out_command(std::get<Command>(action));
@@ -124,7 +125,7 @@ void Viewer::finish_preset() {
     if (texels > map.bias.constant) {
       map.bias.constant = texels;
       map.bias = compare::with_three_digits(map.bias);
-      return app::carry_out(state_, SetMap{map});
+      return lab::carry_out(state_, SetMap{map});
     }
   }
   constexpr double hardly = 0.001;
@@ -158,7 +159,7 @@ void Viewer::carry_out_command(Command command) {
       menu_asked_ = true;
       return;
     case Command::leave:
-      if (state_.look.help) return app::carry_out(state_, SetFlag{&Look::help, false});
+      if (state_.look.help) return lab::carry_out(state_, SetFlag{&Look::help, false});
       if (interface_->leave_panels()) return;
       if (job_) return carry_out_command(Command::stop_job);
       quit_ = true;
@@ -203,7 +204,7 @@ void Viewer::follow_layout() {
   const ImageSize size = window_->framebuffer_size();
   if (size.pixels() == 0) return;
   layout_ = lay_out(size, state_.look, type());
-  if (!(layout_.picture == state_.setup.size)) app::carry_out(state_, Resize{layout_.picture});
+  if (!(layout_.picture == state_.setup.size)) lab::carry_out(state_, Resize{layout_.picture});
 }
 
 /// A person's wish that cannot be drawn is taken back, with a word about it; a script's ends the program.
@@ -274,7 +275,7 @@ void Viewer::play_film() {
   const double seconds = film_watch_ ? film_watch_->elapsed_ms() / 1000.0 : 0.0;
   film_watch_.emplace();
   busy_frames_ = std::max(busy_frames_, 1);
-  app::carry_out(state_, FilmGoesOn{seconds});
+  lab::carry_out(state_, FilmGoesOn{seconds});
 }
 
 void Viewer::post_changes() {
@@ -374,4 +375,4 @@ void Viewer::sleep() {
   if (waits || resizing_ || opening_after_ || job_ || saving_.valid()) window_->wait(busy_wait_seconds);
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -29,7 +29,7 @@
 #include "raster/gl/present.h"
 #include "scene/base/timing.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// Whether a script's step has to wait for pictures.
 bool needs_time(const ScriptStep& step, const Snapshot& shown, const ViewState& state);
@@ -39,14 +39,14 @@ class Viewer {
   /// Opens the window. All must outlive the viewer.
   static Expected<std::unique_ptr<Viewer>> open(const ViewOptions& options, SceneSource source,
                                                 ViewState state, std::vector<ScriptStep> script,
-                                                Console& console);
+                                                app::Console& console);
 
   /// Until the window is closed or the script ends. Error: a script's step failed, or nothing can be drawn at
   /// all.
   Expected<void> run();
 
  private:
-  Viewer(const ViewOptions& options, ViewState state, std::vector<ScriptStep> script, Console& console);
+  Viewer(const ViewOptions& options, ViewState state, std::vector<ScriptStep> script, app::Console& console);
   Expected<RenderThread::MakeContext> choose_context();
   void listen();
   void press_key(const Key& key);
@@ -114,7 +114,7 @@ class Viewer {
   Error located(Error error, int line) const;
 
   ViewOptions options_;  ///< backend: the one that was taken; camera: of the scene that is shown
-  Console& console_;
+  app::Console& console_;
   ViewState state_;
   std::optional<Setup> drawable_;  ///< the last one that could be drawn
   std::uint64_t posted_ = 0;       ///< revision
@@ -160,4 +160,4 @@ class Viewer {
   std::string title_;
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

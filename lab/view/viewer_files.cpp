@@ -18,7 +18,7 @@
 #include "scene/files/path_status.h"
 #include "scene/files/pictures/image_io.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr const char* tuned_error = "1%";
 
 Expected<void> save_image(const Rgb8Image& image, const std::string& path) {
-  const OutputGuard whole_output;
+  const app::OutputGuard whole_output;
   if (auto made = make_folder_for(path); !made) return made;
   return write_png(path, image);
 }
@@ -41,7 +41,7 @@ void Viewer::note(std::string_view text) {
 
 void Viewer::note(const Error& error) {
   note(error.message());
-  print_error(error);
+  app::print_error(error);
 }
 
 /// A script's: written before the next step.
@@ -104,7 +104,7 @@ void Viewer::save_picture() {
 }
 
 void Viewer::save_scene() {
-  const SceneArgument& opened = shown_->scene->argument;
+  const app::SceneArgument& opened = shown_->scene->argument;
   save_numbered(
       folder_for_scene(opened) + file_start("scene"), ".json",
       [opened, state = state_](const std::string& path) { return write_scene(path, opened, state); },
@@ -119,7 +119,7 @@ void Viewer::copy_command() {
 }
 
 void Viewer::print_command() const {
-  print_data(compare_command(state_, options_, shown_->scene->argument) + "\n");
+  app::print_data(compare_command(state_, options_, shown_->scene->argument) + "\n");
   if (state_.setup.map_camera)
     console_.note("the map's camera is frozen; the command line lays the map for the view's own");
   for (const std::string& light : other_turned_lights(state_))
@@ -205,10 +205,10 @@ void Viewer::use_answer(const Job& job) {
     biased = biased || setting->group == raster::SettingGroup::bias;
   }
   if (!slope) map.bias.slope = biased ? 0.0 : raster::default_bias(map).slope;
-  app::carry_out(state_, SetMap{map});
+  lab::carry_out(state_, SetMap{map});
   // "--technique lispsm --map-size 128: the cheapest that is good enough: 0.69 % wrong, ..."
   note(fmt::format("{}{}: {}", answer.value("feasible", true) ? "" : "nothing is good enough; ",
                    fmt::join(words, " "), answer.value("why", "")));
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

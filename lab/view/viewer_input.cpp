@@ -8,7 +8,7 @@
 #include "lab/view/state/projection.h"
 #include "lab/view/viewer.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -75,7 +75,7 @@ void Viewer::press(int button, bool down, const Modifiers& held) {
     if (held_something) return;
     if (!pointer_.release(button)) return;
     if (const auto hit = under(layout_, state_, pointer_.place()))
-      app::carry_out(state_, ProbePixel{PixelPlace{static_cast<int>(hit->share.x * layout_.picture.width),
+      lab::carry_out(state_, ProbePixel{PixelPlace{static_cast<int>(hit->share.x * layout_.picture.width),
                                                    static_cast<int>(hit->share.y * layout_.picture.height)}});
     return;
   }
@@ -96,10 +96,10 @@ void Viewer::move(double x, double y) {
   const Box place =
       placed(layout_.picture.pixels() > 0 ? layout_.picture : ImageSize{1, 1}, pane, state_.look);
   const auto change = pointer_.move_to(x, y, {place.width, place.height});
-  if (holds_swipe_) return app::carry_out(state_, SwipeTo{(x - pane.x) / pane.width});
+  if (holds_swipe_) return lab::carry_out(state_, SwipeTo{(x - pane.x) / pane.width});
   if (held_light_)
-    return app::carry_out(state_, drag_handle(state_, light_handle(state_), *held_light_, {x, y}));
-  if (change) app::carry_out(state_, *change);
+    return lab::carry_out(state_, drag_handle(state_, light_handle(state_), *held_light_, {x, y}));
+  if (change) lab::carry_out(state_, *change);
 }
 
 void Viewer::scroll(double notches, const Modifiers& held) {
@@ -107,8 +107,8 @@ void Viewer::scroll(double notches, const Modifiers& held) {
   if (interface_->wants_pointer()) return;
   const auto hit = under(layout_, state_, pointer_.place());
   if (!hit) return;
-  if (held.control) return app::carry_out(state_, ZoomPicture{std::pow(1.25, notches), hit->share});
-  app::carry_out(state_, zoom_for_scroll(notches));
+  if (held.control) return lab::carry_out(state_, ZoomPicture{std::pow(1.25, notches), hit->share});
+  lab::carry_out(state_, zoom_for_scroll(notches));
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

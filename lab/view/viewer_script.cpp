@@ -6,7 +6,7 @@
 #include "app/console.h"
 #include "lab/view/viewer.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -57,7 +57,7 @@ Expected<bool> Viewer::pass(const ScriptStep& step) {
     return true;
   }
   if (std::holds_alternative<PrintClipboard>(step.what)) {
-    print_data(window_->clipboard() + "\n");
+    app::print_data(window_->clipboard() + "\n");
     return true;
   }
   if (const auto* drag = std::get_if<DragPointer>(&step.what)) return pass_drag(*drag);
@@ -102,14 +102,14 @@ Expected<bool> Viewer::pass_open(const std::function<void()>& ask) {
 
 Expected<bool> Viewer::pass_film(const std::string& wanted) {
   if (wanted == "off") {
-    app::carry_out(state_, PickFilm{});
+    lab::carry_out(state_, PickFilm{});
     return true;
   }
   std::string names;
   for (std::size_t i = 0; i < state_.given.films.size(); ++i) {
     const std::string& name = state_.given.films[i].name;
     if (name == wanted) {
-      app::carry_out(state_, PickFilm{i});
+      lab::carry_out(state_, PickFilm{i});
       return true;
     }
     names += ", " + name;
@@ -193,4 +193,4 @@ Error Viewer::located(Error error, int line) const {
   return error;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -18,7 +18,7 @@ EM_JS(void, gnomon_hand_over, (int status, const char* type, const char* body, u
   Module["answer"] = {status : status, type : UTF8ToString(type), body : HEAPU8.slice(body, body + size)};
 });
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 constexpr const char* folder = "/dropped";
@@ -40,12 +40,12 @@ void hand_over(const LabAnswer& answer) {
 LabAnswer begin(const std::string& scene, ImageSize size) {
   LabOptions options;
   options.scene = options.scene.named(scene);
-  options.scene.settings = SettingsUse::sought;
+  options.scene.settings = app::SettingsUse::sought;
   options.compare.raster.size = size;
   const auto map = first_map_options(options.scene);
   if (!map) return lab_refusal(map.error());
   options.compare.raster.map = *map;
-  Console console(true);
+  app::Console console(true);
   auto source = first_source(options, console);
   if (!source) return lab_refusal(source.error());
   auto engine = LabEngine::start(options, std::move(*source));
@@ -57,7 +57,7 @@ LabAnswer begin(const std::string& scene, ImageSize size) {
 
 /// A lesson's figure with other settings; the lab need not have begun.
 LabAnswer compute_figure(const std::string& mark) {
-  Console console(true);
+  app::Console console(true);
   auto data = lessons::compute_figure(lessons::read_mark(mark), console);
   if (!data) return lab_refusal(data.error());
   return {200, "application/json", std::move(*data)};
@@ -82,20 +82,20 @@ void answered(const Function& function) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab
 
 extern "C" {
 
 /// Begins with a scene; the answer says whether there is one.
 EMSCRIPTEN_KEEPALIVE void gnomon_lab_begin(const char* scene, int width, int height) {
-  using namespace gnomon::app;
+  using namespace gnomon::lab;
   answered([&] { return begin(scene, {width, height}); });
 }
 
 /// `parameters`: lines of NAME=VALUE.
 EMSCRIPTEN_KEEPALIVE void gnomon_lab_answer(const char* name, const char* parameters, const char* body,
                                             unsigned size) {
-  using namespace gnomon::app;
+  using namespace gnomon::lab;
   const std::string lines = parameters;
   const auto parameter = [&](const char* key) { return line_value(lines, key); };
   answered([&] {
@@ -106,7 +106,7 @@ EMSCRIPTEN_KEEPALIVE void gnomon_lab_answer(const char* name, const char* parame
 
 /// Draws or compares what is next. Returns the number of the moment (LabMoment) after it.
 EMSCRIPTEN_KEEPALIVE double gnomon_lab_turn() {
-  using namespace gnomon::app;
+  using namespace gnomon::lab;
   take_turn();
   return static_cast<double>(lab().engine->wait(0, std::chrono::milliseconds(0)).number);
 }

@@ -6,7 +6,7 @@
 
 #include "lab/view/work/priority.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -46,4 +46,4 @@ struct HelpersGiveWay::Observer {};
 HelpersGiveWay::HelpersGiveWay(int) {}
 HelpersGiveWay::~HelpersGiveWay() = default;
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

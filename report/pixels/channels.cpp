@@ -6,7 +6,7 @@
 
 #include "scene/base/parallel.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 std::uint32_t integer(double value) {
   constexpr double limit = 2147483647.0;
@@ -49,4 +49,4 @@ std::string Packer::filled(const nlohmann::ordered_json& json, std::size_t first
   return text.append(bare, copied);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

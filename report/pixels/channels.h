@@ -10,7 +10,7 @@
 #include "report/pixels/packing.h"
 #include "scene/math.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 /// Numbers as the page rounds them.
 std::uint32_t integer(double value);
@@ -71,4 +71,4 @@ class Channels {
   nlohmann::ordered_json json_ = nlohmann::ordered_json::object();
 };
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

@@ -19,8 +19,11 @@
 #include "report/page.h"
 #include "scene/base/parallel.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 namespace {
+
+using compare::LightComparison;
+using compare::vector3;
 
 using Json = nlohmann::ordered_json;
 
@@ -52,7 +55,7 @@ int reduction(const LightView& view) {
 
 MapNumbers map_numbers(const raster::ShadowMap& map) {
   MapNumbers out{reduction(map.view), 0, {}};
-  const raster::ShadowMap small = out.step == 1 ? raster::ShadowMap{} : reduced_map(map, out.step);
+  const raster::ShadowMap small = out.step == 1 ? raster::ShadowMap{} : compare::reduced_map(map, out.step);
   const std::vector<float>& depth = out.step == 1 ? map.depth : small.depth;
   const LightView& view = out.step == 1 ? map.view : small.view;
   const double unit = depth_step(view), near_depth = view.depth_range().min;
@@ -95,7 +98,7 @@ void add_ladder(Channels& channels, const LightComparison& light) {
   const std::size_t n = light.labels.data.size();
   channels.add("label", n, {1},
                [&light](std::size_t i) { return static_cast<std::uint32_t>(light.labels.data[i]); });
-  for (std::size_t k = 0; k < rung_count; ++k) {
+  for (std::size_t k = 0; k < compare::rung_count; ++k) {
     const std::string name = fmt::format("V{}", k);
     if (k > 0 && light.rungs[k].data == light.rungs[k - 1].data) {
       channels.add_same(name, fmt::format("V{}", k - 1));
@@ -209,7 +212,8 @@ std::uint32_t gap_number(double gap, double step, const std::vector<float>& bias
 
 std::vector<float> curve_biases(const LightComparison& light, double used) {
   std::vector<float> biases{static_cast<float>(used)};
-  for (const BiasCurvePoint& point : light.bias_curve) biases.push_back(static_cast<float>(point.bias));
+  for (const compare::BiasCurvePoint& point : light.bias_curve)
+    biases.push_back(static_cast<float>(point.bias));
   std::sort(biases.begin(), biases.end());
   return biases;
 }
@@ -267,9 +271,9 @@ void add_stored_glass(Channels& channels, const LightComparison& light) {
 
 nlohmann::ordered_json light_data(const PageInput& in, std::size_t index, Packer& packer,
                                   const PixelSurfaces& surfaces) {
-  const Comparison& c = in.comparison;
+  const compare::Comparison& c = in.comparison;
   const LightComparison& light = c.lights[index];
-  const raster::LightRecord& record = drawn_record(c, light);
+  const raster::LightRecord& record = compare::drawn_record(c, light);
   const raster::MapOptions& options = c.raster.options.map;
   const raster::Bias& bias = options.bias;
   const auto map = std::make_shared<const MapNumbers>(map_numbers(record.map));
@@ -279,25 +283,26 @@ nlohmann::ordered_json light_data(const PageInput& in, std::size_t index, Packer
   add_metrics(channels, light);
   add_decisions(channels, record);
   add_stored_glass(channels, light);
-  Json map_json{{"step", map->step}};
+  compare::Json map_json{{"step", map->step}};
   map_json.update(packer.add({4, From::previous}, [map] { return map->depths; }));
-  return {{"name", shown_light_name(c, index)},
-          {"view", view_json(record.map.view)},
-          {"map_known", c.raster.has_known_map()},
-          {"technique", drawn_technique(c)},
-          {"gaps_decide", biases_follow_from_gaps(c.raster)},
-          {"compares_depths", compares_depths(c)},
-          {"bias",
-           {{"constant", draws_bias(c) ? record.bias_constant_world : 0.0},
-            {"slope", bias.slope},
-            {"normal_offset", bias.normal_offset_texels},
-            {"receiver_plane", bias.receiver_plane},
-            {"adaptive", bias.adaptive ? Json(record.rounding.adaptive_epsilon_world) : Json()},
-            {"scales", raster::scales_bias(options)}}},
-          {"texel_world", light.bias_texel_world},
-          {"depth_step", depth_step(record.map.view)},
-          {"channels", channels.json()},
-          {"map", std::move(map_json)}};
+  return {
+      {"name", shown_light_name(c, index)},
+      {"view", view_json(record.map.view)},
+      {"map_known", c.raster.has_known_map()},
+      {"technique", compare::drawn_technique(c)},
+      {"gaps_decide", compare::biases_follow_from_gaps(c.raster)},
+      {"compares_depths", compare::compares_depths(c)},
+      {"bias",
+       {{"constant", compare::draws_bias(c) ? record.bias_constant_world : 0.0},
+        {"slope", bias.slope},
+        {"normal_offset", bias.normal_offset_texels},
+        {"receiver_plane", bias.receiver_plane},
+        {"adaptive", bias.adaptive ? compare::Json(record.rounding.adaptive_epsilon_world) : compare::Json()},
+        {"scales", raster::scales_bias(options)}}},
+      {"texel_world", light.bias_texel_world},
+      {"depth_step", depth_step(record.map.view)},
+      {"channels", channels.json()},
+      {"map", std::move(map_json)}};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

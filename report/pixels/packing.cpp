@@ -7,7 +7,7 @@
 #include "scene/base/parallel.h"
 #include "scene/files/encodings.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 namespace {
 
 // Printable ASCII without the space and what JSON or HTML would escape.
@@ -135,4 +135,4 @@ std::array<std::vector<std::uint16_t>, 3> colour_numbers(const ColorImage& image
   return numbers;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

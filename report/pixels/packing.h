@@ -15,7 +15,7 @@
 
 #include "scene/image.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 /// What a number is predicted from: nothing, the number before, or the last one of the same surface.
 enum class From : std::uint8_t { nothing, previous, surface };
@@ -49,4 +49,4 @@ std::uint16_t colour_number(float value);
 /// Returns the numbers of a picture's red, green and blue.
 std::array<std::vector<std::uint16_t>, 3> colour_numbers(const ColorImage& image);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

@@ -19,8 +19,10 @@
 #include "report/pixels/packing.h"
 #include "scene/base/parallel.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 namespace {
+
+using compare::vector3;
 
 using Json = nlohmann::ordered_json;
 
@@ -73,16 +75,16 @@ Json rays_json(const PixelRays& rays) {
           {"down", vector3(rays.down)}};
 }
 
-Json materials_json(const ShownMaterials& materials) {
+Json materials_json(const compare::ShownMaterials& materials) {
   Json list = Json::array();
-  for (const ShownMaterial& m : materials.list())
+  for (const compare::ShownMaterial& m : materials.list())
     list.push_back({{"name", m.name}, {"mirror", m.mirror}, {"transmission", m.transmission}});
   return list;
 }
 
 // What all lights share: what is seen at each pixel, and both pictures.
-Json pixels_json(const Comparison& c, Packer& packer, const PixelSurfaces& surfaces,
-                 const ShownMaterials& materials) {
+Json pixels_json(const compare::Comparison& c, Packer& packer, const PixelSurfaces& surfaces,
+                 const compare::ShownMaterials& materials) {
   Channels channels(packer, &surfaces.sources);
   add_receiver(channels, surfaces);
   if (!materials.empty())
@@ -171,24 +173,24 @@ Json geometry_json(const World& world, const Geometry& geometry, Packer& packer)
 }  // namespace
 
 PageData page_data(const PageInput& in) {
-  const Comparison& c = in.comparison;
+  const compare::Comparison& c = in.comparison;
   PageData out;
-  Json head{{"kind", "compare"},
-            {"labels", label_facts()},
-            {"rungs", rung_facts()},
-            {"width", c.raytraced.color.size.width},
-            {"height", c.raytraced.color.size.height},
-            {"position_steps", position_steps},
-            {"visibility_steps", visibility_steps},
-            {"colour_steps", colour_steps},
-            {"darkest_octave", darkest_octave},
-            {"exposure", c.exposure},
-            {"lights", c.lights.size()}};
+  compare::Json head{{"kind", "compare"},
+                     {"labels", label_facts()},
+                     {"rungs", rung_facts()},
+                     {"width", c.raytraced.color.size.width},
+                     {"height", c.raytraced.color.size.height},
+                     {"position_steps", position_steps},
+                     {"visibility_steps", visibility_steps},
+                     {"colour_steps", colour_steps},
+                     {"darkest_octave", darkest_octave},
+                     {"exposure", c.exposure},
+                     {"lights", c.lights.size()}};
   out.head = head.dump();
   if (c.lights.empty()) return out;
   struct Part {
     std::string name;
-    Json json;
+    compare::Json json;
     std::size_t first;  // job of its arrays
   };
   Packer packer;
@@ -199,7 +201,7 @@ PageData page_data(const PageInput& in) {
   };
   std::optional<Geometry> geometry;
   std::optional<PixelSurfaces> surfaces;
-  std::optional<ShownMaterials> materials;
+  std::optional<compare::ShownMaterials> materials;
   const auto describe_pixels = [&] {
     surfaces.emplace(pixel_surfaces(c));
     materials.emplace(*c.world);
@@ -217,4 +219,4 @@ PageData page_data(const PageInput& in) {
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

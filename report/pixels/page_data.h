@@ -12,7 +12,7 @@
 #include "report/pixels/surface_prediction.h"
 #include "scene/world.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 /// The large parts apart, so that they may stand in files of their own: "pixels" (what both renderers see and
 /// their linear pictures), "geometry", and "light-0", "light-1", …
@@ -46,4 +46,4 @@ struct SectionMesh {
 /// `most_triangles`: of the scene's own, and again of the solids', who get fewer sectors before they go.
 SectionMesh section_mesh(const World& world, std::size_t most_triangles = 200000);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

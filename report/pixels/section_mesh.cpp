@@ -2,7 +2,7 @@
 
 #include "scene/shapes/tessellate.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 namespace {
 
@@ -62,4 +62,4 @@ SectionMesh section_mesh(const World& world, std::size_t most_triangles) {
   return mesh;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

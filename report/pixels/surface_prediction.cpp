@@ -7,7 +7,7 @@
 #include "report/pixels/page_data.h"
 #include "scene/base/parallel.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 namespace {
 
 double dot3(const Vec3& a, const Vec3& b) {
@@ -89,9 +89,9 @@ PixelRays pixel_rays(const View& view) {
   return {view.eye, view.forward - view.right * view.tan_half_x + view.up * view.tan_half_y, across, down};
 }
 
-PixelSurfaces pixel_surfaces(const Comparison& c) {
+PixelSurfaces pixel_surfaces(const compare::Comparison& c) {
   PixelSurfaces out;
-  out.seen = c.seen.data.empty() ? seen_surfaces(c.raytraced.receiver) : c.seen;
+  out.seen = c.seen.data.empty() ? compare::seen_surfaces(c.raytraced.receiver) : c.seen;
   out.rays = pixel_rays(make_view(c.world->scene->camera, out.seen.size));
   std::vector<std::uint32_t> primitives(out.count());
   for (std::size_t i = 0; i < primitives.size(); ++i) primitives[i] = out.primitive(i);
@@ -112,4 +112,4 @@ LookupNumbers predicted_lookups(const PixelSurfaces& surfaces, const LightView& 
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

@@ -12,7 +12,7 @@
 #include "report/pixels/packing.h"
 #include "scene/camera.h"
 
-namespace gnomon::compare {
+namespace gnomon::report {
 
 /// Map positions in 1/position_steps texel, distances in depth steps.
 struct LookupNumbers {
@@ -28,18 +28,18 @@ PixelRays pixel_rays(const View& view);
 /// What both sides know of the pixels' surfaces.
 struct PixelSurfaces {
   PixelRays rays;
-  Image<SeenSurface> seen;
+  Image<compare::SeenSurface> seen;
   Sources sources;
 
   std::size_t count() const { return seen.data.size(); }
   std::uint32_t primitive(std::size_t pixel) const { return seen.data[pixel].primitive; }
   Vec3 normal(std::size_t pixel) const { return Vec3(seen.data[pixel].normal); }  ///< of any length
 };
-PixelSurfaces pixel_surfaces(const Comparison& comparison);
+PixelSurfaces pixel_surfaces(const compare::Comparison& comparison);
 
 /// Predicts every pixel's lookup from the numbers before it.
 LookupNumbers predicted_lookups(const PixelSurfaces& surfaces, const LightView& light,
                                 const Image<std::uint8_t>& faces, const LookupNumbers& numbers,
                                 double depth_step);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::report

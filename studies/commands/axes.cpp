@@ -15,10 +15,10 @@ namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-compare::ValueKind value_kind(const CLI::Option& option) {
+studies::ValueKind value_kind(const CLI::Option& option) {
   const std::string type = option.get_type_name();
-  if (is_flag(option) || type == "NAME" || type == "SIDE") return compare::ValueKind::word;
-  return type.find(',') == std::string::npos ? compare::ValueKind::number : compare::ValueKind::numbers;
+  if (is_flag(option) || type == "NAME" || type == "SIDE") return studies::ValueKind::word;
+  return type.find(',') == std::string::npos ? studies::ValueKind::number : studies::ValueKind::numbers;
 }
 
 /// Truth first, then what changes the depth map, then what only looks it up, the constant bias last.
@@ -43,7 +43,7 @@ void SweepOptions::add_to(CLI::App& command) {
     given.kind = value_kind(*option);
     const auto store = [&given](const std::string& text) {
       const std::string name = "--" + given.name;
-      auto values = compare::expand_values(text, given.kind);
+      auto values = studies::expand_values(text, given.kind);
       if (!values) throw CLI::ValidationError(name, values.error().reason);
       for (const std::string& value : *values) {
         const auto parsed = check_setting(given.name, value);
@@ -55,7 +55,7 @@ void SweepOptions::add_to(CLI::App& command) {
     command.add_option_function<std::string>("--" + given.name, store, sweep_text(*option))
         ->type_name(given.flag ? "off|on"
                                : option->get_type_name() +
-                                     (given.kind == compare::ValueKind::numbers ? "/…" : ",…"));
+                                     (given.kind == studies::ValueKind::numbers ? "/…" : ",…"));
   }
   const std::vector<std::string> map_names = map_setting_names();
   std::stable_sort(given_.begin(), given_.end(), [&](const auto& a, const auto& b) {
@@ -96,12 +96,12 @@ Expected<void> SweepOptions::check_read() const {
   return {};
 }
 
-Expected<compare::Grid> SweepOptions::grid(bool zip) const {
+Expected<studies::Grid> SweepOptions::grid(bool zip) const {
   if (const auto read = check_read(); !read) return fail(read.error());
-  std::vector<compare::Axis> axes;
+  std::vector<studies::Axis> axes;
   for (const auto& given : given_)
     if (given->values.size() > 1) axes.push_back({given->name, given->values});
-  return compare::Grid::make(std::move(axes), zip);
+  return studies::Grid::make(std::move(axes), zip);
 }
 
 Values SweepOptions::fixed() const {
@@ -118,7 +118,7 @@ std::string SweepOptions::arguments() const {
   return text;
 }
 
-Values SweepOptions::cell_values(const compare::Grid& grid, std::size_t cell) const {
+Values SweepOptions::cell_values(const studies::Grid& grid, std::size_t cell) const {
   Values values = fixed();
   const std::vector<std::size_t> at = grid.position(cell);
   for (std::size_t k = 0; k < at.size(); ++k)
@@ -126,21 +126,21 @@ Values SweepOptions::cell_values(const compare::Grid& grid, std::size_t cell) co
   return values;
 }
 
-std::vector<std::string> SweepOptions::axes_without_effect(const compare::Grid& grid,
+std::vector<std::string> SweepOptions::axes_without_effect(const studies::Grid& grid,
                                                            std::size_t cell) const {
   const Values read = values_read(cell_values(grid, cell));
   std::vector<std::string> without_effect;
-  for (const compare::Axis& axis : grid.axes())
+  for (const studies::Axis& axis : grid.axes())
     if (std::none_of(read.begin(), read.end(), [&](const auto& entry) { return entry.first == axis.name; }))
       without_effect.push_back(axis.name);
   return without_effect;
 }
 
-Expected<SettingOptions> SweepOptions::parse_cell(const compare::Grid& grid, std::size_t cell) const {
+Expected<SettingOptions> SweepOptions::parse_cell(const studies::Grid& grid, std::size_t cell) const {
   return parse_setting(read_values(grid, cell));
 }
 
-Values SweepOptions::read_values(const compare::Grid& grid, std::size_t cell) const {
+Values SweepOptions::read_values(const studies::Grid& grid, std::size_t cell) const {
   return values_read(cell_values(grid, cell));
 }
 

@@ -29,7 +29,7 @@ class SweepOptions {
 
   /// The options that were given several values. Error (usage): an option that no technique of the sweep
   /// reads.
-  Expected<compare::Grid> grid(bool zip) const;
+  Expected<studies::Grid> grid(bool zip) const;
   /// The options that were given one value: name and value.
   std::vector<std::pair<std::string, std::string>> fixed() const;
 
@@ -40,24 +40,24 @@ class SweepOptions {
   std::string arguments() const;
 
   /// The setting with the grid's values of one cell.
-  Expected<SettingOptions> parse_cell(const compare::Grid& grid, std::size_t cell) const;
+  Expected<SettingOptions> parse_cell(const studies::Grid& grid, std::size_t cell) const;
   /// The axes that have no effect on a cell: its technique does not read them.
-  std::vector<std::string> axes_without_effect(const compare::Grid& grid, std::size_t cell) const;
+  std::vector<std::string> axes_without_effect(const studies::Grid& grid, std::size_t cell) const;
   /// What compare would be given for that cell, without what has no effect.
-  std::vector<std::pair<std::string, std::string>> read_values(const compare::Grid& grid,
+  std::vector<std::pair<std::string, std::string>> read_values(const studies::Grid& grid,
                                                                std::size_t cell) const;
 
  private:
   struct Given {
     std::string name;  ///< without "--"
     bool flag = false;
-    compare::ValueKind kind = compare::ValueKind::number;
+    studies::ValueKind kind = studies::ValueKind::number;
     std::string text;  ///< as it was given
     std::vector<std::string> values;
   };
   Expected<void> check_read() const;
   const std::vector<std::string>* values_of(std::string_view name) const;
-  std::vector<std::pair<std::string, std::string>> cell_values(const compare::Grid& grid,
+  std::vector<std::pair<std::string, std::string>> cell_values(const studies::Grid& grid,
                                                                std::size_t cell) const;
   std::vector<std::string> unnamed_{"hard"};
   std::vector<std::unique_ptr<Given>> given_;

@@ -15,7 +15,7 @@
 namespace gnomon::app {
 
 bool PicturedCells::take(std::size_t cell, const compare::Comparison& comparison, bool derived) {
-  if (!compare::has_thumbnail(cell, cells_)) return false;
+  if (!studies::has_thumbnail(cell, cells_)) return false;
   std::vector<std::uint64_t> now;
   for (const compare::LightComparison& light : comparison.lights)
     now.insert(now.end(), light.classes.begin(), light.classes.end());
@@ -28,7 +28,7 @@ bool PicturedCells::take(std::size_t cell, const compare::Comparison& comparison
 }
 
 Expected<void> CellPictureWriter::make_folders() const {
-  for (const std::string_view name : compare::sweep_folder_names)
+  for (const std::string_view name : studies::sweep_folder_names)
     if (auto made = make_output_subfolder(folder_, std::string(name)); !made) return made;
   return {};
 }
@@ -50,7 +50,7 @@ struct CellPictureWriter::Pictures {
 };
 
 Expected<void> CellPictureWriter::write(const Pictures& p) {
-  const std::string cells = std::string(compare::cells_name) + "/";
+  const std::string cells = std::string(studies::cells_name) + "/";
   std::vector<std::pair<std::string, std::string>> files;  // name in the folder, bytes
   const auto add = [&files](const std::string& path, const Rgb8Image& image) -> Expected<void> {
     auto png = encode_png(image);
@@ -66,15 +66,15 @@ Expected<void> CellPictureWriter::write(const Pictures& p) {
       p.truth_name->told.set_exception(std::current_exception());
       throw;
     }
-    p.truth_name->told.set_value(added ? compare::truth_name(files.back().second) : "");
+    p.truth_name->told.set_value(added ? studies::truth_name(files.back().second) : "");
     if (!added) return added;
     files.back().first = cells + p.truth_name->name.get() + ".png";
   }
-  const std::string name = cells + compare::cell_name(p.cell);
-  files.emplace_back(name + ".js", compare::cell_data_file(p.cell, p.codes, p.truth_name->name.get()));
+  const std::string name = cells + studies::cell_name(p.cell);
+  files.emplace_back(name + ".js", studies::cell_data_file(p.cell, p.codes, p.truth_name->name.get()));
   if (p.drawing)
     if (auto added = add(name + ".png", *p.drawing); !added) return added;
-  if (auto added = add(compare::thumbnail_name(p.cell), p.thumbnail); !added) return added;
+  if (auto added = add(studies::thumbnail_name(p.cell), p.thumbnail); !added) return added;
   const OutputGuard whole_files;
   for (const auto& [path, bytes] : files)
     if (auto written = write_file_in(p.folder, path, bytes); !written) return written;
@@ -93,8 +93,8 @@ CellPictureWriter::Job CellPictureWriter::pictures(std::size_t cell, const compa
   }
   pictures->truth_name = truth_;
   pictures->codes = engine_.class_codes();
-  pictures->thumbnail = engine_.thumbnail(compare::thumbnail_width);
-  if (!engine_.last_was_derived()) pictures->drawing = engine_.drawing(compare::drawing_width);
+  pictures->thumbnail = engine_.thumbnail(studies::thumbnail_width);
+  if (!engine_.last_was_derived()) pictures->drawing = engine_.drawing(studies::drawing_width);
   return [pictures] { return write(*pictures); };
 }
 

@@ -37,7 +37,7 @@ struct MadeCell {
 }  // namespace
 
 Expected<void> look_from_views(const SweepCommand& command, const LoadedScene& loaded, const Scene& given,
-                               compare::Engine& engine, Console& console) {
+                               studies::Engine& engine, Console& console) {
   auto views =
       resolve_views(command.views, command.asked.film, command.asked.is_filmed(), loaded, given, console);
   if (!views) return fail(views.error());
@@ -81,7 +81,7 @@ Expected<MadeCell> make_cell(SweepRun& run, std::size_t index) {
   const std::size_t cell = run.plan.cells[index];
   const auto setting = setting_of(run, cell);
   if (!setting) return fail(setting.error());
-  const auto compared = run.engine.compare(*setting, compare::Detail::numbers);
+  const auto compared = run.engine.compare(*setting, studies::Detail::numbers);
   if (!compared) return fail(compared.error());
   compare::Comparison& comparison = **compared;
   const TimedStage stage("records");
@@ -103,7 +103,7 @@ Expected<MadeCell> make_cell(SweepRun& run, std::size_t index) {
 /// Cells on their way into the journal, in order: while some cells' pictures are written the next are made.
 class CellQueue {
  public:
-  explicit CellQueue(compare::Journal& journal) : journal_(journal) {}
+  explicit CellQueue(studies::Journal& journal) : journal_(journal) {}
 
   Expected<void> push(MadeCell cell) {
     if (cell.pictures) {
@@ -137,13 +137,13 @@ class CellQueue {
     return journal_.append(cell.line, cell.times);
   }
 
-  compare::Journal& journal_;
+  studies::Journal& journal_;
   std::deque<MadeCell> cells_;
   std::size_t writing_ = 0;
 };
 
 /// All cells once more, for their times alone: the machine's slow moments then fall on none of them alone.
-Expected<void> time_round(SweepRun& run, int round, compare::Journal& journal) {
+Expected<void> time_round(SweepRun& run, int round, studies::Journal& journal) {
   const std::size_t all = run.plan.cells.size(), before = static_cast<std::size_t>(round) * all;
   run.engine.begin_round();
   for (std::size_t i = 0; i < all; ++i) {
@@ -157,7 +157,7 @@ Expected<void> time_round(SweepRun& run, int round, compare::Journal& journal) {
     if (!timed) return fail(timed.error());
     const TimedStage stage("records");
     const OutputGuard whole_lines;
-    if (auto added = journal.append_round(compare::round_json(**timed, cell, machine_info())); !added)
+    if (auto added = journal.append_round(studies::round_json(**timed, cell, machine_info())); !added)
       return added;
   }
   return {};
@@ -165,18 +165,18 @@ Expected<void> time_round(SweepRun& run, int round, compare::Journal& journal) {
 
 }  // namespace
 
-bool has_all_rounds(const SweepCommand& command, const compare::Journal& journal, std::size_t cells) {
+bool has_all_rounds(const SweepCommand& command, const studies::Journal& journal, std::size_t cells) {
   const auto rounds = static_cast<std::size_t>(std::max(1, rounds_of(command)));
   return journal.size() == cells && journal.times_size() == rounds * cells;
 }
 
-Expected<void> time_rounds(SweepRun& run, compare::Journal& journal) {
+Expected<void> time_rounds(SweepRun& run, studies::Journal& journal) {
   for (int round = 1; round < rounds_of(run.command); ++round)
     if (auto timed = time_round(run, round, journal); !timed) return timed;
   return journal.finish_rounds();
 }
 
-Expected<void> make_cells(SweepRun& run, compare::Journal& journal) {
+Expected<void> make_cells(SweepRun& run, studies::Journal& journal) {
   const Stopwatch watch;
   const std::size_t all = run.plan.cells.size(), before = journal.size();
   CellQueue queue(journal);

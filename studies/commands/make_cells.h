@@ -20,7 +20,7 @@ namespace gnomon::app {
 class CellPictureWriter {
  public:
   /// Both outlive the writer.
-  CellPictureWriter(const std::string& folder, const compare::Engine& engine)
+  CellPictureWriter(const std::string& folder, const studies::Engine& engine)
       : folder_(folder), engine_(engine) {}
 
   Expected<void> make_folders() const;
@@ -37,7 +37,7 @@ class CellPictureWriter {
   static Expected<void> write(const Pictures& p);
 
   const std::string& folder_;
-  const compare::Engine& engine_;
+  const studies::Engine& engine_;
   std::uint64_t truths_ = 0;          ///< made when the last one was written
   std::shared_ptr<TruthName> truth_;  ///< of that one
 };
@@ -64,7 +64,7 @@ struct SweepRun {
   LightSelection& selection;
   Scene given;  ///< camera and lights as loaded, less those that the last cell left out
   compare::MachineInfo machine;
-  compare::Engine& engine;
+  studies::Engine& engine;
   CellPictureWriter pictures;
   PicturedCells pictured;
   Console& console;
@@ -72,13 +72,13 @@ struct SweepRun {
 
 /// The engine judges from the views that were asked for; `given`: camera and lights of the scene.
 Expected<void> look_from_views(const SweepCommand& command, const LoadedScene& loaded, const Scene& given,
-                               compare::Engine& engine, Console& console);
+                               studies::Engine& engine, Console& console);
 
 /// All cells that the journal does not have yet, drawn once.
-Expected<void> make_cells(SweepRun& run, compare::Journal& journal);
+Expected<void> make_cells(SweepRun& run, studies::Journal& journal);
 /// Draws all cells as often again as passes are run, in rounds, as far as the journal does not have them yet.
-Expected<void> time_rounds(SweepRun& run, compare::Journal& journal);
+Expected<void> time_rounds(SweepRun& run, studies::Journal& journal);
 /// Whether the journal has all cells and all rounds of their times.
-bool has_all_rounds(const SweepCommand& command, const compare::Journal& journal, std::size_t cells);
+bool has_all_rounds(const SweepCommand& command, const studies::Journal& journal, std::size_t cells);
 
 }  // namespace gnomon::app

@@ -22,7 +22,7 @@ namespace {
 struct MergeCommand {
   std::vector<std::string> shards;
   std::string folder;
-  double report_max_mb = compare::default_report_max_mb;
+  double report_max_mb = report::default_report_max_mb;
   bool quiet = false;
 };
 
@@ -38,7 +38,7 @@ Expected<ExitCode> run_merge(const MergeCommand& command) {
           fmt::format("-o: this folder is also a shard, which would be lost (got {})", command.folder));
   }
   const OutputGuard whole_outputs;
-  const auto merged = compare::merge_sweeps(command.shards, command.folder, command.report_max_mb);
+  const auto merged = studies::merge_sweeps(command.shards, command.folder, command.report_max_mb);
   if (!merged) return fail(merged.error());
   if (merged->page.beside) console.note(beside_note(merged->page.page_mb, command.report_max_mb));
   if (merged->drawers.size() > 1)

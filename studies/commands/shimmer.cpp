@@ -29,8 +29,8 @@ struct ShimmerCommand {
   std::string camera, folder, json, trace, shader_folder;
   SettingOptions setting;
   FilmOptions film;
-  compare::FilmFormat film_format = compare::FilmFormat::apng;
-  double report_max_mb = compare::default_film_max_mb;
+  studies::FilmFormat film_format = studies::FilmFormat::apng;
+  double report_max_mb = studies::default_film_max_mb;
   std::optional<double> fail_above;  ///< flips per receiver and second
   raster::Backend backend = raster::Backend::automatic;
   std::uint64_t seed = 0;
@@ -42,13 +42,13 @@ struct ShimmerCommand {
   std::vector<std::string> given;  ///< options
 };
 
-constexpr std::pair<std::string_view, compare::FilmFormat> film_formats[] = {
-    {"apng", compare::FilmFormat::apng}, {"mp4", compare::FilmFormat::mp4}};
+constexpr std::pair<std::string_view, studies::FilmFormat> film_formats[] = {
+    {"apng", studies::FilmFormat::apng}, {"mp4", studies::FilmFormat::mp4}};
 
 Expected<RunFiles> check_files(ShimmerCommand& command) {
   if (command.folder.empty() && command.json != "-")
     command.folder = default_output(command.scene.name) + "-shimmer";
-  if (const auto fine = compare::check_film_format(command.film_format); !fine) return fail(fine.error());
+  if (const auto fine = studies::check_film_format(command.film_format); !fine) return fail(fine.error());
   RunFiles files;
   files.reads(command.scene);
   files.reads(path_file(command.film));
@@ -62,8 +62,8 @@ Expected<RunFiles> check_files(ShimmerCommand& command) {
 }
 
 struct Filmed {
-  compare::Shimmer shimmer;
-  std::optional<compare::FilmRecorder> pictures;  ///< where a folder is asked for
+  studies::Shimmer shimmer;
+  std::optional<studies::FilmRecorder> pictures;  ///< where a folder is asked for
 };
 
 Expected<Filmed> make_film(const ShimmerCommand& command, const LoadedScene& loaded, Console& console) {
@@ -78,18 +78,18 @@ Expected<Filmed> make_film(const ShimmerCommand& command, const LoadedScene& loa
   if (!plan) return fail(plan.error());
   auto renderer = make_renderer(command.backend, loaded, console, command.shader_folder);
   if (!renderer) return fail(renderer.error());
-  compare::ShimmerOptions options{std::move(*plan), command.setting.options};
+  studies::ShimmerOptions options{std::move(*plan), command.setting.options};
   options.compare.raytrace.seed = command.seed;
   Filmed out;
-  compare::FrameSink sink;
+  studies::FrameSink sink;
   if (!command.folder.empty()) {
-    auto base = compare::unshadowed_picture(*loaded.scene, **renderer, options);
+    auto base = studies::unshadowed_picture(*loaded.scene, **renderer, options);
     if (!base) return fail(base.error());
     out.pictures.emplace(std::move(*base), options.time.fps);
-    sink = [&](const compare::ShimmerFrame& frame) { return out.pictures->add(frame); };
+    sink = [&](const studies::ShimmerFrame& frame) { return out.pictures->add(frame); };
   }
   auto shimmer =
-      compare::film_shimmer(*loaded.world, *loaded.scene, **renderer, *lights, options, sink,
+      studies::film_shimmer(*loaded.world, *loaded.scene, **renderer, *lights, options, sink,
                             [&](std::string_view stage, double done) { console.progress(stage, done); });
   if (!shimmer) return fail(shimmer.error());
   out.shimmer = std::move(*shimmer);
@@ -101,7 +101,7 @@ Expected<void> write_all(const ShimmerCommand& command, const Filmed& film, cons
   const OutputGuard whole_outputs;
   if (!film.pictures) return hand_out_json(command.json, json);
   const std::vector<FileText> texts{{command.json, json}};
-  const auto megabytes = compare::write_shimmer(
+  const auto megabytes = studies::write_shimmer(
       film.shimmer, *film.pictures, json,
       {command.folder, command.report_max_mb, files.inputs(), command.film_format, texts_for_files(texts)});
   if (!megabytes) return fail(megabytes.error());
@@ -110,10 +110,10 @@ Expected<void> write_all(const ShimmerCommand& command, const Filmed& film, cons
   return {};
 }
 
-ExitCode judge_lights(const ShimmerCommand& command, const compare::Shimmer& film, Console& console) {
+ExitCode judge_lights(const ShimmerCommand& command, const studies::Shimmer& film, Console& console) {
   ExitCode code = ExitCode::done;
   if (!command.fail_above) return code;
-  const auto nothing = [](const compare::ShimmerLight& light) {
+  const auto nothing = [](const studies::ShimmerLight& light) {
     return light.temporal.total().receivers == 0;
   };
   if (std::all_of(film.lights.begin(), film.lights.end(), nothing)) {
@@ -121,8 +121,8 @@ ExitCode judge_lights(const ShimmerCommand& command, const compare::Shimmer& fil
                                 *command.fail_above));
     return ExitCode::threshold_exceeded;
   }
-  for (const compare::ShimmerLight& light : film.lights) {
-    const double flips = compare::flips_per_receiver_second(film.options, light);
+  for (const studies::ShimmerLight& light : film.lights) {
+    const double flips = studies::flips_per_receiver_second(film.options, light);
     if (!(flips > *command.fail_above)) continue;
     console.message(
         fmt::format("light {}: {:g} flips per receiver and second; that is more than --fail-above {:g}",
@@ -147,10 +147,10 @@ Expected<ExitCode> run_shimmer(ShimmerCommand& command) {
   if (!film) return fail(film.error());
   console.clear_progress();
   const std::string json =
-      compare::shimmer_json(film->shimmer, {command.command_line, command.seed, total.elapsed_ms()});
+      studies::shimmer_json(film->shimmer, {command.command_line, command.seed, total.elapsed_ms()});
   if (const auto written = write_all(command, *film, json, *files, console); !written)
     return fail(written.error());
-  if (!command.quiet && command.json != "-") print_data(compare::shimmer_table(film->shimmer));
+  if (!command.quiet && command.json != "-") print_data(studies::shimmer_table(film->shimmer));
   if (!command.folder.empty())
     console.message(
         fmt::format("report: {}/report.html ({:.1f} s)", command.folder, total.elapsed_ms() / 1000.0));

@@ -40,9 +40,9 @@ Expected<Plan> plan_of(const SweepCommand& command) {
 }
 
 /// The constant biases that the sweep runs through.
-std::vector<raster::Bias> bias_axis(const compare::Grid& grid) {
+std::vector<raster::Bias> bias_axis(const studies::Grid& grid) {
   std::vector<raster::Bias> biases;
-  for (const compare::Axis& axis : grid.axes()) {
+  for (const studies::Axis& axis : grid.axes()) {
     if (axis.name != "bias") continue;
     for (const std::string& text : axis.values)
       if (const auto value = raster::parse_bias(text)) biases.push_back({value->constant, value->unit});
@@ -54,7 +54,7 @@ std::vector<raster::Bias> bias_axis(const compare::Grid& grid) {
 Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan, const LoadedScene& loaded,
                                   LightSelection& selection, Console& console) {
   if (!command.ray_tracer || command.shard.part != 1) return {};
-  const auto measured = is_there(compare::ray_points_path(command.folder), ErrorKind::cannot_write);
+  const auto measured = is_there(studies::ray_points_path(command.folder), ErrorKind::cannot_write);
   if (!measured) return fail(measured.error());
   if (*measured) return {};
   auto options = command.options.parse_cell(plan.grid, 0);
@@ -71,15 +71,15 @@ Expected<void> measure_ray_tracer(const SweepCommand& command, const Plan& plan,
   const std::vector<Light> given_lights = std::exchange(loaded.scene->lights, setting->lights);
   console.progress("the ray tracer's own points", 1.0);
   const auto points =
-      compare::measure_ray_points(*loaded.world, setting->accel, setting->compared, setting->raytrace);
+      studies::measure_ray_points(*loaded.world, setting->accel, setting->compared, setting->raytrace);
   loaded.scene->camera = given_camera;
   loaded.scene->lights = given_lights;
   const OutputGuard whole_file;
-  return write_file_in(command.folder, compare::ray_points_name, compare::ray_points_json(points));
+  return write_file_in(command.folder, studies::ray_points_name, studies::ray_points_json(points));
 }
 
 /// Cells that another OpenGL drew differ by more than the option that the sweep varies.
-Expected<void> check_same_drawer(const compare::Journal& journal, const raster::ContextInfo& info) {
+Expected<void> check_same_drawer(const studies::Journal& journal, const raster::ContextInfo& info) {
   if (journal.size() == 0) return {};
   const std::string& before = journal.drawer();
   const std::string now = info.backend + ", " + info.renderer;
@@ -91,11 +91,11 @@ Expected<void> check_same_drawer(const compare::Journal& journal, const raster::
 }
 
 Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& loaded,
-                    LightSelection& selection, compare::Journal& journal, Console& console) {
+                    LightSelection& selection, studies::Journal& journal, Console& console) {
   const auto renderer = make_renderer(command.backend, loaded, console, command.shader_folder);
   if (!renderer) return fail(renderer.error());
   if (const auto same = check_same_drawer(journal, (*renderer)->info()); !same) return same;
-  compare::Engine engine(*loaded.scene, *loaded.world, **renderer, command.perceptual);
+  studies::Engine engine(*loaded.scene, *loaded.world, **renderer, command.perceptual);
   if (command.asked.is_filmed()) {
     const StageSource source = stage_source(command);
     const auto film = resolve_film(command.asked.film, loaded.paths, *loaded.scene, console, &source);
@@ -119,7 +119,7 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
   if (auto made = run.pictures.make_folders(); !made) return made;
   if (auto biases = bias_axis(plan.grid); !biases.empty()) engine.expect_biases(std::move(biases));
   if (auto made = make_cells(run, journal); !made) return made;
-  const compare::EngineWork& work = engine.work();
+  const studies::EngineWork& work = engine.work();
   if (work.renders > 0)
     console.message(fmt::format(
         "{} cell{} drawn{}; ray traced {}", work.renders, work.renders == 1 ? "" : "s",
@@ -128,7 +128,7 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
   return time_rounds(run, journal);
 }
 
-ExitCode announce(const SweepCommand& command, const compare::Headline& headline) {
+ExitCode announce(const SweepCommand& command, const studies::Headline& headline) {
   if (!command.quiet)
     for (const std::string& line : headline.lines()) print_data(one_line(line) + "\n");
   return headline.limit_met ? ExitCode::done : ExitCode::threshold_exceeded;
@@ -155,10 +155,10 @@ Expected<ExitCode> run_on_slurm(const SweepCommand& command) {
   if (const auto done = run_slurm_array(script, folder, tasks); !done) return fail(done.error());
   const OutputGuard whole_outputs;
   if (command.restart) {
-    if (auto gone = compare::discard_sweep(folder); !gone) return fail(gone.error());
+    if (auto gone = studies::discard_sweep(folder); !gone) return fail(gone.error());
   }
   const auto merged =
-      compare::merge_sweeps(shard_folders(folder, tasks), folder, command.report_max_mb, command.max_error);
+      studies::merge_sweeps(shard_folders(folder, tasks), folder, command.report_max_mb, command.max_error);
   if (!merged) return fail(merged.error());
   if (merged->page.beside) console.note(beside_note(merged->page.page_mb, command.report_max_mb));
   if (merged->drawers.size() > 1)
@@ -186,7 +186,7 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   files.reads(path_file(command.asked.film));
   files.reads_shaders(command.shader_folder);
   files.writes("--trace", command.trace);
-  files.writes_folder("-o", command.folder, compare::sweep_file_names);
+  files.writes_folder("-o", command.folder, studies::sweep_file_names);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
   if (command.slurm_tasks) return run_on_slurm(command);
   Console console(command.quiet);
@@ -205,11 +205,11 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   }
   if (command.exposure) loaded->scene->exposure = *command.exposure;
   if (command.restart) {
-    if (auto gone = compare::discard_sweep(command.folder); !gone) return fail(gone.error());
+    if (auto gone = studies::discard_sweep(command.folder); !gone) return fail(gone.error());
   }
-  const compare::SweepHeader header =
-      compare::make_header(configuration(command, *plan, *loaded->scene), plan->grid.cells(), command.shard);
-  auto journal = compare::Journal::open(command.folder, header, plan->axes, plan->cells);
+  const studies::SweepHeader header =
+      studies::make_header(configuration(command, *plan, *loaded->scene), plan->grid.cells(), command.shard);
+  auto journal = studies::Journal::open(command.folder, header, plan->axes, plan->cells);
   if (!journal) return fail(journal.error());
   if (journal->was_torn()) console.note("the last line was torn; its cell is made anew");
   if (journal->size() > 0)
@@ -223,7 +223,7 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   }
   const auto written = [&command] {
     const OutputGuard whole_page;
-    return compare::write_sweep_page(command.folder, command.report_max_mb, command.max_error);
+    return studies::write_sweep_page(command.folder, command.report_max_mb, command.max_error);
   }();
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
@@ -235,7 +235,7 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   return announce(command, written->headline);
 }
 
-Expected<compare::Shard> parse_shard(const std::string& text) {
+Expected<studies::Shard> parse_shard(const std::string& text) {
   const std::size_t slash = text.find('/');
   const auto wrong = [&text] {
     return fail(ErrorKind::usage, fmt::format("not a shard (got {}, allowed 1/N to N/N)", text));
@@ -245,7 +245,7 @@ Expected<compare::Shard> parse_shard(const std::string& text) {
   if (!of) return wrong();
   const auto part = parse_integer(text.substr(0, slash), 1, *of);
   if (!part) return wrong();
-  return compare::Shard{static_cast<int>(*part), static_cast<int>(*of)};
+  return studies::Shard{static_cast<int>(*part), static_cast<int>(*of)};
 }
 
 void add_options(CLI::App& app, SweepCommand& command) {

@@ -53,7 +53,7 @@ std::string measure_arguments(const FilmedMeasure& asked) {
 std::string configuration(const SweepCommand& command, const Plan& plan, const Scene& scene) {
   using Json = nlohmann::ordered_json;
   Json axes = Json::array(), fixed = Json::object();
-  for (const compare::Axis& axis : plan.grid.axes())
+  for (const studies::Axis& axis : plan.grid.axes())
     axes.push_back({{"name", axis.name}, {"values", axis.values}});
   for (const auto& [name, value] : command.options.fixed()) fixed[name] = value;
   Json shaders = Json::array();

@@ -24,18 +24,18 @@ namespace gnomon::app {
 
 /// The cells of a shard, and what the journal must know of each.
 struct Plan {
-  compare::Grid grid;
+  studies::Grid grid;
   std::vector<std::size_t> cells;
   std::vector<std::string> axes;
 };
 
 /// Names and values of a cell.
-compare::AxisValues axis_values(const compare::Grid& grid, std::size_t cell);
+compare::AxisValues axis_values(const studies::Grid& grid, std::size_t cell);
 
 /// Returns the JSON names of the axes that have no effect on a cell.
 std::vector<std::string> json_names(std::vector<std::string> axes);
 
-Plan make_plan(compare::Grid grid, compare::Shard shard);
+Plan make_plan(studies::Grid grid, studies::Shard shard);
 
 struct SweepCommand : RunOptions {
   SceneArgument scene;
@@ -45,12 +45,12 @@ struct SweepCommand : RunOptions {
   std::vector<raster::ReplacedShader> replaced_shaders;  ///< what differs in it
   std::optional<int> runs;
   int max_lights = usual_max_lights;
-  compare::Shard shard;
+  studies::Shard shard;
   std::optional<int> slurm_tasks;
   std::optional<compare::Threshold> max_error;
   FilmedMeasure asked;
   ViewListOptions views;
-  double report_max_mb = compare::default_report_max_mb;
+  double report_max_mb = report::default_report_max_mb;
   bool zip = false, perceptual = false, ray_tracer = false, restart = false, quiet = false;
 };
 

@@ -8,7 +8,7 @@ namespace gnomon::app {
 namespace {
 
 /// Cells that differ from the one before in the constant bias alone stay with it: they come from one drawing.
-bool shares_drawing(const compare::Grid& grid, std::size_t cell) {
+bool shares_drawing(const studies::Grid& grid, std::size_t cell) {
   if (cell == 0) return false;
   const std::vector<std::size_t> a = grid.position(cell - 1), b = grid.position(cell);
   for (std::size_t k = 0; k < a.size(); ++k)
@@ -17,7 +17,7 @@ bool shares_drawing(const compare::Grid& grid, std::size_t cell) {
 }
 
 /// How many cells in a row have one truth: those that differ in options of the map alone.
-std::size_t cells_of_one_truth(const compare::Grid& grid) {
+std::size_t cells_of_one_truth(const studies::Grid& grid) {
   if (grid.zipped()) return 1;
   std::size_t cells = 1;
   for (std::size_t k = grid.axes().size(); k-- > 0;) {
@@ -29,7 +29,7 @@ std::size_t cells_of_one_truth(const compare::Grid& grid) {
 
 /// Shards take turns: at truths where these come out even, so that no truth is traced twice; else at
 /// drawings.
-bool shares_by_truth(const compare::Grid& grid, const compare::Shard& shard) {
+bool shares_by_truth(const studies::Grid& grid, const studies::Shard& shard) {
   const std::size_t truths = grid.cells() / cells_of_one_truth(grid), of = static_cast<std::size_t>(shard.of);
   return truths > 1 && (truths % of == 0 || truths >= 8 * of);
 }
@@ -41,7 +41,7 @@ std::vector<std::string> json_names(std::vector<std::string> axes) {
   return axes;
 }
 
-compare::AxisValues axis_values(const compare::Grid& grid, std::size_t cell) {
+compare::AxisValues axis_values(const studies::Grid& grid, std::size_t cell) {
   compare::AxisValues values;
   const std::vector<std::size_t> at = grid.position(cell);
   for (std::size_t k = 0; k < at.size(); ++k) {
@@ -52,7 +52,7 @@ compare::AxisValues axis_values(const compare::Grid& grid, std::size_t cell) {
   return values;
 }
 
-Plan make_plan(compare::Grid grid, compare::Shard shard) {
+Plan make_plan(studies::Grid grid, studies::Shard shard) {
   Plan plan{std::move(grid), {}, {}};
   const bool by_truth = shares_by_truth(plan.grid, shard);
   const std::size_t truth_cells = cells_of_one_truth(plan.grid);

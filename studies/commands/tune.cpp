@@ -44,9 +44,9 @@ struct TuneCommand {
   SceneArgument scene;
   std::string camera, json, folder, trace, shader_folder;
   int max_lights = usual_max_lights;
-  double report_max_mb = compare::default_report_max_mb;
+  double report_max_mb = report::default_report_max_mb;
   SweepOptions options;
-  compare::TuneGoal goal;
+  studies::TuneGoal goal;
   FilmedMeasure asked;
   ViewListOptions views;
   raster::Backend backend = raster::Backend::automatic;
@@ -62,7 +62,7 @@ Expected<std::vector<int>> choose_sizes(const TuneCommand& command, int limit) {
   const auto grid = command.options.grid(false);
   if (!grid) return fail(grid.error());
   std::vector<std::string> texts;
-  for (const compare::Axis& axis : grid->axes())
+  for (const studies::Axis& axis : grid->axes())
     if (axis.name == "map-size") texts = axis.values;
   for (const auto& [name, value] : command.options.fixed())
     if (name == "map-size") texts = {value};
@@ -78,7 +78,7 @@ Expected<std::vector<int>> choose_sizes(const TuneCommand& command, int limit) {
 Expected<void> check_lists(const TuneCommand& command) {
   const auto grid = command.options.grid(false);
   if (!grid) return fail(grid.error());
-  for (const compare::Axis& axis : grid->axes())
+  for (const studies::Axis& axis : grid->axes())
     if (raster::find_setting(axis.name) == nullptr || axis.name == "bias")
       return fail(ErrorKind::usage,
                   fmt::format("--{}: one value only; the tuner varies the map's options", axis.name));
@@ -91,7 +91,7 @@ Expected<void> check_lists(const TuneCommand& command) {
 
 /// The setting that an answer's command asks for, read as compare reads it.
 Expected<compare::Setting> setting_as_given(const TuneCommand& command, const OptionFamily& family,
-                                            const compare::Attempt& attempt, const Scene& scene,
+                                            const studies::Attempt& attempt, const Scene& scene,
                                             const World& world, const compare::Setting& base) {
   const auto parsed = parse_setting(answer_values(command.options.fixed(), family, attempt));
   if (!parsed) return fail(parsed.error());
@@ -103,7 +103,7 @@ Expected<compare::Setting> setting_as_given(const TuneCommand& command, const Op
 }
 
 /// The comparison at the answer: what the page shows.
-Expected<compare::Comparison*> compare_at_answer(compare::Engine& engine, const TuneAnswer& answer,
+Expected<compare::Comparison*> compare_at_answer(studies::Engine& engine, const TuneAnswer& answer,
                                                  const compare::Setting& setting) {
   auto compared = engine.compare(setting);
   if (!compared) return compared;
@@ -117,16 +117,16 @@ Expected<void> write_page(const TuneCommand& command, const TuneAnswer& answer, 
                           const compare::Comparison& comparison, const std::string& sheet, Console& console) {
   std::vector<std::string> commands;
   for (std::size_t i = 0; i < answer.families.size(); ++i) commands.push_back(answer.line(i));
-  const compare::PageIntroduction introduction = compare::tune_introduction(
+  const report::PageIntroduction introduction = studies::tune_introduction(
       {comparison.world->scene->name, command.goal, answer.result, commands, answer.others()});
   const OutputGuard whole_outputs;
   const auto written =
-      compare::write_outputs(comparison, {.folder = command.folder,
-                                          .report_max_mb = command.report_max_mb,
-                                          .introduction = &introduction,
-                                          .more = {{"tune.json", answer.json()}, {"sheet.html", sheet}},
-                                          .inputs = files.inputs(),
-                                          .elsewhere = texts_for_files({{command.json, answer.json()}})});
+      report::write_outputs(comparison, {.folder = command.folder,
+                                         .report_max_mb = command.report_max_mb,
+                                         .introduction = &introduction,
+                                         .more = {{"tune.json", answer.json()}, {"sheet.html", sheet}},
+                                         .inputs = files.inputs(),
+                                         .elsewhere = texts_for_files({{command.json, answer.json()}})});
   if (!written) return fail(written.error());
   if (written->beside) console.note(beside_note(written->page_mb, command.report_max_mb));
   console.message(fmt::format("report: {0}/report.html, a page to print: {0}/sheet.html", command.folder));
@@ -149,7 +149,7 @@ struct Bench {
   Scene given;  ///< the engine changes the scene's camera and lights
   std::vector<OptionFamily> families;
   compare::Setting setting;
-  compare::TuneOptions options;
+  studies::TuneOptions options;
   std::optional<compare::FilmPlan> film{};  ///< where errors are flips
   std::vector<compare::JudgedView> views{};
 };
@@ -194,21 +194,21 @@ compare::FilmPlan film_of_sheet(const Bench& bench) {
 
 /// The answer and its rivals on one page, each with at most as much memory as the answer.
 Expected<std::string> make_sheet(const TuneCommand& command, const Bench& bench, const TuneAnswer& answer) {
-  compare::Engine engine(*bench.loaded.scene, *bench.loaded.world, *bench.renderer, true);
+  studies::Engine engine(*bench.loaded.scene, *bench.loaded.world, *bench.renderer, true);
   if (!bench.views.empty()) engine.look_from(bench.views, command.goal.measure());
-  const compare::TuneResult& result = answer.result;
+  const studies::TuneResult& result = answer.result;
   const std::uint64_t bytes = attempt_of(result.families[result.winner]).map_bytes;
   std::vector<std::size_t> shown = answer.rivals();
   shown.insert(shown.begin(), result.winner);
-  compare::SheetInput sheet{bench.loaded.scene->name,
+  studies::SheetInput sheet{bench.loaded.scene->name,
                             command.goal,
                             command.engine != nullptr ? command.engine->name : std::string_view(),
                             {}};
   for (const std::size_t family : shown) {
-    compare::Attempt attempt = attempt_of(result.families[family]);
+    studies::Attempt attempt = attempt_of(result.families[family]);
     if (family != result.winner && attempt.map_bytes > 0) {
-      attempt.size = compare::size_at_memory(attempt, bench.options.sizes, bytes);
-      if (auto biased = compare::attempt_at(engine, bench.setting, result.families[family].family, attempt,
+      attempt.size = studies::size_at_memory(attempt, bench.options.sizes, bytes);
+      if (auto biased = studies::attempt_at(engine, bench.setting, result.families[family].family, attempt,
                                             command.goal);
           !biased)
         return fail(biased.error());
@@ -222,30 +222,30 @@ Expected<std::string> make_sheet(const TuneCommand& command, const Bench& bench,
         {result.families[family].family.name, answer.line(family, attempt), std::move(*setting)});
   }
   engine.film_with(film_of_sheet(bench));
-  return compare::tune_sheet(engine, sheet);
+  return studies::tune_sheet(engine, sheet);
 }
 
 Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, const RunFiles& files,
                                    const Stopwatch& total, Console& console) {
   const bool with_page = !command.folder.empty();
-  bench.options.as_given = [&](std::size_t family, const compare::Attempt& attempt) {
+  bench.options.as_given = [&](std::size_t family, const studies::Attempt& attempt) {
     return setting_as_given(command, bench.families[family], attempt, bench.given, *bench.loaded.world,
                             bench.setting);
   };
   const bool perceptual = with_page || command.goal.measure().needs == compare::FigureNeeds::perception;
-  compare::Engine engine(*bench.loaded.scene, *bench.loaded.world, *bench.renderer, perceptual);
+  studies::Engine engine(*bench.loaded.scene, *bench.loaded.world, *bench.renderer, perceptual);
   if (bench.film) engine.film_with(*bench.film);
   if (!bench.views.empty()) engine.look_from(bench.views, command.goal.measure());
   bench.options.most_seconds = command.most_seconds;
-  bench.options.found = [&](const compare::TuneFamily& family, const compare::Attempt& answer,
+  bench.options.found = [&](const studies::TuneFamily& family, const studies::Attempt& answer,
                             std::uint64_t renders) {
     console.message(fmt::format("good enough after {}: {}, {}, {}", compare::counted(renders, "drawing"),
                                 family.name, compare::with_noun(std::to_string(answer.size), "texel"),
                                 compare::milliseconds(answer.time_ms)));
   };
-  const auto result = compare::tune(
+  const auto result = studies::tune(
       engine, bench.setting, bench.options,
-      [&](const compare::TuneFamily& family, int size, std::uint64_t renders) {
+      [&](const studies::TuneFamily& family, int size, std::uint64_t renders) {
         const double share = double(renders) / double(3 * bench.families.size() + 1);
         console.progress(
             fmt::format("{}, {}", family.name, compare::with_noun(std::to_string(size), "texel")), share);
@@ -282,7 +282,7 @@ Expected<RunFiles> check_files(const TuneCommand& command) {
   files.reads_shaders(command.shader_folder);
   files.writes("--json", command.json);
   files.writes("--trace", command.trace);
-  files.writes_folder("-o", command.folder, compare::page_file_names);
+  files.writes_folder("-o", command.folder, report::page_file_names);
   for (const char* name : {"/tune.json", "/sheet.html"})
     if (!command.folder.empty()) files.writes("-o", command.folder + name);
   if (const auto fine = files.check(); !fine) return fail(fine.error());

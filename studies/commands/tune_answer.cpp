@@ -46,7 +46,7 @@ std::string unit_lines(const compare::EngineUnit& unit) {
 }
 
 // Where an engine has no number for this light, docs/engine-units.md and the JSON say why.
-std::string units_text(const compare::TuneResult& result) {
+std::string units_text(const studies::TuneResult& result) {
   std::string out;
   for (const auto& [light, units, derived] : result.engine_units) {
     out += "\nThe bias in the units of engines" +
@@ -61,7 +61,7 @@ std::string units_text(const compare::TuneResult& result) {
                      : out + "docs/engine-units.md explains the symbols, and what engines have no number.\n";
 }
 
-Json units_json(const compare::TuneResult& result) {
+Json units_json(const studies::TuneResult& result) {
   Json list = Json::array();
   for (const auto& [light, units, derived] : result.engine_units)
     list.push_back({{"light", light},
@@ -70,9 +70,9 @@ Json units_json(const compare::TuneResult& result) {
   return list;
 }
 
-Json just_over_json(const compare::TuneResult& result) {
+Json just_over_json(const studies::TuneResult& result) {
   Json list = Json::array();
-  for (const compare::JustOver& over : result.just_over)
+  for (const studies::JustOver& over : result.just_over)
     list.push_back({{"family", result.families[over.family].family.name},
                     {"map_size", over.attempt.size},
                     {"error", over.attempt.error},
@@ -80,7 +80,7 @@ Json just_over_json(const compare::TuneResult& result) {
   return list;
 }
 
-Json goal_json(const compare::TuneGoal& goal) {
+Json goal_json(const studies::TuneGoal& goal) {
   if (!goal.max_error) return {{"max_time_ms", *goal.max_time_ms}};
   return {{"threshold", compare::threshold_text(*goal.max_error)},
           {"measure", goal.max_error->measure->measure.name},
@@ -94,8 +94,8 @@ bool is_made(const compare::Figure& figure) {
 }
 
 Json family_json(const TuneAnswer& answer, std::size_t i) {
-  const compare::FamilyResult& family = answer.result.families[i];
-  const compare::Attempt& attempt = attempt_of(family);
+  const studies::FamilyResult& family = answer.result.families[i];
+  const studies::Attempt& attempt = attempt_of(family);
   Json options = Json::object();
   for (const auto& [name, value] : answer.values(i, attempt)) options[name] = value;
   Json json{{"command", answer.line(i)},
@@ -117,7 +117,7 @@ Json family_json(const TuneAnswer& answer, std::size_t i) {
 }  // namespace
 
 OptionValues answer_values(const OptionValues& fixed, const OptionFamily& family,
-                           const compare::Attempt& attempt) {
+                           const studies::Attempt& attempt) {
   OptionValues values;
   for (const auto& entry : fixed)
     if (entry.first != "map-size") values.push_back(entry);
@@ -132,7 +132,7 @@ OptionValues answer_values(const OptionValues& fixed, const OptionFamily& family
   return values_read(values);
 }
 
-OptionValues TuneAnswer::values(std::size_t family, const compare::Attempt& attempt) const {
+OptionValues TuneAnswer::values(std::size_t family, const studies::Attempt& attempt) const {
   return settled_values(question.scene.name, answer_values(question.fixed, families[family], attempt));
 }
 
@@ -140,7 +140,7 @@ std::string TuneAnswer::line(std::size_t family) const {
   return line(family, attempt_of(result.families[family]));
 }
 
-std::string TuneAnswer::line(std::size_t family, const compare::Attempt& attempt) const {
+std::string TuneAnswer::line(std::size_t family, const studies::Attempt& attempt) const {
   const auto option = [](const char* name, const std::string& value) {
     return value.empty() ? std::string() : fmt::format(" {} {}", name, shell_quoted(value));
   };
@@ -159,8 +159,8 @@ std::vector<std::size_t> TuneAnswer::others() const {
   for (std::size_t i = 0; i < result.families.size(); ++i)
     if (i != result.winner && result.families[i].is_tried()) order.push_back(i);
   const auto rank = [&](std::size_t i) {
-    const compare::FamilyResult& f = result.families[i];
-    const compare::Attempt& a = attempt_of(f);
+    const studies::FamilyResult& f = result.families[i];
+    const studies::Attempt& a = attempt_of(f);
     const bool by_time = question.goal.max_error.has_value() == f.answer.has_value();
     return std::pair(!f.answer.has_value(), by_time ? a.time_ms : a.error);
   };
@@ -193,8 +193,8 @@ std::string error_head(const compare::Figure& measure) {
   return fmt::format("error ({})", measure.measure.name);
 }
 
-std::string row_text(const compare::FamilyResult& family, const compare::TuneGoal& goal) {
-  const compare::Attempt& a = family.attempt();
+std::string row_text(const studies::FamilyResult& family, const studies::TuneGoal& goal) {
+  const studies::Attempt& a = family.attempt();
   return fmt::format("  {:<34} {:>6} {:>10} {:>10}  {}\n", family.family.name, a.size,
                      compare::milliseconds(a.time_ms), compare::byte_count(a.map_bytes),
                      compare::figure_words(a.figures, goal.measure()));
@@ -215,7 +215,7 @@ std::string own_units(const TuneAnswer& answer) {
 
 std::string untried_text(const TuneAnswer& answer) {
   std::vector<std::string> names;
-  for (const compare::FamilyResult& family : answer.result.families)
+  for (const studies::FamilyResult& family : answer.result.families)
     if (!family.is_tried()) names.push_back(family.family.name);
   if (names.empty()) return {};
   return paragraph(fmt::format("Not tried within {} s of processor time (--time-limit): {}.",
@@ -224,7 +224,7 @@ std::string untried_text(const TuneAnswer& answer) {
 }
 
 std::string begin_of(const TuneAnswer& answer) {
-  const compare::FamilyResult& winner = answer.result.families[answer.result.winner];
+  const studies::FamilyResult& winner = answer.result.families[answer.result.winner];
   std::string text = answer.line(answer.result.winner) + "\n\n";
   if (!answer.result.feasible) text += "The goal cannot be met by what was tried.\n";
   text += paragraph(fmt::format("{}: {}.", winner.family.name, winner.why), 0);
@@ -270,7 +270,7 @@ std::string TuneAnswer::json() const {
   json["renders"] = result.renders;
   if (!result.views.views.empty()) json["views"] = compare::views_json(result.views);
   json["untried"] = Json::array();
-  for (const compare::FamilyResult& family : result.families)
+  for (const studies::FamilyResult& family : result.families)
     if (!family.is_tried()) json["untried"].push_back(family.family.name);
   json["engine_units"] = units_json(result);
   json["shaders"] = compare::shaders_json(question.shaders);

@@ -19,7 +19,7 @@ struct TuneQuestion {
   SceneArgument scene;
   std::string camera, shader_folder;
   OptionValues fixed;  ///< options with one value
-  compare::TuneGoal goal;
+  studies::TuneGoal goal;
   std::vector<raster::ReplacedShader> shaders;  ///< of shader_folder
   FilmedMeasure asked{};
   int max_lights = usual_max_lights;
@@ -30,25 +30,25 @@ struct TuneQuestion {
 };
 
 /// Returns what a family has that meets the goal, or what comes nearest to it.
-inline const compare::Attempt& attempt_of(const compare::FamilyResult& family) {
+inline const studies::Attempt& attempt_of(const studies::FamilyResult& family) {
   return family.answer ? *family.answer : family.closest;
 }
 
 /// The options of an answer, in the order that compare takes them.
 OptionValues answer_values(const OptionValues& fixed, const OptionFamily& family,
-                           const compare::Attempt& attempt);
+                           const studies::Attempt& attempt);
 
 struct TuneAnswer {
   const TuneQuestion& question;
   const std::vector<OptionFamily>& families;
-  const compare::TuneResult& result;
+  const studies::TuneResult& result;
 
   /// The options of an attempt of the family, with those that set back what the scene asks for.
-  OptionValues values(std::size_t family, const compare::Attempt& attempt) const;
+  OptionValues values(std::size_t family, const studies::Attempt& attempt) const;
   /// gnomon compare SCENE …, or gnomon shimmer SCENE …, at a family's answer.
   std::string line(std::size_t family) const;
   /// Writes the line of another attempt of the family.
-  std::string line(std::size_t family, const compare::Attempt& attempt) const;
+  std::string line(std::size_t family, const studies::Attempt& attempt) const;
   /// Two others: the best of those that engines draw first, of each technique one, then the best of the others.
   std::vector<std::size_t> rivals() const;
   /// The other families: of each technique the best first.

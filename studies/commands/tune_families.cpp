@@ -113,7 +113,7 @@ std::vector<std::string> tuned_techniques() {
   return names;
 }
 
-bool is_given(const Values& fixed, const compare::Grid& grid, const std::string& name) {
+bool is_given(const Values& fixed, const studies::Grid& grid, const std::string& name) {
   return is_named(fixed, name) || std::any_of(grid.axes().begin(), grid.axes().end(),
                                               [&](const auto& axis) { return axis.name == name; });
 }
@@ -124,8 +124,8 @@ Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, b
   const auto grid = options.grid(false);
   if (!grid) return fail(grid.error());
   const Values fixed = options.fixed();
-  std::vector<compare::Axis> axes;
-  for (const compare::Axis& axis : grid->axes())
+  std::vector<studies::Axis> axes;
+  for (const studies::Axis& axis : grid->axes())
     if (axis.name != "map-size") axes.push_back(axis);
   if (!is_given(fixed, *grid, "technique")) axes.insert(axes.begin(), {"technique", tuned_techniques()});
   std::vector<Values> kinds = filmed              ? still_kinds()
@@ -137,7 +137,7 @@ Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, b
   bool kinds_given = filmed;
   for (const char* name : said)
     if (is_given(fixed, *grid, name)) kinds = {{}}, kinds_given = true;
-  const auto product = compare::Grid::make(axes, false);
+  const auto product = studies::Grid::make(axes, false);
   if (!product) return fail(product.error());
   std::vector<OptionFamily> families;
   std::optional<Error> unsound;

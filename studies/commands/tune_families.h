@@ -15,7 +15,7 @@ namespace gnomon::app {
 
 /// A family and the options that make it.
 struct OptionFamily {
-  compare::TuneFamily tuned;
+  studies::TuneFamily tuned;
   OptionValues values;
 };
 
@@ -23,7 +23,7 @@ struct OptionFamily {
 std::vector<std::string> tuned_techniques();
 
 /// An option was given one value, or several.
-bool is_given(const OptionValues& fixed, const compare::Grid& grid, const std::string& name);
+bool is_given(const OptionValues& fixed, const studies::Grid& grid, const std::string& name);
 
 /// Every technique, with each kind of bias that goes with it, unless `options` say which; `filmed`: with the bias that
 /// each has anyway, snapped and not. Errors are ErrorKind::usage.

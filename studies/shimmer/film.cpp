@@ -11,7 +11,7 @@
 #include "scene/exposure.h"
 #include "scene/files/pictures/image_io.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 template <class Colour>
@@ -34,8 +34,9 @@ std::uint8_t bits_of(const RungFrame& frame, std::size_t i) {
 }  // namespace
 
 glm::u8vec3 flip_colour(std::size_t label) {
-  return label_colour(label == outside_map_flip ? Label::outside_map
-                                                : step_text(static_cast<Cause>(label)).label);
+  return compare::label_colour(label == outside_map_flip
+                                   ? compare::Label::outside_map
+                                   : compare::step_text(static_cast<compare::Cause>(label)).label);
 }
 
 Expected<Rgb8Image> unshadowed_picture(Scene& scene, raster::Renderer& renderer,
@@ -97,7 +98,7 @@ Expected<void> FilmRecorder::add(const ShimmerFrame& frame) {
 Rgb8Image flip_heat_map(const ShimmerLight& light) {
   const Image<std::uint16_t>& flips = light.temporal.flips();
   const double most = std::max<double>(1.0, *std::max_element(flips.data.begin(), flips.data.end()));
-  return painted(flips.size, [&](std::size_t i) { return magma(double(flips.data[i]) / most); });
+  return painted(flips.size, [&](std::size_t i) { return compare::magma(double(flips.data[i]) / most); });
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -5,7 +5,7 @@
 #include "scene/files/pictures/apng.h"
 #include "studies/shimmer/shimmer.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 /// The colour of a flip by its label: that of the still label which stands for the step.
 glm::u8vec3 flip_colour(std::size_t label);
@@ -42,4 +42,4 @@ class FilmRecorder {
 /// How often each receiver flips, on magma up to the most; black where none is compared.
 Rgb8Image flip_heat_map(const ShimmerLight& light);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -9,7 +9,7 @@
 
 #include "scene/base/run_program.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 constexpr const char* converter = "ffmpeg";
@@ -77,4 +77,4 @@ Expected<void> convert_to_mp4(const std::string& apng, const std::string& mp4, d
              mp4, longest_s(pixels));
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

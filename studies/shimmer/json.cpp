@@ -7,8 +7,11 @@
 #include "scene/light.h"
 #include "studies/shimmer/outputs.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Json;
+using compare::number;
 
 Json vector3(const Vec3& v) {
   return Json::array({number(v.x), number(v.y), number(v.z)});
@@ -20,8 +23,8 @@ Json mean(double sum, std::uint64_t count) {
 
 Json budget_json(const TemporalSums& sums) {
   Json steps = Json::array();
-  for (std::size_t k = 0; k < cause_count; ++k)
-    steps.push_back({{"cause", cause_name(static_cast<Cause>(k))},
+  for (std::size_t k = 0; k < compare::cause_count; ++k)
+    steps.push_back({{"cause", compare::cause_name(static_cast<compare::Cause>(k))},
                      {"signed", mean(sums.signed_sum[k], sums.receivers)},
                      {"absolute", mean(sums.absolute_sum[k], sums.receivers)}});
   return steps;
@@ -95,12 +98,12 @@ Json light_json(const Shimmer& shimmer, const ShimmerLight& light) {
 }
 
 Json path_json(const ShimmerOptions& options) {
-  Json json{{"camera", camera_path_name(options.path.camera)},
-            {"light", light_path_name(options.path.light)},
+  Json json{{"camera", compare::camera_path_name(options.path.camera)},
+            {"light", compare::light_path_name(options.path.light)},
             {"speed", number(options.path.speed)}};
   if (options.path.objects) json["objects"] = true;
   if (!options.path.keys.name.empty()) json["name"] = options.path.keys.name;
-  if (options.path.camera == CameraPath::drift)
+  if (options.path.camera == compare::CameraPath::drift)
     json["drift_texels"] = {number(options.path.drift_texels.x), number(options.path.drift_texels.y)};
   return json;
 }
@@ -133,7 +136,7 @@ std::string shimmer_json(const Shimmer& shimmer, const ShimmerProvenance& from) 
   const Json json{
       {"schema", "gnomon/shimmer/1"},
       {"command", from.command},
-      {"version", program_version()},
+      {"version", compare::program_version()},
       {"seed", from.seed},
       {"scene",
        {{"path", scene.path}, {"sha256", scene.sha256}, {"name", scene.name}, {"notes", scene.notes}}},
@@ -149,10 +152,10 @@ std::string shimmer_json(const Shimmer& shimmer, const ShimmerProvenance& from) 
       {"snap", o.compare.raster.map.snap},
       {"lights", std::move(lights)},
       {"times_ms",
-       {{"accel_build", one_time_json(shimmer.accel_build_ms)},
-        {"frame", times_json(shimmer.frame_ms)},
-        {"total", one_time_json(from.total_ms)}}}};
-  return dumped(json, 2);
+       {{"accel_build", compare::one_time_json(shimmer.accel_build_ms)},
+        {"frame", compare::times_json(shimmer.frame_ms)},
+        {"total", compare::one_time_json(from.total_ms)}}}};
+  return compare::dumped(json, 2);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -10,7 +10,7 @@
 #include "studies/shimmer/film.h"
 #include "studies/shimmer/shimmer.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 struct ShimmerProvenance {
   std::string command;  ///< as the user could type it again
@@ -56,8 +56,8 @@ Expected<void> convert_to_mp4(const std::string& apng, const std::string& mp4, d
 // The page of a film of shadows: its document, and the data of the film that scripts play.
 
 /// Builds the page; if it has more than `max_mb` megabytes the frames are files beside it. `json`: result.json's text.
-Expected<BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmRecorder& films, std::string_view json,
-                                 double max_mb, FilmFormat format);
+Expected<report::BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmRecorder& films,
+                                         std::string_view json, double max_mb, FilmFormat format);
 
 // The folder of a film of shadows.
 
@@ -76,4 +76,4 @@ struct ShimmerFolder {
 Expected<double> write_shimmer(const Shimmer& shimmer, const FilmRecorder& films, const std::string& json,
                                const ShimmerFolder& output);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -9,11 +9,14 @@
 #include "report/html.h"
 #include "scene/files/pictures/image_io.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
+using compare::Json;
+using report::data_uri;
+
 std::string label_words(std::size_t label) {
-  return label == outside_map_flip ? "outside the map" : spoken(flip_label_name(label));
+  return label == outside_map_flip ? "outside the map" : compare::spoken(flip_label_name(label));
 }
 
 unsigned most_flips(const ShimmerLight& light) {
@@ -28,7 +31,7 @@ Json labels_json() {
     const glm::u8vec3 c = flip_colour(k);
     labels.push_back({{"key", flip_label_name(k)},
                       {"name", label_words(k)},
-                      {"colour", hex_colour(c.r, c.g, c.b)},
+                      {"colour", report::hex_colour(c.r, c.g, c.b)},
                       {"letter", k == outside_map_flip ? "O" : std::to_string(k + 1)}});
   }
   return labels;
@@ -48,11 +51,11 @@ std::string facts(const Shimmer& shimmer, FilmFormat format) {
       .dump();
 }
 
-Expected<PagePicture> heat_map(const ShimmerLight& light, std::size_t index) {
+Expected<report::PagePicture> heat_map(const ShimmerLight& light, std::size_t index) {
   const Rgb8Image image = flip_heat_map(light);
   const auto png = encode_png(image);
   if (!png) return fail(png.error());
-  return PagePicture{
+  return report::PagePicture{
       fmt::format("flips-{}", index), data_uri("image/png", *png), image.size.width, image.size.height,
       fmt::format("Flips of each receiver, from black, none, to pale yellow, {}", most_flips(light))};
 }
@@ -66,9 +69,9 @@ std::string film_data(const FilmOfLight& film) {
 
 }  // namespace
 
-Expected<BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmRecorder& films, std::string_view json,
-                                 double max_mb, FilmFormat format) {
-  PageShell shell;
+Expected<report::BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmRecorder& films,
+                                         std::string_view json, double max_mb, FilmFormat format) {
+  report::PageShell shell;
   shell.title = "Shimmer of " + shimmer.world->scene->name + " \u2013 Gnomon";
   const auto base = encode_png(films.unshadowed());
   if (!base) return fail(base.error());
@@ -82,10 +85,10 @@ Expected<BuiltPage> shimmer_page(const Shimmer& shimmer, const FilmRecorder& fil
   }
   shell.result = json;
   shell.data = facts(shimmer, format);
-  BuiltPage page = build_page(shell);
+  report::BuiltPage page = report::build_page(shell);
   if (page.megabytes() <= max_mb) return page;
   shell.beside = true;
-  return build_page(shell);
+  return report::build_page(shell);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -12,8 +12,11 @@
 #include "scene/base/stages.h"
 #include "scene/light_map/cascade_fit.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Label;
+using compare::Pose;
 
 // How far a drift goes with each frame, world units, and by how much the map is wider so that it never leaves what it
 // is to cover.
@@ -63,7 +66,7 @@ class Film {
     out_.accel_build_ms = tracer.stats().build_ms;
     scene.camera = receivers_of_;
     ShimmerOptions& o = out_.options;
-    o.compare.raster = drawing_options(o.compare.raster, o.compare.raytrace);
+    o.compare.raster = compare::drawing_options(o.compare.raster, o.compare.raytrace);
     o.compare.raster.runs = 0, o.compare.raster.analysis = true;
     o.compare.raster.map_contents = o.explain;
     o.compare.raytrace.size = o.compare.raster.size;
@@ -82,7 +85,7 @@ class Film {
   void set_truth(const raytrace::RayTracedFrame& truth) {
     if (receivers_of_ == first_.camera) truth_ = &truth, truth_lights_ = first_.lights;
   }
-  Expected<Shimmer> run(const FrameSink& sink, const Progress& progress);
+  Expected<Shimmer> run(const FrameSink& sink, const compare::Progress& progress);
 
  private:
   Expected<void> find_drift();
@@ -119,7 +122,7 @@ class Film {
 
 Expected<void> Film::find_drift() {
   const ShimmerOptions& o = out_.options;
-  if (o.path.camera != CameraPath::drift) return {};
+  if (o.path.camera != compare::CameraPath::drift) return {};
   const auto directional = [&](std::uint32_t i) { return first_.lights[i].type == LightType::directional; };
   const auto sun = std::find_if(lights_.begin(), lights_.end(), directional);
   if (sun == lights_.end())
@@ -136,7 +139,7 @@ Expected<void> Film::find_drift() {
   if (!(share > 0.5))
     return fail(ErrorKind::usage,
                 fmt::format("--drift: the way of {} is more than a quarter of the map's {}",
-                            with_noun(fmt::format("{:g}", way), "texel"), drawing.map.size));
+                            compare::with_noun(fmt::format("{:g}", way), "texel"), drawing.map.size));
   const bool follows = raster::follows_camera(drawing.map.technique);
   Vec2 half = face.half_extent;
   if (!follows) {
@@ -150,7 +153,7 @@ Expected<void> Film::find_drift() {
 
 raster::MapCamera Film::map_camera(const Pose& pose, int frame) const {
   raster::MapCamera out{.camera = pose.camera};
-  if (out_.options.path.camera != CameraPath::drift) return out;
+  if (out_.options.path.camera != compare::CameraPath::drift) return out;
   const Vec3 way = double(frame) * drift_.step;
   if (raster::follows_camera(out_.options.compare.raster.map.technique)) {
     out.camera.eye += way, out.camera.target += way;
@@ -198,33 +201,35 @@ void Film::leave_out_moved(Image<Label>& labels) const {
 
 // The rungs alone: no label is asked for, so none of the columns that only labels need is looked at. A technique
 // without a map has no lower rungs.
-std::array<Image<float>, rung_count> climb_rungs(const LadderInput& input, Image<Label> labels) {
+std::array<Image<float>, compare::rung_count> climb_rungs(const compare::LadderInput& input,
+                                                          Image<Label> labels) {
   if (!raster::compares_depths(input.drawn.options.map.technique))
-    return climb(input, std::move(labels)).rungs;
-  LowerClimb lower(input, std::move(labels));
+    return compare::climb(input, std::move(labels)).rungs;
+  compare::LowerClimb lower(input, std::move(labels));
   std::fill(lower.sorted.data.begin(), lower.sorted.data.end(), Label::background);
-  return climb_up(lower, input).rungs;
+  return compare::climb_up(lower, input).rungs;
 }
 
 // V0, and V6 on every other rung.
-std::array<Image<float>, rung_count> ends_of_ladder(const LadderInput& input, const Image<Label>& labels) {
-  std::array<Image<float>, rung_count> rungs;
+std::array<Image<float>, compare::rung_count> ends_of_ladder(const compare::LadderInput& input,
+                                                             const Image<Label>& labels) {
+  std::array<Image<float>, compare::rung_count> rungs;
   rungs.fill(input.record().visibility);
   parallel_for(labels.data.size(), [&](std::size_t i) {
-    if (is_compared(labels.data[i])) rungs[0].data[i] = true_visibility(input, i);
+    if (compare::is_compared(labels.data[i])) rungs[0].data[i] = compare::true_visibility(input, i);
   });
   return rungs;
 }
 
 RungFrame Film::climb_light(std::size_t i) const {
   const raster::LightRecord& record = drawn_.lights[i];
-  const LadderInput input{*tracer_, *topology_, drawn_, *truth_, i};
-  Image<Label> labels = sort_pixels(input);
+  const compare::LadderInput input{*tracer_, *topology_, drawn_, *truth_, i};
+  Image<Label> labels = compare::sort_pixels(input);
   keep_anchors(labels);
   leave_out_moved(labels);
   RungFrame out{{}, Image<std::uint8_t>(labels.size), record.outside_map, record.face};
   std::transform(labels.data.begin(), labels.data.end(), out.counted.data.begin(),
-                 [](Label label) { return static_cast<std::uint8_t>(is_compared(label)); });
+                 [](Label label) { return static_cast<std::uint8_t>(compare::is_compared(label)); });
   out.rungs = out_.options.explain ? climb_rungs(input, std::move(labels)) : ends_of_ladder(input, labels);
   return out;
 }
@@ -254,8 +259,8 @@ void Film::begin_lights() {
 
 Expected<void> Film::make_frame(int frame) {
   const ShimmerOptions& o = out_.options;
-  const Pose pose = pose_at(o.path, o.time, first_, middle_of(*out_.world, first_.camera), frame);
-  if (const auto sound = check_pose(pose, frame); !sound) return sound;
+  const Pose pose = compare::pose_at(o.path, o.time, first_, middle_of(*out_.world, first_.camera), frame);
+  if (const auto sound = compare::check_pose(pose, frame); !sound) return sound;
   if (o.stage)
     if (const auto taken = load_stage(frame); !taken) return taken;
   scene_->lights = pose.lights;
@@ -279,7 +284,7 @@ Expected<void> Film::make_frame(int frame) {
   return {};
 }
 
-Expected<Shimmer> Film::run(const FrameSink& sink, const Progress& progress) {
+Expected<Shimmer> Film::run(const FrameSink& sink, const compare::Progress& progress) {
   if (const auto found = find_drift(); !found) return fail(found.error());
   const int frames = out_.options.time.frames;
   for (int frame = 0; frame < frames; ++frame) {
@@ -296,20 +301,20 @@ Expected<Shimmer> Film::run(const FrameSink& sink, const Progress& progress) {
 
 }  // namespace
 
-Camera first_camera(const FilmPlan& plan, const Scene& scene) {
-  return pose_at(plan.path, plan.time, {scene.camera, {}}, Vec3(0.0), 0).camera;
+Camera first_camera(const compare::FilmPlan& plan, const Scene& scene) {
+  return compare::pose_at(plan.path, plan.time, {scene.camera, {}}, Vec3(0.0), 0).camera;
 }
 
 Expected<Shimmer> film_shimmer(const World& world, Scene& scene, raster::Renderer& renderer,
                                std::span<const std::uint32_t> lights, const ShimmerOptions& options,
-                               const FrameSink& sink, const Progress& progress) {
-  if (const auto sound = check_path(options.path, scene); !sound) return fail(sound.error());
+                               const FrameSink& sink, const compare::Progress& progress) {
+  if (const auto sound = compare::check_path(options.path, scene); !sound) return fail(sound.error());
   const raytrace::Tracer tracer(world, options.compare.accel, options.compare.precision);
   const raytrace::Topology topology(world);
   return Film(world, scene, renderer, lights, options, tracer, topology).run(sink, progress);
 }
 
-ShimmerFigures shimmer_figures(const FilmPlan& plan, const ShimmerLight& light) {
+compare::ShimmerFigures shimmer_figures(const compare::FilmPlan& plan, const ShimmerLight& light) {
   const TemporalSums& total = light.temporal.total();
   const double steps = static_cast<double>(std::max<std::uint64_t>(total.receivers, 1));
   return {.frames = plan.time.frames,
@@ -320,20 +325,20 @@ ShimmerFigures shimmer_figures(const FilmPlan& plan, const ShimmerLight& light) 
           .mean_absolute = total.error_absolute_sum / steps};
 }
 
-Expected<std::vector<ShimmerFigures>> count_flips(const FilmTools& tools, const World& world, Scene& scene,
-                                                  raster::Renderer& renderer,
-                                                  std::span<const std::uint32_t> lights,
-                                                  const ShimmerOptions& options) {
-  if (const auto sound = check_path(options.path, scene); !sound) return fail(sound.error());
+Expected<std::vector<compare::ShimmerFigures>> count_flips(const FilmTools& tools, const World& world,
+                                                           Scene& scene, raster::Renderer& renderer,
+                                                           std::span<const std::uint32_t> lights,
+                                                           const ShimmerOptions& options) {
+  if (const auto sound = compare::check_path(options.path, scene); !sound) return fail(sound.error());
   ShimmerOptions plain = options;
   plain.explain = false;
   Film film(world, scene, renderer, lights, plain, tools.tracer, tools.topology);
   film.set_truth(tools.truth);
   const auto made = film.run({}, {});
   if (!made) return fail(made.error());
-  std::vector<ShimmerFigures> out;
+  std::vector<compare::ShimmerFigures> out;
   for (const ShimmerLight& light : made->lights) out.push_back(shimmer_figures(plain, light));
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

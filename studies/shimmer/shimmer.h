@@ -9,10 +9,10 @@
 #include "raytrace/sheets/sheets.h"
 #include "studies/shimmer/temporal.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
-struct ShimmerOptions : FilmPlan {
-  CompareOptions compare;  ///< times are not taken
+struct ShimmerOptions : compare::FilmPlan {
+  compare::CompareOptions compare;  ///< times are not taken
   /// Climb the ladder. Without it flips are counted and nobody is charged with them: all rungs but V0 are V6.
   bool explain = true;
 };
@@ -53,7 +53,7 @@ inline constexpr std::size_t worst_receivers = 16;
 /// Errors: bad input where an object has other triangles than in the first frame.
 Expected<Shimmer> film_shimmer(const World& world, Scene& scene, raster::Renderer& renderer,
                                std::span<const std::uint32_t> lights, const ShimmerOptions& options,
-                               const FrameSink& sink = {}, const Progress& progress = {});
+                               const FrameSink& sink = {}, const compare::Progress& progress = {});
 
 /// What a comparison of the same world has made already.
 struct FilmTools {
@@ -61,14 +61,14 @@ struct FilmTools {
   const raytrace::Topology& topology;
   const raytrace::RayTracedFrame& truth;  ///< of the scene as it stands, by the same options
 };
-ShimmerFigures shimmer_figures(const FilmPlan& plan, const ShimmerLight& light);
+compare::ShimmerFigures shimmer_figures(const compare::FilmPlan& plan, const ShimmerLight& light);
 /// The figures alone, of each light in turn; nothing is explained.
-Expected<std::vector<ShimmerFigures>> count_flips(const FilmTools& tools, const World& world, Scene& scene,
-                                                  raster::Renderer& renderer,
-                                                  std::span<const std::uint32_t> lights,
-                                                  const ShimmerOptions& options);
+Expected<std::vector<compare::ShimmerFigures>> count_flips(const FilmTools& tools, const World& world,
+                                                           Scene& scene, raster::Renderer& renderer,
+                                                           std::span<const std::uint32_t> lights,
+                                                           const ShimmerOptions& options);
 
 /// The camera that the receivers are those of.
-Camera first_camera(const FilmPlan& plan, const Scene& scene);
+Camera first_camera(const compare::FilmPlan& plan, const Scene& scene);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -9,13 +9,18 @@
 #include "scene/base/expected.h"
 #include "studies/shimmer/outputs.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
+using compare::Cause;
+using compare::grouped;
+
 std::string movement(const ShimmerOptions& o) {
-  const bool camera = o.path.camera != CameraPath::still, light = o.path.light != LightPath::still;
-  std::string text = camera ? fmt::format("camera {}", camera_path_name(o.path.camera)) : std::string();
-  if (light) text += fmt::format("{}light {}", camera ? ", " : "", light_path_name(o.path.light));
+  const bool camera = o.path.camera != compare::CameraPath::still,
+             light = o.path.light != compare::LightPath::still;
+  std::string text =
+      camera ? fmt::format("camera {}", compare::camera_path_name(o.path.camera)) : std::string();
+  if (light) text += fmt::format("{}light {}", camera ? ", " : "", compare::light_path_name(o.path.light));
   if (o.path.objects) text += fmt::format("{}objects by {}", text.empty() ? "" : ", ", o.path.keys.name);
   return text.empty() ? "nothing moves" : text;
 }
@@ -26,13 +31,15 @@ double per_receiver(double sum, const TemporalSums& total) {
 
 std::string budget_rows(const TemporalSums& total) {
   std::string text = "  step          signed     absolute   flips\n";
-  for (std::size_t k = 0; k < cause_count; ++k)
-    text += fmt::format("  {:<12} {:>+11.3e} {:>11.3e} {:>9}\n", spoken(cause_name(static_cast<Cause>(k))),
-                        per_receiver(beyond_rounding(total.signed_sum[k], total.absolute_sum[k]), total),
-                        per_receiver(total.absolute_sum[k], total), grouped(total.by_label[k]));
-  text += fmt::format("  {:<12} {:>+11.3e} {:>11.3e} {:>9}\n", "sum",
-                      per_receiver(beyond_rounding(total.error_sum, total.error_absolute_sum), total),
-                      per_receiver(total.error_absolute_sum, total), grouped(total.flips));
+  for (std::size_t k = 0; k < compare::cause_count; ++k)
+    text += fmt::format(
+        "  {:<12} {:>+11.3e} {:>11.3e} {:>9}\n", compare::spoken(compare::cause_name(static_cast<Cause>(k))),
+        per_receiver(compare::beyond_rounding(total.signed_sum[k], total.absolute_sum[k]), total),
+        per_receiver(total.absolute_sum[k], total), grouped(total.by_label[k]));
+  text +=
+      fmt::format("  {:<12} {:>+11.3e} {:>11.3e} {:>9}\n", "sum",
+                  per_receiver(compare::beyond_rounding(total.error_sum, total.error_absolute_sum), total),
+                  per_receiver(total.error_absolute_sum, total), grouped(total.flips));
   if (total.by_label[outside_map_flip] > 0)
     text += fmt::format("  of these flips {} outside the map\n", grouped(total.by_label[outside_map_flip]));
   if (total.seam_flips > 0)
@@ -61,7 +68,7 @@ std::string_view what_flickers(std::size_t most) {
 bool snap_would_help(const Shimmer& shimmer, const ShimmerLight& light, std::size_t most) {
   const raster::MapOptions& map = shimmer.options.compare.raster.map;
   return static_cast<Cause>(most) == Cause::sampling && !map.snap && raster::reads_setting(map, "snap") &&
-         shimmer.options.path.camera != CameraPath::still &&
+         shimmer.options.path.camera != compare::CameraPath::still &&
          shimmer.world->scene->lights[light.light].type == LightType::directional;
 }
 
@@ -77,7 +84,8 @@ std::string shimmer_sentence(const Shimmer& shimmer, const ShimmerLight& light) 
   const auto most = static_cast<std::size_t>(std::max_element(total.by_label.begin(), total.by_label.end()) -
                                              total.by_label.begin());
   return fmt::format("{}: a point flips {} times a second ({} flips of {} points in {} frames){}",
-                     what_flickers(most), plain_number(flips_per_receiver_second(shimmer.options, light)),
+                     what_flickers(most),
+                     compare::plain_number(flips_per_receiver_second(shimmer.options, light)),
                      grouped(total.flips), grouped(light.receivers), shimmer.options.time.frames,
                      snap_would_help(shimmer, light, most) ? "; --snap keeps the map's texels still." : ".");
 }
@@ -90,12 +98,14 @@ std::string shimmer_table(const Shimmer& shimmer) {
     const std::string head = fmt::format(
         "{}: {} {}, {} frames at {:g} a second, {}", one_line(shimmer.world->scene->lights[light.light].name),
         technique_name(map.technique), map.size, o.time.frames, o.time.fps, movement(o));
-    for (const std::string& line : wrapped(head, 80)) text += line + '\n';
-    for (const std::string& line : wrapped(shimmer_sentence(shimmer, light), 78)) text += "  " + line + '\n';
+    for (const std::string& line : compare::wrapped(head, 80)) text += line + '\n';
+    for (const std::string& line : compare::wrapped(shimmer_sentence(shimmer, light), 78))
+      text += "  " + line + '\n';
     text += budget_rows(light.temporal.total());
     if (light.texel_world_unsnapped)
-      text += fmt::format("  texels of {} world units; without --snap {}\n", plain_number(light.texel_world),
-                          plain_number(*light.texel_world_unsnapped));
+      text += fmt::format("  texels of {} world units; without --snap {}\n",
+                          compare::plain_number(light.texel_world),
+                          compare::plain_number(*light.texel_world_unsnapped));
     const EdgeSpeed speed = edge_speed(o, light);
     text += std::isnan(speed.drawn_world_per_second)
                 ? std::string("  edges: none\n\n")
@@ -105,4 +115,4 @@ std::string shimmer_table(const Shimmer& shimmer) {
   return text;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

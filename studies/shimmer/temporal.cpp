@@ -8,8 +8,11 @@
 #include "compare/truth/surfaces.h"
 #include "scene/base/parallel.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::cause_count;
+using compare::rung_count;
 
 bool is_flip(double error) {
   return std::abs(error) > 0.5;
@@ -84,7 +87,8 @@ std::array<double, 8> angles_stood_for(std::span<const GridStep> steps, const Ve
 }  // namespace
 
 std::string_view flip_label_name(std::size_t label) {
-  return label == outside_map_flip ? std::string_view("outside_map") : cause_name(static_cast<Cause>(label));
+  return label == outside_map_flip ? std::string_view("outside_map")
+                                   : compare::cause_name(static_cast<compare::Cause>(label));
 }
 
 std::array<double, cause_count> temporal_errors(const std::array<float, rung_count>& before,
@@ -96,14 +100,15 @@ std::array<double, cause_count> temporal_errors(const std::array<float, rung_cou
   return errors;
 }
 
-Cause flip_cause(const std::array<float, rung_count>& before, const std::array<float, rung_count>& after) {
+compare::Cause flip_cause(const std::array<float, rung_count>& before,
+                          const std::array<float, rung_count>& after) {
   const auto error = [](const std::array<float, rung_count>& v) { return std::abs(v[6] - v[0]); };
   const auto& worse = error(after) >= error(before) ? after : before;
-  if (error(worse) > 0.5f) return deciding_step(worse);
+  if (error(worse) > 0.5f) return compare::deciding_step(worse);
   const auto errors = temporal_errors(before, after);
   std::size_t step = cause_count - 1;
   while (step > 0 && is_flip(errors[step - 1])) --step;
-  return static_cast<Cause>(step);
+  return static_cast<compare::Cause>(step);
 }
 
 TemporalSums& TemporalSums::operator+=(const TemporalSums& o) {
@@ -127,7 +132,8 @@ ReceiverSpacing receiver_spacing(const Image<raytrace::SurfacePoint>& receivers,
       if (x + step >= size.width || y + step >= size.height) continue;
       const auto &here = receivers.at(x, y), &right = receivers.at(x + step, y),
                  &down = receivers.at(x, y + step);
-      if (!on_smooth_surface(here, right, world) || !on_smooth_surface(here, down, world)) continue;
+      if (!compare::on_smooth_surface(here, right, world) || !compare::on_smooth_surface(here, down, world))
+        continue;
       const Vec3 a = right.position - here.position, b = down.position - here.position;
       out.right.at(x, y) = static_cast<float>(glm::length(a));
       out.down.at(x, y) = static_cast<float>(glm::length(b));
@@ -266,4 +272,4 @@ std::vector<WorstReceiver> TemporalBudget::worst(std::size_t count) const {
   return all;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

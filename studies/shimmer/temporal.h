@@ -9,32 +9,33 @@
 
 #include "compare/comparison.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 /// What one frame says of its receivers; rungs mean something where `counted`.
 struct RungFrame {
-  std::array<Image<float>, rung_count> rungs;
+  std::array<Image<float>, compare::rung_count> rungs;
   Image<std::uint8_t> counted;  ///< 1: truth and drawing are to be compared here
   Image<std::uint8_t> outside;  ///< 1: the receiver's own texel lies outside the map
   Image<std::uint8_t> face;     ///< of the map: the cascade
 };
 
 /// Who made a flip: the six causes, and the map's end where the receiver lies outside in either frame.
-inline constexpr std::size_t flip_label_count = cause_count + 1;
-inline constexpr std::uint8_t outside_map_flip = cause_count;
+inline constexpr std::size_t flip_label_count = compare::cause_count + 1;
+inline constexpr std::uint8_t outside_map_flip = compare::cause_count;
 std::string_view flip_label_name(std::size_t label);
 
 /// T_1 … T_6 of a receiver.
-std::array<double, cause_count> temporal_errors(const std::array<float, rung_count>& before,
-                                                const std::array<float, rung_count>& after);
+std::array<double, compare::cause_count> temporal_errors(const std::array<float, compare::rung_count>& before,
+                                                         const std::array<float, compare::rung_count>& after);
 /// The step that made the flip between these, |T_6| > 1/2.
-Cause flip_cause(const std::array<float, rung_count>& before, const std::array<float, rung_count>& after);
+compare::Cause flip_cause(const std::array<float, compare::rung_count>& before,
+                          const std::array<float, compare::rung_count>& after);
 
 /// Sums over the receivers counted in both of two frames.
 struct TemporalSums {
   std::uint64_t receivers = 0, flips = 0, seam_flips = 0;
   std::array<std::uint64_t, flip_label_count> by_label{};
-  std::array<double, cause_count> signed_sum{}, absolute_sum{};
+  std::array<double, compare::cause_count> signed_sum{}, absolute_sum{};
   double error_sum = 0.0, error_absolute_sum = 0.0;  ///< of T_6
   double drawn_swept = 0.0, true_swept = 0.0;        ///< world area over which |V6' - V6|, |V0' - V0|
   double edge_length = 0.0;                          ///< of the true shadow, world units
@@ -90,4 +91,4 @@ class TemporalBudget {
   Image<float> absolute_;
 };
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

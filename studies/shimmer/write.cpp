@@ -7,7 +7,7 @@
 #include "scene/files/staged_folder.h"
 #include "scene/files/write_file.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 Expected<void> write_films(const FilmRecorder& films, const std::string& folder, FilmFormat format,
@@ -42,7 +42,7 @@ Expected<double> write_shimmer(const Shimmer& shimmer, const FilmRecorder& films
       double(shimmer.options.time.frames) * double(shimmer.options.compare.raster.size.pixels());
   if (const auto written = write_films(films, folder, output.film, pixels); !written)
     return fail(written.error());
-  for (const PageFile& file : page->files) {
+  for (const report::PageFile& file : page->files) {
     if (const auto made = make_output_folder(folder + "/" + file.name.substr(0, file.name.rfind('/'))); !made)
       return fail(made.error());
     if (const auto written = write_file(folder + "/" + file.name, file.bytes); !written)
@@ -57,4 +57,4 @@ Expected<double> write_shimmer(const Shimmer& shimmer, const FilmRecorder& films
   return page->megabytes();
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -10,7 +10,7 @@
 
 #include "scene/files/read_file.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 tl::unexpected<Error> wrong(std::string_view reason, std::string_view got, std::string_view allowed) {
@@ -178,4 +178,4 @@ std::vector<std::size_t> Grid::position(std::size_t cell) const {
   return at;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -14,7 +14,7 @@
 
 #include "scene/base/expected.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 struct Axis {
   std::string name;  ///< of the option, without "--"
@@ -54,4 +54,4 @@ class Grid {
   std::size_t cells_ = 1;
 };
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

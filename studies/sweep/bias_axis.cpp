@@ -10,8 +10,13 @@
 #include "compare/truth/exact_depth.h"
 #include "scene/base/parallel.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Label;
+using compare::LightComparison;
+using compare::LowerClimb;
+using compare::PixelTerms;
 
 // A pixel that the bias lets light through to, for biases number `from` to `to` (excluded).
 struct Gap {
@@ -52,7 +57,7 @@ struct Biases {
 
 class BiasAxis {
  public:
-  BiasAxis(const LowerClimb& lower, const LadderInput& in, std::span<const double> asked)
+  BiasAxis(const LowerClimb& lower, const compare::LadderInput& in, std::span<const double> asked)
       : lower_(lower), in_(in), biases_(asked), shares_([this] {
           return Share{std::vector<PixelTerms>(biases_.count() + std::size_t{1}), {}, {}};
         }) {}
@@ -75,8 +80,8 @@ class BiasAxis {
   const Biases& biases() const { return biases_; }
   std::vector<WrongSpan> take_spans() { return std::move(spans_); }
   const PixelTerms& terms(std::size_t bias) const { return totals_[bias]; }
-  Detachment detachment(std::size_t bias) const {
-    DetachmentSum sum;
+  compare::Detachment detachment(std::size_t bias) const {
+    compare::DetachmentSum sum;
     for (const Gap& gap : gaps_)
       if (bias >= gap.from && bias < gap.to) sum.add(gap.distance);
     return sum.stats();
@@ -93,12 +98,12 @@ class BiasAxis {
   }
 
   // A pixel in one state, for biases from `from` to `to` (excluded).
-  void add_state(std::uint32_t pixel, const std::array<float, rung_count>& v, Label label, std::uint32_t from,
-                 std::uint32_t to) {
+  void add_state(std::uint32_t pixel, const std::array<float, compare::rung_count>& v, Label label,
+                 std::uint32_t from, std::uint32_t to) {
     Share& share = shares_.local();
     share.changes[from].add(v, label);
     share.changes[to].add(v, label, -1.0);
-    if (has_cause(label)) share.spans.push_back({pixel, from, to, label, v[6] < v[0]});
+    if (compare::has_cause(label)) share.spans.push_back({pixel, from, to, label, v[6] < v[0]});
   }
 
   void add_outside(std::uint32_t pixel) {
@@ -115,10 +120,10 @@ class BiasAxis {
   }
 
   void add_group(std::size_t group) {
-    Column column(in_, lower_.groups.keys[group], lower_.surfaces);
+    compare::Column column(in_, lower_.groups.keys[group], lower_.surfaces);
     for (const std::uint32_t pixel : lower_.groups[group]) {
-      UpperPixel upper(lower_, in_, column, group, pixel, lower_.rungs);
-      std::array<float, rung_count> v = rungs_at(lower_.rungs, pixel);
+      compare::UpperPixel upper(lower_, in_, column, group, pixel, lower_.rungs);
+      std::array<float, compare::rung_count> v = compare::rungs_at(lower_.rungs, pixel);
       const std::uint32_t biased_from = Biases::first_lit(biases_.ascending, upper.gap());
       const std::uint32_t drawn_from = first_drawn_lit(pixel);
       const auto exact = ever_wrong(pixel) ? upper.exact_gap() : std::nullopt;
@@ -135,19 +140,20 @@ class BiasAxis {
         const auto [biased, label] = upper.verdict_at(biases_.ascending[ends[s]], v[6]);
         v[5] = biased;
         add_state(pixel, v, label, ends[s], ends[s + 1]);
-        if (is_detached(label, v[6] < v[0])) add_gap(pixel, ends[s], ends[s + 1]);
+        if (compare::is_detached(label, v[6] < v[0])) add_gap(pixel, ends[s], ends[s + 1]);
       }
     }
   }
 
   void add_gap(std::uint32_t pixel, std::uint32_t from, std::uint32_t to) {
-    if (const auto distance = detachment_distance(in_.tracer, in_.light(), in_.traced.receiver.data[pixel]))
+    if (const auto distance =
+            compare::detachment_distance(in_.tracer, in_.light(), in_.traced.receiver.data[pixel]))
       // rounded as a map keeps it (detachment_map)
       shares_.local().gaps.push_back({pixel, from, to, double{static_cast<float>(*distance)}});
   }
 
   const LowerClimb& lower_;
-  const LadderInput& in_;
+  const compare::LadderInput& in_;
   Biases biases_;
   PerThread<Share> shares_;
   std::vector<PixelTerms> totals_;
@@ -179,13 +185,13 @@ bool biases_add_up(const LowerClimb& lower) {
   return true;
 }
 
-BiasTable compare_biases(const LowerClimb& lower, const LadderInput& in, const LightComparison& drawn,
-                         std::span<const double> asked, int bias_curve_points) {
+BiasTable compare_biases(const LowerClimb& lower, const compare::LadderInput& in,
+                         const LightComparison& drawn, std::span<const double> asked, int bias_curve_points) {
   BiasAxis axis(lower, in, asked);
   axis.run();
-  const EdgePaths edges(
+  const compare::EdgePaths edges(
       {in.drawn, in.record(), in.traced.receiver, lower.rungs[0], lower.sorted, in.world()});
-  const GapLists gaps = sort_gaps(in.record(), lower.rungs[0], lower.sorted);
+  const compare::GapLists gaps = compare::sort_gaps(in.record(), lower.rungs[0], lower.sorted);
   BiasTable out{std::vector<LightComparison>(asked.size()), axis.biases().place, axis.take_spans()};
   std::vector<LightComparison>& lights = out.lights;
   parallel_for(asked.size(), [&](std::size_t i) {
@@ -194,10 +200,10 @@ BiasTable compare_biases(const LowerClimb& lower, const LadderInput& in, const L
     axis.terms(place).write_to(lights[i]);
     lights[i].detachment = axis.detachment(place);
     lights[i].edges = edges.at(static_cast<float>(asked[i]));
-    lights[i].bias_curve = draw_bias_curve(gaps, drawn.bias_texel_world, asked[i],
-                                           drawn.best_bias.constant_world, bias_curve_points);
+    lights[i].bias_curve = compare::draw_bias_curve(gaps, drawn.bias_texel_world, asked[i],
+                                                    drawn.best_bias.constant_world, bias_curve_points);
   });
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

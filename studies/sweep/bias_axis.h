@@ -9,29 +9,30 @@
 
 #include "compare/ladder/ladder.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 /// All rungs below V5 are 0 or 1, so that every sum over pixels is exact in any order: false for lights with
 /// a size.
-bool biases_add_up(const LowerClimb& lower);
+bool biases_add_up(const compare::LowerClimb& lower);
 
 /// A pixel that is drawn wrong at the biases number `from` to `to` (excluded), counted from the smallest.
 struct WrongSpan {
   std::uint32_t pixel = 0, from = 0, to = 0;
-  Label label = Label::right;
+  compare::Label label = compare::Label::right;
   bool false_shadow = false;
 };
 
 /// The numbers of every bias, and what is wrong where.
 struct BiasTable {
-  std::vector<LightComparison> lights;  ///< by bias as asked for, without images
-  std::vector<std::size_t> place;       ///< the bias asked for is the place-th smallest
+  std::vector<compare::LightComparison> lights;  ///< by bias as asked for, without images
+  std::vector<std::size_t> place;                ///< the bias asked for is the place-th smallest
   std::vector<WrongSpan> spans;
 };
 
 /// What is said of the light at each bias (world units, in any order), without images. `drawn` is the
 /// comparison of the drawing as it was made; `input` holds that drawing.
-BiasTable compare_biases(const LowerClimb& lower, const LadderInput& input, const LightComparison& drawn,
-                         std::span<const double> biases, int bias_curve_points);
+BiasTable compare_biases(const compare::LowerClimb& lower, const compare::LadderInput& input,
+                         const compare::LightComparison& drawn, std::span<const double> biases,
+                         int bias_curve_points);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

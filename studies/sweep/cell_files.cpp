@@ -17,7 +17,7 @@
 #include "scene/files/write_file.h"
 #include "studies/sweep/journal.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 constexpr std::string_view truth_prefix = "truth-";
@@ -181,7 +181,7 @@ bool is_cell_data(std::size_t cell, std::string_view file) {
       R"(\{"width":\d{1,6},"height":\d{1,6},"truth":"[0-9a-z-]{0,64}","classes":\{"bytes":1,"from":"nothing","data":")");
   constexpr std::size_t longest_head = 256;
   constexpr std::string_view end = "\"}}";
-  const std::string_view data = data_in_file(file);
+  const std::string_view data = report::data_in_file(file);
   const std::string start(data.substr(0, longest_head));
   std::smatch found;
   if (!std::regex_search(start, found, head, std::regex_constants::match_continuous)) return false;
@@ -190,7 +190,7 @@ bool is_cell_data(std::size_t cell, std::string_view file) {
   packed.remove_suffix(end.size());
   const auto ends_text = [](char c) { return c < ' ' || c > '~' || c == '"' || c == '\\'; };
   return std::none_of(packed.begin(), packed.end(), ends_text) &&
-         file == data_file({cell_name(cell), std::string(data)});
+         file == report::data_file({cell_name(cell), std::string(data)});
 }
 
 Error not_cell_data(const std::string& path) {
@@ -199,12 +199,13 @@ Error not_cell_data(const std::string& path) {
 }
 
 std::string cell_data_file(std::size_t cell, const Image<std::uint8_t>& codes, const std::string& truth) {
-  const std::string classes = packed({codes.data.begin(), codes.data.end()}, {1, From::nothing, 1});
-  return data_file(
+  const std::string classes =
+      report::packed({codes.data.begin(), codes.data.end()}, {1, report::From::nothing, 1});
+  return report::data_file(
       {cell_name(cell),
        fmt::format(
            R"({{"width":{},"height":{},"truth":"{}","classes":{{"bytes":1,"from":"nothing","data":"{}"}}}})",
            codes.size.width, codes.size.height, truth, classes)});
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -17,7 +17,7 @@
 #include "scene/image.h"
 #include "studies/sweep/own_files.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 inline constexpr int thumbnail_width = 256;  ///< pixels
 inline constexpr int drawing_width = 640;    ///< pixels
@@ -59,4 +59,4 @@ Error not_cell_data(const std::string& path);
 /// The text of a cell's data file.
 std::string cell_data_file(std::size_t cell, const Image<std::uint8_t>& codes, const std::string& truth);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

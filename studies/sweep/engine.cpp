@@ -14,8 +14,13 @@
 #include "studies/shimmer/shimmer.h"
 #include "studies/sweep/engine_impl.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Figure;
+using compare::LadderInput;
+using compare::LightFigures;
+using compare::Setting;
 
 // What the truth depends on.
 bool same_truth(const Setting& a, const Setting& b) {
@@ -32,11 +37,11 @@ bool same_but_bias(const raster::RasterOptions& a, const raster::RasterOptions& 
 }
 
 // Of one light's compared pixels, times `scale`.
-void add_gaps(const LadderInput& in, double scale, GapLists& gaps) {
-  const Image<Label> labels = sort_pixels(in);
+void add_gaps(const LadderInput& in, double scale, compare::GapLists& gaps) {
+  const Image<compare::Label> labels = compare::sort_pixels(in);
   for (std::size_t i = 0; i < labels.data.size(); ++i) {
-    if (!is_compared(labels.data[i])) continue;
-    const auto truth = true_visibility(in, i);
+    if (!compare::is_compared(labels.data[i])) continue;
+    const auto truth = compare::true_visibility(in, i);
     if (truth == 0.5f)
       ++gaps.ties;
     else
@@ -48,7 +53,7 @@ void add_gaps(const LadderInput& in, double scale, GapLists& gaps) {
 /// Whether `other` shows, and takes, what was drawn for `drawn`, but for its constant bias. A shader of the user's need not
 /// compare with the bias at all.
 bool derives_from(const Setting& drawn, const Setting& other, const raster::RasterFrame& frame) {
-  return frame.replaced_shaders.empty() && biases_follow_from_gaps(other.raster.map) &&
+  return frame.replaced_shaders.empty() && compare::biases_follow_from_gaps(other.raster.map) &&
          same_but_bias(drawn.raster, other.raster);
 }
 
@@ -86,7 +91,7 @@ void Engine::Impl::trace(const Setting& setting) {
 
 Expected<void> Engine::Impl::draw(const Setting& setting) {
   drawn_for.reset();
-  auto frame = renderer.render(drawing_options(setting.raster, setting.raytrace), setting.compared);
+  auto frame = renderer.render(compare::drawing_options(setting.raster, setting.raytrace), setting.compared);
   if (!frame) return fail(frame.error());
   comparison.raster = std::move(*frame);
   drawn_for = setting;
@@ -101,7 +106,7 @@ void Engine::Impl::derive(const Setting& setting, Detail detail) {
     const double world_units =
         raster::constant_bias_world(setting.raster.map.bias, record.rounding, record.map.view, world);
     record.bias_constant_world = world_units;
-    if (detail == Detail::images) rebias(comparison.raster.primitive, world_units, record);
+    if (detail == Detail::images) compare::rebias(comparison.raster.primitive, world_units, record);
   }
   ++work.derived;
 }
@@ -110,14 +115,15 @@ void Engine::Impl::climb_lower() {
   const TimedStage stage("labels");
   const raster::RasterFrame& frame = comparison.raster;
   bool same = lower.size() == frame.lights.size();
-  for (std::size_t i = 0; same && i < lower.size(); ++i) same = have_same_lower_climb(*lower_frame, frame, i);
+  for (std::size_t i = 0; same && i < lower.size(); ++i)
+    same = compare::have_same_lower_climb(*lower_frame, frame, i);
   if (same) return;
   lower.clear();
   map_measures.clear();
   lower_frame = std::make_unique<raster::RasterFrame>(frame);
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     const LadderInput in = input(*lower_frame, i);
-    lower.push_back(std::make_unique<LowerClimb>(in, sort_pixels(in)));
+    lower.push_back(std::make_unique<compare::LowerClimb>(in, compare::sort_pixels(in)));
     ++work.lower_climbs;
   }
 }
@@ -138,8 +144,8 @@ bool Engine::Impl::fill_table() {
     std::vector<double> biases;
     for (const raster::Bias& bias : expected)
       biases.push_back(raster::constant_bias_world(bias, in.record().rounding, in.record().map.view, world));
-    table.push_back(
-        compare_biases(*lower[i], in, comparison.lights[i], biases, MeasureOptions{}.bias_curve_points));
+    table.push_back(compare_biases(*lower[i], in, comparison.lights[i], biases,
+                                   compare::MeasureOptions{}.bias_curve_points));
   }
   return true;
 }
@@ -156,18 +162,18 @@ bool Engine::Impl::measure_from_table(const raster::Bias& bias) {
 Expected<void> Engine::Impl::measure() {
   if (!derived) climb_lower();
   has_images = true;
-  const Plan plan{.tracer = *tracer,
-                  .picture = comparison.raster.primitive.size,
-                  .lights = truth_of->compared,
-                  .measure = {.perceptual = perceptual, .by_cascade = false},
-                  .maps = map_measures,
-                  .topology = &topology,
-                  .places = kept.places ? &*kept.places : nullptr};
-  const auto measured =
-      measure_frames(comparison, plan, [&](const LadderInput& in) { return climb_up(*lower[in.index], in); });
+  const compare::Plan plan{.tracer = *tracer,
+                           .picture = comparison.raster.primitive.size,
+                           .lights = truth_of->compared,
+                           .measure = {.perceptual = perceptual, .by_cascade = false},
+                           .maps = map_measures,
+                           .topology = &topology,
+                           .places = kept.places ? &*kept.places : nullptr};
+  const auto measured = compare::measure_frames(
+      comparison, plan, [&](const LadderInput& in) { return compare::climb_up(*lower[in.index], in); });
   if (!measured) return measured;
   map_measures.clear();
-  for (const LightComparison& light : comparison.lights)
+  for (const compare::LightComparison& light : comparison.lights)
     map_measures.push_back({light.texel_world, light.theory, light.terminator});
   return {};
 }
@@ -221,7 +227,7 @@ Expected<void> Engine::Impl::time_again(const Setting& setting) {
 std::vector<LightFigures> Engine::Impl::figures(const Figure& measure) const {
   std::vector<LightFigures> out;
   for (std::size_t i = 0; i < comparison.raster.lights.size(); ++i)
-    out.push_back(measure_ends(input(comparison.raster, i), {&measure}));
+    out.push_back(compare::measure_ends(input(comparison.raster, i), {&measure}));
   return out;
 }
 
@@ -234,8 +240,8 @@ void Engine::Impl::add_gaps_of(Probe& probe, double texel_world, bool scales) co
 void Engine::Impl::add_figures_at(const raster::Bias& bias, const Figure& measure, Probe& probe) {
   raster::RasterFrame& frame = comparison.raster;
   for (raster::LightRecord& record : frame.lights)
-    rebias(frame.primitive, raster::constant_bias_world(bias, record.rounding, record.map.view, world),
-           record);
+    compare::rebias(frame.primitive,
+                    raster::constant_bias_world(bias, record.rounding, record.map.view, world), record);
   for (LightFigures& light : figures(measure)) probe.lights_at_best.push_back(std::move(light));
 }
 
@@ -249,7 +255,7 @@ Expected<Probe> Engine::Impl::probe(const Setting& setting, const Figure& measur
   for (const raster::LightRecord& light : frame.lights)
     if (light.external) probe.rays += light.external->rays;
   probe.lights = figures(measure);
-  if (film && measure.needs == FigureNeeds::film) {
+  if (film && measure.needs == compare::FigureNeeds::film) {
     const auto flips = count_flips(setting);
     if (!flips) return fail(flips.error());
     for (std::size_t i = 0; i < flips->size(); ++i) probe.lights[i].shimmer = (*flips)[i];
@@ -274,7 +280,7 @@ Engine::Engine(Scene& scene, const World& world, raster::Renderer& renderer, boo
 
 Engine::~Engine() = default;
 
-void Engine::look_from(std::vector<JudgedView> views, const Figure& measure) {
+void Engine::look_from(std::vector<compare::JudgedView> views, const Figure& measure) {
   views_ = std::move(views), measure_ = &measure, shown_ = 0;
   while (impls_.size() < views_.size()) impls_.push_back(std::make_unique<Impl>(*kept_));
   impls_.resize(std::max<std::size_t>(views_.size(), 1));
@@ -283,7 +289,7 @@ void Engine::look_from(std::vector<JudgedView> views, const Figure& measure) {
 Setting Engine::posed(const Setting& setting, std::size_t view) const {
   if (views_.empty()) return setting;
   Setting out = setting;
-  Pose pose = views_[view].pose({setting.camera, setting.lights});
+  compare::Pose pose = views_[view].pose({setting.camera, setting.lights});
   out.camera = pose.camera, out.lights = std::move(pose.lights);
   return out;
 }
@@ -302,11 +308,11 @@ void add_probe(Probe&& of_view, Probe& sum) {
 Expected<Probe> Engine::probe(const Setting& setting, const Figure& measure) {
   Probe all;
   const bool scales = raster::scales_bias(setting.raster.map);
-  bool from_gaps = measure.needs != FigureNeeds::film;
+  bool from_gaps = measure.needs != compare::FigureNeeds::film;
   for (std::size_t view = 0; view < impls_.size(); ++view) {
     auto probe = impls_[view]->probe(posed(setting, view), measure);
     if (!probe) return probe;
-    from_gaps = from_gaps && biases_follow_from_gaps(impls_[view]->comparison.raster);
+    from_gaps = from_gaps && compare::biases_follow_from_gaps(impls_[view]->comparison.raster);
     if (view == 0)
       all = std::move(*probe);
     else
@@ -317,9 +323,9 @@ Expected<Probe> Engine::probe(const Setting& setting, const Figure& measure) {
   if (!from_gaps) return all;
   sort_numbers(std::span(all.gaps.lit));
   sort_numbers(std::span(all.gaps.shadowed));
-  all.best = find_best_bias(all.gaps);
-  all.bias_at_best =
-      with_three_digits(with_constant(setting.raster.map, all.best->constant_world, all.texel_world));
+  all.best = compare::find_best_bias(all.gaps);
+  all.bias_at_best = compare::with_three_digits(
+      compare::with_constant(setting.raster.map, all.best->constant_world, all.texel_world));
   for (const auto& impl : impls_) impl->add_figures_at(all.bias_at_best, measure, all);
   return all;
 }
@@ -359,16 +365,16 @@ void Engine::expect_biases(std::vector<raster::Bias> biases) {
   for (const auto& impl : impls_) impl->table.clear();
 }
 
-void Engine::film_with(const FilmPlan& plan) {
+void Engine::film_with(const compare::FilmPlan& plan) {
   kept_->film = plan;
 }
 
-Expected<std::vector<ShimmerFigures>> Engine::Impl::count_flips(const Setting& setting) const {
+Expected<std::vector<compare::ShimmerFigures>> Engine::Impl::count_flips(const Setting& setting) const {
   ShimmerOptions options{*film, {}};
   options.compare.raster = setting.raster;
   options.compare.raytrace = setting.raytrace;
   options.compare.accel = setting.accel, options.compare.precision = setting.precision;
-  return compare::count_flips({*tracer, topology, comparison.raytraced}, world, scene, renderer,
+  return studies::count_flips({*tracer, topology, comparison.raytraced}, world, scene, renderer,
                               setting.compared, options);
 }
 
@@ -383,17 +389,18 @@ Expected<void> Engine::compare_view(std::size_t view, const Setting& setting, De
   return {};
 }
 
-Expected<Comparison*> Engine::compare(const Setting& setting, Detail detail) {
+Expected<compare::Comparison*> Engine::compare(const Setting& setting, Detail detail) {
   shown_ = 0;
-  ViewErrors errors{.measure = measure_};
+  compare::ViewErrors errors{.measure = measure_};
   const bool maps = maps_places_ && !views_.empty() && detail == Detail::images;
   kept_->places.reset();
-  if (maps) kept_->places = places_of(kept_->world, setting.camera);
+  if (maps) kept_->places = compare::places_of(kept_->world, setting.camera);
   for (std::size_t view = 0; view < impls_.size(); ++view) {
     const Detail enough = views_.empty() || maps ? detail : Detail::numbers;
     if (auto compared = compare_view(view, posed(setting, view), enough); !compared)
       return fail(compared.error());
-    if (!views_.empty() && add_view(errors, views_[view].name, impls_[view]->comparison)) shown_ = view;
+    if (!views_.empty() && compare::add_view(errors, views_[view].name, impls_[view]->comparison))
+      shown_ = view;
   }
   if (maps) errors.places = std::move(*kept_->places);
   kept_->places.reset();
@@ -406,4 +413,4 @@ Expected<Comparison*> Engine::compare(const Setting& setting, Detail detail) {
   return &worst.comparison;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -13,7 +13,7 @@
 #include "compare/compare.h"
 #include "compare/setting.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 enum class Detail : std::uint8_t { numbers, images };
 
@@ -27,16 +27,16 @@ struct EngineWork {
 
 /// What the tuner needs of a drawing: its errors at every constant bias, and its times; nothing is climbed.
 struct Probe {
-  std::uint64_t compared = 0;        ///< pixels, all lights together
-  std::vector<LightFigures> lights;  ///< of each light, as drawn
+  std::uint64_t compared = 0;                 ///< pixels, all lights together
+  std::vector<compare::LightFigures> lights;  ///< of each light, as drawn
   /// Holds the gaps of all lights together, as the first light's texel has them where the constant scales; empty where
   /// biases do not follow from gaps.
-  GapLists gaps;
+  compare::GapLists gaps;
   /// The constant bias with the fewest wrong pixels, and each light's figures with it; none where biases do
   /// not follow from gaps.
-  std::optional<BestBias> best;
+  std::optional<compare::BestBias> best;
   raster::Bias bias_at_best;  ///< with that constant, in the unit that draws it
-  std::vector<LightFigures> lights_at_best;
+  std::vector<compare::LightFigures> lights_at_best;
   double bias_world = 0.0;   ///< the constant bias drawn with, of the first light
   double texel_world = 0.0;  ///< the width that biases in texels are taken in, of the first light
   double raster_ms = 0.0;    ///< median times of the map and the shading passes, all lights
@@ -61,13 +61,13 @@ class Engine {
 
   /// From now on a film of each setting is made as well, beginning with its picture: LightComparison::shimmer and
   /// the measure "shimmer".
-  void film_with(const FilmPlan& plan);
+  void film_with(const compare::FilmPlan& plan);
 
   /// From now on each setting is judged from all these views by that measure, and holds by the worst. compare() gives
   /// the comparison of the view in which it errs most, with Comparison::views. Of probes the lights are those of all
   /// views, one after the other, gaps and best bias of all pixels, times their means. What is kept from one setting to
   /// the next is kept for each view. Without views: from the setting's own camera.
-  void look_from(std::vector<JudgedView> views, const Figure& measure);
+  void look_from(std::vector<compare::JudgedView> views, const compare::Figure& measure);
   /// From now on compare() with all images also says where errors lie, over all views (ViewErrors::places).
   void map_places() { maps_places_ = true; }
 
@@ -76,20 +76,22 @@ class Engine {
   /// constant bias alone is not drawn: what it would show follows from the gaps. Its times and its picture
   /// (RasterFrame::color) are those of the frame that it was made from. With Detail::numbers the images of
   /// such a frame (visibility, rungs, labels) may be left out.
-  Expected<Comparison*> compare(const Setting& setting, Detail detail = Detail::images);
+  Expected<compare::Comparison*> compare(const compare::Setting& setting, Detail detail = Detail::images);
 
   /// Draws at a setting and measures what `measure` needs (FLIP, edges and flips are left NaN otherwise; where it is
   /// flips, no other bias is looked for). A
   /// comparison that stood before is no longer valid.
-  Expected<Probe> probe(const Setting& setting, const Figure& measure = wrong_and_mean());
+  Expected<Probe> probe(const compare::Setting& setting,
+                        const compare::Figure& measure = compare::wrong_and_mean());
 
   /// Draws at a setting for Probe::raster_ms alone. A comparison that stood before is no longer valid.
-  Expected<double> time_drawing(const Setting& setting);
+  Expected<double> time_drawing(const compare::Setting& setting);
 
   /// Draws at a setting for its times alone, from the view whose times compare() gave (shown_view), and gives each light's;
   /// valid until the next call. Settings one after the other that differ in their constant bias alone share one drawing
   /// until begin_round(). A comparison that stood before is no longer valid.
-  Expected<const std::vector<raster::LightRecord>*> time_again(const Setting& setting, std::size_t view);
+  Expected<const std::vector<raster::LightRecord>*> time_again(const compare::Setting& setting,
+                                                               std::size_t view);
   void begin_round();
   /// Of those that the last comparison was judged from, the one that it shows; 0 without views.
   std::size_t shown_view() const { return shown_; }
@@ -113,12 +115,12 @@ class Engine {
  private:
   struct Impl;
   struct Kept;
-  Setting posed(const Setting& setting, std::size_t view) const;
-  Expected<void> compare_view(std::size_t view, const Setting& setting, Detail detail);
+  compare::Setting posed(const compare::Setting& setting, std::size_t view) const;
+  Expected<void> compare_view(std::size_t view, const compare::Setting& setting, Detail detail);
   std::unique_ptr<Kept> kept_;
   std::vector<std::unique_ptr<Impl>> impls_;  ///< one for each view
-  std::vector<JudgedView> views_;             ///< none: the setting's own camera
-  const Figure* measure_ = &wrong_and_mean();
+  std::vector<compare::JudgedView> views_;    ///< none: the setting's own camera
+  const compare::Figure* measure_ = &compare::wrong_and_mean();
   std::size_t shown_ = 0;  ///< the view that was worst
   bool maps_places_ = false;
 };
@@ -129,4 +131,4 @@ inline constexpr std::uint8_t code_true_shadow = 0x20;   ///< truly in shadow, o
 inline constexpr std::uint8_t code_false_shadow = 0x40;  ///< drawn darker than the truth
 inline constexpr std::uint8_t code_small_error = 0x80;   ///< by one half or less: the pixel is not wrong
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

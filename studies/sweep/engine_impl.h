@@ -8,7 +8,7 @@
 #include "studies/sweep/bias_axis.h"
 #include "studies/sweep/engine.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 /// What all views of an engine share.
 struct Engine::Kept {
@@ -20,8 +20,8 @@ struct Engine::Kept {
   std::unique_ptr<raytrace::Tracer> tracer{};
   raytrace::Accel accel = raytrace::Accel::bvh;  ///< of the tracer
   std::vector<raster::Bias> expected{};
-  std::optional<FilmPlan> film{};
-  std::optional<ErrorPlaces>
+  std::optional<compare::FilmPlan> film{};
+  std::optional<compare::ErrorPlaces>
       places{};  ///< takes the errors of views as they are measured; none: not asked for
   EngineWork work{};
 };
@@ -35,20 +35,20 @@ struct Engine::Impl {
   const bool perceptual;
   const raytrace::Topology& topology;
   std::unique_ptr<raytrace::Tracer>& tracer;
-  Comparison comparison;
-  std::optional<Setting> truth_of, drawn_for;
-  std::optional<Setting> timed_for;  ///< by time_again(), whose drawing the comparison holds
+  compare::Comparison comparison;
+  std::optional<compare::Setting> truth_of, drawn_for;
+  std::optional<compare::Setting> timed_for;  ///< by time_again(), whose drawing the comparison holds
   /// The drawing that the lower climbs were made from, and one climb per light compared.
   std::unique_ptr<raster::RasterFrame> lower_frame;
-  std::vector<std::unique_ptr<LowerClimb>> lower;
-  std::vector<MapMeasures> map_measures;  ///< as `lower`; empty: not measured yet
-  Rgb8Image backdrop;                     ///< the ray-traced picture in grey; empty: not made yet
+  std::vector<std::unique_ptr<compare::LowerClimb>> lower;
+  std::vector<compare::MapMeasures> map_measures;  ///< as `lower`; empty: not measured yet
+  Rgb8Image backdrop;                              ///< the ray-traced picture in grey; empty: not made yet
   bool has_images = false;
   const std::vector<raster::Bias>& expected;
   std::vector<BiasTable> table;     ///< by light; empty: not made yet
   Image<std::uint8_t> right_codes;  ///< class_codes of the table's drawing as if no pixel were wrong
   std::size_t table_place = 0;      ///< of the bias that the comparison's numbers were last taken from it for
-  const std::optional<FilmPlan>& film;
+  const std::optional<compare::FilmPlan>& film;
   EngineWork& work;
   bool derived = false;
 
@@ -64,15 +64,15 @@ struct Engine::Impl {
         film(k.film),
         work(k.work) {}
 
-  Expected<void> compare(const Setting& setting, Detail detail);
-  Expected<Probe> probe(const Setting& setting, const Figure& measure);
-  Expected<double> time_drawing(const Setting& setting);
-  Expected<void> time_again(const Setting& setting);
+  Expected<void> compare(const compare::Setting& setting, Detail detail);
+  Expected<Probe> probe(const compare::Setting& setting, const compare::Figure& measure);
+  Expected<double> time_drawing(const compare::Setting& setting);
+  Expected<void> time_again(const compare::Setting& setting);
   /// Gaps that sort themselves, the best of all biases, and what the drawing would be wrong by with it.
   void add_gaps_of(Probe& probe, double texel_world, bool scales) const;
-  void add_figures_at(const raster::Bias& bias, const Figure& measure, Probe& probe);
+  void add_figures_at(const raster::Bias& bias, const compare::Figure& measure, Probe& probe);
   /// Counts the flips of every light of a setting that was traced.
-  Expected<std::vector<ShimmerFigures>> count_flips(const Setting& setting) const;
+  Expected<std::vector<compare::ShimmerFigures>> count_flips(const compare::Setting& setting) const;
 
   /// The ray-traced picture in grey between 64 and 232, so that both error colours stand out from it.
   void make_backdrop();
@@ -85,14 +85,14 @@ struct Engine::Impl {
   Image<std::uint8_t> codes_of_images() const;
   /// Returns one light's code at a pixel: with images of the last comparison as it is, without them as if it were right.
   std::uint8_t code_of_light(std::size_t i, std::size_t pixel) const;
-  LadderInput input(const raster::RasterFrame& frame, std::size_t i) const;
+  compare::LadderInput input(const raster::RasterFrame& frame, std::size_t i) const;
   /// Returns the figures of every light of the last drawing.
-  std::vector<LightFigures> figures(const Figure& measure) const;
-  void trace(const Setting& setting);
-  Expected<void> draw(const Setting& setting);
-  Expected<void> draw_alone(const Setting& setting);
+  std::vector<compare::LightFigures> figures(const compare::Figure& measure) const;
+  void trace(const compare::Setting& setting);
+  Expected<void> draw(const compare::Setting& setting);
+  Expected<void> draw_alone(const compare::Setting& setting);
   /// The bias alone, or the images with it.
-  void derive(const Setting& setting, Detail detail);
+  void derive(const compare::Setting& setting, Detail detail);
   /// The lower rungs of all lights, kept where the maps are the same as before.
   void climb_lower();
   /// Place of the bias among those expected, or their count.
@@ -105,4 +105,4 @@ struct Engine::Impl {
   float worst_error(std::size_t pixel) const;
 };
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

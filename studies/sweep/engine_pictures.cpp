@@ -9,8 +9,10 @@
 #include "scene/base/parallel.h"
 #include "studies/sweep/engine_impl.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Label;
 
 // A picture of at most `width` pixels, each of `colour(x0, x1, y0, y1)`: what becomes of that block.
 template <class Colour>
@@ -52,7 +54,7 @@ float error_of_code(std::uint8_t code) {
 float Engine::Impl::worst_error(std::size_t pixel) const {
   float worst = 0.0f;
   for (std::size_t i = 0; i < lower.size(); ++i) {
-    if (!is_compared(lower[i]->sorted.data[pixel])) continue;
+    if (!compare::is_compared(lower[i]->sorted.data[pixel])) continue;
     const raster::LightRecord& record = comparison.raster.lights[i];
     const bool lit = !(record.gap.data[pixel] > static_cast<float>(record.bias_constant_world));
     const float drawn = has_images ? record.visibility.data[pixel] : (lit ? 1.0f : 0.0f);
@@ -64,8 +66,8 @@ float Engine::Impl::worst_error(std::size_t pixel) const {
 
 void Engine::Impl::make_backdrop() {
   if (!backdrop.data.empty()) return;
-  backdrop = raytraced_picture(comparison);
-  for (glm::u8vec3& c : backdrop.data) c = grey_backdrop(c);
+  backdrop = compare::raytraced_picture(comparison);
+  for (glm::u8vec3& c : backdrop.data) c = compare::grey_backdrop(c);
 }
 
 glm::u8vec3 Engine::Impl::mean_colour(const Image<std::uint8_t>* codes, int x0, int x1, int y0,
@@ -82,7 +84,7 @@ glm::u8vec3 Engine::Impl::mean_colour(const Image<std::uint8_t>* codes, int x0, 
         whole += glm::uvec3(grey);
         continue;
       }
-      const Vec3f mark(error < 0.0f ? false_shadow_colour : missed_shadow_colour);
+      const Vec3f mark(error < 0.0f ? compare::false_shadow_colour : compare::missed_shadow_colour);
       marked += glm::mix(Vec3f(grey), mark, std::min(std::abs(error), 1.0f));
     }
   }
@@ -93,13 +95,13 @@ std::uint8_t Engine::Impl::code_of_light(std::size_t i, std::size_t pixel) const
   const float truth = lower[i]->rungs[0].data[pixel];
   const std::uint8_t shadow = truth < 0.5f ? code_true_shadow : std::uint8_t{0};
   if (!has_images) return static_cast<std::uint8_t>(code_of(Label::right) | shadow);
-  const LightComparison& light = comparison.lights[i];
+  const compare::LightComparison& light = comparison.lights[i];
   const Label label = light.labels.data[pixel];
   std::uint8_t code = static_cast<std::uint8_t>(code_of(label) | shadow);
-  if (!has_cause(label)) return code;
-  const auto rungs = rungs_at(light.rungs, pixel);
+  if (!compare::has_cause(label)) return code;
+  const auto rungs = compare::rungs_at(light.rungs, pixel);
   if (rungs[6] < truth) code |= code_false_shadow;
-  if (!is_wrong(rungs)) code |= code_small_error;
+  if (!compare::is_wrong(rungs)) code |= code_small_error;
   return code;
 }
 
@@ -108,7 +110,7 @@ Image<std::uint8_t> Engine::Impl::codes_of_images() const {
   parallel_for(codes.data.size(), [&](std::size_t p) {
     std::uint8_t code = code_of(lower.empty() ? Label::background : lower.front()->sorted.data[p]);
     for (std::size_t i = 0; i < lower.size(); ++i) {
-      if (!is_compared(lower[i]->sorted.data[p]) || is_wrong_code(code)) continue;
+      if (!compare::is_compared(lower[i]->sorted.data[p]) || is_wrong_code(code)) continue;
       const std::uint8_t own = code_of_light(i, p);
       if (is_wrong_code(own) || !has_cause_code(code)) code = own;
     }
@@ -144,7 +146,7 @@ Rgb8Image Engine::thumbnail(int width) const {
 }
 
 Rgb8Image Engine::drawing(int width) const {
-  const Rgb8Image whole = raster_picture(impls_[shown_]->comparison);
+  const Rgb8Image whole = compare::raster_picture(impls_[shown_]->comparison);
   if (width >= whole.size.width) return whole;
   return reduced(whole.size, width, [&whole](int x0, int x1, int y0, int y1) {
     Vec3f sum(0.0f);
@@ -158,4 +160,4 @@ Image<std::uint8_t> Engine::class_codes() const {
   return impls_[shown_]->class_codes();
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

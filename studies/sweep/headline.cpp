@@ -8,20 +8,20 @@
 #include "compare/result/number_text.h"
 #include "compare/result/shadow_cost.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
-HeadlineItem item(std::string title, const CellSummary& cell, const Figure& measure) {
-  std::string figures = figure_words(cell.figures, measure);
-  if (std::isfinite(cell.raster_ms)) figures += ", " + milliseconds(cell.raster_ms);
+HeadlineItem item(std::string title, const CellSummary& cell, const compare::Figure& measure) {
+  std::string figures = compare::figure_words(cell.figures, measure);
+  if (std::isfinite(cell.raster_ms)) figures += ", " + compare::milliseconds(cell.raster_ms);
   return {std::move(title), cell.cell, axes_words(cell), std::move(figures)};
 }
 
 // "Best for error" of what nobody chose; else for "wrong pixels", "mean error", "FLIP", "edge error" or "flips".
-std::string error_words(const Figure& measure) {
-  if (&measure == &wrong_and_mean()) return "error";
-  if (measure.needs == FigureNeeds::film) return "flips";
-  return measure_words(measure);
+std::string error_words(const compare::Figure& measure) {
+  if (&measure == &compare::wrong_and_mean()) return "error";
+  if (measure.needs == compare::FigureNeeds::film) return "flips";
+  return compare::measure_words(measure);
 }
 
 // Some other cell may have taken less time, but by no more than such times spread.
@@ -48,10 +48,10 @@ bool says_nothing_of(const CellSummary& cell) {
 }
 
 // Least time of those within the limit; of untimed cells the fewest texels.
-const CellSummary* cheapest_within(const std::vector<CellSummary>& cells, const Threshold& limit) {
+const CellSummary* cheapest_within(const std::vector<CellSummary>& cells, const compare::Threshold& limit) {
   const CellSummary* best = nullptr;
   for (const CellSummary& cell : cells) {
-    if (!is_kept(limit, cell.lights)) continue;
+    if (!compare::is_kept(limit, cell.lights)) continue;
     if (best == nullptr || clearly_faster(cell, *best) ||
         (!clearly_faster(*best, cell) && cell.map_texels < best->map_texels))
       best = &cell;
@@ -59,13 +59,14 @@ const CellSummary* cheapest_within(const std::vector<CellSummary>& cells, const 
   return best;
 }
 
-void add_limit(const std::vector<CellSummary>& cells, const Threshold& limit, Headline& out) {
+void add_limit(const std::vector<CellSummary>& cells, const compare::Threshold& limit, Headline& out) {
   const CellSummary* best = cheapest_within(cells, limit);
   out.limit_met = best != nullptr;
   if (best != nullptr)
-    out.items.push_back(item(fmt::format("Cheapest with {}", limit_words(limit)), *best, *limit.measure));
+    out.items.push_back(
+        item(fmt::format("Cheapest with {}", compare::limit_words(limit)), *best, *limit.measure));
   else
-    out.items.push_back({fmt::format("No cell has {}", limit_words(limit)), {}, {}, {}});
+    out.items.push_back({fmt::format("No cell has {}", compare::limit_words(limit)), {}, {}, {}});
 }
 
 }  // namespace
@@ -82,7 +83,7 @@ std::string why_no_time(const std::vector<CellSummary>& cells) {
 // What the shadows of the cell with the least error take on both sides.
 void add_costs(const CellSummary& cell, Headline& out) {
   if (!cell.costs) return;
-  for (const std::string& line : shadow_cost_lines(*cell.costs, cell.technique == "hybrid"))
+  for (const std::string& line : compare::shadow_cost_lines(*cell.costs, cell.technique == "hybrid"))
     out.items.push_back({fmt::format("Shadows of cell {}, {}", cell.cell, line), {}, {}, {}});
 }
 
@@ -104,7 +105,7 @@ std::vector<std::string> Headline::lines() const {
 }
 
 Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front,
-                        const std::optional<Threshold>& limit) {
+                        const std::optional<compare::Threshold>& limit) {
   Headline out;
   if (std::all_of(cells.begin(), cells.end(), says_nothing_of)) {
     out.items.push_back({"No pixel could be compared in any cell", {}, {}, {}});
@@ -113,7 +114,7 @@ Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector
   }
   if (limit) add_limit(cells, *limit, out);
   if (cells.size() < 2) return out;
-  const Figure& measure = cells.front().measure();
+  const compare::Figure& measure = cells.front().measure();
   const std::string error = error_words(measure);
   if (front.empty()) {
     const auto least = std::min_element(cells.begin(), cells.end(),
@@ -137,4 +138,4 @@ Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector
   return out;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -8,7 +8,7 @@
 
 #include "studies/sweep/summary.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 /// One cell that is best, or that none is.
 struct HeadlineItem {
@@ -26,7 +26,7 @@ struct Headline {
 
 /// `front`: of pareto_front().
 Headline sweep_headline(const std::vector<CellSummary>& cells, const std::vector<std::size_t>& front,
-                        const std::optional<Threshold>& limit);
+                        const std::optional<compare::Threshold>& limit);
 
 /// "map size 1024, technique pcf": the axes' values; "the only cell" without axes.
 std::string axes_words(const CellSummary& cell);
@@ -41,4 +41,4 @@ std::string value_words(std::string_view value);
 /// A label by its key of result.json: "peter_panning" -> "peter-panning"; empty for an empty key.
 std::string label_words_of(std::string_view key);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

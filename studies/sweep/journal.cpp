@@ -18,7 +18,7 @@
 #include "studies/sweep/cell_files.h"
 #include "studies/sweep/rounds.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -203,8 +203,9 @@ Expected<GoodLines> read_lines(const OwnFile& line_file, const OwnFile& time_fil
 }
 
 /// `cells`: of every line that there will be; `rounds`: the lines of times.
-Expected<void> fill_table(const std::string& folder, ResultTable& table, std::span<const std::size_t> cells,
-                          const std::vector<std::string>& lines, const std::vector<std::string>& rounds) {
+Expected<void> fill_table(const std::string& folder, compare::ResultTable& table,
+                          std::span<const std::size_t> cells, const std::vector<std::string>& lines,
+                          const std::vector<std::string>& rounds) {
   const auto joined = joined_rounds(rounds, cells.size());
   if (!joined) return bad_line(path_in(folder, "sweep_times.jsonl"), 0, joined.error().reason);
   const std::vector<std::string>& times = *joined;
@@ -262,7 +263,7 @@ Expected<void> check_takes_sweep(const std::string& folder, const SweepHeader& h
 Expected<void> write_sweep(const std::string& folder, const SweepHeader& header,
                            const std::vector<std::size_t>& cells, const std::vector<std::string>& lines,
                            const std::vector<std::string>& times) {
-  ResultTable table;
+  compare::ResultTable table;
   if (auto filled = fill_table(folder, table, cells, lines, times); !filled) return filled;
   for (const auto& [name, text] :
        {std::pair("sweep.json", header_json(header)), std::pair("sweep.jsonl", all_of_lines(lines)),
@@ -324,9 +325,9 @@ Expected<void> Journal::write_table() {
   return table_file_->append(table_.text());
 }
 
-Expected<void> Journal::append(const Json& line, const Json& times) {
-  if (auto written = time_file_->append(sealed(on_one_line(times))); !written) return written;
-  if (auto written = line_file_->append(sealed(on_one_line(line))); !written) return written;
+Expected<void> Journal::append(const compare::Json& line, const compare::Json& times) {
+  if (auto written = time_file_->append(sealed(compare::on_one_line(times))); !written) return written;
+  if (auto written = line_file_->append(sealed(compare::on_one_line(line))); !written) return written;
   if (size_ == 0) drawer_ = drawer_of_line(line);
   views_.push_back(view_of_times(times));
   ++times_size_;
@@ -334,8 +335,8 @@ Expected<void> Journal::append(const Json& line, const Json& times) {
   return rows.empty() ? write_table() : table_file_->append(rows);
 }
 
-Expected<void> Journal::append_round(const Json& times) {
-  if (auto written = time_file_->append(sealed(on_one_line(times))); !written) return written;
+Expected<void> Journal::append_round(const compare::Json& times) {
+  if (auto written = time_file_->append(sealed(compare::on_one_line(times))); !written) return written;
   ++times_size_;
   return {};
 }
@@ -375,4 +376,4 @@ Expected<SweepLines> read_sweep(const std::string& folder) {
   return sweep;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -20,7 +20,7 @@
 #include "studies/sweep/own_files.h"
 #include "studies/sweep/sweep_line.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 /// Nobody else takes up or replaces the sweep of a folder while one lives.
 class SweepClaim {
@@ -82,7 +82,7 @@ class Journal {
   struct File;
   Expected<void> write_table();
   std::unique_ptr<File> line_file_, time_file_, table_file_;
-  ResultTable table_;
+  compare::ResultTable table_;
   std::vector<std::size_t> cells_;
   std::size_t size_ = 0, times_size_ = 0;
   std::vector<std::size_t> views_;
@@ -99,4 +99,4 @@ struct SweepLines {
 };
 Expected<SweepLines> read_sweep(const std::string& folder);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

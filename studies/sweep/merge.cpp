@@ -18,7 +18,7 @@
 #include "studies/sweep/own_files.h"
 #include "studies/sweep/page.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -144,7 +144,7 @@ Expected<void> write_whole(const Cells& cells, const Lines& lines, const SweepHe
 }  // namespace
 
 Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, const std::string& target,
-                                   double report_max_mb, const std::optional<Threshold>& limit) {
+                                   double report_max_mb, const std::optional<compare::Threshold>& limit) {
   Cells cells;
   std::optional<SweepHeader> header;
   std::set<std::string> drawers;
@@ -156,7 +156,7 @@ Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, cons
       return fail(ErrorKind::usage, folder + ": a shard of another sweep than " + folders.front());
     if (auto added = add_shard(folder, *shard, cells); !added) return fail(added.error());
     for (const std::string& line : shard->lines)
-      drawers.insert(drawer_of_line(Json::parse(line, nullptr, false)));
+      drawers.insert(drawer_of_line(compare::Json::parse(line, nullptr, false)));
   }
   if (!header) return fail(ErrorKind::usage, "no shard is given");
   if (cells.size() != header->cells)
@@ -178,4 +178,4 @@ Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, cons
   return MergedSweep{cells.size(), *page, {drawers.begin(), drawers.end()}};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

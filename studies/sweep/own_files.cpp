@@ -14,7 +14,7 @@
 #include "studies/sweep/cell_files.h"
 #include "studies/sweep/sweep_line.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 struct Opening {
@@ -143,4 +143,4 @@ Expected<void> check_own_files(const std::string& folder, bool has_sweep) {
   return {};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

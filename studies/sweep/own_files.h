@@ -12,7 +12,7 @@
 
 #include "scene/base/expected.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 /// Files that a sweep's folder has. They are removed in this order: whoever finds the last one knows that a sweep lies there.
 inline constexpr std::array<std::string_view, 6> sweep_file_names{
@@ -66,4 +66,4 @@ Expected<std::string> text_of_open(int descriptor, const std::string& path, Erro
 /// Refuses the path: "it is left as it is, and a sweep needs another folder".
 tl::unexpected<Error> not_a_sweeps(const std::string& path, std::string_view what);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -16,7 +16,7 @@
 #include "scene/files/write_file.h"
 #include "studies/sweep/cell_files.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -50,7 +50,7 @@ Expected<std::map<std::size_t, CellPictures>> read_pictures(const std::string& f
     for (const auto* file : {&thumbnail, &data, &drawing})
       if (!*file) return fail(file->error());
     if (!data->empty() && !is_cell_data(cell.cell, *data)) return fail(not_cell_data(name + ".js"));
-    CellPictures found{std::move(*thumbnail), std::string(data_in_file(*data)), std::move(*drawing)};
+    CellPictures found{std::move(*thumbnail), std::string(report::data_in_file(*data)), std::move(*drawing)};
     if (!found.thumbnail.empty()) pictures[cell.cell] = std::move(found);
   }
   return pictures;
@@ -60,18 +60,19 @@ Expected<std::map<std::size_t, CellPictures>> read_pictures(const std::string& f
 
 namespace {
 
-PagePicture thumbnail(const SweepPageInput& in, const CellSummary& cell, const CellPictures& pictures) {
-  const std::string share = percent(cell.figures.error.wrong_fraction) + " wrong";
+report::PagePicture thumbnail(const SweepPageInput& in, const CellSummary& cell,
+                              const CellPictures& pictures) {
+  const std::string share = compare::percent(cell.figures.error.wrong_fraction) + " wrong";
   return {.name = fmt::format("thumbnail-{}", cell.cell),
           .source = in.beside ? fmt::format("thumbnails/{}.png", cell_name(cell.cell))
-                              : data_uri("image/png", pictures.thumbnail),
+                              : report::data_uri("image/png", pictures.thumbnail),
           .alt = share,
           .caption = fmt::format("Cell {}, {}: {}", cell.cell, axes_words(cell), share),
           .waits = true};
 }
 
-std::vector<PagePicture> thumbnails(const SweepPageInput& in) {
-  std::vector<PagePicture> list;
+std::vector<report::PagePicture> thumbnails(const SweepPageInput& in) {
+  std::vector<report::PagePicture> list;
   for (const CellSummary& cell : in.cells)
     if (const auto pictures = in.pictures.find(cell.cell); pictures != in.pictures.end())
       list.push_back(thumbnail(in, cell, pictures->second));
@@ -81,18 +82,19 @@ std::vector<PagePicture> thumbnails(const SweepPageInput& in) {
 }  // namespace
 
 std::string sweep_page(const SweepPageInput& in) {
-  PageShell shell;
-  shell.title = "Sweep of " + Json::parse(in.header.configuration).value("/scene/name"_json_pointer, "") +
+  report::PageShell shell;
+  shell.title = "Sweep of " +
+                compare::Json::parse(in.header.configuration).value("/scene/name"_json_pointer, "") +
                 " \u2013 Gnomon";
   shell.said = sweep_headline(in.cells, pareto_front(in.cells), in.limit).lines();
   shell.pictures = thumbnails(in);
   shell.result = sweep_document(in);
-  shell.data = fmt::format(R"({{"kind":"sweep","labels":{}}})", label_facts().dump());
+  shell.data = fmt::format(R"({{"kind":"sweep","labels":{}}})", report::label_facts().dump());
   shell.beside = in.beside;
   shell.folder = "cells";
   if (!in.beside) {
     const auto add_picture = [&shell](const std::string& name, const std::string& png) {
-      shell.parts.push_back({name + ".png", fmt::format("\"{}\"", data_uri("image/png", png))});
+      shell.parts.push_back({name + ".png", fmt::format("\"{}\"", report::data_uri("image/png", png))});
     };
     for (const auto& [cell, pictures] : in.pictures) {
       if (!pictures.data.empty()) shell.parts.push_back({cell_name(cell), pictures.data});
@@ -100,13 +102,13 @@ std::string sweep_page(const SweepPageInput& in) {
     }
     for (const auto& [name, png] : in.truths) add_picture(name, png);
   }
-  return build_page(shell).html;
+  return report::build_page(shell).html;
 }
 
 namespace {
 
 Expected<WrittenPage> read_and_write_page(const std::string& folder, double report_max_mb,
-                                          const std::optional<Threshold>& limit) {
+                                          const std::optional<compare::Threshold>& limit) {
   const auto sweep = read_sweep(folder);
   if (!sweep) return fail(sweep.error());
   const auto cells = summarise(*sweep);
@@ -132,7 +134,7 @@ Expected<WrittenPage> read_and_write_page(const std::string& folder, double repo
 }  // namespace
 
 Expected<WrittenPage> write_sweep_page(const std::string& folder, double report_max_mb,
-                                       const std::optional<Threshold>& limit) {
+                                       const std::optional<compare::Threshold>& limit) {
   const TimedStage stage("page");
   auto page = read_and_write_page(folder, report_max_mb, limit);
   if (!page && page.error().kind == ErrorKind::bad_input)  // of what was written just now
@@ -141,4 +143,4 @@ Expected<WrittenPage> write_sweep_page(const std::string& folder, double report_
   return page;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -11,7 +11,7 @@
 #include "studies/sweep/ray_points.h"
 #include "studies/sweep/summary.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 /// What the folder holds of a cell's pictures (cell_files.h).
 struct CellPictures {
@@ -28,7 +28,7 @@ struct SweepPageInput {
   const std::map<std::string, std::string>& truths;     ///< PNG by name
   const std::vector<RayPoint>& rays;                    ///< the ray tracer's own points; may be none
   bool beside = false;                                  ///< the pictures are files beside the page
-  std::optional<Threshold> limit;  ///< of the error; its cheapest cell is named in the headline
+  std::optional<compare::Threshold> limit;  ///< of the error; its cheapest cell is named in the headline
 };
 
 /// The page as one file, or with the folder's files beside it.
@@ -44,8 +44,8 @@ struct WrittenPage {
 };
 /// Writes DIR/report.html from what the folder holds. Errors are those of reading and writing.
 Expected<WrittenPage> write_sweep_page(const std::string& folder,
-                                       double report_max_mb = default_report_max_mb,
-                                       const std::optional<Threshold>& limit = {});
+                                       double report_max_mb = report::default_report_max_mb,
+                                       const std::optional<compare::Threshold>& limit = {});
 
 // Shards of a sweep put together: the folder is then the one that a single process would have left, times
 // aside.
@@ -60,7 +60,7 @@ struct MergedSweep {
 /// usage for shards that do not belong together, are missing or are not finished; those of reading and
 /// writing.
 Expected<MergedSweep> merge_sweeps(const std::vector<std::string>& folders, const std::string& target,
-                                   double report_max_mb = default_report_max_mb,
-                                   const std::optional<Threshold>& limit = {});
+                                   double report_max_mb = report::default_report_max_mb,
+                                   const std::optional<compare::Threshold>& limit = {});
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -13,8 +13,12 @@
 #include "studies/sweep/headline.h"
 #include "studies/sweep/page.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Figure;
+using compare::Json;
+using compare::number;
 
 Json range_json(const TimeDifference& ms) {
   if (!ms.timed()) return Json::array();
@@ -22,9 +26,9 @@ Json range_json(const TimeDifference& ms) {
 }
 
 /// By situation, what the map's side takes, and the rays'; flat, for the page without scripts is a table of them.
-void add_costs(const std::optional<ShadowCosts>& costs, Json& cell) {
-  for (const ShadowSituation& one : shadow_situations()) {
-    const ShadowCosts::Sides sides = costs ? *costs.*one.sides : ShadowCosts::Sides();
+void add_costs(const std::optional<compare::ShadowCosts>& costs, Json& cell) {
+  for (const compare::ShadowSituation& one : compare::shadow_situations()) {
+    const compare::ShadowCosts::Sides sides = costs ? *costs.*one.sides : compare::ShadowCosts::Sides();
     cell[fmt::format("{}_map_ms", one.key)] = range_json(sides.map);
     cell[fmt::format("{}_rays_ms", one.key)] = range_json(sides.rays);
   }
@@ -43,7 +47,7 @@ Json load_range(const std::vector<CellSummary>& cells) {
 /// "1.2 %", "1.6 texels"; of films "0.012 flips per receiver and second".
 std::string error_text(const CellSummary& cell) {
   const Figure& measure = cell.measure();
-  const std::string text = figure_text(measure, cell.error());
+  const std::string text = compare::figure_text(measure, cell.error());
   return cell.is_filmed() ? fmt::format(fmt::runtime(measure.measure.said), text) : text;
 }
 
@@ -54,11 +58,13 @@ bool in_tables(const Figure& figure) {
 /// The columns of figures; what only some sweeps make has one where the cell has it.
 Json columns_json(const CellSummary& first) {
   Json columns = Json::array();
-  for (const Figure& figure : figures()) {
-    const bool always = figure.needs == FigureNeeds::nothing || figure.needs == FigureNeeds::edges;
+  for (const Figure& figure : compare::figures()) {
+    const bool always =
+        figure.needs == compare::FigureNeeds::nothing || figure.needs == compare::FigureNeeds::edges;
     if (!in_tables(figure) || (!always && std::isnan(figure.of(first.figures)))) continue;
-    columns.push_back(
-        {{"key", figure.name()}, {"head", figure_head(figure)}, {"form", form_name(figure.form())}});
+    columns.push_back({{"key", figure.name()},
+                       {"head", compare::figure_head(figure)},
+                       {"form", compare::form_name(figure.form())}});
   }
   return columns;
 }
@@ -89,17 +95,19 @@ Json cell_json(const SweepPageInput& in, const CellSummary& cell, bool on_front)
             {"pictures", is_pictured && !pictures->second.data.empty()},
             {"drawn", is_pictured && !pictures->second.drawing.empty()}};
   add_costs(cell.costs, json);
-  json.update(named_figures(cell.figures, in_tables));
+  json.update(compare::named_figures(cell.figures, in_tables));
   return json;
 }
 
 /// What the page's errors are: how charts and captions call them, and whether they are shares.
 Json measure_json(const Figure& measure) {
-  const std::string words = &measure == &wrong_and_mean() ? "the larger of wrong pixels and mean error"
-                            : measure.measure.by_halves   ? std::string(measure.mark.words)
-                                                          : figure_head(measure);
-  return {
-      {"name", measure.measure.name}, {"words", words}, {"shares", measure.form() == FigureForm::percent}};
+  const std::string words = &measure == &compare::wrong_and_mean()
+                                ? "the larger of wrong pixels and mean error"
+                            : measure.measure.by_halves ? std::string(measure.mark.words)
+                                                        : compare::figure_head(measure);
+  return {{"name", measure.measure.name},
+          {"words", words},
+          {"shares", measure.form() == compare::FigureForm::percent}};
 }
 
 Json headline_json(const Headline& headline) {
@@ -121,14 +129,14 @@ std::string sweep_document(const SweepPageInput& in) {
   for (const std::size_t i : front) best.push_back(in.cells[i].cell);
   for (std::size_t i = 0; i < in.cells.size(); ++i)
     cells.push_back(cell_json(in, in.cells[i], std::find(front.begin(), front.end(), i) != front.end()));
-  return Json{{"version", program_version()},
+  return Json{{"version", compare::program_version()},
               {"configuration", Json::parse(in.header.configuration)},
               {"measure", measure_json(in.cells.front().measure())},
               {"axes", std::move(axes)},
               {"columns", columns_json(in.cells.front())},
               {"headline", headline_json(sweep_headline(in.cells, front, in.limit))},
               {"front", std::move(best)},
-              {"situations", situation_facts()},
+              {"situations", report::situation_facts()},
               {"load", load_range(in.cells)},
               {"rays", Json::parse(ray_points_json(in.rays)).at("points")},
               {"reference_samples", reference_samples},
@@ -136,4 +144,4 @@ std::string sweep_document(const SweepPageInput& in) {
       .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -10,8 +10,10 @@
 #include "scene/files/read_file.h"
 #include "scene/light.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Json;
 
 using Json = nlohmann::ordered_json;
 using raytrace::PointVisibility;
@@ -196,4 +198,4 @@ Expected<std::vector<RayPoint>> read_ray_points(const std::string& folder) {
   return points;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -9,7 +9,7 @@
 #include "raytrace/frame.h"
 #include "scene/base/expected.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 struct RayPoint {
   std::string name;            ///< "robust", "robust, 16 samples"
@@ -38,4 +38,4 @@ Expected<std::vector<RayPoint>> read_ray_points(const std::string& folder);
 inline constexpr const char* ray_points_name = "ray_tracer.json";
 std::string ray_points_path(const std::string& folder);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

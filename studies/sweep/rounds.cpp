@@ -8,8 +8,10 @@
 #include "compare/result/output_parts.h"
 #include "compare/result/result_parts.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Json;
 
 constexpr std::array repeated_passes{"map_pass", "shade_pass", "unshadowed_pass"};
 
@@ -39,7 +41,7 @@ void append_runs(const Json& from, Json& to) {
 void add_runs(const Json& round, Json& light) {
   for (const char* pass : repeated_passes) {
     append_runs(round.at(pass), light.at(pass).at("runs"));
-    light.at(pass) = times_json(read_times(light.at(pass)));
+    light.at(pass) = compare::times_json(read_times(light.at(pass)));
   }
   if (!light.contains("shading_strips")) return;
   Json& strips = light.at("shading_strips");
@@ -49,10 +51,10 @@ void add_runs(const Json& round, Json& light) {
 }
 
 void write_differences(Json& light, const Json& line) {
-  light["shadow_lookups"] = difference_json(read_lookups(light));
-  LightFigures figures;
-  figures.shadow_costs = shadow_costs(read_shadow_parts(light, line));
-  if (figures.shadow_costs) light["shadows"] = block_json("times_ms.shadows", figures);
+  light["shadow_lookups"] = compare::difference_json(read_lookups(light));
+  compare::LightFigures figures;
+  figures.shadow_costs = compare::shadow_costs(read_shadow_parts(light, line));
+  if (figures.shadow_costs) light["shadows"] = compare::block_json("times_ms.shadows", figures);
 }
 
 /// `rounds`: the lines of one cell.
@@ -67,20 +69,20 @@ std::string joined(const std::vector<const std::string*>& rounds) {
       line["load"] = std::max(line.at("load").get<double>(), round.at("load").get<double>());
   }
   for (Json& light : line.at("lights")) write_differences(light, line);
-  return on_one_line(line);
+  return compare::on_one_line(line);
 }
 
 }  // namespace
 
 Json round_json(const std::vector<raster::LightRecord>& lights, std::size_t cell,
-                const MachineInfo& machine) {
+                const compare::MachineInfo& machine) {
   Json list = Json::array();
   for (const raster::LightRecord& light : lights)
     list.push_back({{"map_pass", light.map_pass.runs},
                     {"shade_pass", light.shade_pass.runs},
                     {"unshadowed_pass", light.unshadowed_pass.runs},
-                    {"shading_strips", strips_json(light.strips)}});
-  return {{"cell", cell}, {"load", load_json(machine)}, {"lights", std::move(list)}};
+                    {"shading_strips", compare::strips_json(light.strips)}});
+  return {{"cell", cell}, {"load", compare::load_json(machine)}, {"lights", std::move(list)}};
 }
 
 Expected<std::vector<std::string>> joined_rounds(const std::vector<std::string>& times, std::size_t cells) {
@@ -96,7 +98,7 @@ Expected<std::vector<std::string>> joined_rounds(const std::vector<std::string>&
   return out;
 }
 
-ShadowParts read_shadow_parts(const Json& light, const Json& line) {
+compare::ShadowParts read_shadow_parts(const Json& light, const Json& line) {
   const Json tree = line.value("accel_build", Json());
   return {.map = with_spread(read_times(light.at("map_pass"))),
           .lookups = read_lookups(light),
@@ -105,4 +107,4 @@ ShadowParts read_shadow_parts(const Json& light, const Json& line) {
           .hybrid = line.value("hybrid", false)};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -10,11 +10,11 @@
 #include "raster/frame.h"
 #include "scene/base/expected.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 /// What a further round adds to a cell's times: the runs of its passes. The lights are those compared, in their order.
 nlohmann::ordered_json round_json(const std::vector<raster::LightRecord>& lights, std::size_t cell,
-                                  const MachineInfo& machine);
+                                  const compare::MachineInfo& machine);
 
 /// One line for each cell, all of its runs together. `times`: the lines of all rounds; their count is a multiple of `cells`
 /// where the last one is whole, and of an unfinished round the cells that it has have a run more. Errors are
@@ -22,6 +22,7 @@ nlohmann::ordered_json round_json(const std::vector<raster::LightRecord>& lights
 Expected<std::vector<std::string>> joined_rounds(const std::vector<std::string>& times, std::size_t cells);
 
 /// What the shadows of a light took, from its entry in a line of times and from the line itself.
-ShadowParts read_shadow_parts(const nlohmann::ordered_json& light, const nlohmann::ordered_json& line);
+compare::ShadowParts read_shadow_parts(const nlohmann::ordered_json& light,
+                                       const nlohmann::ordered_json& line);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

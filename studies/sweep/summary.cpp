@@ -8,8 +8,10 @@
 #include "scene/base/parallel.h"
 #include "studies/sweep/rounds.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Json;
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
@@ -32,7 +34,7 @@ Json label_shares(const Json& light) {
 }
 
 void add_light(const Json& light, CellSummary& sum, Json& classes) {
-  sum.lights.push_back(read_pooled_figures(light));
+  sum.lights.push_back(compare::read_pooled_figures(light));
   const auto compared = light.at("pixels").at("compared").get<double>();
   const Json shares = label_shares(light);
   for (const auto& [name, share] : shares.items())
@@ -56,9 +58,9 @@ void add_times(const Json& times, CellSummary& sum) {
   sum.derived = times.at("derived").get<bool>();
   sum.rays_ms = number(times.at("primary_rays").at("median"));
   sum.load = number(times.value("load", Json()));
-  std::optional<ShadowParts> parts;
+  std::optional<compare::ShadowParts> parts;
   for (const Json& light : times.at("lights")) {
-    const ShadowParts own = read_shadow_parts(light, times);
+    const compare::ShadowParts own = read_shadow_parts(light, times);
     parts ? * parts += own : parts.emplace(own);
     sum.rays_ms += number(light.at("exact_shadows").at("median"));
     sum.exact_shadow_ms += number(light.at("exact_shadows").at("median"));
@@ -67,15 +69,15 @@ void add_times(const Json& times, CellSummary& sum) {
       if (const Times times = times_of(light.at(pass)); !times.runs.empty()) sum.raster.add_part(times);
     }
   }
-  if (parts) sum.costs = shadow_costs(*parts);
+  if (parts) sum.costs = compare::shadow_costs(*parts);
 }
 
 /// What --measure asked for; a configuration without it, or with a film, has none.
-const Figure* measure_of(const SweepHeader& header) {
+const compare::Figure* measure_of(const SweepHeader& header) {
   const Json configuration = Json::parse(header.configuration, nullptr, false);
-  if (!configuration.is_object()) return &wrong_and_mean();
-  const Figure* asked = find_measure(configuration.value("measure", std::string()));
-  return asked == nullptr ? &wrong_and_mean() : asked;
+  if (!configuration.is_object()) return &compare::wrong_and_mean();
+  const compare::Figure* asked = compare::find_measure(configuration.value("measure", std::string()));
+  return asked == nullptr ? &compare::wrong_and_mean() : asked;
 }
 
 }  // namespace
@@ -93,7 +95,7 @@ Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
       sum.technique = light.at("map").at("technique").get<std::string>();
       sum.map_size = number(light.at("map").at("size"));
     }
-    sum.figures = pool_lights(sum.lights), sum.main_label = main_label(classes);
+    sum.figures = compare::pool_lights(sum.lights), sum.main_label = main_label(classes);
     sum.map_texels = json.at("costs").at("map_texels").get<std::uint64_t>();
     sum.map_bytes = json.at("costs").at("map_bytes").get<std::uint64_t>();
     add_times(Json::parse(times), sum);
@@ -104,7 +106,7 @@ Expected<CellSummary> summarise(std::string_view line, std::string_view times) {
 }
 
 Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep) {
-  const Figure* asked = measure_of(sweep.header);
+  const compare::Figure* asked = measure_of(sweep.header);
   std::vector<Expected<CellSummary>> read(sweep.lines.size());
   parallel_for(read.size(), [&](std::size_t i) { read[i] = summarise(sweep.lines[i], sweep.times[i]); });
   std::vector<CellSummary> cells;
@@ -167,4 +169,4 @@ std::vector<std::size_t> pareto_front(const std::vector<CellSummary>& cells) {
   return front;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -14,25 +14,26 @@
 #include "scene/base/time_difference.h"
 #include "studies/sweep/journal.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 struct CellSummary {
   std::size_t cell = 0;
   std::vector<std::pair<std::string, std::string>> axes;  ///< names as in "axes", values as text
   std::vector<std::string> no_effect;  ///< of those names: the technique does not read them
   std::string command, technique;
-  const Figure* asked = &wrong_and_mean();  ///< what a still picture's errors are counted in
-  LightFigures figures;                     ///< of all lights together
-  std::vector<LightFigures> lights;         ///< of each: thresholds are held against the worst
-  std::string main_label;                   ///< of most of the error; empty when there is none
-  double map_size = 0.0;                    ///< texels on a side
+  const compare::Figure* asked =
+      &compare::wrong_and_mean();             ///< what a still picture's errors are counted in
+  compare::LightFigures figures;              ///< of all lights together
+  std::vector<compare::LightFigures> lights;  ///< of each: thresholds are held against the worst
+  std::string main_label;                     ///< of most of the error; empty when there is none
+  double map_size = 0.0;                      ///< texels on a side
   std::uint64_t map_texels = 0, map_bytes = 0;
   /// Median times of the map and the shading passes, all lights; NaN when not timed.
   double raster_ms = 0.0;
   /// Median times of camera and shadow rays, all lights: what the truth costs.
   double rays_ms = 0.0;
-  Times raster;                      ///< its runs: the i-th of every map and shading pass together
-  std::optional<ShadowCosts> costs;  ///< of all lights together
+  Times raster;                               ///< its runs: the i-th of every map and shading pass together
+  std::optional<compare::ShadowCosts> costs;  ///< of all lights together
   double load = std::numeric_limits<double>::quiet_NaN();  ///< of the machine, the most of its runs
   double exact_shadow_ms = 0.0;
   /// Fewer runs have no spread, and a time without one is not held against another.
@@ -42,7 +43,7 @@ struct CellSummary {
   /// shadows. With films what they are about: flips per receiver and second.
   double error() const { return measure().of(figures); }
   bool is_filmed() const { return figures.shimmer.has_value(); }
-  const Figure& measure() const { return is_filmed() ? *find_measure("shimmer") : *asked; }
+  const compare::Figure& measure() const { return is_filmed() ? *compare::find_measure("shimmer") : *asked; }
 };
 
 /// a takes less time than b by more than their runs leave open (time_difference.h).
@@ -60,4 +61,4 @@ Expected<std::vector<CellSummary>> summarise(const SweepLines& sweep);
 /// the fewest bytes among those that none of them is clearly faster than. Cells whose time has no spread (tells_time) are on no front, nor are those of one drawing.
 std::vector<std::size_t> pareto_front(const std::vector<CellSummary>& cells);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

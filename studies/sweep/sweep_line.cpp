@@ -9,8 +9,10 @@
 #include "scene/files/encodings.h"
 #include "scene/files/read_file.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Json;
 
 using Json = nlohmann::ordered_json;
 
@@ -110,4 +112,4 @@ std::string drawer_of_line(const Json& line) {
   return line["gl"].value("backend", "") + ", " + line["gl"].value("renderer", "");
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -10,7 +10,7 @@
 
 #include "scene/base/expected.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 /// The path of a file in a folder.
 std::string path_in(const std::string& folder, std::string_view name);
@@ -47,4 +47,4 @@ std::string drawer_of_line(const nlohmann::ordered_json& line);
 /// "axes" of a line, as JSON text; empty when the line is no object or has none.
 std::string axes_of_line(const nlohmann::ordered_json& line);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

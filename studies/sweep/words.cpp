@@ -8,7 +8,7 @@
 #include "compare/comparison.h"
 #include "compare/ladder/labels.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 std::string axis_words(std::string_view axis) {
   std::string words(axis);
@@ -28,10 +28,10 @@ std::string value_words(std::string_view value) {
 }
 
 std::string label_words_of(std::string_view key) {
-  for (std::size_t k = 1; k <= class_count; ++k)
-    if (const auto label = static_cast<Label>(k); label_name(label) == key)
-      return std::string(label_text(label).name);
+  for (std::size_t k = 1; k <= compare::class_count; ++k)
+    if (const auto label = static_cast<compare::Label>(k); compare::label_name(label) == key)
+      return std::string(compare::label_text(label).name);
   return std::string(key);
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -4,7 +4,7 @@
 #include "compare/result/output_parts.h"
 #include "studies/tune/tuner.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 std::size_t Tuner::prefer_by_cost(TuneResult& result, std::size_t fastest) const {
   const FamilyResult& first = result.families[fastest];
   if (options_.cost || !first.answer || first.answer->times.runs.empty()) return fastest;
@@ -20,22 +20,23 @@ std::size_t Tuner::prefer_by_cost(TuneResult& result, std::size_t fastest) const
 Expected<void> Tuner::verify(TuneResult& result) {
   FamilyResult& winner = result.families[result.winner];
   Attempt& attempt = winner.answer ? *winner.answer : winner.closest;
-  auto setting = options_.as_given ? options_.as_given(result.winner, attempt)
-                                   : Expected<Setting>(setting_of(winner.family, attempt.size, attempt.bias));
+  auto setting = options_.as_given
+                     ? options_.as_given(result.winner, attempt)
+                     : Expected<compare::Setting>(setting_of(winner.family, attempt.size, attempt.bias));
   if (!setting) return fail(setting.error());
   setting->raster.runs = 0;
   if (progress_) progress_(winner.family, attempt.size, renders_);
   ++renders_;
   const auto compared = engine_.compare(*setting);
   if (!compared) return fail(compared.error());
-  std::vector<LightFigures> lights;
+  std::vector<compare::LightFigures> lights;
   result.engine_units.clear();
   result.views = (*compared)->views;
-  for (const LightComparison& light : (*compared)->lights) {
+  for (const compare::LightComparison& light : (*compared)->lights) {
     lights.push_back(light);
-    if (auto units = engine_units(**compared, light); !units.empty())
-      result.engine_units.push_back(
-          {light_of(**compared, light).name, std::move(units), derived_for_engines(**compared, light)});
+    if (auto units = compare::engine_units(**compared, light); !units.empty())
+      result.engine_units.push_back({compare::light_of(**compared, light).name, std::move(units),
+                                     compare::derived_for_engines(**compared, light)});
   }
   set_figures(lights, options_.goal.measure(), attempt);
   settle(winner);
@@ -55,4 +56,4 @@ Expected<void> Tuner::choose(TuneResult& result) {
   }
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

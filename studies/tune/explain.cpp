@@ -8,19 +8,21 @@
 #include "compare/result/number_text.h"
 #include "studies/tune/tuner.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
+using compare::Figure;
+
 std::string setting_text(const Attempt& a, const Figure& measure) {
-  return fmt::format("{} in {} with {}{}", figure_words(a.figures, measure), milliseconds(a.time_ms),
-                     with_noun(std::to_string(a.size), "texel"),
+  return fmt::format("{} in {} with {}{}", compare::figure_words(a.figures, measure),
+                     compare::milliseconds(a.time_ms), compare::with_noun(std::to_string(a.size), "texel"),
                      a.custom_shader ? ", by the shader of --shader-dir" : "");
 }
 
 // The sentence of why no constant bias is right everywhere, as a part of a longer one.
 std::string proof(const FamilyResult& family, const Attempt& attempt, const Figure& measure) {
   if (!has_proof(attempt, measure)) return {};
-  std::string text = contradiction(attempt.best, attempt.texel_world, family.family.map.bias);
+  std::string text = compare::contradiction(attempt.best, attempt.texel_world, family.family.map.bias);
   text.front() = static_cast<char>(text.front() - 'A' + 'a'), text.pop_back();
   return "; " + text;
 }
@@ -58,16 +60,19 @@ std::string doubtful_time(const Attempt& answer, const TuneGoal& goal) {
 }
 
 // Pixels of a light that no setting can be judged by.
-std::string doubt(const std::optional<Threshold>& goal, const std::vector<LightFigures>& lights) {
+std::string doubt(const std::optional<compare::Threshold>& goal,
+                  const std::vector<compare::LightFigures>& lights) {
   if (!goal) return {};
-  const auto light = std::find_if(lights.begin(), lights.end(),
-                                  [&](const LightFigures& figures) { return too_uncertain(*goal, figures); });
+  const auto light = std::find_if(lights.begin(), lights.end(), [&](const compare::LightFigures& figures) {
+    return compare::too_uncertain(*goal, figures);
+  });
   if (light == lights.end()) return {};
   return fmt::format(
       "; {} of {} pixels{} are uncertain, more than the goal allows to be wrong (more --samples "
       "of lights with size, or a goal for the mean error, such as mean:1%)",
-      grouped(unknown_pixels(*light, *goal->measure)),
-      grouped(light->pixels.compared + light->pixels.uncertain), lights.size() > 1 ? " of one light" : "");
+      compare::grouped(compare::unknown_pixels(*light, *goal->measure)),
+      compare::grouped(light->pixels.compared + light->pixels.uncertain),
+      lights.size() > 1 ? " of one light" : "");
 }
 
 }  // namespace
@@ -80,9 +85,10 @@ std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner)
     if (loser.stop == TuneStop::too_dear)
       return "slower before it is good enough: " + nearest + proof(loser, loser.closest, measure);
     if (loser.stop == TuneStop::levels_off)
-      return fmt::format("levels off near {}: {}{}",
-                         fmt::format(fmt::runtime(measure.measure.level), figure_text(measure, loser.floor)),
-                         nearest, proof(loser, loser.closest, measure));
+      return fmt::format(
+          "levels off near {}: {}{}",
+          fmt::format(fmt::runtime(measure.measure.level), compare::figure_text(measure, loser.floor)),
+          nearest, proof(loser, loser.closest, measure));
     if (loser.stop == TuneStop::no_smaller)
       return fmt::format("needs at least the map of {}: {}{}", loser.like, nearest,
                          proof(loser, loser.closest, measure));
@@ -123,4 +129,4 @@ void Tuner::explain(TuneResult& result) const {
   }
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -5,8 +5,10 @@
 #include "raster/technique_traits.h"
 #include "studies/tune/tuner.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Setting;
 
 // Settings of the grid that are drawn again: single times are off by more than what the first of them differ
 // in.
@@ -66,7 +68,7 @@ Expected<void> FullGrid::draw_all(const std::vector<raster::Bias>& biases, GridC
     for (const int size : options_.sizes) {
       const raster::MapOptions& map = options_.families[family].map;
       std::vector<raster::Bias> own{map.bias};
-      if (!biases_follow_from_gaps(map) && raster::compares_depths(map.technique)) {
+      if (!compare::biases_follow_from_gaps(map) && raster::compares_depths(map.technique)) {
         own.clear();
         for (const raster::Bias& bias : biases) {
           own.push_back(map.bias);
@@ -132,4 +134,4 @@ Expected<GridCheck> check_against_grid(Engine& engine, const Setting& base, cons
   return check;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -5,7 +5,7 @@
 
 #include "studies/tune/tune.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 /// A setting of the grid that meets the goal.
 struct GridPoint {
@@ -28,8 +28,8 @@ struct GridCheck {
 
 /// Checks against either goal. `rounds` >= 1 drawings in turn of the tuner's answer and the grid's cheapest
 /// settings.
-Expected<GridCheck> check_against_grid(Engine& engine, const Setting& base, const TuneOptions& options,
-                                       const std::vector<raster::Bias>& biases, int rounds,
-                                       const TuneProgress& progress = {});
+Expected<GridCheck> check_against_grid(Engine& engine, const compare::Setting& base,
+                                       const TuneOptions& options, const std::vector<raster::Bias>& biases,
+                                       int rounds, const TuneProgress& progress = {});
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

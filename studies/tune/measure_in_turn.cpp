@@ -6,7 +6,7 @@
 
 #include "studies/tune/tuner.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 // Of the best price: wider than what single times are off on a busy machine, and what two of them are off.
@@ -96,4 +96,4 @@ Expected<void> Tuner::measure_best(TuneResult& result) {
   }
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

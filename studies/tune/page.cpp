@@ -10,12 +10,14 @@
 #include "compare/result/result_parts.h"
 #include "raster/technique_traits.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
+using compare::Json;
+
 std::string goal_text(const TuneGoal& goal) {
-  return goal.max_error ? limit_words(*goal.max_error)
-                        : "at most " + milliseconds(*goal.max_time_ms) + " for map and shading";
+  return goal.max_error ? compare::limit_words(*goal.max_error)
+                        : "at most " + compare::milliseconds(*goal.max_time_ms) + " for map and shading";
 }
 
 bool reads_bias(const TuneFamily& family, const Attempt& attempt) {
@@ -25,20 +27,21 @@ bool reads_bias(const TuneFamily& family, const Attempt& attempt) {
 // World units, "0.25 texel", "auto": the constant in the unit that the command asks for it in.
 std::string constant_words(const raster::Bias& bias) {
   if (bias.unit == raster::BiasUnit::automatic) return "auto";
-  return bias.unit == raster::BiasUnit::world ? plain_number(bias.constant) : texels_text(bias.constant, 3);
+  return bias.unit == raster::BiasUnit::world ? compare::plain_number(bias.constant)
+                                              : compare::texels_text(bias.constant, 3);
 }
 
 Json family_json(const TunePageInput& in, std::size_t i) {
   const FamilyResult& family = in.result.families[i];
   const Attempt& a = family.attempt();
-  const Figure& measure = in.goal.measure();
+  const compare::Figure& measure = in.goal.measure();
   return {{"name", family.family.name},
           {"technique", technique_name(family.family.map.technique)},
           {"why", family.why},
           {"command", in.commands[i]},
           {"size", a.size},
           {"bias", reads_bias(family.family, a) ? Json(constant_words(a.bias)) : Json(nullptr)},
-          {"words", figure_words(a.figures, measure)},
+          {"words", compare::figure_words(a.figures, measure)},
           {"wrong_fraction", number(a.figures.error.wrong_fraction)},
           {"mean_absolute", number(a.figures.error.mean_absolute)},
           {"figure", number(measure.of(a.figures))},
@@ -63,7 +66,7 @@ void add_tried(const TunePageInput& in, std::size_t family, std::size_t place, J
                     {"size", a.size},
                     {"error", number(a.error)},
                     {"time_ms", number(a.time_ms)},
-                    {"words", figure_words(a.figures, in.goal.measure())},
+                    {"words", compare::figure_words(a.figures, in.goal.measure())},
                     {"answer", family == in.result.winner && &a == &chosen}});
   }
 }
@@ -73,7 +76,7 @@ void add_line(const FamilyResult& family, std::size_t place, Json& list) {
   const Attempt& a = family.attempt();
   if (a.curve.size() < 2 || !(a.texel_world > 0.0)) return;
   Json texels = Json::array(), shares = Json::array();
-  for (const BiasCurvePoint& p : a.curve) {
+  for (const compare::BiasCurvePoint& p : a.curve) {
     texels.push_back(number(p.bias / a.texel_world));
     shares.push_back(number(p.wrong_fraction));
   }
@@ -90,10 +93,10 @@ void add_line(const FamilyResult& family, std::size_t place, Json& list) {
 
 }  // namespace
 
-PageIntroduction tune_introduction(const TunePageInput& in) {
+report::PageIntroduction tune_introduction(const TunePageInput& in) {
   const FamilyResult& winner = in.result.families[in.result.winner];
   const Attempt& a = winner.attempt();
-  const Figure& measure = in.goal.measure();
+  const compare::Figure& measure = in.goal.measure();
   const bool proven = !in.result.feasible && has_proof(a, measure);
   const std::vector<std::size_t> order = listed(in);
   Json families = Json::array(), tried = Json::array(), lines = Json::array();
@@ -108,14 +111,16 @@ PageIntroduction tune_introduction(const TunePageInput& in) {
       {"scene", in.scene},
       {"wanted", goal_text(in.goal)},
       {"feasible", in.result.feasible},
-      {"max_error", in.goal.max_error ? number(in.goal.max_error->limit) : Json(nullptr)},
-      {"max_time_ms", in.goal.max_time_ms ? number(*in.goal.max_time_ms) : Json(nullptr)},
-      {"shares", measure.form() == FigureForm::percent},
-      {"head", measure.form() == FigureForm::percent ? std::string() : figure_head(measure)},
-      {"films", measure.needs == FigureNeeds::film},
+      {"max_error", in.goal.max_error ? compare::number(in.goal.max_error->limit) : Json(nullptr)},
+      {"max_time_ms", in.goal.max_time_ms ? compare::number(*in.goal.max_time_ms) : Json(nullptr)},
+      {"shares", measure.form() == compare::FigureForm::percent},
+      {"head",
+       measure.form() == compare::FigureForm::percent ? std::string() : compare::figure_head(measure)},
+      {"films", measure.needs == compare::FigureNeeds::film},
       {"renders", in.result.renders},
-      {"proof", proven ? contradiction(a.best, a.texel_world, winner.family.map.bias) : std::string()},
-      {"proof_has_both", proven && names_both_bounds(a.best)},
+      {"proof",
+       proven ? compare::contradiction(a.best, a.texel_world, winner.family.map.bias) : std::string()},
+      {"proof_has_both", proven && compare::names_both_bounds(a.best)},
       {"families", std::move(families)},
       {"tried", std::move(tried)},
       {"lines", std::move(lines)}};
@@ -123,4 +128,4 @@ PageIntroduction tune_introduction(const TunePageInput& in) {
           facts.dump(-1, ' ', false, Json::error_handler_t::replace)};
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

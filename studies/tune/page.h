@@ -9,7 +9,7 @@
 #include "report/page.h"
 #include "studies/tune/tune.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 struct TunePageInput {
   std::string scene;
@@ -19,6 +19,6 @@ struct TunePageInput {
   std::vector<std::size_t> order;            ///< the families but the winner, best first
 };
 
-PageIntroduction tune_introduction(const TunePageInput& input);
+report::PageIntroduction tune_introduction(const TunePageInput& input);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

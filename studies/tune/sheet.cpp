@@ -15,8 +15,12 @@
 #include "report/shell.h"
 #include "scene/files/pictures/image_io.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Comparison;
+using compare::LightComparison;
+using compare::milliseconds;
 
 constexpr int crop_side = 72;  // pixels
 
@@ -28,7 +32,7 @@ struct Place {
 double error_at(const Comparison& c, std::size_t pixel) {
   double most = 0.0;
   for (const LightComparison& light : c.lights)
-    if (is_compared(light.labels.data[pixel]))
+    if (compare::is_compared(light.labels.data[pixel]))
       most =
           std::max(most, std::abs(double{light.rungs[6].data[pixel]} - double{light.rungs[0].data[pixel]}));
   return most;
@@ -36,7 +40,7 @@ double error_at(const Comparison& c, std::size_t pixel) {
 
 double error_in(const Comparison& c, const Place& place) {
   double sum = 0.0;
-  const Image<Label>& image = c.lights.front().labels;
+  const Image<compare::Label>& image = c.lights.front().labels;
   for (int y = place.y; y < place.y + place.height; ++y)
     for (int x = place.x; x < place.x + place.width; ++x) sum += error_at(c, image.index(x, y));
   return sum;
@@ -52,34 +56,36 @@ Place worst_place(const Comparison& c) {
   return best;
 }
 
-Expected<PagePicture> crop(const Rgb8Image& picture, const Place& place, const std::string& name,
-                           const char* what) {
+Expected<report::PagePicture> crop(const Rgb8Image& picture, const Place& place, const std::string& name,
+                                   const char* what) {
   Rgb8Image part({place.width, place.height});
   for (int y = 0; y < place.height; ++y)
     for (int x = 0; x < place.width; ++x) part.at(x, y) = picture.at(place.x + x, place.y + y);
   const auto png = encode_png(part);
   if (!png) return fail(png.error());
-  return PagePicture{name, data_uri("image/png", *png), place.width, place.height, what};
+  return report::PagePicture{name, report::data_uri("image/png", *png), place.width, place.height, what};
 }
 
 /// The light that errs most by the goal's measure.
-const LightComparison& worst_light(const Comparison& c, const Figure& measure) {
+const LightComparison& worst_light(const Comparison& c, const compare::Figure& measure) {
   return *std::max_element(c.lights.begin(), c.lights.end(), [&](const auto& a, const auto& b) {
     return measure.of(a) < measure.of(b) || std::isnan(measure.of(a));
   });
 }
 
 // Every compared pixel is counted; what stays open are those whose truth is not known.
-std::string error_text(const LightComparison& light, const Figure& measure) {
-  const PixelCounts& p = light.pixels;
-  const double open = double(unknown_pixels(light, measure)) / double(std::max<std::uint64_t>(p.compared, 1));
-  return fmt::format("{} (all {} compared pixels; {} of the truth is open)", figure_words(light, measure),
-                     grouped(p.compared), percent(open));
+std::string error_text(const LightComparison& light, const compare::Figure& measure) {
+  const compare::PixelCounts& p = light.pixels;
+  const double open =
+      double(compare::unknown_pixels(light, measure)) / double(std::max<std::uint64_t>(p.compared, 1));
+  return fmt::format("{} (all {} compared pixels; {} of the truth is open)",
+                     compare::figure_words(light, measure), compare::grouped(p.compared),
+                     compare::percent(open));
 }
 
-std::string flicker_text(const ShimmerFigures& film) {
+std::string flicker_text(const compare::ShimmerFigures& film) {
   return fmt::format("{} flips per receiver and second ({} frames of the camera's orbit or path)",
-                     plain_number(film.flips_per_receiver_second), film.frames);
+                     compare::plain_number(film.flips_per_receiver_second), film.frames);
 }
 
 /// Empty where nothing was timed.
@@ -103,11 +109,11 @@ std::string taps_text(const Comparison& c) {
   }
   if (!counted) return {};
   return fmt::format("{} a pixel, {} a frame (counted)",
-                     plain_number(double(lookups) / double(std::max<std::uint64_t>(compared, 1))),
-                     grouped(lookups));
+                     compare::plain_number(double(lookups) / double(std::max<std::uint64_t>(compared, 1))),
+                     compare::grouped(lookups));
 }
 
-Json rows_json(const SheetCandidate& candidate, const Comparison& c, const Figure& measure) {
+Json rows_json(const SheetCandidate& candidate, const Comparison& c, const compare::Figure& measure) {
   const int size = candidate.setting.raster.map.size;
   const LightComparison& light = worst_light(c, measure);
   Json rows = Json::array();
@@ -117,8 +123,8 @@ Json rows_json(const SheetCandidate& candidate, const Comparison& c, const Figur
   add("size", fmt::format("{} × {}", size, size));
   add("error", error_text(light, measure));
   if (light.shimmer) add("flicker", flicker_text(*light.shimmer));
-  add("map", fmt::format("{}, {} drawn a frame (counted)", byte_count(c.raster.map_bytes),
-                         counted(c.raster.map_texels, "texel")));
+  add("map", fmt::format("{}, {} drawn a frame (counted)", compare::byte_count(c.raster.map_bytes),
+                         compare::counted(c.raster.map_texels, "texel")));
   add("taps", taps_text(c));
   add("time here", time_text(c));
   return rows;
@@ -126,20 +132,21 @@ Json rows_json(const SheetCandidate& candidate, const Comparison& c, const Figur
 
 Json units_json(const Comparison& c, std::string_view engine) {
   Json units = Json::array();
-  for (const EngineUnit& unit : engine_units(c, c.lights.front()))
+  for (const compare::EngineUnit& unit : compare::engine_units(c, c.lights.front()))
     if (unit.value && (engine.empty() || unit.engine == engine))
-      units.push_back(
-          {{"engine", unit.engine}, {"setting", unit.setting}, {"value", plain_number(*unit.value)}});
+      units.push_back({{"engine", unit.engine},
+                       {"setting", unit.setting},
+                       {"value", compare::plain_number(*unit.value)}});
   return units;
 }
 
 /// One column of the page (report/page/src/sheet_page.ts); its pictures are added to the shell's.
 Expected<Json> candidate_json(const SheetCandidate& candidate, const Comparison& c, const SheetInput& in,
-                              PageShell& shell) {
+                              report::PageShell& shell) {
   const Place place = worst_place(c);
   const std::string number = std::to_string(shell.pictures.size() / 2);
-  auto drawn = crop(raster_picture(c), place, "drawn-" + number, "as drawn"),
-       truth = crop(raytraced_picture(c), place, "truth-" + number, "by rays");
+  auto drawn = crop(compare::raster_picture(c), place, "drawn-" + number, "as drawn"),
+       truth = crop(compare::raytraced_picture(c), place, "truth-" + number, "by rays");
   if (!drawn) return fail(drawn.error());
   if (!truth) return fail(truth.error());
   shell.pictures.push_back(std::move(*drawn)), shell.pictures.push_back(std::move(*truth));
@@ -162,9 +169,9 @@ int size_at_memory(const Attempt& attempt, const std::vector<int>& sizes, std::u
   return best;
 }
 
-Expected<Attempt> attempt_at(Engine& engine, const Setting& base, const TuneFamily& family, Attempt attempt,
-                             const TuneGoal& goal) {
-  Setting setting = base;
+Expected<Attempt> attempt_at(Engine& engine, const compare::Setting& base, const TuneFamily& family,
+                             Attempt attempt, const TuneGoal& goal) {
+  compare::Setting setting = base;
   setting.raster.map = family.map;
   setting.raster.map.size = attempt.size;
   setting.raster.runs = 0;
@@ -176,11 +183,11 @@ Expected<Attempt> attempt_at(Engine& engine, const Setting& base, const TuneFami
 
 Expected<std::string> tune_sheet(Engine& engine, const SheetInput& in) {
   const std::string wanted = in.goal.max_error
-                                 ? limit_words(*in.goal.max_error)
+                                 ? compare::limit_words(*in.goal.max_error)
                                  : "at most " + milliseconds(*in.goal.max_time_ms) + " for map and shading";
-  PageShell shell;
+  report::PageShell shell;
   shell.title = "Shadows of " + in.scene + " \u2013 Gnomon";
-  Json candidates = Json::array();
+  compare::Json candidates = compare::Json::array();
   for (const SheetCandidate& candidate : in.candidates) {
     const auto compared = engine.compare(candidate.setting);
     if (!compared) return fail(compared.error());
@@ -189,10 +196,10 @@ Expected<std::string> tune_sheet(Engine& engine, const SheetInput& in) {
     candidates.push_back(std::move(*json));
   }
   shell.said = {"Wanted: " + wanted + ". The first is the answer."};
-  shell.result =
-      dumped(Json{{"scene", in.scene}, {"wanted", wanted}, {"candidates", std::move(candidates)}}, -1);
+  shell.result = compare::dumped(
+      compare::Json{{"scene", in.scene}, {"wanted", wanted}, {"candidates", std::move(candidates)}}, -1);
   shell.data = R"({"kind": "sheet", "labels": []})";
-  return build_page(shell).html;
+  return report::build_page(shell).html;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -8,12 +8,12 @@
 #include "studies/sweep/engine.h"
 #include "studies/tune/tune.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 struct SheetCandidate {
-  std::string name;     ///< "slope bias 1"
-  std::string command;  ///< of compare, at the setting
-  Setting setting;      ///< its runs say how often it is timed
+  std::string name;          ///< "slope bias 1"
+  std::string command;       ///< of compare, at the setting
+  compare::Setting setting;  ///< its runs say how often it is timed
 };
 
 struct SheetInput {
@@ -28,10 +28,10 @@ struct SheetInput {
 int size_at_memory(const Attempt& attempt, const std::vector<int>& sizes, std::uint64_t bytes);
 
 /// The attempt at its size with the bias that is best there by its gaps; as it is where gaps do not tell.
-Expected<Attempt> attempt_at(Engine& engine, const Setting& base, const TuneFamily& family, Attempt attempt,
-                             const TuneGoal& goal);
+Expected<Attempt> attempt_at(Engine& engine, const compare::Setting& base, const TuneFamily& family,
+                             Attempt attempt, const TuneGoal& goal);
 
 /// Returns the page, one file. Each candidate is drawn, compared and, where the engine films, filmed.
 Expected<std::string> tune_sheet(Engine& engine, const SheetInput& input);
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

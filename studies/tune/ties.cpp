@@ -2,7 +2,7 @@
 
 #include "scene/base/time_difference.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 bool costs_less(const Attempt& a, const Attempt& b) {
@@ -46,4 +46,4 @@ std::vector<JustOver> just_over_limit(std::size_t winner, const std::vector<Fami
   return over;
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -7,8 +7,10 @@
 #include "raster/technique_traits.h"
 #include "studies/tune/tuner.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
+
+using compare::Setting;
 
 // How much dearer than the best answer a drawing may be before larger maps are given up: more than single
 // times are off.
@@ -63,15 +65,15 @@ Setting Tuner::setting_of(const TuneFamily& family, int size, const raster::Bias
   return setting;
 }
 
-Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::Bias& bias, GapLists* gaps,
-                              bool timed) {
+Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::Bias& bias,
+                              compare::GapLists* gaps, bool timed) {
   if (progress_) progress_(family, size, renders_);
   Setting setting = setting_of(family, size, bias);
   if (!timed) setting.raster.runs = 0;
   ++renders_;
   auto probe = engine_.probe(setting, options_.goal.measure());
   if (!probe) return fail(probe.error());
-  if (says_nothing({&options_.goal.measure()}, probe->lights))
+  if (compare::says_nothing({&options_.goal.measure()}, probe->lights))
     return fail(ErrorKind::bad_input,
                 "no pixel can be compared: the camera sees no surface that a light could reach");
   Attempt attempt;
@@ -96,7 +98,8 @@ Expected<Attempt> Tuner::draw(const TuneFamily& family, int size, const raster::
   return attempt;
 }
 
-void set_figures(const std::vector<LightFigures>& lights, const Figure& measure, Attempt& attempt) {
+void set_figures(const std::vector<compare::LightFigures>& lights, const compare::Figure& measure,
+                 Attempt& attempt) {
   attempt.lights = lights;
   attempt.error = 0.0;
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -107,18 +110,19 @@ void set_figures(const std::vector<LightFigures>& lights, const Figure& measure,
 
 bool is_good(const TuneGoal& goal, const Attempt& a) {
   if (!goal.max_error) return a.cost <= *goal.max_time_ms;
-  return is_kept(*goal.max_error, a.lights);
+  return compare::is_kept(*goal.max_error, a.lights);
 }
 
 // One drawing tells the error of every constant bias, but where a shader of the user's own decides.
 Expected<Attempt> Tuner::attempt_from_gaps(const TuneFamily& family, int size) {
-  GapLists gaps;
+  compare::GapLists gaps;
   auto attempt = draw(family, size, family.map.bias, &gaps);
   if (!attempt) return attempt;
   if (attempt->custom_shader) return attempt_by_trial(family, size);
   const double drawn_with = attempt->bias_world;
   attempt->bias_world = attempt->best.constant_world;
-  attempt->curve = draw_bias_curve(gaps, attempt->texel_world, drawn_with, attempt->bias_world, curve_points);
+  attempt->curve =
+      compare::draw_bias_curve(gaps, attempt->texel_world, drawn_with, attempt->bias_world, curve_points);
   if (family.map.bias.slope == 0.0) hard_bias_.emplace(size, attempt->bias_world);
   return attempt;
 }
@@ -138,7 +142,7 @@ std::vector<raster::Bias> Tuner::biases_to_try(const TuneFamily& family, int siz
       biases.push_back(family.map.bias);
       biases.back().constant = factor * known->second;
       biases.back().unit = raster::BiasUnit::world;
-      biases.back() = with_three_digits(biases.back());
+      biases.back() = compare::with_three_digits(biases.back());
     }
   return biases;
 }
@@ -170,10 +174,10 @@ Expected<Attempt> Tuner::attempt_by_trial(const TuneFamily& family, int size) {
 Expected<Attempt> Tuner::attempt(const TuneFamily& family, int size) {
   // What a bias does to flips does not follow from one drawing: they are counted with the family's own.
   const bool own_bias = family.keeps_bias || !raster::compares_depths(family.map.technique) ||
-                        options_.goal.measure().needs == FigureNeeds::film;
+                        options_.goal.measure().needs == compare::FigureNeeds::film;
   if (own_bias) return draw(family, size, family.map.bias, nullptr);
-  return biases_follow_from_gaps(family.map) ? attempt_from_gaps(family, size)
-                                             : attempt_by_trial(family, size);
+  return compare::biases_follow_from_gaps(family.map) ? attempt_from_gaps(family, size)
+                                                      : attempt_by_trial(family, size);
 }
 
 void Tuner::consider(FamilyResult& result, const Attempt& attempt) const {
@@ -310,4 +314,4 @@ Expected<TuneResult> tune(Engine& engine, const Setting& base, const TuneOptions
   return Tuner(engine, base, options, progress).run();
 }
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -27,14 +27,14 @@
 #include "compare/result/engine_units.h"
 #include "studies/sweep/engine.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 struct TuneGoal {
-  std::optional<Threshold> max_error;
-  std::optional<double> max_time_ms;          ///< map and shading; exactly one of the two is given
-  const Figure* of_time = &wrong_and_mean();  ///< what is to be small within max_time_ms
+  std::optional<compare::Threshold> max_error;
+  std::optional<double> max_time_ms;  ///< map and shading; exactly one of the two is given
+  const compare::Figure* of_time = &compare::wrong_and_mean();  ///< what is to be small within max_time_ms
   /// What errors are counted in.
-  const Figure& measure() const { return max_error ? *max_error->measure : *of_time; }
+  const compare::Figure& measure() const { return max_error ? *max_error->measure : *of_time; }
 };
 
 /// A technique with everything but map size and constant bias.
@@ -46,7 +46,7 @@ struct TuneFamily {
 
 /// What a drawing costs; the milliseconds of map and shading where none is given. One that does not depend on
 /// the machine is for tests.
-using TuneCost = std::function<double(const Setting& setting, const Probe& probe)>;
+using TuneCost = std::function<double(const compare::Setting& setting, const Probe& probe)>;
 
 struct TuneOptions {
   TuneGoal goal;
@@ -60,33 +60,33 @@ struct TuneOptions {
   std::function<void(const TuneFamily& family, const struct Attempt& answer, std::uint64_t renders)> found;
   /// The setting that a family's answer is given as; empty: the one that it was drawn with. The answer's
   /// error is measured by the comparison at this setting.
-  std::function<Expected<Setting>(std::size_t family, const struct Attempt& answer)> as_given;
+  std::function<Expected<compare::Setting>(std::size_t family, const struct Attempt& answer)> as_given;
 };
 
 /// One drawing, at its best constant bias.
 struct Attempt {
   int size = 0;
-  raster::Bias bias;                 ///< as it was tried, and as the attempt's command asks for it
-  double bias_world = 0.0;           ///< its constant, of the first light
-  double error = 0.0;                ///< what TuneGoal::measure() says, of the worst light
-  LightFigures figures;              ///< of that light
-  std::vector<LightFigures> lights;  ///< of all that are compared
-  double time_ms = 0.0;              ///< least of `times`, or of the search's one drawing
-  double cost = 0.0;                 ///< by TuneOptions::cost
-  Times times;                       ///< measured in turn with the others; empty: not among the best
+  raster::Bias bias;                          ///< as it was tried, and as the attempt's command asks for it
+  double bias_world = 0.0;                    ///< its constant, of the first light
+  double error = 0.0;                         ///< what TuneGoal::measure() says, of the worst light
+  compare::LightFigures figures;              ///< of that light
+  std::vector<compare::LightFigures> lights;  ///< of all that are compared
+  double time_ms = 0.0;                       ///< least of `times`, or of the search's one drawing
+  double cost = 0.0;                          ///< by TuneOptions::cost
+  Times times;                                ///< measured in turn with the others; empty: not among the best
   std::uint64_t map_texels = 0, map_bytes = 0, rays = 0;
-  BestBias best;               ///< of all lights; with the proof, where no constant bias is right everywhere
+  compare::BestBias best;      ///< of all lights; with the proof, where no constant bias is right everywhere
   std::uint64_t compared = 0;  ///< pixels, all lights
-  std::vector<BiasCurvePoint> curve;  ///< empty where biases do not follow from gaps
-  double texel_world = 0.0;           ///< a texel's width, as the rasterizer takes it for biases
+  std::vector<compare::BiasCurvePoint> curve;  ///< empty where biases do not follow from gaps
+  double texel_world = 0.0;                    ///< a texel's width, as the rasterizer takes it for biases
   /// Tell, as in Probe, whether a shader of the user's own decided, and whether it reads the bias.
   bool custom_shader = false, reads_bias = true;
 };
 
 /// Whether `best` proves that no constant bias is right everywhere, which is an answer to goals that count wrong pixels.
 /// Where a drawing tells the error of every bias, some shadowed pixels stand in the way.
-inline bool has_proof(const Attempt& a, const Figure& measure) {
-  return counts_biases(a.figures, measure) && !a.best.feasible && a.best.shadowed_pixels_below > 0;
+inline bool has_proof(const Attempt& a, const compare::Figure& measure) {
+  return compare::counts_biases(a.figures, measure) && !a.best.feasible && a.best.shadowed_pixels_below > 0;
 }
 
 /// Why larger maps were not tried.
@@ -136,11 +136,11 @@ struct TuneResult {
   /// (engine_units.h).
   struct LightUnits {
     std::string light;  ///< its name; may be empty
-    std::vector<EngineUnit> units;
-    DerivedForEngines derived{};
+    std::vector<compare::EngineUnit> units;
+    compare::DerivedForEngines derived{};
   };
   std::vector<LightUnits> engine_units;
-  ViewErrors views;  ///< of the winner, where it was judged from several
+  compare::ViewErrors views;  ///< of the winner, where it was judged from several
 };
 
 /// Called before each drawing with the family and the size.
@@ -151,7 +151,7 @@ using TuneProgress = std::function<void(const TuneFamily& family, int size, std:
 inline constexpr std::array<double, 2> tried_closed_forms{1.0, 0.25}, tried_of_hard{1.0, 2.0};
 
 /// `base` gives everything but the map's options; its runs say how often the best are drawn again.
-Expected<TuneResult> tune(Engine& engine, const Setting& base, const TuneOptions& options,
+Expected<TuneResult> tune(Engine& engine, const compare::Setting& base, const TuneOptions& options,
                           const TuneProgress& progress = {});
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -7,10 +7,11 @@
 #include "scene/base/timing.h"
 #include "studies/tune/tune.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 
 /// Sets `lights`, and `error` and `figures` of the worst of them.
-void set_figures(const std::vector<LightFigures>& lights, const Figure& measure, Attempt& attempt);
+void set_figures(const std::vector<compare::LightFigures>& lights, const compare::Figure& measure,
+                 Attempt& attempt);
 /// Whether an attempt meets the goal: where that is an error, with every light.
 bool is_good(const TuneGoal& goal, const Attempt& attempt);
 
@@ -35,7 +36,8 @@ std::vector<JustOver> just_over_limit(std::size_t winner, const std::vector<Fami
 
 class Tuner {
  public:
-  Tuner(Engine& engine, const Setting& base, const TuneOptions& options, const TuneProgress& progress)
+  Tuner(Engine& engine, const compare::Setting& base, const TuneOptions& options,
+        const TuneProgress& progress)
       : engine_(engine), base_(base), options_(options), progress_(progress) {}
 
   Expected<TuneResult> run();
@@ -52,9 +54,9 @@ class Tuner {
   std::size_t sizes_for(const TuneFamily& family, FamilyResult& result) const;
   void stop_early(const Attempt& attempt, FamilyResult& result) const;
 
-  Setting setting_of(const TuneFamily& family, int size, const raster::Bias& bias) const;
-  Expected<Attempt> draw(const TuneFamily& family, int size, const raster::Bias& bias, GapLists* gaps,
-                         bool timed = true);
+  compare::Setting setting_of(const TuneFamily& family, int size, const raster::Bias& bias) const;
+  Expected<Attempt> draw(const TuneFamily& family, int size, const raster::Bias& bias,
+                         compare::GapLists* gaps, bool timed = true);
   Expected<Attempt> attempt(const TuneFamily& family, int size);
   Expected<Attempt> attempt_from_gaps(const TuneFamily& family, int size);
   Expected<Attempt> attempt_by_trial(const TuneFamily& family, int size);
@@ -80,7 +82,7 @@ class Tuner {
   std::string reason(const FamilyResult& loser, const FamilyResult& winner) const;
 
   Engine& engine_;
-  const Setting& base_;
+  const compare::Setting& base_;
   const TuneOptions& options_;
   const TuneProgress& progress_;
   std::uint64_t renders_ = 0;
@@ -93,4 +95,4 @@ class Tuner {
   double least_cost_ = std::numeric_limits<double>::infinity();  ///< of the answers so far
 };
 
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

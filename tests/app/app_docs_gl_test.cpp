@@ -119,10 +119,10 @@ int parsed(const Words& words) {
 }
 
 bool is_scene(const std::string& word) {
-  const std::span<const compare::Lesson> lessons = compare::all_lessons();
+  const std::span<const report::Lesson> lessons = report::all_lessons();
   return fs::path(word).has_extension() || find_builtin_scene(word).has_value() ||
          std::any_of(lessons.begin(), lessons.end(),
-                     [&](const compare::Lesson& lesson) { return lesson.name == word; });
+                     [&](const report::Lesson& lesson) { return lesson.name == word; });
 }
 
 // In a folder that holds what the commands name.
@@ -177,10 +177,10 @@ std::vector<std::pair<std::string, std::string>> links_of(const std::string& htm
 }
 
 TEST(Documents, TheSitesManualIsWhole) {
-  std::vector<app::lessons::ManualChapter> chapters;
+  std::vector<lab::lessons::ManualChapter> chapters;
   for (const std::string_view name : app::written_chapters)
     chapters.push_back({fmt::format("{}.md", name), run_gnomon({"--manual", std::string(name)}).out});
-  const auto pages = app::lessons::manual_pages(chapters);
+  const auto pages = lab::lessons::manual_pages(chapters);
   ASSERT_TRUE(pages) << pages.error().message();
   std::map<std::string, std::string> site;
   for (const auto& [file, html] : *pages) site[file] = html;

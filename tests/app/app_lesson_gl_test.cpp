@@ -136,7 +136,7 @@ TEST(Lessons, CommandsWithoutTheSettingsTakeTheScene) {
 }
 
 TEST(Lessons, AreNoSceneNames) {
-  for (const compare::Lesson& lesson : compare::all_lessons())
+  for (const report::Lesson& lesson : report::all_lessons())
     EXPECT_FALSE(find_builtin_scene(lesson.name)) << lesson.name << " names two things";
 }
 

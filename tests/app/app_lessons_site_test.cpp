@@ -15,7 +15,9 @@
 namespace gnomon::app_test {
 namespace {
 
-using app::lessons::read_lesson;
+using lab::lessons::read_lesson;
+
+using lab::lessons::read_lesson;
 
 TEST(LessonText, PartsBeginAtHeadingsAndMarks) {
   const auto text = read_lesson("# T\n\nOne\n\n## A\n\n```sh\n## no heading\n```\n<!-- slide -->\nTwo\n");
@@ -33,7 +35,7 @@ TEST(LessonText, MarkTakesThePictureBehindIt) {
   EXPECT_EQ(text.marks[0].setting("scene"), "acne-floor");
   EXPECT_EQ(text.marks[0].setting("bias"), "0");
   EXPECT_EQ(text.marks[0].setting("size"), "");
-  const auto html = app::lessons::html_of(text.parts[0]);
+  const auto html = lab::lessons::html_of(text.parts[0]);
   ASSERT_TRUE(html.has_value());
   EXPECT_NE(html->find("<div class=\"live\" data-figure=\"0\">"), std::string::npos) << *html;
   EXPECT_LT(html->find("<img"), html->find("</div>"));
@@ -50,20 +52,20 @@ TEST(LessonMarkdown, LinksLeadWithinTheSite) {
   const auto target = [](std::string_view file) { return std::string(file == "a.md" ? "a.html" : ""); };
   const std::string html =
       R"(<a href="a.md">A</a> <a href="../defaults.md">D</a> <a href="https://x.org">X</a>)";
-  EXPECT_EQ(app::lessons::with_links(html, target),
+  EXPECT_EQ(lab::lessons::with_links(html, target),
             R"(<a href="a.html">A</a> D (<code>docs/defaults.md</code>) <a href="https://x.org">X</a>)");
 }
 
 TEST(LessonMarkdown, PictureThatIsMissingIsAnError) {
-  EXPECT_FALSE(app::lessons::with_pictures(R"(<img src="../images/none.png" alt="">)").has_value());
-  const auto shown = app::lessons::with_pictures(R"(<img src="../images/lesson-acne.png" alt="x">)");
+  EXPECT_FALSE(lab::lessons::with_pictures(R"(<img src="../images/none.png" alt="">)").has_value());
+  const auto shown = lab::lessons::with_pictures(R"(<img src="../images/lesson-acne.png" alt="x">)");
   ASSERT_TRUE(shown.has_value());
   EXPECT_TRUE(shown->starts_with("<img src=\"data:image/png;base64,")) << shown->substr(0, 80);
 }
 
 // The wall of thin-wall is 0.05 thick and 0.8 high and stands about x = 0 on the floor.
 TEST(LessonFlatland, IsTheSceneCut) {
-  const auto wall = app::lessons::flatland("wall");
+  const auto wall = lab::lessons::flatland("wall");
   ASSERT_TRUE(wall.has_value());
   double left = 0.0, right = 0.0, top = 0.0;
   for (const auto& segment : (*wall)["segments"]) {
@@ -77,8 +79,8 @@ TEST(LessonFlatland, IsTheSceneCut) {
   EXPECT_NEAR(right, 0.025, 1e-12);
   EXPECT_NEAR(top, 0.8, 1e-12);
   EXPECT_NEAR((*wall)["light"]["direction"][0].get<double>(), -std::sqrt(3.0) / 2.0, 1e-12);
-  EXPECT_FALSE(app::lessons::flatland("nowhere").has_value());
-  EXPECT_FALSE(app::lessons::structure_cut("trie", "fence").has_value());
+  EXPECT_FALSE(lab::lessons::flatland("nowhere").has_value());
+  EXPECT_FALSE(lab::lessons::structure_cut("trie", "fence").has_value());
 }
 
 constexpr std::string_view lesson_of_parts =
@@ -89,7 +91,7 @@ constexpr std::string_view lesson_of_parts =
 
 TEST(Lecture, FindsTheLessonsParts) {
   const auto part = [](std::string_view kind, std::string_view words) {
-    return app::lessons::lesson_part(lesson_of_parts, kind, words).value_or("none");
+    return lab::lessons::lesson_part(lesson_of_parts, kind, words).value_or("none");
   };
   EXPECT_EQ(part("sentence", "One is"), "One is here.\n");
   EXPECT_EQ(part("sentence", "Two"), "**Two** is long, 1.5 of it.\n") << "with its mark, to its end";
@@ -105,7 +107,7 @@ TEST(Lecture, FindsTheLessonsParts) {
 }
 
 TEST(Lecture, IsALessonsTextOfSteps) {
-  const auto text = app::lessons::lecture_text(
+  const auto text = lab::lessons::lecture_text(
       "# T\n\n<!-- minutes: 1 -->\n\n> Own.\n\n## Q\n\n<!-- minutes: 2 -->\n<!-- show: acne question A finer "
       "map -->\n\nSay it.\n");
   ASSERT_TRUE(text.has_value());
@@ -118,7 +120,7 @@ TEST(Lecture, IsALessonsTextOfSteps) {
   for (const char* wrong :
        {"# T\n\n## No minutes\n", "# T\n\n<!-- minutes: 1 -->\n<!-- show: acne sentence No such -->\n",
         "# T\n\n<!-- minutes: 1 -->\n<!-- show: acme figure bias -->\n"})
-    EXPECT_FALSE(app::lessons::lecture_text(wrong).has_value()) << wrong;
+    EXPECT_FALSE(lab::lessons::lecture_text(wrong).has_value()) << wrong;
 }
 
 TEST(LessonsCommand, SaysWhatIsWrong) {

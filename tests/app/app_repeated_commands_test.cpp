@@ -18,9 +18,9 @@ TEST(RepeatedCommands, ACellIsDrawnByTheSameBackendAndFilmedWhereItWas) {
   SweepCommand command;
   command.scene.name = "fence";
   command.backend = raster::Backend::osmesa;
-  std::vector<compare::Axis> axes;
+  std::vector<studies::Axis> axes;
   axes.push_back({"map-size", {"64", "128"}});
-  auto grid = compare::Grid::make(std::move(axes), false);
+  auto grid = studies::Grid::make(std::move(axes), false);
   ASSERT_TRUE(grid.has_value());
   const Plan plan = make_plan(std::move(*grid), command.shard);
   EXPECT_EQ(compare_command(command, plan, 1), "gnomon compare fence --map-size 128 --backend osmesa");
@@ -38,8 +38,8 @@ TEST(RepeatedCommands, AnAnswerNamesItsBackend) {
   question.scene.name = "fence";
   question.backend = raster::Backend::osmesa;
   const std::vector<OptionFamily> families(1);
-  compare::TuneResult result;
-  compare::FamilyResult& family = result.families.emplace_back();
+  studies::TuneResult result;
+  studies::FamilyResult& family = result.families.emplace_back();
   family.closest.size = 64;
   family.closest.reads_bias = false;
   const TuneAnswer answer{question, families, result};

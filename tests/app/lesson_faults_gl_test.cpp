@@ -156,7 +156,7 @@ TEST(LessonFaults, CommandsRun) {
     const ProcessResult result = run_gnomon(words, {.folder = folder.path()});
     EXPECT_EQ(result.exit_code, 0) << lesson << ": " << result.err;
   };
-  for (const compare::Lesson& lesson : compare::all_lessons()) {
+  for (const report::Lesson& lesson : report::all_lessons()) {
     const std::string name(lesson.name);
     for (const Words& words : commands(name, "raytrace"))
       run(name, without(words, {"--size"}) + Words{"--size", "64x36"});

@@ -79,8 +79,8 @@ void expect_same(const compare::PictureSet& whole, const compare::PictureSet& ba
 
 void expect_same_page(const Comparison& whole, const Comparison& banded,
                       const compare::PictureSet& pictures) {
-  const auto a = compare::page_data({whole, pictures, {}, {}}),
-             b = compare::page_data({banded, pictures, {}, {}});
+  const auto a = report::page_data({whole, pictures, {}, {}}),
+             b = report::page_data({banded, pictures, {}, {}});
   EXPECT_EQ(a.head, b.head);
   ASSERT_EQ(a.parts.size(), b.parts.size());
   for (std::size_t i = 0; i < a.parts.size(); ++i)

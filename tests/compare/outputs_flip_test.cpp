@@ -233,7 +233,7 @@ TEST(WeightedRows, AreThePlainSum) {
     }
     for (const auto& row : rows) starts.push_back(row.data());
     std::vector<float> sums(static_cast<std::size_t>(width), 0.5f), plain = sums;
-    compare::add_weighted_rows(starts, weights, sums.data(), width);
+    add_weighted_rows(starts, weights, sums.data(), width);
     for (std::size_t k = 0; k < weights.size(); ++k)
       for (std::size_t x = 0; x < plain.size(); ++x) plain[x] += weights[k] * rows[k][x];
     EXPECT_EQ(sums, plain) << width;

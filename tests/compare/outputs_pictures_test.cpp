@@ -176,7 +176,7 @@ TEST(WriteOutputs, WritesEveryFileAndNothingElse) {
   const auto made = make_synthetic(2);
   const test::TemporaryFolder own;
   const fs::path folder = own / "out";
-  const auto paths = write_outputs(made->comparison, {.folder = folder.string()});
+  const auto paths = report::write_outputs(made->comparison, {.folder = folder.string()});
   ASSERT_TRUE(paths) << paths.error().message();
   std::set<std::string> expected{"report.html", "result.json", "result.csv", "raster.png", "raytrace.png"},
       found;
@@ -199,8 +199,8 @@ TEST(WriteOutputs, WithoutAPageAllElseIsAsEver) {
   const auto made = make_synthetic();
   const test::TemporaryFolder own;
   const fs::path with = own / "with", without = own / "without";
-  ASSERT_TRUE(write_outputs(made->comparison, {.folder = with.string()}));
-  const auto written = write_outputs(made->comparison, {.folder = without.string(), .page = false});
+  ASSERT_TRUE(report::write_outputs(made->comparison, {.folder = with.string()}));
+  const auto written = report::write_outputs(made->comparison, {.folder = without.string(), .page = false});
   ASSERT_TRUE(written) << written.error().message();
   fs::remove(with / "report.html");
   std::size_t files = 0;
@@ -218,7 +218,7 @@ TEST(WriteOutputs, WithoutAPageAllElseIsAsEver) {
 
 TEST(WriteOutputs, SaysWhereItCouldNotWrite) {
   const auto made = make_synthetic();
-  const auto paths = write_outputs(made->comparison, {.folder = "/proc/no-such-folder/out"});
+  const auto paths = report::write_outputs(made->comparison, {.folder = "/proc/no-such-folder/out"});
   ASSERT_FALSE(paths);
   EXPECT_EQ(paths.error().kind, ErrorKind::cannot_write);
 }

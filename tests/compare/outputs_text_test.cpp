@@ -101,10 +101,10 @@ TEST(Csv, NamesAreNoFormulas) {
 // A page holds 8,388,608 pixels.
 // Browsers break lines at hyphens.
 TEST(Html, KeepsOptionsAndNumbersTogether) {
-  EXPECT_EQ(flowing("A bias (--slope-bias 1) would leave 4.3 % <all>"),
+  EXPECT_EQ(report::flowing("A bias (--slope-bias 1) would leave 4.3 % <all>"),
             "A bias (<span class=\"option\">--slope-bias</span> 1) would leave 4.3\u00a0% &lt;all&gt;");
-  EXPECT_EQ(flowing("--snap"), "<span class=\"option\">--snap</span>");
-  EXPECT_EQ(flowing("one -- two --- --2-"), "one -- two --- --2-");
+  EXPECT_EQ(report::flowing("--snap"), "<span class=\"option\">--snap</span>");
+  EXPECT_EQ(report::flowing("one -- two --- --2-"), "one -- two --- --2-");
 }
 
 TEST(Page, ShowsEveryPixelWhereItHoldsThemAll) {
@@ -327,19 +327,19 @@ TEST(CellSummary, WeighsEdgesByTheirNumber) {
   const auto made = make_synthetic(3);
   std::vector<LightComparison>& lights = made->comparison.lights;
   lights[0].edges = {10, 0.0, 4.0, 4.0}, lights[1].edges = {}, lights[2].edges = {30, 0.0, 2.0, 2.0};
-  const auto cell = summarise(result_line(made->comparison, {{"map_size", "64"}}),
-                              on_one_line(cell_times_json(made->comparison, 0, {.ms = 1.0})));
+  const auto cell = studies::summarise(result_line(made->comparison, {{"map_size", "64"}}),
+                                       on_one_line(cell_times_json(made->comparison, 0, {.ms = 1.0})));
   ASSERT_TRUE(cell) << cell.error().message();
   EXPECT_EQ(cell->figures.edges.edges, 40u);
   EXPECT_NEAR(cell->figures.edges.rms_texels, std::sqrt((10.0 * 16.0 + 30.0 * 4.0) / 40.0), 1e-12);
 }
 
 TEST(Lessons, EachIsTitledAndBeginsWithWordsAndACommand) {
-  ASSERT_EQ(all_lessons().size(), 25u);
-  for (const Lesson& one : all_lessons()) {
+  ASSERT_EQ(report::all_lessons().size(), 25u);
+  for (const report::Lesson& one : report::all_lessons()) {
     EXPECT_FALSE(one.title.empty()) << one.name;
     EXPECT_TRUE(one.command.starts_with("gnomon ")) << one.name << ": " << one.command;
-    const std::string html = lesson_html(one);
+    const std::string html = report::lesson_html(one);
     EXPECT_TRUE(html.starts_with("<p>")) << one.name;
     EXPECT_EQ(html.find("!["), std::string::npos) << one.name;
     EXPECT_EQ(html.find("<!--"), std::string::npos) << one.name;
@@ -358,11 +358,11 @@ TEST(Lessons, EachIsTitledAndBeginsWithWordsAndACommand) {
     const auto label = static_cast<Label>(k);
     const bool has_its_own =
         label != Label::unexplained;  // of another renderer's picture: the budget as a whole
-    EXPECT_EQ(lesson_of(label).name != "error-budget", has_its_own) << k;
-    const std::string html =
-        lesson_html(lesson_of(label));  // words alone: the page sets neither tables nor formulas
-    EXPECT_EQ(html.find("<p>|"), std::string::npos) << lesson_of(label).name;
-    EXPECT_EQ(html.find("<p>    "), std::string::npos) << lesson_of(label).name;
+    EXPECT_EQ(report::lesson_of(label).name != "error-budget", has_its_own) << k;
+    const std::string html = report::lesson_html(
+        report::lesson_of(label));  // words alone: the page sets neither tables nor formulas
+    EXPECT_EQ(html.find("<p>|"), std::string::npos) << report::lesson_of(label).name;
+    EXPECT_EQ(html.find("<p>    "), std::string::npos) << report::lesson_of(label).name;
   }
 }
 
@@ -384,7 +384,7 @@ std::string_view last_paragraph(std::string_view text) {
 // Goal, explanation, closed form beside the measurement, three experiments with commands, questions with folded
 // answers, and the way to the next lesson.
 TEST(Lessons, HaveTheirParts) {
-  const auto lessons = all_lessons();
+  const auto lessons = report::all_lessons();
   for (std::size_t i = 0; i < lessons.size(); ++i) {
     const auto& [name, title, text, command] = lessons[i];
     EXPECT_NE(title.find(": "), std::string_view::npos) << name;
@@ -407,9 +407,9 @@ TEST(Lessons, HaveTheirParts) {
 }
 
 TEST(PageShell, DataFilesHoldWhatWasPutIn) {
-  const DataPart part{"light-0", R"({"a":[1,"]="],"b":";\n"})"};
-  EXPECT_EQ(data_in_file(data_file(part)), part.json);
-  EXPECT_EQ(data_in_file("something else"), "");
+  const report::DataPart part{"light-0", R"({"a":[1,"]="],"b":";\n"})"};
+  EXPECT_EQ(report::data_in_file(data_file(part)), part.json);
+  EXPECT_EQ(report::data_in_file("something else"), "");
 }
 
 }  // namespace

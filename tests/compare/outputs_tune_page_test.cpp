@@ -3,12 +3,12 @@
 
 #include "studies/tune/page.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 std::string tuned_page(double needs_more_than, double needs_less_than) {
   TuneGoal goal;
-  goal.max_error = Threshold{find_measure("wrong"), 1e-6};
+  goal.max_error = compare::Threshold{compare::find_measure("wrong"), 1e-6};
   TuneResult result;
   FamilyResult& family = result.families.emplace_back();
   family.family.name = "slope bias 1";
@@ -35,4 +35,4 @@ TEST(TunePage, NamesNoNeedThatIsNone) {
 }
 
 }  // namespace
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -5,10 +5,10 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace gnomon;
   const std::string path = fuzz::put("capture.json", {reinterpret_cast<const char*>(data), size});
-  const Expected<compare::Capture> capture = compare::read_capture(path);
+  const Expected<judge::Capture> capture = judge::read_capture(path);
   fuzz::note_read(capture ? nullptr : &capture.error());
   if (!capture) return 0;
-  if (const Expected<void> whole = compare::check_capture(*capture); !whole)
+  if (const Expected<void> whole = judge::check_capture(*capture); !whole)
     if (whole.error().kind != ErrorKind::bad_input)
       fuzz::broken("an error of another kind: " + whole.error().message());
   return 0;

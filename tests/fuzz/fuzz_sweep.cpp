@@ -13,7 +13,7 @@ namespace {
 using namespace gnomon;
 
 std::string line(int cell) {
-  return compare::sealed(
+  return studies::sealed(
       R"({"schema":"gnomon/result/1","lights":[{"light":{"name":"sun","type":"directional"},"error":{"wrong":)" +
       std::to_string(cell) +
       R"(},"budget":[],"ladder":[]}],"gl":{"backend":"osmesa","renderer":"llvmpipe"},)"
@@ -21,8 +21,8 @@ std::string line(int cell) {
       std::to_string(cell) + "}}\n");
 }
 
-compare::SweepHeader header() {
-  return compare::make_header(R"({"axes":[{"name":"bias","values":["0","1"]}]})", 2, {});
+studies::SweepHeader header() {
+  return studies::make_header(R"({"axes":[{"name":"bias","values":["0","1"]}]})", 2, {});
 }
 
 }  // namespace
@@ -35,22 +35,22 @@ std::string sealed_again(const std::string& lines) {
   std::string out;
   for (std::string text; std::getline(in, text);) {
     const std::size_t seal = text.rfind(R"(,"checksum")");
-    out += compare::sealed(text.substr(0, seal) + (seal == std::string::npos ? "\n" : "}\n"));
+    out += studies::sealed(text.substr(0, seal) + (seal == std::string::npos ? "\n" : "}\n"));
   }
   return out;
 }
 
 void check_folder() {
-  const auto sweep = compare::read_sweep(fuzz::folder());
+  const auto sweep = studies::read_sweep(fuzz::folder());
   fuzz::note_read(sweep ? nullptr : &sweep.error());
   if (sweep) {
     for (const std::string& text : sweep->lines)
-      compare::drawer_of_line(nlohmann::ordered_json::parse(text, nullptr, false));
-    if (const auto read = compare::summarise(*sweep); !read && read.error().kind != ErrorKind::bad_input)
+      studies::drawer_of_line(nlohmann::ordered_json::parse(text, nullptr, false));
+    if (const auto read = studies::summarise(*sweep); !read && read.error().kind != ErrorKind::bad_input)
       fuzz::broken("an error of another kind: " + read.error().message());
   }
   const auto journal =
-      compare::Journal::open(fuzz::folder(), header(), {R"({"bias":0})", R"({"bias":1})"}, {0, 1});
+      studies::Journal::open(fuzz::folder(), header(), {R"({"bias":0})", R"({"bias":1})"}, {0, 1});
   // What is no sweep's file is one that cannot be written.
   if (!journal && journal.error().kind != ErrorKind::bad_input && journal.error().kind != ErrorKind::usage &&
       journal.error().kind != ErrorKind::cannot_write)
@@ -74,7 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 }
 
 std::vector<std::string> gnomon::fuzz::seeds() {
-  const std::string times = compare::sealed("{\"cell\":0}\n");
-  return {compare::header_json(header()) + "\f" + line(0) + line(1) + "\f" + times + times,
-          compare::header_json(header()) + "\f" + line(0) + "\f" + times};
+  const std::string times = studies::sealed("{\"cell\":0}\n");
+  return {studies::header_json(header()) + "\f" + line(0) + line(1) + "\f" + times + times,
+          studies::header_json(header()) + "\f" + line(0) + "\f" + times};
 }

@@ -299,6 +299,90 @@ TEST(Arrows, WhetherSomethingIsThereIsAskedInOneFile) {
             2u);
 }
 
+/// The namespace of what a room declares, where it is not called as the room is.
+const std::map<std::string, std::string, std::less<>> other_namespaces = {
+    {"scene", "gnomon"}, {"benchmark", "gnomon::bench"}, {"platform", "gnomon::web"}};
+
+std::string namespace_of(const std::string& room) {
+  const auto other = other_namespaces.find(room);
+  return other != other_namespaces.end() ? other->second : "gnomon::" + room;
+}
+
+bool lies_in(std::string_view inner, std::string_view outer) {
+  return inner == outer || (inner.starts_with(outer) && inner.substr(outer.size()).starts_with("::"));
+}
+
+/// A room declares in its own namespace; a command, which is a part of the command line, in app's. A file of platform takes the
+/// place of one of another room.
+bool may_declare(const std::string& file, const std::string& space) {
+  const std::string room = room_of(file);
+  if (file.find("/commands/") != std::string::npos) return lies_in(space, namespace_of("app"));
+  const auto is_of = [&](const auto& other) {
+    return other.first != "scene" && lies_in(space, namespace_of(other.first));
+  };
+  if (room == "scene") return lies_in(space, "gnomon") && std::none_of(arrows.begin(), arrows.end(), is_of);
+  if (lies_in(space, namespace_of(room))) return true;
+  return room == "platform" && std::any_of(arrows.begin(), arrows.end(), [&](const auto& other) {
+           return allowed(room, other.first) && space == namespace_of(other.first);
+         });
+}
+
+/// Whether a namespace of which `lines` says the rest ends after declarations of classes alone, which any room may name.
+bool declares_names_alone(std::istringstream lines) {
+  std::string line;
+  while (std::getline(lines, line) && !line.starts_with('}'))
+    if (!(line.starts_with("struct ") || line.starts_with("class ")) || line.find(';') == std::string::npos ||
+        line.find('{') != std::string::npos)
+      return false;
+  return true;
+}
+
+/// "gnomon::raster" where a line at the margin opens it; a namespace of scene's may stand within gnomon.
+std::string opened_namespace(const std::string& line, const std::string& room) {
+  constexpr std::string_view marker = "namespace ";
+  const std::size_t end = line.find(" {");
+  if (!line.starts_with(marker) || end == std::string::npos || end <= marker.size()) return {};
+  const std::string name = line.substr(marker.size(), end - marker.size());
+  if (name == "std") return {};
+  if (lies_in(name, "gnomon")) return name;
+  return namespace_of(room) + "::" + name;
+}
+
+/// "file: gnomon::raster: not its namespace".
+std::vector<std::string> strange_namespaces(const Files& files) {
+  std::vector<std::string> found;
+  for (const auto& [file, text] : files) {
+    if (!is_cpp(file) || file.starts_with("tests/")) continue;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      const std::string space = opened_namespace(line, room_of(file));
+      if (space.empty() || may_declare(file, space)) continue;
+      if (!declares_names_alone(std::istringstream(text.substr(static_cast<std::size_t>(lines.tellg())))))
+        found.push_back(arrow_line(file, space, "not its namespace"));
+    }
+  }
+  return found;
+}
+
+TEST(Arrows, NamespacesFollowFolders) {
+  for (const std::string& line : strange_namespaces(project_files())) ADD_FAILURE() << line;
+  const auto strange = [](const char* file, const std::string& text) {
+    return strange_namespaces({{file, text}}).size();
+  };
+  EXPECT_EQ(strange("judge/a.h", "namespace gnomon::compare {\nint f();\n}\n"), 1u);
+  EXPECT_EQ(strange("judge/a.h", "namespace gnomon::compare {\nstruct Figure;\n}\n"), 0u);
+  EXPECT_EQ(strange("judge/a.h", "namespace gnomon::compare {\nstruct Figure {\n  int a;\n};\n}\n"), 1u);
+  EXPECT_EQ(strange("judge/a.h", "namespace gnomon {\nnamespace judge {\nint f();\n}\n}\n"), 1u);
+  EXPECT_EQ(strange("judge/commands/a.cpp", "namespace gnomon::judge {\nint f();\n}\n"), 1u);
+  EXPECT_EQ(strange("judge/commands/a.cpp", "namespace gnomon::app {\nint f();\n}\n"), 0u);
+  EXPECT_EQ(strange("lab/lessons/a.h", "namespace gnomon::lab::lessons {\nint f();\n}\n"), 0u);
+  EXPECT_EQ(strange("lab/lessons/a.h", "namespace gnomon::laboratory {\nint f();\n}\n"), 1u);
+  EXPECT_EQ(strange("scene/a.h", "namespace gnomon::gltf {\nint f();\n}\n"), 0u);
+  EXPECT_EQ(strange("scene/a.h", "namespace gnomon {\nnamespace raster {\nint f();\n}\n}\n"), 1u);
+  EXPECT_EQ(strange("platform/web/a.cpp", "namespace gnomon::raster {\nint f();\n}\n"), 0u);
+  EXPECT_EQ(strange("platform/web/a.cpp", "namespace gnomon::judge {\nint f();\n}\n"), 1u);
+}
+
 TEST(Arrows, HoldInTheWholeProject) {
   const Files files = project_files();
   EXPECT_GE(files.size(), 40u) << "the sources were not found";

@@ -150,7 +150,7 @@ EXERCISES = {
          '&paraboloid_layout},\n     {"octahedron", Stores::distances, true, false, true, &octahedron_layout}}};'),
         ("judge/octahedron.cpp", None, None,
          "// Octahedral maps: a direction's place on the octahedron |x| + |y| + |z| = 1, whose half with z < 0 is folded outwards.\n"
-         "#include \"judge/directions_test.h\"\n\nnamespace gnomon::compare {\nnamespace {\n\n"
+         "#include \"judge/directions_test.h\"\n\nnamespace gnomon::judge {\nnamespace {\n\n"
          "Vec2 folded(const Vec2& p) {\n  return (1.0 - glm::abs(Vec2(p.y, p.x))) * Vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);\n}\n\n"
          "class OctahedronTest final : public DirectionsTest {\n public:\n  Mat3 turn{1.0};\n"
          "  DirectionPlace place(const Vec3& direction) const override {\n    Vec3 d = turn * direction;\n"
@@ -171,7 +171,7 @@ EXERCISES = {
          "  const auto turn = turn_of(capture, light, world);\n  if (!turn) return fail(turn.error());\n"
          "  const auto test = std::make_shared<OctahedronTest>();\n  test->turn = turn->turn;\n"
          "  return read_directions(capture, turn->origin, test, 1.0);\n}\n\n}  // namespace\n\n"
-         "const MapLayout octahedron_layout{check_octahedron, check_turn, read_octahedron};\n\n}  // namespace gnomon::compare\n"),
+         "const MapLayout octahedron_layout{check_octahedron, check_turn, read_octahedron};\n\n}  // namespace gnomon::judge\n"),
         ("judge/CMakeLists.txt", "own_test.cpp", BEFORE, "octahedron.cpp "),
         ("judge/capture.schema.json", '"linear_z", "paraboloid"],\n', REPLACE, '"linear_z", "paraboloid", "octahedron"],\n'),
         ("judge/capture.schema.json", "Nothing drawn: the far end's number;", BEFORE,

@@ -163,7 +163,7 @@ TEST_P(Filter, VsmIsChebyshevsBound) {
                 return BlurredFace::Value{z, z * z, 0, 0};
               },
               [](const BlurredFace::Value& m, double x) {
-                return std::clamp((chebyshev(m[0], m[1], x) - 0.3) / 0.7, 0.0, 1.0);
+                return std::clamp((judge::chebyshev(m[0], m[1], x) - 0.3) / 0.7, 0.0, 1.0);
               }));
 }
 
@@ -196,7 +196,7 @@ TEST_P(Filter, EvsmIsTheSmallerOfTwoBounds) {
               },
               [warp](const BlurredFace::Value& m, double x) {
                 const auto [p, n] = warp(x);
-                return std::min(chebyshev(m[0], m[1], p), chebyshev(m[2], m[3], n));
+                return std::min(judge::chebyshev(m[0], m[1], p), judge::chebyshev(m[2], m[3], n));
               }));
 }
 
@@ -214,7 +214,7 @@ TEST_P(Filter, MsmIsTheLeastShadowOfFourMoments) {
               [](BlurredFace::Value m, double x) {
                 const BlurredFace::Value safe{0.0, 0.375, 0.0, 0.375};
                 for (std::size_t k = 0; k < 4; ++k) m[k] = m[k] * (1.0 - 1e-3) + 1e-3 * safe[k];
-                return std::clamp(1.0 - least_share_before(m, 2.0 * x - 1.0), 0.0, 1.0);
+                return std::clamp(1.0 - judge::least_share_before(m, 2.0 * x - 1.0), 0.0, 1.0);
               }));
 }
 

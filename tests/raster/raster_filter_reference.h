@@ -149,7 +149,7 @@ class BlurredFace {
   std::vector<Value> values_;
 };
 
-using compare::chebyshev;
-using compare::least_share_before;
+using judge::chebyshev;
+using judge::least_share_before;
 
 }  // namespace gnomon::test

@@ -15,7 +15,7 @@
 namespace {
 
 bool write(const gnomon::compare::Comparison& comparison, const std::string& folder) {
-  const auto paths = gnomon::compare::write_outputs(comparison, {.folder = folder});
+  const auto paths = gnomon::report::write_outputs(comparison, {.folder = folder});
   if (!paths) std::cerr << paths.error().message() << '\n';
   return paths.has_value();
 }
@@ -32,8 +32,8 @@ void cancel_out(gnomon::compare::LightComparison& light) {
 
 /// A capture with figures, one of which nothing was compared, and one that was refused.
 bool write_captures(const std::string& folder) {
-  gnomon::compare::JudgedSet set;
-  gnomon::compare::JudgedRow judged, empty;
+  gnomon::judge::JudgedSet set;
+  gnomon::judge::JudgedRow judged, empty;
   empty.name = "empty";
   judged.name = "shot#1 <b>", judged.scene = "fence", judged.renderer = "Another 2.0",
   judged.labels = "acne 12";
@@ -43,7 +43,7 @@ bool write_captures(const std::string& folder) {
   set.rows = {empty, judged};
   set.add_refused("refused", "no such file");
   std::filesystem::create_directories(folder);
-  return gnomon::compare::write_judged_set(set, folder).has_value();
+  return gnomon::judge::write_judged_set(set, folder).has_value();
 }
 
 /// Each with its texts, by the functions of compare/result/number_text.h.

@@ -19,8 +19,8 @@ namespace {
 
 using compare::Advice;
 using compare::AdvisedSetting;
-using compare::Capture;
-using compare::FilterName;
+using judge::Capture;
+using judge::FilterName;
 
 /// A figure that is said as it is holds within a tenth of a percent, one that is said to be "about" so within a fifth.
 constexpr double exactly = 1e-3, about = 0.2;
@@ -108,8 +108,8 @@ struct Engine {
 
   /// Draws the capture's picture with the settings of this one. A map of moments is made from its depths with them.
   void draw(Capture settings) const {
-    if (settings.filter && settings.filter->read == compare::FilterRead::moments) {
-      for (const compare::CapturedLayer& layer : settings.map)
+    if (settings.filter && settings.filter->read == judge::FilterRead::moments) {
+      for (const judge::CapturedLayer& layer : settings.map)
         std::filesystem::copy_file(layer.depth + ".depths.exr", layer.depth,
                                    std::filesystem::copy_options::overwrite_existing);
       store_moments(settings);
@@ -129,7 +129,7 @@ FilterTaps strewn_taps(Random& random, double radius, bool turned) {
 }
 
 void choose_filter(Random& random, Engine& engine) {
-  compare::CapturedFilter& filter = engine.capture.filter.emplace();
+  judge::CapturedFilter& filter = engine.capture.filter.emplace();
   const auto pcf = [&](double radius, FilterTaps taps) {
     filter.kind = FilterName::pcf, filter.radius_texels = radius, engine.filter = std::move(taps);
   };
@@ -137,8 +137,8 @@ void choose_filter(Random& random, Engine& engine) {
     filter.kind = kind;
     filter.light_bleeding_reduction = random.one_of({0.0, 0.0, 0.2});
     filter.minimum_variance = random.one_of({0.0, 1e-6, 1e-4});
-    filter.read = compare::FilterRead::moments, filter.radius_texels = 2.5;
-    for (const compare::CapturedLayer& layer : engine.capture.map)
+    filter.read = judge::FilterRead::moments, filter.radius_texels = 2.5;
+    for (const judge::CapturedLayer& layer : engine.capture.map)
       std::filesystem::copy_file(layer.depth, layer.depth + ".depths.exr");
   };
   const auto side = static_cast<int>(1 + random.below(4));
@@ -185,7 +185,7 @@ Engine random_engine(unsigned seed) {
   const LightFace& face = record.map.view.face(0);
   const bool lengths = kind == Kind::cube || kind == Kind::spot;
   const double unit = lengths ? 1.0 : face.far_depth - face.near_depth;
-  compare::CapturedBias bias;
+  judge::CapturedBias bias;
   bias.constant_depth = record.texel_world * random.one_of({0.0, 0.0, 0.1, 0.5, 1.5, 6.0}) / unit;
   bias.normal_offset_world = record.texel_world * random.one_of({0.0, 0.0, 0.0, 0.7, 4.0});
   engine.capture.bias = bias;
@@ -216,7 +216,7 @@ void take(const AdvisedSetting& one, Capture& capture) {
     capture.filter->exponents[key.ends_with("[1]") ? 1 : 0] = one.instead;
   } else if (key.starts_with("map[") && key.ends_with("].bias.constant_depth")) {
     const auto layer = static_cast<std::size_t>(std::stoul(key.substr(4)));
-    compare::CapturedBias bias = *capture.bias;
+    judge::CapturedBias bias = *capture.bias;
     bias.constant_depth = one.instead;
     capture.map[layer].bias = bias;
   } else {

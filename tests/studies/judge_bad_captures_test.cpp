@@ -11,7 +11,7 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
+using judge::Capture;
 
 constexpr ImageSize picture{64, 36};
 
@@ -43,7 +43,7 @@ std::string refusal(const Capture& capture) {
   auto scene = load_scene(capture.scene);
   EXPECT_TRUE(scene);
   const World world = make_world(*scene);
-  const auto judged = compare::judge_capture(capture, *scene, world, {});
+  const auto judged = judge::judge_capture(capture, *scene, world, {});
   EXPECT_FALSE(judged);
   if (judged) return "judged";
   EXPECT_EQ(judged.error().kind, ErrorKind::bad_input);
@@ -57,11 +57,11 @@ void expect_named(const Capture& capture, const std::string& words) {
   EXPECT_NE(message.find(words), std::string::npos) << message;
 }
 
-compare::CapturedLayer layer(const Mat4& matrix) {
-  compare::CapturedLayer out;
+judge::CapturedLayer layer(const Mat4& matrix) {
+  judge::CapturedLayer out;
   out.depth = image("map.exr", {8, 8}, {"Z"});
-  out.convention = compare::StoredDepth::zero_to_one;
-  out.rows = compare::RowOrder::top_down;
+  out.convention = judge::StoredDepth::zero_to_one;
+  out.rows = judge::RowOrder::top_down;
   out.clip_from_world = matrix;
   return out;
 }
@@ -84,7 +84,7 @@ TEST(BadCaptures, AreRefusedByTheirHeaders) {
   capture.position.clear();
   capture.map = {layer(Mat4(1.0))};
   capture.map[0].depth = header_alone("oblong.exr", {8, 4});
-  capture.map[0].rect = compare::CapturedRect{4, 0, 4, 5};
+  capture.map[0].rect = judge::CapturedRect{4, 0, 4, 5};
   expect_named(capture, "map[0].rect: reaches beyond its picture (got [4, 0, 4, 5], the picture is 8 x 4)");
 }
 
@@ -113,21 +113,21 @@ TEST(BadCaptures, OfParaboloidsNameTheField) {
   const auto half = [](double z) {
     Mat4 view(1.0);
     view[2][2] = z;
-    compare::CapturedLayer out = layer(view);
-    out.convention = compare::StoredDepth::paraboloid;
+    judge::CapturedLayer out = layer(view);
+    out.convention = judge::StoredDepth::paraboloid;
     return out;
   };
   capture.map = {half(1.0)};
   expect_named(capture, "map: of paraboloids has two layers");
   capture.map = {half(1.0), half(-1.0)};
-  capture.map[1].bias = compare::CapturedBias{.constant_depth = 0.1};
+  capture.map[1].bias = judge::CapturedBias{.constant_depth = 0.1};
   expect_named(capture, "map[1].bias: is not of paraboloids");
-  capture.map[1].bias.reset(), capture.map[1].caster_bias = compare::CapturedCasterBias{.constant = 0.1};
+  capture.map[1].bias.reset(), capture.map[1].caster_bias = judge::CapturedCasterBias{.constant = 0.1};
   expect_named(capture, "map[1].caster_bias: differs from that of the other half");
   capture.map = {half(1.0), half(1.0)};
-  capture.filter = compare::CapturedFilter{.read = compare::FilterRead::linear_depths};
+  capture.filter = judge::CapturedFilter{.read = judge::FilterRead::linear_depths};
   expect_named(capture, "filter.read: is nearest of paraboloids");
-  capture.filter.reset(), capture.map[1].select = compare::CapturedSelect{};
+  capture.filter.reset(), capture.map[1].select = judge::CapturedSelect{};
   expect_named(capture, "map: has a select in some layers");
   capture.map[1].select.reset(), (*capture.map[0].clip_from_world)[2][3] = 1.0;
   expect_named(capture, "map[0].clip_from_world: is no turn and shift");
@@ -154,23 +154,23 @@ TEST(BadCaptures, OfMapsNameTheField) {
   capture.map[0].range = Vec2(0.1, 20.0);
   expect_named(capture, "map[0].range: is of distance and linear_z");
   capture.map[0].range.reset();
-  capture.map[0].select = compare::CapturedSelect{.near = 0.0, .far = 4.0, .blend = 1.0};
+  capture.map[0].select = judge::CapturedSelect{.near = 0.0, .far = 4.0, .blend = 1.0};
   expect_named(capture, "map[0].select.blend: is towards the next layer, and there is none");
   capture.map.push_back(layer(Mat4(1.0)));
   capture.map[0].select.reset();
-  capture.map[1].bias = compare::CapturedBias{.angle = compare::BiasAngle::sine};
+  capture.map[1].bias = judge::CapturedBias{.angle = judge::BiasAngle::sine};
   expect_named(capture, "map[1].bias.angle: differs from that of map[0]");
 }
 
 // What a convention leaves nothing to say of is no key that is read and forgotten.
 TEST(BadCaptures, WithAKeyThatTheConventionHasNotNameTheKey) {
-  using compare::CapturedCasterBias;
-  using compare::FilterName;
-  using enum compare::StoredDepth;
+  using judge::CapturedCasterBias;
+  using judge::FilterName;
+  using enum judge::StoredDepth;
   struct Row {
-    compare::StoredDepth convention;
+    judge::StoredDepth convention;
     CapturedCasterBias casters;
-    compare::CapturedBias bias;
+    judge::CapturedBias bias;
     FilterName filter;
     std::string named;
   };
@@ -198,24 +198,24 @@ TEST(BadCaptures, WithAKeyThatTheConventionHasNotNameTheKey) {
   for (const Row& row : rows) {
     Capture capture = good();
     capture.map.assign(row.convention == paraboloid ? 2 : 1, layer(Mat4(1.0)));
-    for (compare::CapturedLayer& one : capture.map)
+    for (judge::CapturedLayer& one : capture.map)
       one.convention = row.convention, one.caster_bias = row.casters;
-    capture.bias = row.bias, capture.filter = compare::CapturedFilter{.kind = row.filter};
+    capture.bias = row.bias, capture.filter = judge::CapturedFilter{.kind = row.filter};
     expect_named(capture, row.named);
   }
 }
 
 TEST(BadCaptures, ThatContradictNameTheField) {
   Capture capture = good();
-  capture.bias = compare::CapturedBias{};
+  capture.bias = judge::CapturedBias{};
   expect_named(capture, "bias: says nothing without map");
   capture = good();
   capture.shadowed = capture.visibility;
   expect_named(capture, "visibility: cannot stand beside");
   capture = good();
-  capture.depth = compare::CapturedDepth{capture.visibility, compare::PixelDepth::zero_to_one, 0.1, {}};
+  capture.depth = judge::CapturedDepth{capture.visibility, judge::PixelDepth::zero_to_one, 0.1, {}};
   expect_named(capture, "depth.far: is missing; zero_to_one needs it");
-  capture.depth->convention = compare::PixelDepth::view_z;
+  capture.depth->convention = judge::PixelDepth::view_z;
   expect_named(capture, "depth.near: does not go with view_z");
   capture = good();
   capture.light = "moon";

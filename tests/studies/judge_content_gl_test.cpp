@@ -9,9 +9,9 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
 using compare::Label;
-using compare::StoredDepth;
+using judge::Capture;
+using judge::StoredDepth;
 
 /// A floor, a box that floats above it and one that stands on it, all with names.
 Scene boxes() {
@@ -29,7 +29,7 @@ struct Captured {
       : drawn(draw_scene(std::move(scene), small_picture, hard_map(256))),
         capture(self_capture(drawn, folder_for("content-" + name),
                              {.map = true, .stored = StoredDepth::zero_to_one})) {
-    capture.bias = compare::CapturedBias{.constant_depth = 0.002};
+    capture.bias = judge::CapturedBias{.constant_depth = 0.002};
   }
   const LightView& view() const { return drawn.result.raster.lights[0].map.view; }
   double range() const { return view().face(0).far_depth - view().face(0).near_depth; }
@@ -109,11 +109,11 @@ bool is_not_high(const World& world, const Ray&, const raytrace::Hit& hit) {
 
 // Averages of depths are no surface's own, and yet nothing is missing: what they make is the filter's.
 TEST(JudgeContent, OfMomentsLacksWhatIsMissingAndNothingElse) {
-  for (const compare::FilterName kind : {compare::FilterName::vsm, compare::FilterName::msm})
+  for (const judge::FilterName kind : {judge::FilterName::vsm, judge::FilterName::msm})
     for (const bool missing : {false, true}) {
       Captured captured("moments");
       missing ? captured.hold(boxes(), is_not_high) : captured.hold(boxes());
-      captured.capture.filter = compare::CapturedFilter{.kind = kind, .moment_bias = 3e-5};
+      captured.capture.filter = judge::CapturedFilter{.kind = kind, .moment_bias = 3e-5};
       store_moments(captured.capture);
       draw_again(captured.capture, captured.drawn);
       const JudgeOutcome judged = captured.judged();

@@ -10,18 +10,18 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
-using compare::StoredDepth;
+using judge::Capture;
+using judge::StoredDepth;
 
 /// A sun's map of 512 texels and the picture that another renderer draws on it with this bias.
 struct OtherPicture {
   Compared drawn = draw_scene(scene_under("sun"), small_picture, hard_map(512));
   Capture capture;
-  OtherPicture(const std::string& name, const compare::CapturedBias& bias) {
+  OtherPicture(const std::string& name, const judge::CapturedBias& bias) {
     capture = self_capture(drawn, folder_for(name), {.map = true, .stored = StoredDepth::zero_to_one});
     draw_with(bias);
   }
-  void draw_with(const compare::CapturedBias& bias, const FilterTaps& filter = {}) {
+  void draw_with(const judge::CapturedBias& bias, const FilterTaps& filter = {}) {
     capture.bias = bias;
     draw_again(capture, drawn, 1.0f, false, filter);
   }
@@ -29,8 +29,8 @@ struct OtherPicture {
 };
 
 /// The bias that the advice asks for.
-compare::CapturedBias advised(const Capture& capture, const std::vector<compare::Advice>& advice) {
-  compare::CapturedBias bias = *capture.bias;
+judge::CapturedBias advised(const Capture& capture, const std::vector<compare::Advice>& advice) {
+  judge::CapturedBias bias = *capture.bias;
   const compare::Advice& last = advice.back();
   (last.setting == "bias.normal_offset_world" ? bias.normal_offset_world : bias.constant_depth) =
       last.instead;
@@ -66,9 +66,9 @@ TEST(JudgeAdvice, LowersANormalOffsetThatIsTooLarge) {
 TEST(JudgeAdvice, SpeaksInTheEnginesSettings) {
   OtherPicture picture("engine", {.constant_depth = 0.0002, .normal_offset_world = 0.3});
   const auto advised_of = [&](const char* renderer, const compare::TunedEngine* engine) {
-    compare::Capture capture = picture.capture;
+    judge::Capture capture = picture.capture;
     capture.renderer = renderer;
-    compare::JudgeOptions options;
+    judge::JudgeOptions options;
     options.engine = engine;
     const JudgeOutcome judged = judge(capture, *picture.drawn.scene, options);
     EXPECT_TRUE(judged.result) << reason(judged);
@@ -98,11 +98,11 @@ std::uint64_t count_of(const JudgeOutcome& judged, compare::Label label) {
   return judged.result->lights[0].classes[static_cast<std::size_t>(label) - 1];
 }
 
-constexpr compare::CapturedBias enough_bias{.constant_depth = 0.001};
+constexpr judge::CapturedBias enough_bias{.constant_depth = 0.001};
 
 void turn_rows(Capture& capture) {
-  compare::RowOrder& rows = *capture.map[0].rows;
-  rows = rows == compare::RowOrder::top_down ? compare::RowOrder::bottom_up : compare::RowOrder::top_down;
+  judge::RowOrder& rows = *capture.map[0].rows;
+  rows = rows == judge::RowOrder::top_down ? judge::RowOrder::bottom_up : judge::RowOrder::top_down;
 }
 
 /// That the test described is not the one drawn is said, with this in it, and no reason is given that would be that of
@@ -167,7 +167,7 @@ TEST(JudgeDescribed, OtherMatricesAndConstantsAreNamed) {
 // All is dark then, as it would be without light.
 TEST(JudgeDescribed, ABiasOfTheOtherSignIsNotTheLightsDoing) {
   struct Case {
-    compare::CapturedBias drawn, described;
+    judge::CapturedBias drawn, described;
     const char* words;
   };
   for (const Case& c : {Case{{.constant_depth = -0.02},
@@ -257,7 +257,7 @@ TEST(JudgeDescribed, GreysOfAnUnsaidFilterAreUnexplainedAndTheFilterIsNamed) {
 TEST(JudgeDescribed, GreysBeyondTheSaidFilterAreUnexplained) {
   OtherPicture picture("wide-greys", {.constant_depth = 0.02});
   picture.draw_with({.constant_depth = 0.02}, square_taps(9));
-  picture.capture.filter = compare::CapturedFilter{compare::FilterName::pcf, 1.5};
+  picture.capture.filter = judge::CapturedFilter{judge::FilterName::pcf, 1.5};
   const JudgeOutcome judged = picture.judged();
   ASSERT_TRUE(judged.result) << reason(judged);
   EXPECT_NE(notes_of(judged).find("9 x 9 comparisons draw them"), std::string::npos) << notes_of(judged);
@@ -273,7 +273,7 @@ TEST(JudgeDescribed, OffsetOfTheWrongSignOnBackFacesIsNamed) {
   const Compared drawn = draw_scene(std::move(scene), small_picture, hard_map(512));
   Capture capture =
       self_capture(drawn, folder_for("back-faces"), {.map = true, .stored = StoredDepth::zero_to_one});
-  capture.bias = compare::CapturedBias{.constant_depth = 0.0002, .normal_offset_world = 0.05};
+  capture.bias = judge::CapturedBias{.constant_depth = 0.0002, .normal_offset_world = 0.05};
   draw_again(capture, drawn);
   const JudgeOutcome right = judge(capture, *drawn.scene);
   EXPECT_EQ(notes_of(right).find("back faces"), std::string::npos) << notes_of(right);
@@ -311,7 +311,7 @@ TEST(JudgeDescribed, RightCapturesAreNotDoubted) {
   soft.filter.radius_texels = 2.5;
   const Compared filtered = draw_scene(scene_under("sun"), small_picture, soft);
   Capture capture = self_capture(filtered, folder_for("described-pcf"), {.map = true});
-  capture.filter = compare::CapturedFilter{compare::FilterName::pcf, 2.5};
+  capture.filter = judge::CapturedFilter{judge::FilterName::pcf, 2.5};
   for (const JudgeOutcome& judged : {picture.judged(), judge(capture, *filtered.scene)}) {
     EXPECT_EQ(notes_of(judged), "");
     ASSERT_TRUE(judged.result) << reason(judged);
@@ -344,7 +344,7 @@ TEST(JudgeDescribed, CoarseDepthsAreAMatterOfPrecision) {
 
 /// The middle of the map alone, each texel of it as several.
 void crop_map(Capture& capture, int times) {
-  compare::CapturedLayer& layer = capture.map[0];
+  judge::CapturedLayer& layer = capture.map[0];
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 2; ++row) (*layer.clip_from_world)[column][row] *= times;
   spoil(layer.depth, [=](ChannelImage& image) {

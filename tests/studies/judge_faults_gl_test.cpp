@@ -18,9 +18,9 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
 using compare::Label;
-using compare::StoredDepth;
+using judge::Capture;
+using judge::StoredDepth;
 
 class Dice {
  public:
@@ -95,7 +95,7 @@ class Renderer {
             {.map = true,
              .stored = dice.coin() ? StoredDepth::zero_to_one : StoredDepth::minus_one_to_one})) {
     capture_.bias =
-        compare::CapturedBias{.constant_depth = 0.006, .normal_offset_world = dice.coin() ? 0.0 : 0.04};
+        judge::CapturedBias{.constant_depth = 0.006, .normal_offset_world = dice.coin() ? 0.0 : 0.04};
   }
   const Scene& scene() const { return *drawn_.scene; }
   const LightView& view() const { return drawn_.result.raster.lights[0].map.view; }
@@ -261,8 +261,8 @@ void make_neighbours(Renderer& r, Dice&) {
   });
   const Mat4 layer = matrix;
   for (int column = 0; column < 4; ++column) matrix[column][0] = 0.5 * (layer[column][0] - layer[column][3]);
-  r.capture().map[0].rect = compare::CapturedRect{0, 0, n, n};
-  r.capture().filter = compare::CapturedFilter{.kind = compare::FilterName::pcf, .radius_texels = 1.5};
+  r.capture().map[0].rect = judge::CapturedRect{0, 0, n, n};
+  r.capture().filter = judge::CapturedFilter{.kind = judge::FilterName::pcf, .radius_texels = 1.5};
   r.capture().bias->normal_offset_world = 0.0;
   const bool halves = r.capture().map[0].convention == StoredDepth::minus_one_to_one;
   const double bias = r.capture().bias->constant_depth;
@@ -428,12 +428,12 @@ std::string notes_of_judged(const JudgeOutcome& judged) {
 
 // Averages of depths lie behind the nearest of them, which is no offset of casters.
 TEST(JudgeFaults, AreNoneOfASoundMapNorOfItsMoments) {
-  using compare::FilterName;
-  const compare::CapturedFilter filters[] = {
+  using judge::FilterName;
+  const judge::CapturedFilter filters[] = {
       {},
       {.kind = FilterName::esm, .radius_texels = 2.5, .exponents = {40.0}},
       {.kind = FilterName::evsm, .radius_texels = 2.5, .exponents = {15.0}}};
-  for (const compare::CapturedFilter& filter : filters) {
+  for (const judge::CapturedFilter& filter : filters) {
     Dice dice(7);
     Renderer renderer(random_scene(dice, true), dice);
     renderer.draw_map(renderer.scene(), as_it_is);
@@ -456,12 +456,12 @@ TEST(JudgeMoments, OfOneOrTwoDepthsHaveAShareBefore) {
       out[k] = share * std::pow(first, double(k + 1)) + (1.0 - share) * std::pow(second, double(k + 1));
     return out;
   };
-  EXPECT_EQ(compare::least_share_before(of(1.0, 0.5, 0.0), 0.75), 1.0);
-  EXPECT_EQ(compare::least_share_before(of(1.0, 0.5, 0.0), 0.25), 0.0);
-  EXPECT_EQ(compare::least_share_before(of(1.0, 0.5, 0.0), 0.5), 0.0);
-  EXPECT_NEAR(compare::least_share_before(of(0.25, 0.0, 1.0), 1.0), 0.25, 1e-12);
-  EXPECT_NEAR(compare::least_share_before(of(0.25, 0.0, 1.0), 0.5), 0.25, 1e-12);
-  EXPECT_EQ(compare::least_share_before(of(0.25, 0.0, 1.0), 0.0), 0.0);
+  EXPECT_EQ(judge::least_share_before(of(1.0, 0.5, 0.0), 0.75), 1.0);
+  EXPECT_EQ(judge::least_share_before(of(1.0, 0.5, 0.0), 0.25), 0.0);
+  EXPECT_EQ(judge::least_share_before(of(1.0, 0.5, 0.0), 0.5), 0.0);
+  EXPECT_NEAR(judge::least_share_before(of(0.25, 0.0, 1.0), 1.0), 0.25, 1e-12);
+  EXPECT_NEAR(judge::least_share_before(of(0.25, 0.0, 1.0), 0.5), 0.25, 1e-12);
+  EXPECT_EQ(judge::least_share_before(of(0.25, 0.0, 1.0), 0.0), 0.0);
 }
 
 std::vector<float> numbers_of(const std::function<double(double)>& stored) {
@@ -473,25 +473,24 @@ std::vector<float> numbers_of(const std::function<double(double)>& stored) {
 
 TEST(JudgeFormats, AreToldByWhatNumbersHaveInCommon) {
   for (const double most : {255.0, 256.0, 1023.0, 4095.0, 65535.0, 65536.0, 255.0 * 255.0}) {
-    const auto format =
-        compare::find_format(numbers_of([=](double v) { return std::floor(most * v) / most; }));
+    const auto format = judge::find_format(numbers_of([=](double v) { return std::floor(most * v) / most; }));
     EXPECT_FALSE(format.floating) << most;
     EXPECT_EQ(format.step, 1.0 / most) << "also where the numbers are truncated";
   }
-  const auto halves = compare::find_format(numbers_of([](double v) {
+  const auto halves = judge::find_format(numbers_of([](double v) {
     const double step = std::ldexp(1.0, std::ilogb(v) - 10);
     return step * std::floor(v / step);
   }));
   EXPECT_TRUE(halves.floating);
   EXPECT_EQ(halves.step, 0x1p-11);
-  EXPECT_EQ(compare::step_near(halves, 0.3), 0x1p-12);
-  EXPECT_EQ(compare::format_notes(halves, 1.0),
+  EXPECT_EQ(judge::step_near(halves, 0.3), 0x1p-12);
+  EXPECT_EQ(judge::format_notes(halves, 1.0),
             std::vector<std::string>{"the map's depths are half floats: eleven bits"});
-  const auto floats = compare::find_format(numbers_of([](double v) { return v; }));
+  const auto floats = judge::find_format(numbers_of([](double v) { return v; }));
   EXPECT_EQ(floats.step, 0x1p-24);
-  EXPECT_TRUE(compare::format_notes(floats, 1.0).empty());
+  EXPECT_TRUE(judge::format_notes(floats, 1.0).empty());
   // Two floors at even depths tell nothing.
-  const auto level = compare::find_format(numbers_of([](double v) { return v < 0.5 ? 0.25 : 0.5; }));
+  const auto level = judge::find_format(numbers_of([](double v) { return v < 0.5 ? 0.25 : 0.5; }));
   EXPECT_EQ(level.step, 0x1p-24);
 }
 

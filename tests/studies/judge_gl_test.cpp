@@ -23,7 +23,7 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
+using judge::Capture;
 using raster::Technique;
 
 void expect_same_ladder(const Compared& drawn, const JudgeOutcome& judged) {
@@ -45,7 +45,7 @@ TEST(JudgeLadder, OfASunIsThatOfItsOwnMap) {
   const Compared drawn = draw_builtin("courtyard", small_picture, hard_map(256));
   const Capture capture = self_capture(drawn, folder_for("sun"), {.map = true});
   expect_same_ladder(drawn, judge(capture));
-  const auto read = compare::read_capture(write_json(capture, folder_for("sun")));
+  const auto read = judge::read_capture(write_json(capture, folder_for("sun")));
   ASSERT_TRUE(read) << read.error().message();
   expect_same_ladder(drawn, judge(*read));
 }
@@ -82,7 +82,7 @@ TEST(JudgeOutputs, AreWholeWithAMapAndWithout) {
     ASSERT_TRUE(judged.result) << reason(judged);
     const std::string folder = folder_for(map ? "report-map" : "report-plain");
     std::filesystem::create_directories(folder);
-    const auto written = compare::write_outputs(*judged.result, {.folder = folder});
+    const auto written = report::write_outputs(*judged.result, {.folder = folder});
     ASSERT_TRUE(written) << written.error().message();
     const nlohmann::json result = nlohmann::json::parse(std::ifstream(folder + "/result.json"));
     EXPECT_EQ(SchemaCheck(schema).violations(result), std::vector<std::string>{});
@@ -268,7 +268,7 @@ TEST_P(JudgeConventions, AreNamedAndMended) {
     EXPECT_FALSE(refused.result) << convention.name;
     EXPECT_NE(reason(refused).find(convention.name), std::string::npos)
         << convention.name << ": " << reason(refused);
-    compare::JudgeOptions fixing;
+    judge::JudgeOptions fixing;
     fixing.fix = true;
     const JudgeOutcome mended = judge(capture, fixing);
     ASSERT_TRUE(mended.result) << convention.name << ": " << reason(mended);
@@ -295,7 +295,7 @@ Capture drawn_with_light_turned(const Compared& drawn) {
 }
 
 JudgeOutcome judge_mending(const Capture& capture, const Scene& scene) {
-  compare::JudgeOptions fixing;
+  judge::JudgeOptions fixing;
   fixing.fix = true;
   return judge(capture, scene, fixing);
 }

@@ -51,7 +51,7 @@ void identify_in(JudgeOutcome& judged) {
   ASSERT_TRUE(context);
   auto renderer = raster::Renderer::create(std::move(*context), *judged.world, plan_effects(*judged.scene));
   ASSERT_TRUE(renderer);
-  const auto done = compare::identify(*judged.result, **renderer, {});
+  const auto done = judge::identify(*judged.result, **renderer, {});
   ASSERT_TRUE(done) << done.error().message();
 }
 
@@ -128,7 +128,7 @@ TEST(JudgeIdentify, CountsTheDetachmentOfWhatIsExplainedAlone) {
       ++kept;
   }
   ASSERT_GT(kept, 0u);
-  compare::mark_unexplained(model, light);
+  judge::mark_unexplained(model, light);
   EXPECT_EQ(light.classes[static_cast<std::size_t>(compare::Label::peter_panning) - 1], kept);
   EXPECT_EQ(light.detachment.pixels, kept);
 }
@@ -136,7 +136,7 @@ TEST(JudgeIdentify, CountsTheDetachmentOfWhatIsExplainedAlone) {
 /// Judges a drawing of the scene against the scene with its sun elsewhere, and returns what is noted and identified.
 std::pair<std::string, bool> judged_under_turned_sun(double degrees) {
   const Compared drawn = draw_builtin("floating-box", picture, setting(Technique::hard, 1024, 0.6));
-  const compare::Capture capture =
+  const judge::Capture capture =
       self_capture(drawn, testing::TempDir() + "/gnomon-turned-sun", {.positions = true});
   Scene said = *load_scene("floating-box");
   said.lights.resize(1);

@@ -6,10 +6,10 @@
 namespace gnomon::test {
 namespace {
 
-using compare::BiasAngle;
-using compare::FilterName;
-using compare::StoredDepth;
-using Read = compare::FilterRead;
+using judge::BiasAngle;
+using judge::FilterName;
+using judge::StoredDepth;
+using Read = judge::FilterRead;
 using raster::Technique;
 
 /// What an Engine is made with.
@@ -44,26 +44,26 @@ void to_texture(Capture& capture) {
 
 void nothing(Engine&) {}
 void turn_rows(Capture& c) {
-  for (compare::CapturedLayer& layer : c.map)
-    layer.rows = layer.rows == compare::RowOrder::top_down ? compare::RowOrder::bottom_up
-                                                           : compare::RowOrder::top_down;
+  for (judge::CapturedLayer& layer : c.map)
+    layer.rows =
+        layer.rows == judge::RowOrder::top_down ? judge::RowOrder::bottom_up : judge::RowOrder::top_down;
 }
 void turn_sign(Capture& c) {
   c.bias->constant_depth = -c.bias->constant_depth;
 }
 std::function<void(Capture&)> stored_as(StoredDepth stored) {
   return [=](Capture& c) {
-    for (compare::CapturedLayer& layer : c.map) layer.convention = stored;
+    for (judge::CapturedLayer& layer : c.map) layer.convention = stored;
   };
 }
 std::function<void(Capture&)> said_bias(const CapturedBias& bias) {
   return [=](Capture& c) { c.bias = bias; };
 }
 void other_measure(Capture& c) {
-  for (compare::CapturedLayer& layer : c.map) layer.select->by_distance = !layer.select->by_distance;
+  for (judge::CapturedLayer& layer : c.map) layer.select->by_distance = !layer.select->by_distance;
 }
 void no_layer_bias(Capture& c) {
-  for (compare::CapturedLayer& layer : c.map) layer.bias.reset();
+  for (judge::CapturedLayer& layer : c.map) layer.bias.reset();
 }
 
 void no_reduction(Capture& c) {
@@ -130,7 +130,7 @@ const KeyCase key_cases[] = {
      [](Capture& c) { c.fade.reset(); }, "world units along the view's axis (`fade`)"},
     {"cube_layer_bias", bulb,
      [](Engine& e) {
-       for (compare::CapturedLayer& layer : e.capture.map) layer.bias = e.capture.bias;
+       for (judge::CapturedLayer& layer : e.capture.map) layer.bias = e.capture.bias;
        e.capture.map[3].bias->constant_depth = 0.4;  // the floor's
      },
      no_layer_bias, "`constant_depth` is about 0.4"},
@@ -220,13 +220,13 @@ const KeyCase key_cases[] = {
     // how it is read and drawn
     {"linear_depths",
      {},
-     [](Engine& e) { e.capture.filter = compare::CapturedFilter{.read = Read::linear_depths}; },
+     [](Engine& e) { e.capture.filter = judge::CapturedFilter{.read = Read::linear_depths}; },
      [](Capture& c) { c.filter->read = Read::nearest; },
      "`filter.read` is linear_depths"},
     {"nearest",
      {},
      nothing,
-     [](Capture& c) { c.filter = compare::CapturedFilter{.read = Read::linear_depths}; },
+     [](Capture& c) { c.filter = judge::CapturedFilter{.read = Read::linear_depths}; },
      "`filter.read` is nearest"},
     // moments
     {"vsm",
@@ -333,7 +333,7 @@ INSTANTIATE_TEST_SUITE_P(Keys, JudgeEveryKey, testing::ValuesIn(key_cases),
 // Which face of a cube is looked up is no distance's to say.
 TEST(JudgeEveryKeyOfCubes, HasNoSelect) {
   Engine engine("keys-cube-select", bulb.constant, bulb.light, bulb.stored);
-  for (compare::CapturedLayer& layer : engine.capture.map) layer.select = CapturedSelect{0.0, 9.0};
+  for (judge::CapturedLayer& layer : engine.capture.map) layer.select = CapturedSelect{0.0, 9.0};
   EXPECT_NE(reason(engine.judged()).find("map[0].select: is not of a cube"), std::string::npos);
 }
 
@@ -345,7 +345,7 @@ TEST(JudgeEveryKeyOfFilters, NamesAFilterThatIsNotSaid) {
   Capture capture = self_capture(drawn, folder_for("keys-pcf"), {.map = true});
   for (const double radius : {5.5, 0.0}) {
     capture.filter =
-        radius > 0.0 ? compare::CapturedFilter{compare::FilterName::pcf, radius} : compare::CapturedFilter{};
+        radius > 0.0 ? judge::CapturedFilter{judge::FilterName::pcf, radius} : judge::CapturedFilter{};
     const JudgeOutcome judged = judge(capture, *drawn.scene);
     ASSERT_TRUE(judged.result) << reason(judged);
     EXPECT_EQ(notes_in(judged).find("(`filter.kind` pcf, `filter.radius_texels` 5.5)") != std::string::npos,

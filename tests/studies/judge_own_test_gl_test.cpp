@@ -7,9 +7,9 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
 using compare::Label;
-using compare::StoredDepth;
+using judge::Capture;
+using judge::StoredDepth;
 
 std::uint64_t called(const JudgeOutcome& judged, Label label) {
   return judged.result->lights[0].classes[static_cast<std::size_t>(label) - 1];
@@ -93,10 +93,10 @@ TEST(JudgeOwnTest, AContactShadowTakesNoAdviceAway) {
 TEST(JudgeAdvice, GivesEachLayerAConstantOfItsOwn) {
   Engine engine("layers", 0.002);
   Capture& capture = engine.capture;
-  capture.map.assign(2, compare::CapturedLayer(capture.map[0]));
-  capture.map[0].select = compare::CapturedSelect{0.0, 5.6};
-  capture.map[1].select = compare::CapturedSelect{5.6, 1e3};
-  capture.map[1].bias = compare::CapturedBias{.constant_depth = 0.06};
+  capture.map.assign(2, judge::CapturedLayer(capture.map[0]));
+  capture.map[0].select = judge::CapturedSelect{0.0, 5.6};
+  capture.map[1].select = judge::CapturedSelect{5.6, 1e3};
+  capture.map[1].bias = judge::CapturedBias{.constant_depth = 0.06};
   draw_again(capture, engine.drawn);
   const JudgeOutcome judged = engine.judged();
   ASSERT_TRUE(judged.result) << reason(judged);
@@ -112,7 +112,7 @@ TEST(JudgeAdvice, GivesEachLayerAConstantOfItsOwn) {
   EXPECT_NE(advice_text(advice).find(" texel)"), std::string::npos) << advice_text(advice);
   // Taken, it leaves what is promised.
   for (const compare::AdvisedSetting& layer : advice.layers)
-    capture.map[1].bias = compare::CapturedBias{.constant_depth = layer.instead};
+    capture.map[1].bias = judge::CapturedBias{.constant_depth = layer.instead};
   capture.bias->constant_depth = advice.instead;
   draw_again(capture, engine.drawn);
   const JudgeOutcome taken = engine.judged();
@@ -124,14 +124,14 @@ TEST(JudgeAdvice, GivesEachLayerAConstantOfItsOwn) {
 TEST(JudgeOwnTest, NamesSelectWhereAFewPixelsLookAnotherLayerUp) {
   Engine engine("another-layer", 0.002);
   Capture& capture = engine.capture;
-  capture.map.assign(2, compare::CapturedLayer(capture.map[0]));
-  capture.map[0].select = compare::CapturedSelect{0.0, 6.0};
-  capture.map[1].select = compare::CapturedSelect{6.0, 1e3};
-  capture.map[1].bias = compare::CapturedBias{.constant_depth = 0.06};
+  capture.map.assign(2, judge::CapturedLayer(capture.map[0]));
+  capture.map[0].select = judge::CapturedSelect{0.0, 6.0};
+  capture.map[1].select = judge::CapturedSelect{6.0, 1e3};
+  capture.map[1].bias = judge::CapturedBias{.constant_depth = 0.06};
   draw_again(capture, engine.drawn);
   const char* words = "`map[].select` of gnomon/capture/2";
   EXPECT_EQ(notes_in(engine.judged()).find(words), std::string::npos);
-  for (compare::CapturedLayer& layer : capture.map) layer.select.reset();
+  for (judge::CapturedLayer& layer : capture.map) layer.select.reset();
   const JudgeOutcome judged = engine.judged();
   ASSERT_TRUE(judged.result) << reason(judged);
   EXPECT_NE(notes_in(judged).find(words), std::string::npos)
@@ -143,9 +143,9 @@ TEST(JudgeOwnTest, NamesSelectWhereAFewPixelsLookAnotherLayerUp) {
 TEST(JudgeAdvice, GivesLayersOneConstantInTexels) {
   Engine engine("texels", 0.0);
   Capture& capture = engine.capture;
-  capture.map.assign(2, compare::CapturedLayer(capture.map[0]));
-  capture.map[0].select = compare::CapturedSelect{0.0, 5.6};
-  capture.map[1].select = compare::CapturedSelect{5.6, 1e3};
+  capture.map.assign(2, judge::CapturedLayer(capture.map[0]));
+  capture.map[0].select = judge::CapturedSelect{0.0, 5.6};
+  capture.map[1].select = judge::CapturedSelect{5.6, 1e3};
   // The second keeps its texels, in a hundred times the depths.
   constexpr float times = 100.0f;
   capture.map[1].depth += ".deep.exr";
@@ -170,7 +170,7 @@ TEST(JudgeAdvice, GivesLayersOneConstantInTexels) {
       << advice_text(advice);
   // Taken, it leaves what is promised.
   capture.bias->constant_depth = advice.instead;
-  capture.map[1].bias = compare::CapturedBias{.constant_depth = advice.layers[0].instead};
+  capture.map[1].bias = judge::CapturedBias{.constant_depth = advice.layers[0].instead};
   draw_again(capture, engine.drawn);
   const JudgeOutcome taken = engine.judged();
   ASSERT_TRUE(taken.result) << reason(taken);
@@ -210,7 +210,7 @@ TEST(JudgeAdvice, OfAFilterDoesNotRaiseTheMeanError) {
     map.bias.constant = constant, map.filter.radius_texels = 3.5;
     const Compared drawn = draw_scene(hovering_box("sun"), small_picture, map);
     Capture capture = self_capture(drawn, folder_for("own-mean"), {.map = true});
-    capture.filter = compare::CapturedFilter{compare::FilterName::pcf, 3.5};
+    capture.filter = judge::CapturedFilter{judge::FilterName::pcf, 3.5};
     const JudgeOutcome judged = judge(capture, *drawn.scene);
     ASSERT_TRUE(judged.result) << reason(judged);
     EXPECT_TRUE(judged.result->judged->advice_sought);
@@ -264,7 +264,7 @@ TEST_P(JudgeCasterBias, IsFoundChargedToTheBiasAndAdvisedOn) {
     EXPECT_NEAR(advice.back().now, c.slope, 0.01 * c.slope);
   }
   engine.capture.map[0].caster_bias =
-      compare::CapturedCasterBias{.constant_world = c.constant_world, .slope = c.slope};
+      judge::CapturedCasterBias{.constant_world = c.constant_world, .slope = c.slope};
   const JudgeOutcome given = engine.judged();
   expect_judged_as(given, found);
   EXPECT_EQ(notes_in(given).find("the map was drawn with "), std::string::npos) << notes_in(given);
@@ -294,7 +294,7 @@ TEST(JudgeCubeBias, IsSaidByTheDirectionsOfTheFaces) {
 
 /// The capture as a renderer hands it over whose places are `captured_from_scene` times the scene's.
 void turn_world(Capture& capture, const Mat3& captured_from_scene, bool positions = true) {
-  for (compare::CapturedLayer& layer : capture.map)
+  for (judge::CapturedLayer& layer : capture.map)
     *layer.clip_from_world *= Mat4(glm::inverse(captured_from_scene));
   if (!positions) return;
   spoil(capture.position, [&](ChannelImage& image) {

@@ -7,10 +7,10 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
-using compare::PixelDepth;
-using compare::RowOrder;
-using compare::StoredDepth;
+using judge::Capture;
+using judge::PixelDepth;
+using judge::RowOrder;
+using judge::StoredDepth;
 using raster::Technique;
 
 struct Kind {
@@ -21,7 +21,7 @@ struct Kind {
 
 std::string name_of(const Kind& kind) {
   return kind.light + (kind.technique == Technique::csm ? "_cascades_" : "_") +
-         std::string(compare::convention_of(kind.stored).name);
+         std::string(judge::convention_of(kind.stored).name);
 }
 
 std::vector<Kind> kinds(bool distances) {
@@ -92,8 +92,7 @@ TEST_P(JudgeOtherTests, AreClimbedToWhatTheyDrew) {
         self_capture(drawn, folder_for("other-" + name_of(kind)),
                      {.positions = false, .mask = true, .map = true, .stored = kind.stored, .rows = rows});
     const bool world = kind.stored == StoredDepth::distance;
-    capture.bias =
-        compare::CapturedBias{.constant_depth = world ? 0.03 : 0.0004, .normal_offset_world = 0.01};
+    capture.bias = judge::CapturedBias{.constant_depth = world ? 0.03 : 0.0004, .normal_offset_world = 0.01};
     if (kind.technique != Technique::csm) std::reverse(capture.map.begin(), capture.map.end());
     draw_again(capture, drawn);
     const JudgeOutcome judged = judge(capture, *drawn.scene);
@@ -122,7 +121,7 @@ TEST(JudgeSides, BacksOfSingleSidedMaterialsAreFoundInTheMap) {
 
 // ---- where the pixels are, and two pictures for one ----
 
-using compare::CapturedDepth;
+using judge::CapturedDepth;
 
 class JudgeCameraDepths : public testing::Test {
  protected:
@@ -138,7 +137,7 @@ TEST_F(JudgeCameraDepths, OfEveryConventionGiveTheSameVerdict) {
         CapturedDepth{"", PixelDepth::zero_to_one, 0.1, 200.0},
         CapturedDepth{"", PixelDepth::reversed, 0.1, 200.0},
         CapturedDepth{"", PixelDepth::reversed, 0.1, {}}}) {
-    const std::string_view name = compare::pixel_depth_names[static_cast<std::size_t>(*depth.convention)];
+    const std::string_view name = judge::pixel_depth_names[static_cast<std::size_t>(*depth.convention)];
     const JudgeOutcome judged = judge(capture(depth), *drawn_.scene);
     ASSERT_TRUE(judged.result) << name << ": " << reason(judged);
     EXPECT_GT(share_as_drawn(judged), 1.0 - border_share) << name;
@@ -159,7 +158,7 @@ TEST_F(JudgeCameraDepths, AlongTheRayForThoseAlongTheAxisAreNamed) {
     wrong.depth->convention = said;
     EXPECT_NE(reason(judge(wrong, *drawn_.scene)).find("along the ray"), std::string::npos)
         << reason(judge(wrong, *drawn_.scene));
-    compare::JudgeOptions fixing;
+    judge::JudgeOptions fixing;
     fixing.fix = true;
     EXPECT_TRUE(judge(wrong, *drawn_.scene, fixing).result);
   }
@@ -210,7 +209,7 @@ TEST(JudgeOrthographic, HalfTheHeightForTheWholeIsNamedAndMended) {
     ASSERT_FALSE(refused.result);
     EXPECT_NE(reason(refused).find(factor < 1.0 ? "for half of it" : "for the whole"), std::string::npos)
         << reason(refused);
-    compare::JudgeOptions fixing;
+    judge::JudgeOptions fixing;
     fixing.fix = true;
     const JudgeOutcome mended = judge(capture, parallel_scene(), fixing);
     ASSERT_TRUE(mended.result) << reason(mended);
@@ -248,7 +247,7 @@ TEST(JudgeRatios, OfExchangedPicturesAreNamed) {
     ASSERT_TRUE(right.result) << reason(right);
     std::swap(capture.shadowed, capture.unshadowed);
     EXPECT_NE(reason(judge(capture, *drawn.scene)).find("are exchanged"), std::string::npos);
-    compare::JudgeOptions fixing;
+    judge::JudgeOptions fixing;
     fixing.fix = true;
     const JudgeOutcome mended = judge(capture, *drawn.scene, fixing);
     ASSERT_TRUE(mended.result) << reason(mended);

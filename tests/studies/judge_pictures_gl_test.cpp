@@ -14,8 +14,8 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
 using compare::Label;
+using judge::Capture;
 using raytrace::SurfacePoint;
 
 // ---- two screenshots ----
@@ -190,7 +190,7 @@ TEST(TwoScreenshots, OfAnotherViewAreRefusedForThatReason) {
     });
   EXPECT_NE(reason(judge(capture, *drawn.scene)).find("the picture is upside down"), std::string::npos)
       << reason(judge(capture, *drawn.scene));
-  compare::JudgeOptions fixing;
+  judge::JudgeOptions fixing;
   fixing.fix = true;
   EXPECT_TRUE(judge(capture, *drawn.scene, fixing).result);
   // A little to the side: no convention explains it, and none is named.
@@ -250,7 +250,7 @@ Scene with_plate() {
 /// below it by more than a thousandth along the ray.
 Capture traced(const Compared& drawn, const std::string& name, double offset, double skipped = 0.0) {
   Capture out = self_capture(drawn, folder_for(name), {.positions = false});
-  out.kind = compare::RendererKind::ray_tracer;
+  out.kind = judge::RendererKind::ray_tracer;
   const Light& light = drawn.scene->lights[drawn.light().light];
   const raytrace::Tracer tracer(*drawn.world, raytrace::Accel::bvh);
   spoil(out.visibility, [&](ChannelImage& image) {

@@ -11,8 +11,8 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
 using compare::Label;
+using judge::Capture;
 
 std::string all_notes(const JudgeOutcome& judged) {
   return judged.result ? fmt::format("{}", fmt::join(judged.result->judged->notes, "\n")) : reason(judged);
@@ -87,7 +87,7 @@ Scene coarse_ball() {
 TEST(RayTracers, TheTerminatorIsNamed) {
   const Compared drawn = draw_scene(coarse_ball(), small_picture, hard_map(64));
   Capture capture = self_capture(drawn, folder_for("terminator"), {.positions = false});
-  capture.kind = compare::RendererKind::ray_tracer;
+  capture.kind = judge::RendererKind::ray_tracer;
   const Light& light = drawn.scene->lights[drawn.light().light];
   const raytrace::Tracer tracer(*drawn.world, raytrace::Accel::bvh);
   spoil(capture.visibility, [&](ChannelImage& image) {

@@ -14,7 +14,7 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
+using judge::Capture;
 
 std::string schema_folder() {
   const std::string path = testing::TempDir() + "/gnomon-capture-schema";
@@ -26,10 +26,10 @@ std::string schema_folder() {
 std::pair<bool, bool> taken(const nlohmann::json& capture) {
   const std::string file = schema_folder() + "/schema.json";
   EXPECT_TRUE(write_file(file, capture.dump()));
-  const auto read = compare::read_capture(file);
+  const auto read = judge::read_capture(file);
   std::ifstream schema(source_dir() + "/judge/capture.schema.json");
   return {SchemaCheck(nlohmann::json::parse(schema)).violations(capture).empty(),
-          read && compare::check_capture(*read)};
+          read && judge::check_capture(*read)};
 }
 
 TEST(CaptureSchema, TakesWhatTheReaderTakes) {
@@ -163,7 +163,7 @@ TEST(CaptureSchema, TakesSeveralLightsThatShareTheRest) {
   SchemaCheck check(Json::parse(schema));
   const auto read_of = [&](const Json& capture) {
     EXPECT_TRUE(write_file(file, capture.dump()));
-    return compare::read_captures(file);
+    return judge::read_captures(file);
   };
   const auto read = read_of(several);
   ASSERT_TRUE(read) << read.error().message();
@@ -174,16 +174,16 @@ TEST(CaptureSchema, TakesSeveralLightsThatShareTheRest) {
   for (const Capture& light : *read) EXPECT_EQ(light.position, schema_folder() + "/p.exr");
   // By name; then by place in the list.
   for (const auto& [said, light] : {std::pair{"lamp", "lamp"}, {"1", "1"}, {"0", "sun"}, {"2", "lamp"}})
-    EXPECT_EQ(compare::read_capture(file, said)->light, light) << said;
-  EXPECT_NE(compare::read_capture(file).error().message().find(
+    EXPECT_EQ(judge::read_capture(file, said)->light, light) << said;
+  EXPECT_NE(judge::read_capture(file).error().message().find(
                 "lights: has 3 lights, and one is wanted (allowed sun, 1, lamp)"),
             std::string::npos);
-  EXPECT_NE(compare::read_capture(file, "moon").error().message().find("has no such light (got moon"),
+  EXPECT_NE(judge::read_capture(file, "moon").error().message().find("has no such light (got moon"),
             std::string::npos);
   several["lights"][1].erase("visibility");
   const auto lacks = read_of(several);
   ASSERT_TRUE(lacks);
-  EXPECT_NE(compare::check_capture((*lacks)[1]).error().message().find("lights[1].visibility: is missing"),
+  EXPECT_NE(judge::check_capture((*lacks)[1]).error().message().find("lights[1].visibility: is missing"),
             std::string::npos);
   several["lights"][1]["visibility"] = "l.exr";
   for (const auto& [path, value] :
@@ -213,7 +213,7 @@ TEST(CaptureSchema, OfVersion1HasNoKeysOfVersion2) {
        R"("map": [{"depth": "z.exr", "convention": "reversed", "rows": "top_down", "caster_bias": {"slope": 1},
  "clip_from_world": [1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}]})"}) {
     ASSERT_TRUE(write_file(file, head + key));
-    const auto read = compare::read_capture(file);
+    const auto read = judge::read_capture(file);
     ASSERT_FALSE(read) << key;
     EXPECT_NE(read.error().message().find("needs \"schema\": \"gnomon/capture/2\""), std::string::npos)
         << read.error().message();
@@ -225,7 +225,7 @@ TEST(CaptureSchema, UnknownKeysAreRefusedWithLineAndColumn) {
   ASSERT_TRUE(write_file(file,
                          "{\"schema\": \"gnomon/capture/1\", \"renderer\": {\"name\": \"x\"},\n"
                          " \"scene\": \"fence\", \"size\": [64, 36], \"visibilty\": \"v.exr\"}\n"));
-  const auto read = compare::read_capture(file);
+  const auto read = judge::read_capture(file);
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().message().find(":2:38: visibilty: unknown key"), std::string::npos)
       << read.error().message();
@@ -241,7 +241,7 @@ TEST(CaptureSchema, UnknownKeysAreRefusedWithLineAndColumn) {
                                      "\"scene\": \"fence\", \"size\": [64, 36], \"visibility\": \"v.exr\", "
                                      "\"{}\": 1}}",
                                      key)));
-    const auto refused = compare::read_capture(file);
+    const auto refused = judge::read_capture(file);
     ASSERT_FALSE(refused) << key;
     EXPECT_NE(refused.error().message().find(words), std::string::npos) << refused.error().message();
   }

@@ -9,8 +9,8 @@
 namespace gnomon::test {
 namespace {
 
-using compare::JudgedRow;
-using compare::JudgedSet;
+using judge::JudgedRow;
+using judge::JudgedSet;
 
 JudgedRow judged_as(const std::string& name, std::uint64_t compared, double wrong) {
   JudgedRow row;
@@ -26,7 +26,7 @@ JudgedSet set_of_four() {
 }
 
 TEST(JudgedSets, ListWhatWasNotComparedBelowWhatWas) {
-  const std::string table = compare::judged_table(set_of_four());
+  const std::string table = judge::judged_table(set_of_four());
   std::size_t before = 0;
   for (const char* name : {"\n50%25 ", "\nshot#1 ", "\nnothing ", "\nrefused "}) {
     const std::size_t at = table.find(name, before);
@@ -41,7 +41,7 @@ TEST(JudgedSets, ListWhatWasNotComparedBelowWhatWas) {
 TEST(JudgedSets, LinkToFoldersOfAnyName) {
   const std::string folder = testing::TempDir() + "/gnomon-judged-sets";
   std::filesystem::create_directories(folder);
-  ASSERT_TRUE(compare::write_judged_set(set_of_four(), folder));
+  ASSERT_TRUE(judge::write_judged_set(set_of_four(), folder));
   const auto page = read_file(folder + "/report.html");
   ASSERT_TRUE(page);
   EXPECT_NE(page->find(R"("name":"shot#1","folder":"shot%231")"), std::string::npos);

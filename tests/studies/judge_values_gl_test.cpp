@@ -11,7 +11,7 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
+using judge::Capture;
 using raster::Technique;
 
 template <class Change>

@@ -11,8 +11,8 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
-using compare::StoredDepth;
+using judge::Capture;
+using judge::StoredDepth;
 
 struct Said {
   JudgeOutcome judged;
@@ -38,7 +38,7 @@ bool has(const std::string& text, const std::string& part) {
 TEST(WordsOfACapture, SayItsFiltersParametersAlone) {
   const Compared drawn = draw_scene(scene_under("sun"), small_picture, hard_map(128));
   Capture capture = self_capture(drawn, folder_for("words-evsm"), {.map = true});
-  capture.filter->kind = compare::FilterName::evsm, capture.filter->exponents = {15.0};
+  capture.filter->kind = judge::FilterName::evsm, capture.filter->exponents = {15.0};
   capture.filter->light_bleeding_reduction = 0.1;
   store_moments(capture);
   const Said said = said_of(capture, *drawn.scene);
@@ -54,7 +54,7 @@ TEST(WordsOfACapture, SayItsFiltersParametersAlone) {
 TEST(WordsOfACapture, SayNoKernelThatItDoesNot) {
   const Compared drawn = draw_scene(scene_under("sun"), small_picture, hard_map(128));
   Capture capture = self_capture(drawn, folder_for("words-pcf"), {.map = true});
-  capture.filter->kind = compare::FilterName::pcf;
+  capture.filter->kind = judge::FilterName::pcf;
   const Said said = said_of(capture, *drawn.scene);
   EXPECT_EQ(said.filter, "pcf, radius 1.5 texels");
   EXPECT_EQ(said.json["filter"]["kind"], "pcf");

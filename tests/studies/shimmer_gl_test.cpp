@@ -11,9 +11,9 @@ namespace {
 
 using compare::CameraPath;
 using compare::LightPath;
-using compare::Shimmer;
-using compare::ShimmerOptions;
-using compare::TemporalSums;
+using studies::Shimmer;
+using studies::ShimmerOptions;
+using studies::TemporalSums;
 
 ShimmerOptions film_options(ImageSize size, int map_size, int frames) {
   ShimmerOptions options;
@@ -23,9 +23,9 @@ ShimmerOptions film_options(ImageSize size, int map_size, int frames) {
   return options;
 }
 
-Shimmer film(OneWorld& one, const ShimmerOptions& options, const compare::FrameSink& sink = {}) {
+Shimmer film(OneWorld& one, const ShimmerOptions& options, const studies::FrameSink& sink = {}) {
   auto made =
-      compare::film_shimmer(one.world, one.scene, *one.renderer, every_light(one.scene), options, sink);
+      studies::film_shimmer(one.world, one.scene, *one.renderer, every_light(one.scene), options, sink);
   if (!made) throw std::runtime_error(made.error().message());
   return std::move(*made);
 }
@@ -95,7 +95,7 @@ TEST(Shimmer, SnappedWarpHoldsStillBetweenSteps) {
     options.compare.raster.map.snap = snap;
     options.path.camera = CameraPath::walk;
     std::vector<LightFace> windows;
-    Shimmer film_made = film(one, options, [&](const compare::ShimmerFrame& frame) {
+    Shimmer film_made = film(one, options, [&](const studies::ShimmerFrame& frame) {
       windows.push_back(frame.drawn.lights[0].map.view.face(0));
       return Expected<void>{};
     });
@@ -136,7 +136,7 @@ TEST(Shimmer, BudgetAddsUpAndFlipsHaveLabels) {
     options.path.light = LightPath::orbit;
     const Shimmer moved = film(one, options);
     ASSERT_EQ(moved.lights.size(), 3u);
-    for (const compare::ShimmerLight& light : moved.lights) {
+    for (const studies::ShimmerLight& light : moved.lights) {
       const TemporalSums& total = light.temporal.total();
       double steps = 0.0;
       for (const double step : total.signed_sum) steps += step;
@@ -162,7 +162,7 @@ TEST(Shimmer, FirstFrameIsThePicturesOwn) {
         raster::FilterKernel::vogel;  // turned by another angle at every pixel
     options.path.light = LightPath::orbit;
     Image<float> first;
-    film(one, options, [&](const compare::ShimmerFrame& frame) {
+    film(one, options, [&](const studies::ShimmerFrame& frame) {
       if (frame.frame == 0) first = frame.drawn.lights[0].visibility;
       return Expected<void>{};
     });
@@ -236,7 +236,7 @@ TEST(Shimmer, StraightEdgeUnderADriftingMap) {
       Vec2 n(0.0);
       const double angle = degrees * pi / 180.0;
       const Vec3 normal(std::cos(angle), 0.0, std::sin(angle)), along(-std::sin(angle), 0.0, std::cos(angle));
-      const Shimmer moved = film(one, options, [&](const compare::ShimmerFrame& frame) {
+      const Shimmer moved = film(one, options, [&](const studies::ShimmerFrame& frame) {
         const LightFace& face = frame.drawn.lights[0].map.view.face(0);
         EXPECT_NEAR(face.half_extent.x, face.half_extent.y, 1e-9);
         texel = 2.0 * face.half_extent.x / 512.0;

@@ -123,30 +123,30 @@ TEST(ShimmerPath, ADirectionThatPassesThroughZeroIsTold) {
 TEST(ShimmerFlip, HasTheLabelOfItsWrongEnd) {
   using Rungs = std::array<float, compare::rung_count>;
   const Rungs lit{1, 1, 1, 1, 1, 1, 1}, aliased{1, 1, 0, 0, 0, 0, 0}, cured_acne{1, 1, 1, 0, 0, 1, 1};
-  EXPECT_EQ(compare::flip_cause(lit, aliased), Cause::sampling);
-  EXPECT_EQ(compare::flip_cause(aliased, lit), Cause::sampling);
+  EXPECT_EQ(studies::flip_cause(lit, aliased), Cause::sampling);
+  EXPECT_EQ(studies::flip_cause(aliased, lit), Cause::sampling);
   // The acne that the bias cures is no part of what makes the shadow false in the next frame.
-  EXPECT_EQ(compare::flip_cause(cured_acne, aliased), Cause::sampling);
+  EXPECT_EQ(studies::flip_cause(cured_acne, aliased), Cause::sampling);
   const Rungs acne{1, 1, 1, 0, 0, 0, 0}, leak{0, 0, 0, 0, 0, 1, 1};
-  EXPECT_EQ(compare::flip_cause(acne, lit), Cause::slope);
-  EXPECT_EQ(compare::flip_cause({0, 0, 0, 0, 0, 0, 0}, leak), Cause::bias);
+  EXPECT_EQ(studies::flip_cause(acne, lit), Cause::slope);
+  EXPECT_EQ(studies::flip_cause({0, 0, 0, 0, 0, 0, 0}, leak), Cause::bias);
   // Less than one half wrong at both ends.
   const Rungs darker{0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.125f},
       lighter{0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.875f};
-  EXPECT_EQ(compare::flip_cause(darker, lighter), Cause::filter);
+  EXPECT_EQ(studies::flip_cause(darker, lighter), Cause::filter);
 }
 
 TEST(ShimmerJson, FitsItsSchema) {
   OneWorld one(boxes_under_three_lights());
-  compare::ShimmerOptions options;
+  studies::ShimmerOptions options;
   options.compare.raster.size = {48, 32};
   options.compare.raster.map.size = 64;
   options.time.frames = 4;
   options.path.camera = CameraPath::drift;
   const auto film =
-      compare::film_shimmer(one.world, one.scene, *one.renderer, every_light(one.scene), options);
+      studies::film_shimmer(one.world, one.scene, *one.renderer, every_light(one.scene), options);
   ASSERT_TRUE(film);
-  const auto json = nlohmann::json::parse(compare::shimmer_json(*film, {"gnomon shimmer", 0, 1.0}));
+  const auto json = nlohmann::json::parse(studies::shimmer_json(*film, {"gnomon shimmer", 0, 1.0}));
   std::ifstream schema(source_dir() + "/studies/shimmer/shimmer.schema.json");
   for (const std::string& violation : SchemaCheck(nlohmann::json::parse(schema)).violations(json))
     ADD_FAILURE() << violation;
@@ -189,7 +189,7 @@ TEST(CascadeBudgets, AddUpToTheLights) {
 }
 
 // Receivers on a plane, whose neighbours to the right and below lie `right` and `down` away.
-compare::ReceiverSpacing plane_spacing(ImageSize size, const Vec2& right, const Vec2& down) {
+studies::ReceiverSpacing plane_spacing(ImageSize size, const Vec2& right, const Vec2& down) {
   const auto all = [&](double value) {
     Image<float> out(size, static_cast<float>(value));
     for (int k = 0; k < size.width; ++k) out.at(k, size.height - 1) = out.at(size.width - 1, k) = 0.0f;
@@ -204,9 +204,9 @@ compare::ReceiverSpacing plane_spacing(ImageSize size, const Vec2& right, const 
 double speed_of_edge(const Vec2& right, const Vec2& down, const Vec2& n, double speed) {
   const ImageSize size{160, 160};
   const int frames = 9;
-  compare::TemporalBudget budget(size, frames, plane_spacing(size, right, down), 1);
+  studies::TemporalBudget budget(size, frames, plane_spacing(size, right, down), 1);
   for (int frame = 0; frame < frames; ++frame) {
-    compare::RungFrame rungs;
+    studies::RungFrame rungs;
     const Image<std::uint8_t> none(size, 0);
     rungs.counted = Image<std::uint8_t>(size, 1), rungs.outside = rungs.face = none;
     Image<float> lit(size, 0.0f);

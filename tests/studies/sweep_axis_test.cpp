@@ -3,7 +3,7 @@
 
 #include "studies/sweep/axis.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -81,4 +81,4 @@ TEST(Grid, ZipPairsAxesOfOneLength) {
 }
 
 }  // namespace
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 TEST(CellPictures, EveryCellNamesItsTruthWhateverTheOrderOfTheJobs) {
   OneWorld world(test::boxes_under_three_lights());
-  compare::Engine engine(world.scene, world.world, *world.renderer, false);
+  studies::Engine engine(world.scene, world.world, *world.renderer, false);
   compare::Setting setting;
   setting.raster.size = setting.raytrace.size = {64, 36};
   setting.raster.runs = 0;
@@ -35,7 +35,7 @@ TEST(CellPictures, EveryCellNamesItsTruthWhateverTheOrderOfTheJobs) {
   std::vector<app::CellPictureWriter::Job> jobs;
   for (std::size_t cell = 0; cell < 3; ++cell) {
     setting.raster.map.bias = {0.01 * static_cast<double>(cell), raster::BiasUnit::texel};
-    const auto compared = engine.compare(setting, compare::Detail::numbers);
+    const auto compared = engine.compare(setting, studies::Detail::numbers);
     ASSERT_TRUE(compared);
     jobs.push_back(writer.pictures(cell, **compared));
   }
@@ -51,13 +51,13 @@ TEST(CellPictures, EveryCellNamesItsTruthWhateverTheOrderOfTheJobs) {
   }
   std::size_t truths = 0;
   std::string truth;
-  for (const auto& file : fs::directory_iterator(compare::cells_folder(folder.path())))
+  for (const auto& file : fs::directory_iterator(studies::cells_folder(folder.path())))
     if (const std::string name = file.path().stem().string(); name.starts_with("truth-"))
       ++truths, truth = name;
   EXPECT_EQ(truths, 1u);
   for (std::size_t cell = 0; cell < jobs.size(); ++cell) {
     const std::string data =
-        bytes_of(fs::path(compare::cells_folder(folder.path())) / (compare::cell_name(cell) + ".js"));
+        bytes_of(fs::path(studies::cells_folder(folder.path())) / (studies::cell_name(cell) + ".js"));
     EXPECT_NE(data.find("\"truth\":\"" + truth + '"'), std::string::npos)
         << "cell " << cell << ": " << data.substr(0, 120);
   }

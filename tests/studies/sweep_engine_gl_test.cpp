@@ -11,8 +11,8 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Engine;
 using compare::Setting;
+using studies::Engine;
 
 constexpr ImageSize size{240, 135};
 
@@ -43,7 +43,7 @@ struct SweepRun {
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) first.compared.push_back(i);
   }
 
-  std::string swept(const Setting& setting, compare::Detail detail = compare::Detail::images) {
+  std::string swept(const Setting& setting, studies::Detail detail = studies::Detail::images) {
     const auto result = engine.compare(setting, detail);
     if (!result) return result.error().message();
     return compare::result_line(**result, {});
@@ -252,7 +252,7 @@ TEST(Engine, BiasAxisEqualsDrawnFrames) {
     shop.engine.expect_biases(biases);
     for (const raster::Bias& bias : biases) {
       setting.raster.map.bias = bias;
-      EXPECT_EQ(shop.swept(setting, compare::Detail::numbers), shop.alone(setting))
+      EXPECT_EQ(shop.swept(setting, studies::Detail::numbers), shop.alone(setting))
           << "bias " << bias.constant;
       EXPECT_TRUE(shop.engine.last_was_derived());
     }

@@ -3,7 +3,7 @@
 
 #include "studies/sweep/headline.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 CellSummary cell(std::size_t index, double error, double ms, double spread, std::uint64_t texels) {
@@ -56,7 +56,7 @@ TEST(ParetoFront, CellsOfOneDrawingAreOnNone) {
 TEST(SweepHeadline, SaysWhatTheBestCellsShadowsCostOnBothSides) {
   std::vector<CellSummary> cells{cell(0, 0.10, 10.0, 1.0, 64), cell(1, 0.02, 12.0, 1.0, 128)};
   const TimeDifference map = with_spread({{4.0, 4.0, 4.0}}), rays = with_spread({{7.0, 7.0, 7.0}});
-  cells[1].costs = ShadowCosts{{map, rays}, {map, rays}, {map, {}}};
+  cells[1].costs = compare::ShadowCosts{{map, rays}, {map, rays}, {map, {}}};
   const std::vector<std::string> lines = sweep_headline(cells, pareto_front(cells), {}).lines();
   ASSERT_EQ(lines.size(), 6u);
   EXPECT_EQ(lines[3], "Shadows of cell 1, nothing moves: 4 ms by the map, 7 ms by rays.");
@@ -75,7 +75,8 @@ TEST(ParetoFront, UntimedCellsAreOnNone) {
 TEST(SweepHeadline, NamesTheBestForErrorForTimeAndForBoth) {
   const std::vector<CellSummary> cells{cell(0, 0.10, 10.0, 1.0, 64), cell(1, 0.02, 12.0, 1.0, 128),
                                        cell(2, 0.01, 90.0, 1.0, 256)};
-  const Headline said = sweep_headline(cells, pareto_front(cells), Threshold{find_measure("wrong"), 0.05});
+  const Headline said =
+      sweep_headline(cells, pareto_front(cells), compare::Threshold{compare::find_measure("wrong"), 0.05});
   const std::vector<std::string> lines = said.lines();
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(lines[0],
@@ -85,7 +86,9 @@ TEST(SweepHeadline, NamesTheBestForErrorForTimeAndForBoth) {
   EXPECT_TRUE(lines[2].starts_with("Best for time: cell 0 ")) << lines[2];
   EXPECT_TRUE(lines[3].starts_with("Best for both (least product of error and time): cell 1 ")) << lines[3];
   EXPECT_TRUE(said.limit_met);
-  EXPECT_FALSE(sweep_headline(cells, pareto_front(cells), Threshold{find_measure("mean"), 0.005}).limit_met);
+  EXPECT_FALSE(
+      sweep_headline(cells, pareto_front(cells), compare::Threshold{compare::find_measure("mean"), 0.005})
+          .limit_met);
 }
 
 TEST(SweepHeadline, SaysThatTimesWithinTheirSpreadAreEqual) {
@@ -111,4 +114,4 @@ TEST(SweepWords, ShortenLongNumbersAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

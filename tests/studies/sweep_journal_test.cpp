@@ -16,7 +16,7 @@
 #include "studies/sweep/rounds.h"
 #include "tests/support/temporary_folder.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 namespace fs = std::filesystem;
@@ -115,7 +115,7 @@ nlohmann::ordered_json further(std::size_t cell, double ms) {
   drawn.map_pass.runs = drawn.shade_pass.runs = {ms};
   drawn.unshadowed_pass.runs = {1.0};
   drawn.strips = {{{{ms}}, {{1.0}}}};
-  MachineInfo machine;
+  compare::MachineInfo machine;
   machine.load = ms;
   return round_json({drawn}, cell, machine);
 }
@@ -459,4 +459,4 @@ TEST_F(JournalTest, ReadsBackWhatItWrote) {
 }
 
 }  // namespace
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

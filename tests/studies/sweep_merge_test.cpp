@@ -12,7 +12,7 @@
 #include "studies/sweep/page.h"
 #include "tests/support/scene_files_support.h"
 
-namespace gnomon::compare {
+namespace gnomon::studies {
 namespace {
 
 namespace fs = std::filesystem;
@@ -189,4 +189,4 @@ TEST_F(MergeTest, AnEditedLineInTheFolderIsNotReplaced) {
 }
 
 }  // namespace
-}  // namespace gnomon::compare
+}  // namespace gnomon::studies

@@ -14,12 +14,12 @@
 namespace gnomon::test {
 namespace {
 
-using compare::GridCheck;
-using compare::Probe;
 using compare::Setting;
-using compare::TuneFamily;
-using compare::TuneOptions;
 using raster::Technique;
+using studies::GridCheck;
+using studies::Probe;
+using studies::TuneFamily;
+using studies::TuneOptions;
 
 constexpr double allowed = 1.1;  // of the grid's best cost
 
@@ -53,14 +53,14 @@ Setting small_setting(const OneWorld& world) {
   return base;
 }
 
-GridCheck check(const std::string& scene_name, const compare::TuneGoal& goal) {
+GridCheck check(const std::string& scene_name, const studies::TuneGoal& goal) {
   auto scene = load_scene(scene_name);
   if (!scene) {
     ADD_FAILURE() << scene.error().message();
     return {};
   }
   OneWorld world(*scene);
-  compare::Engine engine(world.scene, world.world, *world.renderer, false);
+  studies::Engine engine(world.scene, world.world, *world.renderer, false);
   const Setting base = small_setting(world);
   TuneOptions options;
   options.goal = goal;
@@ -70,7 +70,7 @@ GridCheck check(const std::string& scene_name, const compare::TuneGoal& goal) {
   options.cost = cost;
   const std::vector<raster::Bias> biases{
       {0.25, raster::BiasUnit::texel}, {1.0, raster::BiasUnit::texel}, {4.0, raster::BiasUnit::texel}};
-  auto checked = check_against_grid(engine, base, options, biases, 0);
+  auto checked = studies::check_against_grid(engine, base, options, biases, 0);
   if (!checked) {
     ADD_FAILURE() << checked.error().message();
     return {};
@@ -78,14 +78,14 @@ GridCheck check(const std::string& scene_name, const compare::TuneGoal& goal) {
   return *checked;
 }
 
-compare::TuneGoal error_goal(double limit) {
-  compare::TuneGoal goal;
+studies::TuneGoal error_goal(double limit) {
+  studies::TuneGoal goal;
   goal.max_error = compare::Threshold{compare::find_measure("wrong"), limit};
   return goal;
 }
 
-compare::TuneGoal time_goal(double ms) {
-  compare::TuneGoal goal;
+studies::TuneGoal time_goal(double ms) {
+  studies::TuneGoal goal;
   goal.max_time_ms = ms;
   return goal;
 }
@@ -94,7 +94,7 @@ compare::TuneGoal time_goal(double ms) {
 // measured again, and the other way round.
 TEST(TuneAgainstGrid, WhatIsMeasuredLastDecides) {
   OneWorld world(*load_scene("floating-box"));
-  compare::Engine engine(world.scene, world.world, *world.renderer, false);
+  studies::Engine engine(world.scene, world.world, *world.renderer, false);
   TuneOptions options;
   options.goal = time_goal(5.0);
   options.sizes = {64, 128};
@@ -104,9 +104,9 @@ TEST(TuneAgainstGrid, WhatIsMeasuredLastDecides) {
     options.cost = [&](const Setting& setting, const Probe&) {
       return (drawn[setting.raster.map.size]++ == 0) == slow_first ? 9.0 : 3.0;
     };
-    const auto tuned = compare::tune(engine, small_setting(world), options);
+    const auto tuned = studies::tune(engine, small_setting(world), options);
     ASSERT_TRUE(tuned) << tuned.error().message();
-    const compare::FamilyResult& winner = tuned->families[tuned->winner];
+    const studies::FamilyResult& winner = tuned->families[tuned->winner];
     EXPECT_EQ(tuned->feasible, slow_first);
     EXPECT_EQ(winner.attempt().cost, slow_first ? 3.0 : 9.0);
     EXPECT_EQ(winner.why.find("comes nearest") == std::string::npos, slow_first) << winner.why;
@@ -119,8 +119,8 @@ TEST(TuneAgainstGrid, AnswersErrNoMoreThanTheGridsBest) {
     const GridCheck checked = check(scene, time_goal(170'000.0));
     ASSERT_TRUE(checked.best) << scene;
     ASSERT_TRUE(checked.tuned.feasible) << scene;
-    const compare::FamilyResult& winner = checked.tuned.families[checked.tuned.winner];
-    const compare::FamilyResult& best = checked.tuned.families[checked.best->family];
+    const studies::FamilyResult& winner = checked.tuned.families[checked.tuned.winner];
+    const studies::FamilyResult& best = checked.tuned.families[checked.best->family];
     std::printf("%-14s %3llu of %3llu drawings: %s %d, %.3f %% off; grid %s %d, %.3f %%\n", scene,
                 static_cast<unsigned long long>(checked.tune_drawings),
                 static_cast<unsigned long long>(checked.grid_drawings), winner.family.name.c_str(),
@@ -139,8 +139,8 @@ TEST(TuneAgainstGrid, AnswersCostNoMoreThanTheGridsBest) {
     tune_drawings += checked.tune_drawings, grid_drawings += checked.grid_drawings;
     ASSERT_TRUE(checked.best) << scene << ": no setting of the grid is good enough";
     ASSERT_TRUE(checked.tuned.feasible) << scene;
-    const compare::FamilyResult& winner = checked.tuned.families[checked.tuned.winner];
-    const compare::FamilyResult& best = checked.tuned.families[checked.best->family];
+    const studies::FamilyResult& winner = checked.tuned.families[checked.tuned.winner];
+    const studies::FamilyResult& best = checked.tuned.families[checked.best->family];
     std::printf("%-14s %3llu of %3llu drawings, ratio %.3f: %s %d; grid %s %d, %zu good\n", scene,
                 static_cast<unsigned long long>(checked.tune_drawings),
                 static_cast<unsigned long long>(checked.grid_drawings), checked.ratio(),
@@ -156,17 +156,17 @@ TEST(TuneAgainstGrid, AnswersCostNoMoreThanTheGridsBest) {
 TEST(TuneAgainstGrid, ExactTechniqueIsTakenAtItsCheapestSize) {
   const GridCheck checked = check("fence", error_goal(1e-4));
   ASSERT_TRUE(checked.tuned.feasible);
-  const compare::FamilyResult& winner = checked.tuned.families[checked.tuned.winner];
+  const studies::FamilyResult& winner = checked.tuned.families[checked.tuned.winner];
   EXPECT_EQ(winner.family.name, "izb");
   EXPECT_EQ(winner.answer->size, 64);
   EXPECT_EQ(checked.ratio(), 1.0);
 }
 
-compare::FamilyResult measured(const char* name, double error, std::vector<double> runs_ms,
+studies::FamilyResult measured(const char* name, double error, std::vector<double> runs_ms,
                                std::uint64_t texels) {
-  compare::FamilyResult out;
+  studies::FamilyResult out;
   out.family.name = name;
-  compare::Attempt answer;
+  studies::Attempt answer;
   answer.error = error, answer.times.runs = std::move(runs_ms), answer.map_texels = texels;
   answer.cost = answer.time_ms = answer.times.least();
   out.tried = {answer}, out.answer = std::move(answer);
@@ -176,34 +176,34 @@ compare::FamilyResult measured(const char* name, double error, std::vector<doubl
 // Four cascades of 2048 texels take as much as one map of 4096.
 TEST(TuneSheet, ComparesAtEqualMemory) {
   const std::vector<int> sizes{256, 512, 1024, 2048, 4096, 8192};
-  compare::Attempt cascades;
+  studies::Attempt cascades;
   cascades.size = 1024, cascades.map_bytes = 4ULL * 4 * 1024 * 1024;
-  EXPECT_EQ(compare::size_at_memory(cascades, sizes, 4ULL * 4096 * 4096), 2048);
-  compare::Attempt one;
+  EXPECT_EQ(studies::size_at_memory(cascades, sizes, 4ULL * 4096 * 4096), 2048);
+  studies::Attempt one;
   one.size = 512, one.map_bytes = 4ULL * 512 * 512;
-  EXPECT_EQ(compare::size_at_memory(one, sizes, 4ULL * 4 * 2048 * 2048), 4096);
-  EXPECT_EQ(compare::size_at_memory(one, sizes, 1), 256) << "the least there is";
+  EXPECT_EQ(studies::size_at_memory(one, sizes, 4ULL * 4 * 2048 * 2048), 4096);
+  EXPECT_EQ(studies::size_at_memory(one, sizes, 1), 256) << "the least there is";
 }
 
 // Where the goal is an error, times alone tie; where it is a time, the errors have to be the same as well.
 TEST(TuneTies, AreToldForBothGoalsAndDecidedByTheCheaper) {
-  const std::vector<compare::FamilyResult> families{
+  const std::vector<studies::FamilyResult> families{
       measured("best", 0.01, {10.0, 12.0, 14.0}, 200),
       measured("same error, fewer texels", 0.01, {11.5, 13.0}, 100),
       measured("other error", 0.02, {11.0, 11.5}, 50), measured("slow", 0.01, {16.5, 17.0}, 10)};
-  const compare::Ties by_error = ties_with(0, families, error_goal(0.05));
+  const studies::Ties by_error = studies::ties_with(0, families, error_goal(0.05));
   EXPECT_EQ(by_error.chosen, 2u);
   EXPECT_EQ(by_error.others, (std::vector<std::size_t>{1, 0}));
-  const compare::Ties by_time = ties_with(0, families, time_goal(20.0));
+  const studies::Ties by_time = studies::ties_with(0, families, time_goal(20.0));
   EXPECT_EQ(by_time.chosen, 1u);
   EXPECT_EQ(by_time.others, (std::vector<std::size_t>{0}));
 }
 
 TEST(TuneTies, SettingsJustOverTheLimitAreTold) {
-  std::vector<compare::FamilyResult> families{
+  std::vector<studies::FamilyResult> families{
       measured("answer", 0.02, {18.0, 19.0}, 1), measured("more accurate", 0.01, {22.0}, 1),
       measured("less accurate", 0.03, {22.0}, 1), measured("far too slow", 0.001, {26.0}, 1)};
-  const auto over = just_over_limit(0, families, time_goal(20.0));
+  const auto over = studies::just_over_limit(0, families, time_goal(20.0));
   ASSERT_EQ(over.size(), 1u);
   EXPECT_EQ(over[0].family, 1u);
   EXPECT_TRUE(just_over_limit(0, families, error_goal(0.05)).empty());
@@ -213,24 +213,24 @@ TEST(TuneTies, SettingsJustOverTheLimitAreTold) {
 TEST(Tune, WhatIsUncertainOrNotKnownIsNotGood) {
   compare::LightFigures known;
   known.pixels.compared = 1000;
-  compare::Attempt attempt;
-  compare::set_figures({known}, *compare::find_measure("wrong"), attempt);
+  studies::Attempt attempt;
+  studies::set_figures({known}, *compare::find_measure("wrong"), attempt);
   EXPECT_TRUE(is_good(error_goal(0.001), attempt));
   compare::LightFigures doubtful = known;
   doubtful.pixels.uncertain = 100;
-  compare::set_figures({doubtful}, *compare::find_measure("wrong"), attempt);
+  studies::set_figures({doubtful}, *compare::find_measure("wrong"), attempt);
   EXPECT_FALSE(is_good(error_goal(0.001), attempt));
   compare::LightFigures unknown = known;
   unknown.error.wrong_fraction = std::numeric_limits<double>::quiet_NaN();
-  compare::set_figures({known, unknown}, *compare::find_measure("wrong"), attempt);
+  studies::set_figures({known, unknown}, *compare::find_measure("wrong"), attempt);
   EXPECT_FALSE(is_good(error_goal(0.001), attempt));
   // Of several lights the one with the largest error need not be the one that is uncertain.
   compare::LightFigures wrong = known;
   wrong.error.wrong_fraction = 0.01;
-  compare::set_figures({wrong, known}, *compare::find_measure("wrong"), attempt);
+  studies::set_figures({wrong, known}, *compare::find_measure("wrong"), attempt);
   EXPECT_TRUE(is_good(error_goal(0.02), attempt));
   for (const auto& lights : {std::vector{wrong, doubtful}, std::vector{doubtful, wrong}}) {
-    compare::set_figures(lights, *compare::find_measure("wrong"), attempt);
+    studies::set_figures(lights, *compare::find_measure("wrong"), attempt);
     EXPECT_EQ(attempt.error, 0.01);
     EXPECT_FALSE(is_good(error_goal(0.02), attempt));
   }
@@ -241,7 +241,7 @@ TEST(Tune, WhatLevelsOffIsNotGoodEnoughAtTheLargestMap) {
   auto scene = load_scene("fence");
   ASSERT_TRUE(scene);
   OneWorld world(*scene);
-  compare::Engine engine(world.scene, world.world, *world.renderer, false);
+  studies::Engine engine(world.scene, world.world, *world.renderer, false);
   const Setting base = small_setting(world);
   TuneOptions options;
   options.goal.max_error =
@@ -251,18 +251,18 @@ TEST(Tune, WhatLevelsOffIsNotGoodEnoughAtTheLargestMap) {
                       family("vsm", Technique::vsm)};
   options.families[1].map.cull = raster::Cull::front;
   options.cost = cost;
-  const auto tuned = compare::tune(engine, base, options);
+  const auto tuned = studies::tune(engine, base, options);
   ASSERT_TRUE(tuned) << tuned.error().message();
   std::size_t left = 0;
   for (std::size_t i = 0; i < options.families.size(); ++i) {
-    const compare::FamilyResult& result = tuned->families[i];
-    if (result.stop != compare::TuneStop::levels_off) continue;
+    const studies::FamilyResult& result = tuned->families[i];
+    if (result.stop != studies::TuneStop::levels_off) continue;
     ++left;
     EXPECT_LT(result.tried.back().size, options.sizes.back());
     TuneOptions largest = options;
     largest.families = {options.families[i]};
     largest.sizes = {options.sizes.back()};
-    const auto alone = compare::tune(engine, base, largest);
+    const auto alone = studies::tune(engine, base, largest);
     ASSERT_TRUE(alone) << alone.error().message();
     std::printf("%-18s levels off near %.4f, at the largest size %.4f\n", result.family.name.c_str(),
                 result.floor, alone->families[0].closest.error);

@@ -32,23 +32,23 @@ std::vector<Channel> position_channels(const raytrace::RayTracedFrame& frame) {
 
 /// What a texel of the capture's map holds for one of the drawn map.
 double converted(const LightView& view, int face, Vec2 texel, double stored, const LightView& captured,
-                 compare::StoredDepth convention) {
-  const bool linear = compare::is_linear(convention);
+                 judge::StoredDepth convention) {
+  const bool linear = judge::is_linear(convention);
   if (!holds_caster(view, stored)) return linear || captured.reversed ? 0.0 : 1.0;
   if (!linear && view.reversed == captured.reversed) return stored;
   const double depth = depth_from_stored(view, face, texel.y, stored);
   if (!linear) return stored_from_depth(captured, face, texel.y, depth);
-  if (convention == compare::StoredDepth::linear_z) return depth;
+  if (convention == judge::StoredDepth::linear_z) return depth;
   return depth / glm::dot(texel_ray(view, face, texel.x, texel.y).direction, view.face(face).forward);
 }
 
 std::vector<float> layer_texels(const raster::ShadowMap& map, int face, const LightView& captured,
-                                const compare::CapturedLayer& layer) {
+                                const judge::CapturedLayer& layer) {
   const int n = map.view.size;
   std::vector<float> out;
   for (int y = 0; y < n; ++y)
     for (int column = 0; column < n; ++column) {
-      const int row = layer.rows == compare::RowOrder::top_down ? n - 1 - y : y;
+      const int row = layer.rows == judge::RowOrder::top_down ? n - 1 - y : y;
       const double stored = map.depth[map.texel_index(face, column, row)];
       out.push_back(static_cast<float>(
           converted(map.view, face, {column + 0.5, row + 0.5}, stored, captured, *layer.convention)));
@@ -57,24 +57,24 @@ std::vector<float> layer_texels(const raster::ShadowMap& map, int face, const Li
 }
 
 /// Returns the matrix as the convention has it: z from [0, w] to [-w, w] for two of them.
-Mat4 layer_matrix(const LightView& captured, int face, compare::StoredDepth convention) {
+Mat4 layer_matrix(const LightView& captured, int face, judge::StoredDepth convention) {
   Mat4 matrix = light_clip_from_relative(captured, face, Vec3(0.0));
-  if (convention == compare::StoredDepth::minus_one_to_one || compare::is_linear(convention))
+  if (convention == judge::StoredDepth::minus_one_to_one || judge::is_linear(convention))
     for (int column = 0; column < 4; ++column)
       matrix[column][2] = 2.0 * matrix[column][2] - matrix[column][3];
   return matrix;
 }
 
 void capture_map(const Compared& drawn, const std::string& folder, const CaptureParts& parts,
-                 compare::Capture& out) {
+                 judge::Capture& out) {
   const raster::LightRecord& record = drawn.result.raster.lights[0];
   LightView view = record.map.view;
   const bool parallel = view.projection == LightProjection::orthographic;
-  const compare::StoredDepth convention =
-      parts.stored.value_or(parallel ? compare::StoredDepth::zero_to_one : compare::StoredDepth::distance);
-  view.reversed = convention == compare::StoredDepth::reversed;
+  const judge::StoredDepth convention =
+      parts.stored.value_or(parallel ? judge::StoredDepth::zero_to_one : judge::StoredDepth::distance);
+  view.reversed = convention == judge::StoredDepth::reversed;
   for (int face = 0; face < view.face_count; ++face) {
-    compare::CapturedLayer& layer = out.map.emplace_back();
+    judge::CapturedLayer& layer = out.map.emplace_back();
     layer.depth = folder + "/map" + std::to_string(face) + ".exr";
     layer.convention = convention;
     layer.rows = parts.rows;
@@ -82,17 +82,17 @@ void capture_map(const Compared& drawn, const std::string& folder, const Capture
     write(layer.depth, {view.size, view.size}, {{"Z", layer_texels(record.map, face, view, layer)}});
   }
   // One difference of stored numbers is one distance of a sun's map, and of distances; else only none is.
-  const bool even = parallel || compare::is_linear(convention);
+  const bool even = parallel || judge::is_linear(convention);
   EXPECT_TRUE(even || record.bias_constant_world == 0.0);
   const double unit = parallel ? view.face(0).far_depth - view.face(0).near_depth : 1.0;
-  out.bias = compare::CapturedBias{.constant_depth = record.bias_constant_world / unit,
-                                   .slope = drawn.result.raster.options.map.bias.slope};
-  out.filter = compare::CapturedFilter{};
+  out.bias = judge::CapturedBias{.constant_depth = record.bias_constant_world / unit,
+                                 .slope = drawn.result.raster.options.map.bias.slope};
+  out.filter = judge::CapturedFilter{};
 }
 
 /// Two pictures of a surface with colours of its own, whose ratio is the visibility.
 void capture_ratio(const Compared& drawn, const std::vector<float>& visibility, const std::string& folder,
-                   compare::Capture& out) {
+                   judge::Capture& out) {
   const raytrace::RayTracedFrame& frame = drawn.result.raytraced;
   const Light& light = drawn.scene->lights[frame.lights[0].light];
   std::vector<Channel> lit{{"R", {}}, {"G", {}}, {"B", {}}}, dark = lit;
@@ -111,34 +111,34 @@ void capture_ratio(const Compared& drawn, const std::vector<float>& visibility, 
 }
 
 /// A number of the camera's depth buffer (docs/capture.md).
-double buffer_value(const compare::CapturedDepth& depth, bool orthographic, double along_axis,
+double buffer_value(const judge::CapturedDepth& depth, bool orthographic, double along_axis,
                     double along_ray) {
   const double n = depth.near.value_or(0.0), z = along_axis;
   if (orthographic && depth.near) {
     const double share = (z - n) / (*depth.far - n);
-    return *depth.convention == compare::PixelDepth::reversed ? 1.0 - share : share;
+    return *depth.convention == judge::PixelDepth::reversed ? 1.0 - share : share;
   }
   switch (*depth.convention) {
-    case compare::PixelDepth::view_z:
+    case judge::PixelDepth::view_z:
       return z;
-    case compare::PixelDepth::distance:
+    case judge::PixelDepth::distance:
       return along_ray;
-    case compare::PixelDepth::zero_to_one:
+    case judge::PixelDepth::zero_to_one:
       return (*depth.far / (*depth.far - n)) * (1.0 - n / z);
-    case compare::PixelDepth::reversed:
+    case judge::PixelDepth::reversed:
       break;
   }
   return depth.far ? n / (*depth.far - n) * (*depth.far / z - 1.0) : n / z;
 }
 
-void capture_depth(const Compared& drawn, const compare::CapturedDepth& depth, const std::string& folder,
-                   compare::Capture& out) {
+void capture_depth(const Compared& drawn, const judge::CapturedDepth& depth, const std::string& folder,
+                   judge::Capture& out) {
   const View view = make_view(drawn.scene->camera, out.size);
   std::vector<Channel> channels{{"Z", {}}};
   for (const raytrace::SurfacePoint& point : drawn.result.raytraced.receiver.data) {
     const Vec3 off = point.position - view.eye;
     const bool hit = point.primitive != no_id;
-    const double nothing = *depth.convention == compare::PixelDepth::zero_to_one ? 1.0 : 0.0;
+    const double nothing = *depth.convention == judge::PixelDepth::zero_to_one ? 1.0 : 0.0;
     channels[0].values.push_back(
         static_cast<float>(hit ? buffer_value(depth, view.orthographic(), glm::dot(off, view.forward),
                                               view.distance(point.position))
@@ -153,14 +153,14 @@ std::string quoted(const std::string& text) {
   return '"' + text + '"';
 }
 
-std::string map_json(const compare::Capture& c) {
+std::string map_json(const judge::Capture& c) {
   std::string out;
-  for (const compare::CapturedLayer& layer : c.map) {
-    out += (out.empty() ? "" : ", ") + std::string("{\"depth\": ") + quoted(layer.depth) +
-           ", \"convention\": " + quoted(std::string(compare::convention_of(*layer.convention).name)) +
-           ", \"rows\": " +
-           quoted(std::string(compare::row_order_names[static_cast<std::size_t>(*layer.rows)])) +
-           ", \"clip_from_world\": [";
+  for (const judge::CapturedLayer& layer : c.map) {
+    out +=
+        (out.empty() ? "" : ", ") + std::string("{\"depth\": ") + quoted(layer.depth) +
+        ", \"convention\": " + quoted(std::string(judge::convention_of(*layer.convention).name)) +
+        ", \"rows\": " + quoted(std::string(judge::row_order_names[static_cast<std::size_t>(*layer.rows)])) +
+        ", \"clip_from_world\": [";
     for (int i = 0; i < 16; ++i)
       out += (i == 0 ? "" : ", ") + fmt::format("{}", (*layer.clip_from_world)[i / 4][i % 4]);
     out += "]}";
@@ -170,7 +170,7 @@ std::string map_json(const compare::Capture& c) {
 
 }  // namespace
 
-std::string write_json(const compare::Capture& c, const std::string& folder) {
+std::string write_json(const judge::Capture& c, const std::string& folder) {
   std::string text = "{\"schema\": \"gnomon/capture/1\", \"renderer\": {\"name\": " + quoted(c.renderer) +
                      "}, \"scene\": " + quoted(c.scene) + ", \"light\": " + quoted(c.light) +
                      fmt::format(", \"size\": [{}, {}]", c.size.width, c.size.height) +
@@ -209,10 +209,10 @@ raster::MapOptions hard_map(int size, raster::Technique technique) {
   return map;
 }
 
-compare::Capture self_capture(const Compared& drawn, const std::string& folder, const CaptureParts& parts) {
+judge::Capture self_capture(const Compared& drawn, const std::string& folder, const CaptureParts& parts) {
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
-  compare::Capture out;
+  judge::Capture out;
   out.renderer = "gnomon";
   out.scene = drawn.scene->path.empty() ? "made in code" : drawn.scene->path;
   out.light = drawn.scene->lights[drawn.light().light].name;
@@ -245,17 +245,16 @@ void spoil(const std::string& file, const Spoil& change) {
   write(file, image->size, image->channels);
 }
 
-JudgeOutcome judge(const compare::Capture& capture, const compare::JudgeOptions& options) {
+JudgeOutcome judge(const judge::Capture& capture, const judge::JudgeOptions& options) {
   const auto scene = load_scene(capture.scene);
   return scene ? judge(capture, *scene, options) : JudgeOutcome{};
 }
 
-JudgeOutcome judge(const compare::Capture& capture, const Scene& scene,
-                   const compare::JudgeOptions& options) {
+JudgeOutcome judge(const judge::Capture& capture, const Scene& scene, const judge::JudgeOptions& options) {
   JudgeOutcome out;
   out.scene = std::make_unique<Scene>(scene);
   out.world = std::make_unique<World>(make_world(*out.scene));
-  out.result = compare::judge_capture(capture, *out.scene, *out.world, options);
+  out.result = judge::judge_capture(capture, *out.scene, *out.world, options);
   return out;
 }
 

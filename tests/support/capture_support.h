@@ -28,17 +28,17 @@ raster::MapOptions hard_map(int size, raster::Technique technique = raster::Tech
 
 struct CaptureParts {
   bool positions = true, mask = false, map = false;
-  bool ratio = false;                               ///< `shadowed` and `unshadowed` for `visibility`
-  std::optional<compare::StoredDepth> stored = {};  ///< of the map [a sun's zero_to_one, else distance]
-  compare::RowOrder rows = compare::RowOrder::bottom_up;
-  const compare::CapturedDepth* depth = nullptr;  ///< of the camera; its file is named here
+  bool ratio = false;                             ///< `shadowed` and `unshadowed` for `visibility`
+  std::optional<judge::StoredDepth> stored = {};  ///< of the map [a sun's zero_to_one, else distance]
+  judge::RowOrder rows = judge::RowOrder::bottom_up;
+  const judge::CapturedDepth* depth = nullptr;  ///< of the camera; its file is named here
 };
 
 /// Writes the pictures of the first light compared into `folder` (made again) and says what they are.
-compare::Capture self_capture(const Compared& drawn, const std::string& folder, const CaptureParts& parts);
+judge::Capture self_capture(const Compared& drawn, const std::string& folder, const CaptureParts& parts);
 
 /// The capture's file, capture.json in `folder`; its name.
-std::string write_json(const compare::Capture& capture, const std::string& folder);
+std::string write_json(const judge::Capture& capture, const std::string& folder);
 
 /// One picture of a capture through a function of its channels.
 using Spoil = std::function<void(ChannelImage&)>;
@@ -50,9 +50,9 @@ struct JudgeOutcome {
   std::unique_ptr<World> world;
   Expected<compare::Comparison> result = fail(ErrorKind::internal, "not judged");
 };
-JudgeOutcome judge(const compare::Capture& capture, const compare::JudgeOptions& options = {});
-JudgeOutcome judge(const compare::Capture& capture, const Scene& scene,
-                   const compare::JudgeOptions& options = {});
+JudgeOutcome judge(const judge::Capture& capture, const judge::JudgeOptions& options = {});
+JudgeOutcome judge(const judge::Capture& capture, const Scene& scene,
+                   const judge::JudgeOptions& options = {});
 /// "judged", or why not.
 std::string reason(const JudgeOutcome& outcome);
 
@@ -73,10 +73,10 @@ FilterTaps square_taps(int side, bool linear = false);
 /// Puts in the place of the capture's visibility what the other renderer draws on the capture's map, with the
 /// capture's bias. `outside`: what it draws beside the map. `by_fronts`: offsets go along the fronts' normals, also where a
 /// back is seen.
-void draw_again(const compare::Capture& capture, const Compared& drawn, float outside = 1.0f,
+void draw_again(const judge::Capture& capture, const Compared& drawn, float outside = 1.0f,
                 bool by_fronts = false, const FilterTaps& filter = {});
 
 /// Turns the layers' stored numbers into the moments of the capture's filter, averaged over 5 x 5 texels.
-void store_moments(compare::Capture& capture);
+void store_moments(judge::Capture& capture);
 
 }  // namespace gnomon::test

@@ -27,11 +27,11 @@ inline Scene hovering_box(const std::string& light) {
 /// A light's map and the picture that another renderer draws on it with this bias.
 struct Engine {
   explicit Engine(const std::string& name, double constant_depth, const std::string& light = "sun",
-                  compare::StoredDepth stored = compare::StoredDepth::zero_to_one,
+                  judge::StoredDepth stored = judge::StoredDepth::zero_to_one,
                   const raster::Bias& casters = {}, raster::Technique technique = raster::Technique::hard)
       : drawn(draw_scene(hovering_box(light), small_picture, map_with(casters, technique))),
         capture(self_capture(drawn, folder_for("own-" + name), {.map = true, .stored = stored})) {
-    capture.bias = compare::CapturedBias{.constant_depth = constant_depth};
+    capture.bias = judge::CapturedBias{.constant_depth = constant_depth};
     draw_again(capture, drawn);
   }
   static raster::MapOptions map_with(const raster::Bias& casters, raster::Technique technique) {
@@ -41,7 +41,7 @@ struct Engine {
     return map;
   }
   JudgeOutcome judged(bool fix = false) const {
-    compare::JudgeOptions options;
+    judge::JudgeOptions options;
     options.fix = fix;
     return judge(capture, *drawn.scene, options);
   }
@@ -54,7 +54,7 @@ struct Engine {
   }
 
   Compared drawn;
-  compare::Capture capture;
+  judge::Capture capture;
 };
 
 inline std::string notes_in(const JudgeOutcome& judged) {

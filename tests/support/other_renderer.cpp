@@ -7,9 +7,9 @@
 namespace gnomon::test {
 namespace {
 
-using compare::Capture;
-using compare::RowOrder;
-using compare::StoredDepth;
+using judge::Capture;
+using judge::RowOrder;
+using judge::StoredDepth;
 
 /// Looks shadows up as engines write it: the place through the layer's matrix, one texel, two stored numbers compared.
 class OtherRenderer {
@@ -17,7 +17,7 @@ class OtherRenderer {
   OtherRenderer(const Capture& capture, const Light& light, const View& view, float outside,
                 const FilterTaps& filter)
       : capture_(capture), light_(light), view_(view), outside_(outside), filter_(filter) {
-    for (const compare::CapturedLayer& layer : capture.map) texels_.push_back(*read_channels(layer.depth));
+    for (const judge::CapturedLayer& layer : capture.map) texels_.push_back(*read_channels(layer.depth));
   }
 
   float visibility(const Vec3& surface, const Vec3& normal) const {
@@ -25,7 +25,7 @@ class OtherRenderer {
     const auto seen = halves ? std::nullopt : layer_of(surface);
     float light = halves ? paraboloid_visibility(surface, normal) : layer_visibility(surface, normal, seen);
     if (selects() && seen && capture_.map[*seen].select->blend > 0.0) {
-      const compare::CapturedSelect& select = *capture_.map[*seen].select;
+      const judge::CapturedSelect& select = *capture_.map[*seen].select;
       const double left = select.far - from_camera(select.by_distance, surface);
       const double next = std::clamp(1.0 - left / select.blend, 0.0, 1.0);
       light = float((1.0 - next) * light + next * layer_visibility(surface, normal, *seen + 1));
@@ -46,7 +46,7 @@ class OtherRenderer {
   }
 
   float layer_visibility(const Vec3& surface, const Vec3& normal, std::optional<std::size_t> seen) const {
-    const compare::CapturedBias bias = seen ? bias_of(*seen) : *capture_.bias;
+    const judge::CapturedBias bias = seen ? bias_of(*seen) : *capture_.bias;
     const double cosine = std::max(0.0, glm::dot(normal, light_at(light_, surface).to_light));
     const Vec3 place =
         surface + bias.normal_offset_world * by_angle(bias.normal_offset_angle, cosine) * normal;
@@ -55,12 +55,12 @@ class OtherRenderer {
     const Vec4 clip = *capture_.map[*layer].clip_from_world * Vec4(place, 1.0);
     const Vec3 ndc = Vec3(clip) / clip.w;
     if (!holds(*layer, ndc, 0.0)) return outside_;
-    const compare::CapturedBias own = bias_of(*layer);
+    const judge::CapturedBias own = bias_of(*layer);
     const double constant = std::clamp(own.constant_depth * by_angle(own.angle, cosine), own.min, own.max);
     const Vec2 range = capture_.map[*layer].range.value_or(Vec2(0.0, 1.0));
     const auto stored = [&](double world) { return (world - range.x) / (range.y - range.x); };
     const double sign = range.y > range.x ? 1.0 : -1.0;
-    if (capture_.filter && capture_.filter->read == compare::FilterRead::moments)
+    if (capture_.filter && capture_.filter->read == judge::FilterRead::moments)
       return float(light_of(
           *layer, ndc,
           number_of(ndc.z, stored(clip.w), stored(glm::length(place - light_.position))) - constant));
@@ -96,7 +96,7 @@ class OtherRenderer {
 
   /// As Brabec and others write it: the half that the place lies before, and the distance.
   float paraboloid_visibility(const Vec3& surface, const Vec3& normal) const {
-    const compare::CapturedBias& bias = *capture_.bias;
+    const judge::CapturedBias& bias = *capture_.bias;
     const Vec3 place = surface + bias.normal_offset_world * normal;
     const auto in_half = [&](std::size_t half) {
       return Vec3(*capture_.map[half].clip_from_world * Vec4(place, 1.0));
@@ -116,30 +116,30 @@ class OtherRenderer {
   }
 
   /// As shaders write it, of the dot product of normal and light.
-  static double by_angle(compare::BiasAngle form, double cosine) {
+  static double by_angle(judge::BiasAngle form, double cosine) {
     switch (form) {
-      case compare::BiasAngle::sine:
+      case judge::BiasAngle::sine:
         return std::sqrt(1.0 - cosine * cosine);
-      case compare::BiasAngle::tangent:
+      case judge::BiasAngle::tangent:
         return std::tan(std::acos(cosine));
-      case compare::BiasAngle::one_minus_cosine:
+      case judge::BiasAngle::one_minus_cosine:
         return 1.0 - cosine;
-      case compare::BiasAngle::none:
+      case judge::BiasAngle::none:
         break;
     }
     return 1.0;
   }
 
   bool selects() const { return capture_.map.front().select.has_value(); }
-  compare::CapturedBias bias_of(std::size_t layer) const {
+  judge::CapturedBias bias_of(std::size_t layer) const {
     return capture_.map[layer].bias.value_or(*capture_.bias);
   }
 
   /// Whether a place lies on the layer's part of its picture, with so many texels around it.
   bool holds(std::size_t layer, const Vec3& ndc, double margin) const {
     const ImageSize size = texels_[layer].size;
-    const compare::CapturedRect rect =
-        capture_.map[layer].rect.value_or(compare::CapturedRect{0, 0, size.width, size.height});
+    const judge::CapturedRect rect =
+        capture_.map[layer].rect.value_or(judge::CapturedRect{0, 0, size.width, size.height});
     const bool top_down = capture_.map[layer].rows == RowOrder::top_down;
     const int low = top_down ? size.height - rect.y - rect.height : rect.y;
     const Vec2 at = (0.5 * Vec2(ndc) + 0.5) * Vec2(size.width, size.height);
@@ -163,7 +163,7 @@ class OtherRenderer {
 
   /// A technique of moments as its shaders are written.
   double light_of(std::size_t layer, const Vec3& ndc, double x) const {
-    const compare::CapturedFilter& filter = *capture_.filter;
+    const judge::CapturedFilter& filter = *capture_.filter;
     const auto m = [&](std::size_t channel) { return read(layer, ndc, channel); };
     const auto bound = [](double first, double second, double at, double least) {
       const double variance = std::max(second - first * first, std::max(least, 2.4e-7 * second));
@@ -176,13 +176,13 @@ class OtherRenderer {
     };
     double light = 1.0;
     switch (filter.kind) {
-      case compare::FilterName::esm:
+      case judge::FilterName::esm:
         return std::min(1.0, m(0) * std::exp(-filter.exponents[0] * x));
-      case compare::FilterName::evsm:
+      case judge::FilterName::evsm:
         light = warped(0, 0);
         if (filter.exponents.size() > 1) light = std::min(light, warped(1, 2));
         break;
-      case compare::FilterName::msm:
+      case judge::FilterName::msm:
         light = hamburger({m(0), m(1), m(2), m(3)}, x, filter.moment_bias);
         break;
       default:
@@ -217,7 +217,7 @@ class OtherRenderer {
   double read(std::size_t layer, const Vec3& ndc, std::size_t channel) const {
     const ImageSize size = texels_[layer].size;
     const Vec2 at = (0.5 * Vec2(ndc) + 0.5) * Vec2(size.width, size.height);
-    if (!capture_.filter || capture_.filter->read == compare::FilterRead::nearest)
+    if (!capture_.filter || capture_.filter->read == judge::FilterRead::nearest)
       return texel(layer, static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), channel);
     const Vec2 corner = glm::floor(at - 0.5), share = at - 0.5 - corner;
     const int x = static_cast<int>(corner.x), y = static_cast<int>(corner.y);
@@ -275,12 +275,12 @@ class OtherRenderer {
 };
 
 /// What the texels of a technique hold of a stored number, as its papers say.
-std::array<double, 4> moments_of(const compare::CapturedFilter& filter, double x) {
+std::array<double, 4> moments_of(const judge::CapturedFilter& filter, double x) {
   const auto warped = [&](std::size_t which, double sign) {
     return sign * std::exp(sign * filter.exponents[which] * (2.0 * x - 1.0));
   };
-  if (filter.kind == compare::FilterName::esm) return {std::exp(filter.exponents[0] * x), 0.0, 0.0, 0.0};
-  if (filter.kind != compare::FilterName::evsm) return {x, x * x, x * x * x, x * x * x * x};
+  if (filter.kind == judge::FilterName::esm) return {std::exp(filter.exponents[0] * x), 0.0, 0.0, 0.0};
+  if (filter.kind != judge::FilterName::evsm) return {x, x * x, x * x * x, x * x * x * x};
   const double positive = warped(0, 1.0), negative = filter.exponents.size() > 1 ? warped(1, -1.0) : 0.0;
   return {positive, positive * positive, negative, negative * negative};
 }
@@ -288,11 +288,11 @@ std::array<double, 4> moments_of(const compare::CapturedFilter& filter, double x
 }  // namespace
 
 void store_moments(Capture& capture) {
-  capture.filter->read = compare::FilterRead::moments, capture.filter->radius_texels = 2.5;
+  capture.filter->read = judge::FilterRead::moments, capture.filter->radius_texels = 2.5;
   constexpr const char* names[] = {"R", "G", "B", "A"};
-  const compare::CapturedFilter& filter = *capture.filter;
+  const judge::CapturedFilter& filter = *capture.filter;
   const int reach = static_cast<int>(filter.radius_texels);
-  for (const compare::CapturedLayer& layer : capture.map)
+  for (const judge::CapturedLayer& layer : capture.map)
     spoil(layer.depth, [&](ChannelImage& image) {
       const int n = image.size.width, rows = image.size.height;
       std::vector<std::array<double, 4>> one(image.size.pixels()), across = one;
@@ -310,8 +310,8 @@ void store_moments(Capture& capture) {
           }
       };
       blur(one, across, 1, 0), blur(across, one, 0, 1);
-      const bool esm = filter.kind == compare::FilterName::esm;
-      const bool four = filter.kind == compare::FilterName::msm || filter.exponents.size() > 1;
+      const bool esm = filter.kind == judge::FilterName::esm;
+      const bool four = filter.kind == judge::FilterName::msm || filter.exponents.size() > 1;
       image.channels.clear();
       for (std::size_t k = 0; k < (esm ? 1U : four ? 4U : 2U); ++k) {
         Channel& channel = image.channels.emplace_back(Channel{names[k], {}});

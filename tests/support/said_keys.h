@@ -9,14 +9,14 @@
 
 namespace gnomon::test {
 
-using compare::Capture;
-using compare::CapturedBias;
-using compare::CapturedFade;
-using compare::CapturedSelect;
+using judge::Capture;
+using judge::CapturedBias;
+using judge::CapturedFade;
+using judge::CapturedSelect;
 
 inline void put_texels(Capture& capture, const std::function<float(float)>& change) {
   std::set<std::string> files;  // layers may share one
-  for (const compare::CapturedLayer& layer : capture.map) files.insert(layer.depth);
+  for (const judge::CapturedLayer& layer : capture.map) files.insert(layer.depth);
   for (const std::string& file : files)
     spoil(file, [&](ChannelImage& image) {
       for (float& v : image.channels[0].values) v = change(v);
@@ -26,7 +26,7 @@ inline void put_texels(Capture& capture, const std::function<float(float)>& chan
 /// Stored numbers that run over [0, 1] from one end of the range to the other; nothing drawn: the far end's.
 inline std::function<void(Engine&)> in_range(double near, double far) {
   return [=](Engine& engine) {
-    for (compare::CapturedLayer& layer : engine.capture.map) layer.range = Vec2(near, far);
+    for (judge::CapturedLayer& layer : engine.capture.map) layer.range = Vec2(near, far);
     put_texels(engine.capture, [=](float v) {
       return v > 0.0f ? static_cast<float>((double{v} - near) / (far - near)) : near < far ? 1.0f : 0.0f;
     });
@@ -38,7 +38,7 @@ inline std::function<void(Engine&)> with_bias(const CapturedBias& bias) {
   return [=](Engine& engine) { engine.capture.bias = bias; };
 }
 
-inline std::function<void(Engine&)> filtered(const compare::CapturedFilter& filter) {
+inline std::function<void(Engine&)> filtered(const judge::CapturedFilter& filter) {
   return [=](Engine& engine) {
     engine.capture.filter = filter;
     store_moments(engine.capture);
@@ -65,13 +65,13 @@ inline std::function<void(Engine&)> faded(const CapturedFade& fade) {
 
 /// The one layer cut into n x n that overlap, each a picture of its own.
 inline void cut_into(Capture& capture, int n, int overlap) {
-  const compare::CapturedLayer whole = capture.map[0];
+  const judge::CapturedLayer whole = capture.map[0];
   const auto picture = read_channels(whole.depth);
   const int size = picture->size.width, side = size / n + overlap;
   capture.map.clear();
   for (int k = 0; k < n * n; ++k) {
     const int x = std::min(k % n * (size / n), size - side), y = std::min(k / n * (size / n), size - side);
-    compare::CapturedLayer& layer = capture.map.emplace_back(whole);
+    judge::CapturedLayer& layer = capture.map.emplace_back(whole);
     layer.depth = whole.depth + std::to_string(k) + ".exr";
     Channel part{"Z", {}};
     for (int row = 0; row < side; ++row)
@@ -87,7 +87,7 @@ inline void cut_into(Capture& capture, int n, int overlap) {
 }
 
 /// The layer in a part of a larger picture, its matrix into the whole of that.
-inline void put_into_atlas(Engine& engine, const compare::CapturedRect& rect, ImageSize atlas) {
+inline void put_into_atlas(Engine& engine, const judge::CapturedRect& rect, ImageSize atlas) {
   Capture& capture = engine.capture;
   spoil(capture.map[0].depth, [&](ChannelImage& image) {
     std::vector<float> whole(atlas.pixels(), 0.37f);
@@ -98,7 +98,7 @@ inline void put_into_atlas(Engine& engine, const compare::CapturedRect& rect, Im
     image.size = atlas, image.channels[0].values = std::move(whole);
   });
   const double below =
-      capture.map[0].rows == compare::RowOrder::top_down ? atlas.height - rect.y - rect.height : rect.y;
+      capture.map[0].rows == judge::RowOrder::top_down ? atlas.height - rect.y - rect.height : rect.y;
   Mat4 atlas_from_rect(1.0);
   atlas_from_rect[0][0] = double(rect.width) / atlas.width,
   atlas_from_rect[1][1] = double(rect.height) / atlas.height;
@@ -144,7 +144,7 @@ inline void draw_with_also(Engine& engine) {
 inline std::function<void(Engine&)> as_paraboloids(ImageSize size, bool together) {
   return [=](Engine& engine) {
     Capture& capture = engine.capture;
-    const compare::CapturedLayer first = capture.map[0];
+    const judge::CapturedLayer first = capture.map[0];
     const Vec3 light = engine.drawn.scene->lights[0].position;
     const raytrace::Tracer tracer(*engine.drawn.world, raytrace::Accel::bvh);
     // The halves meet over the floor.
@@ -166,11 +166,11 @@ inline std::function<void(Engine&)> as_paraboloids(ImageSize size, bool together
           texels.values.push_back(hit ? static_cast<float>(hit->t) : 0.0f);
         }
       pictures.push_back(texels);
-      compare::CapturedLayer& layer = capture.map[std::size_t(half)];
-      layer.convention = compare::StoredDepth::paraboloid, layer.rows = compare::RowOrder::bottom_up;
+      judge::CapturedLayer& layer = capture.map[std::size_t(half)];
+      layer.convention = judge::StoredDepth::paraboloid, layer.rows = judge::RowOrder::bottom_up;
       layer.clip_from_world = Mat4(own);
       (*layer.clip_from_world)[3] = Vec4(-(own * light), 1.0);
-      if (together) layer.rect = compare::CapturedRect{0, half * size.height, size.width, size.height};
+      if (together) layer.rect = judge::CapturedRect{0, half * size.height, size.width, size.height};
       layer.depth = first.depth + (together ? "" : std::to_string(half)) + ".exr";
       if (together) continue;
       EXPECT_TRUE(write_exr(layer.depth, size, std::array{texels}));

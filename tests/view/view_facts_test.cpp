@@ -11,7 +11,7 @@
 #include "scene/load.h"
 #include "tests/support/temporary_folder.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 TEST(LabFacts, HaveTheFormatsThatAreRead) {
@@ -41,4 +41,4 @@ TEST(LabFacts, HaveEachGroupOnceInThePanelsOrder) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

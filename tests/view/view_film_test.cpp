@@ -8,7 +8,7 @@
 
 #include "tests/view/view_fixture.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 constexpr double rounding = 1e-8;  // a state's numbers have nine digits
@@ -111,4 +111,4 @@ TEST(ViewFilm, WithoutOnePickedThePlayKeyBeginsTheFirst) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -3,7 +3,7 @@
 
 #include "lab/view/state/state.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 inline ViewState two_light_state() {
   ViewState state;
@@ -22,4 +22,4 @@ inline ViewState two_light_state() {
   return state;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

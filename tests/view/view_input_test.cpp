@@ -13,7 +13,7 @@
 #include "tests/support/places.h"
 #include "tests/view/view_fixture.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 /// The change that a key makes; fails the test when it makes none of that kind.
@@ -324,4 +324,4 @@ TEST(ViewInput, ModifiersChooseWhatADragMoves) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -8,7 +8,7 @@
 #include "raster/technique_traits.h"
 #include "tests/view/view_fixture.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 TEST(ViewPresets, BiasInTexelsKeepsItsUnit) {
@@ -125,4 +125,4 @@ TEST(ViewProjection, TheHandleFollowsThePointer) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

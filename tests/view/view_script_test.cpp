@@ -11,7 +11,7 @@
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 std::vector<Light> lights() {
@@ -209,4 +209,4 @@ TEST(ViewScript, NothingIsAnEmptyScript) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -7,7 +7,7 @@
 #include "lab/view/work/worker.h"
 #include "tests/view/view_fixture.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 ViewState after(ViewState state, std::initializer_list<Change> changes) {
@@ -47,7 +47,7 @@ TEST(ViewState, OrbitKeepsTheDistanceAndStopsBeforeThePole) {
   const ViewState state = after(two_light_state(), {OrbitBy{30.0, 500.0}});
   ASSERT_TRUE(state.setup.camera);
   EXPECT_NEAR(state.setup.camera->azimuth_degrees, 30.0, 1e-12);
-  EXPECT_EQ(state.setup.camera->elevation_degrees, max_camera_elevation_degrees);
+  EXPECT_EQ(state.setup.camera->elevation_degrees, app::max_camera_elevation_degrees);
   EXPECT_EQ(state.setup.camera->distance, 5.0);
 }
 
@@ -84,7 +84,7 @@ TEST(ViewState, OnlyTheChosenLightTurns) {
 
 TEST(ViewState, LightAnglesAreSetOneByOne) {
   const ViewState state = after(two_light_state(), {LightElevationTo{40.0}, LightAzimuthTo{-10.0}});
-  EXPECT_EQ(state.setup.lights[0], (LightPose{-10.0, 40.0}));
+  EXPECT_EQ(state.setup.lights[0], (app::LightPose{-10.0, 40.0}));
 }
 
 TEST(ViewState, BiasStepsAreTexelsInEitherUnit) {
@@ -109,9 +109,9 @@ TEST(ViewState, BiasStepsStopAtZeroOnce) {
 
 TEST(ViewState, StepsLeaveNumbersThatCanBeTyped) {
   ViewState state = two_light_state();
-  state.given.lights[0] = posed_light(state.given.lights[0], Vec3(0.0), {-69.0, 18.5});
+  state.given.lights[0] = app::posed_light(state.given.lights[0], Vec3(0.0), {-69.0, 18.5});
   carry_out(state, TurnLightBy{6.0, 0.0});
-  EXPECT_EQ(state.setup.lights[0], (LightPose{-63.0, 18.5}));
+  EXPECT_EQ(state.setup.lights[0], (app::LightPose{-63.0, 18.5}));
   state.setup.map.bias = {0.1, raster::BiasUnit::world};
   state.texel_world = 0.2;
   carry_out(state, StepBias{1.0});
@@ -181,7 +181,7 @@ TEST(ViewState, ALampGoesWhereItIsPlaced) {
 }
 
 TEST(ViewState, TheSunStandsInTheSouthAtNoonAndComesFromTheEast) {
-  const LightPose noon = sun_at(12.0), morning = sun_at(8.0), evening = sun_at(18.0);
+  const app::LightPose noon = sun_at(12.0), morning = sun_at(8.0), evening = sun_at(18.0);
   EXPECT_NEAR(noon.azimuth_degrees, 0.0, 1e-9);
   EXPECT_NEAR(noon.elevation_degrees, 45.0, 1e-9);
   EXPECT_GT(morning.azimuth_degrees, 0.0);
@@ -234,4 +234,4 @@ TEST(ViewState, EveryViewThatIsNoPhotographSaysWhatItsColoursStandFor) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

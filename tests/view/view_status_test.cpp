@@ -8,7 +8,7 @@
 #include "raster/settings.h"
 #include "tests/view/view_fixture.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 TEST(ViewStatus, CommandSaysWhatDiffers) {
@@ -107,4 +107,4 @@ TEST(ViewStatus, LineHasBiasInBothUnitsAndSaysWhatIsStale) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

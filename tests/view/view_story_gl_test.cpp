@@ -11,7 +11,7 @@
 #include "tests/support/app_process.h"
 #include "tests/view/view_thread_fixture.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 // A hard test without any bias but the constant one shadows a pixel at its texel's centre as the drawing from the light
@@ -176,4 +176,4 @@ TEST(SaveScene, AnEndingInCapitalsIsTheSameFormat) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -5,7 +5,7 @@
 #include "lab/view/window/style.h"
 #include "scene/base/timing.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 /// Each letter is as wide as the next.
@@ -58,4 +58,4 @@ TEST(FrameWatch, ItsPartsAreAllOfIt) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

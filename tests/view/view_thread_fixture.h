@@ -13,7 +13,7 @@
 
 #include "lab/view/work/render_thread.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 inline constexpr ImageSize lab_size{64, 48};
 
@@ -105,4 +105,4 @@ inline std::string scene_with_radius(const char* radius) {
   return text.replace(text.find("RADIUS"), 6, radius);
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

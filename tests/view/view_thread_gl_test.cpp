@@ -20,7 +20,7 @@
 #include "tests/support/app_process.h"
 #include "tests/view/view_thread_fixture.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 std::string own_shader(std::string_view name) {
@@ -169,7 +169,7 @@ void change_at_random(ViewState& state, std::mt19937& random) {
 }
 
 /// What `gnomon compare` makes of it, in one go.
-Image<compare::Label> compared_labels(const ViewState& state, const LoadedScene& loaded,
+Image<compare::Label> compared_labels(const ViewState& state, const app::LoadedScene& loaded,
                                       raster::Renderer& renderer) {
   place(state.given, state.setup, *loaded.scene);
   compare::CompareOptions options;
@@ -220,8 +220,8 @@ void expect_labels_of_compare(const std::function<void(ViewState&, int)>& change
   ViewState state = lab.state(*lab.until(is_open));
   const auto source = read_source({"floating-box", false}, {}, {});
   ASSERT_TRUE(source);
-  Console quiet(true);
-  auto renderer = make_renderer(raster::Backend::automatic, *source->loaded, quiet);
+  app::Console quiet(true);
+  auto renderer = app::make_renderer(raster::Backend::automatic, *source->loaded, quiet);
   ASSERT_TRUE(renderer);
   for (int i = 0; i < 20; ++i) {
     change(state, i);
@@ -279,8 +279,8 @@ TEST(RenderThread, ALightThatGetsASizeCastsSoftShadows) {
   EXPECT_GT(penumbra(), 20);
   const auto source = read_source({"floating-box", false}, {}, {});
   ASSERT_TRUE(source);
-  Console quiet(true);
-  auto renderer = make_renderer(raster::Backend::automatic, *source->loaded, quiet);
+  app::Console quiet(true);
+  auto renderer = app::make_renderer(raster::Backend::automatic, *source->loaded, quiet);
   ASSERT_TRUE(renderer);
   const auto done = lab.until([&](const Snapshot& shown) { return shown.is_done(state); });
   EXPECT_EQ(done->outcome->comparison.lights.front().labels.data,
@@ -355,4 +355,4 @@ TEST(RenderThread, AnotherSceneBringsItsOwnSettings) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

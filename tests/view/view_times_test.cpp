@@ -5,7 +5,7 @@
 
 #include "lab/view/work/shadow_times.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 /// Answers in order; with nothing left, not yet.
@@ -103,4 +103,4 @@ TEST(ShadowTimes, OfAStateThatIsLeftAreForgotten) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -4,7 +4,7 @@
 
 #include "tests/view/view_thread_fixture.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 namespace {
 
 /// A turn to draw and one to compare.
@@ -22,7 +22,7 @@ bool has_all_labels(const Snapshot& shown, std::uint64_t revision) {
 ViewState turned(const ViewState& from, std::uint64_t revision, double azimuth_degrees) {
   ViewState state = from;
   state.revision = revision;
-  state.setup.lights.front() = LightPose{azimuth_degrees, 40.0, {}, {}};
+  state.setup.lights.front() = app::LightPose{azimuth_degrees, 40.0, {}, {}};
   return state;
 }
 
@@ -77,4 +77,4 @@ TEST(Turns, LabelsOfAStateThatIsLeftAreGivenUpBeforeItsRaysAndAfterThem) {
 }
 
 }  // namespace
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -5,7 +5,7 @@
 
 #include "lab/view/panels/panels.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -60,4 +60,4 @@ void right_column(PanelContext& context) {
   ImGui::End();
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

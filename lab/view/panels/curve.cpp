@@ -11,7 +11,7 @@
 #include "lab/view/panels/panels.h"
 #include "lab/view/state/presets.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -138,4 +138,4 @@ void curve_panel(PanelContext& context) {
   ImGui::Spacing();
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -6,7 +6,7 @@
 
 #include "lab/view/panels/panels.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -58,4 +58,4 @@ void help_window(PanelContext& context) {
   if (!open) context.ask(Change{SetFlag{&Look::help, false}});
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

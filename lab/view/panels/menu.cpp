@@ -6,7 +6,7 @@
 #include "report/lessons.h"
 #include "scene/load.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -24,7 +24,7 @@ void scene_menu(PanelContext& context) {
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("Lessons")) {
-    for (const compare::Lesson& lesson : compare::all_lessons()) {
+    for (const report::Lesson& lesson : report::all_lessons()) {
       const std::string name(lesson.name), title(lesson.title);
       if (ImGui::MenuItem(title.c_str(), nullptr, name == open)) context.ask(OpenScene{name});
       if (ImGui::IsItemHovered())
@@ -131,4 +131,4 @@ void menu_bar(PanelContext& context) {
   ImGui::EndMainMenuBar();
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -8,7 +8,7 @@
 #include "lab/view/panels/panels.h"
 #include "lab/view/state/projection.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -164,4 +164,4 @@ void overlay(PanelContext& context) {
   over.name(pane, state.picture, 0.5 * pane.width, true);
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

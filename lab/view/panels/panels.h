@@ -15,7 +15,7 @@
 #include "lab/view/work/job.h"
 #include "lab/view/work/render_thread.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 struct PanelContext {
   const ViewState& state;
@@ -59,4 +59,4 @@ void faint(const std::string& text);
 /// A colour of the palette as Dear ImGui takes it.
 std::uint32_t colour(const glm::u8vec3& c);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -12,7 +12,7 @@
 #include "lab/view/panels/panels.h"
 #include "lab/view/state/pixel_story.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -188,4 +188,4 @@ void probe_panel(PanelContext& context) {
   ImGui::Spacing();
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -12,7 +12,7 @@
 #include "lab/view/panels/panels.h"
 #include "lab/view/state/status.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -135,4 +135,4 @@ void results_panel(PanelContext& context) {
   times(context);
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

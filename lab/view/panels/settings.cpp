@@ -11,7 +11,7 @@
 #include "lab/view/window/style.h"
 #include "raster/settings.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -311,7 +311,7 @@ Note note_on_place(const char* options) {
 }
 
 /// A sun that was put elsewhere by hand stands there at no hour.
-std::string hour_words(double hours, const LightPose& pose) {
+std::string hour_words(double hours, const app::LightPose& pose) {
   constexpr double as_near = 1.0;  // degrees
   if (std::abs(sun_at(hours).elevation_degrees - pose.elevation_degrees) > as_near)
     return "no hour of an equinox";
@@ -332,7 +332,7 @@ void lights(PanelContext& context) {
     }
   }
   const Light& light = state.given.lights[state.setup.light];
-  const LightPose pose = current_light(state);
+  const app::LightPose pose = current_light(state);
   double azimuth = pose.azimuth_degrees, elevation = pose.elevation_degrees;
   if (light_number("Comes from", note_on_place("--light-azimuth"), azimuth, -180.0, 180.0, "%.1f degrees"))
     context.ask(Change{LightAzimuthTo{azimuth}});
@@ -408,4 +408,4 @@ void settings_panel(PanelContext& context) {
   precision(context);
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

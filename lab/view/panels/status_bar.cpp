@@ -6,7 +6,7 @@
 #include "lab/view/state/status.h"
 #include "scene/base/expected.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -65,4 +65,4 @@ void status_bar(PanelContext& context) {
   ImGui::PopStyleVar();
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

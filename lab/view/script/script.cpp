@@ -14,7 +14,7 @@
 #include "scene/files/read_file.h"
 #include "scene/load.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -59,7 +59,7 @@ Expected<Change> set_map(const std::string& key, const std::string& value) {
 
 Expected<Change> unknown_key(const std::string& key) {
   std::vector<std::string> names = script_key_names();
-  for (const std::string& name : map_setting_names()) names.push_back(name);
+  for (const std::string& name : app::map_setting_names()) names.push_back(name);
   const std::vector<std::string_view> known(names.begin(), names.end());
   return wrong(fmt::format("nothing to set by this name (got {}, allowed {}){}", key, fmt::join(names, ", "),
                            did_you_mean(key, known)));
@@ -222,7 +222,7 @@ Expected<std::vector<ScriptStep>> parse_script(std::string_view text, const std:
     Expected<Step> step = parse_step(words, known);
     if (step && (std::holds_alternative<OpenScene>(*step) || std::holds_alternative<DropFile>(*step))) {
       // Its lights' names are needed from here on.
-      const auto scene = load_scene(scene_of_lesson(words[1]), {.confine_paths = true, .files = opened});
+      const auto scene = load_scene(app::scene_of_lesson(words[1]), {.confine_paths = true, .files = opened});
       if (scene) known = scene->lights;
       if (!scene) step = fail(scene.error());
     }
@@ -239,4 +239,4 @@ Expected<std::vector<ScriptStep>> parse_script(std::string_view text, const std:
   return steps;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -35,7 +35,7 @@
 #include "lab/view/state/state.h"
 #include "scene/base/expected.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 struct WaitFrames {
   std::int64_t frames;
@@ -109,4 +109,4 @@ const ScriptKey* find_script_key(std::string_view name);
 /// All of them, and "light", which needs the scene.
 std::vector<std::string> script_key_names();
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

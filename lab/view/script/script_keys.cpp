@@ -6,7 +6,7 @@
 
 #include "app/options/pose_options.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -52,9 +52,9 @@ Expected<Change> freeze(const Values& values) {
 }
 
 Expected<Change> orbit(const Values& values) {
-  const Expected<double> azimuth = parse_number(values[0], azimuth_range);
+  const Expected<double> azimuth = parse_number(values[0], app::azimuth_range);
   if (!azimuth) return fail(azimuth.error());
-  return change_of(parse_number(values[1], camera_elevation_range), [&](double elevation) {
+  return change_of(parse_number(values[1], app::camera_elevation_range), [&](double elevation) {
     return OrbitTo{*azimuth, elevation};
   });
 }
@@ -62,7 +62,7 @@ Expected<Change> orbit(const Values& values) {
 Expected<Change> target(const Values& values) {
   Vec3 place{0.0};
   for (int i = 0; i < 3; ++i) {
-    const Expected<double> value = parse_number(values[static_cast<std::size_t>(i)], coordinate_range);
+    const Expected<double> value = parse_number(values[static_cast<std::size_t>(i)], app::coordinate_range);
     if (!value) return fail(value.error());
     place[i] = *value;
   }
@@ -97,18 +97,18 @@ constexpr ScriptKey keys[] = {
     {"view", 1, "set view NAME",
      [](const Values& v) { return change_of(parse_picture(v[0]), [](Picture p) { return Show{p}; }); }},
     {"size", 1, "set size WxH",
-     [](const Values& v) { return change_of(parse_size(v[0]), [](ImageSize s) { return Resize{s}; }); }},
-    {"light-azimuth", 1, "set light-azimuth DEG", number<LightAzimuthTo, azimuth_range>},
-    {"light-elevation", 1, "set light-elevation DEG", number<LightElevationTo, light_elevation_range>},
-    {"light-distance", 1, "set light-distance D", number<LightDistanceTo, distance_range>},
-    {"light-size", 1, "set light-size S", number<LightSizeTo, size_range>},
+     [](const Values& v) { return change_of(app::parse_size(v[0]), [](ImageSize s) { return Resize{s}; }); }},
+    {"light-azimuth", 1, "set light-azimuth DEG", number<LightAzimuthTo, app::azimuth_range>},
+    {"light-elevation", 1, "set light-elevation DEG", number<LightElevationTo, app::light_elevation_range>},
+    {"light-distance", 1, "set light-distance D", number<LightDistanceTo, app::distance_range>},
+    {"light-size", 1, "set light-size S", number<LightSizeTo, app::size_range>},
     {"film-time", 1, "set film-time SECONDS", number<FilmTo, film_range>},
     {"film-play", 1, "set film-play on|off", play},
     {"freeze-maps", 1, "set freeze-maps on|off", freeze},
     {"time-of-day", 1, "set time-of-day HOURS", number<SunHour, hour_range>},
     {"camera-orbit", 2, "set camera-orbit AZIMUTH ELEVATION", orbit},
-    {"camera-distance", 1, "set camera-distance D", number<DistanceTo, distance_range>},
-    {"camera-height", 1, "set camera-height H", number<HeightTo, distance_range>},
+    {"camera-distance", 1, "set camera-distance D", number<DistanceTo, app::distance_range>},
+    {"camera-height", 1, "set camera-height H", number<HeightTo, app::distance_range>},
     {"camera-target", 3, "set camera-target X Y Z", target},
     {"precision", 1, "set precision NAME", precision},
     {"layout", 1, "set layout NAME",
@@ -143,4 +143,4 @@ std::vector<std::string> script_key_names() {
   return names;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

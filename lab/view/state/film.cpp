@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -48,7 +48,8 @@ bool can_be_posed(const LabFilm& film, const compare::Pose& first, const Vec3& c
     const FilmMoment moment = moment_of(film, first, centre, seconds);
     for (std::size_t k = 0; k < meant.lights.size(); ++k) {
       if (!moment.lights[k]) continue;
-      const Light posed = posed_light(first.lights[k], centre, *moment.lights[k]), &light = meant.lights[k];
+      const Light posed = app::posed_light(first.lights[k], centre, *moment.lights[k]),
+                  &light = meant.lights[k];
       const double scale = 1.0 + glm::length(light.position - centre);
       if (glm::length(posed.position - light.position) > place * scale) return false;
       if (light.type != LightType::point && glm::length(posed.direction - light.direction) > aim)
@@ -97,7 +98,7 @@ FilmMoment moment_of(const LabFilm& film, const compare::Pose& first, const Vec3
   const compare::Pose pose = pose_of(film, first, centre, seconds);
   FilmMoment moment;
   if (film.path.camera != CameraPath::still) {
-    moment.camera = camera_pose(pose.camera);
+    moment.camera = app::camera_pose(pose.camera);
     moment.camera->target = pose.camera.target;
     if (pose.camera.up != first.camera.up) moment.camera->up = pose.camera.up;
   }
@@ -105,11 +106,11 @@ FilmMoment moment_of(const LabFilm& film, const compare::Pose& first, const Vec3
   for (std::size_t i = 0; i < first.lights.size(); ++i) {
     const Light& light = pose.lights[i];
     if (!moves(film, light)) continue;
-    moment.lights[i] = light_pose(light, centre);
+    moment.lights[i] = app::light_pose(light, centre);
     if (light.type != LightType::directional)
       moment.lights[i]->distance = glm::length(light.position - centre);
   }
   return moment;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -8,7 +8,7 @@
 #include "app/pose.h"
 #include "compare/path.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 struct LabFilm {
   std::string
@@ -24,9 +24,9 @@ std::vector<LabFilm> films_of(const compare::Pose& first, const Vec3& centre,
 
 /// What the film moves, at a time in [0, its seconds]; nothing for what stands still.
 struct FilmMoment {
-  std::optional<CameraPose> camera;
-  std::vector<std::optional<LightPose>> lights;  ///< as the scene's
+  std::optional<app::CameraPose> camera;
+  std::vector<std::optional<app::LightPose>> lights;  ///< as the scene's
 };
 FilmMoment moment_of(const LabFilm& film, const compare::Pose& first, const Vec3& centre, double seconds);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -4,14 +4,14 @@
 
 #include "app/session.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 Expected<ViewState> first_state(const LabOptions& options, GivenScene given) {
   Scene bare;
   bare.camera = given.camera, bare.lights = given.lights;
-  const auto lights = choose_lights(bare, options.light);
+  const auto lights = app::choose_lights(bare, options.light);
   if (!lights) return fail(lights.error());
-  const auto poses = resolve_poses(options.poses, options.light, bare, given.centre);
+  const auto poses = app::resolve_poses(options.poses, options.light, bare, given.centre);
   if (!poses) return fail(poses.error());
   ViewState state;
   state.given = std::move(given);
@@ -26,4 +26,4 @@ Expected<ViewState> first_state(const LabOptions& options, GivenScene given) {
   return state;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -359,4 +359,4 @@ std::span<const KeyGroup> key_groups() {
   return groups;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

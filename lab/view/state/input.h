@@ -10,7 +10,7 @@
 
 #include "lab/view/state/state.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// Modifier keys that are held.
 struct Modifiers {
@@ -90,4 +90,4 @@ struct KeyGroup {
 };
 std::span<const KeyGroup> key_groups();
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

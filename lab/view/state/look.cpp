@@ -5,7 +5,7 @@
 
 #include "scene/base/option_text.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -56,4 +56,4 @@ Expected<Theme> parse_theme(std::string_view name) {
   return parse<Theme>(name, theme_names, "theme");
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -10,7 +10,7 @@
 #include "scene/base/expected.h"
 #include "scene/math.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 enum class Picture : std::uint8_t { raster, raytrace, difference, labels, truth, gap, texels, depth };
 inline constexpr std::size_t picture_count = 8;
@@ -55,4 +55,4 @@ struct Look {
   bool operator==(const Look&) const = default;
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -9,7 +9,7 @@
 #include "report/pixel_words.h"
 #include "scene/light_map/light_view.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -87,15 +87,15 @@ PixelStory tell_story(const ComparisonOutcome& outcome, PixelPlace place, ImageS
   const Vec2f uv = record.texel_uv.at(x, y);
   story.u = static_cast<double>(uv.x), story.v = static_cast<double>(uv.y);
   story.face = record.face.at(x, y);
-  compare::PixelFacts facts{story.label, story.rungs, story.gap, story.u, story.v};
+  report::PixelFacts facts{story.label, story.rungs, story.gap, story.u, story.v};
   facts.seen = story.seen && story.label != Label::silhouette;
   facts.material = material_at(outcome.shown, outcome.shown.material, x, y);
   facts.stored_glass = material_at(outcome.shown, outcome.shown.stored_glass, x, y);
   if (record.external && !record.external->decision.data.empty())
     facts.decision = record.external->decision.at(x, y);
-  story.deciding = compare::deciding_rung(facts);
-  story.words = compare::pixel_words(outcome.comparison, light, facts);
-  story.remarks = compare::pixel_remarks(facts);
+  story.deciding = report::deciding_rung(facts);
+  story.words = report::pixel_words(outcome.comparison, light, facts);
+  story.remarks = report::pixel_remarks(facts);
   if (story.deciding > 0) story.cure = compare::label_text(story.label).cure;
   return story;
 }
@@ -173,4 +173,4 @@ std::optional<LightSpace> light_space(const ComparisonOutcome& outcome, const Pi
   return space;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

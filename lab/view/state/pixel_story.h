@@ -9,7 +9,7 @@
 #include "lab/view/state/look.h"
 #include "lab/view/work/worker.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 struct PixelStory {
   PixelPlace pixel;
@@ -58,4 +58,4 @@ struct LightSpace {
 /// Empty as above.
 std::optional<LightSpace> light_space(const ComparisonOutcome& outcome, const PixelStory& story, int texels);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

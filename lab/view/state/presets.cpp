@@ -6,7 +6,7 @@
 
 #include "raster/technique_traits.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -95,4 +95,4 @@ std::span<const Preset> presets() {
   return preset_table;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

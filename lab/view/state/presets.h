@@ -7,7 +7,7 @@
 #include "compare/comparison.h"
 #include "raster/options.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 struct Preset {
   std::string_view title;
@@ -30,4 +30,4 @@ double shown_share(const Preset& preset, const compare::LightComparison& light);
 double bias_texels(const raster::Bias& bias, double constant_world, double texel_world);
 void set_bias_texels(raster::Bias& bias, double texels, double texel_world);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

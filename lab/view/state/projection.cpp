@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -78,8 +78,8 @@ Change drag_handle(const ViewState& state, const LightHandle& handle, const Scre
   const double t = (-b + (far_side ? 1.0 : -1.0) * std::sqrt(std::max(0.0, root))) / a;
   Light sun = state.given.lights[state.setup.light];
   sun.direction = -glm::normalize(eye + t * direction - handle.centre);
-  const LightPose to = light_pose(sun, state.given.centre), from = current_light(state);
-  return TurnLightBy{wrapped_degrees(to.azimuth_degrees - from.azimuth_degrees),
+  const app::LightPose to = app::light_pose(sun, state.given.centre), from = current_light(state);
+  return TurnLightBy{app::wrapped_degrees(to.azimuth_degrees - from.azimuth_degrees),
                      to.elevation_degrees - from.elevation_degrees};
 }
 
@@ -103,4 +103,4 @@ std::vector<std::pair<Vec3, Vec3>> frustum_edges(const LightView& view) {
   return edges;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -12,7 +12,7 @@
 #include "scene/camera.h"
 #include "scene/light_map/light_view.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// Where points of the world lie on a picture that is shown at `place`; pixels of the window.
 struct ScreenCamera {
@@ -42,4 +42,4 @@ std::vector<std::pair<Vec3, Vec3>> box_edges(const std::array<Vec3, 8>& corners)
 /// The edges of what the map covers, face by face: lines in the world.
 std::vector<std::pair<Vec3, Vec3>> frustum_edges(const LightView& view);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

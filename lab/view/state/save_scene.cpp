@@ -18,7 +18,7 @@
 #include "scene/files/write_file.h"
 #include "scene/load.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -32,7 +32,7 @@ Json camera_json(const Camera& camera) {
   if (camera.orthographic())
     json["orthographic_height"] = camera.orthographic_height;
   else
-    json["vertical_fov_degrees"] = degrees(camera.vertical_fov);
+    json["vertical_fov_degrees"] = app::degrees(camera.vertical_fov);
   if (camera.samples_per_pixel != 1) json["samples_per_pixel"] = camera.samples_per_pixel;
   return json;
 }
@@ -41,8 +41,8 @@ Json light_json(const Light& light) {
   Json json = light_place_json(light);
   json["intensity"] = compare::vector3(Vec3(light.intensity));
   if (light.type == LightType::spot) {
-    json["inner_angle_degrees"] = degrees(light.inner_angle);
-    json["outer_angle_degrees"] = degrees(light.outer_angle);
+    json["inner_angle_degrees"] = app::degrees(light.inner_angle);
+    json["outer_angle_degrees"] = app::degrees(light.outer_angle);
   }
   add_shape(json, light.extent, AngleForm::degrees);
   if (light.shadow_samples != Light{}.shadow_samples) json["shadow_samples"] = light.shadow_samples;
@@ -94,15 +94,16 @@ Expected<void> check(const std::string& text, const std::string& path, const Sce
 
 }  // namespace
 
-std::string folder_for_scene(const SceneArgument& opened) {
-  const std::string name = scene_of_lesson(opened.name);
+std::string folder_for_scene(const app::SceneArgument& opened) {
+  const std::string name = app::scene_of_lesson(opened.name);
   if (find_builtin_scene(name)) return "";
   const std::string folder = fs::path(name).parent_path().string();
   return folder.empty() ? "" : folder + "/";
 }
 
-Expected<void> write_scene(const std::string& path, const SceneArgument& opened, const ViewState& state) {
-  const std::string name = scene_of_lesson(opened.name);
+Expected<void> write_scene(const std::string& path, const app::SceneArgument& opened,
+                           const ViewState& state) {
+  const std::string name = app::scene_of_lesson(opened.name);
   if (opened.time)
     return fail(ErrorKind::usage,
                 "a scene file cannot hold a moment of an animation; gnomon export --time writes one as glTF");
@@ -117,11 +118,11 @@ Expected<void> write_scene(const std::string& path, const SceneArgument& opened,
   for (const Light& light : meant.lights) (*json)["lights"].push_back(light_json(light));
   (*json)["settings"] = Json::object();
   for (const auto& [option, value] : raster::map_values(state.setup.map)) (*json)["settings"][option] = value;
-  const OutputGuard whole_output;
+  const app::OutputGuard whole_output;
   if (auto made = make_folder_for(path); !made) return made;
   const std::string text = compare::dumped(*json, 2);
   if (auto same = check(text, path, meant); !same) return same;
   return write_file(path, text);
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -9,9 +9,12 @@
 
 #include "raster/settings.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
+
+using app::CameraPose;
+using app::LightPose;
 
 /// Steps and drags leave numbers that a person can read and type again: nine digits, finer than anything on
 /// screen.
@@ -56,14 +59,14 @@ struct SetupChange {
 
   void turn_camera(double azimuth, double elevation) const {
     CameraPose pose = current_camera(s);
-    pose.azimuth_degrees = wrapped_degrees(azimuth);
-    pose.elevation_degrees = clamped(elevation, max_camera_elevation_degrees);
+    pose.azimuth_degrees = app::wrapped_degrees(azimuth);
+    pose.elevation_degrees = clamped(elevation, app::max_camera_elevation_degrees);
     s.setup.camera = pose;
   }
   void turn_light(double azimuth, double elevation) const {
     LightPose pose = current_light(s);
-    pose.azimuth_degrees = wrapped_degrees(azimuth);
-    pose.elevation_degrees = clamped(elevation, max_light_elevation_degrees);
+    pose.azimuth_degrees = app::wrapped_degrees(azimuth);
+    pose.elevation_degrees = clamped(elevation, app::max_light_elevation_degrees);
     s.setup.lights[s.setup.light] = pose;
   }
   void move_camera(double distance) const {
@@ -79,12 +82,12 @@ struct SetupChange {
   void operator()(const OrbitTo& c) const { turn_camera(c.azimuth, c.elevation); }
   void operator()(const ZoomBy& c) const {
     if (posed_camera(s).orthographic()) return zoom_height(c.factor);
-    const double own = camera_pose(s.given.camera).distance;
+    const double own = app::camera_pose(s.given.camera).distance;
     move_camera(tidy(std::clamp(current_camera(s).distance * c.factor, own / max_zoom, own * max_zoom)));
   }
   /// Changes the height of an orthographic picture, which distance does not change.
   void zoom_height(double factor) const {
-    const CameraPose first = s.initial.camera.value_or(camera_pose(s.given.camera));
+    const CameraPose first = s.initial.camera.value_or(app::camera_pose(s.given.camera));
     const double now = posed_camera(s).orthographic_height;
     const double own =
         first.height.value_or(s.given.camera.orthographic() ? s.given.camera.orthographic_height : now);
@@ -183,7 +186,7 @@ struct SetupChange {
   void operator()(const LightSizeTo& c) const {
     const bool sun = s.given.lights[s.setup.light].type == LightType::directional;
     LightPose pose = current_light(s);
-    pose.size = sun ? std::min(c.size, most_sun_degrees) : c.size;
+    pose.size = sun ? std::min(c.size, app::most_sun_degrees) : c.size;
     s.setup.lights[s.setup.light] = pose;
   }
   void operator()(const PlaceLamp& c) const {
@@ -191,7 +194,7 @@ struct SetupChange {
     const double distance = glm::length(c.position - s.given.centre);
     if (light.type == LightType::directional || !(distance > 0.0)) return;
     light.position = c.position;
-    const LightPose pose = light_pose(light, s.given.centre);
+    const LightPose pose = app::light_pose(light, s.given.centre);
     s.setup.lights[s.setup.light] = LightPose{tidy(pose.azimuth_degrees), tidy(pose.elevation_degrees),
                                               tidy(distance), current_light(s).size};
   }
@@ -293,21 +296,21 @@ struct LookChange {
 }  // namespace
 
 CameraPose current_camera(const ViewState& s) {
-  return s.setup.camera.value_or(camera_pose(s.given.camera));
+  return s.setup.camera.value_or(app::camera_pose(s.given.camera));
 }
 
 LightPose current_light(const ViewState& s) {
   const std::uint32_t i = s.setup.light;
-  return s.setup.lights[i].value_or(light_pose(s.given.lights[i], s.given.centre));
+  return s.setup.lights[i].value_or(app::light_pose(s.given.lights[i], s.given.centre));
 }
 
 Camera posed_camera(const ViewState& s) {
-  return s.setup.camera ? posed_camera(s.given.camera, *s.setup.camera) : s.given.camera;
+  return s.setup.camera ? app::posed_camera(s.given.camera, *s.setup.camera) : s.given.camera;
 }
 
 Light posed_light(const ViewState& s) {
   const std::uint32_t i = s.setup.light;
-  return s.setup.lights[i] ? posed_light(s.given.lights[i], s.given.centre, *s.setup.lights[i])
+  return s.setup.lights[i] ? app::posed_light(s.given.lights[i], s.given.centre, *s.setup.lights[i])
                            : s.given.lights[i];
 }
 
@@ -335,10 +338,10 @@ GivenScene given_scene(const Scene& scene, const World& world, const std::vector
 }
 
 void place(const GivenScene& given, const Setup& setup, Scene& scene) {
-  scene.camera = setup.camera ? posed_camera(given.camera, *setup.camera) : given.camera;
+  scene.camera = setup.camera ? app::posed_camera(given.camera, *setup.camera) : given.camera;
   scene.lights = given.lights;
   for (std::size_t i = 0; i < given.lights.size(); ++i) {
-    if (setup.lights[i]) scene.lights[i] = posed_light(given.lights[i], given.centre, *setup.lights[i]);
+    if (setup.lights[i]) scene.lights[i] = app::posed_light(given.lights[i], given.centre, *setup.lights[i]);
   }
 }
 
@@ -355,4 +358,4 @@ void carry_out(ViewState& state, const Change& change) {
       change);
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -18,7 +18,7 @@
 #include "scene/base/expected.h"
 #include "scene/world.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// The scene's own camera and lights, which poses refer to.
 struct GivenScene {
@@ -32,10 +32,10 @@ GivenScene given_scene(const Scene& scene, const World& world, const std::vector
 
 /// Everything that the pictures depend on.
 struct Setup {
-  std::optional<CameraPose> camera;              ///< none: as the file has it, to the last bit
-  std::vector<std::optional<LightPose>> lights;  ///< as the scene's
-  std::uint32_t light = 0;                       ///< the one that is compared and turned
-  std::optional<Camera> map_camera{};            ///< what maps are laid for; none: the view's own camera
+  std::optional<app::CameraPose> camera;              ///< none: as the file has it, to the last bit
+  std::vector<std::optional<app::LightPose>> lights;  ///< as the scene's
+  std::uint32_t light = 0;                            ///< the one that is compared and turned
+  std::optional<Camera> map_camera{};                 ///< what maps are laid for; none: the view's own camera
   raster::MapOptions map;
   raytrace::Precision precision = raytrace::Precision::robust;  ///< of the rays
   ImageSize size{1280, 720};                                    ///< pixels of the picture
@@ -240,15 +240,15 @@ void carry_out(ViewState& state, const Change& change);
 /// The camera and the light that are compared, as they stand now.
 Camera posed_camera(const ViewState& state);
 Light posed_light(const ViewState& state);
-LightPose current_light(const ViewState& state);
-CameraPose current_camera(const ViewState& state);
+app::LightPose current_light(const ViewState& state);
+app::CameraPose current_camera(const ViewState& state);
 
 /// Where SunHour puts the sun, and the hour at which it stands at this azimuth.
-LightPose sun_at(double hours);
-double sun_hour(const LightPose& pose);
+app::LightPose sun_at(double hours);
+double sun_hour(const app::LightPose& pose);
 
 /// Keys zoom and turn within these bounds.
 inline constexpr double max_zoom =
     1000.0;  ///< nearest and farthest: the file's own distance by and times this
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -14,7 +14,7 @@
 #include "compare/result/shadow_cost.h"
 #include "raster/settings.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -50,7 +50,7 @@ void add_if(Words& words, bool wanted, std::string_view key, const std::string& 
 
 void add_poses(Words& words, const Setup& setup) {
   if (setup.camera) {
-    const CameraPose& pose = *setup.camera;
+    const app::CameraPose& pose = *setup.camera;
     add_if(words, true, "--camera-orbit",
            fmt::format("{},{}", number_text(pose.azimuth_degrees), number_text(pose.elevation_degrees)));
     add_if(words, true, "--camera-distance", number_text(pose.distance));
@@ -63,7 +63,7 @@ void add_poses(Words& words, const Setup& setup) {
     vector("--camera-up", pose.up);
     if (pose.height) add_if(words, true, "--camera-height", number_text(*pose.height));
   }
-  if (const std::optional<LightPose>& pose = setup.lights[setup.light]) {
+  if (const std::optional<app::LightPose>& pose = setup.lights[setup.light]) {
     add_if(words, true, "--light-azimuth", number_text(pose->azimuth_degrees));
     add_if(words, true, "--light-elevation", number_text(pose->elevation_degrees));
     if (pose->distance) add_if(words, true, "--light-distance", number_text(*pose->distance));
@@ -93,7 +93,7 @@ std::string status_line(const ViewState& state, const Readings& readings, const 
 
 std::vector<std::string> backend_words(raster::Backend backend) {
   Words words;
-  std::istringstream text(backend_argument(backend));
+  std::istringstream text(app::backend_argument(backend));
   for (std::string word; text >> word;) words.push_back(word);
   return words;
 }
@@ -117,7 +117,8 @@ void add_truth(Words& words, const ViewState& state, const LabOptions& options) 
          std::string(raytrace::precision_name(state.setup.precision)));
   add_if(words, options.compare.raytrace.min_contribution != plain.raytrace.min_contribution,
          "--min-contribution", number_text(options.compare.raytrace.min_contribution));
-  add_if(words, options.max_lights != usual_max_lights, "--max-lights", std::to_string(options.max_lights));
+  add_if(words, options.max_lights != app::usual_max_lights, "--max-lights",
+         std::to_string(options.max_lights));
   for (std::string& word : backend_words(options.backend)) words.push_back(std::move(word));
   add_if(words, !options.shader_folder.empty(), "--shader-dir", options.shader_folder);
 }
@@ -141,7 +142,7 @@ std::vector<std::string> setting_words(const ViewState& state, const LabOptions&
   add_if(words, !options.camera.empty(), "--camera", options.camera);
   add_if(words, options.tessellate > 0, "--tessellate", std::to_string(options.tessellate));
   add_if(words, true, "--size", size_text(state.setup.size));
-  const Words of_map = raster::words_of(settled_values(scene, raster::map_values(state.setup.map)));
+  const Words of_map = raster::words_of(app::settled_values(scene, raster::map_values(state.setup.map)));
   words.insert(words.end(), of_map.begin(), of_map.end());
   add_truth(words, state, options);
   if (options.exposure)
@@ -157,7 +158,8 @@ std::vector<std::string> tuning_words(const ViewState& state, const LabOptions& 
   return words;
 }
 
-std::string compare_command(const ViewState& state, const LabOptions& options, const SceneArgument& scene) {
+std::string compare_command(const ViewState& state, const LabOptions& options,
+                            const app::SceneArgument& scene) {
   std::string text = "gnomon compare " + scene.words();
   for (const std::string& word : setting_words(state, options, scene.name))
     text += fmt::format(" {}", shell_quoted(word));
@@ -217,4 +219,4 @@ ShadowTimeWords shadow_time_words(const Snapshot& shown, const ViewState& state)
   return words;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -9,7 +9,7 @@
 #include "lab/view/state/state.h"
 #include "lab/view/work/render_thread.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// The numbers beside the pictures. They are of the state shown, or of the newest one that is finished.
 struct Readings {
@@ -41,7 +41,8 @@ ShadowTimeWords shadow_time_words(const Snapshot& shown, const ViewState& state)
 std::string status_line(const ViewState& state, const Readings& readings, const std::string& scene);
 
 /// "gnomon compare SCENE --size ... ": what differs from the defaults and, always, size, map size and bias.
-std::string compare_command(const ViewState& state, const LabOptions& options, const SceneArgument& scene);
+std::string compare_command(const ViewState& state, const LabOptions& options,
+                            const app::SceneArgument& scene);
 /// Returns the words of the setting without "gnomon compare SCENE", each by itself and not quoted; `scene` is the path or
 /// name in its place, whose own settings they set back.
 std::vector<std::string> setting_words(const ViewState& state, const LabOptions& options,
@@ -60,4 +61,4 @@ std::vector<std::string> pose_words(const ViewState& state);
 /// Lights that were turned but are not the chosen one: the command line has no words for them.
 std::vector<std::string> other_turned_lights(const ViewState& state);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -11,7 +11,7 @@
 #include "compare/result/number_text.h"
 #include "scene/base/stages.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::string FrameWatch::words() const {
   return text;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

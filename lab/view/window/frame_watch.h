@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// In the order of a frame; together they are all of it.
 enum class FramePart : std::uint8_t {
@@ -42,4 +42,4 @@ class FrameWatch {
   Time mark_;
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -8,7 +8,7 @@
 
 #include "lab/view/window/style.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -156,4 +156,4 @@ bool Interface::leave_panels() {
   return true;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -11,7 +11,7 @@
 #include "lab/view/window/layout.h"
 #include "lab/view/window/window.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// A pointer that a script moves in place of the mouse.
 struct ScriptPointer {
@@ -49,4 +49,4 @@ class Interface {
   std::optional<Key> script_key_;  ///< held down in the last frame
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

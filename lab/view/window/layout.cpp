@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -93,4 +93,4 @@ bool shows_scene(Picture picture) {
   return picture == Picture::raster || picture == Picture::raytrace || picture == Picture::texels;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -7,7 +7,7 @@
 #include "lab/view/state/look.h"
 #include "scene/image.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 struct Box {
   int x = 0, y = 0, width = 0, height = 0;
@@ -51,4 +51,4 @@ std::vector<ShownView> shown_views(const LabLayout& layout, const Look& look, Pi
 /// Whether it shows the scene as the eye sees it, so that the light's handle has its place there.
 bool shows_scene(Picture picture);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -7,7 +7,7 @@
 #include "scene/files/path_status.h"
 #include "scene/files/read_file.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -119,4 +119,4 @@ std::string broken_at_blanks(std::string_view text, double width,
   return out;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

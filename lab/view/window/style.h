@@ -11,7 +11,7 @@
 
 struct ImVec4;
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// Gives Dear ImGui's current context its colours and sizes.
 void apply_style(Theme theme, const TypeSize& type);
@@ -33,4 +33,4 @@ Ink ink_of(Theme theme);
 std::string broken_at_blanks(std::string_view text, double width,
                              const std::function<double(std::string_view)>& measure);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

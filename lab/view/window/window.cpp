@@ -9,7 +9,7 @@
 
 #include "app/process/interrupt.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -76,8 +76,8 @@ void end_in_words_without_display() {
   if (xlib == nullptr) return;
   if (const auto set = reinterpret_cast<Handler (*)(Handler)>(dlsym(xlib, "XSetIOErrorHandler")))
     set([](void*) -> int {
-      const OutputGuard whole_outputs;
-      end_process(static_cast<int>(ErrorKind::graphics), "the display is gone, and the window with it");
+      const app::OutputGuard whole_outputs;
+      app::end_process(static_cast<int>(ErrorKind::graphics), "the display is gone, and the window with it");
     });
 }
 
@@ -199,4 +199,4 @@ void Window::wake() {
   glfwPostEmptyEvent();
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -13,7 +13,7 @@
 
 struct GLFWwindow;
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// What the window tells; each is called from poll() or wait().
 struct WindowEvents {
@@ -78,4 +78,4 @@ class Window {
   ImageSize size_{};
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

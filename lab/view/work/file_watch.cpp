@@ -2,7 +2,7 @@
 
 #include "scene/files/path_status.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace fs = std::filesystem;
 
@@ -40,4 +40,4 @@ std::map<std::string, FileWatch::Stamp> FileWatch::look() const {
   return stamps;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 class FileWatch {
  public:
@@ -30,4 +30,4 @@ class FileWatch {
   std::map<std::string, Stamp> seen_;
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

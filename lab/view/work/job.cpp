@@ -13,7 +13,7 @@
 #include "scene/base/interrupted.h"
 #include "scene/files/own_program.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::string Job::err() const {
   return all_of(err_);
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

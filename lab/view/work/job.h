@@ -11,7 +11,7 @@
 #include "scene/base/expected.h"
 #include "scene/base/timing.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// What a panel shows of it.
 struct JobStatus {
@@ -45,4 +45,4 @@ class Job {
   int out_ = -1, err_ = -1;  ///< files in memory
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -58,4 +58,4 @@ void KeptTruth::keep(compare::Comparison& comparison) {
   measures_ = {{light.texel_world, light.theory, light.terminator}};
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -11,7 +11,7 @@
 #include "compare/measure/sums.h"
 #include "scene/scene.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 class KeptTruth {
  public:
@@ -46,4 +46,4 @@ class KeptTruth {
   std::vector<compare::MapMeasures> measures_;
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -7,7 +7,7 @@
 #include "compare/result/palette.h"
 #include "scene/base/parallel.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -83,4 +83,4 @@ Rgb8Image texel_picture(const Rgb8Image& drawn, const raster::LightRecord& recor
   });
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

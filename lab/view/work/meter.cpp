@@ -6,7 +6,7 @@
 
 #include "compare/result/number_text.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::string Meter::words() const {
          picture_.words("picture") + preview_.words("labels") + full_.words("labels in full");
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

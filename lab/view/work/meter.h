@@ -10,7 +10,7 @@
 #include "lab/view/work/render_thread.h"
 #include "scene/base/timing.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 class Meter {
  public:
@@ -37,4 +37,4 @@ class Meter {
   Answer picture_, preview_, full_;
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -3,7 +3,7 @@
 #include <sys/resource.h>
 #include <tbb/task_scheduler_observer.h>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// Linux counts a thread as a process here: only the calling one is meant. A system that refuses loses nothing but
 /// smoothness.
@@ -23,4 +23,4 @@ struct HelpersGiveWay::Observer final : tbb::task_scheduler_observer {
 HelpersGiveWay::HelpersGiveWay(int nice) : observer_(std::make_unique<Observer>(nice)) {}
 HelpersGiveWay::~HelpersGiveWay() = default;
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

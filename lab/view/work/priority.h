@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// What the calling thread gives way to: all that has less (Linux: its nice value; it cannot be taken back).
 inline constexpr int drawing_gives_way = 5, comparing_gives_way = 10;
@@ -23,4 +23,4 @@ class HelpersGiveWay {
   std::unique_ptr<Observer> observer_;
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -9,7 +9,7 @@
 #include "scene/base/interruptible.h"
 #include "scene/base/threads.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -51,7 +51,7 @@ void RenderThread::post(std::uint64_t scene, DrawOrder order) {
   changed_.notify_one();
 }
 
-void RenderThread::open(SceneArgument scene, std::string camera) {
+void RenderThread::open(app::SceneArgument scene, std::string camera) {
   {
     const std::lock_guard lock(mutex_);
     asked_scene_.emplace(std::move(scene), std::move(camera));
@@ -154,7 +154,7 @@ void RenderThread::work_on(const Task& task) {
   if (last_order_ && studio_) carry_out(*last_order_);
 }
 
-std::optional<Expected<SceneSource>> RenderThread::read(const SceneArgument& argument,
+std::optional<Expected<SceneSource>> RenderThread::read(const app::SceneArgument& argument,
                                                         const std::string& camera) {
   const auto reads = [this](std::optional<std::string> name) {
     const std::lock_guard lock(mutex_);
@@ -175,7 +175,7 @@ std::optional<Expected<SceneSource>> RenderThread::read(const SceneArgument& arg
   return source;
 }
 
-void RenderThread::read_scene(const SceneArgument& argument, const std::string& camera, bool again) {
+void RenderThread::read_scene(const app::SceneArgument& argument, const std::string& camera, bool again) {
   now_.opening = true;
   if (!again) now_.unreadable.reset();  // it was another scene
   publish();
@@ -273,4 +273,4 @@ void RenderThread::carry_out(const DrawOrder& order) {
   }
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

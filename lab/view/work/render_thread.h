@@ -19,13 +19,13 @@
 #include "lab/view/work/turns.h"
 #include "scene/base/timing.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// A scene as it was opened.
 struct OpenedScene {
   std::uint64_t number = 0;  ///< grows with each scene that is opened or read again
   bool again = false;        ///< the same as before, read again: what was set stays set
-  SceneArgument argument;
+  app::SceneArgument argument;
   std::string camera;  ///< SceneSource::camera
   std::string name;
   GivenScene given;
@@ -70,14 +70,14 @@ class RenderThread {
   /// Draws and compares this next. Orders for another scene than `scene` (OpenedScene::number) are dropped.
   void post(std::uint64_t scene, DrawOrder order);
   /// Reads another scene, seen by one of its cameras (empty: the first); until it is there the one before stays.
-  void open(SceneArgument scene, std::string camera = {});
+  void open(app::SceneArgument scene, std::string camera = {});
   std::shared_ptr<const Snapshot> snapshot() const;
   /// One that is not needed any longer, to be freed on this thread: giving memory back takes time.
   void give_back(std::shared_ptr<const Snapshot> snapshot);
 
  private:
   struct Task {
-    std::optional<std::pair<SceneArgument, std::string>> open;  ///< with a camera
+    std::optional<std::pair<app::SceneArgument, std::string>> open;  ///< with a camera
     std::optional<DrawOrder> order;
     bool quit = false;
   };
@@ -87,8 +87,8 @@ class RenderThread {
   void give_up(const std::exception& error);
   Task next_task(bool wait);
   /// Nothing where it was left for another scene.
-  std::optional<Expected<SceneSource>> read(const SceneArgument& argument, const std::string& camera);
-  void read_scene(const SceneArgument& argument, const std::string& camera, bool again);
+  std::optional<Expected<SceneSource>> read(const app::SceneArgument& argument, const std::string& camera);
+  void read_scene(const app::SceneArgument& argument, const std::string& camera, bool again);
   void install(const SceneSource& source, bool again);
   Expected<std::unique_ptr<Studio>> make_studio(const SceneSource& source, bool& again);
   void read_changed_files();
@@ -115,7 +115,7 @@ class RenderThread {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<std::pair<SceneArgument, std::string>> asked_scene_;
+  std::optional<std::pair<app::SceneArgument, std::string>> asked_scene_;
   std::optional<std::pair<std::uint64_t, DrawOrder>> asked_order_;
   bool finished_ = false;  ///< a comparison has finished
   std::atomic<bool> quit_ = false;
@@ -127,4 +127,4 @@ class RenderThread {
   Turns turns_;  ///< last
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

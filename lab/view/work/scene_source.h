@@ -15,7 +15,7 @@
 #include "lab/view/state/state.h"
 #include "scene/base/expected.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// What stays the same for every scene of a window.
 struct StudioOptions {
@@ -23,26 +23,26 @@ struct StudioOptions {
   std::string shader_folder;  ///< replacements of shaders/ files; empty: none
   std::optional<std::optional<double>> exposure;
   int tessellate = 0;
-  int max_lights = usual_max_lights;
+  int max_lights = app::usual_max_lights;
 };
 
 struct SceneSource {
-  SceneArgument argument;
+  app::SceneArgument argument;
   std::string camera;  ///< of the scene's cameras; empty: the first
-  std::shared_ptr<const LoadedScene> loaded;
+  std::shared_ptr<const app::LoadedScene> loaded;
   std::vector<std::string> files;  ///< all that the scene consists of; none of a built-in one
 };
 
 /// Reads the scene that a lab begins with, and says what is to be said of it.
-Expected<SceneSource> first_source(const LabOptions& options, Console& console);
+Expected<SceneSource> first_source(const LabOptions& options, app::Console& console);
 
 /// Reads another one.
-Expected<SceneSource> read_source(const SceneArgument& argument, const std::string& camera,
+Expected<SceneSource> read_source(const app::SceneArgument& argument, const std::string& camera,
                                   const StudioOptions& options);
 
 /// The options of the shadow map that `gnomon view SCENE` begins with. Error (bad_input): the scene file asks for
 /// what there is not.
-Expected<raster::MapOptions> first_map_options(const SceneArgument& argument);
+Expected<raster::MapOptions> first_map_options(const app::SceneArgument& argument);
 
 // A scene file of what the window shows: the scene that was opened, with the camera, the lights and the settings
 // of the shadow map as they are now.
@@ -51,9 +51,9 @@ Expected<raster::MapOptions> first_map_options(const SceneArgument& argument);
 /// it, but for comments; a model is included, and a file that the scene names must lie in the new file's folder
 /// or below. Its lights are all of the file's own, whatever file brought them, and those that the state has: what
 /// --max-lights left out is left out here. Error: usage where the place is wrong; what stood there is then left as it was.
-Expected<void> write_scene(const std::string& path, const SceneArgument& opened, const ViewState& state);
+Expected<void> write_scene(const std::string& path, const app::SceneArgument& opened, const ViewState& state);
 
 /// Where such a file of this scene finds all that it names: the scene's own folder.
-std::string folder_for_scene(const SceneArgument& opened);
+std::string folder_for_scene(const app::SceneArgument& opened);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

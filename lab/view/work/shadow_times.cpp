@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -67,4 +67,4 @@ void ShadowTimer::take(const raster::ShadowSpans& spans) {
   if (now_.map.runs.size() == wanted_runs) known_ = std::make_shared<const ShadowTimes>(now_);
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

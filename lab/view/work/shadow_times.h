@@ -11,7 +11,7 @@
 #include "raster/renderer.h"
 #include "scene/base/time_difference.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// Milliseconds of one drawing, run by run: on a GPU the mean of `drawings` of them.
 struct ShadowTimes {
@@ -51,4 +51,4 @@ class ShadowTimer {
   std::shared_ptr<const ShadowTimes> known_;
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

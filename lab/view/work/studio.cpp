@@ -10,7 +10,7 @@
 #include "scene/exposure.h"
 #include "scene/files/pictures/image_io.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 namespace {
 
@@ -23,18 +23,18 @@ ImageSize preview_size(ImageSize full) {
 }  // namespace
 
 Expected<std::unique_ptr<Studio>> Studio::create(std::unique_ptr<raster::Context> context,
-                                                 std::shared_ptr<const LoadedScene> loaded,
+                                                 std::shared_ptr<const app::LoadedScene> loaded,
                                                  const compare::CompareOptions& options,
                                                  const std::string& shader_folder,
                                                  std::function<void()> on_finished,
                                                  std::function<bool()> overtaken) {
-  auto renderer = make_renderer(std::move(context), *loaded, shader_folder);
+  auto renderer = app::make_renderer(std::move(context), *loaded, shader_folder);
   if (!renderer) return fail(renderer.error());
   return std::unique_ptr<Studio>(new Studio(std::move(*renderer), std::move(loaded), options,
                                             std::move(on_finished), std::move(overtaken)));
 }
 
-Studio::Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const LoadedScene> loaded,
+Studio::Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const app::LoadedScene> loaded,
                const compare::CompareOptions& options, std::function<void()> on_finished,
                std::function<bool()> overtaken)
     : loaded_(std::move(loaded)),
@@ -91,8 +91,9 @@ Expected<void> Studio::draw(const DrawOrder& order) {
 
 /// A light's size is what can call for another effect than the scene's own.
 EffectPlan Studio::plan_of(const Setup& setup) const {
-  const bool resized = std::any_of(setup.lights.begin(), setup.lights.end(),
-                                   [](const std::optional<LightPose>& pose) { return pose && pose->size; });
+  const bool resized =
+      std::any_of(setup.lights.begin(), setup.lights.end(),
+                  [](const std::optional<app::LightPose>& pose) { return pose && pose->size; });
   return resized ? plan_effects(*loaded_->scene) : loaded_->plan;
 }
 
@@ -172,4 +173,4 @@ Expected<void> Studio::start_next(const DrawOrder& order) {
   return {};
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

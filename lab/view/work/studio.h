@@ -16,7 +16,7 @@
 #include "lab/view/work/worker.h"
 #include "raster/renderer.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// What is to be drawn.
 struct DrawOrder {
@@ -42,7 +42,7 @@ class Studio {
   /// `on_finished` is called from another thread when it is worth calling compare() again. While something is drawn, `overtaken`
   /// says whether it is worth its end (interruptible.h); where it is not, draw() and compare() return an error.
   static Expected<std::unique_ptr<Studio>> create(std::unique_ptr<raster::Context> context,
-                                                  std::shared_ptr<const LoadedScene> loaded,
+                                                  std::shared_ptr<const app::LoadedScene> loaded,
                                                   const compare::CompareOptions& options,
                                                   const std::string& shader_folder,
                                                   std::function<void()> on_finished,
@@ -75,7 +75,7 @@ class Studio {
     bool operator==(const RaysOf&) const = default;
   };
 
-  Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const LoadedScene> loaded,
+  Studio(std::unique_ptr<raster::Renderer> renderer, std::shared_ptr<const app::LoadedScene> loaded,
          const compare::CompareOptions& options, std::function<void()> on_finished,
          std::function<bool()> overtaken);
   raster::RasterOptions raster_options(const Setup& setup, ImageSize size) const;
@@ -87,7 +87,7 @@ class Studio {
   EffectPlan plan_of(const Setup& setup) const;
   void encode_live();
 
-  std::shared_ptr<const LoadedScene> loaded_;
+  std::shared_ptr<const app::LoadedScene> loaded_;
   compare::CompareOptions options_;
   GivenScene given_;
   std::unique_ptr<raster::Renderer> renderer_;
@@ -107,4 +107,4 @@ class Studio {
   CompareWorker worker_;                              ///< last: its thread ends first
 };
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

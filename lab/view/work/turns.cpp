@@ -2,7 +2,7 @@
 
 #include <thread>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 struct Turns::Impl {
   explicit Impl(Work of) : work(std::move(of)), thread([this] { run(); }) {}
@@ -24,4 +24,4 @@ Turns::~Turns() {
 
 void take_turn() {}
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 class Turns {
  public:
@@ -30,4 +30,4 @@ class Turns {
 /// Gives one of them its turn, each time the next. Does nothing where they have threads.
 void take_turn();
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

@@ -10,7 +10,7 @@
 #include "scene/base/threads.h"
 #include "scene/base/timing.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// What is under way: one turn traces, the next compares, so that on one thread it can be given up in between. With
 /// threads tracing is cut short between two tiles, and comparing in any loop once it has taken seconds; the tracer is always built whole.
@@ -230,4 +230,4 @@ Expected<ComparisonOutcome> CompareWorker::compare(Job& job) {
   return outcome;
 }
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab

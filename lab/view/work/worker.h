@@ -24,7 +24,7 @@
 #include "scene/effects.h"
 #include "scene/world.h"
 
-namespace gnomon::app {
+namespace gnomon::lab {
 
 /// One drawn frame, and the scene's camera and lights that it was drawn with.
 struct ComparisonRequest {
@@ -129,4 +129,4 @@ inline constexpr double gap_scale_texels = 4.0;
 Rgb8Image texel_picture(const Rgb8Image& drawn, const raster::LightRecord& record,
                         const compare::LightComparison& light);
 
-}  // namespace gnomon::app
+}  // namespace gnomon::lab
