@@ -25,6 +25,5 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   gnomon::app::become_program_of_command(argc, argv);
-  gnomon::app::start_with_large_pages(argv);
   return gnomon::app::with_enough_stack(run, argc, argv);
 }

@@ -71,9 +71,9 @@ class GlRenderer final : public Renderer {
   /// to a stage of its own.
   Expected<void> warm_up(const Pass& pass);
   /// Runs `pass`, warm already, as often as the options ask for, and at least `least` times; each run adds to `times`
-  /// itself. `repeats`: the stage that all of it is charged to, for only frames that are kept count as made.
+  /// itself. `told`, asked then, is false where more runs are wanted whatever they take. `repeats`: the stage that all of it is charged to, for only frames that are kept count as made.
   Expected<void> repeat(std::string_view repeats, const RasterOptions& options, const Times& times, int least,
-                        const Pass& pass);
+                        const Pass& pass, const std::function<bool()>& told = {});
   /// Times each run from an idle device to an idle device.
   Expected<void> time_pass(std::string_view repeats, const RasterOptions& options, Times& times,
                            const Pass& pass);

@@ -170,12 +170,16 @@ struct RasterOptions {
   /// Renderer::take_spans() later gives what each takes on the device. Not of Technique::hybrid.
   int span_drawings = 0;
   double enough_ms = never_enough_ms;  ///< no further run of a pass once those made took so long together
-  /// Time the shading without shadows, too (LightRecord::unshadowed_pass), in turn; of each subtracted_runs at least.
+  /// Time the shading without shadows, too (LightRecord::unshadowed_pass), in turn; of each least_subtracted runs at least.
   bool shadow_cost = false;
+  /// Further runs are made, up to `runs`, until what the shadows take is told (TimeDifference::told) and enough_ms are over.
+  int least_subtracted = subtracted_runs;
   /// analysis: the very program that draws the records is timed (in software in processor time, that of its threads
   /// included; a run is the mean of so many drawings as take 100 ms). Every drawing has to give the same visibility, so
   /// that nothing in a user's shader can tell a timed drawing from one that is judged. Takes longer than shading alone.
   bool timed_as_judged = false;
+  /// Without `analysis`: only what is timed is drawn, of the lights that are asked for, and the frame has no picture.
+  bool times_alone = false;
   bool analysis = true;  ///< also hand on the per-pixel records and the map (compare needs them)
   /// analysis: hand on the map's depths too (izb and hybrid always do).
   bool map_contents = true;

@@ -78,6 +78,10 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
   for (std::uint32_t light = 0; light < scene.lights.size(); ++light) {
     leave_if_interrupted();
     const auto found = std::find(lights.begin(), lights.end(), light);
+    if (options.times_alone && found == lights.end()) {
+      job.first_light = false;
+      continue;
+    }
     LightRecord* record =
         found == lights.end() ? nullptr : &job.frame.lights[static_cast<std::size_t>(found - lights.begin())];
     const std::uint64_t texels_before = job.frame.map_texels;
@@ -87,7 +91,7 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
   if (scene.lights.empty()) {
     if (auto ok = shade_without_light(job); !ok) return fail(ok.error());
   }
-  {
+  if (!options.times_alone) {
     const ReadBack reading(job.frame);
     shading_.read_color(job.frame.color);
     shading_.read_primitives(job.frame.primitive);
@@ -110,8 +114,8 @@ MapOptions without_bias(MapOptions map) {
 
 // Who asks for times alone gets new ones.
 bool may_take_map(const RasterOptions& options, const RasterOptions& kept) {
-  const bool times_alone = !options.analysis && options.runs > 0;
-  return !times_alone && (hands_on_map(kept) || !hands_on_map(options));
+  const bool for_times = !options.analysis && options.runs > 0;
+  return !for_times && (hands_on_map(kept) || !hands_on_map(options));
 }
 
 // Where the camera is no part of the map, and one light has the maps for itself.

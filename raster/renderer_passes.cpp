@@ -63,10 +63,14 @@ Expected<void> GlRenderer::warm_up(const Pass& pass) {
 }
 
 Expected<void> GlRenderer::repeat(std::string_view repeats, const RasterOptions& options, const Times& times,
-                                  int least, const Pass& pass) {
+                                  int least, const Pass& pass, const std::function<bool()>& told) {
   const TimedStage stage(repeats, TimedStage::Inner::included);
   (*gl_)->Finish();
-  while (times_again(times, options.runs, options.enough_ms, least))
+  const auto again = [&] {
+    const bool untold = told && static_cast<int>(times.runs.size()) >= least && !told();
+    return times_again(times, options.runs, options.enough_ms, untold ? options.runs : least);
+  };
+  while (again())
     if (auto ok = pass(); !ok) return ok;
   return {};
 }
@@ -200,6 +204,7 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
     const TimedStage drawing("map");
     if (auto ok = kept(); !ok) return ok;
     (*gl_)->Finish();
+    if (record != nullptr && !timed) record->first_map_ms = job.map_started.elapsed_ms();
   }
   const ReadBack reading(job.frame);
   if (for_records) map_pass_.read(record->map.depth);
@@ -237,7 +242,7 @@ Expected<void> GlRenderer::warm_up_map(const Job& job, const MapJob& map, bool f
                     map.options.cull,
                     filter.blur_radius_texels > 0,
                     filter.mipmaps,
-                    for_records,
+                    for_records && technique_pass_ != nullptr && technique_pass_->replaces_map(),
                     map.caster_bias.moves_casters()};
   const bool first = warm_maps_.insert(key).second;
   return first || job.options.runs > 0 ? warm_up(pass) : Expected<void>{};

@@ -222,8 +222,9 @@ Expected<void> GlRenderer::time_shading(Job& job, const MapJob& map_job, const V
     if (options.shadow_cost) add_run(record.unshadowed_pass, &TimedStrip::part);
     return {};
   };
-  if (auto ok =
-          repeat("shading runs", options, record.shade_pass, options.shadow_cost ? subtracted_runs : 1, pass);
+  const auto told = [&] { return !options.shadow_cost || beyond_part(timed).told; };
+  if (auto ok = repeat("shading runs", options, record.shade_pass,
+                       options.shadow_cost ? options.least_subtracted : 1, pass, told);
       !ok)
     return ok;
   if (options.shadow_cost) record.strips = std::move(timed);
@@ -239,6 +240,10 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
   if (technique_pass_ != nullptr) technique_pass_->bind_for_lookup();
   if (record != nullptr)
     if (auto ok = time_shading(job, map_job, asked, *record); !ok) return ok;
+  if (job.options.times_alone) {
+    job.first_light = false;
+    return gl_->check("shading");
+  }
   if (!job.visibility_drawn && !shows(job))
     if (auto ok = draw_visibility(job.view); !ok) return ok;
   job.visibility_drawn = true;

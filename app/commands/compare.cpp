@@ -77,8 +77,7 @@ std::string folder_of_rows(const CompareCommand& command) {
 /// Draws the picture in one piece with other options of the map, for numbers alone. A map that the memory does not hold is an
 /// error.
 compare::Redraw redraw_of(const CompareCommand& command, const LoadedScene& loaded,
-                          const std::vector<std::uint32_t>& lights,
-                          std::unique_ptr<raster::Renderer>& renderer, Console& console) {
+                          const std::vector<std::uint32_t>& lights, raster::Renderer& renderer) {
   return [&](const raster::MapOptions& map) -> Expected<raster::RasterFrame> {
     raster::RasterOptions options =
         compare::drawing_options(command.setting.options.raster, command.setting.options.raytrace);
@@ -87,21 +86,16 @@ compare::Redraw redraw_of(const CompareCommand& command, const LoadedScene& load
     const double map_bytes = bytes_per_texel * std::pow(double(map.size), 2.0);
     const auto fits = check_memory(command.memory, options.size, bytes, graphics_bytes + map_bytes);
     if (!fits) return fail(fits.error());
-    if (!renderer) {
-      auto made = make_renderer(command.backend, loaded, console, command.shader_folder);
-      if (!made) return fail(made.error());
-      renderer = std::move(*made);
-    }
-    return renderer->render(options, lights);
+    return renderer.render(options, lights);
   };
 }
 
-/// What the drawing needs is let go before the rest is compared, and the hierarchy is made before it is asked for. Memory
-/// that one of them frees the next one takes.
-Expected<Compared> compare_picture(const CompareCommand& command, const LoadedScene& loaded,
-                                   const std::vector<std::uint32_t>& lights, Console& console) {
-  const compare::CompareOptions& options = command.setting.options;
-  const raster::RasterOptions& raster = options.raster;
+/// Says what a picture in one piece shows before it is timed: what times say is no part of the verdict.
+Expected<Compared> compare_picture(CompareCommand& command, const LoadedScene& loaded,
+                                   const std::vector<std::uint32_t>& lights, compare::ViewErrors views,
+                                   Console& console) {
+  compare::CompareOptions options = command.setting.options;
+  const raster::RasterOptions& raster = command.setting.options.raster;
   const compare::Progress progress = [&](std::string_view stage, double done) {
     console.progress(stage, done);
   };
@@ -114,34 +108,40 @@ Expected<Compared> compare_picture(const CompareCommand& command, const LoadedSc
   const auto bytes = compare_bytes(*loaded.scene, lights, raster.size, wants_page(command));
   auto bands = plan_bands(command.memory, raster.size, bytes, raster::most_pixels(**renderer, raster.map));
   if (!bands) return fail(bands.error());
+  const bool in_bands = bands->size() > 1, timed_later = !in_bands && compare::is_timed_later(raster);
+  if (timed_later) options.raster = compare::untimed(raster);
   compare::Plan plan = compare::plan_of(tracer, lights, options);
   const Stopwatch joining;
   const raytrace::Topology topology(*loaded.world);
   plan.topology = &topology;
-  compare::FrameSource frames = compare::frames_of(tracer, **renderer, lights, options);
   Compared out;
   out.comparison.topology_ms = joining.elapsed_ms();
   plan.bands = std::move(*bands);
-  if (plan.bands.size() > 1) {
+  if (in_bands) {
     plan.folder = folder_of_rows(command), plan.page = wants_page(command), plan.aov = command.output.aov;
     if (!plan.aov.empty())
       if (const auto made = make_folder_for(plan.aov); !made) return fail(made.error());
   } else {
     progress("shadow maps", 0.1);
-    frames.draw = [&, draw = std::move(frames.draw)](const PictureRows& rows) {
-      auto drawn = draw(rows);
-      const TimedStage stage("exit");
-      renderer->reset();
-      return drawn;
-    };
   }
   out.comparison.command = command.command_line, out.comparison.measure = command.output.measure;
-  auto parts = compare::measure(out.comparison, plan, frames, progress);
+  out.comparison.views = std::move(views);
+  auto parts = compare::measure(out.comparison, plan,
+                                compare::frames_of(tracer, **renderer, lights, options), progress);
   if (!parts) return fail(parts.error());
   out.parts = std::move(*parts);
-  if (plan.bands.size() > 1) return out;
-  progress("trying what may help", 0.9);
-  compare::try_settings(out.comparison, plan, redraw_of(command, loaded, lights, *renderer, console));
+  const auto used = check_shaders_used(command.shader_folder, out.comparison.raster, *loaded.scene, console);
+  if (!used) return fail(used.error());
+  if (in_bands) return out;
+  progress("trying what may help", 0.7);
+  compare::try_settings(out.comparison, plan, redraw_of(command, loaded, lights, **renderer));
+  say_verdict(command.output, out.comparison, console);
+  progress("timing", 0.8);
+  if (timed_later)
+    if (const auto timed = compare::time_drawing(**renderer, lights, raster, out.comparison.raster); !timed)
+      return fail(timed.error());
+  const TimedStage stage("exit");
+  renderer->reset();
   return out;
 }
 
@@ -165,8 +165,8 @@ void note_reduced_page(const CompareCommand& command, Scene& scene, Console& con
   scene.notes.push_back(note);
 }
 
-Expected<Compared> render_and_compare(const CompareCommand& command, const LoadedScene& loaded,
-                                      Console& console) {
+Expected<Compared> render_and_compare(CompareCommand& command, const LoadedScene& loaded,
+                                      compare::ViewErrors views, Console& console) {
   const auto lights = choose_lights(*loaded.scene, command.setting.light);
   if (!lights) return fail(lights.error());
   for (const std::string& note : options_without_effect(command.given, loaded.plan)) console.note(note);
@@ -180,13 +180,11 @@ Expected<Compared> render_and_compare(const CompareCommand& command, const Loade
   const auto bytes = compare_bytes(*loaded.scene, *lights, raster.size, wants_page(command));
   const auto fits = check_memory(command.memory, raster.size, bytes, graphics_bytes + map_bytes);
   if (!fits) return fail(fits.error());
-  auto compared = compare_picture(command, loaded, *lights, console);
+  auto compared = compare_picture(command, loaded, *lights, std::move(views), console);
   if (!compared) return compared;
   note_swimming(command, loaded, *lights, console);
   note_reduced_page(command, *loaded.scene, console);
   compare::Comparison& comparison = compared->comparison;
-  const auto used = check_shaders_used(command.shader_folder, comparison.raster, *loaded.scene, console);
-  if (!used) return fail(used.error());
   comparison.seed = command.seed;
   comparison.machine = machine_info();
   comparison.fail_above = command.output.fail_above;
@@ -285,6 +283,7 @@ void set_runs(CompareCommand& command) {
   raster.runs = rays.runs = command.runs.value_or(usual_runs);
   raster.enough_ms = rays.enough_ms = command.runs ? never_enough_ms : usual_enough_ms;
   raster.timed_as_judged = command.timed_as_judged;
+  raster.least_subtracted = subtracted_runs_of_strips;
   raster.shadow_cost = !command.timed_as_judged;  // the drawing without shadows records nothing
   rays.warm_up = true;
 }
@@ -326,9 +325,8 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
     if (!judged) return fail(judged.error());
     errors = std::move(*judged);
   }
-  auto compared = render_and_compare(command, *loaded, console);
+  auto compared = render_and_compare(command, *loaded, std::move(errors), console);
   if (!compared) return fail(compared.error());
-  compared->comparison.views = std::move(errors);
   compared->comparison.total_ms = total.elapsed_ms();
   console.progress("writing", 1.0);
   if (only_prints_json(command.output))

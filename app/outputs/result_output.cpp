@@ -114,6 +114,10 @@ void give_back(compare::Comparison& comparison, LoadedScene& loaded) {
   return_freed_memory();
 }
 
+bool prints_summary(const ResultOutput& output) {
+  return !output.quiet && output.json != "-";
+}
+
 /// A page of an earlier run is left as it is, but not in silence.
 void note_old_report(const std::string& folder, Console& console) {
   const std::string page = folder + "/report.html";
@@ -136,6 +140,13 @@ bool only_prints_json(const ResultOutput& output) {
   return output.json == "-" && output.folder.empty() && output.aov.empty();
 }
 
+void say_verdict(ResultOutput& output, const compare::Comparison& comparison, Console& console) {
+  if (!prints_summary(output) || output.verbose) return;
+  console.clear_progress();
+  print_data(compare::verdict_in_short(comparison, stdout_takes_colour()));
+  output.verdict_is_said = true;
+}
+
 ExitCode print_result(const ResultOutput& output, compare::Comparison& comparison, LoadedScene& loaded,
                       Console& console) {
   const ExitCode code = judge_lights(output, comparison, console);
@@ -155,9 +166,13 @@ Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison&
   const std::string& folder = output.shown_folder.empty() ? output.folder : output.shown_folder;
   const std::string place = (output.no_report ? "Result: " : "Report: ") + folder +
                             (output.no_report ? "/result.json" : "/report.html");
-  const bool colour = stdout_takes_colour(), prints = !output.quiet && output.json != "-";
-  std::string summary = output.verbose ? compare::summary_table(comparison, colour)
-                                       : compare::summary_in_short(comparison, place, colour);
+  const bool colour = stdout_takes_colour(), prints = prints_summary(output);
+  std::string summary;
+  if (output.verbose)
+    summary = compare::summary_table(comparison, colour);
+  else
+    summary = (output.verdict_is_said ? "" : compare::verdict_in_short(comparison, colour)) +
+              compare::figures_in_short(comparison, place, colour);
   const ExitCode code = judge_lights(output, comparison, console);
   give_back(comparison, loaded);
   if (const auto result = report::write_result(*written); !result) return fail(result.error());

@@ -22,6 +22,7 @@ struct ResultOutput {
   double report_max_mb = report::default_report_max_mb;
   bool no_report = false;  ///< no page; all other files as ever
   bool quiet = false, verbose = false;
+  bool verdict_is_said = false;  ///< by say_verdict()
 };
 
 /// -o; `default_folder` as its help says it.
@@ -34,6 +35,9 @@ void add_result_limits(CLI::App& app, ResultOutput& output);
 Expected<void> check_outputs(const ResultOutput& output, RunFiles& files);
 /// Nothing but the result on stdout was asked for: no folder is written.
 bool only_prints_json(const ResultOutput& output);
+
+/// Prints verdict and advice where the short summary is to be printed, as soon as they are known.
+void say_verdict(ResultOutput& output, const compare::Comparison& comparison, Console& console);
 
 /// --json - alone: the result goes to stdout and nowhere else. Both give scene and comparison back before the
 /// time budget is taken.

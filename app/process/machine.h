@@ -94,19 +94,6 @@ std::string bands_text(const ImageSize& size, const PictureBytes& bytes,
 Expected<void> check_memory(const MemoryLimit& limit, const ImageSize& size, const PictureBytes& bytes,
                             double other = 0.0);
 
-// Large pages for all that the process allocates. Some systems give them only to those who ask (Linux's transparent huge
-// pages under "madvise"). There glibc's allocator asks when its tunables say so before the process starts (the GNU C
-// Library manual, "Memory Allocation Tunables"). On virtual machines, where the first touch of a page is dear, a whole
-// comparison takes up to half the time with them.
-
-/// Starts the program once more with that tunable, before it has done anything else; returns where that is not needed or
-/// cannot be done. GLIBC_TUNABLES that are set already are the user's, and stay.
-void start_with_large_pages(char** argv);
-
-/// Whether the system's choice, as /sys/kernel/mm/transparent_hugepage/enabled gives it ("always [madvise] never"), is to
-/// give large pages to those who ask.
-bool are_asked_for(std::string_view choices);
-
 /// Runs it where every thread has a stack of 8 MiB at least, the one that runs it and those that libraries start. A smaller limit
 /// (ulimit -s) holds for the system's own threads alone, which are then left.
 int with_enough_stack(int (*run)(int, char**), int argc, char** argv);

@@ -7,6 +7,7 @@
 #include "compare/result/figures.h"
 #include "compare/result/places.h"
 #include "raster/bands.h"
+#include "raster/technique_traits.h"
 #include "raytrace/frame.h"
 #include "scene/base/parallel.h"
 
@@ -184,6 +185,30 @@ FrameSource frames_of(const raytrace::Tracer& tracer, raster::Renderer& renderer
     return raytrace::trace_band(tracer, effects, scene.camera, lights, band, rows);
   };
   return {draw, trace};
+}
+
+bool is_timed_later(const raster::RasterOptions& options) {
+  return options.runs > 0 && !options.timed_as_judged && !raster::is_external(options.map.technique);
+}
+
+raster::RasterOptions untimed(raster::RasterOptions options) {
+  options.runs = 0, options.shadow_cost = false;
+  return options;
+}
+
+Expected<void> time_drawing(raster::Renderer& renderer, std::span<const std::uint32_t> lights,
+                            const raster::RasterOptions& options, raster::RasterFrame& frame) {
+  raster::RasterOptions times = options;
+  times.analysis = false, times.times_alone = true;
+  auto timed = renderer.render(times, lights);
+  if (!timed) return fail(timed.error());
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    raster::LightRecord &drawn = frame.lights[i], &by_time = timed->lights[i];
+    drawn.map_pass = std::move(by_time.map_pass), drawn.shade_pass = std::move(by_time.shade_pass);
+    drawn.unshadowed_pass = std::move(by_time.unshadowed_pass), drawn.strips = std::move(by_time.strips);
+  }
+  frame.options.runs = options.runs, frame.options.shadow_cost = options.shadow_cost;
+  return {};
 }
 
 LightFigures measure_ends(const LadderInput& in, std::initializer_list<const Figure*> measures) {

@@ -34,6 +34,16 @@ Expected<void> measure_frames(Comparison& comparison, const Plan& plan,
 FrameSource frames_of(const raytrace::Tracer& tracer, raster::Renderer& renderer,
                       std::span<const std::uint32_t> lights, const CompareOptions& options);
 
+/// Whether the times of a drawing can be taken after all else is known of it (time_drawing): where nothing of the drawing
+/// itself is timed.
+bool is_timed_later(const raster::RasterOptions& options);
+/// Those options for the drawing itself, which is then not timed.
+raster::RasterOptions untimed(raster::RasterOptions options);
+/// Draws once more what the options time, and adds the times to the frame, which was drawn with untimed() of these options by
+/// the same renderer for the same lights. Errors: as of Renderer::render().
+Expected<void> time_drawing(raster::Renderer& renderer, std::span<const std::uint32_t> lights,
+                            const raster::RasterOptions& options, raster::RasterFrame& frame);
+
 // The figures of a drawing that is not climbed.
 
 /// What `measures` need of one light of a whole picture; figures that cost more are left NaN.

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <vector>
 
+#include "compare/metrics/differing.h"
 #include "compare/metrics/weighted_rows.h"
 #include "scene/base/parallel.h"
 
@@ -328,10 +329,6 @@ constexpr int patch_width = 256, patch_height = 64;
 template <class Linear>
 void flip_patch(const Filters& filters, const Patch& patch, const Linear& reference, const Linear& test,
                 Image<float>& error) {
-  bool equal = true;
-  for_each_pixel(error.size, patch, filters.margin,
-                 [&](std::size_t i, std::size_t) { equal &= reference(i) == test(i); });
-  if (equal) return;
   thread_local Perceived a, b;
   for (Perceived* p : {&a, &b}) {
     opponent_planes(error.size, patch, filters.margin, p == &a ? reference : test, *p);
@@ -353,13 +350,14 @@ template <class Linear>
 Image<float> flip_of(const ImageSize& size, const Linear& reference, const Linear& test, double ppd) {
   const Filters filters(ppd);
   Image<float> error(size);
-  const int columns = (size.width + patch_width - 1) / patch_width;
-  const int rows = (size.height + patch_height - 1) / patch_height;
-  parallel_for(columns * rows, [&](int i) {
-    const int x0 = i % columns * patch_width, y0 = i / columns * patch_height;
-    const Patch patch{x0, y0, std::min(patch_width, size.width - x0),
-                      std::min(patch_height, size.height - y0)};
-    flip_patch(filters, patch, reference, test, error);
+  const Differing differing(size, reference, test);
+  const int margin = filters.margin;
+  parallel_for((size.height + patch_height - 1) / patch_height, [&](int strip) {
+    const int y0 = strip * patch_height, y1 = std::min(y0 + patch_height, size.height);
+    differing.for_each_range(y0 - margin, y1 + margin, margin, margin, [&](const ColumnRange& range) {
+      for (int x0 = range.first; x0 < range.end; x0 += patch_width)
+        flip_patch(filters, {x0, y0, std::min(patch_width, range.end - x0), y1 - y0}, reference, test, error);
+    });
   });
   return error;
 }

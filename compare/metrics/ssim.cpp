@@ -1,11 +1,14 @@
 // The window separates, so each of the five local means is taken along columns and then along rows; rows run
-// in parallel, so that the result does not depend on the number of threads.
+// in parallel, so that the result does not depend on the number of threads. Where both pictures of a window are equal nothing
+// is to be computed: the similarity is 1.
 #include "compare/metrics/ssim.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "compare/metrics/differing.h"
 #include "compare/metrics/weighted_rows.h"
 #include "scene/base/parallel.h"
 
@@ -44,18 +47,26 @@ Image<float> ssim_map(const Image<float>& reference, const Image<float>& test) {
   if (size.width < ssim_window || size.height < ssim_window) return {};
   const auto weights = gaussian();
   const ImageSize out_size{size.width - ssim_window + 1, size.height - ssim_window + 1};
-  Image<float> map(out_size);
+  Image<float> map(out_size, 1.0f);  // of equal windows, to the last bit
+  const Differing differing(
+      size, [&](std::size_t i) { return reference.data[i]; }, [&](std::size_t i) { return test.data[i]; });
   parallel_for(out_size.height, [&](int y) {
     thread_local MomentRows sums;
-    std::array<const float*, ssim_window> first{}, second{};
-    for (std::size_t k = 0; k < ssim_window; ++k)
-      first[k] = &reference.at(0, y + static_cast<int>(k)), second[k] = &test.at(0, y + static_cast<int>(k));
-    window_moments(first, second, weights, size.width, sums);
-    for (int x = 0; x < out_size.width; ++x) {
-      const auto i = static_cast<std::size_t>(x);
-      map.at(x, y) =
-          static_cast<float>(similarity({sums[0][i], sums[1][i], sums[2][i], sums[3][i], sums[4][i]}));
-    }
+    differing.for_each_range(y, y + ssim_window, 0, ssim_window - 1, [&](const ColumnRange& range) {
+      const int count = std::min(range.end, out_size.width) - range.first;
+      if (count <= 0) return;
+      std::array<const float*, ssim_window> first{}, second{};
+      for (std::size_t k = 0; k < ssim_window; ++k) {
+        const std::size_t row = reference.index(range.first, y + static_cast<int>(k));
+        first[k] = &reference.data[row], second[k] = &test.data[row];
+      }
+      window_moments(first, second, weights, count + ssim_window - 1, sums);
+      for (int x = 0; x < count; ++x) {
+        const auto i = static_cast<std::size_t>(x);
+        map.at(range.first + x, y) =
+            static_cast<float>(similarity({sums[0][i], sums[1][i], sums[2][i], sums[3][i], sums[4][i]}));
+      }
+    });
   });
   return map;
 }

@@ -18,8 +18,10 @@ std::string result_json(const Comparison& comparison);
 std::string result_csv(const Comparison& comparison);
 /// Everything that a terminal is told of a comparison, at most 80 columns wide; colour only when asked for.
 std::string summary_table(const Comparison& comparison, bool colour);
-/// Says in short what is wrong, what would help, `place` (where the report is), and a few lines of figures.
-std::string summary_in_short(const Comparison& comparison, std::string_view place, bool colour);
+/// Says in short what is wrong and what would help: known before anything is timed or written.
+std::string verdict_in_short(const Comparison& comparison, bool colour);
+/// Says what follows the verdict: a few lines of figures, and `place`, where the report is.
+std::string figures_in_short(const Comparison& comparison, std::string_view place, bool colour);
 
 /// Fixed, labelled, colour-blind-safe colours; the same in every image, page and window.
 glm::u8vec3 label_colour(Label label);

@@ -137,16 +137,16 @@ Json judged_json(const Judged& j) {
 
 // How often passes were timed.
 Json timing_json(const Comparison& c) {
-  const auto side = [](int runs, double enough_ms, bool subtracts, bool warm_up) {
+  const auto side = [](int runs, double enough_ms, int subtracted, bool warm_up) {
     return Json{{"most_runs", runs},
                 {"enough_ms", number(enough_ms)},
-                {"subtracted_runs", subtracts ? std::min(runs, subtracted_runs) : 0},
+                {"subtracted_runs", std::min(runs, subtracted)},
                 {"warm_up", warm_up}};
   };
   const raster::RasterOptions& drawn = c.raster.options;
   const raytrace::RaytraceOptions& traced = c.raytraced.options;
-  return {{"raster", side(drawn.runs, drawn.enough_ms, drawn.shadow_cost, drawn.runs > 0)},
-          {"rays", side(traced.runs, traced.enough_ms, false, traced.warm_up)},
+  return {{"raster", side(drawn.runs, drawn.enough_ms, drawn.shadow_cost ? drawn.least_subtracted : 0, drawn.runs > 0)},
+          {"rays", side(traced.runs, traced.enough_ms, 0, traced.warm_up)},
           {"as_judged", drawn.timed_as_judged},
           {"software_rasterizer", is_software(c.raster.context)}};
 }

@@ -302,7 +302,7 @@ Json light_times_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
   const raytrace::LightTruth& truth = true_record(c, light);
   Json json{{"map_pass", times_json(drawn.map_pass)},
-            {"first_map", drawn.first_map_ms > 0.0 ? one_time_json(drawn.first_map_ms) : times_json({})},
+            {"first_map", !drawn.map_pass.runs.empty() && drawn.first_map_ms > 0.0 ? one_time_json(drawn.first_map_ms) : times_json({})},
             {"shade_pass", times_json(drawn.shade_pass)},
             {"unshadowed_pass", times_json(drawn.unshadowed_pass)},
             {"shadow_lookups", difference_json(shadow_lookups(drawn))},

@@ -236,7 +236,7 @@ void add_figures_in_short(SummaryPage& page, const Comparison& c, const LightCom
 
 }  // namespace
 
-std::string summary_in_short(const Comparison& c, std::string_view place, bool colour) {
+std::string verdict_in_short(const Comparison& c, bool colour) {
   SummaryPage page(colour);
   for (const LightComparison& light : c.lights) {
     const Verdict verdict = verdict_on(c, light);
@@ -244,7 +244,11 @@ std::string summary_in_short(const Comparison& c, std::string_view place, bool c
     if (!verdict.advice.empty()) page.line(verdict.advice);
   }
   if (const std::string views = views_line(c.views); !views.empty()) page.line(views);
-  page.line(place);
+  return page.take();
+}
+
+std::string figures_in_short(const Comparison& c, std::string_view place, bool colour) {
+  SummaryPage page(colour);
   if (c.judged) {
     page.blank();
     for (const auto& [name, value] : judged_lines(c)) page.field(name, value);
@@ -252,6 +256,8 @@ std::string summary_in_short(const Comparison& c, std::string_view place, bool c
   for (const LightComparison& light : c.lights) add_figures_in_short(page, c, light);
   if (!c.judged && is_software(c.raster.context)) page.field("", std::string(software_note));
   page.field("", "-v prints the budget and all other figures");
+  page.blank();
+  page.line(place);
   return page.take();
 }
 

@@ -73,7 +73,10 @@ void add_times(SummaryPage& page, const Comparison& c, const LightComparison& li
 
 void add_once(SummaryPage& page, const Comparison& c) {
   double first_map = 0.0;
-  for (const LightComparison& light : c.lights) first_map += drawn_record(c, light).first_map_ms;
+  for (const LightComparison& light : c.lights) {
+    const raster::LightRecord& drawn = drawn_record(c, light);
+    first_map += drawn.map_pass.runs.empty() ? 0.0 : drawn.first_map_ms;
+  }
   page.field(
       "once",
       fmt::format("{} to upload the scene, {} to make memory for the maps and draw them first; "

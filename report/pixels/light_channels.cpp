@@ -94,8 +94,16 @@ Json view_json(const LightView& view) {
 
 // --- one light's pixels ---
 
+/// Whether all is lit or in shadow, with nothing between.
+bool is_hard(const Image<float>& visibility) {
+  return std::ranges::all_of(visibility.data, [](float v) { return v == 0.0f || v == 1.0f; });
+}
+
 void add_ladder(Channels& channels, const LightComparison& light) {
   const std::size_t n = light.labels.data.size();
+  std::array<bool, compare::rung_count> hard{};
+  parallel_for(compare::rung_count, [&](std::size_t k) { hard[k] = is_hard(light.rungs[k]); });
+  const PackOptions some{2}, all_or_nothing{.bytes = 1, .unit = static_cast<std::uint32_t>(visibility_steps)};
   channels.add("label", n, {1},
                [&light](std::size_t i) { return static_cast<std::uint32_t>(light.labels.data[i]); });
   for (std::size_t k = 0; k < compare::rung_count; ++k) {
@@ -107,7 +115,7 @@ void add_ladder(Channels& channels, const LightComparison& light) {
     // Most pixels stay on the way down as they were.
     const Image<float>* above = k > 0 ? &light.rungs[k - 1] : nullptr;
     channels.add(
-        name, n, {2},
+        name, n, hard[k] && (k == 0 || hard[k - 1]) ? all_or_nothing : some,
         [&light, k, above](std::size_t i) {
           const auto steps = [i](const Image<float>& v) {
             return rounded(visibility_steps * double{v.data[i]});

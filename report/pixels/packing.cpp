@@ -85,7 +85,10 @@ std::string packed(std::vector<std::uint32_t> numbers, const PackOptions& option
     for (std::size_t i = numbers.size(); i-- > 1;) numbers[i] -= numbers[(*sources)[i]];
   else if (options.from == From::previous)
     for (std::size_t i = numbers.size(); i-- > 1;) numbers[i] -= numbers[i - 1];
-  return dense_text(deflate(planes(std::move(numbers), options.bytes), options.level));
+  if (options.unit != 1)
+    for (std::uint32_t& n : numbers) n = n == 0 ? 0 : n == options.unit ? 1 : ~0u;
+  constexpr int level = 3;  // 6 takes twice the time and leaves a twentieth less
+  return dense_text(deflate(planes(std::move(numbers), options.bytes), level));
 }
 
 // A picture has some millions of numbers: the logarithm of a mantissa is looked up by its first bits.

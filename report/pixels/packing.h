@@ -29,7 +29,8 @@ Sources surface_sources(const std::vector<std::uint32_t>& surfaces);
 struct PackOptions {
   int bytes = 4;  ///< of each number: 1, 2 or 4
   From from = From::nothing;
-  int level = 6;  ///< of deflate(): 5 takes less time and leaves a hundredth more
+  /// What 1 stands for: all numbers are this, its opposite or 0. Other than 1 for what is predicted from nothing, only.
+  std::uint32_t unit = 1;
 };
 
 /// `sources`: for From::surface.

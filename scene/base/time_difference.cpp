@@ -45,22 +45,33 @@ double least_without(const Times& times, std::size_t left_out) {
   return least;
 }
 
-double difference_of_least(std::span<const TimedStrip> strips, std::size_t left_out) {
-  double sum = 0.0;
-  for (const TimedStrip& strip : strips)
-    sum += least_without(strip.whole, left_out) - least_without(strip.part, left_out);
-  return sum;
+double difference_of_least(const TimedStrip& strip, std::size_t left_out) {
+  return least_without(strip.whole, left_out) - least_without(strip.part, left_out);
 }
 
-/// The standard error of difference_of_least(), by leaving out one run after the other.
-double jackknife_error(std::span<const TimedStrip> strips, std::size_t runs) {
-  std::vector<double> without;
-  for (std::size_t i = 0; i < runs; ++i) without.push_back(difference_of_least(strips, i));
+/// The variance of a strip's difference_of_least(), by leaving out one run after the other.
+double jackknife_variance(const TimedStrip& strip, std::size_t runs) {
   const auto count = static_cast<double>(runs);
+  std::vector<double> without;
+  for (std::size_t i = 0; i < runs; ++i) without.push_back(difference_of_least(strip, i));
   const double mean = std::accumulate(without.begin(), without.end(), 0.0) / count;
   double squares = 0.0;
   for (const double one : without) squares += (one - mean) * (one - mean);
-  return std::sqrt((count - 1.0) / count * squares);
+  return (count - 1.0) / count * squares;
+}
+
+struct Estimate {
+  double ms = 0.0, error_ms = 0.0;
+};
+
+/// Of strips that were run one after the other, so that their errors have nothing to do with each other.
+Estimate sum_of_least(std::span<const TimedStrip> strips, std::size_t runs) {
+  Estimate sum;
+  double variance = 0.0;
+  for (const TimedStrip& strip : strips)
+    sum.ms += difference_of_least(strip, no_run), variance += jackknife_variance(strip, runs);
+  sum.error_ms = std::sqrt(variance);
+  return sum;
 }
 
 /// Run by run over all strips; of a strip that was run less often, no more than its runs.
@@ -96,9 +107,10 @@ TimeDifference beyond_part(std::span<const TimedStrip> strips) {
   out.pairs = run_by_run(all.whole, all.part);
   if (!out.timed()) return out;
   const std::size_t runs = out.pairs.runs.size();
-  const bool few = runs < least_runs;
-  const double found = few ? out.pairs.median() : difference_of_least(strips, no_run);
-  const double off = few ? single_run_share * all.part.median() : errors * jackknife_error(strips, runs);
+  const bool few = runs < 2 || strips.size() * (runs - 1) < least_runs - 1;
+  const Estimate least = few ? Estimate{} : sum_of_least(strips, runs);
+  const double found = few ? out.pairs.median() : least.ms;
+  const double off = few ? single_run_share * all.part.median() : errors * least.error_ms;
   out.low = std::max(0.0, found - off);
   out.high = std::max({0.0, found + off, -found});
   out.median = std::clamp(found, out.low, out.high);

@@ -33,8 +33,9 @@ struct TimedStrip {
 
 /// Subtracts a part of a pass from it, strip by strip. What else the machine does can only add, so the difference is that of
 /// the least times of each strip. Its interval reaches to either side by twice the standard error, which leaving out one run
-/// after the other tells. (Efron and Tibshirani 1993, "An Introduction to the Bootstrap", section 11.2.) Fewer than three runs
-/// say nothing of their spread: they are taken to be off by a quarter of the shorter pass (single_run_share). A part takes no
+/// after the other tells of each strip. (Efron and Tibshirani 1993, "An Introduction to the Bootstrap", section 11.2.) The
+/// strips' variances add up. One run, and two of a picture in one strip, say nothing of their spread: they are taken to be
+/// off by a quarter of the shorter pass (single_run_share). A part takes no
 /// more than the whole, so nothing of the interval lies below 0; where the difference does, it reaches up as far as that
 /// reaches down.
 TimeDifference beyond_part(std::span<const TimedStrip> strips);

@@ -79,8 +79,10 @@ inline constexpr double usual_enough_ms = 25.0;
 inline constexpr double never_enough_ms = std::numeric_limits<double>::infinity();
 
 /// How often a pass that is subtracted from another one, or another one from it, is run whatever its runs took. A
-/// difference is known no better than its runs agree. Of fewer than three nobody can tell how well that is.
+/// difference is known no better than its runs agree. Of fewer than three in one piece nobody can tell how well that is.
 inline constexpr int subtracted_runs = 3;
+/// As often are passes run that are cut into strips, if their difference is told then: each strip has a spread of its own.
+inline constexpr int subtracted_runs_of_strips = 2;
 
 /// Whether there is to be another run after those in `made`. There are `most` in all. Beyond the first `least` there
 /// is another only as long as all took less than `enough_ms` together.

@@ -199,8 +199,7 @@ Error not_cell_data(const std::string& path) {
 }
 
 std::string cell_data_file(std::size_t cell, const Image<std::uint8_t>& codes, const std::string& truth) {
-  const std::string classes =
-      report::packed({codes.data.begin(), codes.data.end()}, {1, report::From::nothing, 1});
+  const std::string classes = report::packed({codes.data.begin(), codes.data.end()}, {1});
   return report::data_file(
       {cell_name(cell),
        fmt::format(

@@ -65,7 +65,6 @@ int run(const Settings& settings) {
 }  // namespace gnomon::bench
 
 int main(int argc, char** argv) {
-  gnomon::app::start_with_large_pages(argv);  // as the program does
   gnomon::bench::Settings settings;
   CLI::App app("Gnomon's tracer against Embree 3: equal rays, in turn, in one process");
   app.add_option(

@@ -235,19 +235,20 @@ TEST(Summary, FitsEightyColumnsAndColoursOnlyWhenAsked) {
     EXPECT_NE(plain.find(part), std::string::npos) << part << "\n" << plain;
 }
 
-// What a reader has ten seconds for: what is wrong, what to do, where the report is; of each light one line where there are
-// several. The rest is asked for.
-TEST(Summary, BeginsWithVerdictAdviceAndPlace) {
+// What a reader has ten seconds for: what is wrong and what to do, of each light one line where there are several; at the end
+// where the report is. The rest is asked for.
+TEST(Summary, BeginsWithVerdictAndAdviceAndEndsWithThePlace) {
   const auto made = make_synthetic();
   made->comparison.lights.resize(1);
   const Verdict verdict = verdict_on(made->comparison, made->comparison.lights[0]);
-  const std::string text = summary_in_short(made->comparison, "Report: out/report.html", false);
+  const std::string text = verdict_in_short(made->comparison, false) +
+                           figures_in_short(made->comparison, "Report: out/report.html", false);
   std::string expected;
   for (const std::string& sentence : {joined_sentences({verdict.error, verdict.uncertain}), verdict.advice})
     if (!sentence.empty())
       for (const std::string& line : wrapped(sentence, 80)) expected += line + "\n";
-  expected += "Report: out/report.html\n";
   EXPECT_EQ(text.substr(0, expected.size()), expected);
+  EXPECT_TRUE(text.ends_with("\n\nReport: out/report.html\n")) << text;
   EXPECT_NE(text.find("\n  labels    "), std::string::npos) << text;
   EXPECT_NE(text.find("\n  time      "), std::string::npos) << text;
   EXPECT_EQ(text.find("\n  theory    "), std::string::npos) << text;

@@ -60,7 +60,7 @@ class Campaign:
         self.folder, self.account = folder / "work", folder / "account"
         self.counts, self.rows = collections.Counter(), []
         self.environment = dict(
-            os.environ, GLIBC_TUNABLES="glibc.malloc.hugetlb=0", TMPDIR=str(self.folder / "tmp"), HOME=str(folder / "home"),
+            os.environ, TMPDIR=str(self.folder / "tmp"), HOME=str(folder / "home"),
             XDG_CACHE_HOME=str(folder / "home/cache"), LC_ALL="C.UTF-8", LANG="C.UTF-8")
         (folder / "home/cache").mkdir(parents=True)
         self.inputs = files_below(self.folder / "in") if (self.folder / "in").is_dir() else {}

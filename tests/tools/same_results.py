@@ -89,13 +89,16 @@ def exr_parts(data):
 
 
 def png_parts(data):
-    at, chunks = 8, []
+    at, chunks, pixels = 8, [], b""
     while at < len(data):
         (size,) = struct.unpack_from(">I", data, at)
-        if data[at + 4 : at + 8] not in NOT_PIXELS:
-            chunks.append(data[at : at + 12 + size])
+        kind, content = data[at + 4 : at + 8], data[at + 8 : at + 8 + size]
+        if kind == b"IDAT":  # by what it holds: how well it is compressed is no result
+            pixels += content
+        elif kind not in NOT_PIXELS:
+            chunks.append((kind, content))
         at += 12 + size
-    return chunks
+    return chunks, zlib.decompress(pixels)
 
 
 def differences(base, new):

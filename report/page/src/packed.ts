@@ -7,6 +7,7 @@ type From = "nothing" | "previous" | "surface";
 export interface Packed {
   bytes: 1 | 2 | 4;
   from: From;
+  unit?: number; // what 1 stands for, where all are this, its opposite or 0
   minus?: string; // the name of an array to be added, which stands before this one
   data: string;
 }
@@ -45,11 +46,12 @@ async function inflate(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
 async function residues(packed: Packed): Promise<Numbers> {
   const planes = await inflate(bytesOf(packed.data)),
     count = planes.length / packed.bytes;
-  const numbers = new { 1: Int8Array, 2: Int16Array, 4: Int32Array }[packed.bytes](count);
+  const unit = packed.unit ?? 1,
+    numbers = new { 1: Int8Array, 2: Int16Array, 4: Int32Array }[unit === 1 ? packed.bytes : 2](count);
   for (let i = 0; i < count; ++i) {
     let folded = 0;
     for (let plane = 0; plane < packed.bytes; ++plane) folded |= planes[plane * count + i]! << (8 * plane);
-    numbers[i] = (folded >>> 1) ^ -(folded & 1);
+    numbers[i] = unit * ((folded >>> 1) ^ -(folded & 1));
   }
   return numbers;
 }

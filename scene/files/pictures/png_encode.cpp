@@ -17,7 +17,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int colour_level = 3, palette_level = 7;
+constexpr int colour_level = 2, palette_level = 4;
 
 /// Each row after the byte that names its filter: 0, none. `bytes`: of a pixel.
 std::string rows_of(const char* pixels, const ImageSize& size, std::size_t bytes) {
