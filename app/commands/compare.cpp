@@ -126,8 +126,8 @@ Expected<Compared> compare_picture(CompareCommand& command, const LoadedScene& l
   }
   out.comparison.command = command.command_line, out.comparison.measure = command.output.measure;
   out.comparison.views = std::move(views);
-  auto parts = compare::measure(out.comparison, plan,
-                                compare::frames_of(tracer, **renderer, lights, options), progress);
+  auto parts = compare::measure(out.comparison, plan, compare::frames_of(tracer, **renderer, lights, options),
+                                progress);
   if (!parts) return fail(parts.error());
   out.parts = std::move(*parts);
   const auto used = check_shaders_used(command.shader_folder, out.comparison.raster, *loaded.scene, console);

@@ -63,9 +63,13 @@ std::string result_csv(std::string_view result);
 /// Names and values of a sweep's axes.
 using AxisValues = std::vector<std::pair<std::string, std::string>>;
 /// Returns result.json with "axes" and without times (every one is "not timed"), so that the same setting gives the
-/// same bytes. `no_effect`: the axes that the cell's technique does not read.
+/// same bytes. `no_effect`: the axes that the cell's technique does not read. Without `full` it lacks what belongs to the
+/// drawing rather than to the cell: the curve of every bias, biases in engines' units, and the effects. They are five sixths
+/// of its bytes.
 nlohmann::ordered_json line_json(const Comparison& comparison, const AxisValues& axes,
-                                 const std::vector<std::string>& no_effect = {});
+                                 const std::vector<std::string>& no_effect = {}, bool full = true);
+/// Which effects the scene calls for, and why the others are not simulated ("effects").
+nlohmann::ordered_json effects_json(const EffectPlan& plan);
 /// Returns a document on one line, which ends with a line break.
 std::string on_one_line(const nlohmann::ordered_json& json);
 /// Returns the text of line_json().

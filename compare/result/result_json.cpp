@@ -18,7 +18,6 @@
 #include "raster/technique_traits.h"
 
 namespace gnomon::compare {
-namespace {
 
 Json effects_json(const EffectPlan& plan) {
   Json json = Json::array();
@@ -29,6 +28,8 @@ Json effects_json(const EffectPlan& plan) {
                     {"reason", e.reason}});
   return json;
 }
+
+namespace {
 
 Json costs_json(const Comparison& c) {
   const raytrace::RayCounts& rays = c.raytraced.rays;
@@ -145,15 +146,16 @@ Json timing_json(const Comparison& c) {
   };
   const raster::RasterOptions& drawn = c.raster.options;
   const raytrace::RaytraceOptions& traced = c.raytraced.options;
-  return {{"raster", side(drawn.runs, drawn.enough_ms, drawn.shadow_cost ? drawn.least_subtracted : 0, drawn.runs > 0)},
+  return {{"raster",
+           side(drawn.runs, drawn.enough_ms, drawn.shadow_cost ? drawn.least_subtracted : 0, drawn.runs > 0)},
           {"rays", side(traced.runs, traced.enough_ms, 0, traced.warm_up)},
           {"as_judged", drawn.timed_as_judged},
           {"software_rasterizer", is_software(c.raster.context)}};
 }
 
-Json result_object(const Comparison& c, double report_ms, double total_ms) {
+Json result_object(const Comparison& c, double report_ms, double total_ms, bool full = true) {
   Json lights = Json::array();
-  for (const LightComparison& light : c.lights) lights.push_back(light_block(c, light));
+  for (const LightComparison& light : c.lights) lights.push_back(light_block(c, light, full));
   Json json{{"schema", "gnomon/result/1"},
             {"command", c.command},
             {"version", program_version()},
@@ -180,6 +182,7 @@ Json result_object(const Comparison& c, double report_ms, double total_ms) {
               {"report", one_time_json(report_ms)},
               {"total", one_time_json(total_ms)}}},
             {"lights", std::move(lights)}};
+  if (!full) json.erase("effects");
   if (!c.views.views.empty()) json["views"] = views_json(c.views);
   return json;
 }
@@ -254,8 +257,9 @@ std::string result_json(const Comparison& c, double report_ms, double total_ms) 
   return dumped(json, 1);
 }
 
-Json line_json(const Comparison& c, const AxisValues& axes, const std::vector<std::string>& no_effect) {
-  Json json = result_object(c, 0.0, 0.0);
+Json line_json(const Comparison& c, const AxisValues& axes, const std::vector<std::string>& no_effect,
+               bool full) {
+  Json json = result_object(c, 0.0, 0.0, full);
   drop_times(json);
   for (Json& light : json["lights"]) light.erase("seams");  // a cell of another bias has none
   json["machine"]["load"] = nullptr;

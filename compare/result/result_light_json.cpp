@@ -302,7 +302,9 @@ Json light_times_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
   const raytrace::LightTruth& truth = true_record(c, light);
   Json json{{"map_pass", times_json(drawn.map_pass)},
-            {"first_map", !drawn.map_pass.runs.empty() && drawn.first_map_ms > 0.0 ? one_time_json(drawn.first_map_ms) : times_json({})},
+            {"first_map", !drawn.map_pass.runs.empty() && drawn.first_map_ms > 0.0
+                              ? one_time_json(drawn.first_map_ms)
+                              : times_json({})},
             {"shade_pass", times_json(drawn.shade_pass)},
             {"unshadowed_pass", times_json(drawn.unshadowed_pass)},
             {"shadow_lookups", difference_json(shadow_lookups(drawn))},
@@ -368,23 +370,24 @@ LightFigures read_pooled_figures(const Json& light) {
   return out;
 }
 
-Json light_block(const Comparison& c, const LightComparison& light) {
+Json light_block(const Comparison& c, const LightComparison& light, bool full) {
   const raytrace::LightTruth& truth = true_record(c, light);
   Json block{{"light", light_json(light_of(c, light))}, {"map", map_json(c, light)}};
   add_blocks(block, light);
   block.update({{"budget", budget_json(c, light)},
                 {"ladder", ladder_json(light)},
                 {"classes", classes_json(light)},
-                {"class_errors", class_errors_json(light)},
-                {"bias_curve", bias_curve_json(light)},
-                {"bias_curve_withheld",
+                {"class_errors", class_errors_json(light)}});
+  if (full) block["bias_curve"] = bias_curve_json(light);
+  block.update({{"bias_curve_withheld",
                  light.bias_curve_withheld.empty() ? Json(nullptr) : Json(light.bias_curve_withheld)},
                 {"best_bias", best_bias_json(light)},
                 {"bias_kinds", bias_kinds_json(light, c.raster.options.map)},
-                {"other_map_sizes", other_sizes_json(light)},
-                {"engine_units", engine_units_json(engine_units(c, light))},
-                {"derived_bias", derived_bias_json(derived_for_engines(c, light))},
-                {"theory", theory_json(light.theory)},
+                {"other_map_sizes", other_sizes_json(light)}});
+  if (full) block["engine_units"] = engine_units_json(engine_units(c, light));
+  block["derived_bias"] = derived_bias_json(derived_for_engines(c, light));
+  if (!full && block["derived_bias"].is_object()) block["derived_bias"].erase("engine_units");
+  block.update({{"theory", theory_json(light.theory)},
                 {"shadow_rays", truth.rays},
                 {"times_ms", light_times_json(c, light)}});
   if (truth.is_soft()) {

@@ -74,7 +74,7 @@ Json named_figures(const LightFigures& light, bool (*takes)(const Figure&));
 LightFigures read_pooled_figures(const Json& light);
 
 /// One entry of "lights".
-Json light_block(const Comparison& comparison, const LightComparison& light);
+Json light_block(const Comparison& comparison, const LightComparison& light, bool full = true);
 /// The budget of each cascade by itself, finest first; null of other techniques.
 Json by_cascade_json(const std::vector<CascadeFigures>& cascades);
 /// Its "times_ms".

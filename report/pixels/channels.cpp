@@ -25,7 +25,8 @@ std::uint32_t rounded(double value) {
 nlohmann::ordered_json Packer::add(const PackOptions& options, Numbers numbers, const Sources* sources) {
   jobs_.push_back({options, std::move(numbers), sources, {}});
   constexpr std::array<std::string_view, 3> names{"nothing", "previous", "surface"};
-  nlohmann::ordered_json json{{"bytes", options.bytes}, {"from", names[static_cast<std::size_t>(options.from)]}};
+  nlohmann::ordered_json json{{"bytes", options.bytes},
+                              {"from", names[static_cast<std::size_t>(options.from)]}};
   if (options.unit != 1) json["unit"] = options.unit;
   json["data"] = "";
   return json;

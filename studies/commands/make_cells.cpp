@@ -91,7 +91,8 @@ Expected<MadeCell> make_cell(SweepRun& run, std::size_t index) {
   MadeCell made;
   const auto without_effect = json_names(run.command.options.axes_without_effect(run.plan.grid, cell));
   const int once = std::exchange(comparison.raster.options.runs, rounds_of(run.command));
-  made.line = compare::line_json(comparison, axis_values(run.plan.grid, cell), without_effect);
+  made.line = compare::line_json(comparison, axis_values(run.plan.grid, cell), without_effect,
+                                 run.command.full_records);
   comparison.raster.options.runs = once;
   made.times = compare::cell_times_json(
       comparison, cell, {run.engine.last_was_derived(), watch.elapsed_ms(), run.engine.shown_view()});

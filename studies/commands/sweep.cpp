@@ -289,6 +289,10 @@ void add_options(CLI::App& app, SweepCommand& command) {
       "--ray-tracer", command.ray_tracer,
       "also time the ray tracer's precisions, and its samples of lights with size, at the first cell's "
       "camera and lights, as points of the report's chart; ray_tracer.json has them [default off]");
+  app.add_flag(
+      "--full-records", command.full_records,
+      "also write each cell's curve of every bias, biases in engines' units and the effects into its line "
+      "of sweep.jsonl, which is then five times as long [default off]");
   app.add_flag("--restart", command.restart, "discard what the folder holds of a sweep [default off]");
   add_measured_limit(
       app, "--max-error", {command.asked.measure, command.max_error},

@@ -71,7 +71,9 @@ std::string configuration(const SweepCommand& command, const Plan& plan, const S
             {"shaders", shaders},
             {"perceptual", command.perceptual},
             {"runs", command.runs.value_or(usual_runs)},
-            {"seed", command.seed}};
+            {"seed", command.seed},
+            {"effects", compare::effects_json(plan_effects(scene))}};
+  if (command.full_records) json["full_records"] = true;
   if (command.asked.measure != &compare::wrong_and_mean())
     json["measure"] = command.asked.measure->measure.name;
   if (command.max_lights != usual_max_lights) json["max_lights"] = command.max_lights;
@@ -129,7 +131,8 @@ std::string task_arguments(const SweepCommand& command) {
   text += backend_argument(command.backend);
   for (const auto& [given, name] :
        {std::pair(command.zip, " --zip"), std::pair(command.perceptual, " --perceptual"),
-        std::pair(command.ray_tracer, " --ray-tracer"), std::pair(command.restart, " --restart")})
+        std::pair(command.ray_tracer, " --ray-tracer"), std::pair(command.restart, " --restart"),
+        std::pair(command.full_records, " --full-records")})
     if (given) text += name;
   return text;
 }

@@ -52,6 +52,7 @@ struct SweepCommand : RunOptions {
   ViewListOptions views;
   double report_max_mb = report::default_report_max_mb;
   bool zip = false, perceptual = false, ray_tracer = false, restart = false, quiet = false;
+  bool full_records = false;  ///< line_json()
 };
 
 /// Everything that the journal's lines depend on, as JSON.

@@ -12,8 +12,6 @@
 namespace gnomon::studies {
 namespace {
 
-using compare::Json;
-
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view checksum_key = "\"checksum\":\"";

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 
 #include "compare/metrics/flip.h"
 #include "compare/metrics/weighted_rows.h"
@@ -145,6 +146,18 @@ TEST(Flip, EqualsTheDirectImplementationOnShadowEdges) {
       a.at(x, y) = Vec3f(x + y / 2 < 30 ? 1.0f : 0.0f);
       b.at(x, y) = Vec3f((x / 4) * 4 + (y / 4) * 2 < 30 ? 1.0f : 0.0f);
     }
+  expect_same_as_direct(a, b, flip_pixels_per_degree);
+}
+
+// Only what lies within the filters' reach of a difference is worked out, which is asked of blocks of pixels.
+TEST(Flip, EqualsTheDirectImplementationWherePicturesDifferHereAndThere) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<float> value(0.0f, 1.0f);
+  ColorImage a(ImageSize{131, 97});
+  for (Vec3f& colour : a.data) colour = {value(random), value(random), value(random)};
+  ColorImage b = a;
+  for (const auto& [x, y] : {std::pair{0, 96}, {31, 20}, {32, 20}, {100, 64}, {130, 0}})
+    b.at(x, y) = Vec3f(1.0f) - b.at(x, y);
   expect_same_as_direct(a, b, flip_pixels_per_degree);
 }
 

@@ -1,6 +1,8 @@
 // A difference of two timed passes, and what its runs leave open.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "compare/result/number_text.h"
 #include "scene/base/time_difference.h"
 
@@ -30,6 +32,18 @@ TEST(TimeDifference, StripsTellWhatWholeRunsDoNot) {
   EXPECT_EQ(d.pairs.runs, beyond_part(whole, part).pairs.runs) << "as measured, over all strips";
   EXPECT_FALSE(beyond_part(whole, part).told);
   EXPECT_FALSE(beyond_part(std::span<const TimedStrip>()).timed());
+}
+
+// Each strip has a spread of its own, so that two runs of several tell as much as three of one.
+TEST(TimeDifference, TwoRunsOfStripsHaveASpread) {
+  const std::vector<TimedStrip> strips{{{{12.0, 13.0}}, {{10.0, 10.0}}}, {{{12.0, 12.0}}, {{10.0, 12.0}}}};
+  const TimeDifference d = beyond_part(strips);
+  EXPECT_NEAR(d.median, 4.0, 1e-12);
+  EXPECT_NEAR(d.high - d.median, 2.0 * std::sqrt(0.25 + 1.0), 1e-12)
+      << "half of 1 and half of 2: their variances";
+  EXPECT_TRUE(d.told);
+  const TimeDifference one = beyond_part(std::span(strips).first(1));
+  EXPECT_NEAR(one.high - one.median, 2.5, 1e-12) << "a quarter of the part: of two runs nobody can tell";
 }
 
 TEST(TimeDifference, APassHasASpread) {

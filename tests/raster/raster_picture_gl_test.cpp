@@ -124,6 +124,28 @@ TEST(Picture, DoesNotDependOnWhichRecordsAreAskedFor) {
   EXPECT_EQ(frame->lights[0].gap.data, drawn.frame.lights[1].gap.data);
 }
 
+// What is timed after the picture has no picture of its own, and changes none that is drawn later.
+TEST(Picture, TimesCanBeTakenAlone) {
+  Drawn drawn = draw(three_lights());
+  raster::RasterOptions times = drawn.frame.options;
+  times.analysis = false, times.times_alone = true, times.runs = 2, times.shadow_cost = true;
+  times.least_subtracted = 2;
+  const auto timed = drawn.renderer->render(times, std::vector<std::uint32_t>{1, 2});
+  ASSERT_TRUE(timed.has_value()) << timed.error().message();
+  EXPECT_TRUE(timed->color.data.empty());
+  ASSERT_EQ(timed->lights.size(), 2u);
+  for (const raster::LightRecord& light : timed->lights) {
+    EXPECT_EQ(light.map_pass.runs.size(), 2u);
+    EXPECT_EQ(light.shade_pass.runs.size(), 2u);
+    EXPECT_EQ(light.unshadowed_pass.runs.size(), 2u);
+    EXPECT_FALSE(light.strips.empty());
+    EXPECT_TRUE(light.visibility.data.empty());
+  }
+  const auto again = drawn.renderer->render(drawn.frame.options, std::vector<std::uint32_t>{0, 1, 2});
+  ASSERT_TRUE(again.has_value());
+  EXPECT_EQ(again->color.data, drawn.frame.color.data);
+}
+
 // A viewer moves the camera and the light between calls.
 TEST(Picture, FollowsTheScenesCameraAndLights) {
   Drawn moved = draw(three_lights());

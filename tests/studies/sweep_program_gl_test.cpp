@@ -30,14 +30,38 @@ class WholeSweep : public SweepProgram {
   }
 };
 
-TEST_F(WholeSweep, WritesResultsWithAxes) {
-  gnomon::SchemaCheck schema(gnomon::compare::result_schema());
-  std::istringstream stream(lines("whole"));
+std::vector<nlohmann::json> parsed_lines(const std::string& text) {
+  std::istringstream stream(text);
   std::vector<nlohmann::json> results;
-  for (std::string line; std::getline(stream, line);) {
-    results.push_back(nlohmann::json::parse(line));
-    for (const std::string& problem : schema.violations(results.back())) ADD_FAILURE() << problem;
+  for (std::string line; std::getline(stream, line);) results.push_back(nlohmann::json::parse(line));
+  return results;
+}
+
+// Full records are whole results; what the usual ones lack belongs to the drawing.
+TEST_F(WholeSweep, RecordsAreShortOrFull) {
+  ASSERT_EQ(run(words("full", {"--full-records"})), 0) << said();
+  gnomon::SchemaCheck schema(gnomon::compare::result_schema());
+  std::vector<nlohmann::json> full = parsed_lines(lines("full")), usual = parsed_lines(lines("whole"));
+  ASSERT_EQ(full.size(), usual.size());
+  const nlohmann::json effects = full.front()["effects"];
+  for (std::size_t i = 0; i < full.size(); ++i) {
+    for (const std::string& problem : schema.violations(full[i])) ADD_FAILURE() << problem;
+    EXPECT_EQ(full[i]["effects"], effects);
+    full[i].erase("effects");
+    nlohmann::json& light = full[i]["lights"][0];
+    for (const char* key : {"bias_curve", "engine_units"}) EXPECT_EQ(light.erase(key), 1u) << key;
+    EXPECT_EQ(light["derived_bias"].erase("engine_units"), 1u);
+    full[i].erase("checksum"), usual[i].erase("checksum");
+    EXPECT_EQ(full[i], usual[i]);
   }
+  EXPECT_EQ(nlohmann::json::parse(bytes_of(root / "whole/sweep.json"))["configuration"]["effects"], effects);
+  EXPECT_EQ(untimed_table("full"), untimed_table("whole"));
+  EXPECT_LT(4 * lines("whole").size(), lines("full").size());
+  EXPECT_EQ(run(words("full")), 2) << "records of both kinds would stand in one file";
+}
+
+TEST_F(WholeSweep, WritesResultsWithAxes) {
+  const std::vector<nlohmann::json> results = parsed_lines(lines("whole"));
   ASSERT_EQ(results.size(), 12u);
   EXPECT_EQ(results[5]["axes"].dump(), R"({"bias":0.0333333333333,"map_size":64})");
   EXPECT_EQ(results[5]["command"],
@@ -56,7 +80,10 @@ TEST_F(WholeSweep, WritesResultsWithAxes) {
     (*json)["lights"][0].erase("bias_kinds");       // other kinds of bias are looked at by compare alone
     (*json)["lights"][0].erase("ray_tests");        // and rays tried
     (*json)["lights"][0].erase("other_map_sizes");  // and maps of other sizes
-    (*json)["lights"][0]["map"].erase("windows");   // and where each map lies
+    for (const char* drawn : {"bias_curve", "engine_units"})
+      (*json)["lights"][0].erase(drawn);  // which only full records have
+    (*json)["lights"][0]["derived_bias"].erase("engine_units");
+    (*json)["lights"][0]["map"].erase("windows");  // and where each map lies
     (*json)["lights"][0]["error"].erase("flip");
     (*json)["lights"][0]["error"].erase("ssim");
     (*json)["lights"][0]["error"].erase("flip_compared");
@@ -88,8 +115,8 @@ TEST_F(SweepProgram, WhatCellsLackOfAComparisonIsDocumented) {
     }
     return lacking;
   };
-  EXPECT_EQ(check(one, cell, schema["properties"]), 3);
-  EXPECT_EQ(check(one["lights"][0], cell["lights"][0], schema["$defs"]["light"]["properties"]), 2);
+  EXPECT_EQ(check(one, cell, schema["properties"]), 4);
+  EXPECT_EQ(check(one["lights"][0], cell["lights"][0], schema["$defs"]["light"]["properties"]), 4);
 }
 
 // The measure is what cells are ranked by, and a plain limit is one of it; the folder remembers it.
@@ -122,7 +149,10 @@ TEST_F(SweepProgram, CountsFlipsOfFilms) {
   };
   const std::string folder = (root / "films").string();
   ASSERT_EQ(
-      run(joined({"sweep"}, {setting, film, {"--snap", "off,on", "--measure", "shimmer", "-o", folder}})), 0)
+      run(joined(
+          {"sweep"},
+          {setting, film, {"--full-records", "--snap", "off,on", "--measure", "shimmer", "-o", folder}})),
+      0)
       << said();
   EXPECT_NE(said().find("Best for flips"), std::string::npos) << said();
   gnomon::SchemaCheck schema(gnomon::compare::result_schema());
@@ -225,7 +255,7 @@ TEST_F(SweepProgram, AnAxisThatATechniqueDoesNotReadIsNamed) {
     all.insert(all.end(), more.begin(), more.end());
     return run(all);
   };
-  ASSERT_EQ(sweep("whole", {}), 0) << said();
+  ASSERT_EQ(sweep("whole", {"--full-records"}), 0) << said();
   gnomon::SchemaCheck schema(gnomon::compare::result_schema());
   std::istringstream stream(lines("whole"));
   std::vector<nlohmann::json> cells;
@@ -244,8 +274,8 @@ TEST_F(SweepProgram, AnAxisThatATechniqueDoesNotReadIsNamed) {
   EXPECT_NE(cells[2]["lights"], cells[3]["lights"]);
   EXPECT_NE(bytes_of(root / "whole/report.html").find(R"("no_effect":["filter_radius"])"), std::string::npos);
   EXPECT_NE(bytes_of(root / "whole/sweep.csv").find(",no_effect,"), std::string::npos);
-  ASSERT_EQ(sweep("part1", {"--shard", "1/2"}), 0) << said();
-  ASSERT_EQ(sweep("part2", {"--shard", "2/2"}), 0) << said();
+  ASSERT_EQ(sweep("part1", {"--full-records", "--shard", "1/2"}), 0) << said();
+  ASSERT_EQ(sweep("part2", {"--full-records", "--shard", "2/2"}), 0) << said();
   ASSERT_EQ(
       run({"merge", (root / "part1").string(), (root / "part2").string(), "-o", (root / "merged").string()}),
       0)

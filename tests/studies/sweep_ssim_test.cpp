@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "compare/metrics/ssim.h"
 
@@ -47,6 +48,22 @@ TEST(Ssim, IsTheFormulaAtEveryWindow) {
       sum += one_window(a, b, x, y);
     }
   EXPECT_NEAR(mean_ssim(a, b), sum / (21 * 7), 1e-6);
+}
+
+// Windows are worked out only where some pixel of theirs differs, which is asked of blocks of pixels.
+TEST(Ssim, OfPicturesThatDifferHereAndThereIsTheFormulaToo) {
+  const Image<float> a = noise({211, 45}, 4);
+  Image<float> b = a;
+  for (const auto& [x, y] : {std::pair{0, 0}, {15, 12}, {16, 12}, {90, 44}, {121, 30}, {210, 3}, {210, 44}})
+    b.at(x, y) = 1.0f - b.at(x, y);
+  const Image<float> map = ssim_map(a, b);
+  int equal = 0;
+  for (int y = 0; y < map.size.height; ++y)
+    for (int x = 0; x < map.size.width; ++x) {
+      ASSERT_NEAR(map.at(x, y), one_window(a, b, x, y), 1e-6) << x << " " << y;
+      equal += map.at(x, y) == 1.0f ? 1 : 0;
+    }
+  EXPECT_GT(equal, 5000);
 }
 
 TEST(Ssim, KnownValues) {
