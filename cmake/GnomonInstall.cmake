@@ -1,8 +1,7 @@
 # cmake --install BUILD [--prefix P]: the program, its licence, the manual, lessons, pictures and schemas, and what the
 # program prints of itself: chapters of the manual, its manual page, completion for bash, zsh and fish.
-# Beside each other: a program starts the others from its own folder.
-install(TARGETS gnomon_program gnomon_benchmark_program gnomon_grade_program gnomon_judge_program gnomon_lab_program
-  gnomon_studies_program gnomon_verify_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+# Beside it gnomon_program() installs the others: a program starts them from its own folder.
+install(TARGETS gnomon_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 # Where scene/files/pictures/image_library.cpp looks for it from the folder of the program.
 install(TARGETS gnomon_images LIBRARY DESTINATION lib/gnomon)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/CITATION.cff" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
