@@ -13,10 +13,12 @@ std::filesystem::path own_program() {
 }
 
 std::string program_beside(std::string_view name) {
-  const std::string beside = (own_program().parent_path() / name).string();
-  return file_kind_or_none(beside) == FileKind::file
-             ? beside
-             : (std::filesystem::path(GNOMON_PROGRAMS_BUILT) / name).string();
+  std::error_code none;
+  const std::filesystem::path own = own_program();
+  const std::filesystem::path built = std::filesystem::weakly_canonical(GNOMON_PROGRAMS_BUILT, none);
+  const std::string beside = (own.parent_path() / name).string();
+  const bool is_of_the_build = own.string().starts_with(built.parent_path().string() + "/");
+  return is_of_the_build && file_kind_or_none(beside) != FileKind::file ? (built / name).string() : beside;
 }
 
 }  // namespace gnomon

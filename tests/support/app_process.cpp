@@ -53,7 +53,7 @@ struct Pipe {
   if (options.address_limit >= 0) setrlimit(RLIMIT_AS, &addresses);
   for (const std::string& variable : options.environment) putenv(strdup(variable.c_str()));
   if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(99);
-  std::string program = gnomon::test::program();
+  std::string program = options.program.empty() ? gnomon::test::program() : options.program;
   std::vector<char*> words{program.data()};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);

@@ -27,6 +27,7 @@ struct ProcessResult {
 
 struct ProcessOptions {
   std::string folder{};                    ///< working directory; empty: the test's own
+  std::string program{};                   ///< empty: the program under test
   std::vector<std::string> environment{};  ///< "NAME=value", added to the test's own
   int interrupt_after_ms = -1;  ///< a signal is sent so long after the program waits for SIGINT; -1: never
   int signal = 2;               ///< which one: SIGINT
