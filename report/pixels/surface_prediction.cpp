@@ -64,7 +64,8 @@ std::array<std::uint32_t, 3> predicted(const PixelSurfaces& s, const LightView& 
   const Vec3 known = position(light, light.face(faces.data[from]), value(same[0]), value(same[1]),
                               value(same[2]) * depth_step);
   const auto width = static_cast<std::size_t>(s.seen.size.width);
-  const double x = static_cast<double>(i % width) + 0.5, y = static_cast<double>(i / width) + 0.5;
+  const std::size_t row = i / width;
+  const double x = static_cast<double>(i % width) + 0.5, y = static_cast<double>(row) + 0.5;
   const Vec3 ray = sum(sum(s.rays.corner, s.rays.across, x), s.rays.down, y);
   const double t = dot3(normal, sum(known, s.rays.eye, -1.0)) / dot3(normal, ray);
   const Vec3 met = looked_up(light, light.face(faces.data[i]), sum(s.rays.eye, ray, t));

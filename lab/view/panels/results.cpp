@@ -108,7 +108,7 @@ void times(const PanelContext& context) {
   row("Live picture, with reading back",
       now.raster_ms > 0.0 ? compare::milliseconds(now.raster_ms) : "not timed yet");
   const ShadowTimeWords words = shadow_time_words(context.shown, context.state);
-  for (const auto& [name, time] : words.rows) wrapped(name + ": " + time);
+  for (const auto& [name, time] : words.rows) wrapped(fmt::format("{}: {}", name, time));
   if (!words.by.empty()) faint(words.by);
 }
 
