@@ -290,56 +290,75 @@ struct ShadowCosts {
   Sides nothing_moves, light_moves, casters_move;
 };
 
-/// Every number of one light; result/figure_rows.cpp has a row for each.
-struct LightFigures {
+/// What depends on the map and on which pixels are compared, but not on how the map is looked up.
+struct MapMeasures {
+  std::array<double, 3> texel_world{};  ///< min, median, max over compared receivers
+  TheoryStats theory;
+  TerminatorCount terminator;  ///< of the compared pixels and those beside them; no map has a part in it
+};
+
+/// Numbers that another constant bias leaves as they are.
+struct BiasFreeFigures : MapMeasures {
   PixelCounts pixels;
+  OutsideMap outside;
+  std::optional<std::uint64_t> lookups;  ///< LightRecord::lookups of the compared pixels; none: not counted
+  double bias_texel_world = 0.0;         ///< what a bias in texels is a multiple of
+  BestBias best_bias;                    ///< without meaning where LightLists::bias_curve is empty
+};
+
+/// Every number of one light; result/figure_rows.cpp has a row for each, but for theory and biases.
+struct LightFigures : BiasFreeFigures {
   ErrorStats error;
   Budget budget{};
   RightByAccident accidents;
   EdgeStats edges;
   Detachment detachment;
-  std::optional<BleedingStats> bleeding;  ///< of techniques of moments
-  std::optional<PenumbraStats> penumbra;  ///< of a light with size
-  std::optional<SeamCount> seams;         ///< of the hard test in several maps
-  TerminatorCount terminator;
-  OutsideMap outside;
-  std::optional<ShimmerFigures> shimmer;  ///< where a film was asked for, too
-  std::array<double, 3> texel_world{};    ///< min, median, max over compared receivers
-  std::optional<std::uint64_t> lookups;   ///< LightRecord::lookups of the compared pixels; none: not counted
-  RayWork ray_work;                       ///< nothing where not counted
+  std::optional<BleedingStats> bleeding;    ///< of techniques of moments
+  std::optional<PenumbraStats> penumbra;    ///< of a light with size
+  std::optional<SeamCount> seams;           ///< of the hard test in several maps
+  std::optional<ShimmerFigures> shimmer;    ///< where a film was asked for, too
+  RayWork ray_work;                         ///< nothing where not counted
   std::optional<ShadowCosts> shadow_costs;  ///< made when it is written; none: not timed
 };
 
-struct LightComparison : LightFigures {
-  std::uint32_t light = 0;  ///< index in Scene::lights
-  std::size_t record = 0;   ///< index in RasterFrame::lights and RayTracedFrame::lights
+struct LightLists {
   std::array<std::uint64_t, class_count> classes{};  ///< acne … ignored_alpha; they sum to error.wrong
   /// Mean |V6 - V0| of the pixels with each label, over all compared ones; they sum to error.mean_absolute but for
   /// errors below least_labelled_error.
   std::array<double, class_count> class_errors{};
-  std::vector<CascadeFigures> cascades;  ///< of technique csm, the finest first; else empty
-  /// Empty, and best_bias without meaning, where the drawing does not say what another bias would draw.
-  std::vector<BiasCurvePoint> bias_curve;
-  std::string_view bias_curve_withheld;  ///< why, as a sentence; else empty
-  BestBias best_bias;
+  std::array<double, rung_count> rung_mean{};  ///< mean visibility over compared pixels, V0 … V6
+  std::vector<CascadeFigures> cascades;        ///< of technique csm, the finest first; else empty
+  std::vector<BiasCurvePoint>
+      bias_curve;  ///< empty where the drawing does not say what another bias would draw
+  std::string_view bias_curve_withheld;   ///< why, as a sentence; else empty
   std::vector<BiasKind> bias_kinds;       ///< the best first; empty where not made
   std::vector<OtherMapSize> other_sizes;  ///< the smallest first; empty where not estimated
-  TheoryStats theory;
-  std::array<double, rung_count> rung_mean{};  ///< mean visibility over compared pixels, V0 … V6
-  double bias_texel_world = 0.0;               ///< what a bias in texels is a multiple of
-  Times classify;
+};
 
-  std::array<Image<float>, rung_count>
-      rungs;            ///< 1 lit, 0 shadowed, between: soft or filtered; 1 where not climbed (ladder.h)
+/// The rungs of every pixel, and its label.
+struct Climb {
+  /// 1 lit, 0 shadowed, between: soft or filtered; 1 where not climbed (ladder/ladder.h)
+  std::array<Image<float>, rung_count> rungs;
   Image<Label> labels;  ///< of every error of least_labelled_error and more, of one half and less, too
-  /// Displacement of shadow edges in texels, and detachment in world units (edges.h); NaN where there is
-  /// none, empty where not made.
-  Image<float> edge_map, detachment_map;
-  /// FLIP of each pixel, and SSIM of each window by its middle pixel (NaN where no window fits); empty where
-  /// not computed.
-  Image<float> flip_map, ssim_map;
+};
+
+/// What is measured of a pixel with those around it; empty without MeasureOptions::perceptual.
+struct MetricMaps {
+  Image<float> edge_map;  ///< displacement of shadow edges in texels; NaN where there is none
+  Image<float> flip_map;
+  Image<float> ssim_map;  ///< of each window by its middle pixel; NaN where no window fits
+};
+
+struct LightImages : Climb, MetricMaps {
+  Image<float> detachment_map;  ///< world units (edges.h); NaN where there is none, empty where not made
   Image<std::uint32_t>
       stored_glass;  ///< shown_materials.h; empty where no material is glass, and where not made
+};
+
+struct LightComparison : LightFigures, LightLists, LightImages {
+  std::uint32_t light = 0;  ///< index in Scene::lights
+  std::size_t record = 0;   ///< index in RasterFrame::lights and RayTracedFrame::lights
+  Times classify;
 };
 
 /// A smaller error has no label: not even a picture of eight bits shows it.

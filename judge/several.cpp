@@ -41,9 +41,12 @@ std::vector<const JudgedRow*> worst_first(const JudgedSet& set) {
   std::vector<const JudgedRow*> rows;
   for (const JudgedRow& row : set.rows) rows.push_back(&row);
   // Rows without figures last.
-  const auto rank = [](const JudgedRow& row) { return !row.refused.empty() ? 2 : row.compared == 0 ? 1 : 0; };
+  const auto rank = [](const JudgedRow& row) {
+    return !row.refused.empty() ? 2 : row.figures.pixels.compared == 0 ? 1 : 0;
+  };
+  const auto wrong = [](const JudgedRow& row) { return row.figures.error.wrong_fraction; };
   std::stable_sort(rows.begin(), rows.end(), [&](const JudgedRow* a, const JudgedRow* b) {
-    return rank(*a) != rank(*b) ? rank(*a) < rank(*b) : a->wrong > b->wrong;
+    return rank(*a) != rank(*b) ? rank(*a) < rank(*b) : wrong(*a) > wrong(*b);
   });
   return rows;
 }
@@ -55,15 +58,16 @@ Json row_json(const JudgedRow& row) {
     json["refused"] = row.refused;
     return json;
   }
+  const compare::LightFigures& f = row.figures;
   json.update({{"folder", report::url_segment(row.name)},
                {"scene", row.scene},
                {"renderer", row.renderer},
-               {"compared", row.compared},
-               {"wrong", row.wrong},
-               {"mean_error", row.mean_error},
+               {"compared", f.pixels.compared},
+               {"wrong", f.error.wrong_fraction},
+               {"mean_error", f.error.mean_absolute},
                {"labels", row.labels},
-               {"edge_pixels", row.edge_pixels},
-               {"detachment_world", row.detachment_world ? Json(*row.detachment_world) : Json(nullptr)},
+               {"edge_pixels", f.edges.rms_pixels},
+               {"detachment_world", f.detachment.pixels > 0 ? Json(f.detachment.mean_world) : Json(nullptr)},
                {"advice", row.advice}});
   return json;
 }
@@ -71,9 +75,11 @@ Json row_json(const JudgedRow& row) {
 std::string judged_line(const JudgedRow& row, std::size_t width) {
   const std::string name = one_line(row.name);
   if (!row.refused.empty()) return fmt::format("{:{}}  not judged: {}\n", name, width, one_line(row.refused));
-  if (row.compared == 0) return fmt::format("{:{}}  {}\n", name, width, no_figures);
-  return fmt::format("{:{}}  {:>8}  {:>8}  {:>7.3f}  {:8}  {}\n", name, width, compare::percent(row.wrong),
-                     compare::percent(row.mean_error), row.edge_pixels, row.ladder, row.labels);
+  const compare::LightFigures& f = row.figures;
+  if (f.pixels.compared == 0) return fmt::format("{:{}}  {}\n", name, width, no_figures);
+  return fmt::format("{:{}}  {:>8}  {:>8}  {:>7.3f}  {:8}  {}\n", name, width,
+                     compare::percent(f.error.wrong_fraction), compare::percent(f.error.mean_absolute),
+                     f.edges.rms_pixels, row.ladder, row.labels);
 }
 
 std::string judged_page(const JudgedSet& set) {
@@ -96,10 +102,7 @@ JudgedRow judged_row(const std::string& name, const compare::Comparison& c) {
   row.renderer = judged.renderer + (judged.version.empty() ? "" : " " + judged.version);
   row.ladder = judged.has_map ? "map" : judged.identified ? "inferred" : "none";
   row.labels = (judged.identified ? "inferred: " : "") + main_labels(light);
-  row.compared = light.pixels.compared;
-  row.wrong = light.error.wrong_fraction, row.mean_error = light.error.mean_absolute;
-  row.edge_pixels = light.edges.rms_pixels;
-  if (light.detachment.pixels > 0) row.detachment_world = light.detachment.mean_world;
+  row.figures = light;
   for (const compare::Advice& advice : judged.advice)
     row.advice += (row.advice.empty() ? "" : "; ") + compare::advice_text(advice);
   return row;

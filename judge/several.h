@@ -1,7 +1,6 @@
 // Several captures on one page and in one table, the worst first; each row opens its own report.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,15 +11,12 @@
 
 namespace gnomon::judge {
 
-/// One capture, judged or refused. `compared` 0: judged, but its shares say nothing.
+/// One capture, judged or refused. Without compared pixels it is judged, but its figures say nothing.
 struct JudgedRow {
   std::string name;     ///< of its folder below that of all
   std::string refused;  ///< why it was not judged; the rest is then empty
   std::string scene, renderer, ladder, labels, advice;
-  std::uint64_t compared = 0;
-  double wrong = 0.0, mean_error = 0.0;    ///< shares of the compared pixels
-  double edge_pixels = 0.0;                ///< RMS displacement of shadow edges
-  std::optional<double> detachment_world;  ///< mean; none where no shadow stands off
+  compare::LightFigures figures;
 };
 JudgedRow judged_row(const std::string& name, const compare::Comparison& comparison);
 

@@ -44,12 +44,6 @@ Image<Label> labels_climbed(const LadderInput& input, const Image<Label>& labels
 /// V0: the share of the light that the pixel's receiver sees; of a light without size, all or nothing.
 float true_visibility(const LadderInput& input, std::size_t pixel);
 
-/// The rungs of every pixel, and its label.
-struct Climb {
-  std::array<Image<float>, rung_count> rungs;  ///< V0 … V6; 1 where not climbed
-  Image<Label> labels;
-};
-
 /// What the map as stored makes of the compared pixels, before the technique's bias and filter: V0 … V4. Frames of one light that were drawn with the same map share it.
 struct LowerClimb {
   /// `sorted`: label `right` on what is to be compared. World and topology must outlive this.

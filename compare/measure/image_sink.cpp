@@ -20,16 +20,14 @@ class KeptImages : public ImageSink {
  public:
   KeptImages(Comparison& out, const Plan& plan) : out_(out), perceptual_(plan.measure.perceptual) {}
 
-  Expected<void> keep_maps(std::size_t i, FinishedMaps&& maps, const PictureRows&) override {
-    LightComparison& light = out_.lights[i];
-    light.edge_map = std::move(maps.edges);
-    light.flip_map = std::move(maps.flip), light.ssim_map = std::move(maps.ssim);
+  Expected<void> keep_maps(std::size_t i, MetricMaps&& maps, const PictureRows&) override {
+    static_cast<MetricMaps&>(out_.lights[i]) = std::move(maps);
     return {};
   }
   Expected<void> keep_light(const LadderInput& in, Climb&& climb, Image<float>&& detached,
                             const PictureRows&) override {
     LightComparison& light = out_.lights[in.index];
-    light.rungs = std::move(climb.rungs), light.labels = std::move(climb.labels);
+    static_cast<Climb&>(light) = std::move(climb);
     if (!perceptual_) return {};
     const TimedStage stage("metrics");
     light.detachment_map = std::move(detached);
@@ -64,7 +62,7 @@ class StoredImages : public ImageSink {
       parts.channels.emplace_back(aov_path(out, light, plan.aov), plan.picture);
   }
 
-  Expected<void> keep_maps(std::size_t i, FinishedMaps&& maps, const PictureRows& rows) override;
+  Expected<void> keep_maps(std::size_t i, MetricMaps&& maps, const PictureRows& rows) override;
   Expected<void> keep_light(const LadderInput& in, Climb&& climb, Image<float>&& detached,
                             const PictureRows& rows) override;
   Expected<void> keep_frames(Frames&& band, const PictureRows& rows) override;
@@ -84,17 +82,14 @@ class StoredImages : public ImageSink {
   AutoExposure exposure_;
 };
 
-Expected<void> StoredImages::keep_maps(std::size_t i, FinishedMaps&& maps, const PictureRows& rows) {
+Expected<void> StoredImages::keep_maps(std::size_t i, MetricMaps&& maps, const PictureRows& rows) {
   const TimedStage stage(band_stage);
   StoredLight& stored = parts_.pictures.lights[i];
-  std::vector<Step> steps{store(stored.edges, maps.edges), store(stored.flip, maps.flip),
-                          store(stored.ssim, maps.ssim)};
+  std::vector<Step> steps{store(stored.edges, maps.edge_map), store(stored.flip, maps.flip_map),
+                          store(stored.ssim, maps.ssim_map)};
   if (plan_.page)
     steps.emplace_back([&]() -> Expected<void> {
-      LightComparison& shown = out_.lights[i];
-      append_reduced(shown.edge_map, maps.edges, rows.first, step_);
-      append_reduced(shown.flip_map, maps.flip, rows.first, step_);
-      append_reduced(shown.ssim_map, maps.ssim, rows.first, step_);
+      append_reduced(out_.lights[i], maps, rows.first, step_);
       return {};
     });
   return run_all(steps);
@@ -112,9 +107,7 @@ Expected<void> StoredImages::keep_light(const LadderInput& in, Climb&& climb, Im
   if (plan_.page)
     steps.emplace_back([&]() -> Expected<void> {
       LightComparison& shown = out_.lights[in.index];
-      for (std::size_t k = 0; k < rung_count; ++k)
-        append_reduced(shown.rungs[k], climb.rungs[k], rows.first, step_);
-      append_reduced(shown.labels, climb.labels, rows.first, step_);
+      append_reduced(shown, climb, rows.first, step_);
       if (plan_.measure.perceptual) append_reduced(shown.detachment_map, detached, rows.first, step_);
       append_reduced(shown.stored_glass, glass_of(in), rows.first, step_);
       return {};

@@ -233,7 +233,7 @@ LightFigures measure_ends(const LadderInput& in, std::initializer_list<const Fig
   const PictureRows all{0, labels.size.height};
   if (needs(FigureNeeds::perception)) {
     Perception perception;
-    FinishedMaps maps;
+    MetricMaps maps;
     perception.add({truth, drawn, labels, climbed}, 0, all, all.count, maps);
     perception.write_to(light.error);
   }

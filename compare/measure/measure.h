@@ -55,7 +55,7 @@ class ImageSink {
  public:
   virtual ~ImageSink() = default;
   /// Maps of the rows that follow those of the last call; rows.count may be 0.
-  virtual Expected<void> keep_maps(std::size_t light, FinishedMaps&& maps, const PictureRows& rows) = 0;
+  virtual Expected<void> keep_maps(std::size_t light, MetricMaps&& maps, const PictureRows& rows) = 0;
   /// One light's rows of a band, as `in` has them.
   virtual Expected<void> keep_light(const LadderInput& in, Climb&& climb, Image<float>&& detached,
                                     const PictureRows& rows) = 0;

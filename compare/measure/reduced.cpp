@@ -1,5 +1,7 @@
 #include "compare/measure/reduced.h"
 
+#include <utility>
+
 namespace gnomon::compare {
 namespace {
 
@@ -34,6 +36,17 @@ void append_reduced(raster::RasterFrame& to, const raster::RasterFrame& from, in
   }
 }
 
+void append_reduced(Climb& to, const Climb& from, int first_row, const Reduction& step) {
+  for (std::size_t k = 0; k < rung_count; ++k) append_reduced(to.rungs[k], from.rungs[k], first_row, step);
+  append_reduced(to.labels, from.labels, first_row, step);
+}
+
+void append_reduced(MetricMaps& to, const MetricMaps& from, int first_row, const Reduction& step) {
+  append_reduced(to.edge_map, from.edge_map, first_row, step);
+  append_reduced(to.flip_map, from.flip_map, first_row, step);
+  append_reduced(to.ssim_map, from.ssim_map, first_row, step);
+}
+
 void append_reduced(Comparison& to, const raytrace::RayTracedFrame& from, int first_row,
                     const Reduction& step) {
   append_reduced(to.raytraced.color, from.color, first_row, step);
@@ -52,15 +65,12 @@ Comparison reduced_images(const Comparison& whole, int every) {
   append_reduced(out.raster, whole.raster, 0, step);
   append_reduced(out, whole.raytraced, 0, step);
   for (std::size_t i = 0; i < out.lights.size(); ++i) {
-    const auto reduce = [&](auto& image) {
-      auto all = std::move(image);
-      image = {};
-      append_reduced(image, all, 0, step);
-    };
-    LightComparison& light = out.lights[i];
-    for (Image<float>& rung : light.rungs) reduce(rung);
-    reduce(light.labels), reduce(light.flip_map), reduce(light.ssim_map);
-    reduce(light.edge_map), reduce(light.detachment_map), reduce(light.stored_glass);
+    LightImages& light = out.lights[i];
+    const LightImages all = std::exchange(light, {});
+    append_reduced(static_cast<Climb&>(light), all, 0, step);
+    append_reduced(static_cast<MetricMaps&>(light), all, 0, step);
+    append_reduced(light.detachment_map, all.detachment_map, 0, step);
+    append_reduced(light.stored_glass, all.stored_glass, 0, step);
   }
   return out;
 }

@@ -36,6 +36,8 @@ void append_reduced(Image<T>& to, const Image<T>& rows, int first_row, const Red
 /// The images that the report page shows of a whole picture or of its rows from first_row on.
 void append_reduced(raster::RasterFrame& to, const raster::RasterFrame& from, int first_row,
                     const Reduction& reduction);
+void append_reduced(Climb& to, const Climb& from, int first_row, const Reduction& reduction);
+void append_reduced(MetricMaps& to, const MetricMaps& from, int first_row, const Reduction& reduction);
 void append_reduced(Comparison& to, const raytrace::RayTracedFrame& from, int first_row,
                     const Reduction& reduction);
 

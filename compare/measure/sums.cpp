@@ -27,28 +27,29 @@ PictureRows widened(const PictureRows& rows, int by, int height) {
 }  // namespace
 
 void Perception::add(const NearLight& light, int first_row, const PictureRows& rows, int height,
-                     FinishedMaps& maps) {
+                     MetricMaps& maps) {
   const PictureRows wide = widened(rows, perception_margin, height);
   const PictureRows near{wide.first - first_row, wide.count}, inner{rows.first - wide.first, rows.count};
   const Image<float> truth = visibility_picture(light.truth, light.labels, near);
   const Image<float> drawn = visibility_picture(light.drawn, light.labels, near);
-  maps.flip = cut_rows(flip_error(truth, drawn), inner);
+  maps.flip_map = cut_rows(flip_error(truth, drawn), inner);
   for (int y = 0; y < rows.count; ++y) {
     double row = 0.0;
-    for (int x = 0; x < maps.flip.size.width; ++x) row += static_cast<double>(maps.flip.at(x, y));
+    for (int x = 0; x < maps.flip_map.size.width; ++x) row += static_cast<double>(maps.flip_map.at(x, y));
     flip_sum_ += row;
   }
-  flips_ += maps.flip.data.size();
-  maps.ssim = cut_rows(ssim_by_pixel(ssim_map(truth, drawn), truth.size), inner);
+  flips_ += maps.flip_map.data.size();
+  maps.ssim_map = cut_rows(ssim_by_pixel(ssim_map(truth, drawn), truth.size), inner);
   constexpr int middle = ssim_window / 2;
   for (int y = 0; y < rows.count; ++y) {
     const int row = rows.first + y;
     if (row < middle || row >= height - middle) continue;
-    for (int x = middle; x < maps.ssim.size.width - middle; ++x)
-      ssim_sum_ += static_cast<double>(maps.ssim.at(x, y)), ++ssims_;
+    for (int x = middle; x < maps.ssim_map.size.width - middle; ++x)
+      ssim_sum_ += static_cast<double>(maps.ssim_map.at(x, y)), ++ssims_;
   }
   const int first = rows.first - first_row;
-  flip_compared_.add(maps.flip, light.labels, first), ssim_compared_.add(maps.ssim, light.labels, first);
+  flip_compared_.add(maps.flip_map, light.labels, first),
+      ssim_compared_.add(maps.ssim_map, light.labels, first);
 }
 
 void Perception::write_to(ErrorStats& out) const {
@@ -58,9 +59,9 @@ void Perception::write_to(ErrorStats& out) const {
   out.flip_compared = flip_compared_.mean(), out.ssim_compared = ssim_compared_.mean();
 }
 
-Expected<FinishedMaps> LightSums::add_neighbours(const LadderInput& near, const NearLight& light,
-                                                 const PictureRows& rows) {
-  FinishedMaps maps;
+Expected<MetricMaps> LightSums::add_neighbours(const LadderInput& near, const NearLight& light,
+                                               const PictureRows& rows) {
+  MetricMaps maps;
   if (rows.count <= 0) return maps;
   const TimedStage stage("metrics");
   const int first_row = near.place.first_row;
@@ -73,7 +74,7 @@ Expected<FinishedMaps> LightSums::add_neighbours(const LadderInput& near, const 
     sum.at_border += seams->at_border, sum.changed += seams->changed;
   }
   if (options_.perceptual) {
-    maps.edges = edge_displacement_rows(edges, here);
+    maps.edge_map = edge_displacement_rows(edges, here);
     perception_.add(light, first_row, rows, picture_.height, maps);
   }
   if (options_.map != nullptr) return maps;
@@ -200,8 +201,7 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
   out.seams = seams_;
   out.ray_work = ray_work_;
   out.other_sizes = other_sizes_.figures(out.error.mean_absolute);
-  const MapMeasures& map = options_.map != nullptr ? *options_.map : map_;
-  out.texel_world = map.texel_world, out.theory = map.theory, out.terminator = map.terminator;
+  static_cast<MapMeasures&>(out) = options_.map != nullptr ? *options_.map : map_;
   out.bias_curve_withheld = why_no_curve(in.drawn, in.record());
   return out.bias_curve_withheld.empty() ? finish_curve(in, out) : Expected<void>{};
 }

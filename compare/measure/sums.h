@@ -18,13 +18,6 @@
 
 namespace gnomon::compare {
 
-/// What depends on the map and on which pixels are compared, but not on how the map is looked up.
-struct MapMeasures {
-  std::array<double, 3> texel_world{};
-  TheoryStats theory;
-  TerminatorCount terminator;  ///< of the compared pixels and those beside them; no map has a part in it
-};
-
 struct MeasureOptions {
   int bias_curve_points = 129;
   /// FLIP and SSIM, which cost more than all the rest (NaN when left out), the maps of displacement, the kinds of bias,
@@ -35,16 +28,11 @@ struct MeasureOptions {
   Spill spill{};
 };
 
-/// Maps of rows that were finished; empty without MeasureOptions::perceptual.
-struct FinishedMaps {
-  Image<float> edges, flip, ssim;
-};
-
 /// FLIP and SSIM of the visibility pictures: white lit, black shadowed, white where nothing is compared.
 class Perception {
  public:
   /// Rows of a picture of so many rows; those around them that are near by lie in `light`, whose row 0 is first_row.
-  void add(const NearLight& light, int first_row, const PictureRows& rows, int height, FinishedMaps& maps);
+  void add(const NearLight& light, int first_row, const PictureRows& rows, int height, MetricMaps& maps);
   void write_to(ErrorStats& out) const;
 
  private:
@@ -62,8 +50,8 @@ class LightSums {
                                     const Image<Label>& labels_climbed);
   /// What pixels of the next rows say with their neighbours; as many as edge_margin rows around them lie in `near` and
   /// `light`.
-  Expected<FinishedMaps> add_neighbours(const LadderInput& near, const NearLight& light,
-                                        const PictureRows& rows);
+  Expected<MetricMaps> add_neighbours(const LadderInput& near, const NearLight& light,
+                                      const PictureRows& rows);
   /// All numbers; images stay as they are. `in`: its record has the map.
   Expected<void> finish(const LadderInput& in, LightComparison& out);
 

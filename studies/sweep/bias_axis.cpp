@@ -161,18 +161,11 @@ class BiasAxis {
   std::vector<WrongSpan> spans_;
 };
 
-// Everything but the images.
-LightComparison without_images(const LightComparison& light) {
+/// What is as it was at the bias that was drawn.
+LightComparison at_any_bias(const LightComparison& drawn) {
   LightComparison out;
-  out.light = light.light;
-  out.record = light.record;
-  out.pixels = light.pixels;
-  out.best_bias = light.best_bias;
-  out.lookups = light.lookups, out.outside = light.outside;
-  out.texel_world = light.texel_world;
-  out.bias_texel_world = light.bias_texel_world;
-  out.theory = light.theory, out.terminator = light.terminator;
-  out.classify = light.classify;
+  static_cast<compare::BiasFreeFigures&>(out) = drawn;
+  out.light = drawn.light, out.record = drawn.record, out.classify = drawn.classify;
   return out;
 }
 
@@ -196,7 +189,7 @@ BiasTable compare_biases(const LowerClimb& lower, const compare::LadderInput& in
   std::vector<LightComparison>& lights = out.lights;
   parallel_for(asked.size(), [&](std::size_t i) {
     const std::size_t place = axis.biases().place[i];
-    lights[i] = without_images(drawn);
+    lights[i] = at_any_bias(drawn);
     axis.terms(place).write_to(lights[i]);
     lights[i].detachment = axis.detachment(place);
     lights[i].edges = edges.at(static_cast<float>(asked[i]));

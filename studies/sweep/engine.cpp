@@ -172,9 +172,7 @@ Expected<void> Engine::Impl::measure() {
   const auto measured = compare::measure_frames(
       comparison, plan, [&](const LadderInput& in) { return compare::climb_up(*lower[in.index], in); });
   if (!measured) return measured;
-  map_measures.clear();
-  for (const compare::LightComparison& light : comparison.lights)
-    map_measures.push_back({light.texel_world, light.theory, light.terminator});
+  map_measures.assign(comparison.lights.begin(), comparison.lights.end());
   return {};
 }
 

@@ -26,7 +26,7 @@ EXERCISES = {
     "a metric that is measured": [  # the pixels that both renderers draw as half lit
         ("compare/comparison.h", "struct OutsideMap {\n", REPLACE,
          "struct Halves {\n  std::uint64_t true_ones = 0, drawn_ones = 0;\n};\n\nstruct OutsideMap {\n"),
-        ("compare/comparison.h", "  OutsideMap outside;\n", AFTER, "  Halves halves;\n"),
+        ("compare/comparison.h", "  Detachment detachment;\n", AFTER, "  Halves halves;\n"),
         ("compare/measure/halves.h", None, None,
          "// Counts pixels between light and shadow.\n#pragma once\n\n#include \"compare/ladder/ladder.h\"\n\nnamespace gnomon::compare {\n\n"
          "class HalvesSum {\n public:\n  void add(const LadderInput& in, const Climb& climb);\n"

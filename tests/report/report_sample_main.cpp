@@ -37,9 +37,10 @@ bool write_captures(const std::string& folder) {
   empty.name = "empty";
   judged.name = "shot#1 <b>", judged.scene = "fence", judged.renderer = "Another 2.0",
   judged.labels = "acne 12";
-  judged.advice = "bias 0.002 instead of 0.001", judged.compared = 100, judged.wrong = 0.125,
-  judged.mean_error = 0.25;
-  judged.edge_pixels = 1.5, judged.detachment_world = 0.0625;
+  judged.advice = "bias 0.002 instead of 0.001";
+  gnomon::compare::LightFigures& figures = judged.figures;
+  figures.pixels.compared = 100, figures.error.wrong_fraction = 0.125, figures.error.mean_absolute = 0.25;
+  figures.edges.rms_pixels = 1.5, figures.detachment.pixels = 1, figures.detachment.mean_world = 0.0625;
   set.rows = {empty, judged};
   set.add_refused("refused", "no such file");
   std::filesystem::create_directories(folder);

@@ -14,7 +14,7 @@ using judge::JudgedSet;
 
 JudgedRow judged_as(const std::string& name, std::uint64_t compared, double wrong) {
   JudgedRow row;
-  row.name = name, row.compared = compared, row.wrong = wrong;
+  row.name = name, row.figures.pixels.compared = compared, row.figures.error.wrong_fraction = wrong;
   return row;
 }
 

@@ -54,8 +54,7 @@ void KeptTruth::keep(compare::Comparison& comparison) {
   Image<raytrace::SurfacePoint> receiver = std::exchange(comparison.raytraced.receiver, {});
   frame_ = comparison.raytraced;
   frame_->receiver = std::move(receiver);
-  const compare::LightComparison& light = comparison.lights.front();
-  measures_ = {{light.texel_world, light.theory, light.terminator}};
+  measures_.assign(1, comparison.lights.front());
 }
 
 }  // namespace gnomon::lab
