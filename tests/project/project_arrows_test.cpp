@@ -285,7 +285,7 @@ std::vector<std::string> questions_about_paths(const Files& files) {
     for (const std::string& question : dropped_errors)
       for (const char* space : {"fs::", "std::filesystem::"})
         if (text.find(space + question) != std::string::npos)
-          found.push_back(file + ": " + space + question + ": is for scene/files/path_status.h to ask");
+          found.push_back(arrow_line(file, space + question, "is for scene/files/path_status.h to ask"));
   }
   return found;
 }
