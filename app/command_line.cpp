@@ -22,9 +22,11 @@
 #include "app/other_programs.h"
 #include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
+#include "app/process/many_commands.h"
 #include "app/session.h"
 #include "compare/result/option_names.h"
 #include "scene/base/expected.h"
+#include "scene/base/many_commands.h"
 #include "scene/base/option_text.h"
 #include "scene/base/stages.h"
 #include "scene/base/threads.h"
@@ -385,6 +387,8 @@ int check_command_line(int argc, const char* const* argv) {
 }
 
 int run_command_line(int argc, const char* const* argv) {
+  if (argc == 2 && argv[1] == std::string_view(commands_from_stdin))
+    return run_commands_from_stdin(run_command_line);
   try {
     return parse_and_run(argc, argv, true);
   } catch (const std::exception& exception) {

@@ -7,10 +7,10 @@
 #include <csignal>
 #include <filesystem>
 
-#include "grade/limited_process.h"
 #include "grade/mistakes.h"
 #include "raster/use_shaders.h"
 #include "scene/base/expected.h"
+#include "scene/base/many_commands.h"
 #include "scene/base/option_text.h"
 #include "scene/files/own_program.h"
 #include "scene/files/path_status.h"
@@ -74,7 +74,11 @@ bool may_be_disturbed(const Outcome& outcome) {
 }  // namespace
 
 CheckRuns::CheckRuns(const Rubric& rubric, std::string shaders, std::string folder)
-    : rubric_(&rubric), shaders_(std::move(shaders)), folder_(std::move(folder)) {}
+    : rubric_(&rubric),
+      process_(std::in_place, program_beside("gnomon"), std::vector<std::string>{commands_from_stdin},
+               rubric.limits),
+      shaders_(std::move(shaders)),
+      folder_(std::move(folder)) {}
 
 std::string CheckRuns::command(const Run& run) const {
   if (!run.function.empty()) return fmt::format("gnomon shaders {} --shader-dir student", run_text(run));
@@ -111,13 +115,16 @@ std::vector<std::string> CheckRuns::words_of(const Run& run, const std::string& 
   return words;
 }
 
-Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, Manner manner) const {
+Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, Manner manner) {
   std::vector<std::string> words = words_of(run, folder);
   if (!shaders_.empty()) words.insert(words.end(), {"--shader-dir", shaders_});
   if (manner.timed) words.emplace_back("--timed-as-judged");
   if (!manner.timed && run.function.empty()) words.insert(words.end(), {"--runs", "1"});
   if (manner.values) words.insert(words.end(), {"--aov", values_folder(folder) + "/values.exr"});
-  const auto outcome = run_limited(program_beside("gnomon"), words, rubric_->limits);
+  // What is timed shares its process with nothing.
+  const auto outcome = process_ && !manner.timed
+                           ? process_->run(words)
+                           : run_limited(program_beside("gnomon"), words, rubric_->limits);
   if (!outcome) return fail(outcome.error());
   std::string failure = failure_words(*outcome, rubric_->limits);
   if (!shown_shaders_.empty() && failure.starts_with(shaders_))
@@ -135,15 +142,14 @@ Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, Man
   return Drawing{{}, failure, outcome->end == Outcome::End::out_of_time, disturbed && !manner.again};
 }
 
-Expected<Drawing> CheckRuns::make_undisturbed(const Run& run, const std::string& folder,
-                                              Manner manner) const {
+Expected<Drawing> CheckRuns::make_undisturbed(const Run& run, const std::string& folder, Manner manner) {
   auto drawing = make(run, folder, manner);
   if (!drawing || !drawing->disturbed) return drawing;
   manner.again = true;
   return make(run, folder, manner);
 }
 
-Expected<Drawing> CheckRuns::make_with_ties(const Run& run, const std::string& folder, bool again) const {
+Expected<Drawing> CheckRuns::make_with_ties(const Run& run, const std::string& folder, bool again) {
   auto drawing = make(run, folder, {.values = true, .again = again});
   if (!drawing || !drawing->result) return drawing;
   if (const auto added = add_ties(*drawing->result); !added) return fail(added.error());

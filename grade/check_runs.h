@@ -6,6 +6,7 @@
 #include <string>
 
 #include "grade/figures.h"
+#include "grade/limited_process.h"
 #include "grade/rubric.h"
 
 namespace gnomon::grade {
@@ -26,6 +27,10 @@ class CheckRuns {
   /// What the messages of shaders' mistakes call the folder.
   void call_shaders(std::string name) { shown_shaders_ = std::move(name); }
 
+  /// From here on each drawing is a process of its own, so that any thread may ask for one.
+  void end_process() { process_.reset(); }
+
+  /// One process makes these, in the order in which they are asked for; after one that failed a new one goes on.
   /// A drawing that was disturbed is handed out as such the first time; drawn again it is an error, or the shader's
   /// own fault.
   /// Errors (resources): no process, or nobody can tell what the shader draws; (cannot_write): no room for the drawing.
@@ -51,17 +56,18 @@ class CheckRuns {
     bool timed = false, values = false;
     bool again = false;  ///< after one that was disturbed
   };
-  Expected<Drawing> make(const Run& run, const std::string& folder, Manner manner) const;
+  Expected<Drawing> make(const Run& run, const std::string& folder, Manner manner);
   /// Again where it was disturbed.
-  Expected<Drawing> make_undisturbed(const Run& run, const std::string& folder, Manner manner) const;
+  Expected<Drawing> make_undisturbed(const Run& run, const std::string& folder, Manner manner);
   /// With its values, and with its ties in its figures.
-  Expected<Drawing> make_with_ties(const Run& run, const std::string& folder, bool again) const;
+  Expected<Drawing> make_with_ties(const Run& run, const std::string& folder, bool again);
 
   struct Made {
     Run run;
     Drawing drawing;
   };
   const Rubric* rubric_;
+  std::optional<CommandProcess> process_;
   std::string shaders_, folder_;
   std::string shown_shaders_;  ///< empty: as they are
   std::deque<Made> made_;      ///< what was handed out stays where it is

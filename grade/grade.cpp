@@ -292,6 +292,7 @@ Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& s
   if (const auto drawn = check_drawings(of); !drawn) return fail(drawn.error());
   auto own = grade_checks(of, std::string(own_shader_name), "", of.own);
   if (!own) return fail(own.error());
+  of.own.end_process();
   std::vector<StudentResult> graded(students.size());
   std::atomic<std::size_t> next{0};
   std::size_t done = 0;

@@ -1,5 +1,6 @@
-// Grades a class: every student's shaders against every check of a rubric. Each drawing is a process of its own, which anybody
-// can repeat: `gnomon compare`, or `gnomon shaders --call` for a function. So nothing that a shader does reaches the grader.
+// Grades a class: every student's shaders against every check of a rubric. Each student has a process for the drawings, and one more
+// for each that is timed. Anybody can repeat a drawing: `gnomon compare`, or `gnomon shaders --call` for a function. So nothing
+// that a shader does reaches the grader or another student.
 #pragma once
 
 #include <functional>

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include <thread>
 
 #include "scene/base/interrupted.h"
+#include "scene/files/flushing.h"
 #include "scene/files/links.h"
 #include "scene/files/new_file.h"
 #include "scene/files/path_status.h"
@@ -21,6 +23,8 @@
 
 namespace gnomon {
 namespace {
+
+std::atomic<bool> flushing{true};
 
 tl::unexpected<Error> failed_in(const std::string& path, std::string_view step, int error_number) {
   return failed_call(ErrorKind::cannot_write, path, step, error_number);
@@ -215,7 +219,16 @@ Expected<std::vector<std::string>> Folder::names() const {
   return names_in_open(descriptor, path_, ErrorKind::cannot_write);
 }
 
+void leave_flushing_to_the_system() {
+  flushing = false;
+}
+
+bool is_flushing() {
+  return flushing;
+}
+
 Expected<void> Folder::flush() const {
+  if (!is_flushing()) return {};
   const int descriptor = open_for_reading(*this);
   if (descriptor < 0) return failed_in(path_, "cannot open the folder", errno);
   const int flushed = uninterrupted([&] { return ::fsync(descriptor); }), why = errno;

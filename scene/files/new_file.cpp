@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "scene/base/interrupted.h"
+#include "scene/files/flushing.h"
 #include "scene/files/path_status.h"
 #include "scene/files/unfinished_files.h"
 
@@ -114,7 +115,8 @@ NewFile::~NewFile() {
 }
 
 Expected<void> NewFile::flush() {
-  if (uninterrupted([&] { return ::fsync(descriptor_); }) != 0) return failed("cannot flush it to the disk");
+  if (is_flushing() && uninterrupted([&] { return ::fsync(descriptor_); }) != 0)
+    return failed("cannot flush it to the disk");
   if (temporary_.empty()) return {};
   // A descriptor is gone, whatever closing it answers; only where a signal came nothing is wrong with the file.
   if (::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) return failed("cannot close it");

@@ -77,6 +77,19 @@ TEST_F(GradeClass, WhatIsTimedIsTheProgramThatIsJudged) {
             0);
 }
 
+// One process makes a student's drawings, and a new one those behind a drawing that failed.
+TEST_F(GradeClass, ADrawingThatFailsCostsTheOthersNothing) {
+  const auto check = [](const std::string& name, const std::string& scene) {
+    return R"({"name": ")" + name + R"(", "points": 1, "kind": "draws", "runs": [{"scene": ")" + scene +
+           R"(", "options": {"size": "16x9", "map-size": "64"}}]})";
+  };
+  write_rubric("\"checks\": [" + check("first", "thin-wall") + ", " + check("lamp", "whitted") + ", " +
+               check("last", "acne-floor") + "]");
+  hand_in("anna", "#ifdef CUBE\n#error not yet\n#endif\n" + like_own);
+  const ProcessResult graded = gnomon({"grade", "rubric.json", "class", "--csv", "-", "-q"});
+  EXPECT_EQ(graded.out, "student,points,of,first,lamp,last\nanna,2,3,1,0,1\n") << graded.err;
+}
+
 // A shader that counts in a buffer how often it was drawn could answer otherwise the last time.
 TEST_F(GradeClass, WhatDrawsOtherwiseWhenItIsTimedIsFound) {
   hand_in("anna", read_file(gnomon::test::source_dir() + "/tests/data/grade/counting_izb.glsl"),

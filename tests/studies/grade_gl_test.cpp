@@ -159,7 +159,7 @@ std::string mistake_of(const json& student) {
 }
 
 class EveryFault : public Grade, public ::testing::WithParamInterface<std::size_t> {};
-constexpr std::size_t classes = 4;
+constexpr std::size_t classes = 2;
 
 TEST_P(EveryFault, LosesItsPointsAndNoOthers) {
   std::vector<Fault> own;
