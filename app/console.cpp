@@ -1,6 +1,7 @@
 #include "app/console.h"
 
 #include <fmt/core.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,6 +34,11 @@ void print_data(std::string_view text) {
     else
       rest.remove_prefix(static_cast<std::size_t>(written));
   }
+}
+
+bool stdout_has_no_reader() {
+  pollfd place{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&place, 1, 0) > 0 && (place.revents & POLLERR) != 0;
 }
 
 bool data_reached_stdout() {

@@ -12,6 +12,9 @@ namespace gnomon::app {
 /// scene/base/expected.h), but for the program's own styles where stdout takes colour.
 void print_data(std::string_view text);
 
+/// Whether nobody reads stdout any more, so that a word there would end the program (SIGPIPE).
+bool stdout_has_no_reader();
+
 /// Whether all data got there.
 bool data_reached_stdout();
 

@@ -141,7 +141,8 @@ bool only_prints_json(const ResultOutput& output) {
 }
 
 void say_verdict(ResultOutput& output, const compare::Comparison& comparison, Console& console) {
-  if (!prints_summary(output) || output.verbose) return;
+  // Where nobody listens, the outputs are there before the program ends of it.
+  if (!prints_summary(output) || output.verbose || stdout_has_no_reader()) return;
   console.clear_progress();
   print_data(compare::verdict_in_short(comparison, stdout_takes_colour()));
   output.verdict_is_said = true;

@@ -220,7 +220,7 @@ void expect_cost_is_an_interval(const json& result) {
   EXPECT_LE(0.0, lookups.at("low").get<double>());
   EXPECT_LE(lookups.at("low").get<double>(), lookups.at("median").get<double>());
   EXPECT_LE(lookups.at("median").get<double>(), lookups.at("high").get<double>());
-  for (const char* pass : {"shade_pass", "unshadowed_pass"}) EXPECT_GE(times.at(pass).at("runs").size(), 3u);
+  for (const char* pass : {"shade_pass", "unshadowed_pass"}) EXPECT_GE(times.at(pass).at("runs").size(), 2u);
 }
 
 // With an empty shader cache the driver translates every program, for more than a second of processor time; what is
