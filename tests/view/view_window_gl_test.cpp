@@ -249,7 +249,8 @@ TEST_F(ViewWindow, MistakesOfAnEditedSceneAreSaidUntilTheyAreMended) {
           "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "grey"}]})";
   const std::string path = folder / "edited.json";
   write_text(path, scene);
-  // The file is changed once there is the picture before the change.
+  // The file is changed once there is the picture before the change. It goes by its name, for a long path would leave no room for
+  // what is wrong.
   std::thread editor([&] {
     const auto change_after = [&](const std::string& picture, const std::string& text) {
       for (int i = 0; i < 200 && !std::filesystem::exists(folder / picture); ++i)
@@ -263,7 +264,7 @@ TEST_F(ViewWindow, MistakesOfAnEditedSceneAreSaidUntilTheyAreMended) {
   write_text(folder / "script.txt",
              "set size 700x500\nwait done\nscreenshot good.png\nwait 400\nscreenshot first.png\nwait 400\n"
              "screenshot second.png\nwait 400\nscreenshot mended.png\n");
-  const ProcessResult result = run({"view", path, "--script", "script.txt"}, true, folder.path());
+  const ProcessResult result = run({"view", "edited.json", "--script", "script.txt"}, true, folder.path());
   editor.join();
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto at = [&](const char* name) { return said(read_png(folder / name)); };
