@@ -126,8 +126,9 @@ struct Capture {
   std::optional<CapturedFilter> filter;
   std::optional<double> strength;  ///< of the shadow, in (0, 1]: full shadow is drawn as 1 - strength
   std::optional<CapturedFade> fade;
-  std::string also;    ///< file: what else darkens the picture, to be divided out
-  std::string within;  ///< "lights[1]." before the fields of one light of several; else empty
+  std::string also;            ///< file: what else darkens the picture, to be divided out
+  bool casters_found = false;  ///< which meshes cast was found from a frame, and nobody said so
+  std::string within;          ///< "lights[1]." before the fields of one light of several; else empty
 };
 
 /// Reads a capture's lights: one Capture for each of `lights`, each with what they share; of a capture without `lights` one.

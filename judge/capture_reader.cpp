@@ -20,6 +20,7 @@ constexpr NumberRange side_range{1.0, 16384.0, false, false, true};
 constexpr NumberRange place_range{0.0, 1e6, false, false, true};
 constexpr NumberRange radius_range{0.0, 64.0, true};
 constexpr std::size_t most_lights = 64;
+constexpr std::array<std::string_view, 2> caster_words{"known", "found"};
 
 /// What `lights[]` has for each light, and a capture of one light itself.
 constexpr std::array<std::string_view, 10> light_keys{
@@ -314,8 +315,8 @@ std::vector<Capture> CaptureReader::read_lights(const JsonObject& root) {
 }
 
 std::vector<Capture> CaptureReader::read(const JsonValue& value) {
-  std::vector<std::string_view> keys{"$schema", "schema",   "renderer", "scene", "camera",
-                                     "size",    "position", "depth",    "lights"};
+  std::vector<std::string_view> keys{"$schema", "schema",   "renderer", "scene",  "camera",
+                                     "size",    "position", "depth",    "lights", "casters"};
   keys.insert(keys.end(), light_keys.begin(), light_keys.end());
   const JsonObject root(JsonNode(errors_, value, ""), std::move(keys));
   if (const auto schema = root.require("schema")) read_schema(*schema);
@@ -331,6 +332,8 @@ std::vector<Capture> CaptureReader::read(const JsonValue& value) {
   if (const auto node = root.require("size")) read_size(*node);
   if (const auto node = root.find("position")) out_.position = file(*node);
   if (const auto node = root.find("depth")) read_depth(*node);
+  if (const auto node = root.find("casters"))
+    since_2(*node, "casters"), out_.casters_found = node->as_choice(choices(caster_words)) == 1;
   if (root.has("lights")) return read_lights(root);
   read_light(root);
   return {std::move(out_)};

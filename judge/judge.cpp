@@ -6,6 +6,7 @@
 
 #include "compare/result/engines.h"
 #include "compare/result/number_text.h"
+#include "judge/absent_caster.h"
 #include "judge/advice.h"
 #include "judge/align.h"
 #include "judge/atlas_reads.h"
@@ -240,6 +241,14 @@ std::optional<std::uint32_t> place_of(const std::string& text, std::size_t count
   return static_cast<std::uint32_t>(place);
 }
 
+/// Refuses a capture whose casters were found where the truth may be that of something that casts no shadow.
+Expected<void> check_casters(const Judging& in, const Comparison& out) {
+  if (!in.capture.casters_found || !out.judged->has_map) return {};
+  const auto absent = find_absent_caster(frame_input(in, out), out.raster, out.lights.front());
+  if (absent) return capture_error(in.capture, "scene", absent_caster_words(*absent));
+  return {};
+}
+
 void finish(Judging& in, Comparison& out) {
   auto judged = std::make_shared<Judged>(*out.judged);
   compare::LightComparison& light = out.lights.front();
@@ -381,6 +390,7 @@ Expected<Comparison> judge_capture(const Capture& capture, Scene& scene, const W
                            .lights = {&*light, 1},
                            .measure = {.bias_curve_points = options.bias_curve_points}};
   if (const auto measured = compare::measure_frames(out, plan); !measured) return fail(measured.error());
+  if (const auto sound = check_casters(judging, out); !sound) return fail(sound.error());
   finish(judging, out);
   report("compared", 1.0);
   return out;

@@ -198,6 +198,16 @@ bool MapCasters::is_culled(const CasterTexel& t) const {
   return !m.double_sided && backs_.of_held() < hardly_any && fronts_.of_held() >= half;
 }
 
+bool MapCasters::holds_some_of(std::uint32_t number) const {
+  Share share;
+  for (const CasterTexel& t : texels_) {
+    if (!t.has_first() || object(t.first()) != number) continue;
+    const bool other_side = t.stored && object(t.surfaces[*t.stored]) == number;
+    ++share.texels, share.held += t.held || other_side || is_biased(t) ? 1 : 0;
+  }
+  return share.texels > 0 && share.of_held() >= hardly_any;
+}
+
 /// The map fills a hole of an object's mask here, and at half of all of its holes.
 bool MapCasters::is_masked_out(const CasterTexel& t) const {
   return t.fills_hole && holes_.at(object(*t.hole)).of_held() >= half;

@@ -67,6 +67,10 @@ class MapCasters {
     return *found;
   }
   std::string object_name(std::uint32_t primitive) const;
+  std::uint32_t object(const SurfaceOnRay& s) const { return in_.world.object_of(s.primitive); }
+  /// Whether the map holds some of the object where it is the first that the light meets: moved by a bias, or its other
+  /// side, too.
+  bool holds_some_of(std::uint32_t object) const;
   /// How far a bias of casters moves the first surface there.
   double moved_by(const CasterTexel& t) const {
     const CasterLine* bias = t.has_first() ? bias_of(object(t.first())) : nullptr;
@@ -80,7 +84,6 @@ class MapCasters {
   };
   CasterTexel look(raytrace::TexelKey key) const;
   void look_for_hole(CasterTexel& t) const;
-  std::uint32_t object(const SurfaceOnRay& s) const { return in_.world.object_of(s.primitive); }
   bool is_clipped(const SurfaceOnRay& s, raytrace::TexelKey key) const {
     const LightFace& face = record_.map.view.face(key.face());
     return s.depth < face.near_depth || s.depth > face.far_depth;

@@ -24,17 +24,6 @@ using raytrace::TexelKey;
 
 constexpr std::size_t few_of_a_kind = 10;  ///< of which nothing is said in a note
 
-/// The texel that the biased test looks up.
-std::optional<TexelKey> lookup_of(const FrameInput& in, const raster::RasterFrame& drawn, std::size_t pixel) {
-  const raster::LightRecord& record = drawn.lights.front();
-  const Light& light = in.world.scene->lights[record.light];
-  const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
-  const auto lookup = compare::biased_lookup(record, drawn.options.map.bias,
-                                             light_at(light, receiver.position).to_light, receiver, pixel);
-  if (!lookup) return std::nullopt;
-  return lookup->key;
-}
-
 /// What the ladder charges to precision, and of a culled map what the bias step takes for a leak.
 bool may_be_content(const LightComparison& light, std::size_t i, bool culled) {
   const Label label = light.labels.data[i];
@@ -127,6 +116,16 @@ std::string reason_words(const ContentFinding& found, const raster::LightRecord&
 }
 
 }  // namespace
+
+std::optional<TexelKey> lookup_of(const FrameInput& in, const raster::RasterFrame& drawn, std::size_t pixel) {
+  const raster::LightRecord& record = drawn.lights.front();
+  const Light& light = in.world.scene->lights[record.light];
+  const raytrace::SurfacePoint& receiver = in.traced.receiver.data[pixel];
+  const auto lookup = compare::biased_lookup(record, drawn.options.map.bias,
+                                             light_at(light, receiver.position).to_light, receiver, pixel);
+  if (!lookup) return std::nullopt;
+  return lookup->key;
+}
 
 bool MapContent::is_main_cause(const LightComparison& light) const {
   std::size_t wrong = 0;

@@ -29,6 +29,10 @@ struct MapContent {
   bool is_main_cause(const compare::LightComparison& light) const;
 };
 
+/// The texel that the biased test looks up for a pixel; none outside the map.
+std::optional<TexelKey> lookup_of(const FrameInput& input, const raster::RasterFrame& drawn,
+                                  std::size_t pixel);
+
 /// Gives labels of casters to pixels of `light`, that of `drawn`'s only record, whose map is another renderer's. Where the
 /// test is not the one described, they are unexplained instead: the map may be looked up elsewhere.
 MapContent label_map_content(const FrameInput& input, const raster::RasterFrame& drawn,

@@ -164,7 +164,8 @@ TEST(JudgeContent, OfPushedCastersHasTheirBias) {
   EXPECT_LT(advice[0].wrong_instead, 0.2 * advice[0].wrong_now);
 }
 
-TEST(JudgeContent, BehindItsNearPlaneLacksWhatLiesBefore) {
+/// A map whose near plane lies behind all of a box, which alone casts.
+Captured clipped() {
   Mesh high = box_mesh({-1.6, 1.2, -0.8}, {-0.2, 1.6, 0.8});
   high.name = "high";
   Scene scene = sunlit_scene({floor_mesh(2.5, 2.0), high}, {0.25, -1.0, 0.15});
@@ -173,7 +174,7 @@ TEST(JudgeContent, BehindItsNearPlaneLacksWhatLiesBefore) {
   const LightFace& face = captured.view().face(0);
   const auto depth = [&](const Vec3& p) { return glm::dot(p - captured.view().origin, face.forward); };
   const double near = depth({-2.5, 0.0, -2.0}) - 0.01;  // the floor's nearest corner
-  ASSERT_LT(depth({-0.2, 1.2, 0.8}), near) << "all of the box lies before";
+  EXPECT_LT(depth({-0.2, 1.2, 0.8}), near) << "all of the box lies before";
   captured.hold(scene, [&](const World&, const Ray& ray, const raytrace::Hit& hit) {
     return depth(ray.at(hit.t)) >= near;
   });
@@ -186,9 +187,29 @@ TEST(JudgeContent, BehindItsNearPlaneLacksWhatLiesBefore) {
       if (v < 1.0f) v = static_cast<float>((double{v} - first) / (1.0 - first));
   });
   draw_again(captured.capture, captured.drawn);
-  const JudgeOutcome judged = captured.judged();
+  return captured;
+}
+
+TEST(JudgeContent, BehindItsNearPlaneLacksWhatLiesBefore) {
+  const JudgeOutcome judged = clipped().judged();
   expect_label(judged, Label::clipped_caster, "before the map's near plane");
   EXPECT_TRUE(judged.result->judged->advice.empty());
+}
+
+// A sky that nobody said casts none is in no map, and dark everywhere by rays.
+TEST(JudgeContent, OfFoundCastersThatTheMapLacksIsRefusedByName) {
+  Captured captured = clipped();
+  captured.capture.casters_found = true;
+  const JudgeOutcome refused = captured.judged();
+  ASSERT_FALSE(refused.result.has_value());
+  EXPECT_NE(reason(refused).find("% of the shadow that rays find, and the map holds nothing of it"),
+            std::string::npos)
+      << reason(refused);
+  // Of casters that the map holds everything is judged.
+  Captured held("found");
+  held.hold(boxes());
+  held.capture.casters_found = true;
+  EXPECT_TRUE(held.judged().result.has_value()) << reason(held.judged());
 }
 
 /// A board in the air whose front looks at the sun, and nothing behind it.

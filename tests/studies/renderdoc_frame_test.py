@@ -72,7 +72,7 @@ class Lookup(unittest.TestCase):
 
     def layer(self, texels, **state):
         kept = {"conventions": conventions.opengl(), "reversed": False, **state}
-        return SimpleNamespace(texels=texels, half=None, matrix=np.eye(4), state=SimpleNamespace(**kept))
+        return SimpleNamespace(texels=texels, half=None, matrix=np.eye(4), constant=0.0, old=np.zeros(texels.shape, bool), state=SimpleNamespace(**kept))
 
     def test_texel_and_margin_follow_the_rows(self):
         texels = np.arange(16).reshape(4, 4) / 16
@@ -366,7 +366,7 @@ class Files(unittest.TestCase):
     def test_glb_and_capture_are_read_back(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "scene.glb")
-            files.write_glb(path, [(CUBE, np.arange(6))], {"eye": [0, 0, 2], "type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0, "zfar": 20}},
+            files.write_glb(path, [(CUBE, np.arange(6), "event 1", True)], {"eye": [0, 0, 2], "type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0, "zfar": 20}},
                             [{"name": name, "type": kind, "matrix": np.eye(4), "inner": 0.1, "outer": 0.2} for name, kind in (("a", "directional"), ("b", "spot"))])
             with open(path, "rb") as file:
                 data = file.read()

@@ -46,22 +46,23 @@ def light_node(layers):
     return {"type": "spot", "matrix": matrix, "inner": min(0.99 * half, 1.5), "outer": min(1.42 * half, 1.55)}  # to the map's corners
 
 
-def _shapes(view, layers):
-    """Meshes as the camera draws them, then casters that it does not draw, brought back through the light's matrix."""
-    shapes = [(place, m.corners) for m, place in zip(view.meshes, view.positions)]
+def _shapes(view, layers, gone, silent):
+    """[(positions, corners, name, whether it casts)]: meshes as the camera draws them, without the places `gone`, then casters that it does
+    not draw, brought back through the light's matrix. `silent`: places that cast nothing."""
+    shapes = [(points, m.corners, m.name, k not in silent) for k, (m, points) in enumerate(zip(view.meshes, view.positions)) if k not in gone]
     known = set()
     for layer in layers:
         back = np.linalg.inv(layer.light.matrix) if layer.light.rank == 4 and not layer.distance else None
         for place, mesh in layer.pairs:
-            if place is not None or back is None:
+            if place is not None or back is None or mesh.source in gone:
                 continue
             points = mesh.clip @ back.T
             points = points[:, :3] / points[:, 3:]
             seen = (mesh.source, np.round(points[:8], 2).tobytes())
             if seen not in known:
                 known.add(seen)
-                shapes.append((points, mesh.corners))
-    return [(p, c) for p, c in shapes if len(c) >= 3]
+                shapes.append((points, mesh.corners, mesh.name, True))
+    return [shape for shape in shapes if len(shape[1]) >= 3]
 
 
 def _select(selection, k, count):
@@ -161,11 +162,14 @@ def write(folder, frame, lights, name):
     os.makedirs(folder, exist_ok=True)
     view, pixels = lights[0].found.view, lights[0].pixels
     height, width = pixels.drawn.shape
-    drawn = pixels.drawn.astype(float)
+    hidden = [light.pixels.hidden for light in lights if light.pixels.hidden is not None]
+    drawn = (pixels.drawn & ~np.any(hidden, axis=0)).astype(float) if hidden else pixels.drawn.astype(float)
+    gone = set().union(*(light.found.roles.gone for light in lights))
+    silent = set().union(*(light.found.roles.silent for light in lights))
     files.write_exr(os.path.join(folder, "position.exr"), {c: pixels.positions[..., i] * drawn for i, c in enumerate("XYZ")} | {"A": drawn})
     camera = _camera(view, width / height)
     names = {light.number: f"light {light.number}" if len(lights) > 1 else "light" for light in lights}
-    files.write_glb(os.path.join(folder, "scene.glb"), _shapes(view, [layer for light in lights for layer in light.layers]), camera,
+    files.write_glb(os.path.join(folder, "scene.glb"), _shapes(view, [layer for light in lights for layer in light.layers], gone, silent), camera,
                     [{"name": names[light.number], **light_node(light.layers)} for light in lights])
     if len(lights) == 1:
         of_lights, settings = _light(folder, frame, lights[0], ""), _settings(frame, lights[0], "")
@@ -173,6 +177,6 @@ def write(folder, frame, lights, name):
         of_lights = {"lights": [{"light": names[one.number], **_light(folder, frame, one, f"light{one.number}-")} for one in lights]}
         settings = {key: value for one in lights for key, value in _settings(frame, one, names[one.number] + ", ").items()}
     files.write_capture(folder, {
-        "renderer": {"name": name, "version": "(RenderDoc)", "settings": settings}, "scene": "scene.glb", "size": [width, height],
+        "renderer": {"name": name, "version": "(RenderDoc)", "settings": settings}, "scene": "scene.glb", "size": [width, height], "casters": "found",
         "position": "position.exr", **of_lights})
     return os.path.join(folder, "capture.json")

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from . import fit
+from .casters import Roles
 from .errors import FrameError
 from .lens import Lens, covers_the_picture, fit_lens, is_parallel
 from .pairing import pair
@@ -31,8 +32,10 @@ class Layer:
     texels: np.ndarray | None = None  # of its own rectangle, as the casters left them
     read: np.ndarray | None = None  # the same as the readers found them: blurred, by some
     covered: np.ndarray | None = None  # which of them some caster covers
+    old: np.ndarray | None = None  # which of them hold casters of an earlier frame
     matrix: np.ndarray | None = None  # clip_from_view whose z/w is what a texel stores; of a half the light's view alone
     constant: float = 0.0  # the reader's own bias, stored numbers
+    is_colour: bool = False  # whether its texels are those of a colour texture
 
     @property
     def matched(self):
@@ -74,6 +77,7 @@ class Found:
     lights: list  # of lists of layers
     sampler: str
     notes: list = field(default_factory=list)
+    roles: Roles = field(default_factory=Roles)
 
     @property
     def is_bilinear(self):
@@ -191,6 +195,7 @@ def read_layers(frame, found, layers):
         for layer in layers:
             layer.distance = best
     for layer in layers:
+        layer.is_colour = not texture.is_depth
         if layer.distance:
             layer.shift = CasterShift(layer.distance.moved, layer.distance.moved / layer.distance.range, layer.distance.residual)
             if not _cannot_be_said(found, layers):

@@ -64,16 +64,16 @@ class _Blob:
 
 
 def write_glb(path, shapes, camera, lights):
-    """A scene of white `shapes` [(positions, three indices for each triangle)]; camera as glTF has it, and its `eye`, from which it looks
-    along -z; lights [{name, type, matrix} and of spots {inner, outer}]."""
+    """A scene of white `shapes` [(positions, three indices for each triangle, name, whether it casts shadows)]; camera as glTF has it, and
+    its `eye`, from which it looks along -z; lights [{name, type, matrix} and of spots {inner, outer}]."""
     blob = _Blob()
     meshes, nodes = [], []
-    for positions, corners in shapes:
+    for positions, corners, name, casts in shapes:
         places = np.ascontiguousarray(positions, np.float32)
         at = blob.add(places, "VEC3", 5126, 34962, min=[float(x) for x in places.min(0)], max=[float(x) for x in places.max(0)])
         order = blob.add(corners.astype(np.uint32), "SCALAR", 5125, 34963)
-        meshes.append({"primitives": [{"attributes": {"POSITION": at}, "indices": order, "material": 0}]})
-        nodes.append({"mesh": len(meshes) - 1, "name": f"mesh{len(meshes)}"})
+        meshes.append({"name": name, "primitives": [{"attributes": {"POSITION": at}, "indices": order, "material": 0}]})
+        nodes.append({"mesh": len(meshes) - 1, "name": name, **({} if casts else {"extras": {"casts_shadow": False}})})
     nodes.append({"camera": 0, "name": "camera", "translation": camera["eye"]})
     punctual = []
     for light in lights:

@@ -64,7 +64,7 @@ def best_constant(values, lit, candidates=()):
     k = int(np.argmin(wrong))
     middle = -0.5 * (sorted_values[max(k - 1, 0)] + sorted_values[min(k, len(values) - 1)])
     near = [c for number in candidates for c in (number, -number) if c and at(c) <= least + NOISE]
-    constant = min(near, key=at) if near else float(middle)
+    constant = min(near, key=lambda c: (at(c), abs(c))) if near else float(middle)
     return constant, at(constant), now
 
 
@@ -233,12 +233,16 @@ def filter_radius(layer, positions, widest=8):
     column, row, depth = column[inside].astype(int)[:20000], row[inside].astype(int)[:20000], depth[inside][:20000]
     if not len(column):
         return None
-    own = layer.texels[row, column] >= depth
+    def lit(rows_, columns_):
+        stored = layer.texels[rows_, columns_]
+        return (depth - stored if layer.state.reversed else stored - depth) + layer.constant >= 0
+
+    own = lit(row, column)
     needed = np.full(len(column), widest + 1)
     for far in range(widest, 0, -1):
         for step in range(-far, far + 1):
             for dx, dy in ((step, -far), (step, far), (-far, step), (far, step)):
-                needed[(layer.texels[row + dy, column + dx] >= depth) != own] = far
+                needed[lit(row + dy, column + dx) != own] = far
     needed = np.sort(needed)
     radius = int(needed[int(0.99 * (len(needed) - 1))])
     return radius if radius <= widest else (int(np.median(needed)) if np.median(needed) <= widest else None)

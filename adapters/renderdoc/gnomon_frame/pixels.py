@@ -7,6 +7,9 @@ from . import lookup, visibility
 from .errors import FrameError
 
 
+MOST = 0.5  # share of the pixels within the map: where so many are not told nothing is
+
+
 @dataclass
 class Pixels:
     """The camera's picture of one light, its first row at the top."""
@@ -15,6 +18,9 @@ class Pixels:
     drawn: np.ndarray  # whether anything was
     visibility: np.ndarray
     asked: np.ndarray
+    told: np.ndarray | None = None  # whether the map decides the light there: replays with it empty and full differ
+    depth: np.ndarray | None = None  # the camera's
+    hidden: np.ndarray | None = None  # pixels that show meshes that are not in the scene
 
 
 def positions_of(depth, view):
@@ -53,15 +59,18 @@ def measure(frame, found, layers, encoding, others):
     tried = []
     for encoded in ([False] if not unsaid or encoding == "linear" else [True] if encoding == "srgb" else [True, False]):
         seen = visibility.work_out(drawn, empty, full, encoded)
-        pixels = Pixels(positions, is_drawn, _flip(seen.values, found.view).copy(), _flip(seen.asked, found.view) & is_drawn)
+        pixels = Pixels(positions, is_drawn, _flip(seen.values, found.view).copy(), _flip(seen.asked, found.view) & is_drawn, seen.asked, drawn.depth)
         tried.append((seen, pixels, _exponent(layers, pixels)))
     seen, pixels, exponent = max(tried, key=lambda one: one[2].correlation if one[2] else 0)
     for layer in layers:
         layer.covered = _cut(layer, seen.full_map[layer.state.slice]) == (1.0 if layer.state.reversed else 0.0)
+        layer.old = _of_earlier_frames(_cut(layer, empty.maps[layer.state.slice]), frame.textures[found.passes.texture].is_depth, layer.state.reversed)
     if found.is_bilinear:
         _light_between_casters(pixels, layers)
     if layers[0].place.apex is None:
         _light_beside_casters(pixels, layers)
+    if any(layer.old.any() for layer in layers):
+        _leave_out_earlier_frames(found, layers, pixels)
     if not seen.untouched:
         found.notes.append("the stand-ins for the casters changed the camera's depth, too: they share a shader, and some pixels may be wrong")
     if seen.darkest > 0.01:
@@ -75,6 +84,34 @@ def is_same_picture(found, pixels, other, others):
     return (pixels.drawn.shape == others.drawn.shape and np.array_equal(pixels.drawn, others.drawn)
             and np.allclose(pixels.positions, others.positions, rtol=1e-4, atol=1e-6)
             and np.isclose(found.view.lens.fx, other.view.lens.fx) and np.isclose(found.view.lens.fy, other.view.lens.fy))
+
+
+def _of_earlier_frames(empty, is_depth, is_reversed):
+    """Which texels of a map that no caster of this frame was drawn into are not at the clear value."""
+    if np.ptp(empty) == 0:
+        return np.zeros(empty.shape, bool)
+    values, counts = np.unique(empty, return_counts=True)
+    return empty != ((0.0 if is_reversed else 1.0) if is_depth else values[counts.argmax()])
+
+
+def _leave_out_earlier_frames(found, layers, pixels):
+    """Takes pixels out whose texel holds casters of an earlier frame: the replays tell the light of this frame's alone."""
+    places = pixels.positions[pixels.drawn]
+    kept, inside = np.zeros(len(places), bool), np.zeros(len(places), bool)
+    for layer in layers:
+        if layer.matrix is not None:
+            at, held = lookup.nearest(layer, places, lookup.widened(layer.old, 1) if found.is_bilinear else layer.old)
+            kept, inside = kept | held & at, inside | held
+    lost = np.zeros(pixels.drawn.shape, bool)
+    lost[pixels.drawn] = kept
+    if not found.is_bilinear:
+        lost &= ~_flip(pixels.told, found.view)
+    share = max(layer.old.mean() for layer in layers)
+    why = f"{100 * share:.0f} % of the map's texels are of an earlier frame: the engine keeps what stands still"
+    if not inside.any() or lost.sum() > MOST * inside.sum():
+        raise FrameError(why + ", and no replay tells the light there. Record a frame in which the light moves, or without that cache")
+    pixels.asked &= ~lost
+    found.notes.append(f"{why}; {int(lost.sum())} pixels that look them up are not compared")
 
 
 def _exponent(layers, pixels):
@@ -103,7 +140,7 @@ def _light_beside_casters(pixels, layers):
     places = pixels.positions[unknown]
     dark = np.zeros(len(places), bool)
     for layer in layers:
-        at, inside = lookup.nearest(layer, places, layer.covered)
+        at, inside = lookup.nearest(layer, places, layer.covered | layer.old)
         dark |= inside & at
     lit = unknown.copy()
     lit[unknown] = ~dark
@@ -111,17 +148,26 @@ def _light_beside_casters(pixels, layers):
     pixels.asked |= lit
 
 
+def hide(pixels, hidden, view):
+    """Takes pixels out, given with the texture's own first row first: they show what is not in the scene."""
+    pixels.hidden = _flip(hidden, view)
+    pixels.asked &= ~pixels.hidden
+
+
 def leave_out_borders(pixels, layers, radius):
-    """Takes pixels out whose filter, of a radius of more than one texel, reads some that no caster covers: full maps leave those lit, so
-    that the replays do not tell what they take of a shadow. Returns how many. Which of several layers is read is not asked: the one
+    """Takes pixels out whose filter, of a radius of more than one texel, reads some that no caster covers, or casters of an earlier frame:
+    full maps leave those as they are, so that the replays do not tell what they take of a shadow. Returns how many. Which of several layers is read is not asked: the one
     whose texels are covered counts."""
     if radius is None or radius <= 1 or any(layer.matrix is None for layer in layers):
         return 0
     places = pixels.positions[pixels.asked]
-    beside, covered = np.zeros(len(places), bool), np.zeros(len(places), bool)
+    beside, covered, earlier = (np.zeros(len(places), bool) for _ in range(3))
     for layer in layers:
         at, inside = lookup.nearest(layer, places, lookup.widened(~layer.covered, int(np.ceil(radius))))
         beside, covered = beside | inside & at, covered | inside & ~at
-    unsure = beside & ~covered & (pixels.visibility[pixels.asked] < 1 - lookup.SURE)
+        if layer.old.any():
+            at, inside = lookup.nearest(layer, places, lookup.widened(layer.old, int(np.ceil(radius))))
+            earlier |= inside & at
+    unsure = earlier | beside & ~covered & (pixels.visibility[pixels.asked] < 1 - lookup.SURE)
     pixels.asked[pixels.asked] = ~unsure
     return int(unsure.sum())

@@ -52,6 +52,7 @@ class Mesh:
     objects: np.ndarray | None  # the same vertices before the shader, 32-bit floats, where an attribute of three floats tells
     corners: np.ndarray  # three vertices for each triangle
     source: tuple  # equal for the same vertices in the same order, whichever shader moved them
+    name: str = ""  # the draw's event, which qrenderdoc shows, and the instance
 
 
 @dataclass
@@ -64,6 +65,7 @@ class State:
     slice: int
     conventions: conventions.Conventions
     reversed: bool  # nearer is a larger number
+    writes_depth: bool = True
     depth_bias: dict = field(default_factory=dict)  # constant, slope, clamp as the API has them
     shaders: dict = field(default_factory=dict)  # stage -> id
 
@@ -89,7 +91,7 @@ class Frame:
                            tuple(int(o) for o in a.outputs if int(o)), int(a.depthOut),
                            (a.numIndices, a.numInstances, a.indexOffset, a.vertexOffset, a.baseVertex, a.instanceOffset)) for a in self._actions.values()]
         self._event = None
-        self._states = {}
+        self._states, self._code = {}, {}
         self.draws = [self._with_targets(draw) for draw in self.draws]
 
     def _with_targets(self, draw):
@@ -145,23 +147,26 @@ class Frame:
     # --- The pipeline -----------------------------------------------------------------------------------------------
 
     def _api_state(self, pipe):
-        """(conventions of clip space, depth state, rasterizer's depth bias)"""
+        """(conventions of clip space, depth test, whether depths are written, rasterizer's depth bias)"""
         view = pipe.GetViewport(0)
         if pipe.IsCaptureGL():
             s = self.controller.GetGLPipelineState()
             clip = s.vertexProcessing
             bias = s.rasterizer.state
-            return (conventions.opengl(clip.clipOriginLowerLeft, clip.clipNegativeOneToOne), s.depthState.depthFunction,
+            depth = s.depthState
+            return (conventions.opengl(clip.clipOriginLowerLeft, clip.clipNegativeOneToOne), depth.depthFunction, depth.depthEnable and depth.depthWrites,
                     (bias.depthBias, bias.slopeScaledDepthBias, bias.offsetClamp))
         if pipe.IsCaptureVK():
             s = self.controller.GetVulkanPipelineState()
             bias = s.rasterizer
             on = getattr(bias, "depthBiasEnable", True)
-            return (conventions.vulkan(view.height), s.depthStencil.depthFunction,
+            depth = s.depthStencil
+            return (conventions.vulkan(view.height), depth.depthFunction, depth.depthTestEnable and depth.depthWriteEnable,
                     (bias.depthBias, bias.slopeScaledDepthBias, bias.depthBiasClamp) if on else (0, 0, 0))
         s = self.controller.GetD3D11PipelineState() if pipe.IsCaptureD3D11() else self.controller.GetD3D12PipelineState()
         bias = s.rasterizer.state
-        return (conventions.DIRECT3D, s.outputMerger.depthStencilState.depthFunction,
+        depth = s.outputMerger.depthStencilState
+        return (conventions.DIRECT3D, depth.depthFunction, depth.depthEnable and depth.depthWrites,
                 (bias.depthBias, bias.slopeScaledDepthBias, bias.depthBiasClamp))
 
     def state(self, event):
@@ -174,13 +179,13 @@ class Frame:
         self.go_to(event)
         pipe = self.controller.GetPipelineState()
         view, target = pipe.GetViewport(0), pipe.GetDepthTarget()
-        clip, compare, bias = self._api_state(pipe)
+        clip, compare, writes_depth, bias = self._api_state(pipe)
         target = getattr(target, "resource", target) if not hasattr(target, "resourceId") else target
         colours = [int(t.resourceId) for t in pipe.GetOutputTargets() if int(t.resourceId)]
         y, height = (view.y, view.height) if view.height >= 0 else (view.y + view.height, -view.height)
         shaders = {stage: int(pipe.GetShader(stage)) for stage in (rd.ShaderStage.Vertex, rd.ShaderStage.Fragment) if int(pipe.GetShader(stage))}
         return State((view.x, y, view.width, height), colours, int(target.resourceId), getattr(target, "firstSlice", 0), clip,
-                     compare in (rd.CompareFunction.Greater, rd.CompareFunction.GreaterEqual),
+                     compare in (rd.CompareFunction.Greater, rd.CompareFunction.GreaterEqual), bool(writes_depth),
                      dict(zip(("constant", "slope", "clamp"), bias)), shaders)
 
     def reads(self, event):
@@ -211,11 +216,22 @@ class Frame:
         way = "linear" if rd.FilterMode.Linear in (s.filter.magnify, s.filter.minify) else "nearest"
         return way + (" compare" if s.filter.filter == rd.FilterFunction.Comparison else "")
 
+    def fragment_code(self, event):
+        """A draw's fragment shader: a text in GLSL, SPIR-V's bytes, b"" of another language, None where there is none."""
+        shader = self.state(event).shaders.get(rd.ShaderStage.Fragment)
+        if shader not in self._code:
+            self.go_to(event)
+            reflected = self.controller.GetPipelineState().GetShaderReflection(rd.ShaderStage.Fragment)
+            raw = bytes(reflected.rawBytes) if reflected else b""
+            text = reflected and reflected.encoding == rd.ShaderEncoding.GLSL
+            spoken = reflected and reflected.encoding in (rd.ShaderEncoding.SPIRV, getattr(rd.ShaderEncoding, "OpenGLSPIRV", rd.ShaderEncoding.SPIRV))
+            self._code[shader] = None if not shader else raw.decode(errors="replace") if text else raw if spoken else b""
+        return self._code[shader]
+
     def glsl(self, event):
         """The text of a draw's fragment shader; "" where the API has none in GLSL."""
-        self.go_to(event)
-        shader = self.controller.GetPipelineState().GetShaderReflection(rd.ShaderStage.Fragment)
-        return bytes(shader.rawBytes).decode(errors="replace") if shader and shader.encoding == rd.ShaderEncoding.GLSL else ""
+        code = self.fragment_code(event)
+        return code if isinstance(code, str) else ""
 
     def constants(self, event):
         """([(name, 4x4 matrix)], [(name, number)]) of both shaders of a draw."""
@@ -267,7 +283,8 @@ class Frame:
                     place_of = np.empty(len(kept), np.int32)  # one of the places at which a vertex stands among the indices
                     place_of[corners] = places
                     objects = points[order[place_of]]
-            out.append(Mesh(draw.event, vertices[kept].astype(float), objects, corners, name))
+            called = f"event {draw.event}" + (f", instance {instance}" if draw.instances > 1 else "")
+            out.append(Mesh(draw.event, vertices[kept].astype(float), objects, corners, name, called))
         return out
 
     def _clip(self, action, instance):
@@ -326,6 +343,14 @@ class Frame:
         data = self.controller.GetTextureData(self._ids[texture], rd.Subresource(0, slice_, 0))
         opengl = self.controller.GetPipelineState().IsCaptureGL()
         return formats.decode(data, t.format, t.width, t.height, opengl)
+
+    def shows(self, event, depth, final):
+        """Pixels of a depth texture that a draw writes and that nothing later writes over, of which `final` is left."""
+        self.go_to(event - 1)
+        before = self.picture(depth)[..., 0]
+        self.go_to(event)
+        after = self.picture(depth)[..., 0]
+        return (after != before) & (after == final)
 
     @contextmanager
     def replaced(self, shaders):

@@ -98,3 +98,24 @@ class Module:
         for op, operands in code:
             words += [(len(operands) + 1) << 16 | op, *operands]
         return struct.pack(f"<{len(words)}I", *words)
+
+
+def _instructions(code):
+    """(opcode, operands) of each instruction of a module."""
+    words = struct.unpack(f"<{len(code) // 4}I", code[:len(code) // 4 * 4])
+    at = 5 if words and words[0] == 0x07230203 else len(words)
+    while at < len(words):
+        length = max(words[at] >> 16, 1)
+        yield words[at] & 0xFFFF, words[at + 1:at + length]
+        at += length
+
+
+def can_discard(code):
+    """Whether a module leaves fragments out: OpKill, OpTerminateInvocation, OpDemoteToHelperInvocation."""
+    return any(op in (252, 4416, 5380) for op, _ in _instructions(code))
+
+
+def float_constants(code):
+    """The 32-bit floats that a module declares."""
+    floats = {words[0] for op, words in _instructions(code) if op == 22 and words[1] == 32}
+    return [struct.unpack("<f", struct.pack("<I", words[2]))[0] for op, words in _instructions(code) if op == 43 and words[0] in floats]
