@@ -99,7 +99,7 @@ class GlRenderer final : public Renderer {
   Expected<void> read_shading(Job& job, const MapJob& map_job, LightRecord& record);
   /// The map of the last frame with records, as long as the device holds it.
   struct KeptMap {
-    RasterOptions options;  ///< without the bias
+    RasterOptions options;  ///< by which the map was drawn, without how it is looked up
     Light light;
     Vec3 reference;  ///< that its depths were rounded from
     ShadowMap map;

@@ -103,8 +103,13 @@ Expected<RasterFrame> GlRenderer::render_checked(const RasterOptions& options,
 
 namespace {
 
-/// The bias of casters lies in the map.
-MapOptions without_bias(MapOptions map) {
+/// What the map is drawn by: of the bias that of casters, and nothing of how depths are looked up where the map is of depths
+/// alone.
+MapOptions drawn_by(MapOptions map) {
+  const TechniqueTraits& traits = traits_of(map.technique);
+  const bool depths_alone = traits.drawing->make_pass == nullptr && !is_external(map.technique);
+  if (depths_alone) map.filter = {};
+  if (depths_alone && traits.drawing->fit == nullptr) map.technique = Technique::hard;
   const Bias drawn = map.bias;
   map.bias = {};
   map.bias.caster_constant = drawn.caster_constant, map.bias.caster_unit = drawn.caster_unit;
@@ -118,9 +123,11 @@ bool may_take_map(const RasterOptions& options, const RasterOptions& kept) {
   return !for_times && (hands_on_map(kept) || !hands_on_map(options));
 }
 
-// Where the camera is no part of the map, and one light has the maps for itself.
-bool outlasts_frame(Technique technique, std::size_t lights) {
-  return lights == 1 && !follows_camera(technique) && compares_depths(technique);
+// Where one light has the maps for itself. One that follows the camera seldom serves the next frame: its depths are not copied
+// for that.
+bool outlasts_frame(const RasterOptions& options, std::size_t lights) {
+  const Technique technique = options.map.technique;
+  return lights == 1 && compares_depths(technique) && !(follows_camera(technique) && hands_on_map(options));
 }
 
 }  // namespace
@@ -129,13 +136,13 @@ bool GlRenderer::reuse_kept_map(const Job& job, const Light& light, LightRecord&
   const RasterOptions& options = job.options;
   if (!kept_map_ || !may_take_map(options, kept_map_->options)) return false;
   const KeptMap& kept = *kept_map_;
-  if (kept.options.map != without_bias(options.map) || kept.light != light) return false;
+  if (kept.options.map != drawn_by(options.map) || kept.light != light) return false;
   if (kept.reference != buffers_.reference()) return false;  // its depths were rounded from another point
   if (!same_window(kept.map.view, record.map.view)) return false;  // fitted to another camera
   const bool same_times = kept.options.runs == options.runs && kept.options.enough_ms == options.enough_ms;
   if (options.runs > 0 && !same_times) return false;
   if (!options.analysis) return true;
-  record.map = kept.map;
+  if (hands_on_map(options)) record.map = kept.map;
   if (options.runs == 0) return true;
   record.map_pass = kept.map_pass;
   record.first_map_ms = kept.first_map_ms;
@@ -145,10 +152,10 @@ bool GlRenderer::reuse_kept_map(const Job& job, const Light& light, LightRecord&
 void GlRenderer::keep_map(const Job& job, const Light& light, const LightRecord& record) {
   // A frame whose map was kept would not tell which of the user's shaders drew it.
   if (!gl_->shader_folder().replaced().empty() || !job.options.analysis) return;
-  if (!outlasts_frame(job.options.map.technique, world_->scene->lights.size())) return;
+  if (!outlasts_frame(job.options, world_->scene->lights.size())) return;
   kept_map_ =
       KeptMap{job.options, light, buffers_.reference(), record.map, record.map_pass, record.first_map_ms};
-  kept_map_->options.map = without_bias(job.options.map);
+  kept_map_->options.map = drawn_by(job.options.map);
 }
 
 namespace {

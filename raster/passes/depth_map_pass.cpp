@@ -50,15 +50,24 @@ Expected<void> DepthMapPass::prepare(const LightView& view, DepthFormat format) 
   }
   if (auto ok = gl.check(what); !ok) return ok;
   faces_ = std::move(faces);
+  for (int face = 0; face < view.face_count; ++face)
+    clear(view, face);  // no timed drawing is the first to touch the memory
   return {};
 }
 
-void DepthMapPass::set_state(const LightView& view, Cull cull) const {
+void DepthMapPass::clear(const LightView& view, int face) const {
+  const float depth = view.reversed ? 0.0f : shaders::map_clear_depth;
+  (*gl_)->ClearNamedFramebufferfv(faces_[static_cast<std::size_t>(face)].id(), GL_DEPTH, 0, &depth);
+}
+
+// The viewport is the whole map's in a small drawing, too: casters fall where they belong, and few texels keep them.
+void DepthMapPass::set_state(const LightView& view, Cull cull, ImageSize drawn) const {
   const Gl& gl = *gl_;
   gl->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // row 0 of the map is the lowest v
   gl->Viewport(0, 0, view.size, view.size);
   gl->Disable(GL_BLEND);
-  gl->Disable(GL_SCISSOR_TEST);
+  gl->Scissor(0, 0, drawn.width, drawn.height);
+  drawn == depth_.size() ? gl->Disable(GL_SCISSOR_TEST) : gl->Enable(GL_SCISSOR_TEST);
   gl->Enable(GL_DEPTH_TEST);
   gl->DepthMask(GL_TRUE);
   gl->DepthFunc(view.reversed ? GL_GREATER : GL_LESS);
@@ -89,7 +98,7 @@ Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& vi
                             .warp = biased && face_warps(view)});
   if (!programs) return fail(programs.error());
   world.bind();
-  set_state(view, cull);
+  set_state(view, cull, world.drawn_part(depth_.size()));
   std::array<GLint, 4> viewport{};
   gl->GetIntegerv(GL_VIEWPORT, viewport.data());
   if (viewport[2] != view.size || viewport[3] != view.size)
@@ -101,14 +110,14 @@ Expected<void> DepthMapPass::draw(const WorldBuffers& world, const LightView& vi
     if (biased) programs->set_caster_bias(bias, face);
     const Framebuffer& framebuffer = faces_[static_cast<std::size_t>(face)];
     gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
-    const float clear_depth = view.reversed ? 0.0f : shaders::map_clear_depth;
-    gl->ClearNamedFramebufferfv(framebuffer.id(), GL_DEPTH, 0, &clear_depth);
+    clear(view, face);
     world.draw_triangles(*programs, light_clip_from_relative(view, face, world.reference()),
                          WorldBuffers::Drawn::casters);
     gl->Disable(GL_CULL_FACE);
     if (auto ok = draw_shapes(world, drawing, face); !ok) return ok;
     if (cull != Cull::none) gl->Enable(GL_CULL_FACE);
   }
+  gl->Disable(GL_SCISSOR_TEST);
   return {};
 }
 

@@ -33,7 +33,8 @@ class DepthMapPass {
   };
   Expected<void> draw_shapes(const WorldBuffers& world, const Drawing& drawing, int face);
   float format_step() const;
-  void set_state(const LightView& view, Cull cull) const;
+  void clear(const LightView& view, int face) const;
+  void set_state(const LightView& view, Cull cull, ImageSize drawn) const;
 
   Gl* gl_;
   ProgramCache* programs_;

@@ -55,6 +55,7 @@ struct TuneCommand {
   bool quiet = false, verbose = false;
   const compare::TunedEngine* engine = nullptr;
   double most_seconds = 60.0;  ///< of processor time
+  bool quick = false;
 };
 
 /// --map-size as a list, or the powers of two from 64 to what the context allows.
@@ -86,6 +87,10 @@ Expected<void> check_lists(const TuneCommand& command) {
     return fail(ErrorKind::usage, "--bias: the tuner finds the constant bias itself");
   if (command.goal.max_error.has_value() == command.goal.max_time_ms.has_value())
     return fail(ErrorKind::usage, "one goal is needed: --max-error LIMIT or --max-time MS");
+  if (command.quick && command.goal.max_time_ms)
+    return fail(
+        ErrorKind::usage,
+        "--quick: ends with the first setting that is good enough, and --max-time asks for the best one");
   return {};
 }
 
@@ -237,6 +242,7 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   if (bench.film) engine.film_with(*bench.film);
   if (!bench.views.empty()) engine.look_from(bench.views, command.goal.measure());
   bench.options.most_seconds = command.most_seconds;
+  bench.options.quick = command.quick;
   bench.options.found = [&](const studies::TuneFamily& family, const studies::Attempt& answer,
                             std::uint64_t renders) {
     console.message(fmt::format("good enough after {}: {}, {}, {}", compare::counted(renders, "drawing"),
@@ -253,10 +259,11 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   if (!result) return fail(result.error());
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
   if (!shaders) return fail(shaders.error());
-  const TuneQuestion question{command.scene,           command.camera,     command.shader_folder,
-                              command.options.fixed(), command.goal,       shaders->replaced(),
-                              command.asked,           command.max_lights, command.engine,
-                              command.most_seconds,    command.backend,    command.views};
+  const TuneQuestion question{
+      command.scene,  command.camera,       command.shader_folder, command.options.fixed(),
+      command.goal,   shaders->replaced(),  command.asked,         command.max_lights,
+      command.engine, command.most_seconds, command.backend,       command.views,
+      command.quick};
   const TuneAnswer answer{question, bench.families, *result};
   if (with_page) {
     const auto setting = bench.options.as_given(result->winner, attempt_of(result->families[result->winner]));
@@ -362,7 +369,10 @@ GNOMON_COMMAND(tune, 100,
   add_engine(*app, command->engine, "try only what this engine draws, and give the answer in its settings",
              "all techniques");
   add_number(*app, "--time-limit", command->most_seconds, seconds_range, "seconds of processor time",
-             "begin no further family of settings after this, and say which are left");
+             "after this try larger maps of the first family of settings alone, and say which are left");
+  app->add_flag(
+      "--quick", command->quick,
+      "end with the first setting that is good enough, which need not be the cheapest [default off]");
   add_verbose(*app, command->verbose,
               "also say why each of the others lost, and the bias in the units of all engines");
   add_json(*app, command->json, "the answer");

@@ -218,9 +218,11 @@ std::string untried_text(const TuneAnswer& answer) {
   for (const studies::FamilyResult& family : answer.result.families)
     if (!family.is_tried()) names.push_back(family.family.name);
   if (names.empty()) return {};
-  return paragraph(fmt::format("Not tried within {} s of processor time (--time-limit): {}.",
-                               compare::plain_number(answer.question.most_seconds), fmt::join(names, "; ")),
-                   0);
+  const std::string why = answer.question.quick && answer.result.feasible
+                              ? "Not tried, since another is good enough (--quick)"
+                              : fmt::format("Not tried within {} s of processor time (--time-limit)",
+                                            compare::plain_number(answer.question.most_seconds));
+  return paragraph(fmt::format("{}: {}.", why, fmt::join(names, "; ")), 0);
 }
 
 std::string begin_of(const TuneAnswer& answer) {

@@ -27,6 +27,7 @@ struct TuneQuestion {
   double most_seconds = 0.0;                     ///< of processor time
   raster::Backend backend = raster::Backend::automatic;
   ViewListOptions views{};
+  bool quick = false;  ///< the first that is good enough was asked for
 };
 
 /// Returns what a family has that meets the goal, or what comes nearest to it.

@@ -89,6 +89,10 @@ std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner)
           "levels off near {}: {}{}",
           fmt::format(fmt::runtime(measure.measure.level), compare::figure_text(measure, loser.floor)),
           nearest, proof(loser, loser.closest, measure));
+    if (loser.stop == TuneStop::left)
+      return fmt::format("left when {}: {}{}",
+                         winner.answer && options_.quick ? "another was good enough" : "the time was over",
+                         nearest, proof(loser, loser.closest, measure));
     if (loser.stop == TuneStop::no_smaller)
       return fmt::format("needs at least the map of {}: {}{}", loser.like, nearest,
                          proof(loser, loser.closest, measure));
@@ -114,12 +118,14 @@ void Tuner::explain(TuneResult& result) const {
   for (std::size_t i = 0; i < result.families.size(); ++i) {
     FamilyResult& family = result.families[i];
     if (!family.is_tried())
-      family.why = "not tried: the time was over";
+      family.why = result.feasible && options_.quick ? "not tried: another was good enough"
+                                                     : "not tried: the time was over";
     else if (i != result.winner)
       family.why = reason(family, winner);
     else if (result.feasible)
-      family.why = (options_.goal.max_error ? "the cheapest that is good enough: "
-                                            : "the best that is cheap enough: ") +
+      family.why = (options_.quick            ? "the first that is good enough, others may be cheaper: "
+                    : options_.goal.max_error ? "the cheapest that is good enough: "
+                                              : "the best that is cheap enough: ") +
                    setting_text(*family.answer, measure) + doubtful_time(*family.answer, options_.goal) +
                    close_race(family, options_.goal) + just_over_text(result, measure);
     else

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include "compare/result/figures.h"
 #include "raster/technique_traits.h"
@@ -33,6 +34,14 @@ bool cost_the_same(raster::MapOptions a, raster::MapOptions b) {
   a.bias = b.bias = {};
   a.cull = b.cull = raster::Cull::none;
   return a == b;
+}
+
+// Whether the renderer draws one map for the two, of one size.
+bool draw_the_same_map(const raster::MapOptions& a, const raster::MapOptions& b) {
+  const raster::TechniqueTraits &of_a = raster::traits_of(a.technique),
+                                &of_b = raster::traits_of(b.technique);
+  return of_a.texels == of_b.texels && of_a.contents == of_b.contents &&
+         raster::effective_options(a).cull == raster::effective_options(b).cull;
 }
 
 // An error of a + b / size, told by two sizes: a.
@@ -114,11 +123,11 @@ bool is_good(const TuneGoal& goal, const Attempt& a) {
 }
 
 // One drawing tells the error of every constant bias, but where a shader of the user's own decides.
-Expected<Attempt> Tuner::attempt_from_gaps(const TuneFamily& family, int size) {
+Expected<Attempt> Tuner::attempt_from_gaps(Trials& trials, const TuneFamily& family, int size) {
   compare::GapLists gaps;
   auto attempt = draw(family, size, family.map.bias, &gaps);
   if (!attempt) return attempt;
-  if (attempt->custom_shader) return attempt_by_trial(family, size);
+  if (attempt->custom_shader) return attempt_by_trial(trials, family, size);
   const double drawn_with = attempt->bias_world;
   attempt->bias_world = attempt->best.constant_world;
   attempt->curve =
@@ -149,20 +158,19 @@ std::vector<raster::Bias> Tuner::biases_to_try(const TuneFamily& family, int siz
 
 // What was best at the last size comes first. A bias changes nothing of the cost: one drawing is timed, and
 // the first bias that is good enough will do; where that one is far from it, the others are as well.
-Expected<Attempt> Tuner::attempt_by_trial(const TuneFamily& family, int size) {
+Expected<Attempt> Tuner::attempt_by_trial(Trials& trials, const TuneFamily& family, int size) {
   const std::vector<raster::Bias> biases = biases_to_try(family, size);
   std::vector<std::size_t> order(biases.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const bool known = tried_before_ && best_trial_ < biases.size();
-  if (known) std::rotate(order.begin(), order.begin() + std::ptrdiff_t(best_trial_), order.end());
+  const bool known = trials.best < biases.size();
+  if (known) std::rotate(order.begin(), order.begin() + std::ptrdiff_t(trials.best), order.end());
   std::optional<Attempt> best;
   for (const std::size_t i : order) {
     auto attempt = draw(family, size, biases[i], nullptr, !best);
     if (!attempt) return attempt;
     if (best && !options_.cost) attempt->cost = best->cost;
     if (best) attempt->time_ms = best->time_ms;
-    if (!best || attempt->error < best->error) best = std::move(*attempt), best_trial_ = i;
-    tried_before_ = true;
+    if (!best || attempt->error < best->error) best = std::move(*attempt), trials.best = i;
     if (!best->reads_bias) break;
     if (!options_.goal.max_error) continue;
     if (good(*best) || hopeless(*best) || (known && best->error > clearly * options_.goal.max_error->limit))
@@ -171,13 +179,13 @@ Expected<Attempt> Tuner::attempt_by_trial(const TuneFamily& family, int size) {
   return *best;
 }
 
-Expected<Attempt> Tuner::attempt(const TuneFamily& family, int size) {
+Expected<Attempt> Tuner::attempt(Trials& trials, const TuneFamily& family, int size) {
   // What a bias does to flips does not follow from one drawing: they are counted with the family's own.
   const bool own_bias = family.keeps_bias || !raster::compares_depths(family.map.technique) ||
                         options_.goal.measure().needs == compare::FigureNeeds::film;
   if (own_bias) return draw(family, size, family.map.bias, nullptr);
-  return compare::biases_follow_from_gaps(family.map) ? attempt_from_gaps(family, size)
-                                                      : attempt_by_trial(family, size);
+  return compare::biases_follow_from_gaps(family.map) ? attempt_from_gaps(trials, family, size)
+                                                      : attempt_by_trial(trials, family, size);
 }
 
 void Tuner::consider(FamilyResult& result, const Attempt& attempt) const {
@@ -187,21 +195,9 @@ void Tuner::consider(FamilyResult& result, const Attempt& attempt) const {
   if (good(attempt) && (!result.answer || price(attempt) < price(*result.answer))) result.answer = attempt;
 }
 
-std::size_t Tuner::sizes_for(const TuneFamily& family, FamilyResult& result) const {
-  std::size_t count = options_.sizes.size();
-  if (!options_.goal.max_error) return count;
-  for (const FamilyResult* other : answered_) {
-    if (!cost_the_same(other->family.map, family.map)) continue;
-    const auto at = std::find(options_.sizes.begin(), options_.sizes.end(), other->answer->size);
-    const auto below = std::max<std::size_t>(1, static_cast<std::size_t>(at - options_.sizes.begin()));
-    if (below < count) count = below, result.stop = TuneStop::no_smaller, result.like = other->family.name;
-  }
-  return count;
-}
-
 // After a size that is not good enough.
 void Tuner::stop_early(const Attempt& attempt, FamilyResult& result) const {
-  if (hopeless(attempt)) result.stop = TuneStop::too_dear;
+  if (&result != first_ && hopeless(attempt)) result.stop = TuneStop::too_dear;
   const std::size_t n = result.tried.size();
   if (n < 3) return;
   const Attempt &first = result.tried[n - 3], &second = result.tried[n - 2];
@@ -211,48 +207,77 @@ void Tuner::stop_early(const Attempt& attempt, FamilyResult& result) const {
     result.stop = TuneStop::levels_off, result.floor = left;
 }
 
-// The least size that is good enough, or the largest that is cheap enough: both goals change once along the
-// sizes. Where the middle one is not good enough the next larger ones come one by one. The larger a map
-// the dearer the drawing, and the sooner a family can be left: before the drawing, where the two last tell its cost.
-Expected<FamilyResult> Tuner::bisect(const TuneFamily& family) {
-  FamilyResult result;
-  result.family = family;
-  const bool want_least = options_.goal.max_error.has_value();
-  std::size_t low = 0, high = sizes_for(family, result);  // the change lies in [low, high]
-  while (low < high) {
-    const bool upwards = want_least && low > 0;
-    const std::size_t middle = upwards ? low : low + (high - low) / 2;
-    if (upwards && !result.answer && cost_at(options_.sizes[middle], result.tried) > hope * least_cost_) {
-      result.stop = TuneStop::too_dear;
-      break;
-    }
-    const auto attempt = this->attempt(family, options_.sizes[middle]);
-    if (!attempt) return fail(attempt.error());
-    consider(result, *attempt);
-    if (good(*attempt) == want_least) {
-      high = middle;
-      if (want_least) result.answer = *attempt;  // the smaller the cheaper, whatever one rough time says
+// Where another family that costs the same is good enough at a size, only those below can win; one is tried of every family.
+void Tuner::leave_sizes_of_others(const std::vector<Course>& all, Course& course) const {
+  if (!options_.goal.max_error) return;
+  for (const Course& other : all) {
+    const FamilyResult& found = *other.result;
+    if (&other == &course || !found.answer || !cost_the_same(found.family.map, course.result->family.map))
       continue;
-    }
-    low = middle + 1;
-    if (!want_least || low >= high || result.answer) continue;
-    const TuneStop before = result.stop;
-    stop_early(*attempt, result);
-    if (result.stop != before) break;
+    const auto at = std::find(options_.sizes.begin(), options_.sizes.end(), found.answer->size);
+    const auto below = std::max<std::size_t>(1, static_cast<std::size_t>(at - options_.sizes.begin()));
+    if (below >= course.high) continue;
+    course.high = below;
+    course.result->stop = TuneStop::no_smaller, course.result->like = found.family.name;
   }
-  return result;
+}
+
+// The first family is searched to its end: it is the plain map that others are held against, and there is an answer whatever
+// the time.
+bool Tuner::gives_up(const Course& course, std::size_t size) const {
+  const FamilyResult& result = *course.result;
+  if (&result == first_ || result.answer) return false;
+  if (out_of_time()) return true;
+  return options_.goal.max_error && !result.tried.empty() &&
+         cost_at(options_.sizes[size], result.tried) > hope * least_cost_;
+}
+
+// The least size that is good enough, or the largest that is cheap enough: both goals change once along the
+// sizes, between `low` and `high`. Where the middle one is not good enough the next larger ones come one by one. The larger a
+// map the dearer the drawing, and the sooner a family can be left: before the drawing, where the two last tell its cost.
+std::optional<std::size_t> Tuner::next_size(const std::vector<Course>& all, Course& course) const {
+  if (course.over) return std::nullopt;
+  leave_sizes_of_others(all, course);
+  course.over = course.low >= course.high;
+  if (course.over) return std::nullopt;
+  const bool upwards = options_.goal.max_error && course.low > 0;
+  const std::size_t size = upwards ? course.low : course.low + (course.high - course.low) / 2;
+  course.over = gives_up(course, size);
+  if (!course.over) return size;
+  course.result->stop = out_of_time() ? TuneStop::left : TuneStop::too_dear;
+  return std::nullopt;
+}
+
+Expected<void> Tuner::advance(Course& course, std::size_t size) {
+  FamilyResult& result = *course.result;
+  const auto attempt = this->attempt(course.trials, result.family, options_.sizes[size]);
+  if (!attempt) return fail(attempt.error());
+  consider(result, *attempt);
+  const bool want_least = options_.goal.max_error.has_value();
+  if (good(*attempt) == want_least) {
+    course.high = size;
+    if (want_least) result.answer = *attempt;  // the smaller the cheaper, whatever one rough time says
+  } else {
+    course.low = size + 1;
+    if (want_least && course.low < course.high && !result.answer) {
+      const TuneStop before = result.stop;
+      stop_early(*attempt, result);
+      course.over = result.stop != before;
+    }
+  }
+  if (result.answer) least_cost_ = std::min(least_cost_, result.answer->cost);
+  return {};
 }
 
 // From the middle size on, to larger or to smaller maps, while they cost less.
-Expected<FamilyResult> Tuner::walk_down(const TuneFamily& family) {
-  FamilyResult result;
-  result.family = family;
+Expected<void> Tuner::walk_down(FamilyResult& result) {
+  Trials trials;
   const auto count = static_cast<std::ptrdiff_t>(options_.sizes.size());
   const std::ptrdiff_t start = count / 2;
   double least = 0.0;
   bool moved = false;
   const auto cheaper = [&](std::ptrdiff_t i) -> Expected<bool> {
-    const auto attempt = this->attempt(family, options_.sizes[static_cast<std::size_t>(i)]);
+    const auto attempt = this->attempt(trials, result.family, options_.sizes[static_cast<std::size_t>(i)]);
     if (!attempt) return fail(attempt.error());
     consider(result, *attempt);
     const bool less = i == start || attempt->cost < least;
@@ -260,7 +285,7 @@ Expected<FamilyResult> Tuner::walk_down(const TuneFamily& family) {
     return less;
   };
   if (const auto first = cheaper(start); !first) return fail(first.error());
-  if (least > exact_hope * least_cost_) return result;
+  if (least > exact_hope * least_cost_) return {};
   for (const std::ptrdiff_t step : {+1, -1}) {
     for (std::ptrdiff_t i = start + step; !(moved && step < 0) && i >= 0 && i < count; i += step) {
       const auto less = cheaper(i);
@@ -269,34 +294,68 @@ Expected<FamilyResult> Tuner::walk_down(const TuneFamily& family) {
       moved = moved || step > 0;
     }
   }
-  return result;
+  return {};
 }
 
-Expected<FamilyResult> Tuner::search(const TuneFamily& family) {
-  tried_before_ = false;
-  auto found = !raster::compares_depths(family.map.technique) ? walk_down(family) : bisect(family);
-  if (!found || !found->answer) return found;
-  if (options_.found && options_.goal.max_error && found->answer->cost < least_cost_)
-    options_.found(family, *found->answer, renders_);
-  least_cost_ = std::min(least_cost_, found->answer->cost);
-  return found;
+bool Tuner::out_of_time() const {
+  return begun_.elapsed_ms() > 1e3 * options_.most_seconds;
+}
+
+// Told of a family whose search is over, and of no other that is dearer.
+void Tuner::tell(const FamilyResult& result) {
+  if (!result.answer || !options_.goal.max_error || !(result.answer->cost < told_cost_)) return;
+  told_cost_ = result.answer->cost;
+  if (options_.found) options_.found(result.family, *result.answer, renders_);
+}
+
+void Tuner::leave_all(std::span<const Course> courses) {
+  for (const Course& course : courses)
+    if (!course.over && !course.result->answer) course.result->stop = TuneStop::left;
+}
+
+// The smallest maps that are still to be drawn come first, whatever their families: what is found by cheap drawings leaves out
+// dear ones. Of one size those come together that draw the same map, which is then drawn once, and the cheaper ones before.
+Expected<void> Tuner::search_maps(const std::vector<FamilyResult*>& results) {
+  std::vector<Course> courses;
+  for (FamilyResult* result : results) courses.push_back({.result = result, .high = options_.sizes.size()});
+  const raster::MapOptions* drawn_last = nullptr;
+  for (;;) {
+    Course* least = nullptr;
+    std::size_t size = 0;
+    const auto order = [&](const Course& course, std::size_t of_size) {
+      const FamilyResult& result = *course.result;
+      const bool other_map = drawn_last == nullptr || !draw_the_same_map(*drawn_last, result.family.map);
+      return std::tuple(of_size, other_map, result.tried.empty() ? 0.0 : result.tried.back().cost);
+    };
+    for (Course& course : courses)
+      if (const auto next = next_size(courses, course);
+          next && (least == nullptr || order(course, *next) < order(*least, size)))
+        least = &course, size = *next;
+    if (least == nullptr) return {};
+    drawn_last = &least->result->family.map;
+    if (auto drawn = advance(*least, size); !drawn) return drawn;
+    if (options_.quick && least->result->answer) return leave_all(courses), Expected<void>{};
+    if (!next_size(courses, *least)) tell(*least->result);
+  }
 }
 
 // Exact techniques last: they are good at any size, so that what they cost is all there is to learn of them.
 Expected<void> Tuner::search_all(TuneResult& result) {
   result.families.resize(options_.families.size());
-  for (const bool exact : {false, true})
-    for (std::size_t i = 0; i < options_.families.size(); ++i) {
-      if (raster::compares_depths(options_.families[i].map.technique) == exact) continue;
-      FamilyResult& family = result.families[i];
-      family.family = options_.families[i];
-      if (searched_ && begun_.elapsed_ms() > 1e3 * options_.most_seconds) continue;
-      auto found = search(options_.families[i]);
-      if (!found) return fail(found.error());
-      searched_ = true;
-      family = std::move(*found);
-      if (family.answer) answered_.push_back(&family);
-    }
+  std::vector<FamilyResult*> maps, exact;
+  for (std::size_t i = 0; i < options_.families.size(); ++i) {
+    FamilyResult& family = result.families[i];
+    family.family = options_.families[i];
+    (raster::compares_depths(family.family.map.technique) ? maps : exact).push_back(&family);
+  }
+  first_ = maps.empty() ? exact.front() : maps.front();
+  if (auto searched = search_maps(maps); !searched) return searched;
+  for (FamilyResult* family : exact) {
+    if (family != first_ && (out_of_time() || (options_.quick && least_cost_ < infinity))) continue;
+    if (auto walked = walk_down(*family); !walked) return walked;
+    if (family->answer) least_cost_ = std::min(least_cost_, family->answer->cost);
+    tell(*family);
+  }
   return {};
 }
 

@@ -5,10 +5,12 @@
 // wrong less. So the least size good enough, or the largest one cheap enough, is found by bisection. At each
 // size one drawing gives the error of every constant bias (bias_curve.h), and with it the best one; where a
 // technique's drawings do not tell that, the closed-form bias of its size and what hard shadows need there
-// are tried. A family is left as soon as it costs clearly more than the best so far without being good
+// are tried. The smallest maps that any family is to try come first, and those together that draw the same map.
+// A family is left as soon as it costs clearly more than the best so far without being good
 // enough. It is also left where its error levels off above the goal. A sampling error halves with every
 // doubling of the map, so that two sizes tell what is left without it; three have to agree. And it is left at
-// the size where a family like it is good enough: biases change no cost. Exact techniques (izb, hybrid) are
+// the size where a family like it is good enough: biases change no cost. The first family, the plain map, is
+// searched to its end: others are held against it. Exact techniques (izb, hybrid) are
 // right at any size, and their cost has a least size of its own: it is walked down to. The families that come
 // close to the best are then drawn at their own biases, in turn and several times over. The least times
 // decide, but for those that lie within the spread. Of them one that costs less whatever the machine is
@@ -53,11 +55,11 @@ struct TuneOptions {
   std::vector<TuneFamily> families;
   std::vector<int> sizes;  ///< ascending, texels
   TuneCost cost;           ///< empty: milliseconds
-  /// Processor time after which no further family is begun, seconds, from the call of tune() on; one is searched whatever it
-  /// takes.
+  /// Processor time after which the first family alone is searched on, seconds, from the call of tune() on.
   double most_seconds = std::numeric_limits<double>::infinity();
   /// Told of each family whose answer is cheaper than those before, where the goal is an error.
   std::function<void(const TuneFamily& family, const struct Attempt& answer, std::uint64_t renders)> found;
+  bool quick = false;  ///< the first setting that meets the goal ends the search
   /// The setting that a family's answer is given as; empty: the one that it was drawn with. The answer's
   /// error is measured by the comparison at this setting.
   std::function<Expected<compare::Setting>(std::size_t family, const struct Attempt& answer)> as_given;
@@ -94,7 +96,8 @@ enum class TuneStop : std::uint8_t {
   none,        ///< they were, or need not be
   too_dear,    ///< this one costs too much already
   levels_off,  ///< the error that larger maps lessen is not what is too much
-  no_smaller   ///< a family that differs in its bias alone is good enough there, for the same cost
+  no_smaller,  ///< a family that differs in its bias alone is good enough there, for the same cost
+  left         ///< the search was over before: TuneOptions::most_seconds, or TuneOptions::quick
 };
 
 struct FamilyResult {

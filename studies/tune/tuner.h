@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <map>
+#include <span>
 
 #include "scene/base/timing.h"
 #include "studies/tune/tune.h"
@@ -50,21 +51,37 @@ class Tuner {
   double shortfall(const Attempt& a) const { return options_.goal.max_error ? a.error : a.cost; }
   /// Costs so much more than the best answer that no larger map can win.
   bool hopeless(const Attempt& a) const;
-  /// Sizes worth looking at: those below the answer of a family that costs the same, at least one.
-  std::size_t sizes_for(const TuneFamily& family, FamilyResult& result) const;
+  bool out_of_time() const;
+  /// Which of the biases tried was best at the family's last size; the largest number where none was tried.
+  struct Trials {
+    std::size_t best = ~std::size_t{0};
+  };
+  /// A family's search: what is sought lies in [low, high] of the sizes.
+  struct Course {
+    FamilyResult* result;
+    std::size_t low = 0, high = 0;
+    bool over = false;
+    Trials trials{};
+  };
+  void leave_sizes_of_others(const std::vector<Course>& all, Course& course) const;
+  bool gives_up(const Course& course, std::size_t size) const;
+  /// The size to draw next; none where the search is over, which the course is told.
+  std::optional<std::size_t> next_size(const std::vector<Course>& all, Course& course) const;
+  Expected<void> advance(Course& course, std::size_t size);
   void stop_early(const Attempt& attempt, FamilyResult& result) const;
 
   compare::Setting setting_of(const TuneFamily& family, int size, const raster::Bias& bias) const;
   Expected<Attempt> draw(const TuneFamily& family, int size, const raster::Bias& bias,
                          compare::GapLists* gaps, bool timed = true);
-  Expected<Attempt> attempt(const TuneFamily& family, int size);
-  Expected<Attempt> attempt_from_gaps(const TuneFamily& family, int size);
-  Expected<Attempt> attempt_by_trial(const TuneFamily& family, int size);
+  Expected<Attempt> attempt(Trials& trials, const TuneFamily& family, int size);
+  Expected<Attempt> attempt_from_gaps(Trials& trials, const TuneFamily& family, int size);
+  Expected<Attempt> attempt_by_trial(Trials& trials, const TuneFamily& family, int size);
   std::vector<raster::Bias> biases_to_try(const TuneFamily& family, int size) const;
   void consider(FamilyResult& result, const Attempt& attempt) const;  ///< of the next size tried
-  Expected<FamilyResult> search(const TuneFamily& family);
-  Expected<FamilyResult> bisect(const TuneFamily& family);
-  Expected<FamilyResult> walk_down(const TuneFamily& family);
+  void tell(const FamilyResult& result);
+  static void leave_all(std::span<const Course> courses);
+  Expected<void> search_maps(const std::vector<FamilyResult*>& results);
+  Expected<void> walk_down(FamilyResult& result);
   Expected<void> search_all(TuneResult& result);
 
   bool better(const FamilyResult& a, const FamilyResult& b) const;
@@ -87,12 +104,10 @@ class Tuner {
   const TuneProgress& progress_;
   std::uint64_t renders_ = 0;
   ProcessorStopwatch begun_;
-  bool searched_ = false;                      ///< one family at least
-  std::vector<const FamilyResult*> answered_;  ///< those that are good enough, as far as they are searched
-  std::size_t best_trial_ = 0;       ///< which of the biases tried was best at the family's last size
-  bool tried_before_ = false;        ///< whether that is known
-  std::map<int, double> hard_bias_;  ///< by size, of the first family whose gaps told it
-  double least_cost_ = std::numeric_limits<double>::infinity();  ///< of the answers so far
+  const FamilyResult* first_ = nullptr;  ///< of the first family, which is searched to its end
+  std::map<int, double> hard_bias_;      ///< by size, of the first family whose gaps told it
+  double least_cost_ = infinity,
+         told_cost_ = infinity;  ///< of the answers so far, and of those that were told of
 };
 
 }  // namespace gnomon::studies

@@ -177,6 +177,41 @@ TEST_P(Records, AreThoseOfAFirstFrameWhateverWasDrawnBefore) {
   EXPECT_EQ(drawn.frame.color.data, draw(*drawn.scene, options).frame.color.data);
 }
 
+// How depths are looked up is no part of the map: a filter takes the map that a hard test left, with its times, and a second
+// frame of cascades the first one's, where its depths are not handed on.
+TEST_P(Records, AMapServesEveryTechniqueThatDrawsIt) {
+  using raster::Technique;
+  Drawn drawn = make(false);
+  raster::RasterOptions options = drawn.frame.options;
+  options.runs = 1;
+  options.map_contents = false;
+  const StageLog log;
+  const auto ms_of_runs = [&] {
+    const TimeBudget budget = log.budget();
+    const StageTime* stage = budget.find("map runs");
+    return stage == nullptr ? 0.0 : stage->wall_ms;
+  };
+  const auto draw_with = [&](Technique technique, bool anew) {
+    options.map.technique = technique;
+    options.map.bias.constant *= 2.0;
+    const double before = ms_of_runs();
+    drawn.render(options);
+    EXPECT_EQ(ms_of_runs() > before, anew) << raster::technique_name(technique);
+    EXPECT_EQ(drawn.light().map_pass.runs.size(), 1U);
+    const Drawn fresh = draw(*drawn.scene, options);
+    EXPECT_EQ(drawn.light().visibility.data, fresh.light().visibility.data)
+        << raster::technique_name(technique);
+  };
+  draw_with(Technique::hard, true);
+  draw_with(Technique::pcf, false);
+  draw_with(Technique::pcss, false);
+  draw_with(Technique::vsm, true);
+  draw_with(Technique::hard, true);
+  if (GetParam() != LightType::directional) return;
+  draw_with(Technique::csm, true);
+  draw_with(Technique::csm, false);
+}
+
 TEST_P(Records, TimesHoldEveryRunAndChangeNothing) {
   Drawn drawn = make();
   const auto color = drawn.frame.color.data;

@@ -126,6 +126,26 @@ TEST_F(TuneProgram, AsksForOneEngineAndWithinATime) {
   EXPECT_EQ(run({"tune", "floating-box", "--max-error", "5%", "--engine", "quake"}), 2);
 }
 
+// The first setting that will do ends the search, and it keeps its promise, too.
+TEST_F(TuneProgram, EndsQuicklyWithTheFirstThatIsGoodEnough) {
+  const std::string json = (root / "answer.json").string();
+  const Words asked{"tune",       "floating-box", "--size", "96x54", "--max-error", "5%",
+                    "--map-size", "64,128,256",   "--runs", "1",     "--json",      json};
+  ASSERT_EQ(run(asked), 0) << said();
+  const nlohmann::json whole = nlohmann::json::parse(bytes_of(json));
+  Words quickly = asked;
+  quickly.emplace_back("--quick");
+  ASSERT_EQ(run(quickly), 0) << said();
+  const nlohmann::json answer = nlohmann::json::parse(bytes_of(json));
+  EXPECT_LE(answer["error"].get<double>(), 0.05);
+  EXPECT_LT(answer["renders"].get<int>(), whole["renders"].get<int>() / 2);
+  EXPECT_NE(answer["why"].get<std::string>().find("the first that is good enough"), std::string::npos)
+      << answer["why"];
+  EXPECT_GT(answer["untried"].size(), 0u);
+  EXPECT_NE(said().find("(--quick)"), std::string::npos) << said();
+  EXPECT_EQ(run({"tune", "floating-box", "--max-time", "5", "--quick"}), 2);
+}
+
 // PlayCanvas has no constant: its polygon offset and its normal offset alone are tried, and the command draws what was promised.
 TEST_F(TuneProgram, AsksAnEngineOnlyForWhatItCanBeTold) {
   const std::string json = (root / "answer.json").string();
