@@ -41,16 +41,11 @@ double available_addresses() {
 
 }  // namespace
 
-namespace {
-
-/// The first number of /proc/loadavg.
 std::optional<double> load_of_last_minute() {
   std::ifstream file("/proc/loadavg");
   double load = 0.0;
   return file >> load ? std::optional(load) : std::nullopt;
 }
-
-}  // namespace
 
 compare::MachineInfo machine_info() {
   return {field_of("/proc/cpuinfo", "model name", ':'), field_of("/etc/os-release", "PRETTY_NAME", '='),

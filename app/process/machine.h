@@ -24,6 +24,9 @@ namespace gnomon::app {
 /// From /proc/cpuinfo, /etc/os-release and, the load at this moment, /proc/loadavg; "unknown" where they do not say.
 compare::MachineInfo machine_info();
 
+/// MachineInfo::load: the first number of /proc/loadavg.
+std::optional<double> load_of_last_minute();
+
 /// The most memory that the process has held at a time so far.
 std::uint64_t peak_memory_bytes();
 

@@ -64,7 +64,7 @@ std::string result_csv(std::string_view result);
 using AxisValues = std::vector<std::pair<std::string, std::string>>;
 /// Returns result.json with "axes" and without times (every one is "not timed"), so that the same setting gives the
 /// same bytes. `no_effect`: the axes that the cell's technique does not read. Without `full` it lacks what belongs to the
-/// drawing rather than to the cell: the curve of every bias, biases in engines' units, and the effects. They are five sixths
+/// drawing rather than to the cell: the curve of every bias, biases in engines' units, the effects, and what tells of times. They are five sixths
 /// of its bytes.
 nlohmann::ordered_json line_json(const Comparison& comparison, const AxisValues& axes,
                                  const std::vector<std::string>& no_effect = {}, bool full = true);

@@ -199,6 +199,12 @@ void drop_times(Json& json) {
   }
 }
 
+// A line has no times: in a short one nothing says so.
+void drop_what_tells_of_times(Json& json) {
+  json.erase("timing"), json.erase("times_ms");
+  for (Json& light : json["lights"]) light.erase("times_ms");
+}
+
 // A number where the text is one, "on" and "off" as truth values, else the text.
 Json axis_value(const std::string& text) {
   if (text == "on" || text == "off") return text == "on";
@@ -262,6 +268,7 @@ Json line_json(const Comparison& c, const AxisValues& axes, const std::vector<st
   Json json = result_object(c, 0.0, 0.0, full);
   drop_times(json);
   for (Json& light : json["lights"]) light.erase("seams");  // a cell of another bias has none
+  if (!full) drop_what_tells_of_times(json);
   json["machine"]["load"] = nullptr;
   if (c.judged) json["judged"] = judged_json(*c.judged);
   json["axes"] = axes_object(axes);

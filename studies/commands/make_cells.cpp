@@ -158,7 +158,8 @@ Expected<void> time_round(SweepRun& run, int round, studies::Journal& journal) {
     if (!timed) return fail(timed.error());
     const TimedStage stage("records");
     const OutputGuard whole_lines;
-    if (auto added = journal.append_round(studies::round_json(**timed, cell, machine_info())); !added)
+    run.machine.load = load_of_last_minute();
+    if (auto added = journal.append_round(studies::round_json(**timed, cell, run.machine)); !added)
       return added;
   }
   return {};
