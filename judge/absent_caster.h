@@ -1,5 +1,5 @@
-// The guard of captures whose casters were found from a frame: a sky, a lamp or a helper that the map does not hold, and that
-// shadows everything by rays, is no finding about the renderer.
+// The guard of captures whose casters were found from a frame. A sky, a lamp or a helper may shadow everything by rays, and be
+// in no map: that is no finding about the renderer.
 #pragma once
 
 #include <optional>

@@ -117,7 +117,7 @@ class EarlierFrames(unittest.TestCase):
         matrix = np.diag([1.0, 1.0, 0.5, 1.0])
         old = np.zeros((1, 8), bool)
         old[:, old_columns] = True
-        one = SimpleNamespace(state=state, matrix=matrix, half=None, distance=None, texels=np.ones((1, 8)), old=old)
+        one = SimpleNamespace(state=state, matrix=matrix, half=None, content=None, distance=None, texels=np.ones((1, 8)), old=old)
         places = np.zeros((1, 8, 3))
         places[..., 0] = (np.arange(8) + 0.5) / 4 - 1
         drawn = np.ones((1, 8), bool)
@@ -158,7 +158,7 @@ class Masks(unittest.TestCase):
         solid = inside & ((np.arange(64) // 4 % 2 == 0) | (not holes))
         texels[np.ix_(inside, solid)] = (0.5 * (-0.4 + 0.4 * column[solid]) + 0.5)[None]
         matrix = np.diag([1.0, 1.0, 0.5, 1.0])
-        one = SimpleNamespace(state=pipeline(depth_bias={}), pairs=[(0, mesh(1, self.TWO, clip))], texels=texels, is_colour=False, distance=None, half=None, matrix=matrix)
+        one = SimpleNamespace(state=pipeline(depth_bias={}), pairs=[(0, mesh(1, self.TWO, clip))], texels=texels, is_colour=False, distance=None, half=None, content=None, matrix=matrix)
         return one
 
     def find(self, holes, code):
@@ -210,7 +210,7 @@ class Radius(unittest.TestCase):
     def test_is_that_of_the_test_with_its_bias(self):
         """A slope under a bias: without the bias a texel beside the own one seems to shadow, which none does."""
         rows = np.arange(64)[:, None] * np.ones((1, 64))
-        one = SimpleNamespace(state=pipeline(), matrix=np.diag([1.0, 1.0, 0.0, 1.0]), half=None, distance=None, texels=0.5 - 0.002 * rows, constant=0.0)
+        one = SimpleNamespace(state=pipeline(), matrix=np.diag([1.0, 1.0, 0.0, 1.0]), half=None, content=None, distance=None, texels=0.5 - 0.002 * rows, constant=0.0)
         one.matrix[2, 3] = 0.5 - 0.002 * 30 + 0.001  # a place of the depth between rows 29 and 30
         one.state.conventions = conventions.opengl()
         place = np.array([[0.01, (29.5 + 2.5) / 32 - 1, 0.0]])
@@ -221,7 +221,7 @@ class Radius(unittest.TestCase):
     def test_follows_reversed_depths(self):
         texels = np.full((64, 64), 0.3)  # under the bias
         texels[:, 32:] = 0.8
-        one = SimpleNamespace(state=pipeline(), matrix=np.diag([1.0, 1.0, 0.0, 1.0]), half=None, distance=None, texels=texels, constant=0.1)
+        one = SimpleNamespace(state=pipeline(), matrix=np.diag([1.0, 1.0, 0.0, 1.0]), half=None, content=None, distance=None, texels=texels, constant=0.1)
         one.matrix[2, 3], one.state.reversed = 0.25, True
         self.assertEqual(lookup.filter_radius(one, np.array([[-0.02, 0.0, 0.0]])), 1)
 

@@ -72,7 +72,7 @@ class Lookup(unittest.TestCase):
 
     def layer(self, texels, **state):
         kept = {"conventions": conventions.opengl(), "reversed": False, **state}
-        return SimpleNamespace(texels=texels, half=None, matrix=np.eye(4), constant=0.0, old=np.zeros(texels.shape, bool), state=SimpleNamespace(**kept))
+        return SimpleNamespace(texels=texels, half=None, content=None, matrix=np.eye(4), constant=0.0, old=np.zeros(texels.shape, bool), state=SimpleNamespace(**kept))
 
     def test_texel_and_margin_follow_the_rows(self):
         texels = np.arange(16).reshape(4, 4) / 16
@@ -160,7 +160,7 @@ class Lookup(unittest.TestCase):
                 has_caster_bias=False, constant=0.0, half=SimpleNamespace(residual=0.0), distance=SimpleNamespace(range=9.0, residual=0.0), matrix=np.eye(4),
                 matched=1, place=SimpleNamespace(apex=np.zeros(3)), texels=np.ones((2, 2)))
             found = SimpleNamespace(passes=SimpleNamespace(texture=1), view=SimpleNamespace(lens=lens.Lens(1, 1, 0, 0, 1, 1, 0)), notes=[])
-            test = SimpleNamespace(selection=lookup.Selection("first", (), 0.0), exponent=None, radius=None, agreement=None)
+            test = SimpleNamespace(selection=lookup.Selection("first", (), 0.0), exponent=None, form=None, fitted=None, unread="", radius=None, agreement=None)
             findings = report.findings(SimpleNamespace(textures={1: texture}), found, [layer], test)
             self.assertEqual(any("a capture says the constant alone" in one for one in findings), said)
             with tempfile.TemporaryDirectory() as folder:

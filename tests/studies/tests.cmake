@@ -30,7 +30,7 @@ gnomon_node_test(adapters_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CU
 gnomon_node_test(adapters_lab_browser_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_lab_browser")
 gnomon_node_test(adapters_blender_test $<TARGET_FILE:gnomon_program> "${CMAKE_CURRENT_BINARY_DIR}/adapters_blender")
 # The adapter for frames that RenderDoc recorded: its numbers, for which Debian's Python and NumPy are enough.
-foreach(test renderdoc_casters_test renderdoc_fit_test renderdoc_frame_test)
+foreach(test renderdoc_casters_test renderdoc_fit_test renderdoc_forms_test renderdoc_frame_test)
   add_test(NAME ${test} COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/${test}.py" "${PROJECT_SOURCE_DIR}/adapters/renderdoc")
   set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77)
 endforeach()

@@ -75,22 +75,35 @@ def _select(selection, k, count):
     return {"select": {"near": limits[k], "far": limits[k + 1], "by": selection.by, **blend}}
 
 
+def _convention(layer):
+    """(the convention's word, the matrix as it wants it, range or None)."""
+    if layer.half:
+        return "paraboloid", layer.matrix, [0.0, layer.distance.range]
+    if layer.content and layer.content.base != "depth":
+        x, y, z, w = layer.matrix
+        kept = None if layer.content.range == (0.0, 1.0) else list(layer.content.range)
+        return {"distance": "distance", "axis": "linear_z"}[layer.content.base], np.array([x, y, 2 * z - w, w]), kept
+    return "reversed" if layer.state.reversed else "zero_to_one", layer.matrix, None
+
+
 def _layer(folder, texture, name, k, layer, test, count):
-    files.write_exr(os.path.join(folder, name), {"Z": layer.texels})
-    convention = "paraboloid" if layer.half else "reversed" if layer.state.reversed else "zero_to_one"
+    held = {"RGBA"[k]: layer.averages["drawn"][..., k] for k in range(layer.content.channels)} if test.fitted else {"Z": layer.texels}
+    files.write_exr(os.path.join(folder, name), held)
+    convention, matrix, reach = _convention(layer)
     out = {"depth": name, "convention": convention,
            "rows": "bottom_up" if layer.state.conventions.bottom_row_first else "top_down",
-           "clip_from_world": files.column_major(layer.matrix), **_select(test.selection, k, count)}
+           "clip_from_world": files.column_major(matrix), **_select(test.selection, k, count)}
     moved = extract.polygon_offset(layer, texture)
     if layer.has_caster_bias:
         moved["constant_world"] = layer.shift.world
     if moved:
         out["caster_bias"] = moved
+    if reach:
+        out["range"] = reach
     if layer.half:
-        out["range"] = [0.0, layer.distance.range]
         for key in ("slope", "clamp"):  # of distances no capture says them; a finding does
             moved.pop(key, None)
-    elif layer.constant:
+    elif layer.constant and test.form is None:
         out["bias"] = {"constant_depth": layer.constant}
     return out
 
@@ -102,9 +115,17 @@ def _other_half(folder, name, first, layer):
 
 
 def _filter(layers, test):
-    blurred = any(not np.array_equal(layer.texels, layer.read) for layer in layers)
+    if test.fitted:
+        fitted = test.fitted
+        said = {"kind": fitted.content.kind, "read": "moments", "radius_texels": test.radius}
+        if fitted.content.exponents:
+            said["exponents"] = list(fitted.content.exponents)
+        if fitted.content.kind != "esm":
+            said |= {"minimum_variance": fitted.variance, "light_bleeding_reduction": fitted.reduction}
+        return said
+    blurred = any(layer.is_blurred for layer in layers)
     if test.radius is None and not blurred:
-        return {"kind": "none"}
+        return {"kind": "none", **({"read": "linear_depths"} if test.form and test.form.linear else {})}
     return {"kind": "esm" if test.exponent else "vsm" if blurred else "pcf", "radius_texels": min(test.radius or 1.5, 64)}
 
 
@@ -115,7 +136,7 @@ def _light(folder, frame, light, prefix):
         raise FrameError(f"the light has {len(layers)} maps, and a capture holds {MOST_LAYERS}")
     # As a ratio: a pixel that the light does not reach without shadows either is not compared.
     asked = pixels.asked.astype(float)
-    said = {"shadowed": prefix + "shadowed.exr", "unshadowed": prefix + "unshadowed.exr"}
+    said = {"shadowed": prefix + "shadowed.exr", "unshadowed": prefix + "unshadowed.exr", "strength": 1.0}  # the replays took the rest out
     files.write_exr(os.path.join(folder, said["shadowed"]), {"Y": np.clip(pixels.visibility, 0, 1) * asked})
     files.write_exr(os.path.join(folder, said["unshadowed"]), {"Y": asked})
     if layers[0].matrix is None:
@@ -125,6 +146,8 @@ def _light(folder, frame, light, prefix):
     if layers[0].half and len(maps) == 1:
         maps.append(_other_half(folder, f"{prefix}map1.exr", maps[0], layers[0]))
     both = {"bias": {"constant_depth": layers[0].constant}} if layers[0].half and layers[0].constant else {}
+    if light.test.form and not layers[0].half:
+        both = {"bias": light.test.form.said()}
     return {**said, "map": maps, **both, "filter": _filter(layers, light.test)}
 
 

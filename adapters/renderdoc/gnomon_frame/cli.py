@@ -80,18 +80,19 @@ def _measure(frame, found, layers, lights, encoding, before):
     found.notes.clear()  # a map's, which may be several lights'
     numbers = extract.read_layers(frame, found, layers)
     others = [layer for _, those in lights if those is not layers for layer in those]
-    seen, exponent = pixels.measure(frame, found, layers, encoding, others)
+    seen, exponent, fitted = pixels.measure(frame, found, layers, encoding, others, numbers)
     if before and not pixels.is_same_picture(before[0].found, before[0].pixels, found, seen):
         raise FrameError("another camera draws it than the first light: --light judges it by itself")
     found.roles, hidden = casters.decide(frame, found.view, [layer for _, those in lights for layer in those], seen.depth, seen.told)
     pixels.hide(seen, hidden, found.view)
     masked = masks.leave_out(frame, found, layers, seen)
     found.notes += casters.words(found.view, found.roles)
-    test = decision.find_test(found, layers, seen, numbers, exponent)
+    test = decision.find_test(found, layers, seen, numbers, exponent, fitted)
     if masked and test.radius:
         seen.asked &= ~masks.shadowed_by(layers, masked, seen, test.radius)
     if left_out := pixels.leave_out_borders(seen, layers, test.radius):
         found.notes.append(f"{left_out} pixels are left out, whose filter reads texels that no caster covers: the replays do not tell their light")
+    decision.believe(found, layers, test)
     return found, layers, seen, test
 
 

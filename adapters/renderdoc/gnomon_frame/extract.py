@@ -4,10 +4,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from . import fit
+from . import fit, literals
 from .casters import Roles
 from .errors import FrameError
 from .lens import Lens, covers_the_picture, fit_lens, is_parallel
+from .moments import Content
 from .pairing import pair
 from .passes import MapPasses
 from .reader import CasterShift, ReaderMatrix, caster_shift, find_reader, texture_places, through_model
@@ -36,6 +37,13 @@ class Layer:
     matrix: np.ndarray | None = None  # clip_from_view whose z/w is what a texel stores; of a half the light's view alone
     constant: float = 0.0  # the reader's own bias, stored numbers
     is_colour: bool = False  # whether its texels are those of a colour texture
+    content: Content | None = None  # what these hold, where that is known
+    averages: dict = field(default_factory=dict)  # of a map of moments: what readers find with it drawn, empty and full
+
+    @property
+    def is_blurred(self):
+        """Whether readers find other texels than the casters left."""
+        return not np.array_equal(self.texels, self.read)
 
     @property
     def matched(self):
@@ -213,7 +221,8 @@ def read_layers(frame, found, layers):
             layer.place = fit.light_place(layer.matrix, layer.state.reversed)
             if layer.reader.has_depth:
                 layer.shift = caster_shift(layer.light.matrix, layer.stored_row, layer.reader, layer.state.reversed)
-    return [value for _, value in numbers]
+    own = literals.of_code(frame.fragment_code(found.passes.readers[-1].event))
+    return replace(own, given=tuple(value for _, value in numbers))
 
 
 def _cannot_be_said(found, layers):

@@ -33,11 +33,21 @@ def texel_places(layer, positions):
     else:
         front = clip[:, 3] > 0
         w = np.where(front, clip[:, 3], 1)
-        z = clip[:, 2] / w
+        z = clip[:, 2] / w if layer.content is None else _as_stored(layer, positions, clip[:, 2] / w)
     x, y = clip[:, 0] / w, clip[:, 1] / w
     rows, columns = layer.texels.shape
     up = y if layer.state.conventions.bottom_row_first else -y
     return (x * 0.5 + 0.5) * columns, (up * 0.5 + 0.5) * rows, z, front & (np.abs(x) < 1) & (np.abs(y) < 1)
+
+
+def _as_stored(layer, positions, z):
+    """The number that a texel of this content stores of places, without its warp."""
+    content = layer.content
+    if content.base == "depth":
+        return z
+    off = positions - layer.place.apex
+    world = np.linalg.norm(off, axis=1) if content.base == "distance" else off @ layer.place.direction
+    return (world - content.range[0]) / (content.range[1] - content.range[0])
 
 
 def margins(layer, positions):
@@ -149,6 +159,21 @@ def answer(layer, positions, bilinear):
     return Answer(np.where(inside, light, 1.0), inside)
 
 
+def filtered(layer, positions, bias, reach, is_bilinear):
+    """What comparisons of the texels up to `reach` around each place make of it on average; each is of the four nearest where the sampler
+    weighs those."""
+    column, row, depth, _ = texel_places(layer, positions)
+    rows, columns = layer.texels.shape
+
+    def lit(i, j):
+        stored = layer.texels[np.clip(j, 0, rows - 1).astype(int), np.clip(i, 0, columns - 1).astype(int)]
+        return ((depth - stored if layer.state.reversed else stored - depth) + bias >= 0).astype(float)
+
+    one = (lambda i, j: _weighed(i, j, lit)) if is_bilinear else (lambda i, j: lit(np.floor(i), np.floor(j)))
+    steps = range(-reach, reach + 1)
+    return np.mean([one(column + i, row + j) for i in steps for j in steps], axis=0)
+
+
 def _weighed(column, row, at):
     """What a sampler makes of the four texels `at(i, j)` around places, each weighed by how near it is."""
     i, j = np.floor(column - 0.5), np.floor(row - 0.5)
@@ -162,6 +187,12 @@ def bilinear(layer, positions, texels):
     rows, columns = texels.shape
     at = lambda i, j: texels[np.clip(j, 0, rows - 1).astype(int), np.clip(i, 0, columns - 1).astype(int)]
     return _weighed(np.where(inside, column, 0), np.where(inside, row, 0), at), inside
+
+
+def averages(layer, positions, which):
+    """(what a linear sampler reads of a map of moments [n, channels], whether the layer holds each place)."""
+    channels = [bilinear(layer, positions, layer.averages[which][..., k]) for k in range(layer.content.channels)]
+    return np.stack([values for values, _ in channels], -1), channels[0][1]
 
 
 def nearest(layer, positions, texels):
@@ -224,18 +255,19 @@ def exponent(margins_read, visibility):
     return Exponent(float((x @ y) / (x @ x)), correlation) if correlation > 0.8 else None
 
 
-def filter_radius(layer, positions, widest=8):
+def filter_radius(layer, positions, bias=None, widest=8):
     """How far from its own texel a partly lit place must read to find both answers: texels, the 99th hundredth of the places;
-    None where most find none within `widest`."""
+    None where most find none within `widest`. `bias` of each place, in place of the layer's constant."""
     column, row, depth, inside = texel_places(layer, positions)
     rows, columns = layer.texels.shape
     inside &= (column > widest) & (row > widest) & (column < columns - widest - 1) & (row < rows - widest - 1)
     column, row, depth = column[inside].astype(int)[:20000], row[inside].astype(int)[:20000], depth[inside][:20000]
+    bias = layer.constant if bias is None else bias[inside][:20000]
     if not len(column):
         return None
     def lit(rows_, columns_):
         stored = layer.texels[rows_, columns_]
-        return (depth - stored if layer.state.reversed else stored - depth) + layer.constant >= 0
+        return (depth - stored if layer.state.reversed else stored - depth) + bias >= 0
 
     own = lit(row, column)
     needed = np.full(len(column), widest + 1)

@@ -144,8 +144,8 @@ def _key(place, mesh):
     return mesh.source if place is None else place
 
 
-def find(frame, view, layers, pixels):
-    """Meshes with a mask: places of the camera's, sources of casters that it does not draw."""
+def find(frame, view, layers, pixels, silent=()):
+    """Meshes with a mask, without those that cast nothing anyway: places of the camera's, sources of casters that it does not draw."""
     distance = np.where(pixels.drawn, -pixels.positions[..., 2], np.inf)
     found = set()
     for layer in layers:
@@ -157,7 +157,7 @@ def find(frame, view, layers, pixels):
             if key not in found and can_discard(frame, mesh.event) and _has_holes(in_map(layer, mesh.clip), mesh.corners, shown, shift):
                 found.add(key)
     for k, (mesh, points) in enumerate(zip(view.meshes, view.positions)):
-        if k not in found and can_discard(frame, mesh.event):
+        if k not in found and k not in silent and can_discard(frame, mesh.event):
             places = in_picture(view.lens, points, distance.shape)
             if _has_holes(places, mesh.corners, distance, TOLERANCE * np.nan_to_num(places[:, 2]).max()):
                 found.add(k)
@@ -199,7 +199,7 @@ def shadowed_by(layers, masked, pixels, reach):
 
 def leave_out(frame, found, layers, pixels):
     """Takes meshes with a mask out of the scene, and pixels that show them or lie in their shadow; returns find()'s."""
-    masked = find(frame, found.view, layers, pixels)
+    masked = find(frame, found.view, layers, pixels, found.roles.silent)
     if not masked:
         return masked
     found.roles.silent |= {k: "has an alpha mask: what of it casts is not told" for k in masked if isinstance(k, int)}

@@ -3,7 +3,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import lookup, visibility
+from . import lookup, moments, visibility
 from .errors import FrameError
 
 
@@ -20,6 +20,8 @@ class Pixels:
     asked: np.ndarray
     told: np.ndarray | None = None  # whether the map decides the light there: replays with it empty and full differ
     depth: np.ndarray | None = None  # the camera's
+    is_read_otherwise: bool = False  # whether both were exchanged, because that fits a filter better
+    otherwise: np.ndarray | None = None  # the visibility where the picture is encoded otherwise than is taken; None where it says how
     hidden: np.ndarray | None = None  # pixels that show meshes that are not in the scene
 
 
@@ -36,8 +38,13 @@ def positions_of(depth, view):
 
 
 def _cut(layer, picture):
+    return _cut_all(layer, picture)[..., 0]
+
+
+def _cut_all(layer, picture):
+    """The same with all channels."""
     x, y, width, height = (int(round(v)) for v in layer.state.viewport)
-    return picture[y:y + height, x:x + width, 0]
+    return picture[y:y + height, x:x + width]
 
 
 def _flip(picture, view):
@@ -45,23 +52,32 @@ def _flip(picture, view):
     return picture[::-1] if clip.bottom_row_first == clip.y_up else picture
 
 
-def measure(frame, found, layers, encoding, others):
-    """(pixels of one light, the exponential map's factor or None): three replays. `others`: layers of other lights. `encoding`: "srgb",
+def measure(frame, found, layers, encoding, others, numbers):
+    """(pixels of one light, the exponential map's factor or None, a map of moments' Fit or None): three replays. `numbers`: the reader's. `others`: layers of other lights. `encoding`: "srgb",
     "linear", or "auto", which takes 8-bit pictures for sRGB unless an exponential map fits better without."""
     if frame.textures[found.passes.picture].samples > 1:
         raise FrameError("the picture has several samples a pixel: record a frame without MSAA")
     drawn = visibility.take_pictures(frame, found.passes, sorted({layer.state.slice for layer in layers}))
     for layer in layers:
         layer.texels, layer.read = (_cut(layer, maps[layer.state.slice]) for maps in (drawn.maps, drawn.read))
+        layer.content = _content(frame, found, layer, drawn) if layer.is_colour and layer.matrix is not None else None
     empty, full = visibility.replay(frame, found.passes, layers, found.view.lens, drawn, others)
     positions, is_drawn = positions_of(drawn.depth, found.view)
+    for layer in layers:
+        if layer.content and layer.content.kind != "depths":
+            order = list(layer.content.order[:layer.content.channels])
+            layer.averages = {name: _cut_all(layer, one.read[layer.state.slice])[..., order]
+                              for name, one in (("drawn", drawn), ("empty", empty), ("full", full))}
     unsaid = visibility.does_not_say(frame, found.passes)
     tried = []
     for encoded in ([False] if not unsaid or encoding == "linear" else [True] if encoding == "srgb" else [True, False]):
         seen = visibility.work_out(drawn, empty, full, encoded)
-        pixels = Pixels(positions, is_drawn, _flip(seen.values, found.view).copy(), _flip(seen.asked, found.view) & is_drawn, seen.asked, drawn.depth)
-        tried.append((seen, pixels, _exponent(layers, pixels)))
-    seen, pixels, exponent = max(tried, key=lambda one: one[2].correlation if one[2] else 0)
+        pixels = Pixels(positions, is_drawn, _flip(seen.values, found.view).copy(), _flip(seen.asked, found.view) & is_drawn, seen.asked,
+                        drawn.depth)
+        tried.append((seen, pixels, _exponent(layers, pixels), _moments(layers, pixels, numbers.all)))
+    seen, pixels, exponent, fitted = max(tried, key=lambda one: (-one[3].off if one[3] else -1, one[2].correlation if one[2] else 0))
+    if len(tried) > 1:
+        pixels.otherwise = next(one[1].visibility for one in tried if one[1] is not pixels)
     for layer in layers:
         layer.covered = _cut(layer, seen.full_map[layer.state.slice]) == (1.0 if layer.state.reversed else 0.0)
         layer.old = _of_earlier_frames(_cut(layer, empty.maps[layer.state.slice]), frame.textures[found.passes.texture].is_depth, layer.state.reversed)
@@ -76,7 +92,9 @@ def measure(frame, found, layers, encoding, others):
     if seen.darkest > 0.01:
         found.notes.append(f"full shadow leaves {100 * seen.darkest:.0f} % of the lit picture: ambient light, other lights, a fade with the "
                            f"distance, or a strength of {1 - seen.darkest:.2f}; it is taken out")
-    return pixels, exponent
+    if fitted:
+        _light_of_moments(layers, pixels, fitted)
+    return pixels, exponent, fitted
 
 
 def is_same_picture(found, pixels, other, others):
@@ -114,11 +132,70 @@ def _leave_out_earlier_frames(found, layers, pixels):
     found.notes.append(f"{why}; {int(lost.sum())} pixels that look them up are not compared")
 
 
+def _content(frame, found, layer, drawn):
+    """What a colour map's texels hold, told by the depths that were drawn beside them."""
+    depths = drawn.depths.get(layer.state.slice)
+    texels = drawn.maps[layer.state.slice]
+    if depths is None or depths.shape != texels.shape[:2]:
+        return None
+    x, texels = _cut(layer, depths[..., None]), _cut_all(layer, texels)
+    held = (x > 0) & (x < 1)
+    bits = frame.textures[found.passes.texture].format.lstrip("R")[:2]
+    return moments.find_content(texels[held], _bases(layer, x, held), bits)
+
+
+def _bases(layer, depths, held):
+    """{what a texel's number may rise with: its value} of the texels that are held."""
+    out = {"depth": depths[held]}
+    if layer.place.apex is None:
+        return out
+    rows, columns = np.nonzero(held)
+    x, y = (columns + 0.5) / held.shape[1] * 2 - 1, (rows + 0.5) / held.shape[0] * 2 - 1
+    back = np.linalg.inv(np.array([*layer.light.matrix[:2], layer.stored_row, layer.light.matrix[3]]))
+    places = np.c_[x, y if layer.state.conventions.bottom_row_first else -y, depths[held], np.ones(len(x))] @ back.T
+    off = places[:, :3] / places[:, 3:] - layer.place.apex
+    return {**out, "distance": np.linalg.norm(off, axis=1), "axis": off @ layer.place.direction}
+
+
+def _moments(layers, pixels, numbers):
+    """The Fit of a map of moments, of the first layer that holds each place; None of other maps."""
+    if not all(layer.averages for layer in layers):
+        return None
+    places, left = pixels.positions[pixels.asked], np.ones(int(pixels.asked.sum()), bool)
+    parts = []
+    for layer in layers:
+        _, _, x, inside = lookup.texel_places(layer, places)
+        mine = np.flatnonzero(inside & left)[::max(1, len(places) // 40000)]
+        left &= ~inside
+        parts.append([*(lookup.averages(layer, places[mine], which)[0] for which in ("drawn", "empty", "full")), x[mine],
+                      pixels.visibility[pixels.asked][mine]])
+    return moments.fit(layers[0].content, *(np.concatenate(one) for one in zip(*parts)), numbers)
+
+
+def _light_of_moments(layers, pixels, fitted):
+    """Puts back what the replays leave: an empty map that is not all lit, a full one that is not all dark."""
+    places, values = pixels.positions[pixels.asked], pixels.visibility[pixels.asked]
+    left, told = np.ones(len(places), bool), np.ones(len(places), bool)
+    for layer in layers:
+        _, _, x, inside = lookup.texel_places(layer, places)
+        mine = inside & left
+        left &= ~inside
+        lit, dark = (fitted.light(lookup.averages(layer, places[mine], which)[0], x[mine]) for which in ("empty", "full"))
+        values[mine] = values[mine] * (lit - dark) + dark
+        told[mine] = lit - dark > visibility.DIM
+    pixels.visibility[pixels.asked] = values
+    pixels.asked[pixels.asked] = told
+
+
 def _exponent(layers, pixels):
-    if len(layers) > 1 or layers[0].matrix is None or np.array_equal(layers[0].texels, layers[0].read):
+    if len(layers) > 1 or layers[0].matrix is None or layers[0].averages or np.array_equal(layers[0].texels, layers[0].read):
         return None
     blurred = replace(layers[0], texels=layers[0].read)
     return lookup.exponent(lookup.margins(blurred, pixels.positions[pixels.asked]).values, pixels.visibility[pixels.asked])
+
+
+def _readings(pixels):
+    return [pixels.visibility] if pixels.otherwise is None else [pixels.visibility, pixels.otherwise]
 
 
 def _light_between_casters(pixels, layers):
@@ -131,7 +208,8 @@ def _light_between_casters(pixels, layers):
     for layer in layers:
         at, inside = lookup.bilinear(layer, places, layer.covered.astype(float))
         share, held = np.maximum(share, np.where(inside, at, 0)), held | inside
-    pixels.visibility[asked] = 1 - np.where(held, share, 1) * (1 - pixels.visibility[asked])
+    for values in _readings(pixels):
+        values[asked] = 1 - np.where(held, share, 1) * (1 - values[asked])
 
 
 def _light_beside_casters(pixels, layers):
@@ -144,7 +222,8 @@ def _light_beside_casters(pixels, layers):
         dark |= inside & at
     lit = unknown.copy()
     lit[unknown] = ~dark
-    pixels.visibility[lit] = 1
+    for values in _readings(pixels):
+        values[lit] = 1
     pixels.asked |= lit
 
 

@@ -20,6 +20,35 @@ def light_line(number, frame, found, layers):
             f"from {x:.0f}, {y:.0f}), {casters} draws of casters, read by {len(found.passes.readers)} draws from event {found.passes.readers[0].event} on")
 
 
+def _form(form):
+    """What is said of the reader's bias and of how it reads."""
+    out = []
+    limits = [f"at least {form.low:.3g}" if form.low is not None else "", f"at most {form.high:.3g}" if form.high is not None else ""]
+    limits = "".join(", " + one for one in limits if one)
+    if form.angle != "none":
+        out.append(f"the reader's test lets {form.constant:.3g} times the {form.angle.replace('_', ' ')} of the angle between normal and light pass, "
+                   f"of stored depth{limits}")
+    elif form.constant:
+        out.append(f"the reader's test lets {form.constant:.3g} of stored depth pass")
+    if form.offset:
+        times = "" if form.offset_angle == "none" else f" times the {form.offset_angle.replace('_', ' ')} of the angle to the light"
+        out.append(f"places are moved {form.offset:.3g} world units{times} along their normals")
+    if form.linear:
+        out.append("the sampler interpolates depths before they are compared")
+    how = "found from the picture" if form.known else ("found from the picture alone: no constant of the frame is that number, so that the bias may "
+                                                       "be of another form")
+    return [f"{one} ({how})" for one in out[:1]] + out[1:]
+
+
+def _moments(fitted):
+    content = fitted.content
+    said = [f"minimum variance {fitted.variance:.3g}" if fitted.variance else "", f"light bleeding reduction {fitted.reduction:.3g}" if fitted.reduction else "",
+            f"bias {fitted.constant:.3g}" if fitted.constant else ""]
+    of = f" with the exponents {', '.join(f'{one:.3g}' for one in content.exponents)}" if content.exponents else ""
+    return (f"the map's texels are those of {content.kind}{of}; its formula gives the picture to {fitted.off:.3f}, root of the mean square"
+            + "".join(", " + one for one in said if one))
+
+
 def findings(frame, found, layers, test):
     """Sentences, the most important first."""
     lens = found.view.lens
@@ -32,7 +61,9 @@ def findings(frame, found, layers, test):
         if layer.has_caster_bias:
             out.append(f"{which}casters are drawn {layer.shift.world:.4f} world units away from the light ({how}; residual "
                        f"{layer.shift.residual:.1e})")
-        if layer.constant:
+        if test.form:
+            out += _form(test.form)
+        elif layer.constant and not test.fitted:
             out.append(f"{which}the reader's test lets {layer.constant:.3g} of stored depth pass (found from the picture)")
         offset = polygon_offset(layer, texture)
         if offset:
@@ -40,7 +71,9 @@ def findings(frame, found, layers, test):
             out.append(f"{which}the rasterizer's depth bias moves casters by {offset['constant']:.3g} of stored depth and {offset['slope']:g} slopes"
                        + unsaid)
     one = layers[0]
-    if one.matrix is None:
+    if test.unread:
+        out.append(f"map: {test.unread}; the verdict says where the shadow is wrong and not why")
+    elif one.matrix is None:
         kind = (f"distances from a point, up to {one.distance.range:.4g} world units, which are no paraboloid's" if one.distance else
                 "a cube that is read by way of a copy, or of which faces were not drawn")
         out.append(f"map: {kind}; no capture can say how such a map is looked up, so that the verdict says where the shadow is wrong and not why")
@@ -59,11 +92,13 @@ def findings(frame, found, layers, test):
         limits = ", ".join(f"{limit:.4g}" for limit in test.selection.limits)
         blends = ", ".join(f"{blend:.4g}" for blend in test.selection.blends)
         out.append(f"cascades end at {limits} world units ({test.selection.by})" + (f" and blend over {blends} before" if blends else ""))
+    if test.fitted:
+        out.append(_moments(test.fitted))
     if test.exponent:
         out.append(f"an exponential map of the factor {test.exponent.factor:.3g} (correlation {test.exponent.correlation:.4f}) of depths that are "
                    "blurred after the casters are drawn")
     if test.radius:
         out.append(f"a filter reads {test.radius:g} texels around ({100 * test.partly_lit:.1f} % of the pixels are partly lit)")
     if test.agreement is not None:
-        out.append(f"the test as found decides {100 * test.agreement:.2f} % of the pixels as the picture has them")
+        out.append(f"the test as found decides {100 * test.agreement:.2f} % of the pixels within the map as the picture has them")
     return out + found.notes

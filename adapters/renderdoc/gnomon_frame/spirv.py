@@ -119,3 +119,8 @@ def float_constants(code):
     """The 32-bit floats that a module declares."""
     floats = {words[0] for op, words in _instructions(code) if op == 22 and words[1] == 32}
     return [struct.unpack("<f", struct.pack("<I", words[2]))[0] for op, words in _instructions(code) if op == 43 and words[0] in floats]
+
+
+def has_tangent(code):
+    """Whether a module asks GLSL.std.450 for a tangent."""
+    return any(op == 12 and words[3] == 15 for op, words in _instructions(code))

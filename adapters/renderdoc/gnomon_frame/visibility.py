@@ -2,7 +2,7 @@
 
 visibility = (drawn - full) / (empty - full). It is linear, so ambient light, other lights and a shadow's strength cancel.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -79,6 +79,7 @@ class Pictures:
     depth: np.ndarray
     maps: dict  # slice -> texels
     read: dict  # slice -> texels as the readers found them
+    depths: dict = field(default_factory=dict)  # slice -> the depths that were drawn beside a colour map's texels
 
     def linear(self, encoded):
         return formats.linear(self.colour) if encoded else self.colour
@@ -87,9 +88,11 @@ class Pictures:
 def take_pictures(frame, passes, slices):
     frame.go_to(passes.writers[-1].event, again=True)
     maps = {s: frame.picture(passes.texture, s) for s in slices}
+    beside = passes.writers[-1].depth
+    depths = {s: frame.picture(beside, s)[..., 0] for s in slices if beside and beside != passes.texture and s < frame.textures[beside].slices}
     frame.go_to(passes.readers[-1].event, again=True)
     read = {s: frame.picture(passes.texture, s) for s in slices}
-    return Pictures(frame.picture(passes.picture)[..., :3], frame.picture(passes.camera_depth)[..., 0], maps, read)
+    return Pictures(frame.picture(passes.picture)[..., :3], frame.picture(passes.camera_depth)[..., 0], maps, read, depths)
 
 
 def does_not_say(frame, passes):

@@ -1,0 +1,240 @@
+"""How a frame's test reads and biases its map, by adapters/renderdoc: forms of the bias, encodings, moments, numbers of shaders.
+/usr/bin/python3 renderdoc_forms_test.py FOLDER_OF_THE_ADAPTER"""
+import unittest
+
+from renderdoc_scenes import *  # noqa: F403
+from gnomon_frame import decision, forms, literals, moments  # noqa: E402
+
+SIZE, REACH = 96, 4.0
+SUN = fit.LightPlace(np.array([0.3, -0.2, -1.0]) / np.linalg.norm([0.3, -0.2, -1.0]), None)
+SIDE = 1280
+
+
+def light_matrix():
+    """Of a sun: z/w from 0 to 1 over 2 * REACH world units, texels a 12th of a world unit wide."""
+    z = SUN.direction
+    x = np.cross([0.0, 1.0, 0.0], z) / np.linalg.norm(np.cross([0.0, 1.0, 0.0], z))
+    m = np.eye(4)
+    m[0, :3], m[1, :3], m[2, :3], m[2, 3] = x / REACH, np.cross(z, x) / REACH, z / (2 * REACH), 0.5
+    return m
+
+
+def height(x, y):
+    """Waves, a terrain of any steepness, below a slab over a quarter of it."""
+    return 0.5 * np.sin(2.2 * x) * np.cos(1.7 * y)
+
+
+def terrain():
+    """(places and normals of pixels that look straight down on the terrain, [rows, columns])."""
+    x, y = np.meshgrid(np.linspace(-2.6, 2.6, 180), np.linspace(-2.6, 2.6, 180))
+    n = np.stack([-1.1 * np.cos(2.2 * x) * np.cos(1.7 * y), -0.85 * np.sin(2.2 * x) * np.sin(1.7 * y), np.ones_like(x)], -1)
+    return np.stack([x, -y, height(x, -y) - 6], -1), n / np.linalg.norm(n, axis=-1, keepdims=True)
+
+
+def stored_depths():
+    """The map: the terrain and the slab as the sun sees them, at the points that lie nearest to texels' centres."""
+    x, y = np.meshgrid(np.linspace(-4, 4, SIDE), np.linspace(-4, 4, SIDE))
+    out = np.ones((SIZE, SIZE))
+    for z, kept in ((height(x, y), np.ones(x.shape, bool)), (np.full(x.shape, 1.2), (x > -0.5) & (x < 0.8) & (y > -0.5) & (y < 1.0))):
+        clip = np.stack([x, y, z, np.ones_like(x)], -1)[kept] @ light_matrix().T
+        place = (clip[:, :2] * 0.5 + 0.5) * SIZE
+        nearest = np.argsort(-np.abs(place % 1 - 0.5).sum(1))  # of several that are assigned to one the last stays
+        i, j = place[nearest].astype(int).T
+        inside = (place[nearest] >= 0).all(1) & (i < SIZE) & (j < SIZE)
+        mine = np.ones((SIZE, SIZE))
+        mine[j[inside], i[inside]] = clip[nearest][inside, 2]
+        out = np.minimum(out, mine)
+    return out
+
+
+TEXELS = stored_depths()
+PLACES, NORMALS = terrain()
+MATRIX = light_matrix() @ shifted(0, 0, 6)
+
+
+def layer(texels=TEXELS, **more):
+    kept = {"matrix": MATRIX, "texels": texels, "read": texels, "half": None, "content": None, "place": SUN, "constant": 0.0, "is_blurred": False, "averages": {}}
+    return SimpleNamespace(state=pipeline(), **{**kept, **more})
+
+
+def numbers(given=(), alone=(), factors=(), has_tangent=False):
+    return literals.Numbers(tuple(given), tuple(alone), tuple(factors), has_tangent)
+
+
+def drawn_with(form, one=None):
+    """What a shader with this form makes of the terrain's pixels: 1 lit, 0 shadowed."""
+    one = one or layer()
+    places, normals = PLACES.reshape(-1, 3), NORMALS.reshape(-1, 3)
+    cosine = forms.cosines(SUN, places, normals)
+    search = SimpleNamespace(layer=one, places=places, normals=normals, cosine=cosine)
+    values, _ = forms.Search.margins(search, form)
+    return values + form.bias(cosine) >= 0
+
+
+class Forms(unittest.TestCase):
+    def found(self, form, own, linear=False):
+        lit = drawn_with(form)
+        seen = forms.normals(PLACES, np.ones(PLACES.shape[:2], bool)).reshape(-1, 3)
+        return forms.find(layer(), PLACES.reshape(-1, 3), seen, lit, own, linear)[0]
+
+    def test_normals_are_those_of_the_surface(self):
+        seen = forms.normals(PLACES, np.ones(PLACES.shape[:2], bool))
+        self.assertLess(np.degrees(np.arccos(np.clip((seen * NORMALS).sum(-1), -1, 1))).mean(), 2)
+
+    def test_a_constant_that_the_shader_is_given_stays_one(self):
+        found = self.found(forms.Form(0.012), numbers([0.7, 0.012, 0.03], [0.5], [0.02]))
+        self.assertEqual((found.said(), found.known), ({"constant_depth": 0.012}, True))
+
+    def test_a_bias_by_angle_is_told_from_a_constant(self):
+        drawn_ = forms.Form(0.04, "one_minus_cosine", low=0.002)
+        found = self.found(drawn_, numbers([1.5], [0.002, 0.5], [0.04, 0.3]))
+        self.assertEqual(found.said(), {"constant_depth": 0.04, "angle": "one_minus_cosine", "min": 0.002})
+        drawn_ = forms.Form(0.01, "tangent", high=0.02)
+        found = self.found(drawn_, numbers([1.5], [0.02, 0.5], [0.01, 0.3], True))
+        self.assertEqual(found.said(), {"constant_depth": 0.01, "angle": "tangent", "max": 0.02})
+
+    def test_a_place_moved_along_its_normal_is_told_from_a_constant(self):
+        for angle in ("none", "sine"):
+            found = self.found(forms.Form(offset=0.15, offset_angle=angle), numbers([0.15, 2.5]))
+            self.assertEqual((found.offset, found.offset_angle, found.is_constant), (0.15, angle, False))
+
+    def test_a_sampler_that_interpolates_is_told(self):
+        found = self.found(forms.Form(0.004, linear=True), numbers([0.004]), True)
+        self.assertEqual((found.linear, found.said()), (True, {"constant_depth": 0.004}))
+        self.assertFalse(self.found(forms.Form(0.012), numbers([0.012]), True).linear)
+
+    def test_a_number_that_the_frame_has_not_is_said_to_be_none_of_it(self):
+        found = self.found(forms.Form(0.0137), numbers([0.5, 3.0]))
+        self.assertFalse(found.known)
+        self.assertIn("no constant of the frame is that number", report._form(found)[0])
+        self.assertNotIn("no constant", report._form(forms.Form(0.1, known=True))[0])
+
+
+class Filters(unittest.TestCase):
+    def seen(self, values, otherwise=None):
+        asked = np.ones(values.shape, bool)
+        return SimpleNamespace(visibility=values, otherwise=otherwise, asked=asked, is_read_otherwise=False)
+
+    def test_partly_lit_pixels_tell_form_and_reach(self):
+        places, normals = PLACES.reshape(-1, 3), NORMALS.reshape(-1, 3)
+        cosine = forms.cosines(SUN, places, normals)
+        right, other = forms.Form(0.012, known=True), forms.Form(0.024, "sine", known=True)
+        for reach, bilinear, radius in ((1, False, 1.5), (2, False, 2.5), (0, True, 1.0)):
+            values = lookup.filtered(layer(), places, right.bias(cosine), reach, bilinear)
+            partly = (values > 0.02) & (values < 0.98)
+            self.assertEqual(decision._by_filter(layer(), [other, right], places, normals, self.seen(values), partly, bilinear), (right, radius))
+
+    def test_their_averages_tell_how_the_picture_is_encoded(self):
+        places, normals = PLACES.reshape(-1, 3), NORMALS.reshape(-1, 3)
+        right = forms.Form(0.012, known=True)
+        values = lookup.filtered(layer(), places, right.bias(forms.cosines(SUN, places, normals)), 1, False)
+        bent = formats.linear(values)
+        partly = (values > 0.02) & (values < 0.98)
+        for first, second, exchanged in ((bent, values, True), (values, bent, False)):
+            seen = self.seen(first, second)
+            decision._by_filter(layer(), [right], places, normals, seen, partly, False)
+            self.assertTrue(np.array_equal(seen.visibility, values))
+            self.assertEqual(seen.is_read_otherwise, exchanged)
+
+
+class Moments(unittest.TestCase):
+    X = np.random.default_rng(3).uniform(0.1, 0.9, 4000)
+
+    def of(self, *channels, bases=None, bits="32"):
+        found = moments.find_content(np.stack(channels, -1).astype(np.float32).astype(float), bases or {"depth": self.X}, bits)
+        return found and (found.kind, tuple(round(float(e), 2) for e in found.exponents), found.base)
+
+    def test_texels_are_read_by_the_depths_beside_them(self):
+        x, p, n = self.X, np.exp(5 * (2 * self.X - 1)), -np.exp(-3 * (2 * self.X - 1))
+        self.assertEqual(self.of(x), ("depths", (), "depth"))
+        self.assertEqual(self.of(x, x * x, 0 * x, 0 * x + 1), ("vsm", (), "depth"))
+        self.assertEqual(self.of(x, x**2, x**3, x**4), ("msm", (), "depth"))
+        self.assertEqual(self.of(np.exp(20 * x)), ("esm", (20.0,), "depth"))
+        self.assertEqual(self.of(p, p * p), ("evsm", (5.0,), "depth"))
+        self.assertEqual(self.of(p, p * p, n, n * n), ("evsm", (5.0, 3.0), "depth"))
+        self.assertEqual(self.of(p, n, p * p, n * n), ("evsm", (5.0, 3.0), "depth"))
+        self.assertIsNone(self.of(np.sin(9 * x)))
+        self.assertIsNone(self.of(x[:10], bases={"depth": x[:10]}))
+
+    def test_distances_have_a_range(self):
+        far = 3 + 20 * self.X**2
+        bases = {"depth": self.X, "distance": far}
+        self.assertEqual(self.of(far, bases=bases), ("depths", (), "distance"))
+        found = moments.find_content(((far - 1) / 29)[:, None], bases, "32")
+        np.testing.assert_allclose(found.range, (1, 30), atol=1e-3)
+        self.assertEqual(moments.find_content(far[:, None], bases, "32").range, (0.0, 1.0))
+
+    def fitted(self, content, variance, reduction, numbers_=(), bent=lambda v: v):
+        random = np.random.default_rng(5)
+        mean = random.uniform(0.2, 0.8, 5000)
+        second = mean + random.uniform(-0.2, 0.2, 5000) * (random.random(5000) < 0.3)
+        warp = {"vsm": lambda v: v, "evsm": lambda v: np.exp(content.exponents[0] * (2 * v - 1)) if content.exponents else v}[content.kind]
+        a, b = warp(mean), warp(second)
+        drawn_ = np.stack([0.5 * (a + b), 0.5 * (a * a + b * b)], -1)
+        x = np.clip(0.5 * (mean + second) + random.uniform(-0.1, 0.1, 5000), 0, 1)
+        empty = np.tile([warp(np.array([1.0]))[0], warp(np.array([1.0]))[0] ** 2], (5000, 1))
+        full = np.zeros((5000, 2))
+        light = [moments.light(content, one, x, variance, reduction) for one in (drawn_, empty, full)]
+        picture = (light[0] - light[2]) / (light[1] - light[2])
+        return moments.fit(content, drawn_, empty, full, x, bent(picture), numbers_)
+
+    def test_constants_of_the_formula_are_found(self):
+        found = self.fitted(moments.Content(kind="vsm"), 2e-5, 0.3, (2e-5, 0.3))
+        self.assertEqual((found.variance, found.reduction, found.is_believed), (2e-5, 0.3, True))
+        self.assertLess(found.off, 1e-3)
+        self.assertTrue(self.fitted(moments.Content(kind="evsm", exponents=(5.0,)), 1e-3, 0.0).is_believed)
+
+    def test_a_formula_that_does_not_give_the_picture_is_not_believed(self):
+        found = self.fitted(moments.Content(kind="vsm"), 1e-4, 0.0, bent=lambda v: 1 - v)
+        self.assertFalse(found.is_believed)
+        one = layer(is_colour=True)
+        test = decision.Test(lookup.Selection("first", (), 0.0), 1.0, 1.0, 0.0, None, None, found)
+        decision.believe(SimpleNamespace(), [one], test)
+        self.assertIsNone(one.matrix)
+        self.assertIn("no constants of that give the picture", test.unread)
+
+    def test_a_test_that_decides_otherwise_than_the_picture_is_not_believed(self):
+        for agreement, kept in ((0.9, False), (0.99, True)):
+            one = layer(is_colour=False)
+            decision.believe(SimpleNamespace(), [one], decision.Test(lookup.Selection("first", (), 0.0), agreement, 1.0, 0.0, None, None))
+            self.assertEqual(one.matrix is not None, kept)
+
+    def test_are_said_in_a_captures_words(self):
+        fitted = moments.Fit(moments.Content(kind="evsm", exponents=(5.0,)), 1e-3, 0.2)
+        test = SimpleNamespace(fitted=fitted, radius=1.5)
+        self.assertEqual(capture._filter([], test), {"kind": "evsm", "read": "moments", "radius_texels": 1.5, "exponents": [5.0], "minimum_variance": 1e-3,
+                                                     "light_bleeding_reduction": 0.2})
+        of_distances = layer(content=moments.Content("distance", (1.0, 30.0)))
+        word, matrix, reach = capture._convention(of_distances)
+        self.assertEqual((word, reach), ("distance", [1.0, 30.0]))
+        np.testing.assert_allclose(matrix[2], 2 * MATRIX[2] - MATRIX[3])
+
+
+class Literals(unittest.TestCase):
+    def test_numbers_of_a_text_are_those_that_it_uses(self):
+        text = """#version 450
+#define SCALE 0.2
+#ifdef ANOTHER
+float b = 0.77;
+#elif defined(SCALE) && !defined(MORE)
+float b = max(0.05*SCALE*(1.-c), 0.005 * SCALE); // 0.66
+#else
+float b = 0.55;
+#endif
+/* 0.44 */ float v = 2e-5, d = x3 * 0.25;"""
+        found = literals.of_glsl(text)
+        for value in (0.01, 0.25):
+            self.assertTrue(any(abs(value - n) < 1e-12 for n in found.factors), value)
+        for value in (0.001, 2e-5):
+            self.assertTrue(any(abs(value - n) < 1e-12 for n in found.alone), value)
+        self.assertFalse({0.77, 0.66, 0.55, 0.44, 0.05, 0.2, 450.0, 3.0} & set(found.all))
+        self.assertFalse(found.has_tangent)
+        self.assertTrue(literals.of_glsl("b = tan(acos(c));").has_tangent)
+
+    def test_of_another_language_none_is_told(self):
+        self.assertEqual(literals.of_code(b"").all, [])
+        self.assertEqual(literals.of_code(None).all, [])
+
+
+if __name__ == "__main__":
+    unittest.main()
