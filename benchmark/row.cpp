@@ -31,7 +31,8 @@ std::string bench_json(std::span<const BenchRow> rows, const compare::MachineInf
                     {"peer_value", row.peer ? compare::Json(row.peer->value) : nullptr},
                     {"ratio", or_null(row.ratio())},
                     {"goal", or_null(row.goal)},
-                    {"met", or_null(row.met())}});
+                    {"met", or_null(row.met())},
+                    {"exponent", or_null(row.exponent)}});
   }
   compare::Json document{{"schema", "gnomon/bench/1"}, {"machine", compare::machine_json(machine)}};
   if (!target.empty()) document["target"] = target;

@@ -33,6 +33,8 @@ struct BenchRow {
   bool more_is_better = true;
   std::optional<BenchPeer> peer{};
   std::optional<double> goal{};  ///< of the ratio
+  /// The power of what grows by which the value grows from the peer, a smaller one of a series.
+  std::optional<double> exponent{};
 
   /// Above 1: better than the peer; none without a peer, or where it would divide by 0.
   std::optional<double> ratio() const;

@@ -2,6 +2,7 @@
 // drawing of maps and pictures. Private to raster.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <set>
@@ -25,7 +26,7 @@ class GlRenderer final : public Renderer {
         world_(&world),
         programs_(*gl_, features),
         buffers_(std::move(buffers)),
-        map_pass_(*gl_, programs_),
+        slots_{MapSlot{{*gl_, programs_}, {}}, MapSlot{{*gl_, programs_}, {}}},
         shading_(*gl_, programs_),
         light_block_(*gl_),
         external_(*gl_),
@@ -95,7 +96,10 @@ class GlRenderer final : public Renderer {
   /// Before what is kept and not timed: where the frame is timed always, else before the first of its kind.
   Expected<void> warm_up_shading(const Job& job, const ShadePermutation& permutation);
   Expected<void> warm_up_map(const Job& job, const MapJob& map, bool for_records, const Pass& pass);
+  Expected<void> warm_up_camera(const View& view);
   Expected<void> draw_visibility(const View& view);
+  /// Of a frame with records: the drawing is a run of what the camera sees, where none was timed.
+  Expected<void> draw_noted_visibility(const Job& job);
   Expected<void> read_shading(Job& job, const MapJob& map_job, LightRecord& record);
   /// The map of the last frame with records, as long as the device holds it.
   struct KeptMap {
@@ -105,8 +109,21 @@ class GlRenderer final : public Renderer {
     ShadowMap map;
     Times map_pass;
     double first_map_ms;
+    std::optional<double>
+        drawn_ms;  ///< of an untimed frame: what the drawing took, once, from an idle device to an idle one
   };
+  /// The device holds a map of the last frames in one of two: a map that is tried leaves the one before.
+  struct MapSlot {
+    DepthMapPass pass;
+    std::optional<KeptMap> kept;
+  };
+  bool holds(const MapSlot& slot, const Job& job, const Light& light, const LightView& view) const;
+  /// Turns to the slot that holds the map, else to one that is free for it.
+  void choose_slot(const Job& job, const Light& light, const LightView& view);
   bool reuse_kept_map(const Job& job, const Light& light, LightRecord& record) const;
+  /// Of a frame that times what an untimed one drew: the drawing of the kept map is the first run. Whether no further one is
+  /// wanted.
+  bool begin_with_kept_run(const Job& job, const Light& light, LightRecord& record) const;
   /// What the light took in the last picture alone that was to be kept (RasterOptions::keep_time).
   struct KeptTime {
     RasterOptions options;
@@ -136,7 +153,8 @@ class GlRenderer final : public Renderer {
   ContextInfo info_;
   ProgramCache programs_;
   WorldBuffers buffers_;
-  DepthMapPass map_pass_;
+  std::array<MapSlot, 2> slots_;
+  MapSlot* slot_ = slots_.data();  ///< of the last map
   ShadingPass shading_;
   Buffer light_block_;
   std::unique_ptr<TechniquePass> technique_pass_;
@@ -147,7 +165,6 @@ class GlRenderer final : public Renderer {
   std::optional<PictureRows> rows_;
   std::map<std::uint32_t, LightView> fitted_;  ///< by light, to what the whole of a picture in bands shows
   double upload_ms_;
-  std::optional<KeptMap> kept_map_;
   std::optional<KeptTime> kept_time_;
   /// What was drawn before and is kept, not timed: the driver has it ready.
   bool warm_camera_ = false;
@@ -164,10 +181,11 @@ struct GlRenderer::Job {
   bool visibility_drawn = false;
   bool first_light = true;
   std::optional<Image<float>>
-      timed_visibility{};         ///< RasterOptions::timed_as_judged: of the light's first timed run
-  bool timed_alike = true;        ///< so far every timed run drew the same
-  std::uint32_t light_index = 0;  ///< whose turn it is
-  Stopwatch map_started{};        ///< since the memory of the light's map was asked for
+      timed_visibility{};                ///< RasterOptions::timed_as_judged: of the light's first timed run
+  bool timed_alike = true;               ///< so far every timed run drew the same
+  std::uint32_t light_index = 0;         ///< whose turn it is
+  Stopwatch map_started{};               ///< since the memory of the light's map was asked for
+  std::optional<double> map_drawn_ms{};  ///< KeptMap::drawn_ms of the light's map
 };
 
 /// Charges what is read back from the device to its stage and to the frame.

@@ -117,28 +117,64 @@ MapOptions drawn_by(MapOptions map) {
   return map;
 }
 
+// What follows the camera seldom serves the next frame: its depths are not copied for that.
+bool keeps_depths(const RasterOptions& options) {
+  return hands_on_map(options) && !follows_camera(options.map.technique);
+}
+
 // Who asks for times alone gets new ones.
 bool may_take_map(const RasterOptions& options, const RasterOptions& kept) {
   const bool for_times = !options.analysis && options.runs > 0;
   return !for_times && (hands_on_map(kept) || !hands_on_map(options));
 }
 
-// Where one light has the maps for itself. One that follows the camera seldom serves the next frame: its depths are not copied
-// for that.
-bool outlasts_frame(const RasterOptions& options, std::size_t lights) {
-  const Technique technique = options.map.technique;
-  return lights == 1 && compares_depths(technique) && !(follows_camera(technique) && hands_on_map(options));
+// Where one light has the maps for itself.
+bool outlasts_frame(Technique technique, std::size_t lights) {
+  return lights == 1 && compares_depths(technique);
 }
+
+// Two large maps are more than a device may have room for.
+constexpr double most_texels_beside = 4096.0 * 4096.0;
 
 }  // namespace
 
+bool GlRenderer::holds(const MapSlot& slot, const Job& job, const Light& light, const LightView& view) const {
+  if (!slot.kept) return false;
+  const KeptMap& kept = *slot.kept;
+  const MapOptions& map = job.options.map;
+  if (kept.options.map != drawn_by(map) || kept.light != light) return false;
+  if (kept.reference != buffers_.reference()) return false;  // its depths were rounded from another point
+  if (!same_window(kept.map.view, view)) return false;       // fitted to another camera
+  // What a technique makes of its map is there of the last one alone.
+  return traits_of(map.technique).drawing->make_pass == nullptr ||
+         (&slot == slot_ && technique_ == map.technique);
+}
+
+void GlRenderer::choose_slot(const Job& job, const Light& light, const LightView& view) {
+  for (MapSlot& slot : slots_)
+    if (holds(slot, job, light, view)) {
+      slot_ = &slot;
+      return;
+    }
+  const bool small = static_cast<double>(texels_of(view)) <= most_texels_beside;
+  if (slot_->kept && small && static_cast<double>(texels_of(slot_->kept->map.view)) <= most_texels_beside)
+    slot_ = slot_ == slots_.data() ? &slots_[1] : slots_.data();
+  slot_->kept.reset();
+}
+
+bool GlRenderer::begin_with_kept_run(const Job& job, const Light& light, LightRecord& record) const {
+  const RasterOptions& options = job.options;
+  if (!options.times_alone || !holds(*slot_, job, light, record.map.view)) return false;
+  if (!slot_->kept->drawn_ms) return false;
+  record.map_pass.runs = {*slot_->kept->drawn_ms};
+  return !times_again(record.map_pass, options.runs, options.enough_ms);
+}
+
 bool GlRenderer::reuse_kept_map(const Job& job, const Light& light, LightRecord& record) const {
   const RasterOptions& options = job.options;
-  if (!kept_map_ || !may_take_map(options, kept_map_->options)) return false;
-  const KeptMap& kept = *kept_map_;
-  if (kept.options.map != drawn_by(options.map) || kept.light != light) return false;
-  if (kept.reference != buffers_.reference()) return false;  // its depths were rounded from another point
-  if (!same_window(kept.map.view, record.map.view)) return false;  // fitted to another camera
+  if (!holds(*slot_, job, light, record.map.view) || !may_take_map(options, slot_->kept->options))
+    return false;
+  const KeptMap& kept = *slot_->kept;
   const bool same_times = kept.options.runs == options.runs && kept.options.enough_ms == options.enough_ms;
   if (options.runs > 0 && !same_times) return false;
   if (!options.analysis) return true;
@@ -152,10 +188,16 @@ bool GlRenderer::reuse_kept_map(const Job& job, const Light& light, LightRecord&
 void GlRenderer::keep_map(const Job& job, const Light& light, const LightRecord& record) {
   // A frame whose map was kept would not tell which of the user's shaders drew it.
   if (!gl_->shader_folder().replaced().empty() || !job.options.analysis) return;
-  if (!outlasts_frame(job.options, world_->scene->lights.size())) return;
-  kept_map_ =
-      KeptMap{job.options, light, buffers_.reference(), record.map, record.map_pass, record.first_map_ms};
-  kept_map_->options.map = drawn_by(job.options.map);
+  if (!outlasts_frame(job.options.map.technique, world_->scene->lights.size())) return;
+  KeptMap kept{job.options,         light,           buffers_.reference(), {}, record.map_pass,
+               record.first_map_ms, job.map_drawn_ms};
+  kept.options.map = drawn_by(job.options.map);
+  kept.options.map_contents = keeps_depths(job.options);
+  if (keeps_depths(job.options))
+    kept.map = record.map;
+  else
+    kept.map.view = record.map.view;
+  slot_->kept = std::move(kept);
 }
 
 namespace {
@@ -195,19 +237,23 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
     record->map.format = map.depth_format;
     if (!job.frame.custom_shader) job.frame.custom_shader = custom_shader(gl_->shader_folder(), map, light);
   }
-  const MapJob map_job{buffers_, light,     *view,     map_pass_,
+  choose_slot(job, light, *view);
+  const MapJob map_job{buffers_, light,     *view,     slot_->pass,
                        map,      &job.view, &shading_, caster_bias(map, *view, *world_)};
   const VisibilityRequest request{
       index, *view, job.view, job.options.shadow_samples, job.options.seed, job.options.analysis};
   if (is_external(map.technique)) {
-    kept_map_.reset();
+    slot_->kept.reset();
     if (auto ok = prepare_external(job, request, record); !ok) return ok;
     if (record == nullptr || !hands_on_map(job.options)) return shade(job, map_job, request, record);
   }
   job.map_started = Stopwatch();
   if (auto ok = prepare_maps(job, map_job); !ok) return ok;
-  if (record == nullptr || !reuse_kept_map(job, light, *record)) {
-    kept_map_.reset();
+  job.map_drawn_ms.reset();
+  const bool drawn =
+      record != nullptr && (reuse_kept_map(job, light, *record) || begin_with_kept_run(job, light, *record));
+  if (!drawn) {
+    slot_->kept.reset();
     if (auto ok = time_and_draw_map(job, map_job, record); !ok) return ok;
     if (record != nullptr) keep_map(job, light, *record);
   }
@@ -250,7 +296,8 @@ Expected<void> GlRenderer::use_shaders(const std::string& path) {
   programs_.forget(others);
   technique_pass_.reset();  // which has programs of its own
   technique_ = Technique::hard;
-  kept_map_.reset(), kept_time_.reset();
+  for (MapSlot& slot : slots_) slot.kept.reset();
+  kept_time_.reset();
   warm_camera_ = false, warm_shadings_.clear(), warm_maps_.clear();
   return {};
 }

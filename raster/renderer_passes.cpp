@@ -141,11 +141,11 @@ Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map) {
     const auto make_pass = traits_of(technique_).drawing->make_pass;
     technique_pass_ = make_pass != nullptr ? make_pass(*gl_, programs_) : nullptr;
   }
-  if (auto ok = map_pass_.prepare(map.view, map.options.depth_format); !ok) return ok;
+  if (auto ok = slot_->pass.prepare(map.view, map.options.depth_format); !ok) return ok;
   if (is_external(map.options.technique)) return {};  // drawn for the records alone
   const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
   if (!replaced) job.frame.map_texels += texels_of(map.view);
-  std::uint64_t bytes = replaced ? 0 : map_pass_.bytes();
+  std::uint64_t bytes = replaced ? 0 : slot_->pass.bytes();
   if (technique_pass_ != nullptr) {
     if (auto ok = technique_pass_->prepare(map); !ok) return ok;
     job.frame.map_texels += technique_pass_->texels();
@@ -158,7 +158,7 @@ Expected<void> GlRenderer::prepare_maps(Job& job, const MapJob& map) {
 Expected<void> GlRenderer::draw_map(const MapJob& map, bool for_records) {
   const bool replaced = technique_pass_ != nullptr && technique_pass_->replaces_map();
   if (!replaced || for_records) {
-    if (auto ok = map_pass_.draw(buffers_, map.view, map.options.cull, map.caster_bias); !ok) return ok;
+    if (auto ok = slot_->pass.draw(buffers_, map.view, map.options.cull, map.caster_bias); !ok) return ok;
   }
   return technique_pass_ != nullptr ? technique_pass_->draw(map) : Expected<void>{};
 }
@@ -168,9 +168,9 @@ Expected<void> GlRenderer::draw_map(const MapJob& map, bool for_records) {
 Expected<void> GlRenderer::read_unbiased_map(const MapJob& map, ShadowMap& out) {
   out.unbiased.clear();
   if (!map.caster_bias.moves_casters()) return {};
-  if (auto ok = map_pass_.draw(buffers_, map.view, map.options.cull, {}); !ok) return ok;
-  map_pass_.read(out.unbiased);
-  return map_pass_.draw(buffers_, map.view, map.options.cull, map.caster_bias);
+  if (auto ok = slot_->pass.draw(buffers_, map.view, map.options.cull, {}); !ok) return ok;
+  slot_->pass.read(out.unbiased);
+  return slot_->pass.draw(buffers_, map.view, map.options.cull, map.caster_bias);
 }
 
 Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightRecord* record) {
@@ -197,17 +197,20 @@ Expected<void> GlRenderer::time_and_draw_map(Job& job, const MapJob& map, LightR
   if (!timed || (for_records && draws_map_for_records(map.options.technique))) {
     // What the timed runs left in the technique's pass stays: the map of depths alone is still to be drawn.
     const Pass kept = [&] {
-      return timed ? map_pass_.draw(buffers_, map.view, map.options.cull, map.caster_bias)
+      return timed ? slot_->pass.draw(buffers_, map.view, map.options.cull, map.caster_bias)
                    : draw_map(map, for_records);
     };
     if (auto ok = warm_up_map(job, map, for_records, kept); !ok) return ok;
     const TimedStage drawing("map");
+    const Stopwatch watch;
     if (auto ok = kept(); !ok) return ok;
     (*gl_)->Finish();
+    const bool whole = !draws_map_for_records(map.options.technique) && !fits_to_samples(map.options);
+    if (!timed && whole) job.map_drawn_ms = watch.elapsed_ms();
     if (record != nullptr && !timed) record->first_map_ms = job.map_started.elapsed_ms();
   }
   const ReadBack reading(job.frame);
-  if (for_records) map_pass_.read(record->map.depth);
+  if (for_records) slot_->pass.read(record->map.depth);
   if (for_records && technique_pass_ != nullptr) technique_pass_->read(record->map);
   if (for_records)
     if (auto ok = read_unbiased_map(map, record->map); !ok) return ok;
@@ -226,11 +229,26 @@ bool GlRenderer::shows(const Job& job) const {
   return gl_->shader_folder().replaced().empty() && shading_.shows(buffers_, job.view);
 }
 
+Expected<void> GlRenderer::warm_up_camera(const View& view) {
+  if (std::exchange(warm_camera_, true)) return {};
+  return warm_up([&] { return shading_.draw_visibility(buffers_, view); });
+}
+
 Expected<void> GlRenderer::draw_visibility(const View& view) {
-  const Pass pass = [&] { return shading_.draw_visibility(buffers_, view); };
-  if (!std::exchange(warm_camera_, true))
-    if (auto ok = warm_up(pass); !ok) return ok;
-  return pass();
+  if (auto ok = warm_up_camera(view); !ok) return ok;
+  return shading_.draw_visibility(buffers_, view);
+}
+
+Expected<void> GlRenderer::draw_noted_visibility(const Job& job) {
+  Times& camera = shading_.times(buffers_, job.view);
+  if (!job.options.analysis || !camera.runs.empty()) return draw_visibility(job.view);
+  if (auto ok = warm_up_camera(job.view); !ok) return ok;
+  Expected<void> drawn;
+  time_run(camera, [&] {
+    drawn = shading_.draw_visibility(buffers_, job.view);
+    (*gl_)->Finish();
+  });
+  return drawn;
 }
 
 Expected<void> GlRenderer::warm_up_map(const Job& job, const MapJob& map, bool for_records,

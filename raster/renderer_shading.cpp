@@ -236,7 +236,7 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
   const MapOptions& map = map_job.options;
   const VisibilityRequest* asked = is_external(map.technique) ? &request : nullptr;
   const bool records = record != nullptr && job.options.analysis;
-  if (asked == nullptr || records) map_pass_.bind_for_lookup();
+  if (asked == nullptr || records) slot_->pass.bind_for_lookup();
   if (technique_pass_ != nullptr) technique_pass_->bind_for_lookup();
   if (record != nullptr)
     if (auto ok = time_shading(job, map_job, asked, *record); !ok) return ok;
@@ -245,7 +245,7 @@ Expected<void> GlRenderer::shade(Job& job, const MapJob& map_job, const Visibili
     return gl_->check("shading");
   }
   if (!job.visibility_drawn && !shows(job))
-    if (auto ok = draw_visibility(job.view); !ok) return ok;
+    if (auto ok = draw_noted_visibility(job); !ok) return ok;
   job.visibility_drawn = true;
   if (asked != nullptr && (record == nullptr || job.options.runs == 0)) {
     if (auto ok = find_external(asked); !ok) return ok;

@@ -167,6 +167,7 @@ Expected<void> LabEngine::carry_out(const LabWish& wish, const OpenedScene& scen
   now_.options = std::move(options);
   now_.client = wish.client;
   now_.error.clear(), now_.note.clear();
+  drawn_ = wish;
   post();
   return {};
 }
@@ -211,11 +212,17 @@ void LabEngine::notice() {
   changed_.notify_all();
 }
 
+LabWish LabEngine::wish_for(const OpenedScene& scene) const {
+  if (waiting_) return *waiting_;
+  if (drawn_ && is_of(*drawn_, scene)) return *drawn_;
+  return {now_.client, scene.argument.name, {}, {}};
+}
+
 void LabEngine::look_at(const Snapshot& shown) {
   if (shown.scene && shown.scene->number != scene_) {
     const bool first = scene_ == 0, again = shown.scene->again;
     scene_ = shown.scene->number;
-    const LabWish wish = waiting_.value_or(LabWish{now_.client, shown.scene->argument.name, {}, {}});
+    const LabWish wish = wish_for(*shown.scene);
     if (waiting_ && !is_of(*waiting_, *shown.scene)) {
       post();
     } else if (waiting_ || (!first && !again)) {

@@ -63,6 +63,9 @@ class LabEngine {
   /// Whether the wish is for this scene, seen by this camera.
   bool is_of(const LabWish& wish, const OpenedScene& scene) const;
   void notice();
+  /// The wish that a scene which is there now is drawn by: the one that waits for it, or that was carried out when it was opened
+  /// before; else no words.
+  LabWish wish_for(const OpenedScene& scene) const;
   void look_at(const Snapshot& shown);
   void finish_preset(const Snapshot& shown);
   void post();
@@ -74,6 +77,7 @@ class LabEngine {
   LabMoment now_;
   std::uint64_t revision_ = 0, scene_ = 0;  ///< scene_: OpenedScene::number
   std::optional<LabWish> waiting_;          ///< for its scene
+  std::optional<LabWish> drawn_;            ///< carried out last
   std::string unreadable_;                  ///< what was last said of a scene
   const Preset* preset_ = nullptr;          ///< used last, while its comparison is not there
   bool preset_bias_raised_ = false;

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <unordered_map>
 
 #include "compare/result/outputs.h"
 #include "compare/result/result_parts.h"
@@ -97,11 +97,6 @@ Json pixels_json(const compare::Comparison& c, Packer& packer, const PixelSurfac
 // --- geometry ---
 
 using Corner = std::array<std::uint32_t, 3>;
-struct CornerHash {
-  std::size_t operator()(const Corner& c) const {
-    return ((std::uint64_t{c[0]} << 42) ^ (std::uint64_t{c[1]} << 21) ^ c[2]) * 0x9e3779b97f4a7c15u >> 16;
-  }
-};
 
 // Corners rounded to a step, those that coincide then once.
 struct Corners {
@@ -109,16 +104,35 @@ struct Corners {
   std::vector<std::uint32_t> of_triangles;
 };
 
+/// Numbers corners in the order in which they first come: a table with open places, at most half full.
+class CornerNumbers {
+ public:
+  explicit CornerNumbers(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), none) {}
+
+  /// The number of a corner among `known`, to which a new one is added.
+  std::uint32_t number(const Corner& corner, std::vector<Corner>& known) {
+    std::size_t slot = hash(corner) & (slots_.size() - 1);
+    while (slots_[slot] != none && known[slots_[slot]] != corner) slot = (slot + 1) & (slots_.size() - 1);
+    if (slots_[slot] == none)
+      slots_[slot] = static_cast<std::uint32_t>(known.size()), known.push_back(corner);
+    return slots_[slot];
+  }
+
+ private:
+  static constexpr std::uint32_t none = ~0u;
+  static std::size_t hash(const Corner& c) {
+    return ((std::uint64_t{c[0]} << 42) ^ (std::uint64_t{c[1]} << 21) ^ c[2]) * 0x9e3779b97f4a7c15u >> 16;
+  }
+  std::vector<std::uint32_t> slots_;
+};
+
 Corners rounded_corners(const SectionMesh& mesh, const Vec3& low, double step) {
   Corners out;
-  std::unordered_map<Corner, std::uint32_t, CornerHash> known(mesh.positions.size());
   std::vector<std::uint32_t> place(mesh.positions.size());
+  CornerNumbers numbers(place.size());
   for (std::size_t i = 0; i < place.size(); ++i) {
     const Vec3 p = (mesh.positions[i] - low) / step;
-    const Corner corner{rounded(p.x), rounded(p.y), rounded(p.z)};
-    const auto [entry, is_new] = known.try_emplace(corner, static_cast<std::uint32_t>(out.places.size()));
-    place[i] = entry->second;
-    if (is_new) out.places.push_back(corner);
+    place[i] = numbers.number({rounded(p.x), rounded(p.y), rounded(p.z)}, out.places);
   }
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t corner : triangle) out.of_triangles.push_back(place[corner]);

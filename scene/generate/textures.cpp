@@ -2,6 +2,7 @@
 // colours. Everything is sampled at texel centres of the unit square and repeats without a seam.
 #include <algorithm>
 
+#include "scene/base/parallel.h"
 #include "scene/generate/generator.h"
 #include "scene/generate/random.h"
 
@@ -30,13 +31,15 @@ struct Texel {
 template <class Color>
 Texture draw(std::string_view name, ImageSize size, const Color& color_at) {
   Texture t{std::string(name), size, {}, true, false, true, true};
-  t.texels.reserve(size.pixels());
-  for (int y = 0; y < size.height; ++y) {
+  t.texels.resize(size.pixels());
+  parallel_for(size.height, [&](int y) {
     for (int x = 0; x < size.width; ++x) {
       const Vec3 c = color_at(Texel{x, y, Vec2((x + 0.5) / size.width, (y + 0.5) / size.height)});
-      t.texels.emplace_back(encode_srgb(c.x), encode_srgb(c.y), encode_srgb(c.z), std::uint8_t{255});
+      t.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
+               static_cast<std::size_t>(x)] = {encode_srgb(c.x), encode_srgb(c.y), encode_srgb(c.z),
+                                               std::uint8_t{255}};
     }
-  }
+  });
   return t;
 }
 

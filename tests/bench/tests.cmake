@@ -1,6 +1,7 @@
 # The speed figures; a short run of it is a test that it runs, not of how fast.
 gnomon_test_support(bench_scenes SOURCES bench_scenes.cpp LIBS raytrace_support test_places)
 add_executable(gnomon_bench "${CMAKE_CURRENT_LIST_DIR}/gnomon_bench.cpp" "${CMAKE_CURRENT_LIST_DIR}/tracer_bench.cpp" "${CMAKE_CURRENT_LIST_DIR}/ball_light.cpp" "${CMAKE_CURRENT_LIST_DIR}/embree_peer.cpp" "${CMAKE_CURRENT_LIST_DIR}/tinybvh_peer.cpp" "${CMAKE_CURRENT_LIST_DIR}/whole_bench.cpp"
+  "${CMAKE_CURRENT_LIST_DIR}/command_cost.cpp" "${CMAKE_CURRENT_LIST_DIR}/scale_bench.cpp"
   ${PROJECT_SOURCE_DIR}/app/process/machine.cpp)
 target_link_libraries(gnomon_bench PRIVATE gnomon_flags gnomon_warnings gnomon::benchmark test_places bench_scenes embree GTest::gtest TBB::tbb hwy::hwy CLI11::CLI11
   fmt::fmt nlohmann_json::nlohmann_json)

@@ -1,71 +1,19 @@
 #include "whole_bench.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <thread>
 
 #include "bench_scenes.h"
 #include "bench_support.h"
-#include "scene/files/gltf/gltf_writer.h"
-#include "scene/files/write_file.h"
+#include "command_cost.h"
+#include "scale_bench.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gnomon::bench {
 namespace {
-
-using Words = std::vector<std::string>;
-
-/// Of one process, seconds.
-struct Cost {
-  double wall = 0.0, processor = 0.0;
-};
-
-Cost operator+(const Cost& a, const Cost& b) {
-  return {a.wall + b.wall, a.processor + b.processor};
-}
-
-double seconds(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
-[[noreturn]] void become(const Words& words) {
-  const int nowhere = open("/dev/null", O_WRONLY);
-  dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  execv(arguments.front(), arguments.data());
-  _exit(127);
-}
-
-Cost cost_of(Words words) {
-  words.insert(words.begin(), test::program());
-  const Stopwatch watch;
-  const pid_t child = fork();
-  if (child == 0) become(words);
-  int status = 0;
-  rusage used{};
-  if (child < 0 || wait4(child, &status, 0, &used) != child || status != 0) {
-    fmt::print(stderr, "{}: failed\n", fmt::join(words, " "));
-    std::exit(1);
-  }
-  return {1e-3 * watch.elapsed_ms(), seconds(used.ru_utime) + seconds(used.ru_stime)};
-}
-
-/// The least of several runs, each by itself: other programs only ever add.
-struct Least {
-  Cost cost{1e30, 1e30};
-  void add(const Cost& run) {
-    cost = {std::min(cost.wall, run.wall), std::min(cost.processor, run.processor)};
-  }
-};
 
 class WholeBench {
  public:
@@ -104,12 +52,7 @@ class WholeBench {
   std::string written_terrain() {
     Scene scene = terrain_scene("terrain", 708).scene;
     scene.lights.erase(scene.lights.begin());
-    const auto file = write_gltf(scene, true);
-    if (!file || !write_file(out("terrain.glb"), file->bytes)) {
-      fmt::print(stderr, "{}: cannot be written\n", out("terrain.glb"));
-      std::exit(1);
-    }
-    return out("terrain.glb");
+    return written_glb(scene, out("terrain.glb"));
   }
 
   std::string out(const char* name) const { return folder_.path() + "/" + name; }
@@ -167,7 +110,9 @@ class WholeBench {
 }  // namespace
 
 std::vector<BenchRow> bench_whole(const Settings& settings) {
-  return WholeBench(settings).run();
+  std::vector<BenchRow> rows = WholeBench(settings).run();
+  for (BenchRow& row : bench_scale(settings)) rows.push_back(std::move(row));
+  return rows;
 }
 
 }  // namespace gnomon::bench

@@ -206,7 +206,8 @@ TEST_P(Records, AMapServesEveryTechniqueThatDrawsIt) {
   draw_with(Technique::pcf, false);
   draw_with(Technique::pcss, false);
   draw_with(Technique::vsm, true);
-  draw_with(Technique::hard, true);
+  draw_with(Technique::hard, false);  // its map lies beside
+  draw_with(Technique::vsm, true);    // what it made of its map does not
   if (GetParam() != LightType::directional) return;
   draw_with(Technique::csm, true);
   draw_with(Technique::csm, false);

@@ -146,6 +146,38 @@ TEST(Picture, TimesCanBeTakenAlone) {
   EXPECT_EQ(again->color.data, drawn.frame.color.data);
 }
 
+// What was drawn untimed is the first run of what is timed then, even when a map of another size was tried between: a run that
+// takes long enough is not made twice.
+TEST(Picture, TimesBeginWithTheDrawingThatWasMade) {
+  Scene scene = three_lights();
+  scene.lights.resize(1);
+  Drawn drawn = draw(scene);
+  raster::RasterOptions options = drawn.frame.options, times = options;
+  const std::vector<std::uint32_t> light{0};
+  times.analysis = false, times.times_alone = true, times.runs = 3, times.enough_ms = 1e-9;
+  const StageLog log;
+  const auto runs_ms = [&] {
+    const TimeBudget budget = log.budget();
+    const StageTime* stage = budget.find("map runs");
+    return stage == nullptr ? 0.0 : stage->wall_ms;
+  };
+  options.map.size *= 2;
+  ASSERT_TRUE(drawn.renderer->render(options, light));
+  auto timed = drawn.renderer->render(times, light);
+  ASSERT_TRUE(timed) << timed.error().message();
+  EXPECT_EQ(timed->lights[0].map_pass.runs.size(), 1u);
+  EXPECT_EQ(runs_ms(), 0.0);
+  times.enough_ms = never_enough_ms;
+  timed = drawn.renderer->render(times, light);
+  ASSERT_TRUE(timed) << timed.error().message();
+  EXPECT_EQ(timed->lights[0].map_pass.runs.size(), 3u);
+  EXPECT_GT(runs_ms(), 0.0);
+  const auto again = drawn.renderer->render(drawn.frame.options, light);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->lights[0].map.depth, drawn.frame.lights[0].map.depth);
+  EXPECT_EQ(again->lights[0].visibility.data, drawn.frame.lights[0].visibility.data);
+}
+
 // A viewer moves the camera and the light between calls.
 TEST(Picture, FollowsTheScenesCameraAndLights) {
   Drawn moved = draw(three_lights());

@@ -2,6 +2,8 @@
 // each turn is this test's own.
 #include "lab/view/work/turns.h"
 
+#include "app/console.h"
+#include "lab/serve/lab_engine.h"
 #include "tests/view/view_thread_fixture.h"
 
 namespace gnomon::lab {
@@ -73,6 +75,36 @@ TEST(Turns, LabelsOfAStateThatIsLeftAreGivenUpBeforeItsRaysAndAfterThem) {
     const bool come = labels_come(lab, rounds, turned(state, revision, 3.0 * rounds),
                                   turned(state, revision + 1, 3.0 * rounds + 1.0));
     EXPECT_EQ(come, rounds >= 4) << "left after " << rounds << " rounds";
+  }
+}
+
+/// A lab of acne-floor that is asked for one state after so many turns, and is then left to itself: the words of what it draws.
+std::string words_at_rest(int turns_before) {
+  LabOptions options;
+  options.scene.name = "acne-floor";
+  options.quiet = true;
+  app::Console console(true);
+  auto source = first_source(options, console);
+  if (!source) return source.error().message();
+  auto engine = LabEngine::start(options, std::move(*source));
+  if (!engine) return engine.error().message();
+  for (int turn = 0; turn < turns_before; ++turn) take_turn();
+  const auto asked =
+      (*engine)->ask({"page", "acne-floor", {"--size", "64x48", "--map-size", "64", "--bias", "2texel"}, {}});
+  if (!asked) return asked.error().message();
+  for (int round = 0; round < many_rounds; ++round) take_round();
+  std::string text;
+  for (const std::string& word : (*engine)->compare_words((*engine)->wait(0, std::chrono::milliseconds(0))))
+    text += word + " ";
+  return text;
+}
+
+// A link's state is asked for while the first scene is under way: the scene is opened twice then, and the state stays.
+TEST(Turns, AWishThatComesBeforeTheFirstSceneIsKept) {
+  for (const int turns : {0, 1, 2, 3, 8}) {
+    const std::string words = words_at_rest(turns);
+    EXPECT_NE(words.find("--map-size 64 "), std::string::npos) << turns << ": " << words;
+    EXPECT_NE(words.find("--bias 2texel"), std::string::npos) << turns << ": " << words;
   }
 }
 

@@ -119,7 +119,7 @@ const stageWords: Record<string, string> = {
   upload: "handing the scene to OpenGL",
   "driver translation": "what the driver makes of shaders when it first draws with them, once for a machine",
   drawing: "memory for a frame and what else drawing needs around its passes",
-  "map runs": "the depth map, timed, all runs",
+  "map runs": "the depth map, timed, the runs after the first",
   "shading runs": "the picture with its shadows, timed, all runs",
   "shading with records": "the picture once more, with what each pixel looked up",
   "read-back": "fetching pictures and maps from OpenGL",
