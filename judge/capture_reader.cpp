@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::string_view schema_names[] = {"gnomon/capture/1", "gnomon/capture/2"};
 constexpr NumberRange strength_range{0.0, 1.0, true};
+constexpr NumberRange jitter_range{-1.0, 1.0};
 constexpr NumberRange side_range{1.0, 16384.0, false, false, true};
 constexpr NumberRange place_range{0.0, 1e6, false, false, true};
 constexpr NumberRange radius_range{0.0, 64.0, true};
@@ -40,6 +41,7 @@ class CaptureReader {
  private:
   void read_renderer(const JsonNode& node);
   void read_size(const JsonNode& node);
+  void read_jitter(const JsonNode& node);
   void read_depth(const JsonNode& node);
   void read_schema(const JsonNode& node);
   void read_layer(const JsonNode& node);
@@ -271,6 +273,13 @@ void CaptureReader::read_moments(const JsonObject& object, CapturedFilter& filte
     node->error("has esm one of, evsm one for each of its warps, the other kinds none");
 }
 
+void CaptureReader::read_jitter(const JsonNode& node) {
+  since_2(node, "jitter");
+  const auto both = node.as_array();
+  if (both.size() != 2) return node.error("needs two numbers, to the right and downwards");
+  out_.jitter = {both[0].as_number(jitter_range), both[1].as_number(jitter_range)};
+}
+
 /// What is of one light: its pictures, its map and how that is tested.
 void CaptureReader::read_light(const JsonObject& object) {
   if (const auto node = object.find("light")) out_.light = name_or_place(*node);
@@ -316,7 +325,7 @@ std::vector<Capture> CaptureReader::read_lights(const JsonObject& root) {
 
 std::vector<Capture> CaptureReader::read(const JsonValue& value) {
   std::vector<std::string_view> keys{"$schema", "schema",   "renderer", "scene",  "camera",
-                                     "size",    "position", "depth",    "lights", "casters"};
+                                     "size",    "position", "depth",    "lights", "casters", "jitter"};
   keys.insert(keys.end(), light_keys.begin(), light_keys.end());
   const JsonObject root(JsonNode(errors_, value, ""), std::move(keys));
   if (const auto schema = root.require("schema")) read_schema(*schema);
@@ -332,6 +341,7 @@ std::vector<Capture> CaptureReader::read(const JsonValue& value) {
   if (const auto node = root.require("size")) read_size(*node);
   if (const auto node = root.find("position")) out_.position = file(*node);
   if (const auto node = root.find("depth")) read_depth(*node);
+  if (const auto node = root.find("jitter")) read_jitter(*node);
   if (const auto node = root.find("casters"))
     since_2(*node, "casters"), out_.casters_found = node->as_choice(choices(caster_words)) == 1;
   if (root.has("lights")) return read_lights(root);

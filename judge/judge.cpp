@@ -177,11 +177,13 @@ Expected<void> trace_truth(Judging& in, Comparison& out, Judged& judged) {
   raytrace::RaytraceOptions options = in.options.raytrace;
   options.size = in.capture.size;
   in.sight.view = make_view(in.scene.camera, in.capture.size);
+  in.sight.shift = in.capture.jitter;
   out.raytraced = raytrace::trace_frame(in.tracer, out.plan, in.scene.camera, {&in.light, 1}, options);
   if (in.pictures.ratio)
     in.pictures.other_light = holds_other_light(in.pictures, out.raytraced, in.scene.lights[in.light]);
-  const auto geometry = align_geometry(align_input(in, out), in.scene, in.sight, in.pictures, judged);
+  auto geometry = align_geometry(align_input(in, out), in.scene, in.sight, in.pictures, judged);
   if (!geometry) return fail(geometry.error());
+  geometry->everywhere = geometry->everywhere || in.sight.shift != Vec2(0.0);
   if (const auto late = read_late_map(in, geometry->place_from_captured, out, judged); !late) return late;
   trace_again(in, options, *geometry, out);
   if (const auto undone = undo_rest(in, out.raytraced, judged); !undone) return undone;

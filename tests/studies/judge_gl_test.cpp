@@ -254,6 +254,18 @@ const std::vector<Convention>& conventions() {
   return all;
 }
 
+// What temporal antialiasing shifts the camera by is no half pixel that somebody forgot, where the capture says it.
+TEST(Judge, OfAShiftedCameraIsJudgedWhereItsPixelsLook) {
+  const Compared drawn = draw_builtin("floating-box", small_picture, hard_map(256));
+  Capture capture = self_capture(drawn, folder_for("jitter"), {});
+  show_places(capture, drawn, make_view(drawn.scene->camera, small_picture), 0.3);
+  const JudgeOutcome refused = judge(capture, *drawn.scene);
+  capture.jitter = {0.3, 0.3};
+  const JudgeOutcome judged = judge(capture, *drawn.scene);
+  ASSERT_TRUE(judged.result.has_value()) << reason(judged);
+  EXPECT_FALSE(refused.result.has_value());
+}
+
 class JudgeConventions : public testing::TestWithParam<const char*> {};
 
 TEST_P(JudgeConventions, AreNamedAndMended) {

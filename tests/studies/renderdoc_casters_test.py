@@ -30,7 +30,7 @@ class Frame:
     def state(self, event):
         return SimpleNamespace(writes_depth=event not in self.without_depth)
 
-    def shows(self, event, _, depth):
+    def shows(self, event, _, depth, cut):
         return self.shown.get(event, np.zeros(depth.shape, bool))
 
 
@@ -38,7 +38,7 @@ class Casters(unittest.TestCase):
     def view(self, *boxes):
         """Meshes of the events 1, 2, ...: two casters before the camera, then what is given."""
         places = [box((-1, -1, -6), 1), box((2, -1, -9), 1), *boxes]
-        return SimpleNamespace(meshes=[mesh(k + 1) for k in range(len(places))], positions=places, state=SimpleNamespace(depth=7))
+        return SimpleNamespace(meshes=[mesh(k + 1) for k in range(len(places))], positions=places, state=SimpleNamespace(depth=7), others=[])
 
     def roles(self, view, frame=None, place=DOWN, told=None):
         pairs = [(k, view.meshes[k]) for k in (0, 1)]
@@ -88,6 +88,13 @@ class Casters(unittest.TestCase):
             pairs = [(k, mesh(k + 1, clip=np.tile([0, 0, 0.5, 1.0], (8, 1)))) for k in (0, 1)] + [(2, mesh(3, clip=clip))]
             self.assertEqual(list(casters.silent(view, lambda _: True, [layer(pairs, lamp)])), named)
 
+    def test_what_another_projection_draws_is_left_out_by_name(self):
+        view = self.view()
+        view.others = [mesh(9)]
+        roles, hidden = self.roles(view, Frame(shown={9: np.ones((2, 3), bool)}))
+        self.assertTrue(hidden.all())
+        self.assertIn("event 9, drawn with another projection", casters.words(view, roles)[0])
+
     def test_in_the_scene_they_are_said_to_cast_nothing(self):
         view = self.view(box((0, 0, 0), 50))
         shapes = capture._shapes(view, [], set(), {2})
@@ -135,6 +142,17 @@ class EarlierFrames(unittest.TestCase):
     def test_where_most_are_nothing_is_judged(self):
         with self.assertRaisesRegex(FrameError, "of an earlier frame.*Record a frame in which the light moves"):
             self.left_out([1, 2, 3, 4, 5])
+
+    def test_parts_that_this_frame_leaves_alone_are_noticed(self):
+        texels = np.ones((8, 8, 1))
+        texels[:4, :4] = 0.5  # drawn in this frame
+        one = SimpleNamespace(state=SimpleNamespace(slice=0, viewport=(0, 0, 4, 4), reversed=False, depth=1))
+        frame = SimpleNamespace(textures={1: SimpleNamespace(id=1, is_depth=True, slices=1)})
+        found = SimpleNamespace(passes=SimpleNamespace(texture=1))
+        empty = visibility.Pictures(None, None, {0: texels}, {})
+        self.assertFalse(pixels._has_parts_of_earlier_frames(frame, found, [one], empty))
+        texels[6, 6] = 0.4
+        self.assertTrue(pixels._has_parts_of_earlier_frames(frame, found, [one], empty))
 
     def test_a_frame_of_which_few_pixels_change_is_read_all_the_same(self):
         empty, full = np.ones((20, 20, 3)), np.ones((20, 20, 3))

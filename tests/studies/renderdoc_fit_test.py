@@ -4,12 +4,25 @@ import unittest
 from renderdoc_scenes import *  # noqa: F403
 
 
+class Held(unittest.TestCase):
+    def test_casters_at_the_near_plane_do_not_hide_the_projection(self):
+        light = parallel(9, 6, 30) @ TO_SUN
+        clips = drawn(light, VIEWS)
+        clips[:5, 2] = -clips[:5, 3]
+        one = SimpleNamespace(light=fit.fit_light(VIEWS, clips), is_held=False, state=pipeline())
+        self.assertGreater(one.light.residuals.max(), extract.PROJECTED)
+        extract._without_what_is_held(one, VIEWS, clips)
+        self.assertTrue(one.is_held)
+        np.testing.assert_allclose(one.light.matrix, light, atol=1e-5)
+
+
 class Lens(unittest.TestCase):
     def test_is_told_by_rigid_meshes(self):
         for minus_one in (True, False):
             projection = perspective(1.7, 2.4, 0.05, 80, minus_one)
             meshes = [(CUBE, drawn(projection @ m, CUBE)) for m in PLACES]
-            found = lens.fit_lens(meshes, [], pipeline(minus_one))
+            found, kept = lens.fit_lens(meshes, [], pipeline(minus_one))
+            self.assertTrue(all(kept))
             self.assertAlmostEqual(found.fx, 1.7, delta=1e-5)
             self.assertAlmostEqual(found.fy, 2.4, delta=1e-5)
             near, far, is_reversed = found.planes(minus_one)
@@ -18,20 +31,48 @@ class Lens(unittest.TestCase):
             self.assertFalse(is_reversed)
             self.assertLess(np.abs(found.view_of(meshes[2][1], True) - (fit.homogeneous(CUBE) @ PLACES[2].T)[:, :3]).max(), 1e-5)
 
+    def test_of_unevenly_scaled_meshes_is_told_by_a_constant(self):
+        projection = perspective(1.7, 2.4, 0.05, 80, True)
+        squeezed = [m @ np.diag([0.3, 1.2, 0.7, 1]) for m in PLACES]
+        meshes = [(CUBE, drawn(projection @ m, CUBE)) for m in squeezed]
+        camera = projection @ turned(0.4, (0, 1, 0)) @ shifted(1, 2, 3)
+        for constants in ([squeezed[0], camera], [camera.T], [projection]):
+            found, _ = lens.fit_lens(meshes, constants, pipeline())
+            self.assertAlmostEqual(found.fx, 1.7, delta=1e-5)
+            self.assertAlmostEqual(found.fy, 2.4, delta=1e-5)
+        with self.assertRaisesRegex(FrameError, "no mesh|different fields of view"):
+            lens.fit_lens(meshes, [projection @ squeezed[1]], pipeline())
+
+    def test_is_that_of_most_meshes(self):
+        projection, weapon = perspective(1.7, 2.4, 0.05, 80, True), perspective(3.1, 4.4, 0.01, 20, True)
+        meshes = [(CUBE, drawn(projection @ m, CUBE)) for m in PLACES] + [(CUBE, drawn(weapon @ PLACES[0], CUBE))]
+        found, kept = lens.fit_lens(meshes, [weapon], pipeline())
+        self.assertEqual(kept, [True] * 4 + [False])
+        self.assertAlmostEqual(found.fx, 1.7, delta=1e-5)
+        self.assertLess(found.residual, 1e-5)
+
+    def test_a_shifted_camera_is_said_in_pixels(self):
+        shifted_ = lens.Lens(1.0, 1.0, 0.01, 0.02, 0.0, 0.0, 0.0)
+        for y_up, down in ((True, 0.9), (False, -0.9)):
+            view = SimpleNamespace(lens=shifted_, state=SimpleNamespace(conventions=SimpleNamespace(y_up=y_up)))
+            np.testing.assert_allclose(capture._jitter(view, 160, 90)["jitter"], [-0.8, down])
+        view.lens = lens.Lens(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        self.assertEqual(capture._jitter(view, 160, 90), {})
+
     def test_of_flat_meshes_comes_from_a_constant(self):
         flat = CUBE * [1, 0, 1]
         projection = perspective(1.7, 2.4, 0.1, 50, True)
         meshes = [(flat, drawn(projection @ PLACES[1], flat))]
         with self.assertRaises(FrameError):
             lens.fit_lens(meshes, [], pipeline())
-        self.assertAlmostEqual(lens.fit_lens(meshes, [np.eye(4), projection.T], pipeline()).fy, 2.4, delta=1e-6)
+        self.assertAlmostEqual(lens.fit_lens(meshes, [np.eye(4), projection.T], pipeline())[0].fy, 2.4, delta=1e-6)
 
     def test_of_a_parallel_camera_is_told_by_a_constant_of_its_shape(self):
         projection, sun = shifted(0.1, 0, 0) @ parallel(4, -2, 20), parallel(7, 0, 20)  # it sees what lies behind it, too
         scaled = np.diag([2, 2, 2, 1])  # meshes say nothing of their own size
         meshes = [(CUBE, drawn(projection @ m @ scaled, CUBE)) for m in PLACES]
         for constants in ([sun, np.eye(4), projection.T], [sun, projection @ PLACES[1], projection]):
-            found = lens.fit_lens(meshes, constants, pipeline())
+            found, _ = lens.fit_lens(meshes, constants, pipeline())
             self.assertLess(np.abs(found.view_of(meshes[2][1], True) - (fit.homogeneous(CUBE) @ (PLACES[2] @ scaled).T)[:, :3]).max(), 1e-5)
             np.testing.assert_allclose(found.planes(True), (-2, 20, False), atol=1e-5)
         view = SimpleNamespace(lens=found, state=pipeline())
@@ -42,13 +83,13 @@ class Lens(unittest.TestCase):
         projection = parallel(4, 1, 20)
         meshes = [(CUBE, drawn(projection @ m, CUBE)) for m in PLACES]
         for constants in ([], [projection @ turned(0.4, (1, 2, 0))]):
-            found = lens.fit_lens(meshes, constants, pipeline())
+            found, _ = lens.fit_lens(meshes, constants, pipeline())
             self.assertAlmostEqual(found.fy, 0.25, delta=1e-6)
             np.testing.assert_allclose(found.planes(True), (0, 19, False), atol=1e-5)
         far = SimpleNamespace(conventions=conventions.opengl(minus_one=False), reversed=True)
         reversed_ = np.diag([1, 1, -0.5, 1]) @ projection + np.outer([0, 0, 0.5, 0], projection[3])
         meshes = [(CUBE, drawn(reversed_ @ m, CUBE)) for m in PLACES]
-        np.testing.assert_allclose(lens.fit_lens(meshes, [], far).planes(False), (0, 19, True), atol=1e-5)
+        np.testing.assert_allclose(lens.fit_lens(meshes, [], far)[0].planes(False), (0, 19, True), atol=1e-5)
 
     def test_of_a_parallel_camera_that_nothing_solid_tells_is_refused(self):
         flat = CUBE * [1, 0, 1]

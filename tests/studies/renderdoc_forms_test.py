@@ -137,6 +137,21 @@ class Filters(unittest.TestCase):
             self.assertEqual(seen.is_read_otherwise, exchanged)
 
 
+class Cascades(unittest.TestCase):
+    def test_a_bias_in_the_reader_does_not_hide_the_choice(self):
+        random = np.random.default_rng(11)
+        depth = random.uniform(1, 40, 20000)
+        answers = [random.uniform(-0.02, 0.02, len(depth)) for _ in range(3)]
+        layer_of = np.searchsorted([6.5, 15.25], depth, side="right")
+        lit = np.choose(layer_of, answers) + 0.004 >= 0
+        margins = [lookup.Margins(a, np.ones(len(depth), bool), None, None) for a in answers]
+        self.assertEqual(decision._shared_constant(margins, lit, {"view_z": depth}, numbers([0.004, 0.7, 6.5, 15.25])), 0.004)
+
+    def test_a_layer_that_nothing_looks_up_is_none_of_the_map(self):
+        selection = lookup.Selection("view_z", (6.0, 6.0, 20.0), 0.0)
+        self.assertEqual([bool(capture._select(selection, k, 3)) for k in range(3)], [True, False, True])
+
+
 class Moments(unittest.TestCase):
     X = np.random.default_rng(3).uniform(0.1, 0.9, 4000)
 

@@ -157,7 +157,7 @@ class Lookup(unittest.TestCase):
         for slope, said in ((0.0, False), (2.0, True)):
             layer = SimpleNamespace(
                 state=SimpleNamespace(reversed=False, depth_bias={"constant": 4, "slope": slope, "clamp": 0.1}, conventions=conventions.opengl()),
-                has_caster_bias=False, constant=0.0, half=SimpleNamespace(residual=0.0), distance=SimpleNamespace(range=9.0, residual=0.0), matrix=np.eye(4),
+                has_caster_bias=False, is_held=False, constant=0.0, half=SimpleNamespace(residual=0.0), distance=SimpleNamespace(range=9.0, residual=0.0), matrix=np.eye(4),
                 matched=1, place=SimpleNamespace(apex=np.zeros(3)), texels=np.ones((2, 2)))
             found = SimpleNamespace(passes=SimpleNamespace(texture=1), view=SimpleNamespace(lens=lens.Lens(1, 1, 0, 0, 1, 1, 0)), notes=[])
             test = SimpleNamespace(selection=lookup.Selection("first", (), 0.0), exponent=None, form=None, fitted=None, unread="", radius=None, agreement=None)
@@ -192,6 +192,11 @@ class Formats(unittest.TestCase):
         self.assertEqual(formats.decode(struct.pack("<I", packed), "R11G11B10_FLOAT", 1, 1)[0, 0].tolist(), [1.0, 0.5, 2.0])
         with self.assertRaises(formats.FrameError):
             formats.decode(b"", "BC7_UNORM", 1, 1)
+
+    def test_attributes_of_positions(self):
+        self.assertEqual(formats.of_attribute("Float", 2), (np.float16, 1))
+        self.assertEqual(formats.of_attribute("SNorm", 2), (np.int16, 32767))
+        self.assertIsNone(formats.of_attribute("UInt", 4))
 
     def test_strips_and_fans_are_triangles(self):
         restart = np.zeros(4, bool)
@@ -243,6 +248,15 @@ class Passes(unittest.TestCase):
         frame = FakeFrame([texture(1, 512, 512), texture(5, 256, 256), texture(2, 64, 36), texture(3, 64, 36, False)],
                           [draw(10, 5), draw(12, 1, vertices=4), draw(30, 2, [3])], {1: [30], 5: [12]})
         self.assertEqual([(m.texture, [w.event for w in m.writers]) for m in passes.find_maps(frame)], [(5, [10])])
+
+    def test_map_as_large_as_the_picture_is_found_where_there_is_no_other(self):
+        textures = [texture(1, 64, 36), texture(2, 64, 36), texture(3, 64, 36, False)]
+        frame = FakeFrame(textures, [draw(10, 1), draw(30, 2, [3])], {1: [30]})
+        self.assertEqual([m.texture for m in passes.find_maps(frame)], [1])
+
+    def test_camera_that_draws_a_part_of_the_picture_is_cut_out(self):
+        found = passes.MapPasses(1, [], [], 3, 2, [], [], False, (1, 0, 2, 1))
+        self.assertEqual(found.cut(np.arange(12).reshape(3, 4)).tolist(), [[1, 2]])
 
     def test_a_depth_prepass_is_told_by_what_the_readers_draw_again(self):
         textures = [texture(1, 512, 512), texture(2, 64, 36), texture(3, 64, 36, False)]

@@ -34,6 +34,10 @@ foreach(test renderdoc_casters_test renderdoc_fit_test renderdoc_forms_test rend
   add_test(NAME ${test} COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/${test}.py" "${PROJECT_SOURCE_DIR}/adapters/renderdoc")
   set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77)
 endforeach()
+# The same on recorded frames of common designs, which are no part of the project.
+add_test(NAME renderdoc_designs_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/renderdoc_designs_test.py"
+  $<TARGET_FILE:gnomon_program> "${PROJECT_SOURCE_DIR}/../shared/findings/engines" "${CMAKE_CURRENT_BINARY_DIR}/renderdoc_designs")
+set_tests_properties(renderdoc_designs_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
 # The same on frames of real engines, as far as these and RenderDoc are installed.
 add_test(NAME renderdoc_engine_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/renderdoc_engine_test.py"
   $<TARGET_FILE:gnomon_program> "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/renderdoc_engine")

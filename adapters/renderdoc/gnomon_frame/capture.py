@@ -142,7 +142,8 @@ def _light(folder, frame, light, prefix):
     if layers[0].matrix is None:
         return said
     texture = frame.textures[light.found.passes.texture]
-    maps = [_layer(folder, texture, f"{prefix}map{k}.exr", k, layer, light.test, len(layers)) for k, layer in enumerate(layers)]
+    maps = [_layer(folder, texture, f"{prefix}map{k}.exr", k, layer, light.test, len(layers)) for k, layer in enumerate(layers)
+            if light.test.selection.by == "first" or _select(light.test.selection, k, len(layers))]  # what nothing looks up is none of its layers
     if layers[0].half and len(maps) == 1:
         maps.append(_other_half(folder, f"{prefix}map1.exr", maps[0], layers[0]))
     both = {"bias": {"constant_depth": layers[0].constant}} if layers[0].half and layers[0].constant else {}
@@ -180,6 +181,13 @@ def _camera(view, aspect):
     return {"eye": [0, 0, back], "type": "orthographic", "orthographic": lens}
 
 
+def _jitter(view, width, height):
+    """What a camera's middle is off that of the picture, as a capture says it; nothing where it is less than positions are good to."""
+    down = 0.5 if view.state.conventions.y_up else -0.5
+    off = [-0.5 * view.lens.cx * width, down * view.lens.cy * height]
+    return {"jitter": off} if not view.lens.parallel and 1e-3 < max(map(abs, off)) <= 1 else {}
+
+
 def write(folder, frame, lights, name):
     """The capture's folder, of what was Measured; returns the path of capture.json."""
     os.makedirs(folder, exist_ok=True)
@@ -200,6 +208,6 @@ def write(folder, frame, lights, name):
         of_lights = {"lights": [{"light": names[one.number], **_light(folder, frame, one, f"light{one.number}-")} for one in lights]}
         settings = {key: value for one in lights for key, value in _settings(frame, one, names[one.number] + ", ").items()}
     files.write_capture(folder, {
-        "renderer": {"name": name, "version": "(RenderDoc)", "settings": settings}, "scene": "scene.glb", "size": [width, height], "casters": "found",
+        "renderer": {"name": name, "version": "(RenderDoc)", "settings": settings}, "scene": "scene.glb", "size": [width, height], "casters": "found", **_jitter(view, width, height),
         "position": "position.exr", **of_lights})
     return os.path.join(folder, "capture.json")

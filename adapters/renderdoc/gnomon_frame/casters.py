@@ -101,21 +101,28 @@ def silent(view, writes_depth, all_layers):
     return out
 
 
-def decide(frame, view, all_layers, depth, told):
+def decide(frame, view, all_layers, depth, told, cut=lambda picture: picture):
     """(Roles, pixels that show what is gone). `depth`: the camera's, at last; `told`: pixels whose light the map decides. Both have the
-    texture's own first row first."""
+    texture's own first row first; `cut` takes them from a texture."""
     roles = Roles(silent(view, lambda event: frame.state(event).writes_depth, all_layers))
     hidden = np.zeros(told.shape, bool)
     shows = {}
     for k in roles.silent:
         event = view.meshes[k].event
         if event not in shows:
-            shows[event] = frame.shows(event, view.state.depth, depth) if frame.state(event).writes_depth else np.zeros(told.shape, bool)
+            shows[event] = frame.shows(event, view.state.depth, depth, cut) if frame.state(event).writes_depth else np.zeros(told.shape, bool)
         mine = shows[event]
         if not mine.any() or (mine & told).sum() < RECEIVES * mine.sum():
             roles.gone.add(k)
             hidden |= mine
+    for event in {mesh.event for mesh in view.others}:
+        if frame.state(event).writes_depth:
+            hidden |= frame.shows(event, view.state.depth, depth, cut)
     return roles, hidden
+
+
+def _listed(names):
+    return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
 
 
 def words(view, roles):
@@ -125,6 +132,7 @@ def words(view, roles):
         by_reason.setdefault((why, k in roles.gone), []).append(view.meshes[k].name)
     out = []
     for (why, gone), names in by_reason.items():
-        listed = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
-        out.append(f"casts no shadow in the verdict: {listed}, which {why}" + ("; its own pixels are not compared" if gone else ""))
+        out.append(f"casts no shadow in the verdict: {_listed(names)}, which {why}" + ("; its own pixels are not compared" if gone else ""))
+    if view.others:
+        out.append(f"left out: {_listed([mesh.name for mesh in view.others])}, drawn with another projection than most; its pixels are not compared")
     return out

@@ -4,6 +4,7 @@ import argparse
 import os
 import shutil
 import sys
+import traceback
 
 from .errors import FrameError
 
@@ -83,7 +84,7 @@ def _measure(frame, found, layers, lights, encoding, before):
     seen, exponent, fitted = pixels.measure(frame, found, layers, encoding, others, numbers)
     if before and not pixels.is_same_picture(before[0].found, before[0].pixels, found, seen):
         raise FrameError("another camera draws it than the first light: --light judges it by itself")
-    found.roles, hidden = casters.decide(frame, found.view, [layer for _, those in lights for layer in those], seen.depth, seen.told)
+    found.roles, hidden = casters.decide(frame, found.view, [layer for _, those in lights for layer in those], seen.depth, seen.told, found.passes.cut)
     pixels.hide(seen, hidden, found.view)
     masked = masks.leave_out(frame, found, layers, seen)
     found.notes += casters.words(found.view, found.roles)
@@ -127,4 +128,8 @@ def main(words=None):
     except OSError as error:
         say(f"error: {error}")
         return 4
+    except Exception as error:  # what no frame held before: said in a line, as any other refusal is
+        where = traceback.extract_tb(error.__traceback__)[-1]
+        say(f"error: this frame holds what is not read ({type(error).__name__}: {error}, {os.path.basename(where.filename)}:{where.lineno})")
+        return 3
     return 0

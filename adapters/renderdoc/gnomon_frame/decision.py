@@ -1,10 +1,12 @@
 """How the frame's own test decides, found from the picture: which cascade, which constant, which filter."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from . import forms, lookup, moments
 
+LARGEST = 0.1  # of stored depths: what a bias of cascades is not larger than
+FEW_OF_A_LAYER = 5e-3  # share of the pixels that tell no constant of a layer's own
 PARTLY = 2e-3  # share of partly lit pixels, below which there is no filter
 SURELY = 0.9  # correlation of partly lit pixels with an average of comparisons from which on that is the filter
 UNKNOWN = 5e-3  # by so much more the picture must speak for numbers that the frame has not
@@ -119,6 +121,17 @@ def _by_filter(layer, alike, places, normals, pixels, partly, bilinear):
     return alike[best], kernel.reach + (1.0 if bilinear else 0.5)
 
 
+def _shared_constant(margins, lit, keys, numbers):
+    """The constant of all layers with which some choice of them gives most of the picture: without it a choice is guessed from acne."""
+    few = slice(None, None, max(1, len(lit) // 8000))
+    some = [lookup.Margins(m.values[few], m.inside[few], None, None) for m in margins]
+    keys = {name: key[few] for name, key in keys.items()}
+    tried = sorted({0.0, *(abs(n) for n in (*numbers.given, *numbers.alone) if 0 < abs(n) < LARGEST), *10.0 ** np.arange(-5, -1.4, 0.5)})
+    share = {c: lookup.choose_layers([replace(m, values=m.values + c) for m in some], lit[few], keys, numbers.all)[0].share for c in tried}
+    own = {0.0, *(abs(n) for n in numbers.given)}
+    return min((c for c in tried if share[c] <= min(share.values()) + 0.1 * lookup.NOISE), key=lambda c: (c not in own, c))
+
+
 def find_test(found, layers, pixels, numbers, exponent, fitted=None):
     """The choice of cascades, the reader's own bias and the filter's reach, found from the picture."""
     if layers[0].matrix is None:
@@ -132,7 +145,8 @@ def find_test(found, layers, pixels, numbers, exponent, fitted=None):
     at = places[sure]
     margins = [lookup.margins(layer, at) for layer in layers]
     keys = {"view_z": -at[:, 2], "distance": np.linalg.norm(at, axis=1)} if layers[0].place.apex is None else {}
-    selection, chosen = lookup.choose_layers(margins, lit, keys, numbers.all)
+    of_choice = _shared_constant(margins, lit, keys, numbers) if len(layers) > 1 and exponent is None and not layers[0].half else 0.0
+    selection, chosen = lookup.choose_layers([replace(m, values=m.values + of_choice) for m in margins], lit, keys, numbers.all)
     before = selection.share
     right = (np.array(chosen < 0) & lit).astype(float)
     form, of_normals = None, forms.normals(pixels.positions, pixels.drawn)[pixels.asked]
@@ -152,7 +166,10 @@ def find_test(found, layers, pixels, numbers, exponent, fitted=None):
             right[mine] = 1 - form.wrong
             continue
         elif exponent is None:  # whose soft shadows have no threshold
-            layer.constant, _, _ = lookup.best_constant(margins[k].values[mine], lit[mine], numbers.all)
+            layer.constant, least, _ = lookup.best_constant(margins[k].values[mine], lit[mine], numbers.all)
+            shared = np.mean((margins[k].values[mine] + of_choice >= 0) != lit[mine]) if mine.any() else 0.0
+            if mine.sum() < FEW_OF_A_LAYER * len(mine) or shared <= least + 0.1 * lookup.NOISE:
+                layer.constant = of_choice  # what all layers share, where this one tells no other
         right[mine] = (margins[k].values[mine] + layer.constant >= 0) == lit[mine]
     blended, distance = np.zeros(len(value), bool), None
     bilinear = found.is_bilinear

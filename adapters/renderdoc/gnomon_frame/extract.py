@@ -36,6 +36,7 @@ class Layer:
     old: np.ndarray | None = None  # which of them hold casters of an earlier frame
     matrix: np.ndarray | None = None  # clip_from_view whose z/w is what a texel stores; of a half the light's view alone
     constant: float = 0.0  # the reader's own bias, stored numbers
+    is_held: bool = False  # whether casters before the near plane are held at it
     is_colour: bool = False  # whether its texels are those of a colour texture
     content: Content | None = None  # what these hold, where that is known
     averages: dict = field(default_factory=dict)  # of a map of moments: what readers find with it drawn, empty and full
@@ -74,6 +75,12 @@ class View:
     meshes: list  # each once, though a depth prepass draws it, too; without `clip`, of which `positions` tell
     positions: list  # of their vertices, in view space
     state: object
+    others: list = field(default_factory=list)  # meshes that are drawn with another projection, such as a weapon in the hand
+
+    @property
+    def rectangle(self):
+        """The part of the picture that the camera draws: x, y, width, height."""
+        return tuple(int(round(v)) for v in self.state.viewport)
 
 
 @dataclass
@@ -117,10 +124,13 @@ def _view(frame, found):
     if not meshes:
         raise FrameError("the camera draws no triangles in this frame")
     state = frame.state(meshes[0].event)
-    matrices = [m for _, m in frame.constants(last)[0]]
-    lens = fit_lens([(m.objects, m.clip) for m in meshes], matrices, state)
-    places = [lens.view_of(mesh.clip, state.conventions.y_up) for mesh in meshes]
-    return View(lens, [replace(mesh, clip=mesh.clip[:0]) for mesh in meshes], places, state)
+    looked_at = dict.fromkeys((last, meshes[0].event, meshes[len(meshes) // 2].event))
+    matrices = [m for event in looked_at for _, m in frame.constants(event)[0]]
+    lens, kept = fit_lens([(m.objects, m.clip) for m in meshes], matrices, state)
+    own = [mesh for mesh, one in zip(meshes, kept) if one]
+    places = [lens.view_of(mesh.clip, state.conventions.y_up) for mesh in own]
+    others = [mesh for mesh, one in zip(meshes, kept) if not one]
+    return View(lens, [replace(mesh, clip=mesh.clip[:0]) for mesh in own], places, state, others)
 
 
 def _visited(frame, draw):
@@ -163,9 +173,21 @@ def _fit_layer(layer, view, cameras):
     views, clips = _points(layer, view)
     layer.light = fit.fit_light(views, clips)
     if layer.light.rank == 4 and layer.light.residuals.max() > PROJECTED:
+        _without_what_is_held(layer, views, clips)
+    if layer.light.rank == 4 and layer.light.residuals.max() > PROJECTED:
         layer.distance = fit.fit_distance(views, layer.state.conventions.window_row(clips[:, 2], clips[:, 3]) / clips[:, 3])
         layer.half = fit.fit_half(views, layer.distance.apex, clips) if layer.distance else None
     return True
+
+
+def _without_what_is_held(layer, views, clips):
+    """Casters before the near plane may be held at it (Unity does): the others tell the projection then."""
+    nearest = clips[:, 3] if layer.state.reversed else -clips[:, 3] if layer.state.conventions.minus_one else 0 * clips[:, 3]
+    free = np.abs(clips[:, 2] - nearest) > 1e-6 * np.abs(clips[:, 3])
+    if 4 <= free.sum() < len(free):
+        told = fit.fit_light(views[free], clips[free])
+        if told.rank == 4 and told.residuals.max() <= PROJECTED:
+            layer.light, layer.is_held = told, True
 
 
 def _by_light(layers):
@@ -189,6 +211,7 @@ def look_at(frame, map_passes):
     layers = _layers(frame, map_passes, view)
     if not layers:
         raise FrameError("no mesh is drawn both by the camera and into the shadow map, so that the light cannot be told")
+    map_passes.rectangle = view.rectangle
     last = map_passes.readers[-1].event
     return Found(map_passes, view, _by_light(layers), frame.reads(last).get(map_passes.texture, ""))
 

@@ -88,3 +88,10 @@ def numbered(indices):
     occurs = np.zeros(int(indices.max()) + 1, bool)
     occurs[indices] = True
     return np.flatnonzero(occurs), (np.cumsum(occurs, dtype=np.int32) - np.int32(1))[indices]
+
+
+def of_attribute(kind, width):
+    """(NumPy's type, what stands for 1) of a vertex attribute's numbers, which are `width` bytes wide; None of kinds that hold no position."""
+    known = {("Float", 4): (np.float32, 1), ("Float", 2): (np.float16, 1), ("SNorm", 2): (np.int16, 32767), ("UNorm", 2): (np.uint16, 65535),
+             ("SNorm", 1): (np.int8, 127), ("UNorm", 1): (np.uint8, 255), ("SScaled", 2): (np.int16, 1), ("UScaled", 2): (np.uint16, 1)}
+    return known.get((kind, width))

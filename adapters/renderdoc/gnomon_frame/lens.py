@@ -13,6 +13,8 @@ from .fit import homogeneous, residual
 
 FAR_AWAY = 1e6  # where an infinite far plane is put, world units
 ALIKE = 1e-3  # shapes that differ by more are another camera's
+LINE = 1e-4  # of the largest depth: a mesh whose depths are off the camera's line by more is drawn with another projection
+TRIED = 40  # meshes from which the line is supposed
 CORNERS = (1.0, 3.0)  # |x| and |y| of the vertices of a draw that covers the picture: a rectangle's, or one triangle's
 
 
@@ -80,49 +82,74 @@ def _rows_of_mesh(objects, clip):
 
 
 def fit_lens(meshes, matrices, state):
-    """The camera's lens of meshes [(object positions or None, clip positions)]: the median of what rigid meshes tell; of flat
-    meshes alone, the projection among the constants `matrices`. `state`: the pipeline at one of their draws."""
-    clip = np.concatenate([c for _, c in meshes])
-    rows = [r for objects, c in meshes if objects is not None and (r := _rows_of_mesh(objects, c)) is not None]
-    return _parallel_lens(clip, rows, matrices, state) if is_parallel(clip) else _perspective_lens(clip, rows, matrices)
+    """(the camera's lens, whether each mesh is drawn with it) of meshes [(object positions or None, clip positions)]: what most rigid meshes
+    tell, or a projection among the constants `matrices`, which uneven scales do not hide. `state`: the pipeline at one of their draws."""
+    clips = [c for _, c in meshes]
+    rows = [_rows_of_mesh(objects, c) if objects is not None else None for objects, c in meshes]
+    if is_parallel(np.concatenate(clips)):
+        return _parallel_lens([r for r in rows if r is not None], matrices, state), [True] * len(meshes)
+    return _perspective_lens(clips, rows, matrices)
 
 
 # --- Perspective -----------------------------------------------------------------------------------------------------------
 
 def _of_rows(rows):
-    """(fx, fy, cx, cy) from the rows of clip_from_object, or None of a parallel projection."""
+    """(fx, fy, cx, cy) from the rows of clip_from_object, or None of a parallel projection and of a mesh that is scaled unevenly or sheared."""
     x, y, w = rows[0, :3], rows[1, :3], rows[3, :3]
     scale = np.linalg.norm(w)
     if scale < 1e-6:
         return None
     cx, cy = x @ w / scale**2, y @ w / scale**2
-    return np.linalg.norm(x - cx * w) / scale, np.linalg.norm(y - cy * w) / scale, cx, cy
+    x, y = x - cx * w, y - cy * w
+    fx, fy = np.linalg.norm(x) / scale, np.linalg.norm(y) / scale
+    return (fx, fy, cx, cy) if min(fx, fy) > 1e-6 and abs(x @ y) < ALIKE * scale**2 * fx * fy else None
 
 
-def _of_matrix(matrix, za):
-    """(fx, fy, cx, cy) of a projection matrix with the z row that was drawn, or None."""
+def _of_camera(matrix, za, zb):
+    """(fx, fy, cx, cy) of a matrix that projects a rigid space with the z row that was drawn, or None."""
     for m in (matrix, matrix.T):
-        if abs(abs(m[3, 2]) - 1) > 1e-6 or np.abs(m[3, [0, 1, 3]]).max() > 1e-6:
+        if not np.isfinite(m).all() or abs(np.linalg.norm(m[3, :3]) - 1) > 1e-4:
             continue
-        if abs(m[0, 0]) < 1e-6 or abs(m[1, 1]) < 1e-6 or np.abs(m[[0, 0, 1, 1], [1, 3, 0, 3]]).max() > 1e-6:
-            continue
-        if abs(m[2, 2] * m[3, 2] - za) < 1e-4:
-            return abs(m[0, 0]), abs(m[1, 1]), m[0, 2] * m[3, 2], m[1, 2] * m[3, 2]
+        left = m[2] - za * m[3]
+        if np.abs(left[:3]).max() < 1e-4 * abs(za) and abs(left[3] - zb) < 1e-3 * abs(zb) + 1e-6 and (lens := _of_rows(m)) is not None:
+            return lens
     return None
 
 
-def _perspective_lens(clip, rows, matrices):
-    za, zb = np.linalg.lstsq(np.c_[clip[:, 3], np.ones(len(clip))], clip[:, 2], rcond=None)[0]
-    z_residual = residual(clip[:, 3] * za + zb, clip[:, 2])
-    told = [lens for r in rows if (lens := _of_rows(r)) is not None]
-    if not told:
-        told = [lens for m in matrices if (lens := _of_matrix(m, za)) is not None][:1]
+def _line_of_most(clips):
+    """((za, zb) with which most vertices are drawn, whether those of each mesh are)."""
+    told = [c for c in clips if np.ptp(c[:, 3]) > 1e-4 * np.abs(c[:, 3]).max()] or [np.concatenate(clips)]
+    of = lambda c: np.linalg.lstsq(np.c_[c[:, 3], np.ones(len(c))], c[:, 2], rcond=None)[0]
+    off = lambda line, c: residual(c[:, 3] * line[0] + line[1], c[:, 2])
+    best = max((of(c) for c in told[:TRIED]), key=lambda line: sum(len(c) for c in clips if off(line, c) < LINE))
+    kept = [off(best, c) < LINE for c in clips]
+    line = of(np.concatenate([c for c, one in zip(clips, kept) if one])) if any(kept) else best
+    return line, kept
+
+
+def _of_most(told):
+    """(the lens with which most agree, how many do)."""
+    told = np.array(told)
+    alike = [(np.abs(told[:, :2] / one[:2] - 1).max(1) < ALIKE) & (np.abs(told[:, 2:] - one[2:]).max(1) < ALIKE) for one in told]
+    best = max(alike, key=lambda one: one.sum())
+    return np.median(told[best], axis=0), best
+
+
+def _perspective_lens(clips, rows, matrices):
+    (za, zb), kept = _line_of_most(clips)
+    rigid = [r for r, one in zip(rows, kept) if one and r is not None]
+    told = [lens for m in matrices if (lens := _of_camera(m, za, zb)) is not None]
+    asked = len(told) or len(rigid)
+    told = told or [lens for r in rigid if (lens := _of_rows(r)) is not None]
     if not told:
         raise FrameError("no mesh with positions of its own and no constant tells the camera's field of view")
-    told = np.array(told)
-    fx, fy, cx, cy = np.median(told, axis=0)
-    spread = float(np.median(np.abs(told[:, :2] / [fx, fy] - 1)))
-    return Lens(fx, fy, cx, cy, za, zb, max(spread, z_residual))
+    lens, alike = _of_most(told)
+    if 2 * alike.sum() < asked:
+        raise FrameError(f"the frame's {asked} solid meshes tell different fields of view, and no constant says which is the camera's: meshes that are "
+                         "scaled unevenly hide it")
+    spread = float(np.median(np.abs(np.array(told)[alike][:, :2] / lens[:2] - 1)))
+    used = np.concatenate([c for c, one in zip(clips, kept) if one])
+    return Lens(*lens, za, zb, max(spread, residual(used[:, 3] * za + zb, used[:, 2]))), kept
 
 
 # --- Parallel --------------------------------------------------------------------------------------------------------------
@@ -151,7 +178,7 @@ def _of_this_shape(matrices, shape):
     return sorted(found, key=lambda one: not one[0])
 
 
-def _parallel_lens(clip, rows, matrices, state):
+def _parallel_lens(rows, matrices, state):
     told = np.array([sizes for r in rows if (sizes := _sizes(r)) is not None])
     if not len(told):
         raise FrameError("the camera is orthographic, and no solid mesh with positions of its own tells what it sees (or everything stands at one "

@@ -19,6 +19,14 @@ class MapPasses:
     camera: list  # draws into the camera's depth, before the last reader has drawn
     prepass: list  # those among them before which nothing else is drawn there and whose vertices the readers draw again
     is_copied: bool  # whether the readers read a copy of the map, of another layout
+    rectangle: tuple | None = None  # x, y, width, height of what the camera draws of the picture; None: all
+
+    def cut(self, picture):
+        """What the camera draws of a picture as large as its own."""
+        if self.rectangle is None:
+            return picture
+        x, y, width, height = self.rectangle
+        return picture[max(y, 0):y + height, max(x, 0):x + width]
 
 
 def _writers(frame, colour_maps):
@@ -65,7 +73,7 @@ def _prepass(camera, readers):
     return before if alike and len(before) >= FEW else []
 
 
-def _as_map(frame, texture, written, by_event):
+def _as_map(frame, texture, written, by_event, as_large=False):
     """The texture's passes if it is a shadow map of some picture, else None."""
     writers = written[texture]
     reads = [by_event[e] for e in frame.readers_of(texture) if e in by_event]
@@ -78,7 +86,7 @@ def _as_map(frame, texture, written, by_event):
         return None
     picture = last.colours[0]
     readers = [d for d in readers if d.colours[0] == picture]
-    if _size(frame, texture) == _size(frame, picture):
+    if not as_large and _size(frame, texture) == _size(frame, picture):
         return None  # a camera's own depth, read by an effect
     camera = [d for d in written[camera_depth] if d.event <= last.event]
     origin = _copied_from(frame, texture, written)
@@ -86,16 +94,16 @@ def _as_map(frame, texture, written, by_event):
     return MapPasses(origin, casters, readers, picture, camera_depth, camera, _prepass(camera, readers), origin != texture)
 
 
-def find_maps(frame, colour_maps=False):
+def find_maps(frame, colour_maps=False, as_large=False):
     """Shadow maps of a frame, the most read first. Colour textures are looked at only where asked for, or where no depth texture
-    is a map."""
+    is a map; depth textures as large as the picture where there is no other."""
     written = _writers(frame, colour_maps)
     by_event = {d.event: d for d in frame.draws}
     wanted = [t for t in written if t in frame.textures and frame.textures[t].is_depth != colour_maps]
-    found = [m for t in wanted if (m := _as_map(frame, t, written, by_event)) is not None]
+    found = [m for t in wanted if (m := _as_map(frame, t, written, by_event, as_large)) is not None]
     found.sort(key=lambda m: (-len(m.readers), m.texture))
     if not found and not colour_maps:
-        return find_maps(frame, True)
+        return find_maps(frame, True, as_large) or ([] if as_large else find_maps(frame, False, True))
     return found
 
 

@@ -7,6 +7,7 @@ from . import lookup, moments, visibility
 from .errors import FrameError
 
 
+MOST_SLICES = 16  # of a map that are looked at
 MOST = 0.5  # share of the pixels within the map: where so many are not told nothing is
 
 
@@ -83,7 +84,10 @@ def measure(frame, found, layers, encoding, others, numbers):
         layer.old = _of_earlier_frames(_cut(layer, empty.maps[layer.state.slice]), frame.textures[found.passes.texture].is_depth, layer.state.reversed)
     if found.is_bilinear:
         _light_between_casters(pixels, layers)
-    if layers[0].place.apex is None:
+    if _has_parts_of_earlier_frames(frame, found, [*layers, *others], empty):
+        found.notes.append("parts of the map are of earlier frames, as of cascades that are redrawn in turn: compared are the pixels whose light the "
+                           "parts of this frame decide")
+    elif layers[0].place.apex is None:
         _light_beside_casters(pixels, layers)
     if any(layer.old.any() for layer in layers):
         _leave_out_earlier_frames(found, layers, pixels)
@@ -110,6 +114,20 @@ def _of_earlier_frames(empty, is_depth, is_reversed):
         return np.zeros(empty.shape, bool)
     values, counts = np.unique(empty, return_counts=True)
     return empty != ((0.0 if is_reversed else 1.0) if is_depth else values[counts.argmax()])
+
+
+def _has_parts_of_earlier_frames(frame, found, all_layers, empty):
+    """Whether a depth map holds casters beside the parts that this frame draws: in the same slice, or in one that it leaves alone."""
+    texture = frame.textures[found.passes.texture]
+    if not texture.is_depth:
+        return False
+    kept = {s: empty.maps[s][..., 0].copy() if s in empty.maps else frame.picture(texture.id, s)[..., 0] for s in range(min(texture.slices, MOST_SLICES))}
+    for layer in all_layers:
+        if layer.state.slice in kept and layer.state.depth == texture.id:
+            x, y, width, height = (int(round(v)) for v in layer.state.viewport)
+            kept[layer.state.slice][y:y + height, x:x + width] = 1.0
+    clear = 0.0 if all_layers[0].state.reversed else 1.0
+    return any(np.ptp(left) > 0 and ((left != clear) & (left != 1.0)).any() for left in kept.values())
 
 
 def _leave_out_earlier_frames(found, layers, pixels):

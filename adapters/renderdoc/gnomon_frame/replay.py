@@ -311,12 +311,14 @@ class Frame:
         return vertices, np.clip(indices, 0, count - 1, out=indices), corners
 
     def _source(self, pipe, action):
-        """(object positions, the row of each index among them, what names the vertices), or None where no attribute is three floats."""
-        fit = [a for a in pipe.GetVertexInputs()
-               if a.format.compType == rd.CompType.Float and a.format.compCount >= 3 and a.format.compByteWidth == 4 and not a.perInstance]
+        """(object positions, the row of each index among them, what names the vertices), or None where no attribute is three numbers."""
+        fit = [a for a in pipe.GetVertexInputs() if formats.of_attribute(a.format.compType.name, a.format.compByteWidth) and a.format.compCount >= 3
+               and not a.perInstance]
         if not fit:
             return None
-        attribute = next((a for a in fit if any(word in a.name.lower() for word in ("pos", "vert"))), fit[0])
+        fit.sort(key=lambda a: (not any(word in a.name.lower() for word in ("pos", "vert")), a.format.compType != rd.CompType.Float, -a.format.compByteWidth))
+        attribute = fit[0]
+        kind, largest = formats.of_attribute(attribute.format.compType.name, attribute.format.compByteWidth)
         buffer = pipe.GetVBuffers()[attribute.vertexBuffer]
         indexed = bool(action.flags & rd.ActionFlags.Indexed)
         index = pipe.GetIBuffer()
@@ -326,11 +328,13 @@ class Frame:
             order[restart] = 0
         else:
             order = np.arange(action.numIndices, dtype=np.int32) + np.int32(action.vertexOffset)
-        stride = buffer.byteStride or 4 * attribute.format.compCount
+        width = attribute.format.compByteWidth
+        stride = buffer.byteStride or width * attribute.format.compCount
         data = self.controller.GetBufferData(buffer.resourceId, buffer.byteOffset + attribute.byteOffset, (int(order.max()) + 1) * stride)
-        values = np.frombuffer(data, np.float32, len(data) // 4)
-        count = (len(data) // 4 * 4 - 12) // stride + 1
-        points = np.lib.stride_tricks.as_strided(values, (count, 3), (stride, 4))
+        values = np.frombuffer(data, kind, len(data) // width)
+        count = (len(data) // width * width - 3 * width) // stride + 1
+        points = np.lib.stride_tricks.as_strided(values, (count, 3), (stride, width))
+        points = points if width == 4 else points / np.float32(largest)
         name = (int(buffer.resourceId), buffer.byteOffset, int(index.resourceId) if indexed else 0, action.indexOffset, action.vertexOffset,
                 action.baseVertex, action.numIndices, action.instanceOffset)
         return points, np.clip(order, 0, count - 1, out=order), name
@@ -344,12 +348,13 @@ class Frame:
         opengl = self.controller.GetPipelineState().IsCaptureGL()
         return formats.decode(data, t.format, t.width, t.height, opengl)
 
-    def shows(self, event, depth, final):
-        """Pixels of a depth texture that a draw writes and that nothing later writes over, of which `final` is left."""
+    def shows(self, event, depth, final, cut):
+        """Pixels of a depth texture that a draw writes and that nothing later writes over, of which `final` is left; `cut` takes the camera's
+        part of a picture."""
         self.go_to(event - 1)
-        before = self.picture(depth)[..., 0]
+        before = cut(self.picture(depth)[..., 0])
         self.go_to(event)
-        after = self.picture(depth)[..., 0]
+        after = cut(self.picture(depth)[..., 0])
         return (after != before) & (after == final)
 
     @contextmanager

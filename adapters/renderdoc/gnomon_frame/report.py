@@ -65,6 +65,8 @@ def findings(frame, found, layers, test):
             out += _form(test.form)
         elif layer.constant and not test.fitted:
             out.append(f"{which}the reader's test lets {layer.constant:.3g} of stored depth pass (found from the picture)")
+        if layer.is_held:
+            out.append(f"{which}casters before the map's near plane are held at it")
         offset = polygon_offset(layer, texture)
         if offset:
             unsaid = "; of distances a capture says the constant alone, and the verdict charges the rest elsewhere" if layer.half and offset["slope"] else ""

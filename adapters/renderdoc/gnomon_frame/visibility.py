@@ -92,7 +92,7 @@ def take_pictures(frame, passes, slices):
     depths = {s: frame.picture(beside, s)[..., 0] for s in slices if beside and beside != passes.texture and s < frame.textures[beside].slices}
     frame.go_to(passes.readers[-1].event, again=True)
     read = {s: frame.picture(passes.texture, s) for s in slices}
-    return Pictures(frame.picture(passes.picture)[..., :3], frame.picture(passes.camera_depth)[..., 0], maps, read, depths)
+    return Pictures(passes.cut(frame.picture(passes.picture))[..., :3], passes.cut(frame.picture(passes.camera_depth))[..., 0], maps, read, depths)
 
 
 def does_not_say(frame, passes):
