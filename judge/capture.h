@@ -126,8 +126,8 @@ struct Capture {
   std::optional<CapturedFilter> filter;
   std::optional<double> strength;  ///< of the shadow, in (0, 1]: full shadow is drawn as 1 - strength
   std::optional<CapturedFade> fade;
-  std::string also;            ///< file: what else darkens the picture, to be divided out
-  Vec2 jitter{0.0};    ///< pixels, of what each pixel shows from its centre, to the right and downwards
+  std::string also;  ///< file: what else darkens the picture, to be divided out
+  Vec2 jitter{0.0};  ///< pixels, of what each pixel shows from its centre, to the right and downwards
   bool casters_found = false;  ///< which meshes cast was found from a frame, and nobody said so
   std::string within;          ///< "lights[1]." before the fields of one light of several; else empty
 };

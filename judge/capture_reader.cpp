@@ -324,8 +324,8 @@ std::vector<Capture> CaptureReader::read_lights(const JsonObject& root) {
 }
 
 std::vector<Capture> CaptureReader::read(const JsonValue& value) {
-  std::vector<std::string_view> keys{"$schema", "schema",   "renderer", "scene",  "camera",
-                                     "size",    "position", "depth",    "lights", "casters", "jitter"};
+  std::vector<std::string_view> keys{"$schema",  "schema", "renderer", "scene",   "camera", "size",
+                                     "position", "depth",  "lights",   "casters", "jitter"};
   keys.insert(keys.end(), light_keys.begin(), light_keys.end());
   const JsonObject root(JsonNode(errors_, value, ""), std::move(keys));
   if (const auto schema = root.require("schema")) read_schema(*schema);
