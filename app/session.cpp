@@ -13,6 +13,7 @@
 #include "hybrid/visibility.h"
 #include "raster/programs/shader_folder.h"
 #include "raster/technique_traits.h"
+#include "rays/visibility.h"
 #include "raytrace/choose_tracer.h"
 #include "scene/base/option_text.h"
 #include "scene/base/parallel.h"
@@ -158,11 +159,20 @@ Expected<std::unique_ptr<raster::Renderer>> make_renderer(raster::Backend backen
   return make_renderer(std::move(*context), loaded, shader_folder);
 }
 
+namespace {
+
+void use_rays(raster::Renderer& renderer, const World& world) {
+  renderer.use_external_visibility(raster::Technique::hybrid, hybrid::make_visibility(world));
+  renderer.use_external_visibility(raster::Technique::rays, rays::make_visibility(world));
+}
+
+}  // namespace
+
 Expected<std::unique_ptr<raster::Renderer>> make_renderer(std::unique_ptr<raster::Context> context,
                                                           const LoadedScene& loaded,
                                                           const std::string& shader_folder) {
   auto renderer = raster::Renderer::create(std::move(context), *loaded.world, loaded.plan, shader_folder);
-  if (renderer) (*renderer)->use_external_visibility(hybrid::make_visibility(*loaded.world));
+  if (renderer) use_rays(**renderer, *loaded.world);
   return renderer;
 }
 

@@ -1,7 +1,7 @@
 # cmake --install BUILD --component development [--prefix P]: the rooms as static libraries with their headers, for other
 # programs: find_package(gnomon), then gnomon::compare and the like (docs/library.md). No part of what a plain install puts
 # in place, nor of the Debian package.
-set(rooms scene shaders raster raytrace hybrid compare report functions studies judge grade)
+set(rooms scene shaders raster raytrace rays hybrid compare report functions studies judge grade)
 set(package "${CMAKE_INSTALL_LIBDIR}/cmake/gnomon")
 foreach(room ${rooms})
   set_target_properties(gnomon_${room} PROPERTIES EXPORT_NAME ${room})

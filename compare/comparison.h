@@ -51,10 +51,18 @@ enum class Cause : std::uint8_t {
   precision,
   bias,
   filter,
-  caster  ///< of another renderer's map whose casters are not the scene's: it has no rung of its own
+  caster,  ///< of another renderer's map whose casters are not the scene's: it has no rung of its own
+  // Of few rays (Ladder::rays) the last four steps are these, and the first two change nothing.
+  rays_blur = slope,
+  rays_lag = precision,
+  rays_noise = bias,
+  rays_remap = filter
 };
+/// Which changes lead from the truth to the drawing: those of a map, or those of a few rays and their denoiser.
+enum class Ladder : std::uint8_t { map, rays };
+Ladder ladder_of(raster::Technique technique);
 inline constexpr std::size_t cause_count = 6;  ///< those with a rung
-std::string_view cause_name(Cause cause);
+std::string_view cause_name(Cause cause, Ladder ladder = Ladder::map);
 
 /// Values are those of the class.V channel.
 enum class Label : std::int8_t {
@@ -80,9 +88,12 @@ enum class Label : std::int8_t {
   moved_caster,
   clipped_caster,
   culled_caster,
-  ignored_alpha
+  ignored_alpha,
+  noise,
+  lag,
+  remap
 };
-inline constexpr std::size_t class_count = 18;  ///< the wrong ones, acne … ignored_alpha
+inline constexpr std::size_t class_count = 21;  ///< the wrong ones, acne … remap
 std::string_view label_name(Label label);  ///< as in result.json; "right", "background", … for the others
 /// Tells whether a pixel has an error: its label is what caused it. It is wrong where that is more than one half (is_wrong).
 inline bool has_cause(Label label) {
@@ -322,7 +333,7 @@ struct LightFigures : BiasFreeFigures {
 };
 
 struct LightLists {
-  std::array<std::uint64_t, class_count> classes{};  ///< acne … ignored_alpha; they sum to error.wrong
+  std::array<std::uint64_t, class_count> classes{};  ///< acne … remap; they sum to error.wrong
   /// Mean |V6 - V0| of the pixels with each label, over all compared ones; they sum to error.mean_absolute but for
   /// errors below least_labelled_error.
   std::array<double, class_count> class_errors{};

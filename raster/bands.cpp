@@ -23,6 +23,9 @@ void add_external(const ExternalCosts& band, std::optional<ExternalCosts>& sum) 
   sum->build = band.build;
   sum->receivers_ms = whole_of(band.receivers_ms);
   sum->shadow = whole_of(band.shadow);
+  sum->denoise = whole_of(band.denoise);
+  sum->taps += band.taps;
+  sum->boxes_per_ray = band.boxes_per_ray, sum->primitives_per_ray = band.primitives_per_ray;
 }
 
 /// What the first band knows of a light, and the others do not add to.

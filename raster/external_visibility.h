@@ -1,9 +1,10 @@
 // Visibility that is worked out outside OpenGL, from what the camera sees, and shaded like any other
-// (Technique::hybrid). The rasterizer hands over its visibility buffer and gets back an image.
+// (Technique::hybrid and rays). The rasterizer hands over its visibility buffer and gets back an image.
 #pragma once
 
 #include <cstdint>
 
+#include "raster/options.h"
 #include "scene/base/expected.h"
 #include "scene/base/timing.h"
 #include "scene/camera.h"
@@ -17,6 +18,7 @@ struct VisibilityRequest {
   std::uint32_t light = 0;  ///< index in Scene::lights
   const LightView& map;     ///< fitted for the light at the map size asked for
   const View& camera;
+  const MapOptions& options;
   int shadow_samples = 0;  ///< to a light with size; 0: as the light says
   std::uint64_t seed = 0;  ///< of the samples
   bool analysis = false;   ///< of one picture; else it may be one of many in a row, made for speed
@@ -37,8 +39,13 @@ struct ExternalCosts {
   /// ms, of what is kept while light and world stand still, with what the first frames that ask for it add; and that part.
   Times build;
   double build_later_ms = 0.0;
-  Times receivers_ms, shadow;    ///< ms, of each frame: the receivers; their visibility
-  Image<std::uint8_t> decision;  ///< the Decision of each pixel
+  Times receivers_ms,
+      shadow;     ///< ms, of each frame: the receivers; their visibility, of Technique::rays its rays
+  Times denoise;  ///< Technique::rays: ms, of each frame
+  std::uint64_t taps =
+      0;  ///< Technique::rays: values of neighbours and of the history that the denoiser reads in a frame
+  double boxes_per_ray = 0.0, primitives_per_ray = 0.0;  ///< Technique::rays: tested; 0: not counted
+  Image<std::uint8_t> decision;  ///< the Decision of each pixel; of Technique::rays empty
   /// Triangles tested for the rays cast, and for all rays, by a walk that counts; 0: not counted.
   std::uint64_t triangle_tests = 0, all_triangle_tests = 0;
 };

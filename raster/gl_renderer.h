@@ -42,8 +42,8 @@ class GlRenderer final : public Renderer {
   Expected<RasterFrame> render(const RasterOptions& options, std::span<const std::uint32_t> lights) override;
   std::optional<ShadowSpans> take_spans() override;
   const ContextInfo& info() const override { return info_; }
-  void use_external_visibility(std::shared_ptr<ExternalVisibility> visibility) override {
-    external_.use(std::move(visibility));
+  void use_external_visibility(Technique technique, std::shared_ptr<ExternalVisibility> visibility) override {
+    external_.use(technique, std::move(visibility));
   }
   void fit_maps_to(const std::optional<MapCamera>& camera) { map_camera_ = camera; }
   Expected<void> use_shaders(const std::string& folder);

@@ -27,7 +27,8 @@ enum class Technique : std::uint8_t {
   lispsm,
   cube,
   izb,
-  hybrid
+  hybrid,
+  rays
 };
 /// d32f_reversed: 1 near, 0 far, so that a float's fine steps near 0 meet perspective's coarse far end.
 enum class DepthFormat : std::uint8_t { d16, d24, d32f, d32f_reversed };
@@ -106,6 +107,27 @@ struct FilterOptions {
   bool operator==(const FilterOptions&) const = default;
 };
 
+/// How many rays a pixel has; quarter: one for each block of 2 x 2 pixels, another one's frame by frame.
+enum class RayCount : std::uint8_t { quarter, one, two, four, eight, sixteen };
+constexpr std::uint32_t rays_of(RayCount count) {
+  return count == RayCount::quarter ? 1U : 1U << (static_cast<unsigned>(count) - 1U);
+}
+/// Where on the light they go (rays/ray_samples.h).
+enum class RaySampler : std::uint8_t { random, stratified, blue_noise };
+/// What is made of them (rays/denoisers/).
+enum class Denoiser : std::uint8_t { none, penumbra, atrous, svgf, fidelityfx };
+
+/// Technique::rays, of a light with size.
+struct RayOptions {
+  RayCount count = RayCount::one;
+  RaySampler sampler = RaySampler::blue_noise;
+  Denoiser denoiser = Denoiser::penumbra;
+  /// Frames that the picture is drawn from, in [1, 64]: so many of a camera that stands still. svgf and fidelityfx weigh them
+  /// by rules of their own, the others take the mean.
+  int history = 1;
+  bool operator==(const RayOptions&) const = default;
+};
+
 /// Is the epsilon of Bias::adaptive, as a share of the scene's diagonal.
 inline constexpr double adaptive_epsilon = 1e-4;
 
@@ -123,7 +145,8 @@ struct MapOptions {
   Bias bias{.slope = 1.0};
   FilterOptions filter;
   CascadeOptions cascades;  ///< csm
-  LightWindow window;       ///< where the map lies, as the user's engine has it; of a fitted map empty
+  RayOptions rays;
+  LightWindow window;  ///< where the map lies, as the user's engine has it; of a fitted map empty
   /// Maps of a directional light that are one window: what stands still keeps its texels while the camera moves. Sizes
   /// go by steps of a quarter octave and places by whole texels; of lispsm see fit_warped().
   bool snap = false;

@@ -38,8 +38,9 @@ class Renderer {
   /// What the drawings of RasterOptions::span_drawings took in the last frame that had them, once. None: not known yet; where the
   /// device has a clock of its own, a browser's worker learns it only after the turn that drew.
   virtual std::optional<ShadowSpans> take_spans() = 0;
-  /// What Technique::hybrid asks; it is kept from frame to frame. Without it that technique is an error.
-  virtual void use_external_visibility(std::shared_ptr<ExternalVisibility> visibility) = 0;
+  /// What the technique asks, hybrid or rays; it is kept from frame to frame. Without it that technique is an error.
+  virtual void use_external_visibility(Technique technique,
+                                       std::shared_ptr<ExternalVisibility> visibility) = 0;
   virtual const ContextInfo& info() const = 0;
 };
 

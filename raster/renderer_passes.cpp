@@ -89,8 +89,9 @@ Expected<void> GlRenderer::time_pass(std::string_view repeats, const RasterOptio
 
 // The comparison's rungs below V6 are those of a depth map, which is drawn for them alone.
 Expected<void> GlRenderer::prepare_external(Job& job, const VisibilityRequest& request, LightRecord* record) {
-  if (auto ok = external_.check(); !ok) return ok;
-  job.frame.map_texels += texels_of(request.map);
+  if (auto ok = external_.check(request.options.technique); !ok) return ok;
+  if (traits_of(request.options.technique).contents == MapContents::sheets)
+    job.frame.map_texels += texels_of(request.map);
   if (record != nullptr && !job.goes_on && job.options.runs > 0) {
     constexpr std::string_view stage = "sheet runs";
     {

@@ -26,6 +26,29 @@ inline Names<Cull> culls() {
   return all;
 }
 
+inline Names<RayCount> ray_counts() {
+  static constexpr std::pair<std::string_view, RayCount> all[] = {
+      {"1/4", RayCount::quarter}, {"1", RayCount::one},   {"2", RayCount::two},
+      {"4", RayCount::four},      {"8", RayCount::eight}, {"16", RayCount::sixteen}};
+  return all;
+}
+
+inline Names<RaySampler> ray_samplers() {
+  static constexpr std::pair<std::string_view, RaySampler> all[] = {{"random", RaySampler::random},
+                                                                    {"stratified", RaySampler::stratified},
+                                                                    {"blue-noise", RaySampler::blue_noise}};
+  return all;
+}
+
+inline Names<Denoiser> denoisers() {
+  static constexpr std::pair<std::string_view, Denoiser> all[] = {{"none", Denoiser::none},
+                                                                  {"penumbra", Denoiser::penumbra},
+                                                                  {"atrous", Denoiser::atrous},
+                                                                  {"svgf", Denoiser::svgf},
+                                                                  {"fidelityfx", Denoiser::fidelityfx}};
+  return all;
+}
+
 template <class Enum, class Row>
 std::vector<std::pair<std::string_view, Enum>> names_of(std::span<const Row> rows, Enum Row::*value) {
   std::vector<std::pair<std::string_view, Enum>> all;

@@ -10,7 +10,13 @@ namespace {
 using Traits = TechniqueTraits;
 
 bool compares(const Traits& t) {
-  return t.test != ShadowTest::exact;
+  return compares_depths(t.technique);
+}
+bool has_a_map(const Traits& t) {
+  return t.contents != MapContents::nothing;
+}
+bool samples(const Traits& t) {
+  return t.test == ShadowTest::sampled;
 }
 /// A midpoint lies between two casters as they are.
 bool moves_casters(const Traits& t) {
@@ -73,10 +79,12 @@ constexpr auto of_bias = &MapOptions::bias;
 constexpr auto of_filter = &MapOptions::filter;
 constexpr auto of_cascades = &MapOptions::cascades;
 constexpr auto of_window = &MapOptions::window;
+constexpr auto of_rays = &MapOptions::rays;
 using W = LightWindow;
 constexpr OptionRange any_place{-1e30, 1e30};
 using F = FilterOptions;
 using C = CascadeOptions;
+using R = RayOptions;
 
 static_assert(automatic_bias_texels == 0.0625 && MapOptions{}.bias.slope == 1.0,
               "the help of two rows says so");
@@ -88,6 +96,7 @@ constexpr MapSetting rows[] = {
      .key = "size",
      .group = SettingGroup::map,
      .kind = integer<&MapOptions::size>("texels", 1, 65536, 16, 16384, true),
+     .read_by = has_a_map,
      .type = "N",
      .help = "side of the shadow map, as far as the graphics context allows",
      .title = "Map size",
@@ -140,9 +149,9 @@ constexpr MapSetting rows[] = {
      .title = "Technique",
      .what = "What the map stores and how it is looked up.",
      .acne =
-         "Techniques that compare depths need a bias against it; filters turn it into grey; hybrid and izb "
-         "have none.",
-     .peter_panning = "As much as the bias; hybrid and izb have none."},
+         "Techniques that compare depths need a bias against it; filters turn it into grey; hybrid, izb and "
+         "rays have none.",
+     .peter_panning = "As much as the bias; hybrid, izb and rays have none."},
     {.name = "bias",
      .group = SettingGroup::bias,
      .kind = ConstantBiasSetting{&Bias::constant, &Bias::unit, true},
@@ -470,6 +479,47 @@ constexpr MapSetting rows[] = {
      .what = "The map grows by steps and moves by whole texels, so that shadows do not swim.",
      .acne = "None; its texels are larger.",
      .peter_panning = "None; its texels are larger."},
+    {.name = "rays",
+     .key = "rays_per_pixel",
+     .group = SettingGroup::rays,
+     .kind = choice<&ray_counts, of_rays, &R::count>(),
+     .read_by = samples,
+     .type = "N",
+     .help = "rays for each pixel to a light with size; 1/4 is one for 2 x 2 pixels",
+     .title = "Rays",
+     .what = "Rays for each pixel to points of a light with size; a light without size takes one, which is "
+             "exact.",
+     .acne = "None: rays start off their surface by rounding's own bound."},
+    {.name = "ray-sampler",
+     .key = "ray_sampler",
+     .group = SettingGroup::rays,
+     .kind = choice<&ray_samplers, of_rays, &R::sampler>(),
+     .read_by = samples,
+     .type = "NAME",
+     .help = "which points of the light the rays go to",
+     .title = "Sampler",
+     .what = "Which points of the light the rays go to: each alone, one in each part of it, or so that "
+             "neighbouring pixels complete each other."},
+    {.name = "denoiser",
+     .key = "denoiser",
+     .group = SettingGroup::rays,
+     .kind = choice<&denoisers, of_rays, &R::denoiser>(),
+     .read_by = samples,
+     .type = "NAME",
+     .help = "what is made of the rays' noise: a filter as wide as the penumbra, an edge-avoiding wavelet, "
+             "one guided by variance, or AMD's",
+     .title = "Denoiser",
+     .what = "What is made of the rays' noise.",
+     .peter_panning = "A denoiser takes thin shadows for noise and greys them."},
+    {.name = "history",
+     .key = "history",
+     .group = SettingGroup::rays,
+     .kind = integer<of_rays, &R::history>("frames", 1, 64, 1, 64),
+     .read_by = samples,
+     .type = "N",
+     .help = "frames of a camera that stands still that the picture is drawn from",
+     .title = "History",
+     .what = "Frames of a camera that stands still that the picture is drawn from."},
 };
 
 }  // namespace

@@ -18,16 +18,17 @@
 
 namespace gnomon::raster {
 
-enum class SettingGroup : std::uint8_t { map, window, bias, filter, cascades };
+enum class SettingGroup : std::uint8_t { map, window, bias, filter, cascades, rays };
 /// What stands above a group's settings in the lab. A literal, ended by a zero.
 constexpr std::string_view group_title(SettingGroup group) {
-  constexpr std::string_view titles[] = {"Map", "Window", "Bias", "Filter", "Cascades"};
+  constexpr std::string_view titles[] = {"Map", "Window", "Bias", "Filter", "Cascades", "Rays"};
   return titles[static_cast<std::size_t>(group)];
 }
 
 /// The order in which a panel has the groups.
-inline constexpr SettingGroup panel_groups[] = {SettingGroup::map, SettingGroup::bias, SettingGroup::filter,
-                                                SettingGroup::cascades, SettingGroup::window};
+inline constexpr SettingGroup panel_groups[] = {SettingGroup::map,    SettingGroup::bias,
+                                                SettingGroup::filter, SettingGroup::cascades,
+                                                SettingGroup::rays,   SettingGroup::window};
 
 /// A number of this unit. The slider's ends lie within the range; what lies beyond them can be typed.
 struct NumberSetting {

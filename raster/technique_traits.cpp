@@ -4,7 +4,7 @@ namespace gnomon::raster {
 
 // Each in the file of its pass, those without one in passes/technique.cpp.
 extern const TechniqueDrawing hard_drawing, pcf_drawing, pcss_drawing, csm_drawing, lispsm_drawing,
-    hybrid_drawing;
+    hybrid_drawing, rays_drawing;
 extern const TechniqueDrawing vsm_drawing, esm_drawing, evsm_drawing, msm_drawing;
 extern const TechniqueDrawing midpoint_drawing;
 extern const TechniqueDrawing izb_drawing;
@@ -77,6 +77,13 @@ constexpr TechniqueTraits techniques[] = {
      .contents = MapContents::sheets,
      .floats_per_texel = 0,
      .test = ShadowTest::exact,
+     .soft = true},
+    {.technique = Technique::rays,
+     .name = "rays",
+     .drawing = &rays_drawing,
+     .contents = MapContents::nothing,
+     .floats_per_texel = 0,
+     .test = ShadowTest::sampled,
      .soft = true}};
 
 constexpr FilterKernelTraits kernels[] = {{FilterKernel::box, "box"},
@@ -91,7 +98,7 @@ constexpr bool in_order(const Traits (&table)[N], Enum Traits::*key) {
   return true;
 }
 static_assert(in_order(techniques, &TechniqueTraits::technique), "rows are found by the enumeration's value");
-static_assert(std::size(techniques) == static_cast<std::size_t>(Technique::hybrid) + 1);
+static_assert(std::size(techniques) == static_cast<std::size_t>(Technique::rays) + 1);
 static_assert(in_order(kernels, &FilterKernelTraits::kernel), "rows are found by the enumeration's value");
 
 }  // namespace

@@ -18,7 +18,8 @@ enum class MapContents : std::uint8_t {
   midpoint_depth,  ///< halfway between the two nearest surfaces
   moments,         ///< the depth's moments, filtered
   pixels,          ///< the list of the pixels that look it up
-  sheets           ///< the connected pieces of surface in its column (docs/design.md, section 3)
+  sheets,          ///< the connected pieces of surface in its column (docs/design.md, section 3)
+  nothing          ///< there is none: rays are cast
 };
 
 /// How the visibility of a pixel comes from the map.
@@ -26,7 +27,8 @@ enum class ShadowTest : std::uint8_t {
   single,    ///< shadowed iff its gap to one stored depth exceeds the bias
   averaged,  ///< the mean of such tests
   moments,   ///< an upper bound of the share of unshadowed texels
-  exact      ///< against the triangles themselves: no stored depth is compared, and there is no bias
+  exact,     ///< against the triangles themselves: no stored depth is compared, and there is no bias
+  sampled    ///< the mean of a few rays, denoised; there is no bias
 };
 
 /// How wide a texel is, and what the map follows.
@@ -102,7 +104,7 @@ inline std::string_view technique_name(Technique technique) {
 
 /// Whether a stored depth is compared with the receiver's, with a bias.
 inline bool compares_depths(Technique technique) {
-  return traits_of(technique).test != ShadowTest::exact;
+  return traits_of(technique).test < ShadowTest::exact;
 }
 
 /// Its filter is FilterOptions::kernel.
@@ -110,9 +112,15 @@ inline bool has_kernel(Technique technique) {
   return traits_of(technique).filter == EdgeFilter::kernel;
 }
 
+/// Few rays for each pixel are cast and denoised: rays.
+inline bool samples_rays(Technique technique) {
+  return traits_of(technique).test == ShadowTest::sampled;
+}
+
 /// Visibility comes from outside OpenGL (ExternalVisibility).
 inline bool is_external(Technique technique) {
-  return traits_of(technique).contents == MapContents::sheets;
+  const MapContents contents = traits_of(technique).contents;
+  return contents == MapContents::sheets || contents == MapContents::nothing;
 }
 
 inline bool has_cascades(Technique technique) {

@@ -37,7 +37,7 @@ std::string hex(const glm::u8vec3& colour) {
 Json lesson_facts(const Comparison& c) {
   std::set<std::string_view> shown{"error-budget", "bias"};
   for (const compare::LightComparison& light : c.lights) {
-    if (compare::drawn_record(c, light).external) shown.insert("hybrid");
+    if (c.raster.options.map.technique == raster::Technique::hybrid) shown.insert("hybrid");
     for (std::size_t k = 0; k < compare::class_count; ++k)
       if (light.classes[k] > 0) shown.insert(lesson_of(static_cast<compare::Label>(k + 1)).name);
   }
@@ -111,12 +111,12 @@ Json label_facts() {
   return list;
 }
 
-Json rung_facts() {
+Json rung_facts(compare::Ladder ladder) {
   Json list = Json::array();
   for (std::size_t k = 0; k < compare::rung_count; ++k) {
-    const compare::RungText& rung = compare::rung_text(static_cast<compare::Rung>(k));
-    Json json{{"name", rung.name}, {"what", rung.what}};
-    if (k > 0) json["step"] = compare::step_text(static_cast<compare::Cause>(k - 1)).name;
+    const compare::RungText& rung = compare::rung_text(static_cast<compare::Rung>(k), ladder);
+    Json json{{"symbol", rung.symbol}, {"name", rung.name}, {"what", rung.what}};
+    if (k > 0) json["step"] = compare::step_text(static_cast<compare::Cause>(k - 1), ladder).name;
     list.push_back(std::move(json));
   }
   return list;

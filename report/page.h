@@ -42,7 +42,7 @@ BuiltPage report_page(PageInput input, PageData& data, double max_mb);
 /// Labels by their values, from uncertain on (page/src/report_document.ts: LabelFacts).
 nlohmann::ordered_json label_facts();
 /// V0 … V6, each with the step that leads to it.
-nlohmann::ordered_json rung_facts();
+nlohmann::ordered_json rung_facts(compare::Ladder ladder);
 /// What has moved since the last frame, and what each side then makes for the shadows: key, words, made.
 nlohmann::ordered_json situation_facts();
 /// Everything that the sections of the page ask for (page/src/report_document.ts: Facts).

@@ -121,7 +121,7 @@ void add_step(Telling& telling, const PixelFacts& pixel) {
   const Cause cause = label.step == Cause::caster ? Cause::caster : static_cast<Cause>(step - 1);
   telling.put("before", std::to_string(step - 1));
   telling.put("step", std::to_string(step));
-  telling.put("change", std::string(compare::step_text(cause).name));
+  telling.put("change", std::string(compare::step_text(cause, pixel.ladder).name));
 }
 
 /// Tells how a technique that decides exactly did it.
@@ -139,7 +139,8 @@ int deciding_rung(const PixelFacts& pixel) {
   if (pixel.label == Label::stored_depth) return rung_of(Cause::precision);
   std::array<float, compare::rung_count> rungs{};
   for (std::size_t k = 0; k < compare::rung_count; ++k) rungs[k] = static_cast<float>(pixel.rungs[k]);
-  if (!compare::is_wrong(rungs) && (pixel.label == Label::blur || pixel.label == Label::light_size))
+  if (pixel.ladder == compare::Ladder::map && !compare::is_wrong(rungs) &&
+      (pixel.label == Label::blur || pixel.label == Label::light_size))
     return rung_of(*compare::label_text(pixel.label).step);
   return rung_of(compare::deciding_step(rungs));
 }
@@ -150,6 +151,7 @@ std::string pixel_words(const compare::Comparison& c, const compare::LightCompar
   Telling telling;
   telling.holds("not_compared", !compare::is_compared(pixel.label));
   telling.holds("without_map", !c.raster.has_known_map());
+  telling.holds("few_rays", pixel.ladder == compare::Ladder::rays);
   telling.holds("exact", !compare::compares_depths(c));
   telling.holds("filtered", !compare::biases_follow_from_gaps(c.raster));
   telling.holds("right", pixel.label == Label::right);
@@ -159,9 +161,11 @@ std::string pixel_words(const compare::Comparison& c, const compare::LightCompar
   telling.holds("unchanged", drawn == single);
   telling.put("truth", three_digits(truth)), telling.put("single", three_digits(single)),
       telling.put("drawn", three_digits(drawn));
+  telling.put("through", three_digits(pixel.rungs[4]));
   telling.put("technique", std::string(compare::drawn_technique(c)));
   add_step(telling, pixel);
-  if (compare::is_compared(pixel.label) && c.raster.has_known_map()) add_map_test(telling, c, light, pixel);
+  if (compare::is_compared(pixel.label) && c.raster.has_known_map() && pixel.ladder == compare::Ladder::map)
+    add_map_test(telling, c, light, pixel);
   add_decision(telling, pixel);
   return telling.say("story");
 }

@@ -23,6 +23,7 @@ struct PixelFacts {
   std::optional<compare::ShownMaterial> material{};      ///< its own, where that mirrors or transmits
   std::optional<compare::ShownMaterial> stored_glass{};  ///< what its texel holds, where that is other glass
   std::optional<std::uint8_t> decision{};  ///< of the hybrid: 0 surely in shadow, 1 surely lit, 2 traced
+  compare::Ladder ladder = compare::Ladder::map;
 };
 
 /// The step that the label of an error names (docs/labels.md), by the rung it leads to, 1 to 6; 0: it is right, or

@@ -251,6 +251,8 @@ std::string_view contents_text(raster::MapContents contents) {
       return "list of the pixels that look it up";
     case raster::MapContents::sheets:
       return "connected pieces of surface";
+    case raster::MapContents::nothing:
+      return "nothing: there is no map";
   }
   return {};
 }
@@ -265,6 +267,8 @@ std::string_view test_text(raster::ShadowTest test) {
       return "bound from moments";
     case raster::ShadowTest::exact:
       return "exact, without a bias";
+    case raster::ShadowTest::sampled:
+      return "mean of a few rays, denoised";
   }
   return {};
 }

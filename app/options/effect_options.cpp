@@ -59,6 +59,9 @@ std::vector<std::string> options_without_effect(std::span<const std::string> giv
   if (raster::traits_of(map.technique).filter == raster::EdgeFilter::penumbra && !any(has_size))
     all_idle({"filter-samples", "blocker-samples", "search-radius"},
              "pcss is the hard test for lights without a size");
+  if (raster::samples_rays(map.technique) && !any(has_size))
+    all_idle({"rays", "ray-sampler", "denoiser", "history"},
+             "no light has a size, and one ray to its centre is exact");
   if (map.snap && !any([](const Light& light) { return light.type == LightType::directional; }))
     all_idle({"snap"}, "no light is directional");
   if (raster::has_cascades(map.technique) && map.cascades.count == 1)

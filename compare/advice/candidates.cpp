@@ -167,6 +167,22 @@ std::optional<Candidate> of_defaults(const Comparison& c, const LightComparison&
   return Candidate{usual};
 }
 
+/// Where noise has the larger part twice the rays; else a denoiser that blurs less.
+std::optional<Candidate> of_rays(const Comparison& c, const LightComparison& light) {
+  Candidate candidate{asked_options(c)};
+  raster::RayOptions& rays = candidate.map.rays;
+  if (!raster::samples_rays(candidate.map.technique) || !could_be_worth(1.0, c, light)) return std::nullopt;
+  const double noise = part_of(light, {Label::noise}), blur = part_of(light, {Label::blur, Label::remap});
+  if (noise >= blur && rays.count != raster::RayCount::sixteen)
+    rays.count = static_cast<raster::RayCount>(static_cast<int>(rays.count) + 1);
+  else if (noise < blur && rays.denoiser != raster::Denoiser::none)
+    rays.denoiser =
+        rays.denoiser == raster::Denoiser::penumbra ? raster::Denoiser::none : raster::Denoiser::penumbra;
+  else
+    return std::nullopt;
+  return candidate;
+}
+
 }  // namespace
 
 std::vector<Candidate> candidates(const Comparison& c, const LightComparison& light) {
@@ -178,6 +194,7 @@ std::vector<Candidate> candidates(const Comparison& c, const LightComparison& li
   std::vector<Candidate> out;
   const auto usual = of_defaults(c, light);
   if (usual) out.push_back(*usual);
+  if (const auto rays = of_rays(c, light); rays && !(usual && rays->map == usual->map)) out.push_back(*rays);
   if (larger && sampled > mended) out.push_back(*larger);
   if (bias && !(usual && bias->map == usual->map)) out.push_back(*bias);
   if (larger && !(sampled > mended)) out.push_back(*larger);

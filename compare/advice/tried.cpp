@@ -91,6 +91,7 @@ Trials::Halved Trials::halve(int times) {
 
 /// A smaller map is kept whose edges are fine, and for which this very search, begun there, finds no smaller one.
 void Trials::draw_smaller() {
+  if (!raster::reads_setting(c_.raster.options.map, "map-size")) return;
   double pixels = 0.0;
   for (const LightComparison& light : c_.lights) pixels = std::max(pixels, light.theory.aliasing.median);
   int times = halvings(c_.raster.options.map.size, pixels);

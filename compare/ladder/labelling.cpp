@@ -122,7 +122,8 @@ Label label_of_error(const LowerClimb& lower, const LadderInput& in, Column& col
 }
 
 Cause step_of_label(Label label, const std::array<float, rung_count>& rungs) {
-  const std::optional<Cause>& step = label_text(label).step;
+  // Blur is the filter step of a map and the blur step of few rays, whichever decides.
+  const std::optional<Cause> step = label == Label::blur ? std::nullopt : label_text(label).step;
   return step ? *step : deciding_step(rungs);
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "compare/result/outputs.h"
+#include "raster/technique_traits.h"
 
 namespace gnomon::compare {
 namespace {
@@ -262,6 +263,37 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "The pass that draws the map does not test alpha, so that the whole triangle casts a shadow.",
      "Test alpha in the map's pass, too.",
      "gnomon judge: the map holds a caster where its alpha mask has a hole"},
+    {"noise",
+     "noise",
+     "\u2234",
+     {0xee, 0x66, 0x77},
+     Cause::rays_noise,
+     "soft-shadows",  // red (Tol, "bright")
+     "so few rays met the light by chance",
+     "One ray sees one point of the light. How many of few arrive is chance, and where the filter is narrow, "
+     "or takes the noise for a shadow's edge, it stays.",
+     "More rays, a longer history, or a denoiser with a wider filter.",
+     "technique rays: the noise step, the rays in place of the truth"},
+    {"lag",
+     "lag",
+     "G",
+     {0x44, 0x77, 0xaa},
+     Cause::rays_lag,
+     "soft-shadows",  // blue (Tol, "bright")
+     "the history holds what was true before",
+     "Earlier frames are mixed in, and the shadow was elsewhere then, or the pixel was.",
+     "A shorter history, or one that is given up sooner where something moves.",
+     "technique rays: the lag step, earlier frames' truths in place of this one's"},
+    {"remap",
+     "remap",
+     "R",
+     {0x22, 0x55, 0x55},
+     Cause::rays_remap,
+     "soft-shadows",  // teal (Tol, "dark")
+     "the denoiser's last touch changed what its filter had made",
+     "A clamp of the history or a contrast in the end is no mean of what the rays saw.",
+     "The denoiser without that touch, or another one.",
+     "technique rays: the remap step, with the denoiser's clamps and contrast"},
 }};
 
 constexpr std::array<StepText, cause_count + 1> steps{{
@@ -273,6 +305,26 @@ constexpr std::array<StepText, cause_count + 1> steps{{
     {"filter", "filter", "the technique's filter", Label::blur},
     {"caster", "caster", "casters that the map does not hold where the scene has them",
      Label::missing_caster},
+}};
+
+// Of few rays; Cause::rays_blur and the following.
+constexpr std::array<StepText, cause_count> ray_steps{{
+    {"light_size", "light size", "nothing: rays go to the light as it is", Label::light_size},
+    {"sampling", "sampling", "nothing: there is no texel", Label::aliasing},
+    {"blur", "blur", "the truth through the denoiser's weights", Label::blur},
+    {"lag", "lag", "earlier frames' truths through the history", Label::lag},
+    {"noise", "noise", "the rays in place of the truth", Label::noise},
+    {"remap", "remap", "the denoiser's clamps and contrast", Label::remap},
+}};
+
+constexpr std::array<RungText, rung_count> ray_rungs{{
+    {"V0", "truth", "exact rays to the light as it is"},
+    {"V1", "point", "the same: rays go to the light as it is"},
+    {"V2", "texel", "the same: there is no texel"},
+    {"V3", "blurred", "the truth through the denoiser's weights"},
+    {"V4", "lagged", "the same, with earlier frames' truths in the history"},
+    {"V5", "sampled", "the rays that were cast, through the same weights"},
+    {"V6", "drawn", "what the denoiser drew"},
 }};
 
 constexpr std::array<RungText, rung_count> rungs{{
@@ -290,15 +342,20 @@ constexpr std::array<RungText, rung_count> rungs{{
 const LabelText& label_text(Label label) {
   return labels[static_cast<std::size_t>(static_cast<int>(label) - first_label)];
 }
-const StepText& step_text(Cause cause) {
-  return steps[static_cast<std::size_t>(cause)];
+const StepText& step_text(Cause cause, Ladder ladder) {
+  const auto place = static_cast<std::size_t>(cause);
+  return ladder == Ladder::rays && place < ray_steps.size() ? ray_steps[place] : steps[place];
 }
-const RungText& rung_text(Rung rung) {
-  return rungs[static_cast<std::size_t>(rung)];
+const RungText& rung_text(Rung rung, Ladder ladder) {
+  return (ladder == Ladder::rays ? ray_rungs : rungs)[static_cast<std::size_t>(rung)];
 }
 
-std::string_view cause_name(Cause cause) {
-  return step_text(cause).key;
+Ladder ladder_of(raster::Technique technique) {
+  return raster::samples_rays(technique) ? Ladder::rays : Ladder::map;
+}
+
+std::string_view cause_name(Cause cause, Ladder ladder) {
+  return step_text(cause, ladder).key;
 }
 std::string_view label_name(Label label) {
   return label_text(label).key;

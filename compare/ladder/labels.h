@@ -32,13 +32,13 @@ struct StepText {
   std::string_view what;  ///< what the step changes
   Label label;            ///< the one whose colour stands for the step
 };
-const StepText& step_text(Cause cause);
+const StepText& step_text(Cause cause, Ladder ladder = Ladder::map);
 
 struct RungText {
   std::string_view symbol;  ///< "V3"
   std::string_view name;    ///< "flat", in files, too
   std::string_view what;    ///< what this visibility is
 };
-const RungText& rung_text(Rung rung);
+const RungText& rung_text(Rung rung, Ladder ladder = Ladder::map);
 
 }  // namespace gnomon::compare

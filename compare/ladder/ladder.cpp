@@ -12,6 +12,8 @@
 #include "compare/truth/exact_depth.h"
 #include "compare/truth/stored_surface.h"
 #include "raster/technique_traits.h"
+#include "rays/frames.h"
+#include "raytrace/receiver_tiles.h"
 #include "raytrace/sheets/column_sheets.h"
 #include "scene/base/parallel.h"
 #include "scene/base/stages.h"
@@ -230,6 +232,25 @@ Climb climb_unexplained(const LadderInput& in, Climb out) {
   return out;
 }
 
+/// What the denoiser of Technique::rays makes of the truth, from the receivers that it was drawn with.
+Image<rays::Signal<rays::with_passengers>> carry_truth(const LadderInput& in) {
+  const TimedStage stage("the truth through the denoiser");
+  const raster::RasterOptions& options = in.drawn.options;
+  const View view = make_view(in.world().scene->camera, options.size);
+  const int first_row = in.place.first_row;
+  raytrace::Receivers receivers;
+  raytrace::ReceiverFinder(in.tracer).find(view, first_row, in.drawn.primitive, receivers);
+  const rays::Guides guides = rays::make_guides(in.tracer, view, first_row, in.light(), receivers.points);
+  Image<float> truth(guides.size);
+  parallel_for(truth.data.size(), [&](std::size_t i) { truth.data[i] = true_visibility(in, i); });
+  return rays::carry_passengers(
+      {in.tracer,
+       {options.map.rays, options.seed, in.record().light, 0, static_cast<std::uint32_t>(first_row)},
+       guides,
+       receivers.points},
+      truth);
+}
+
 // A technique that asks for every receiver's own visibility has no texel, no stored depth and no bias: the rungs from
 // V1 on are what it drew. Under a light without size V1 to V3 are the truth, and rounding is what is left, or a
 // shader of the user's own.
@@ -246,6 +267,35 @@ Climb climb_without_map(const LadderInput& in, Climb out) {
       out.rungs[k].data[i] = k < first_drawn ? true_visibility(in, i) : in.record().visibility.data[i];
     if (drawn_off(in, out, i)) out.labels.data[i] = label;
   }
+  return out;
+}
+
+Label label_of_rays(const std::array<float, rung_count>& rungs) {
+  switch (deciding_step(rungs)) {
+    case Cause::rays_lag:
+      return Label::lag;
+    case Cause::rays_noise:
+      return Label::noise;
+    case Cause::rays_remap:
+      return Label::remap;
+    default:
+      return Label::blur;
+  }
+}
+
+// The rungs between are what the very denoiser makes of the truth, and of the rays without its nonlinear ends (rays/signal.h).
+Climb climb_few_rays(const LadderInput& in, Climb out) {
+  const Image<Label> climbed = labels_climbed(in, out.labels);
+  const auto carried = carry_truth(in);
+  parallel_for(out.labels.data.size(), [&](std::size_t i) {
+    if (!is_compared(climbed.data[i])) return;
+    const float truth = true_visibility(in, i), drawn = in.record().visibility.data[i];
+    const auto& through = carried.data[i];
+    const std::array levels{
+        truth, truth, truth, through[rays::blurred], through[rays::lagged], through[rays::sampled], drawn};
+    for (std::size_t k = 0; k < rung_count; ++k) out.rungs[k].data[i] = levels[k];
+    if (drawn_off(in, out, i)) out.labels.data[i] = label_of_rays(levels);
+  });
   return out;
 }
 
@@ -290,7 +340,10 @@ namespace {
 /// `out`: the lower rungs and what is to be compared.
 Climb climb_on(const LowerClimb& lower, const LadderInput& in, Climb out) {
   const TimedStage stage("labels");
-  if (!raster::compares_depths(in.drawn.options.map.technique)) return climb_without_map(in, std::move(out));
+  const raster::Technique technique = in.drawn.options.map.technique;
+  if (raster::samples_rays(technique) && has_size(in.light()) && !in.drawn.custom_shader)
+    return climb_few_rays(in, std::move(out));
+  if (!raster::compares_depths(technique)) return climb_without_map(in, std::move(out));
   parallel_for(lower.outside.size(), [&](std::size_t i) { climb_outside(in, lower.outside[i], out); });
   const std::size_t count = lower.groups.keys.size();
   parallel_for(count, [&](std::size_t g) { climb_group(lower, in, g, out); });

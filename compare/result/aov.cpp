@@ -57,8 +57,9 @@ void add_ids(AovChannels& channels, const AovRows& c) {
 }
 
 void add_ladder(AovChannels& channels, const AovRows& light) {
+  const Ladder ladder = ladder_of(light.raster.options.map.technique);
   for (std::size_t k = 0; k < rung_count; ++k)
-    channels.add(fmt::format("{}.V", rung_text(static_cast<Rung>(k)).name),
+    channels.add(fmt::format("{}.V", rung_text(static_cast<Rung>(k), ladder).name),
                  [&](std::size_t i) { return light.rungs[k].data[i]; });
   const auto label = [&](std::size_t i) { return static_cast<double>(light.labels.data[i]); };
   channels.add("class.V", [&](std::size_t i) {

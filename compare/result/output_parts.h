@@ -40,7 +40,9 @@ inline std::size_t known_steps(const Comparison& c) {
   return c.judged && c.judged->has_map ? cause_count + 1 : cause_count;
 }
 inline std::string_view step_name(const Comparison& c, Cause cause) {
-  return !c.raster.has_known_map() && cause == Cause::sampling ? "unexplained" : cause_name(cause);
+  return !c.raster.has_known_map() && cause == Cause::sampling
+             ? "unexplained"
+             : cause_name(cause, ladder_of(c.raster.options.map.technique));
 }
 /// "hard"; "unknown" where another renderer's map is not known.
 inline std::string_view drawn_technique(const Comparison& c) {

@@ -300,7 +300,7 @@ Json cell_times_json(const Comparison& c, std::size_t cell, const CellMade& made
           {"derived", made.derived},
           {"cell_ms", number(made.ms)},
           {"view", made.view},
-          {"hybrid", raster::is_external(c.raster.options.map.technique)},
+          {"by", shadow_side(c.raster.options.map.technique)},
           {"load", load_json(c.machine)},
           {"accel_build", times_json(c.raytraced.structure)},
           {"primary_rays", times_json(c.raytraced.primary_rays)},

@@ -82,6 +82,24 @@ Json hybrid_json(const raster::ExternalCosts& e) {
             {"shadow", times_json(e.shadow)}}}};
 }
 
+Json rays_json(const raster::MapOptions& map, const raster::ExternalCosts& e) {
+  Json json = Json::object();
+  for (const raster::MapSetting& setting : raster::map_settings())
+    if (setting.group == raster::SettingGroup::rays) add_setting(json, setting, map);
+  json.update({{"receivers", e.receivers},
+               {"rays", e.rays},
+               {"boxes_per_ray", number(e.boxes_per_ray)},
+               {"primitives_per_ray", number(e.primitives_per_ray)},
+               {"taps", e.taps},
+               {"history_bytes", e.bytes},
+               {"silhouette", e.silhouette},
+               {"times_ms",
+                {{"receivers", times_json(e.receivers_ms)},
+                 {"rays", times_json(e.shadow)},
+                 {"denoiser", times_json(e.denoise)}}}});
+  return json;
+}
+
 // null for a technique without cascades.
 Json cascades_json(const raster::MapOptions& map, const LightView& view) {
   if (!raster::has_cascades(map.technique)) return nullptr;
@@ -189,7 +207,10 @@ Json map_json(const Comparison& c, const LightComparison& light) {
             {"warp", number(record.map.view.face(0).warp * record.map.view.face(0).half_extent.y)},
             {"filter", filter_json(c.raster)},
             {"texel_world", block_json("map.texel_world", light)}};
-  if (record.external) json["hybrid"] = hybrid_json(*record.external);
+  if (record.external && raster::samples_rays(map.technique))
+    json["rays"] = rays_json(map, *record.external);
+  else if (record.external)
+    json["hybrid"] = hybrid_json(*record.external);
   return json;
 }
 
@@ -206,11 +227,12 @@ Json budget_json(const Comparison& c, const LightComparison& light) {
   return json;
 }
 
-Json ladder_json(const LightComparison& light) {
+Json ladder_json(const Comparison& c, const LightComparison& light) {
+  const Ladder ladder = ladder_of(c.raster.options.map.technique);
   const auto means = light.rung_mean;
   Json json = Json::array();
   for (std::size_t k = 0; k < rung_count; ++k)
-    json.push_back({{"rung", rung_text(static_cast<Rung>(k)).name}, {"mean", number(means[k])}});
+    json.push_back({{"rung", rung_text(static_cast<Rung>(k), ladder).name}, {"mean", number(means[k])}});
   return json;
 }
 
@@ -375,7 +397,7 @@ Json light_block(const Comparison& c, const LightComparison& light, bool full) {
   Json block{{"light", light_json(light_of(c, light))}, {"map", map_json(c, light)}};
   add_blocks(block, light);
   block.update({{"budget", budget_json(c, light)},
-                {"ladder", ladder_json(light)},
+                {"ladder", ladder_json(c, light)},
                 {"classes", classes_json(light)},
                 {"class_errors", class_errors_json(light)}});
   if (full) block["bias_curve"] = bias_curve_json(light);

@@ -99,7 +99,11 @@ void add_settings(Json& object, raster::SettingGroup group) {
 
 raster::SettingGroup group_of(const std::string& name) {
   using enum raster::SettingGroup;
-  return name == "window" ? window : name == "bias" ? bias : name == "filter" ? filter : cascades;
+  return name == "window"   ? window
+         : name == "bias"   ? bias
+         : name == "filter" ? filter
+         : name == "rays"   ? rays
+                            : cascades;
 }
 
 /// The value of a key that the finished schema does not have; null where the object has none. A property of that name is

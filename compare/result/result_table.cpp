@@ -116,7 +116,7 @@ std::string ResultTable::add(std::size_t cell, const Json& line, const Json& tim
     if (times.is_object() && times.contains("lights")) {
       Json own = times.at("lights").at(index), all = times;
       own.erase("light");
-      for (const char* key : {"cell", "derived", "cell_ms", "load", "view", "hybrid", "lights", "checksum"})
+      for (const char* key : {"cell", "derived", "cell_ms", "load", "view", "by", "lights", "checksum"})
         all.erase(key);
       add_flat(row, "times_ms", own);
       add_flat(row, "times_ms", all);

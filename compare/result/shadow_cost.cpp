@@ -23,8 +23,13 @@ Times standing_rays(const raytrace::LightTruth& truth) {
 ShadowParts& ShadowParts::operator+=(const ShadowParts& other) {
   map += other.map, lookups += other.lookups, rays += other.rays;
   if (!tree.timed()) tree = other.tree;
-  hybrid = hybrid || other.hybrid;
+  if (other.asks_tree()) by = other.by;
   return *this;
+}
+
+std::string_view shadow_side(raster::Technique technique) {
+  if (!raster::is_external(technique)) return "map";
+  return raster::samples_rays(technique) ? "few rays" : "hybrid";
 }
 
 ShadowParts shadow_parts(const Comparison& c, const LightComparison& light) {
@@ -33,7 +38,7 @@ ShadowParts shadow_parts(const Comparison& c, const LightComparison& light) {
           .lookups = shadow_lookups(drawn),
           .rays = with_spread(true_record(c, light).exact_times()),
           .tree = with_spread(c.raytraced.structure),
-          .hybrid = raster::is_external(c.raster.options.map.technique)};
+          .by = shadow_side(c.raster.options.map.technique)};
 }
 
 namespace {
@@ -60,7 +65,7 @@ std::optional<ShadowCosts> shadow_costs(const ShadowParts& parts) {
   ShadowCosts costs;
   costs.nothing_moves = {parts.lookups, parts.rays};
   costs.light_moves = {sum_of(parts.map, parts.lookups), parts.rays};
-  costs.casters_move = {parts.hybrid ? sum_of(costs.light_moves.map, parts.tree) : costs.light_moves.map,
+  costs.casters_move = {parts.asks_tree() ? sum_of(costs.light_moves.map, parts.tree) : costs.light_moves.map,
                         sum_of(parts.rays, parts.tree)};
   return costs;
 }
@@ -69,15 +74,14 @@ std::span<const ShadowSituation> shadow_situations() {
   return situations;
 }
 
-std::string sides_text(const ShadowCosts::Sides& sides, bool hybrid) {
-  return fmt::format("{} by the {}, {} by rays", milliseconds(sides.map), hybrid ? "hybrid" : "map",
-                     milliseconds(sides.rays));
+std::string sides_text(const ShadowCosts::Sides& sides, std::string_view by) {
+  return fmt::format("{} by the {}, {} by rays", milliseconds(sides.map), by, milliseconds(sides.rays));
 }
 
-std::vector<std::string> shadow_cost_lines(const ShadowCosts& costs, bool hybrid) {
+std::vector<std::string> shadow_cost_lines(const ShadowCosts& costs, std::string_view by) {
   std::vector<std::string> lines;
   for (const ShadowSituation& one : shadow_situations())
-    lines.push_back(fmt::format("{}: {}", one.words, sides_text(costs.*one.sides, hybrid)));
+    lines.push_back(fmt::format("{}: {}", one.words, sides_text(costs.*one.sides, by)));
   return lines;
 }
 

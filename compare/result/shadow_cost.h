@@ -19,10 +19,14 @@ Times standing_rays(const raytrace::LightTruth& truth);
 struct ShadowParts {
   TimeDifference map, lookups, rays;
   TimeDifference tree;  ///< which all lights share
-  bool hybrid = false;  ///< the sheets stand for the map, and ask the tree, too
+  /// What stands for the map: "map"; or "hybrid" or "few rays", which ask the tree, too.
+  std::string_view by = "map";
+  bool asks_tree() const { return by != "map"; }
   /// Adds another light's.
   ShadowParts& operator+=(const ShadowParts& other);
 };
+/// ShadowParts::by of a technique.
+std::string_view shadow_side(raster::Technique technique);
 ShadowParts shadow_parts(const Comparison& comparison, const LightComparison& light);
 /// None where lookups or rays are not timed. Without a tree's time that of moving casters is not timed.
 std::optional<ShadowCosts> shadow_costs(const ShadowParts& parts);
@@ -36,9 +40,9 @@ struct ShadowSituation {
 };
 std::span<const ShadowSituation> shadow_situations();
 /// "8.1 ms (5 to 12 ms) by the map, 23 ms by rays"
-std::string sides_text(const ShadowCosts::Sides& sides, bool hybrid);
+std::string sides_text(const ShadowCosts::Sides& sides, std::string_view by);
 /// "casters move: 8.1 ms by the map, 64 ms by rays", for each situation.
-std::vector<std::string> shadow_cost_lines(const ShadowCosts& costs, bool hybrid);
+std::vector<std::string> shadow_cost_lines(const ShadowCosts& costs, std::string_view by);
 
 /// What a time on such a rasterizer is worth.
 inline constexpr std::string_view software_note =

@@ -29,6 +29,7 @@ namespace {
 std::string map_line(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   if (!c.raster.has_known_map()) return "not known";
+  if (raster::samples_rays(c.raster.options.map.technique)) return "none: rays are cast";
   return fmt::format("{}{}, {} x {}{} texels", c.judged && c.judged->identified ? "inferred: " : "",
                      technique_name(c.raster.options.map.technique), record.map.view.size,
                      record.map.view.size,
@@ -61,6 +62,26 @@ std::string hybrid_line(const raster::ExternalCosts& e) {
       grouped(e.surely_lit), grouped(e.surely_shadowed), counted(e.rays, "ray"), share(e.rays, e.all_rays),
       grouped(e.all_rays), share(e.triangle_tests, e.all_triangle_tests), plain_number(e.build.median()),
       plain_number(e.shadow.median()), grouped(e.bytes / 1024));
+}
+
+std::string rays_line(const Comparison& c, const raster::ExternalCosts& e) {
+  std::string text;
+  for (const raster::MapSetting& setting : raster::map_settings())
+    if (setting.group == raster::SettingGroup::rays)
+      text += (text.empty() ? "" : ", ") + setting_words(setting, c.raster.options.map);
+  return text + fmt::format(
+                    "; {} and {} a frame ({} boxes and {} primitives a ray); receivers {} ms, rays {} ms, "
+                    "denoiser {} ms; history {} KiB",
+                    counted(e.rays, "ray"), counted(e.taps, "tap"), plain_number(e.boxes_per_ray),
+                    plain_number(e.primitives_per_ray), plain_number(e.receivers_ms.median()),
+                    plain_number(e.shadow.median()), plain_number(e.denoise.median()),
+                    grouped(e.bytes / 1024));
+}
+
+/// A light without size takes one exact ray, and nothing is filtered.
+std::string exact_ray_line(const raster::ExternalCosts& e) {
+  return fmt::format("one exact ray for each pixel, since the light has no size: {} in {} ms, no denoiser",
+                     counted(e.rays, "ray"), plain_number(e.shadow.median()));
 }
 
 std::string pixels_line(const PixelCounts& p) {
@@ -176,6 +197,21 @@ void add_penumbra(SummaryPage& page, const PenumbraStats& p, int samples) {
                          counted(p.umbra_edges, "edge")));
 }
 
+void add_window(SummaryPage& page, const Comparison& c, const LightComparison& light) {
+  if (const std::string window = window_line(c, light); !window.empty()) page.field("window", window);
+  if (const std::string words = window_words(c, light); !words.empty())
+    page.field(window_line(c, light).empty() ? "window" : "", words);
+}
+
+void add_external(SummaryPage& page, const Comparison& c, const LightComparison& light) {
+  const auto& external = drawn_record(c, light).external;
+  if (!external) return;
+  if (!raster::samples_rays(c.raster.options.map.technique))
+    page.field("hybrid", hybrid_line(*external));
+  else
+    page.field("rays", has_size(light_of(c, light)) ? rays_line(c, *external) : exact_ray_line(*external));
+}
+
 void add_light(SummaryPage& page, const Comparison& c, const LightComparison& light) {
   page.blank();
   page.heading(
@@ -183,12 +219,10 @@ void add_light(SummaryPage& page, const Comparison& c, const LightComparison& li
   page.paragraph(verdict_on(c, light).whole());
   page.blank();
   page.field("map", map_line(c, light));
-  if (const std::string window = window_line(c, light); !window.empty()) page.field("window", window);
-  if (const std::string words = window_words(c, light); !words.empty())
-    page.field(window_line(c, light).empty() ? "window" : "", words);
+  if (!raster::samples_rays(c.raster.options.map.technique)) add_window(page, c, light);
   const std::string filter = filter_text(c.raster);
   if (!filter.empty()) page.field("filter", filter);
-  if (const auto& external = drawn_record(c, light).external) page.field("hybrid", hybrid_line(*external));
+  add_external(page, c, light);
   page.field("pixels", pixels_line(light.pixels));
   if (light.pixels.compared > 0) {
     page.field("wrong", wrong_line(light.error));
@@ -200,7 +234,8 @@ void add_light(SummaryPage& page, const Comparison& c, const LightComparison& li
     if (light.seams) page.field("seams", seams_line(*light.seams, drawn_record(c, light).map.view));
     add_bleeding(page, c, light);
     if (light.penumbra) add_penumbra(page, *light.penumbra, true_record(c, light).samples);
-    if (c.raster.has_known_map()) add_theory(page, light.theory);
+    if (c.raster.has_known_map() && !raster::samples_rays(c.raster.options.map.technique))
+      add_theory(page, light.theory);
     if (!light.bias_curve_withheld.empty()) page.field("bias", light.bias_curve_withheld);
   }
   if (const std::string line = terminator_line(light.terminator); !line.empty()) page.field("facets", line);
@@ -224,11 +259,13 @@ void add_figures_in_short(SummaryPage& page, const Comparison& c, const LightCom
   if (c.lights.size() > 1) page.paragraph(one_line(light_of(c, light).name));
   page.field("map", map_line(c, light));
   if (const std::string filter = filter_text(c.raster); !filter.empty()) page.field("filter", filter);
+  if (raster::samples_rays(c.raster.options.map.technique)) add_external(page, c, light);
   if (light.pixels.compared > 0) {
     page.field("wrong", wrong_line(light.error));
     page.field("labels", labels_line(light));
   }
-  if (light.outside.receivers > 0 || !c.raster.options.map.window.empty())
+  if (!raster::samples_rays(c.raster.options.map.technique) &&
+      (light.outside.receivers > 0 || !c.raster.options.map.window.empty()))
     page.field("window", window_words(c, light));
   if (shows_facets(light)) page.field("facets", terminator_line(light.terminator));
   add_time_in_short(page, c, light);

@@ -28,7 +28,7 @@ void add_shadow_costs(SummaryPage& page, std::string_view name, const Comparison
   const ShadowParts parts = shadow_parts(c, light);
   const auto costs = shadow_costs(parts);
   if (!costs) return;
-  for (const std::string& line : shadow_cost_lines(*costs, parts.hybrid))
+  for (const std::string& line : shadow_cost_lines(*costs, parts.by))
     page.field(std::exchange(name, ""), line);
 }
 

@@ -82,7 +82,8 @@ std::string lab_facts(const LabOptions& options, bool worker) {
                       {"settings", settings},
                       {"techniques", techniques},
                       {"labels", report::label_facts()},
-                      {"rungs", report::rung_facts()},
+                      {"rungs", report::rung_facts(compare::Ladder::map)},
+                      {"ray_rungs", report::rung_facts(compare::Ladder::rays)},
                       {"pictures", pictures},
                       {"presets", shown},
                       {"scenes", scenes},
@@ -127,10 +128,15 @@ std::string lab_pixel(const LabMoment& moment, PixelPlace place) {
   const auto outcome = moment.shown->outcome;
   if (!outcome) return "null";
   const PixelStory story = tell_story(*outcome, place, moment.state.setup.size);
-  Json out = {{"pixel", {place.x, place.y}}, {"label", static_cast<int>(story.label)},
-              {"rungs", story.rungs},        {"deciding", story.deciding},
-              {"seen", story.seen},          {"words", story.words},
-              {"remarks", story.remarks},    {"cure", story.cure},
+  Json out = {{"pixel", {place.x, place.y}},
+              {"label", static_cast<int>(story.label)},
+              {"rungs", story.rungs},
+              {"deciding", story.deciding},
+              {"seen", story.seen},
+              {"words", story.words},
+              {"of_rays", story.ladder == compare::Ladder::rays},
+              {"remarks", story.remarks},
+              {"cure", story.cure},
               {"face", story.face}};
   constexpr int texels = 8;
   if (const auto cut = cut_through(*outcome, story, texels)) {

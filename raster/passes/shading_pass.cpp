@@ -1,5 +1,7 @@
 #include "raster/passes/shading_pass.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
@@ -8,6 +10,7 @@
 #include "raster/gl/fill.h"
 #include "raster/passes/impostors.h"
 #include "raster/programs/shader_folder.h"
+#include "raster/technique_traits.h"
 #include "scene/base/parallel.h"
 #include "shaders/shared_constants.h"
 
@@ -287,19 +290,21 @@ void ShadingPass::read_records(LightRecord& record) const {
   });
 }
 
-Expected<void> ExternalPass::check() const {
-  if (visibility_ != nullptr) return {};
-  return fail(ErrorKind::internal, "the technique hybrid has nothing to ask for its visibility");
+Expected<void> ExternalPass::check(Technique technique) const {
+  if (asked_.contains(technique)) return {};
+  return fail(ErrorKind::internal, fmt::format("the technique {} has nothing to ask for its visibility",
+                                               technique_name(technique)));
 }
 
 Expected<void> ExternalPass::find(const VisibilityRequest& request, const ShadingPass& shading) {
   shading.read_primitives(primitive_);
-  if (auto* rows = dynamic_cast<ExternalRows*>(visibility_.get())) rows->set_first_row(shading.rows().first);
+  ExternalVisibility& asked = *asked_.at(request.options.technique);
+  if (auto* rows = dynamic_cast<ExternalRows*>(&asked)) rows->set_first_row(shading.rows().first);
   if (!(image_.size == primitive_.size)) {
     image_ = Image<float>(primitive_.size);
     texture_ = Texture2D(*gl_, GL_R32F, primitive_.size);
   }
-  if (auto ok = visibility_->find(request, primitive_, image_); !ok) return ok;
+  if (auto ok = asked.find(request, primitive_, image_); !ok) return ok;
   texture_.write(GL_RED, GL_FLOAT, std::as_bytes(std::span(image_.data)));
   return gl_->check("uploading the visibility");
 }

@@ -3,6 +3,7 @@
 // 2013). Private to raster.
 #pragma once
 
+#include <map>
 #include <memory>
 
 #include "raster/external_visibility.h"
@@ -81,23 +82,25 @@ class ShadingPass {
 class ExternalPass {
  public:
   explicit ExternalPass(Gl& gl) : gl_(&gl) {}
-  void use(std::shared_ptr<ExternalVisibility> visibility) { visibility_ = std::move(visibility); }
-  /// Error (internal): none was given.
-  Expected<void> check() const;
+  void use(Technique technique, std::shared_ptr<ExternalVisibility> visibility) {
+    asked_[technique] = std::move(visibility);
+  }
+  /// Error (internal): none was given for the technique.
+  Expected<void> check(Technique technique) const;
 
   Expected<void> prepare(const VisibilityRequest& request, bool changed) {
-    return visibility_->prepare(request, changed);
+    return asked_.at(request.options.technique)->prepare(request, changed);
   }
   /// After ShadingPass::draw_visibility: the image that the technique's shader reads.
   Expected<void> find(const VisibilityRequest& request, const ShadingPass& shading);
   void bind_for_lookup() const;
   ExternalCosts costs(const VisibilityRequest& request, bool counted) const {
-    return visibility_->costs(request, counted);
+    return asked_.at(request.options.technique)->costs(request, counted);
   }
 
  private:
   Gl* gl_;
-  std::shared_ptr<ExternalVisibility> visibility_;
+  std::map<Technique, std::shared_ptr<ExternalVisibility>> asked_;
   Image<std::uint32_t> primitive_;
   Image<float> image_;
   Texture2D texture_;

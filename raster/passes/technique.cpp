@@ -64,6 +64,7 @@ extern const TechniqueDrawing csm_drawing{
     .shader = cascade_shader, .fit = fit_to_cascades, .map_define = "CASCADES"};
 extern const TechniqueDrawing lispsm_drawing{.fit = fit_to_warp, .map_define = "WARP"};
 extern const TechniqueDrawing hybrid_drawing{.shader = external_shader, .reads_gap = false};
+extern const TechniqueDrawing rays_drawing{.shader = external_shader, .reads_gap = false};
 
 TechniqueShader technique_shader(const MapOptions& options, const Light& light) {
   const auto shader = traits_of(options.technique).drawing->shader;

@@ -191,7 +191,7 @@ PageData page_data(const PageInput& in) {
   PageData out;
   compare::Json head{{"kind", "compare"},
                      {"labels", label_facts()},
-                     {"rungs", rung_facts()},
+                     {"rungs", rung_facts(compare::ladder_of(c.raster.options.map.technique))},
                      {"width", c.raytraced.color.size.width},
                      {"height", c.raytraced.color.size.height},
                      {"position_steps", position_steps},

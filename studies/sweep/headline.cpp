@@ -80,10 +80,16 @@ std::string why_no_time(const std::vector<CellSummary>& cells) {
                                   : "No cell is best for time, since fewer than three runs have no spread";
 }
 
+std::string_view side_of(const CellSummary& cell) {
+  for (const raster::TechniqueTraits& technique : raster::all_technique_traits())
+    if (technique.name == cell.technique) return compare::shadow_side(technique.technique);
+  return "map";
+}
+
 // What the shadows of the cell with the least error take on both sides.
 void add_costs(const CellSummary& cell, Headline& out) {
   if (!cell.costs) return;
-  for (const std::string& line : compare::shadow_cost_lines(*cell.costs, cell.technique == "hybrid"))
+  for (const std::string& line : compare::shadow_cost_lines(*cell.costs, side_of(cell)))
     out.items.push_back({fmt::format("Shadows of cell {}, {}", cell.cell, line), {}, {}, {}});
 }
 

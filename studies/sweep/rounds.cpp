@@ -98,13 +98,20 @@ Expected<std::vector<std::string>> joined_rounds(const std::vector<std::string>&
   return out;
 }
 
+/// The name as ShadowParts has it, which outlives the line.
+std::string_view side_named(const std::string& name) {
+  for (const raster::TechniqueTraits& technique : raster::all_technique_traits())
+    if (compare::shadow_side(technique.technique) == name) return compare::shadow_side(technique.technique);
+  return "map";
+}
+
 compare::ShadowParts read_shadow_parts(const Json& light, const Json& line) {
   const Json tree = line.value("accel_build", Json());
   return {.map = with_spread(read_times(light.at("map_pass"))),
           .lookups = read_lookups(light),
           .rays = with_spread(read_times(light.at("exact_shadows"))),
           .tree = tree.is_object() ? with_spread(read_times(tree)) : TimeDifference{},
-          .hybrid = line.value("hybrid", false)};
+          .by = side_named(line.value("by", "map"))};
 }
 
 }  // namespace gnomon::studies

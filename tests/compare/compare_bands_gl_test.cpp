@@ -46,7 +46,7 @@ class CompareBands : public testing::TestWithParam<BandCase> {
     auto made = raster::Renderer::create(std::move(*raster::create_context(raster::Backend::automatic)),
                                          world_, plan_effects(scene_));
     EXPECT_TRUE(made);
-    (*made)->use_external_visibility(hybrid::make_visibility(world_));
+    (*made)->use_external_visibility(raster::Technique::hybrid, hybrid::make_visibility(world_));
     return std::move(*made);
   }
   std::string path(const char* name) const { return folder_ / name; }

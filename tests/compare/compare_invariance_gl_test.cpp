@@ -77,7 +77,7 @@ class Bench {
     auto renderer = raster::Renderer::create(std::move(*context), world_, plan_effects(scene_));
     if (!renderer) return;
     renderer_ = std::move(*renderer);
-    renderer_->use_external_visibility(hybrid::make_visibility(world_));
+    renderer_->use_external_visibility(raster::Technique::hybrid, hybrid::make_visibility(world_));
   }
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;

@@ -24,7 +24,7 @@ std::unique_ptr<OneWorld> open(const std::string& name) {
   auto scene = load_scene(name);
   if (!scene) return nullptr;
   auto world = std::make_unique<OneWorld>(std::move(*scene));
-  world->renderer->use_external_visibility(hybrid::make_visibility(world->world));
+  world->renderer->use_external_visibility(raster::Technique::hybrid, hybrid::make_visibility(world->world));
   return world;
 }
 

@@ -28,10 +28,11 @@ const std::map<std::string, std::set<std::string>, std::less<>> arrows = {
     {"raster", {"scene", "shaders"}},
     {"raytrace", {"scene"}},
     {"hybrid", {"scene", "raster", "raytrace"}},
-    {"compare", {"scene", "raster", "raytrace"}},
+    {"rays", {"scene", "raster", "raytrace"}},
+    {"compare", {"scene", "raster", "raytrace", "rays"}},
     {"report", {"scene", "compare"}},
     {"functions", {"scene", "raster", "raytrace", "compare", "report"}},
-    {"app", {"scene", "raster", "raytrace", "hybrid", "compare", "report", "functions"}},
+    {"app", {"scene", "raster", "raytrace", "hybrid", "rays", "compare", "report", "functions"}},
     {"studies", {"scene", "raster", "raytrace", "compare", "report", "app"}},
     {"verify", {"scene", "raster", "raytrace", "app"}},
     {"judge", {"scene", "raster", "raytrace", "compare", "report", "app"}},
@@ -40,7 +41,7 @@ const std::map<std::string, std::set<std::string>, std::less<>> arrows = {
     {"benchmark", {"scene", "raster", "raytrace", "hybrid", "compare", "studies", "verify", "app"}},
     {"platform", {"scene", "shaders", "raster", "app", "lab"}},
     {"tests",
-     {"scene", "shaders", "raster", "raytrace", "hybrid", "compare", "report", "functions", "studies",
+     {"scene", "shaders", "raster", "raytrace", "hybrid", "rays", "compare", "report", "functions", "studies",
       "verify", "app", "judge", "grade", "lab", "benchmark", "platform"}},
 };
 

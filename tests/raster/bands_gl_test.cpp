@@ -113,7 +113,7 @@ class DrawnBands : public testing::TestWithParam<DrawnCase> {
     auto made = raster::Renderer::create(std::move(*context), stage.world, stage.plan);
     ASSERT_TRUE(made);
     renderer = std::move(*made);
-    renderer->use_external_visibility(hybrid::make_visibility(stage.world));
+    renderer->use_external_visibility(raster::Technique::hybrid, hybrid::make_visibility(stage.world));
     options.size = size, options.map.size = 128, options.runs = 1, options.shadow_cost = true;
     options.map.technique = GetParam().technique;
     options.analysis = true, options.seed = 3, options.shadow_samples = 8;

@@ -45,7 +45,7 @@ Scene scene_of(bool with, LightType type, bool shelf_receives = false) {
 compare::Comparison compared(OneWorld& one, Technique technique, int map_size = 256) {
   compare::CompareOptions options = test_options(view_size, map_size, 0.01);
   options.raster.map.technique = technique;
-  one.renderer->use_external_visibility(hybrid::make_visibility(one.world));
+  one.renderer->use_external_visibility(raster::Technique::hybrid, hybrid::make_visibility(one.world));
   return one.compare(options);
 }
 

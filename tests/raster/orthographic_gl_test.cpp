@@ -161,7 +161,7 @@ Scene crowded() {
 // The irregular z-buffer and the hybrid decide every pixel as the ray tracer does; both renderers' depths agree.
 TEST(Orthographic, ExactTechniquesAreExact) {
   OneWorld world(crowded());
-  world.renderer->use_external_visibility(hybrid::make_visibility(world.world));
+  world.renderer->use_external_visibility(raster::Technique::hybrid, hybrid::make_visibility(world.world));
   for (const Technique technique : {Technique::izb, Technique::hybrid}) {
     compare::CompareOptions options = test_options({240, 180}, 128);
     options.raster.map.technique = technique;

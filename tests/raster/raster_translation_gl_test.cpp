@@ -70,7 +70,7 @@ struct Drawer {
     auto made = raster::Renderer::create(std::move(*context), world, plan_effects(scene));
     if (!made) throw std::runtime_error(made.error().message());
     renderer = std::move(*made);
-    renderer->use_external_visibility(hybrid::make_visibility(world));
+    renderer->use_external_visibility(raster::Technique::hybrid, hybrid::make_visibility(world));
   }
   void draw(const raster::RasterOptions& options, const std::vector<std::uint32_t>& lights) {
     const auto frame = renderer->render(options, lights);

@@ -29,7 +29,7 @@ bool try_scene(const Scene& scene, ImageSize size, const std::string& name, std:
   if (!context) return fmt::print(stderr, "{}\n", context.error().message()), false;
   auto renderer = raster::Renderer::create(std::move(*context), world, plan_effects(scene));
   if (!renderer) return fmt::print(stderr, "{}\n", renderer.error().message()), false;
-  (*renderer)->use_external_visibility(hybrid::make_visibility(world));
+  (*renderer)->use_external_visibility(raster::Technique::hybrid, hybrid::make_visibility(world));
   raster::RasterOptions options;
   options.size = rays.size, options.map.size = 64, options.runs = 0;
   for (const std::size_t k : {0, 1}) {

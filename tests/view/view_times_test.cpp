@@ -22,7 +22,7 @@ class Told final : public raster::Renderer {
     answers_.pop_front();
     return answer;
   }
-  void use_external_visibility(std::shared_ptr<raster::ExternalVisibility>) override {}
+  void use_external_visibility(raster::Technique, std::shared_ptr<raster::ExternalVisibility>) override {}
   const raster::ContextInfo& info() const override { return info_; }
 
  private:

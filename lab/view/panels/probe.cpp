@@ -20,7 +20,7 @@ void ladder(const PanelContext& context, const PixelStory& story) {
   if (!ImGui::BeginTable("ladder", 3, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_BordersInnerH))
     return;
   for (std::size_t k = 0; k < compare::rung_count; ++k) {
-    const compare::RungText& rung = compare::rung_text(static_cast<compare::Rung>(k));
+    const compare::RungText& rung = compare::rung_text(static_cast<compare::Rung>(k), story.ladder);
     const bool here = story.deciding == static_cast<int>(k) && k > 0;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();

@@ -19,8 +19,8 @@ namespace {
 using compare::LightComparison;
 
 /// Returns the colour of a step that a wrong pixel is charged to.
-ImU32 step_colour(std::size_t step) {
-  return colour(compare::label_colour(compare::step_text(static_cast<compare::Cause>(step)).label));
+ImU32 step_colour(std::size_t step, compare::Ladder ladder) {
+  return colour(compare::label_colour(compare::step_text(static_cast<compare::Cause>(step), ladder).label));
 }
 
 void right_aligned(const std::string& text) {
@@ -45,7 +45,7 @@ std::string signed_percent(double share) {
 }
 
 /// The mean absolute error of each step, side by side; the whole bar is their sum.
-void budget(const PanelContext& context, const LightComparison& light) {
+void budget(const PanelContext& context, const LightComparison& light, compare::Ladder ladder) {
   ImGui::TextUnformatted("Error budget");
   double sum = 0.0;
   for (const compare::BudgetStep& step : light.budget) sum += step.absolute_mean;
@@ -56,15 +56,15 @@ void budget(const PanelContext& context, const LightComparison& light) {
   float x = at.x;
   for (std::size_t i = 0; sum > 0.0 && i < light.budget.size(); ++i) {
     const auto width = static_cast<float>(light.budget[i].absolute_mean / sum) * size.x;
-    draw.AddRectFilled({x, at.y}, {x + width, at.y + size.y}, step_colour(i));
+    draw.AddRectFilled({x, at.y}, {x + width, at.y + size.y}, step_colour(i, ladder));
     x += width;
   }
   ImGui::Dummy(size);
   for (std::size_t i = 0; i < light.budget.size(); ++i) {
     const compare::BudgetStep& step = light.budget[i];
     if (step.absolute_mean == 0.0) continue;
-    const compare::StepText& words = compare::step_text(static_cast<compare::Cause>(i));
-    swatch(step_colour(i));
+    const compare::StepText& words = compare::step_text(static_cast<compare::Cause>(i), ladder);
+    swatch(step_colour(i, ladder));
     ImGui::TextUnformatted(std::string(words.name).c_str());
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("What: %s.", std::string(words.what).c_str());
     right_aligned(
@@ -129,7 +129,7 @@ void results_panel(PanelContext& context) {
   }
   ImGui::Separator();
   probe_panel(context);
-  budget(context, light);
+  budget(context, light, compare::ladder_of(context.state.setup.map.technique));
   labels(light);
   curve_panel(context);
   times(context);

@@ -80,6 +80,7 @@ PixelStory tell_story(const ComparisonOutcome& outcome, PixelPlace place, ImageS
   story.seen = story.label != Label::background;
   for (std::size_t k = 0; k < compare::rung_count; ++k)
     story.rungs[k] = static_cast<double>(light.rungs[k].at(x, y));
+  story.ladder = compare::ladder_of(outcome.comparison.raster.options.map.technique);
   story.gap = static_cast<double>(record.gap.at(x, y));
   story.distance = static_cast<double>(record.distance.at(x, y));
   story.texel_world = record.texel_world;
@@ -88,6 +89,7 @@ PixelStory tell_story(const ComparisonOutcome& outcome, PixelPlace place, ImageS
   story.u = static_cast<double>(uv.x), story.v = static_cast<double>(uv.y);
   story.face = record.face.at(x, y);
   report::PixelFacts facts{story.label, story.rungs, story.gap, story.u, story.v};
+  facts.ladder = story.ladder;
   facts.seen = story.seen && story.label != Label::silhouette;
   facts.material = material_at(outcome.shown, outcome.shown.material, x, y);
   facts.stored_glass = material_at(outcome.shown, outcome.shown.stored_glass, x, y);

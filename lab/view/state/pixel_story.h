@@ -15,6 +15,7 @@ struct PixelStory {
   PixelPlace pixel;
   compare::Label label = compare::Label::background;
   std::array<double, compare::rung_count> rungs{};  ///< V0 ... V6; 1 lit, 0 in shadow
+  compare::Ladder ladder = compare::Ladder::map;
   int deciding = 0;  ///< the rung at which it went wrong, 1 to 6; 0: it is right, or not compared
   double gap = 0.0, distance = 0.0, texel_world = 0.0, bias_world = 0.0;
   double u = 0.0, v = 0.0;  ///< where it looks the map up, texels

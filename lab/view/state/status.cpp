@@ -197,7 +197,7 @@ compare::ShadowParts parts_of(const ShadowTimes& times, const compare::Compariso
           .lookups = times.lookups(),
           .rays = with_spread(comparison.raytraced.lights.front().exact_times()),
           .tree = with_spread(comparison.raytraced.structure),
-          .hybrid = raster::is_external(comparison.raster.options.map.technique)};
+          .by = compare::shadow_side(comparison.raster.options.map.technique)};
 }
 
 }  // namespace
@@ -207,15 +207,15 @@ ShadowTimeWords shadow_time_words(const Snapshot& shown, const ViewState& state)
   ShadowTimeWords words;
   words.by = "They are timed while nothing else is to be done.";
   std::optional<compare::ShadowCosts> costs;
-  bool hybrid = false;
+  std::string_view by = "map";
   if (const auto times = shown.shadow_times; times && times->revision == state.revision) {
     const compare::ShadowParts parts = parts_of(*times, shown.outcome->comparison);
-    costs = compare::shadow_costs(parts), hybrid = parts.hybrid;
+    costs = compare::shadow_costs(parts), by = parts.by;
     words.of_device = times->by_device, words.by = clock_words(*times, shown.renderer);
   }
   for (const compare::ShadowSituation& one : compare::shadow_situations())
     words.rows.push_back(
-        {std::string(one.words), costs ? compare::sides_text(*costs.*one.sides, hybrid) : "not timed yet"});
+        {std::string(one.words), costs ? compare::sides_text(*costs.*one.sides, by) : "not timed yet"});
   return words;
 }
 

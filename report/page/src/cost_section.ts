@@ -2,7 +2,7 @@
 import { shareBar } from "./bars";
 import { keyed, keyedCount, keyedThings } from "./document";
 import { byteCount, counted, milliseconds } from "./number_text";
-import { facts, ofLight, result, shadowTime, timed, type LightResult, type Times } from "./report_document";
+import { facts, ofLight, result, shadowSide, shadowTime, timed, type LightResult, type Times } from "./report_document";
 import { markup, type Markup } from "./template";
 
 interface TimeRow {
@@ -28,8 +28,8 @@ function lightRows(light: LightResult, i: number): TimeRow[] {
   return [
     row(
       "map_pass",
-      map.hybrid ? "sheets" : "depth map",
-      map.size === null ? "its map is not known" : counted(map.faces * map.size ** 2, "texel"),
+      map.rays ? "few rays" : map.hybrid ? "sheets" : "depth map",
+      map.rays ? "nothing is kept for a light" : map.size === null ? "its map is not known" : counted(map.faces * map.size ** 2, "texel"),
       "raster",
     ),
     row("shade_pass", "shading", "the picture with its shadow lookups", "raster"),
@@ -96,7 +96,7 @@ const oneTime = (name: string): Markup => keyed(`times_ms.${name}.median`, milli
 
 function shadowTable(): Markup {
   const rows = result.lights.map(shadowRows),
-    by = result.lights.some(({ map }) => map.hybrid) ? "hybrid" : "map";
+    by = result.lights.map(shadowSide).find((side) => side !== "map") ?? "map";
   return markup`${
     rows.some((row) => row !== null) &&
     markup`<table class="times sides"><caption>The shadows of a frame, without what the picture costs</caption><thead><tr><th scope="col">since the last frame</th><th

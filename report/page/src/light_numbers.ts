@@ -6,6 +6,28 @@ import { palette } from "./parts";
 import { facts, lacksMap, lessonDetails, plain, stepName, type LightResult } from "./report_document";
 import { markup, scrollRegion, swatch, type Markup } from "./template";
 
+// How few rays were cast and denoised, and what a frame of them takes.
+export function raysBlock({ map: { rays } }: LightResult, i: number): Markup | null {
+  if (!rays) return null;
+  const key = `lights.${i}.map.rays`;
+  const time = (name: string): Markup => keyed(`${key}.times_ms.${name}.median`, milliseconds);
+  const row = (name: string, value: Markup | string): Markup => markup`<tr><th scope="row">${name}</th><td class="n">${value}</td></tr>\n`;
+  const per = (name: string): Markup => plain(`${key}.${name}`);
+  return markup`<h3>The rays of a frame</h3>
+<table><tbody>
+${row("rays a pixel", rays.rays_per_pixel)}${row("sampler", rays.ray_sampler)}${row("denoiser", rays.denoiser)}${row(
+    "frames in the history",
+    keyedCount(`${key}.history`),
+  )}${row("rays cast", keyedCount(`${key}.rays`))}${row("boxes tested a ray", per("boxes_per_ray"))}${row(
+    "triangles and shapes tested a ray",
+    per("primitives_per_ray"),
+  )}${row("values that the denoiser read", keyedCount(`${key}.taps`))}${row(
+    "kept from frame to frame",
+    byteCount(rays.history_bytes),
+  )}${row("time for the rays", time("rays"))}${row("time for the denoiser", time("denoiser"))}</tbody></table>
+`;
+}
+
 // Which pixels the sheets decided, where rays were cast, and what it took.
 export function hybridBlock({ map: { hybrid } }: LightResult, i: number): Markup | null {
   if (!hybrid) return null;

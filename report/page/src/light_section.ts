@@ -3,7 +3,7 @@ import { biasBlock } from "./bias_section";
 import { keyed, keyedCount, keyedThings } from "./document";
 import { picture, pictureNamed } from "./frame";
 import { layoutFigure } from "./layout_figure";
-import { depthMapBlock, factsBlock, hybridBlock, ladderBlock } from "./light_numbers";
+import { depthMapBlock, factsBlock, hybridBlock, ladderBlock, raysBlock } from "./light_numbers";
 import { grouped, percent, plainNumber } from "./number_text";
 import { labelFigure, labelledLight } from "./overview_section";
 import { facts, lessonDetails, result, shareOf, type LabelFacts, type LightResult } from "./report_document";
@@ -119,7 +119,7 @@ export function lightSection(light: LightResult, i: number): Markup {
 <div>${labelTable(light, i)}</div>
 <div>${explanations(light)}</div>
 </div>
-${hybridBlock(light, i)}${ladderBlock(light, i)}${biasBlock(light, i)}${factsBlock(light, i)}`;
+${hybridBlock(light, i)}${raysBlock(light, i)}${ladderBlock(light, i)}${biasBlock(light, i)}${factsBlock(light, i)}`;
   // A single light's verdict stands right above, on the first screen, and so do one light's labels.
   return markup`<section id="light-${i}" aria-labelledby="light-${i}-title">
 <h2 id="light-${i}-title">Light: ${name}</h2>

@@ -4,7 +4,7 @@ import { beyondRounding, keyed, keyedCount, keyedDecrease } from "./document";
 import { picture } from "./frame";
 import { signedNumber } from "./number_text";
 import { isBeside } from "./parts";
-import { facts, ofLight, result, shadowTime, stepName, verdictBlock, type LightResult } from "./report_document";
+import { facts, ofLight, result, shadowSide, shadowTime, stepName, verdictBlock, type LightResult } from "./report_document";
 import { flowing, markup, type Markup } from "./template";
 
 /** The light whose labelled picture stands on the first screen: that with the most wrong pixels. */
@@ -24,6 +24,7 @@ function rasterCaption(): Markup {
     return markup`<b>${judged.renderer.name}</b>${judged.renderer.version && ` ${judged.renderer.version}`}${
       judged.ratio ? ", with its shadow" : ": what it drew of the light, white lit and black shadowed"
     }`;
+  if (lights[0]!.map.rays) return markup`<b>Rasterizer</b>, few rays and a denoiser`;
   return lights[0]!.map.hybrid ? markup`<b>Hybrid</b>, sheets and rays` : markup`<b>Rasterizer</b>, shadow map${lights.length > 1 && "s"}`;
 }
 
@@ -35,9 +36,9 @@ function shadowCostLine(): Markup | null {
   return markup`<dl class="shadow-costs">
 ${facts.shadow_situations.map(
   ({ key, words }) =>
-    markup`<div><dt>Shadows${ofLight(i)}, ${words}</dt><dd>${shadowTime(light, i, `${key}_map`)} by the ${
-      light.map.hybrid ? "hybrid" : "map"
-    }, ${shadowTime(light, i, `${key}_rays`)} by rays</dd></div>\n`,
+    markup`<div><dt>Shadows${ofLight(i)}, ${words}</dt><dd>${shadowTime(light, i, `${key}_map`)} by the ${shadowSide(
+      light,
+    )}, ${shadowTime(light, i, `${key}_rays`)} by rays</dd></div>\n`,
 )}</dl>
 `;
 }

@@ -8,8 +8,12 @@ import { number } from "./svg";
 const precision = 2,
   blur = 8,
   lightSize = 9,
+  blurOfRays = 3,
   precisionStep = 4,
   filterStep = 6; // labels' values; rungs
+
+/** Whether few rays were cast and denoised: the rungs are those of the denoiser. */
+const ofRays = (): boolean => page.rungs[blurOfRays]!.step === "blur";
 
 /** The step that the label of an error names (docs/labels.md), by the rung it leads to; 0: the pixel is right. */
 export function decidingStep({ label, rungs }: Pixel): number {
@@ -17,7 +21,7 @@ export function decidingStep({ label, rungs }: Pixel): number {
   if (label === precision) return precisionStep;
   const error = rungs[6]! - rungs[0]!,
     most = Math.abs(error) > 0.5 ? 0.5 : Math.abs(error) / 2;
-  if (Math.abs(error) <= 0.5 && (label === blur || label === lightSize)) return label === blur ? filterStep : 1;
+  if (!ofRays() && Math.abs(error) <= 0.5 && (label === blur || label === lightSize)) return label === blur ? filterStep : 1;
   const wrong = (k: number) => (error < 0 ? rungs[0]! - rungs[k]! : rungs[k]! - rungs[0]!) > most;
   const rises = rungs.flatMap((_, k) => (k > 0 && wrong(k) && !wrong(k - 1) ? [k] : []));
   if (rungs[6]! < rungs[0]!) return rises.at(-1) ?? 0;
@@ -89,6 +93,7 @@ export function story(light: Light, pixel: Pixel, bias: number): string {
   return say("story", {
     not_compared: pixel.label < 0,
     without_map: !json.map_known,
+    few_rays: ofRays(),
     exact: !json.compares_depths,
     filtered: !json.gaps_decide,
     other_bias,
@@ -101,6 +106,7 @@ export function story(light: Light, pixel: Pixel, bias: number): string {
     truth: number(truth, 3),
     single: number(single, 3),
     drawn: number(drawn, 3),
+    through: number(pixel.rungs[4]!, 3),
     technique: json.technique,
     by_columns: Boolean(decision),
     [(decision && decisions[decision[pixel.index]!]) ?? "undecided"]: true,

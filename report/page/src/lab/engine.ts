@@ -39,6 +39,7 @@ export interface LabFacts {
   techniques: { name: string; for_suns: boolean }[];
   labels: LabelFacts[];
   rungs: { symbol: string; name: string; what: string; step?: string }[];
+  ray_rungs: LabFacts["rungs"]; // of few rays
   pictures: { name: string; title: string; legend: string }[];
   presets: { title: string; what: string }[];
   scenes: Named[];
@@ -118,6 +119,7 @@ export interface PixelStory {
   pixel: [number, number];
   label: number;
   rungs: number[];
+  of_rays: boolean;
   deciding: number;
   seen: boolean;
   words: string;

@@ -22,7 +22,8 @@ function labelRows(light: LightResult, labels: LabelFacts[]): Markup {
   )}</tbody></table>`;
 }
 
-function budget(light: LightResult, { rungs }: LabFacts): Markup {
+function budget(light: LightResult, facts: LabFacts): Markup {
+  const rungs = light.budget.some(({ cause }) => cause === "noise") ? facts.ray_rungs : facts.rungs;
   return markup`<table class="numbers"><caption>Mean error by step, and its sign</caption><tbody>${light.budget.map(
     ({ absolute, signed }, k) =>
       markup`<tr><th scope="row">${
@@ -96,7 +97,8 @@ function cutDrawing({ stored, receiver, first, at, distance, bias, along }: Cut)
 }
 
 export function pixelMarkup(story: PixelStory, facts: LabFacts): Markup {
-  const label = facts.labels.find(({ value }) => value === story.label);
+  const label = facts.labels.find(({ value }) => value === story.label),
+    rungs = story.of_rays ? facts.ray_rungs : facts.rungs;
   return markup`<h2>Pixel ${story.pixel[0]}, ${story.pixel[1]}${label && markup`: ${label.name}`}</h2><p>${story.words}</p>${story.remarks.map(
     (remark) => markup`<p>${remark}</p>`,
   )}${story.cure !== "" && markup`<p><b>What helps:</b> ${story.cure}</p>`}${story.cut && cutDrawing(story.cut)}${
@@ -105,7 +107,7 @@ export function pixelMarkup(story: PixelStory, facts: LabFacts): Markup {
       (value, k) =>
         markup`<tr${
           k === story.deciding && k > 0 ? markup` class="deciding"` : ""
-        }><th scope="row">${facts.rungs[k]!.symbol} ${facts.rungs[k]!.name}</th><td class="n">${plainNumber(value)}</td></tr>`,
+        }><th scope="row">${rungs[k]!.symbol} ${rungs[k]!.name}</th><td class="n">${plainNumber(value)}</td></tr>`,
     )}</tbody></table>`
   }`;
 }
