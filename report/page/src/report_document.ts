@@ -71,9 +71,9 @@ export const result = resultDocument<Result>(),
 
 /** Another renderer's picture, whose depth map is not known: two steps are told apart, light size and all the rest. */
 export const lacksMap = (): boolean => result.lights.some(({ map }) => map.size === null);
-/** The name of the step that leads from rung k to the next. */
 /** What stands for the map in times, as the program says it (twin: shadow_side() of ../../../compare/result/shadow_cost.h). */
-export const shadowSide = ({ map }: LightResult): string => (map.rays ? "few rays" : map.hybrid ? "hybrid" : "map");
+export const shadowSide = ({ map }: ResultLight): string => (map.rays ? "few rays" : map.hybrid ? "hybrid" : "map");
+/** The name of the step that leads from rung k to the next. */
 export const stepName = (k: number): string => (lacksMap() && k === 1 ? "unexplained" : facts.rungs[k + 1]!.step!);
 
 /** ", NAME" where there are several lights. */

@@ -1,0 +1,110 @@
+// --technique rays through the rasterizer and the comparison: steps that add up and mean what they say, hard lights exact,
+// pictures the same for any number of threads.
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "rays/visibility.h"
+#include "scene/load.h"
+#include "tests/support/one_world.h"
+
+namespace gnomon::test {
+namespace {
+
+using compare::Cause;
+using raster::Denoiser;
+
+compare::CompareOptions ray_options(Denoiser denoiser, int history = 1) {
+  compare::CompareOptions options;
+  options.raster.size = options.raytrace.size = {192, 108};
+  options.raster.map.technique = raster::Technique::rays;
+  options.raster.map.rays.denoiser = denoiser;
+  options.raster.map.rays.history = history;
+  options.raster.runs = 0;
+  options.raster.seed = options.raytrace.seed = 9;
+  options.perceptual = false;
+  return options;
+}
+
+std::unique_ptr<OneWorld> open(const std::string& name) {
+  auto scene = load_scene(name);
+  if (!scene) return nullptr;
+  auto world = std::make_unique<OneWorld>(std::move(*scene));
+  world->renderer->use_external_visibility(raster::Technique::rays, rays::make_visibility(world->world));
+  return world;
+}
+
+double step(const compare::LightComparison& light, Cause cause) {
+  return light.budget[static_cast<std::size_t>(cause)].absolute_mean;
+}
+
+constexpr std::array denoisers{Denoiser::none, Denoiser::penumbra, Denoiser::atrous, Denoiser::svgf,
+                               Denoiser::fidelityfx};
+
+TEST(RaysTechnique, StepsAddUpAndMeanWhatTheySay) {
+  const auto world = open("penumbra");
+  ASSERT_NE(world, nullptr);
+  for (const Denoiser denoiser : denoisers)
+    for (const int history : {1, 5}) {
+      const compare::Comparison result = world->compare(ray_options(denoiser, history));
+      const compare::LightComparison& light = result.lights.front();
+      double sum = 0.0;
+      for (const compare::BudgetStep& one : light.budget) sum += one.signed_mean;
+      // Sums of some 19,000 floats in doubles, and means of both ends.
+      EXPECT_NEAR(sum, light.rung_mean.back() - light.rung_mean.front(), 1e-12);
+      EXPECT_EQ(step(light, Cause::light_size), 0.0);
+      EXPECT_EQ(step(light, Cause::sampling), 0.0);
+      EXPECT_EQ(step(light, Cause::rays_lag), 0.0) << "nothing moves";
+      EXPECT_GT(step(light, Cause::rays_noise), 0.0);
+      // But for the one that clamps, what the denoiser makes of the rays again is what was drawn, to the bit.
+      EXPECT_EQ(step(light, Cause::rays_remap) == 0.0, denoiser != Denoiser::fidelityfx) << int(denoiser);
+      EXPECT_EQ(step(light, Cause::rays_blur) == 0.0, denoiser == Denoiser::none) << int(denoiser);
+      for (std::size_t i = 0; i < light.labels.data.size(); ++i) {
+        const auto label = light.labels.data[i];
+        if (!compare::has_cause(label)) continue;
+        ASSERT_TRUE(label == compare::Label::blur || label == compare::Label::noise ||
+                    label == compare::Label::remap);
+      }
+    }
+}
+
+TEST(RaysTechnique, HistoryAndRaysTakeNoiseAway) {
+  const auto world = open("penumbra");
+  ASSERT_NE(world, nullptr);
+  const auto noise = [&](raster::RayCount count, int history) {
+    compare::CompareOptions options = ray_options(Denoiser::none, history);
+    options.raster.map.rays.count = count;
+    return step(world->compare(options).lights.front(), Cause::rays_noise);
+  };
+  const double one = noise(raster::RayCount::one, 1);
+  EXPECT_LT(noise(raster::RayCount::four, 1), 0.55 * one);
+  EXPECT_LT(noise(raster::RayCount::one, 16), 0.3 * one);
+  EXPECT_LT(noise(raster::RayCount::sixteen, 16), 0.1 * one);
+}
+
+TEST(RaysTechnique, OneRayToALightWithoutSizeIsExact) {
+  for (const char* name : {"fence", "floating-box", "whitted"}) {
+    const auto world = open(name);
+    ASSERT_NE(world, nullptr);
+    const compare::Comparison result = world->compare(ray_options(Denoiser::svgf, 3));
+    for (const compare::LightComparison& light : result.lights) {
+      if (has_size(world->scene.lights[light.light])) continue;
+      EXPECT_GT(light.pixels.compared, 0u);
+      EXPECT_EQ(light.error.mean_absolute, 0.0) << name;
+    }
+  }
+}
+
+TEST(RaysTechnique, DrawsTheSameOnOneThread) {
+  const auto picture = [](Denoiser denoiser) {
+    const auto world = open("penumbra");
+    return world->compare(ray_options(denoiser, 3)).raster.lights.front().visibility.data;
+  };
+  for (const Denoiser denoiser : denoisers) {
+    const auto many = picture(denoiser);
+    const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(picture(denoiser), many) << int(denoiser);
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::test
