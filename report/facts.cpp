@@ -53,6 +53,7 @@ Json lesson_facts(const Comparison& c) {
 std::string map_words(const Comparison& c) {
   const raster::MapOptions& map = c.raster.options.map;
   if (!c.raster.has_known_map()) return "a shadow whose map is not known";
+  if (raster::samples_rays(map.technique)) return "shadows of few rays, no map";
   const std::string_view how = c.judged && c.judged->identified ? "inferred: " : "";
   return fmt::format("{}{} shadows, map {}\u202f\u00d7\u202f{}", how, technique_name(map.technique), map.size,
                      map.size) +
@@ -61,7 +62,7 @@ std::string map_words(const Comparison& c) {
 
 Json depth_facts(const PageInput& in, std::size_t index) {
   const Comparison& c = in.comparison;
-  if (!c.raster.has_known_map()) return nullptr;
+  if (!c.raster.has_known_map() || raster::samples_rays(c.raster.options.map.technique)) return nullptr;
   const LightView& view = compare::drawn_record(c, c.lights[index]).map.view;
   return {{"near", view.depth_range().min},
           {"far", view.depth_range().max},

@@ -148,8 +148,9 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      Cause::filter,
      "filtering",  // olive (Tol)
      "the filter's penumbra is not the light's",
-     "The technique averages over neighbouring texels, which softens edges that are sharp.",
-     "A smaller filter radius.",
+     "The technique averages over neighbouring texels, or a denoiser over neighbouring pixels, which "
+     "softens edges that are sharp.",
+     "A smaller filter radius; of few rays a denoiser that is as wide as the penumbra.",
      "the filter step, within its reach of a true shadow edge"},
     {"light_size",
      "light size",

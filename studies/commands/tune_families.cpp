@@ -53,6 +53,11 @@ bool needs_no_kind(raster::Technique technique) {
   return contents != raster::MapContents::nearest_depth;
 }
 
+/// Of few rays: as many as engines draw, and four times that.
+std::vector<Values> ray_kinds() {
+  return {{}, {{"rays", "4"}}};
+}
+
 /// What keeps a map still.
 std::vector<Values> still_kinds() {
   return {{}, {{"snap", "on"}}, {{"cascade-blend", "0.1"}}};
@@ -99,6 +104,13 @@ Expected<OptionFamily> make_family(Values values, const Values& fixed, bool film
                       std::move(values)};
 }
 
+std::string technique_of(const Values& values, const Values& fixed) {
+  for (const Values* list : {&values, &fixed})
+    for (const auto& [option, value] : *list)
+      if (option == "technique") return value;
+  return {};
+}
+
 // What differs in the constant bias alone is one family: the tuner finds that.
 bool has_family(const std::vector<OptionFamily>& families, const OptionFamily& family) {
   return std::any_of(families.begin(), families.end(),
@@ -137,15 +149,21 @@ Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, b
   bool kinds_given = filmed;
   for (const char* name : said)
     if (is_given(fixed, *grid, name)) kinds = {{}}, kinds_given = true;
+  const bool rays_given = filmed || is_given(fixed, *grid, "rays") || is_given(fixed, *grid, "denoiser");
+  const auto kinds_for = [&](const std::string& technique) {
+    if (technique != raster::technique_name(raster::Technique::rays)) return kinds;
+    return rays_given ? std::vector<Values>{{}} : ray_kinds();
+  };
   const auto product = studies::Grid::make(axes, false);
   if (!product) return fail(product.error());
   std::vector<OptionFamily> families;
   std::optional<Error> unsound;
-  for (std::size_t cell = 0; cell < product->cells(); ++cell)
-    for (const Values& kind : kinds) {
-      Values values;
-      for (std::size_t k = 0; k < axes.size(); ++k)
-        values.emplace_back(axes[k].name, product->value(k, cell));
+  for (std::size_t cell = 0; cell < product->cells(); ++cell) {
+    Values of_cell;
+    for (std::size_t k = 0; k < axes.size(); ++k) of_cell.emplace_back(axes[k].name, product->value(k, cell));
+    const std::vector<Values> tried = kinds_for(technique_of(of_cell, fixed));
+    for (const Values& kind : tried) {
+      Values values = of_cell;
       values.insert(values.end(), kind.begin(), kind.end());
       if (engine != nullptr && !is_given(fixed, *grid, "filter-plane"))
         values.emplace_back("filter-plane", "off");
@@ -154,11 +172,14 @@ Expected<std::vector<OptionFamily>> make_families(const SweepOptions& options, b
       const auto sound = raster::check_map_options(family->tuned.map);
       if (!sound) unsound = sound.error();
       if (!sound) continue;  // a bias that does not go with the technique
-      if (!kinds_given && needs_no_kind(family->tuned.map.technique) && &kind != &kinds.front()) continue;
+      if (!kinds_given && needs_no_kind(family->tuned.map.technique) &&
+          !raster::samples_rays(family->tuned.map.technique) && &kind != &tried.front())
+        continue;
       if (engine != nullptr && !engine->draws(family->tuned.map)) continue;
       if (has_family(families, *family)) continue;  // but for what the technique does not read
       families.push_back(std::move(*family));
     }
+  }
   if (families.empty() && unsound) return fail(*unsound);
   if (families.empty())
     return fail(ErrorKind::usage,
@@ -190,7 +211,13 @@ Expected<std::vector<OptionFamily>> fitting_families(const std::vector<OptionFam
     const bool drawn = std::all_of(lights.begin(), lights.end(), [&](std::uint32_t light) {
       return raster::has_map_for(family.tuned.map.technique, scene.lights[light].type);
     });
-    if (drawn) out.push_back(family);
+    // One exact ray decides under a light without size, however many are asked for.
+    const bool again =
+        raster::samples_rays(family.tuned.map.technique) &&
+        std::ranges::none_of(lights, [&](std::uint32_t light) { return has_size(scene.lights[light]); }) &&
+        std::ranges::any_of(
+            out, [](const OptionFamily& other) { return raster::samples_rays(other.tuned.map.technique); });
+    if (drawn && !again) out.push_back(family);
   }
   const bool had_maps = !out.empty();
   if (engine != nullptr)

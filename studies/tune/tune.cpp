@@ -285,6 +285,7 @@ Expected<void> Tuner::walk_down(FamilyResult& result) {
     return less;
   };
   if (const auto first = cheaper(start); !first) return fail(first.error());
+  if (!raster::reads_setting(result.family.map, "map-size")) return {};
   if (least > exact_hope * least_cost_) return {};
   for (const std::ptrdiff_t step : {+1, -1}) {
     for (std::ptrdiff_t i = start + step; !(moved && step < 0) && i >= 0 && i < count; i += step) {

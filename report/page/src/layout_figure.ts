@@ -41,8 +41,8 @@ function sight(camera: Vec3, light: Vec3): { right: Vec3; up: Vec3 } {
 /** Of a light whose maps are known; a cube looks everywhere. */
 export function layoutFigure(light: LightResult, i: number): Markup | null {
   const { camera } = result,
-    { windows } = light.map;
-  if (!camera || !windows || windows.length === 0 || light.light.type === "point") return null;
+    { windows, rays } = light.map;
+  if (rays || !camera || !windows || windows.length === 0 || light.light.type === "point") return null;
   const first = windows[0]!,
     { right, up } = sight(camera.forward, unit(sub(add(first[4]!, first[6]!), add(first[0]!, first[2]!))));
   const bounds = camera.finite_bounds && boxOf(camera.finite_bounds),

@@ -252,7 +252,7 @@ ${
         "pixel",
       )}; ${plain(`${key}.bleeding.max`)} at most`,
     )
-  }${penumbraFacts(light, key)}${known && texelFact(light, key)}${known && theoryFacts(light, key)}${fact(
+  }${penumbraFacts(light, key)}${known && !light.map.rays && texelFact(light, key)}${known && !light.map.rays && theoryFacts(light, key)}${fact(
     "FLIP",
     plain(`${key}.error.flip`),
     markup`how visible the difference is when the two visibility pictures are flipped: 0 not at all, 1 entirely${alone("flip_compared")}`,

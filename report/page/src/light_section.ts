@@ -104,7 +104,8 @@ function where({ light: { position, direction } }: LightResult): string {
   return [position && `at ${text(position)}`, direction && `shining along ${text(direction)}`].filter(Boolean).join(", ");
 }
 
-function mapSize({ map: { size, inferred, faces } }: LightResult): string {
+function mapSize({ map: { size, inferred, faces, rays } }: LightResult): string {
+  if (rays) return "few rays, no map";
   if (size === null) return "its map is not known";
   return `${inferred ? "inferred " : ""}map of ${size}\u202f×\u202f${size}${faces > 1 ? `\u202f×\u202f${faces}` : ""} texels`;
 }

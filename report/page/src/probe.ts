@@ -4,7 +4,7 @@ import { html, number } from "./svg";
 import { sectionAxis, sectionDrawing } from "./section_drawing";
 import type { LightState } from "./state";
 import { texelDrawing } from "./texel_drawing";
-import { decidingStep, otherParts, remarks, story } from "./words";
+import { decidingStep, ofRays, otherParts, remarks, story } from "./words";
 
 function ladder(pixel: Pixel): HTMLElement {
   const deciding = decidingStep(pixel),
@@ -125,9 +125,9 @@ export class Probe {
     );
     this.bar = html("div", { class: "section-bar" }, html("h3", {}, "The cross-section"), this.ways, this.widths);
     const known = light.json.map_known;
-    this.bar.hidden = !known;
+    this.bar.hidden = !known || ofRays();
     host.append(
-      html("h3", {}, known ? "One pixel, in light space" : "One pixel"),
+      html("h3", {}, known && !ofRays() ? "One pixel, in light space" : "One pixel"),
       html("div", { class: "probe-body" }, this.words, this.drawing),
       this.bar,
       this.below,
@@ -156,7 +156,7 @@ export class Probe {
       words = wordsOf(pixel.label),
       id = `probe-${this.index}`;
     const known = this.light.json.map_known,
-      drawable = known && pixel.seen && isFinite(pixel.at.depth);
+      drawable = known && !ofRays() && pixel.seen && isFinite(pixel.at.depth);
     const axis = drawable ? sectionAxis(this.light, pixel, this.state.cut) : 0;
     press(this.widths, "texels", String(this.state.texels));
     press(this.ways, "cut", axis === 0 ? "row" : "column");
@@ -166,7 +166,7 @@ export class Probe {
       html("p", { class: "pixel-title" }, swatch, ` Pixel ${pixel.x}, ${pixel.y}: ${words.name}`),
       html("p", { class: "story" }, story(this.light, pixel, bias)),
       ...remarks(pixel).map((text) => html("p", { class: "remark" }, text)),
-      ...(pixel.seen && known ? [ladder(pixel), facts(this.light, pixel)] : []),
+      ...(pixel.seen && known ? [ladder(pixel), ofRays() ? "" : facts(this.light, pixel)] : []),
     );
     this.drawing.replaceChildren(...(drawable ? [texelDrawing(this.light, pixel, bias, `${id}-texel`)] : []));
     window.clearTimeout(this.resting);
@@ -176,7 +176,7 @@ export class Probe {
           ? this.scene
             ? sectionDrawing(this.light, pixel, this.scene, axis, this.state.texels, bias, `${id}-cut`)
             : html("p", {}, this.missing)
-          : known
+          : known && !ofRays()
             ? html("p", {}, "No surface here to cut through.")
             : "",
       );

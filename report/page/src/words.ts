@@ -13,7 +13,7 @@ const precision = 2,
   filterStep = 6; // labels' values; rungs
 
 /** Whether few rays were cast and denoised: the rungs are those of the denoiser. */
-const ofRays = (): boolean => page.rungs[blurOfRays]!.step === "blur";
+export const ofRays = (): boolean => page.rungs[blurOfRays]!.step === "blur";
 
 /** The step that the label of an error names (docs/labels.md), by the rung it leads to; 0: the pixel is right. */
 export function decidingStep({ label, rungs }: Pixel): number {
