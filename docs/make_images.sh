@@ -99,6 +99,12 @@ pair precision raster difference acne-floor --depth-format d16 --slope-bias 1 --
 picture hybrid decisions courtyard --technique hybrid
 pair error-budget raytrace labels courtyard --map-size 512
 
+# One ray a pixel, as it is and denoised.
+for denoiser in none penumbra; do
+  "$program" compare penumbra --technique rays --denoiser $denoiser --size 320x180 --runs 1 --quiet -o "$work/rays-$denoiser"
+done
+beside one-ray 2x1 "$work/rays-none/raster.png" "$work/rays-penumbra/raster.png"
+
 # What no map can draw.
 "$program" raster studio --size 320x180 --quiet -o "$work/studio-map.png"
 rendered studio-rays studio --size 320x180 --aa 4 --samples 16 --indirect-samples 8

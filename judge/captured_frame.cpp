@@ -21,7 +21,8 @@ raster::MapOptions map_options(const Capture& capture, int size) {
   map.size = size;
   map.bias = {.constant = 0.0, .unit = raster::BiasUnit::world};
   if (capture.bias) map.bias.slope = capture.bias->slope;
-  map.filter.radius_texels = map.filter.search_radius_texels = filter.radius_texels;
+  map.filter.radius_texels = filter.radius_texels;
+  map.filter.search_radius = filter.radius_texels * 1024.0 / size;
   map.filter.blur_radius_texels = static_cast<int>(std::ceil(filter.radius_texels - 0.5));
   map.filter.receiver_plane = map.filter.mipmaps = false;
   map.filter.light_bleeding_reduction = 0.0;

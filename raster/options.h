@@ -88,8 +88,9 @@ struct FilterOptions {
   bool receiver_plane = true;
   int samples = 32;          ///< pcf vogel, pcss: taps of the filter, in [1, 1024]
   int blocker_samples = 32;  ///< pcss: taps of the search for blockers, in [1, 1024]
-  /// pcss: the search for blockers goes no farther than this, texels, in (0, 1024].
-  double search_radius_texels = 64.0;
+  /// pcss: the search for blockers goes no farther than this, in texels of a map of 1024, in (0, 1024]: as wide a part of
+  /// the map whatever its size, since a penumbra does not grow narrower with finer texels.
+  double search_radius = 64.0;
   /// vsm, esm, evsm, msm: the moments are averaged over (2 n + 1)^2 texels, n in [0, 64].
   int blur_radius_texels = 2;
   /// vsm, esm, evsm, msm: pixels that cover several texels read an average of them.
@@ -152,6 +153,11 @@ struct MapOptions {
   bool snap = false;
   bool operator==(const MapOptions&) const = default;
 };
+
+/// FilterOptions::search_radius in texels of this very map.
+inline double search_radius_texels(const MapOptions& map) {
+  return map.filter.search_radius * map.size / 1024.0;
+}
 
 /// Whether the technique has a map for such a light: csm and lispsm are for directional ones, cube for point
 /// lights.

@@ -314,14 +314,17 @@ constexpr MapSetting rows[] = {
      .title = "Blocker samples",
      .what = "Points of the search for what blocks the light."},
     {.name = "search-radius",
-     .key = "search_radius_texels",
+     .key = "search_radius",
      .group = SettingGroup::filter,
-     .kind = number<of_filter, &F::search_radius_texels>("texels", {0.001, 1024.0}, {1.0, 256.0}, true),
+     .kind =
+         number<of_filter, &F::search_radius>("texels of a map of 1024", {0.001, 1024.0}, {1.0, 256.0}, true),
      .read_by = searches_penumbra,
      .type = "NUMBER",
-     .help = "the search goes no farther, however large the light",
+     .help = "the search goes no farther, however large the light; a map of another size searches as wide a "
+             "part of itself",
      .title = "Search radius",
-     .what = "The search goes no farther, however large the light.",
+     .what = "The search goes no farther, however large the light. A map of another size searches as wide a "
+             "part of itself.",
      .acne = "A wide search takes the receiver itself for a blocker."},
     {.name = "blur-radius",
      .key = "blur_radius_texels",

@@ -42,7 +42,7 @@ enum class TexelShape : std::uint8_t {
 enum class EdgeFilter : std::uint8_t {
   none,
   kernel,    ///< a mean over FilterOptions::kernel
-  penumbra,  ///< a mean over a width that is searched for, up to FilterOptions::search_radius_texels
+  penumbra,  ///< a mean over a width that is searched for, up to FilterOptions::search_radius
   moments    ///< the blur of a map of moments
 };
 

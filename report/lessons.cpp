@@ -15,11 +15,11 @@ namespace gnomon::report {
 namespace {
 
 // In the order in which to read them; docs/lessons/README.md has the same.
-constexpr std::array<std::string_view, 25> names{
+constexpr std::array<std::string_view, 26> names{
     "shadow-map", "acne",         "peter-panning", "light-leaks",   "aliasing",  "bias",       "precision",
     "filtering",  "soft-shadows", "cascades",      "cube-maps",     "shimmer",   "terminator", "error-budget",
     "not-enough", "ray-casting",  "ray-tracing",   "intersections", "triangles", "boxes",      "grids",
-    "structures", "robustness",   "hybrid",        "cost"};
+    "structures", "robustness",   "hybrid",        "one-ray",       "cost"};
 
 // What stands between two texts; nothing when they are not there.
 std::string_view between(std::string_view text, std::string_view from, std::string_view to) {

@@ -223,7 +223,7 @@ std::string_view filter_kind(const raster::MapOptions& map) {
 double filter_reach_texels(const raster::MapOptions& map, double level) {
   const EdgeFilter filter = raster::traits_of(map.technique).filter;
   if (filter == EdgeFilter::kernel) return pcf_reach(map.filter);
-  if (filter == EdgeFilter::penumbra) return map.filter.search_radius_texels + 1.0;
+  if (filter == EdgeFilter::penumbra) return raster::search_radius_texels(map) + 1.0;
   if (filter != EdgeFilter::moments) return 0.0;
   const double side = std::exp2(std::ceil(level));
   return map.filter.blur_radius_texels + side + 0.5 * (side - 1.0);

@@ -269,7 +269,7 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "\u2234",
      {0xee, 0x66, 0x77},
      Cause::rays_noise,
-     "soft-shadows",  // red (Tol, "bright")
+     "one-ray",  // red (Tol, "bright")
      "so few rays met the light by chance",
      "One ray sees one point of the light. How many of few arrive is chance, and where the filter is narrow, "
      "or takes the noise for a shadow's edge, it stays.",
@@ -280,7 +280,7 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "G",
      {0x44, 0x77, 0xaa},
      Cause::rays_lag,
-     "soft-shadows",  // blue (Tol, "bright")
+     "one-ray",  // blue (Tol, "bright")
      "the history holds what was true before",
      "Earlier frames are mixed in, and the shadow was elsewhere then, or the pixel was.",
      "A shorter history, or one that is given up sooner where something moves.",
@@ -290,7 +290,7 @@ constexpr std::array<LabelText, 1 + class_count - first_label> labels{{
      "R",
      {0x22, 0x55, 0x55},
      Cause::rays_remap,
-     "soft-shadows",  // teal (Tol, "dark")
+     "one-ray",  // teal (Tol, "dark")
      "the denoiser's last touch changed what its filter had made",
      "A clamp of the history or a contrast in the end is no mean of what the rays saw.",
      "The denoiser without that touch, or another one.",

@@ -29,7 +29,7 @@ LightBlock make_light_block(const Light& light, const LightView& view, const Map
   block.area_v = Vec4f(Vec4(area.v, 0.0));
   const FilterOptions& f = map.filter;
   block.filter_radii =
-      Vec4f(Vec4(f.radius_texels, f.search_radius_texels, f.light_bleeding_reduction, map.cascades.blend));
+      Vec4f(Vec4(f.radius_texels, search_radius_texels(map), f.light_bleeding_reduction, map.cascades.blend));
   if (const auto moments = traits_of(map.technique).drawing->moments) block.moments = Vec4f(moments(f));
   return block;
 }

@@ -10,6 +10,7 @@
 #include "app/options/effect_options.h"
 #include "app/options/map_options.h"
 #include "app/options/options.h"
+#include "rays/visibility.h"
 #include "studies/commands/axes.h"
 #include "tests/support/raster_fixture.h"
 
@@ -65,7 +66,11 @@ constexpr Choice choices[] = {{"window-size", "9,8"},
                               {"no-snap", "on"},
                               {"cascade-fit", "on"},
                               {"cascade-blend", "0.3"},
-                              {"snap", "on"}};
+                              {"snap", "on"},
+                              {"rays", "4"},
+                              {"ray-sampler", "random"},
+                              {"denoiser", "none"},
+                              {"history", "3"}};
 
 TEST(TechniqueOptions, EverySettingIsTried) {
   std::set<std::string_view> tried{"map-size", "technique"};  // which concern every technique
@@ -78,7 +83,9 @@ TEST(TechniqueOptions, EverySettingIsTried) {
 /// stored). Or it says why nothing was drawn.
 class Drawings {
  public:
-  explicit Drawings(LightType type) : drawn_(make_drawn(scene(type))) {}
+  explicit Drawings(LightType type) : drawn_(make_drawn(scene(type))) {
+    drawn_.renderer->use_external_visibility(raster::Technique::rays, rays::make_visibility(*drawn_.world));
+  }
 
   Expected<std::vector<float>> draw(const raster::MapOptions& map) {
     raster::RasterOptions options = small_options();

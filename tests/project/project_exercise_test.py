@@ -181,8 +181,8 @@ EXERCISES = {
     ],
     "a lesson": [
         ("docs/lessons/tides.md <- docs/lessons/precision.md", "# Precision", REPLACE, "# Tides"),
-        ("docs/lessons/README.md", "25. [What accuracy costs](cost.md): errors beside times\n", AFTER, "26. [Tides](tides.md): an exercise\n"),
-        ("report/lessons.cpp", "constexpr std::array<std::string_view, 25> names{", REPLACE, "constexpr std::array<std::string_view, 26> names{"),
+        ("docs/lessons/README.md", "26. [What accuracy costs](cost.md): errors beside times\n", AFTER, "27. [Tides](tides.md): an exercise\n"),
+        ("report/lessons.cpp", "constexpr std::array<std::string_view, 26> names{", REPLACE, "constexpr std::array<std::string_view, 27> names{"),
         ("report/lessons.cpp", '"hybrid",        "cost"}', REPLACE, '"hybrid",        "cost", "tides"}'),
     ],
 }
