@@ -88,8 +88,8 @@ struct FilterOptions {
   bool receiver_plane = true;
   int samples = 32;          ///< pcf vogel, pcss: taps of the filter, in [1, 1024]
   int blocker_samples = 32;  ///< pcss: taps of the search for blockers, in [1, 1024]
-  /// pcss: the search for blockers goes no farther than this, in texels of a map of 1024, in (0, 1024]: as wide a part of
-  /// the map whatever its size, since a penumbra does not grow narrower with finer texels.
+  /// pcss: the search for blockers goes no farther than this, in texels of a map of 1024, in (0, 1024]. So it is as
+  /// wide a part of a map of any size: a penumbra does not grow narrower with finer texels.
   double search_radius = 64.0;
   /// vsm, esm, evsm, msm: the moments are averaged over (2 n + 1)^2 texels, n in [0, 64].
   int blur_radius_texels = 2;

@@ -1,5 +1,5 @@
 // Which points of the light a pixel's few rays are sent to. What a point is depends on the seed, the frame, the pixel and the
-// ray's number alone, so pictures are the same on every machine and for any number of threads.
+// ray's number alone. So pictures are the same on every machine and for any number of threads.
 #pragma once
 
 #include <array>
@@ -21,9 +21,9 @@ struct PixelRays {
 /// The points of the unit square [0, 1)^2 for one pixel's rays.
 /// - random: each alone, uniformly.
 /// - stratified: raytrace::StratifiedSquare, each frame's by themselves.
-/// - blue_noise: the points of the R2 sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"), frame
-///   after frame, moved by what the pixel has in a mask of blue noise (blue_noise_mask), another along each axis. Their
-///   wrapping round keeps each uniform.
+/// - blue_noise: the points of the R2 sequence, frame after frame (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
+///   Sequences"). They are moved by what the pixel has in a mask of blue noise (blue_noise_mask), another amount along each axis.
+///   Their wrapping round keeps each uniform.
 class RaySquare {
  public:
   RaySquare(raster::RaySampler sampler, const PixelRays& pixel);
@@ -37,9 +37,9 @@ class RaySquare {
 };
 
 inline constexpr std::uint32_t mask_side = 32;
-/// Each of 0 ... mask_side² - 1 once, row by row, so that any threshold leaves a pattern without low frequencies, across the
-/// edges, too: Ulichney 1993, "The void-and-cluster method for dither array generation" (Gaussian of 1.5 pixels). The same on
-/// every machine: energies are integers.
+/// Each of 0 ... mask_side² - 1 once, row by row. Any threshold leaves a pattern without low frequencies, across the edges, too
+/// (Ulichney 1993, "The void-and-cluster method for dither array generation", with a Gaussian of 1.5 pixels). It is the same on
+/// every machine, for energies are integers.
 const std::array<std::uint16_t, mask_side * mask_side>& blue_noise_mask();
 
 }  // namespace gnomon::rays

@@ -1,8 +1,8 @@
 // What a denoiser filters: at each pixel the share of the rays that arrived, alone or with passengers.
 //
 // A denoiser is a sum with weights that it works out from the rays and from what the camera sees. What else is carried through
-// the same weights tells what they do by themselves. So three passengers ride along where the picture is explained: the rays'
-// shares without the denoiser's nonlinear ends, the truth of every frame that the history holds, and this frame's truth.
+// the same weights tells what they do by themselves. So three passengers ride along where the picture is explained. One is the
+// rays' shares without the denoiser's nonlinear ends; one the truth of every frame that the history holds; one this frame's truth.
 #pragma once
 
 #include <array>

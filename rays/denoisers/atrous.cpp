@@ -1,7 +1,7 @@
 // The edge-avoiding à-trous wavelet: Dammertz, Sewtz, Hanika and Lensch 2010, "Edge-Avoiding À-Trous Wavelet Transform for fast
-// Global Illumination Filtering", equations 2 to 5. Five passes of 5 x 5 values that lie 1, 2, 4, 8 and 16 pixels apart, weighed
-// by the spline's kernel and by how alike visibility, normal and place are; the tolerance of visibility is halved from pass to
-// pass.
+// Global Illumination Filtering", equations 2 to 5. Five passes read 5 x 5 values that lie 1, 2, 4, 8 and 16 pixels apart. They are
+// weighed by the spline's kernel and by how alike visibility, normal and place are. The tolerance of visibility is halved from
+// pass to pass.
 #include <array>
 
 #include "rays/mean_history.h"

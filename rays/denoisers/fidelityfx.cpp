@@ -1,8 +1,8 @@
-// AMD's FidelityFX Shadow Denoiser (2021; its published source, version 1.0, is the definition), under a camera that stands
-// still: moments of the history, a clamp to the mean of 17 x 17 pixels, a blend, three passes of 3 x 3 values that lie 1, 2 and 4
-// pixels apart, and a contrast in the end. The first pass's output is what the history keeps. Beside the source: shares of
-// several rays may come in, its windows are weighed anew at the picture's edges and at pixels that are not asked, and no block of
-// 8 x 8 pixels is skipped for being all lit or all dark, which changes no pixel that it filters.
+// AMD's FidelityFX Shadow Denoiser (2021; its published source, version 1.0, is the definition), under a camera that stands still.
+// It keeps moments of the history, clamps the history to the mean of 17 x 17 pixels and blends it with the frame. Three passes of
+// 3 x 3 values follow, which lie 1, 2 and 4 pixels apart, and a contrast in the end. The first pass's output is what the history
+// keeps. Two things are beside the source: shares of several rays may come in, and windows are weighed anew at the picture's edges
+// and at pixels that are not asked. No block of 8 x 8 pixels is skipped for being all lit or all dark; it would stay so.
 #include <array>
 #include <utility>
 

@@ -2,8 +2,8 @@
 // Sampled Soft Shadows". What a ray met tells how wide the penumbra is; a filter that is narrow against it takes the noise and
 // leaves the shadow. Two passes, along rows and along columns, each with the pixel's own width.
 //
-// The Gaussian's standard deviation is a quarter of half the penumbra's width (share_of_penumbra), from the widest that any of
-// the 5 x 5 pixels around it tells: one ray that arrives tells nothing. Distances are those of the places on the surface, and
+// The Gaussian's standard deviation is a quarter of half the penumbra's width (share_of_penumbra). A ray that arrives tells
+// nothing, so the widest penumbra counts that any of the 5 x 5 pixels around tells. Distances are those of the places on the surface, and
 // what lies off the pixel's tangent plane, or is turned otherwise, counts nothing.
 #include "rays/mean_history.h"
 

@@ -1,7 +1,7 @@
 // Spatiotemporal variance-guided filtering: Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering: Real-Time
-// Reconstruction for Path-Traced Global Illumination", sections 4.1 to 4.4, of visibility in place of luminance, under a camera
-// that stands still. Five passes of the à-trous wavelet, whose tolerance of visibility follows the variance; the first pass's
-// output is what the history keeps.
+// Reconstruction for Path-Traced Global Illumination", sections 4.1 to 4.4. Visibility stands in the place of luminance, and the
+// camera stands still. Five passes of the à-trous wavelet have a tolerance of visibility that follows the variance. The first
+// pass's output is what the history keeps.
 #include <array>
 #include <utility>
 

@@ -45,9 +45,9 @@ EXERCISES = {
          '    {"halves.drawn_ones", "pixels", "as drawn", at<&L::halves, &Halves::drawn_ones>()},\n\n'),
     ],
     "a label": [  # what is dark within a filter's reach, apart from what is bright there
-        ("compare/comparison.h", "  ignored_alpha\n};", REPLACE, "  ignored_alpha,\n  dark_blur\n};"),
-        ("compare/comparison.h", "class_count = 18;", REPLACE, "class_count = 19;"),
-        ("compare/ladder/labels.cpp", '     "gnomon judge: the map holds a caster where its alpha mask has a hole"},\n', AFTER,
+        ("compare/comparison.h", "  lag,\n  remap\n};", REPLACE, "  lag,\n  remap,\n  dark_blur\n};"),
+        ("compare/comparison.h", "class_count = 21;", REPLACE, "class_count = 22;"),
+        ("compare/ladder/labels.cpp", '     "technique rays: the remap step, with the denoiser\'s clamps and contrast"},\n', AFTER,
          '    {"dark_blur",\n     "dark blur",\n     "d",\n     {0x10, 0x20, 0x30},\n     Cause::filter,\n     "filtering",\n'
          '     "a filter darkens beside a shadow",\n     "The filter mixes shadow into light.",\n     "Make the filter narrower.",\n'
          '     "the filter step, darker than the truth"},\n'),
@@ -61,12 +61,12 @@ EXERCISES = {
         ("raster/passes/technique.cpp", 'return {"pcf_vogel", {define("FILTER_SAMPLES", filter.samples', AFTER, " << filter.doublings"),
     ],
     "a technique with a parameter": [  # lets a share of the light into every shadow
-        ("raster/options.h", "  izb,\n  hybrid\n", REPLACE, "  izb,\n  hybrid,\n  veil\n"),
+        ("raster/options.h", "  hybrid,\n  rays\n", REPLACE, "  hybrid,\n  rays,\n  veil\n"),
         ("raster/options.h", "  int samples = 32;          ///< pcf vogel", BEFORE, "  int veil = 50;             ///< veil: per cent\n"),
-        ("raster/technique_traits.cpp", "hybrid_drawing;\n", REPLACE, "hybrid_drawing, veil_drawing;\n"),
+        ("raster/technique_traits.cpp", "rays_drawing;\n", REPLACE, "rays_drawing, veil_drawing;\n"),
         ("raster/technique_traits.cpp", "     .soft = true}};\n", REPLACE, "     .soft = true},\n"
          '    {.technique = Technique::veil, .name = "veil", .drawing = &veil_drawing, .test = ShadowTest::averaged}};\n'),
-        ("raster/technique_traits.cpp", "static_cast<std::size_t>(Technique::hybrid) + 1", REPLACE, "static_cast<std::size_t>(Technique::veil) + 1"),
+        ("raster/technique_traits.cpp", "static_cast<std::size_t>(Technique::rays) + 1", REPLACE, "static_cast<std::size_t>(Technique::veil) + 1"),
         ("raster/settings.cpp", '    {.name = "blocker-samples",\n', BEFORE,
          row("veil", 'integer<of_filter, &F::veil>("per cent", 0, 100, 0, 100)', "is<Technique::veil>", "what the shadow lets through")),
         ("raster/passes/technique.cpp", "extern const TechniqueDrawing hybrid_drawing{", BEFORE,
@@ -183,7 +183,7 @@ EXERCISES = {
         ("docs/lessons/tides.md <- docs/lessons/precision.md", "# Precision", REPLACE, "# Tides"),
         ("docs/lessons/README.md", "26. [What accuracy costs](cost.md): errors beside times\n", AFTER, "27. [Tides](tides.md): an exercise\n"),
         ("report/lessons.cpp", "constexpr std::array<std::string_view, 26> names{", REPLACE, "constexpr std::array<std::string_view, 27> names{"),
-        ("report/lessons.cpp", '"hybrid",        "cost"}', REPLACE, '"hybrid",        "cost", "tides"}'),
+        ("report/lessons.cpp", '"one-ray",       "cost"}', REPLACE, '"one-ray",       "cost", "tides"}'),
     ],
 }
 
