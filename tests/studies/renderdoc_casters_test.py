@@ -179,11 +179,13 @@ class Masks(unittest.TestCase):
         one = SimpleNamespace(state=pipeline(depth_bias={}), pairs=[(0, mesh(1, self.TWO, clip))], texels=texels, is_colour=False, distance=None, half=None, content=None, matrix=matrix)
         return one
 
-    def find(self, holes, code):
+    def find(self, holes, code, **state):
         frame = SimpleNamespace(fragment_code=lambda _: code)
+        one = self.scene(holes)
+        vars(one.state).update(state)
         view = SimpleNamespace(meshes=[], positions=[], lens=None)
         seen = SimpleNamespace(drawn=np.zeros((2, 2), bool), positions=np.zeros((2, 2, 3)))
-        return masks.find(frame, view, [self.scene(holes)], seen)
+        return masks.find(frame, view, [one], seen)
 
     def test_are_told_by_holes_of_what_may_discard(self):
         discards = "void main() { if (a < 0.5) discard; }"
@@ -191,6 +193,21 @@ class Masks(unittest.TestCase):
         self.assertEqual(self.find(False, discards), set())
         self.assertEqual(self.find(True, "void main() { } // discard"), set())
         self.assertEqual(self.find(True, None), set())
+
+    def test_triangles_that_are_culled_have_no_holes(self):
+        for side, found in ((0, {0}), (1, {0}), (-1, set())):
+            self.assertEqual(self.find(True, "discard", side=side), found)
+        one = SimpleNamespace(state=pipeline(side=-1))
+        behind = mesh(1, self.TWO, np.c_[self.QUAD, np.zeros(4), [1, 1, 1, -1.0]])
+        self.assertEqual(masks._not_culled(one, behind).tolist(), self.TWO[3:].tolist())
+
+    def test_a_bias_by_slope_is_no_hole(self):
+        clip = np.c_[self.QUAD, [-0.6, -0.2, -0.6, -0.2], np.ones(4)]
+        one = self.scene(False)
+        one.texels = np.where(one.texels < 0.9, one.texels + 1.5 * 0.4 * 2 / 64 * 0.5, 0.9)  # one and a half slopes away from the light
+        places = masks.in_map(one, clip)
+        self.assertTrue(masks._has_holes(places, self.TWO, one.texels, masks.TOLERANCE))
+        self.assertFalse(masks._has_holes(places, self.TWO, one.texels, masks.TOLERANCE, 1.5))
 
     def test_are_told_by_holes_that_the_camera_sees(self):
         lens_ = lens.Lens(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)

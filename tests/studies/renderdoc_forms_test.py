@@ -61,12 +61,17 @@ def numbers(given=(), alone=(), factors=(), has_tangent=False):
     return literals.Numbers(tuple(given), tuple(alone), tuple(factors), has_tangent)
 
 
+def all_of(one, places):
+    """Places that one layer holds."""
+    return lookup.LookedUp([one], np.zeros(len(places), int))
+
+
 def drawn_with(form, one=None):
     """What a shader with this form makes of the terrain's pixels: 1 lit, 0 shadowed."""
     one = one or layer()
     places, normals = PLACES.reshape(-1, 3), NORMALS.reshape(-1, 3)
     cosine = forms.cosines(SUN, places, normals)
-    search = SimpleNamespace(layer=one, places=places, normals=normals, cosine=cosine)
+    search = SimpleNamespace(looked_up=all_of(one, places), places=places, normals=normals, cosine=cosine)
     values, _ = forms.Search.margins(search, form)
     return values + form.bias(cosine) >= 0
 
@@ -75,7 +80,7 @@ class Forms(unittest.TestCase):
     def found(self, form, own, linear=False):
         lit = drawn_with(form)
         seen = forms.normals(PLACES, np.ones(PLACES.shape[:2], bool)).reshape(-1, 3)
-        return forms.find(layer(), PLACES.reshape(-1, 3), seen, lit, own, linear)[0]
+        return forms.find(all_of(layer(), seen), PLACES.reshape(-1, 3), seen, lit, own, linear)[0]
 
     def test_normals_are_those_of_the_surface(self):
         seen = forms.normals(PLACES, np.ones(PLACES.shape[:2], bool))
@@ -84,6 +89,10 @@ class Forms(unittest.TestCase):
     def test_a_constant_that_the_shader_is_given_stays_one(self):
         found = self.found(forms.Form(0.012), numbers([0.7, 0.012, 0.03], [0.5], [0.02]))
         self.assertEqual((found.said(), found.known), ({"constant_depth": 0.012}, True))
+
+    def test_a_number_that_the_shader_is_given_comes_before_those_of_its_text(self):
+        found = self.found(forms.Form(0.02), numbers([0.7, 0.02], [0.0199, 0.0201], [0.03]))
+        self.assertEqual(found.said(), {"constant_depth": 0.02})
 
     def test_a_bias_by_angle_is_told_from_a_constant(self):
         drawn_ = forms.Form(0.04, "one_minus_cosine", low=0.002)
@@ -122,7 +131,7 @@ class Filters(unittest.TestCase):
         for reach, bilinear, radius in ((1, False, 1.5), (2, False, 2.5), (0, True, 1.0)):
             values = lookup.filtered(layer(), places, right.bias(cosine), reach, bilinear)
             partly = (values > 0.02) & (values < 0.98)
-            self.assertEqual(decision._by_filter(layer(), [other, right], places, normals, self.seen(values), partly, bilinear), (right, radius))
+            self.assertEqual(decision._by_filter(all_of(layer(), places), [other, right], places, normals, self.seen(values), partly, bilinear), (right, radius))
 
     def test_their_averages_tell_how_the_picture_is_encoded(self):
         places, normals = PLACES.reshape(-1, 3), NORMALS.reshape(-1, 3)
@@ -132,7 +141,7 @@ class Filters(unittest.TestCase):
         partly = (values > 0.02) & (values < 0.98)
         for first, second, exchanged in ((bent, values, True), (values, bent, False)):
             seen = self.seen(first, second)
-            decision._by_filter(layer(), [right], places, normals, seen, partly, False)
+            decision._by_filter(all_of(layer(), places), [right], places, normals, seen, partly, False)
             self.assertTrue(np.array_equal(seen.visibility, values))
             self.assertEqual(seen.is_read_otherwise, exchanged)
 
@@ -145,7 +154,68 @@ class Cascades(unittest.TestCase):
         layer_of = np.searchsorted([6.5, 15.25], depth, side="right")
         lit = np.choose(layer_of, answers) + 0.004 >= 0
         margins = [lookup.Margins(a, np.ones(len(depth), bool), None, None) for a in answers]
-        self.assertEqual(decision._shared_constant(margins, lit, {"view_z": depth}, numbers([0.004, 0.7, 6.5, 15.25])), 0.004)
+        none = np.zeros((len(depth), 3))
+        sure = decision._Places(none, none, lit.astype(float), np.zeros(len(depth), bool), {"view_z": depth})
+        self.assertEqual(decision._shared_constant(margins, sure, numbers([0.004, 0.7, 6.5, 15.25])), 0.004)
+
+    def seen(self, ends, count, told=False, vectors=(), alike=()):
+        """The limits by depth of pixels that a shader with these ends draws. `alike`: depths between which all layers answer the same."""
+        random = np.random.default_rng(12)
+        depth = random.uniform(6.2, 24, 40000)
+        lit = random.random((count, len(depth))) < 0.5
+        for low, high in alike:
+            lit[:, (depth > low) & (depth < high)] = lit[0, (depth > low) & (depth < high)]
+        index = np.searchsorted(ends, depth, side="right")
+        picture = np.where(index < count, np.take_along_axis(lit, np.minimum(index, count - 1)[None], 0)[0], True)
+        margins = [lookup.Margins(np.where(one, 0.1, -0.1), np.ones(len(depth), bool), None, None) for one in lit]
+        known = [n for v in vectors for n in v] + [8.0, 4.0, 16.0]
+        return next(one for one in lookup.choices(margins, picture, {"view_z": depth}, known, vectors, np.full(len(depth), told)) if one.by == "view_z").limits
+
+    def test_ends_before_and_behind_all_that_is_seen_are_the_shaders(self):
+        self.assertEqual(self.seen((6.0, 11.0, 16.0, 30.0), 4, True, [(6.0, 11.0, 16.0, 30.0)]), (6.0, 11.0, 16.0, 30.0))
+        self.assertEqual(self.seen((6.0, 11.0, 16.0), 4, True, [(6.0, 11.0, 16.0)]), (6.0, 11.0, 16.0, np.inf))
+
+    def test_ends_that_stand_together_are_taken_where_the_picture_does_not_tell(self):
+        self.assertEqual(self.seen((6.0, 11.0, 16.0, 30.0), 4, True, [(0.1, 0.3, 0.2), (6.0, 11.0, 16.0, 30.0)], [(6, 15.9)]), (6.0, 11.0, 16.0, 30.0))
+
+    def test_of_cascades_of_which_one_is_not_drawn_the_others_keep_their_ends(self):
+        self.assertEqual(self.seen((6.0, 11.0, 30.0), 3, True, [(6.0, 11.0, 16.0, 30.0)]), (6.0, 11.0, 30.0))
+
+    def test_where_the_map_decides_some_layer_is_looked_up(self):
+        lit = np.ones(2000, bool)
+        dark = lookup.Margins(np.full(2000, -0.001), lit, None, None)
+        depth = np.linspace(5, 20, 2000)
+        for told, share in ((False, 0.0), (True, 1.0)):
+            options = lookup.choices([dark, dark], lit, {"view_z": depth}, (), (), np.full(2000, told))
+            self.assertAlmostEqual(min(one.share for one in options), share, delta=0.01)
+
+    def test_partly_lit_pixels_tell_which_layer_is_looked_up(self):
+        one, finer = layer(), layer(np.kron(TEXELS, np.ones((2, 2))))
+        at, normals = PLACES.reshape(-1, 3), NORMALS.reshape(-1, 3)
+        right, bias = forms.Form(0.012, known=True), np.full(len(at), 0.012)
+        by_depth = lookup.Selection("view_z", (5.9, 30.0), 0.0)
+        keys = {"view_z": -at[:, 2]}
+        looked_up = lookup.LookedUp([finer, one], lookup.index_of(by_depth, [np.ones(len(at), bool)] * 2, keys))
+        value = looked_up.filtered(at, bias, 1, False)
+        places = decision._Places(at, normals, value, np.ones(len(at), bool), keys)
+        self.assertEqual(decision._chosen([finer, one], places, right, numbers([5.9, 30.0]), False).by, "view_z")
+        pixels = SimpleNamespace(visibility=value, otherwise=None, asked=np.ones(len(at), bool), is_read_otherwise=False)
+        self.assertEqual(decision._by_filter(looked_up, [right], at, normals, pixels, ~places.sure, False), (right, 1.5))
+
+    def test_a_filter_may_step_by_two_texels(self):
+        places, normals = PLACES.reshape(-1, 3), NORMALS.reshape(-1, 3)
+        right = forms.Form(0.012, known=True)
+        values = lookup.filtered(layer(), places, right.bias(np.zeros(len(places))), 1, False, 2)
+        pixels = SimpleNamespace(visibility=values, otherwise=None, asked=np.ones(len(places), bool), is_read_otherwise=False)
+        partly = (values > 0.02) & (values < 0.98)
+        self.assertEqual(decision._by_filter(all_of(layer(), places), [right], places, normals, pixels, partly, False), (right, 2.5))
+
+    def test_layers_share_a_bias_by_angle(self):
+        drawn_ = forms.Form(0.04, "one_minus_cosine", low=0.002)
+        places, seen = PLACES.reshape(-1, 3), forms.normals(PLACES, np.ones(PLACES.shape[:2], bool)).reshape(-1, 3)
+        both = lookup.LookedUp([layer(), layer()], (places[:, 0] > 0).astype(int))
+        found = forms.find(both, places, seen, drawn_with(drawn_), numbers([1.5], [0.002, 0.5], [0.04, 0.3]), False)[0]
+        self.assertEqual(found.said(), {"constant_depth": 0.04, "angle": "one_minus_cosine", "min": 0.002})
 
     def test_a_layer_that_nothing_looks_up_is_none_of_the_map(self):
         selection = lookup.Selection("view_z", (6.0, 6.0, 20.0), 0.0)
@@ -203,7 +273,7 @@ class Moments(unittest.TestCase):
         found = self.fitted(moments.Content(kind="vsm"), 1e-4, 0.0, bent=lambda v: 1 - v)
         self.assertFalse(found.is_believed)
         one = layer(is_colour=True)
-        test = decision.Test(lookup.Selection("first", (), 0.0), 1.0, 1.0, 0.0, None, None, found)
+        test = decision.Test(lookup.Selection("first", (), 0.0), 1.0, 0.0, None, None, found)
         decision.believe(SimpleNamespace(), [one], test)
         self.assertIsNone(one.matrix)
         self.assertIn("no constants of that give the picture", test.unread)
@@ -211,7 +281,7 @@ class Moments(unittest.TestCase):
     def test_a_test_that_decides_otherwise_than_the_picture_is_not_believed(self):
         for agreement, kept in ((0.9, False), (0.99, True)):
             one = layer(is_colour=False)
-            decision.believe(SimpleNamespace(), [one], decision.Test(lookup.Selection("first", (), 0.0), agreement, 1.0, 0.0, None, None))
+            decision.believe(SimpleNamespace(), [one], decision.Test(lookup.Selection("first", (), 0.0), agreement, 0.0, None, None))
             self.assertEqual(one.matrix is not None, kept)
 
     def test_are_said_in_a_captures_words(self):
@@ -245,6 +315,10 @@ float b = 0.55;
         self.assertFalse({0.77, 0.66, 0.55, 0.44, 0.05, 0.2, 450.0, 3.0} & set(found.all))
         self.assertFalse(found.has_tangent)
         self.assertTrue(literals.of_glsl("b = tan(acos(c));").has_tangent)
+
+    def test_constants_of_one_vector_stand_together(self):
+        found = literals.of_constants([("splits.x", 6.0), ("splits.y", 11.0), ("bias", 0.1), ("ends[0]", 1.0), ("ends[1]", 2.0)])
+        self.assertEqual((found.given, found.vectors), ((6.0, 11.0, 0.1, 1.0, 2.0), ((6.0, 11.0), (1.0, 2.0))))
 
     def test_of_another_language_none_is_told(self):
         self.assertEqual(literals.of_code(b"").all, [])

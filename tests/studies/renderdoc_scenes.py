@@ -53,7 +53,7 @@ def parallel(half, near, far):
 
 def pipeline(minus_one=True, **state):
     """What a lens asks of the pipeline's state."""
-    return SimpleNamespace(conventions=conventions.opengl(minus_one=minus_one), reversed=False, **state)
+    return SimpleNamespace(conventions=conventions.opengl(minus_one=minus_one), reversed=False, **{"side": 0, **state})
 
 
 def drawn(matrix, points):

@@ -84,7 +84,7 @@ def _measure(frame, found, layers, lights, encoding, before):
     seen, exponent, fitted = pixels.measure(frame, found, layers, encoding, others, numbers)
     if before and not pixels.is_same_picture(before[0].found, before[0].pixels, found, seen):
         raise FrameError("another camera draws it than the first light: --light judges it by itself")
-    found.roles, hidden = casters.decide(frame, found.view, [layer for _, those in lights for layer in those], seen.depth, seen.told, found.passes.cut)
+    found.roles, hidden = casters.decide(frame, found.view, [layer for _, those in lights for layer in those], seen.depth, pixels.flip(seen.told, found.view), found.passes.cut)
     pixels.hide(seen, hidden, found.view)
     masked = masks.leave_out(frame, found, layers, seen)
     found.notes += casters.words(found.view, found.roles)

@@ -21,7 +21,6 @@ class Test:
     selection: lookup.Selection
     # Share of sure pixels that the test as described decides as the picture has them; None where the map is no projection, or an exponential one.
     agreement: float | None
-    without_constant: float  # the same before the reader's own bias was looked for
     partly_lit: float  # share of pixels between lit and shadowed
     radius: float | None  # of the filter, texels; None where there is none
     exponent: lookup.Exponent | None  # of an exponential map
@@ -30,32 +29,30 @@ class Test:
     unread: str = ""  # why the map is not believed
 
 
-def _is_looked_up_in(selection, k, distance):
-    """Whether a place of this distance from the camera is looked up in layer k alone; of layers without distances all are in the first."""
-    if selection.by == "first":
-        return k == 0
-    limits, blends = (0.0, *selection.limits), selection.blends or (0.0,) * len(selection.limits)
-    return (distance > limits[k]) & (distance < limits[k + 1] - blends[k])
-
-
 def _moment_test(layers, pixels, numbers, fitted):
     """The test of a map of moments: which layer is read, and how the picture agrees."""
-    value, places = pixels.visibility[pixels.asked], pixels.positions[pixels.asked]
-    answers = []
+    places = _Places.of(layers, pixels)
+    lights = []
     for layer in layers:
         layer.constant = fitted.constant
-        averages, inside = lookup.averages(layer, places, "drawn")
-        light = fitted.light(averages, lookup.texel_places(layer, places)[2])
-        answers.append(lookup.Margins(np.where(inside, light - 0.5, 1.0), inside, None, None))
-    sure = np.abs(value - 0.5) > 0.1
-    keys = {"view_z": -places[:, 2], "distance": np.linalg.norm(places, axis=1)} if layers[0].place.apex is None else {}
-    of_sure = [lookup.Margins(one.values[sure], one.inside[sure], None, None) for one in answers]
-    selection, _ = lookup.choose_layers(of_sure, value[sure] > 0.5, {name: key[sure] for name, key in keys.items()}, numbers.all)
-    partly = float(((value > lookup.SURE) & (value < 1 - lookup.SURE)).mean()) if len(value) else 0.0
-    held = np.any([one.inside for one in of_sure], axis=0)
-    right = (of_sure[0].values >= 0) == (value[sure] > 0.5) if len(layers) == 1 else np.full(held.shape, 1 - selection.share)
-    agreement = float(right[held].mean()) if held.any() else 1.0
-    return Test(selection, agreement, agreement, partly, 1.5, None, fitted)
+        averages, inside = lookup.averages(layer, places.at, "drawn")
+        lights.append(np.where(inside, fitted.light(averages, lookup.texel_places(layer, places.at)[2]), 1.0))
+    inside = [lookup.texel_places(layer, places.at)[3] for layer in layers]
+    sure = np.abs(places.value - 0.5) > 0.1
+    of_sure = [lookup.Margins(light[sure] - 0.5, held[sure], None, None) for light, held in zip(lights, inside)]
+    some = places.only(sure)
+    options = lookup.choices(of_sure, some.value > 0.5, some.keys, numbers.all, numbers.vectors, some.told)
+    index = {one: lookup.index_of(one, inside, places.keys) for one in options}
+    light = {one: np.where(k < 0, 1.0, np.take_along_axis(np.array(lights), np.maximum(k, 0)[None], 0)[0]) for one, k in index.items()}
+    off = {one: float(np.sqrt(np.mean((light[one] - places.value) ** 2))) if len(places.at) else 0.0 for one in options}
+    selection = next(one for one in options if off[one] <= min(off.values()) + 1e-4)
+    held = np.any(inside, axis=0) & sure
+    right = (light[selection] >= 0.5) == (places.value > 0.5)
+    return Test(selection, float(right[held].mean()) if held.any() else 1.0, _partly_lit(places.value), 1.5, None, fitted)
+
+
+def _partly_lit(value):
+    return float(((value > lookup.SURE) & (value < 1 - lookup.SURE)).mean()) if len(value) else 0.0
 
 
 def believe(found, layers, test):
@@ -85,34 +82,40 @@ class _Kernel:
     light: np.ndarray | None = None  # what the average makes of each place
 
 
-def _kernel(layer, places, bias, value, bilinear):
+def _kernel(looked_up, places, bias, value, bilinear):
     """The _Kernel of partly lit places. The picture's encoding may be misread, which bends the values: their order stays."""
     best = _Kernel()
-    for reach in range(4) if bilinear else range(1, 4):
-        light = lookup.filtered(layer, places, bias, reach, bilinear)
+    for reach, step in [(reach, 1) for reach in range(4) if bilinear or reach] + [(1, 2)]:
+        light = looked_up.filtered(places, bias, reach, bilinear, step)
         score = float(np.corrcoef(light, value)[0, 1]) if np.ptp(light) > 0 and np.ptp(value) > 0 else 0.0
         if score > best.score:
-            best = _Kernel(score, reach, light)
+            best = _Kernel(score, reach * step, light)
     return best
 
 
-def _by_filter(layer, alike, places, normals, pixels, partly, bilinear):
+def _few(partly):
+    """Some of the places that are partly lit."""
+    return np.flatnonzero(partly)[::max(1, int(partly.sum()) // 5000)]
+
+
+def _by_filter(looked_up, alike, places, normals, pixels, partly, bilinear):
     """(the form, how far its filter reads, texels, or None) of those that decide the sure pixels alike: that of whose comparisons partly lit
     pixels are an average. Of a picture that does not say how it is encoded that average tells."""
     if partly.sum() < lookup.FEW:
         return alike[0], None
-    few = np.flatnonzero(partly)[::max(1, int(partly.sum()) // 5000)]
+    few = _few(partly)
     of_few = lambda values: values[pixels.asked][few]
-    cosine = forms.cosines(layer.place, places[few], normals[few])
+    cosine = forms.cosines(looked_up.layers[0].place, places[few], normals[few])
+    looked_up = looked_up.of(few)
     tried = []
     for form in alike:
         moved, bias = form.moved(places[few], normals[few], cosine), form.bias(cosine)
-        tried.append((_kernel(layer, moved, bias, of_few(pixels.visibility), bilinear), moved, bias))
+        tried.append((_kernel(looked_up, moved, bias, of_few(pixels.visibility), bilinear), moved, bias))
     scores = [kernel.score - (0 if form.known else UNKNOWN) for (kernel, _, _), form in zip(tried, alike)]
     best = next(k for k, score in enumerate(scores) if score >= max(scores) - ALIKE)
     kernel, moved, bias = tried[best]
     if kernel.score < SURELY:
-        reach = lookup.filter_radius(layer, moved, bias)
+        reach = looked_up.filter_radius(moved, bias)
         return alike[best], None if reach is None else float(reach) if bilinear else reach + 0.5
     off = lambda values: float(np.sqrt(np.mean((of_few(values) - kernel.light) ** 2)))
     if pixels.otherwise is not None and off(pixels.otherwise) < 0.7 * off(pixels.visibility):
@@ -121,73 +124,167 @@ def _by_filter(layer, alike, places, normals, pixels, partly, bilinear):
     return alike[best], kernel.reach + (1.0 if bilinear else 0.5)
 
 
-def _shared_constant(margins, lit, keys, numbers):
+def _shared_constant(margins, sure, numbers):
     """The constant of all layers with which some choice of them gives most of the picture: without it a choice is guessed from acne."""
-    few = slice(None, None, max(1, len(lit) // 8000))
+    few = slice(None, None, max(1, len(sure.at) // 8000))
     some = [lookup.Margins(m.values[few], m.inside[few], None, None) for m in margins]
-    keys = {name: key[few] for name, key in keys.items()}
+    sure = sure.only(few)
     tried = sorted({0.0, *(abs(n) for n in (*numbers.given, *numbers.alone) if 0 < abs(n) < LARGEST), *10.0 ** np.arange(-5, -1.4, 0.5)})
-    share = {c: lookup.choose_layers([replace(m, values=m.values + c) for m in some], lit[few], keys, numbers.all)[0].share for c in tried}
+    share = {c: lookup.choose_layers([replace(m, values=m.values + c) for m in some], sure.value > 0.5, sure.keys, numbers.all, numbers.vectors,
+                                     sure.told)[0].share for c in tried}
     own = {0.0, *(abs(n) for n in numbers.given)}
     return min((c for c in tried if share[c] <= min(share.values()) + 0.1 * lookup.NOISE), key=lambda c: (c not in own, c))
+
+
+@dataclass
+class _Places:
+    """The compared pixels' places, and the picture of them."""
+
+    at: np.ndarray
+    normals: np.ndarray
+    value: np.ndarray
+    told: np.ndarray  # whether the map decides the light there
+    keys: dict  # by which a layer of several may be chosen
+
+    @classmethod
+    def of(cls, layers, pixels):
+        at, value = pixels.positions[pixels.asked], pixels.visibility[pixels.asked]
+        keys = {"view_z": -at[:, 2], "distance": np.linalg.norm(at, axis=1)} if layers[0].place.apex is None else {}
+        return cls(at, forms.normals(pixels.positions, pixels.drawn)[pixels.asked], value, pixels.told[pixels.asked], keys)
+
+    def only(self, kept):
+        return _Places(self.at[kept], self.normals[kept], self.value[kept], self.told[kept], {name: key[kept] for name, key in self.keys.items()})
+
+    @property
+    def sure(self):
+        return (self.value < lookup.SURE) | (self.value > 1 - lookup.SURE)
+
+    def looked_up(self, layers, selection):
+        return lookup.LookedUp(layers, lookup.index_of(selection, [lookup.texel_places(layer, self.at)[3] for layer in layers], self.keys))
+
+
+def _margins_of(layers, places, form):
+    """Margins of every layer with the form's bias in them."""
+    cosine = forms.cosines(layers[0].place, places.at, places.normals)
+    moved, bias = form.moved(places.at, places.normals, cosine), form.bias(cosine)
+    return [replace(one, values=one.values + bias) for one in (lookup.margins(layer, moved) for layer in layers)]
+
+
+def _chosen(layers, places, form, numbers, bilinear):
+    """The Selection of layers: what gives the sure pixels; of those that do so alike, the one of whose texels partly lit pixels are averages."""
+    sure, unsure = places.only(places.sure), places.only(_few(~places.sure))
+    options = lookup.choices(_margins_of(layers, sure, form), sure.value > 0.5, sure.keys, numbers.all, numbers.vectors, sure.told)
+    least = min(one.share for one in options)
+    alike = [one for one in options if one.share <= least + 0.2 * lookup.NOISE]
+    near = [one for one in options if one.share <= least + lookup.NOISE]
+    if len(near) > 1 and len(unsure.at) >= lookup.FEW:
+        cosine = forms.cosines(layers[0].place, unsure.at, unsure.normals)
+        moved, bias = form.moved(unsure.at, unsure.normals, cosine), form.bias(cosine)
+        scores = [_kernel(unsure.looked_up(layers, one), moved, bias, unsure.value, bilinear).score for one in near]
+        if max(scores) >= SURELY:
+            return next(one for one, score in zip(near, scores) if score >= max(scores) - ALIKE)
+    stand_together = [one for one in alike if one.limits and any(set(one.limits) - {np.inf} <= set(v) for v in numbers.vectors)]
+    return (stand_together or alike)[0]
+
+
+def _of_layers(found, layers, places, numbers):
+    """(the Selection, the Forms that decide the sure pixels alike) of a map of one layer or several, whose bias they share."""
+    linear = found.sampler == "linear" and not any(layer.is_blurred for layer in layers)
+    sure = places.only(places.sure)
+    lit = sure.value > 0.5
+    shared = _shared_constant([lookup.margins(layer, sure.at) for layer in layers], sure, numbers) if len(layers) > 1 else 0.0
+    selection = _chosen(layers, places, forms.Form(shared), numbers, found.is_bilinear)
+    alike = forms.find(sure.looked_up(layers, selection), sure.at, sure.normals, lit, numbers, linear)
+    if len(layers) > 1:  # once more, now that its bias is known
+        before, selection = selection, _chosen(layers, places, alike[0], numbers, found.is_bilinear)
+        if (selection.by, selection.limits) != (before.by, before.limits):
+            alike = forms.find(sure.looked_up(layers, selection), sure.at, sure.normals, lit, numbers, linear)
+    return selection, alike
+
+
+def _of_each_layer(looked_up, sure, numbers):
+    """(share of the sure pixels that a constant for each layer decides otherwise, those constants)."""
+    values, inside = looked_up.margins(sure.at)
+    lit, wrong, constants = sure.value > 0.5, 0, []
+    for k in range(len(looked_up.layers)):
+        mine = (looked_up.index == k) & inside
+        constant, share, _ = lookup.best_constant(values[mine], lit[mine], numbers.all)
+        constants.append(constant if mine.sum() >= FEW_OF_A_LAYER * len(mine) else None)
+        wrong += share * mine.sum()
+    return wrong / max(int(inside.sum()), 1), constants
+
+
+def _one_constant(layers, places, numbers, exponent):
+    """The Selection where no form of a bias is asked for: a paraboloid's halves, which share a constant, and exponential maps, which have none."""
+    sure = places.only(places.sure)
+    lit, margins = sure.value > 0.5, [lookup.margins(layer, sure.at) for layer in layers]
+    selection, chosen = lookup.choose_layers(margins, lit, sure.keys, numbers.all)
+    if layers[0].half:
+        values = np.choose(np.maximum(chosen, 0), [m.values for m in margins])
+        constant, _, _ = lookup.best_constant(values[chosen >= 0], lit[chosen >= 0], numbers.all)
+        for layer in layers:
+            layer.constant = constant
+    return selection
 
 
 def find_test(found, layers, pixels, numbers, exponent, fitted=None):
     """The choice of cascades, the reader's own bias and the filter's reach, found from the picture."""
     if layers[0].matrix is None:
-        return Test(lookup.Selection("first", (), 0.0), None, 0.0, 0.0, None, None)
+        return Test(lookup.Selection("first", (), 0.0), None, 0.0, None, None)
     if fitted:
         return _moment_test(layers, pixels, numbers, fitted)
-    value = pixels.visibility[pixels.asked]
-    places = pixels.positions[pixels.asked]
-    sure = (value < lookup.SURE) | (value > 1 - lookup.SURE)
-    lit = value[sure] > 0.5
-    at = places[sure]
-    margins = [lookup.margins(layer, at) for layer in layers]
-    keys = {"view_z": -at[:, 2], "distance": np.linalg.norm(at, axis=1)} if layers[0].place.apex is None else {}
-    of_choice = _shared_constant(margins, lit, keys, numbers) if len(layers) > 1 and exponent is None and not layers[0].half else 0.0
-    selection, chosen = lookup.choose_layers([replace(m, values=m.values + of_choice) for m in margins], lit, keys, numbers.all)
-    before = selection.share
-    right = (np.array(chosen < 0) & lit).astype(float)
-    form, of_normals = None, forms.normals(pixels.positions, pixels.drawn)[pixels.asked]
-    if layers[0].half:  # one test for both halves
-        all_values = np.choose(np.maximum(chosen, 0), [m.values for m in margins])
-        constant, _, _ = lookup.best_constant(all_values[chosen >= 0], lit[chosen >= 0], numbers.all)
-    for k, layer in enumerate(layers):
-        mine = chosen == k
-        if layers[0].half:
-            layer.constant = constant
-        elif exponent is None and len(layers) == 1:
-            alike = forms.find(layer, at, of_normals[sure], lit, numbers, found.sampler == "linear" and not layer.is_blurred)
-            form, radius = _by_filter(layer, alike, places, of_normals, pixels, ~sure, found.is_bilinear)
-            if pixels.is_read_otherwise:
-                found.notes.append("the picture's numbers are read as linear ones, not as sRGB: partly lit pixels are averages of comparisons then")
-            layer.constant = form.constant
-            right[mine] = 1 - form.wrong
-            continue
-        elif exponent is None:  # whose soft shadows have no threshold
-            layer.constant, least, _ = lookup.best_constant(margins[k].values[mine], lit[mine], numbers.all)
-            shared = np.mean((margins[k].values[mine] + of_choice >= 0) != lit[mine]) if mine.any() else 0.0
-            if mine.sum() < FEW_OF_A_LAYER * len(mine) or shared <= least + 0.1 * lookup.NOISE:
-                layer.constant = of_choice  # what all layers share, where this one tells no other
-        right[mine] = (margins[k].values[mine] + layer.constant >= 0) == lit[mine]
-    blended, distance = np.zeros(len(value), bool), None
-    bilinear = found.is_bilinear
+    places, bilinear = _Places.of(layers, pixels), found.is_bilinear
+    sure, alike, constants = places.sure, None, [0.0] * len(layers)
+    if layers[0].half or exponent is not None:
+        selection = _one_constant(layers, places, numbers, exponent)
+        constants = [layer.constant for layer in layers]
+    else:
+        selection, alike = _of_layers(found, layers, places, numbers)
+        least, of_each = _of_each_layer(places.only(sure).looked_up(layers, selection), places.only(sure), numbers)
+        constants = [alike[0].constant] * len(layers)
+        if len(layers) > 1 and least < alike[0].wrong - 0.5 * lookup.NOISE:
+            constants = [alike[0].constant if one is None else one for one in of_each]
+            alike = None
+    for layer, constant in zip(layers, constants):
+        layer.constant = constant
+    form = alike[0] if alike else forms.Form()
+    cosine = forms.cosines(layers[0].place, places.at, places.normals)
+    moved, bias = form.moved(places.at, places.normals, cosine), form.bias(cosine)
+    blended = np.zeros(len(places.at), bool)
     if selection.by != "first":
-        answers = [lookup.answer(layer, places, bilinear) for layer in layers]
-        distance = {"view_z": -places[:, 2], "distance": np.linalg.norm(places, axis=1)}[selection.by]
-        selection, blended = lookup.find_blends(answers, value, distance, selection)
+        answers = [lookup.answer(layer, moved, bilinear, bias if alike else None) for layer in layers]
+        selection, blended = lookup.find_blends(answers, places.value, places.keys[selection.by], selection)
     unsure = ~sure & ~blended
     partly = float(unsure.mean()) if len(sure) else 0.0
-    if form:
+    looked_up, radius = places.looked_up(layers, selection), None
+    # Where layers blend their own soft edges are partly lit by that as well: the sampler says that it reads four texels.
+    of_blends = 1.0 if bilinear and blended.any() else None
+    if alike:
+        form, radius = _by_filter(looked_up, alike, places.at, places.normals, pixels, unsure, bilinear)
+        if pixels.is_read_otherwise:
+            found.notes.append("the picture's numbers are read as linear ones, not as sRGB: partly lit pixels are averages of comparisons then")
+        for layer in layers:
+            layer.constant = form.constant
         radius = radius if partly > PARTLY else None
+    elif partly > PARTLY:
+        each = np.array([layer.constant for layer in layers])[looked_up.index]
+        reach = looked_up.of(unsure).filter_radius(places.at[unsure], each[unsure])
+        radius = None if reach is None else float(reach) if bilinear else reach + 0.5
+    radius = radius or of_blends
+    agreement = None if exponent else _agreement(looked_up.of(sure), places.only(sure), form if alike else None)
+    return Test(selection, agreement, partly, radius, exponent, form=form if alike else None)
+
+
+def _agreement(looked_up, sure, form):
+    """The share of the sure pixels within the map that the test decides as the picture has them."""
+    if form is None:
+        values, inside = looked_up.margins(sure.at)
+        values = values + np.array([layer.constant for layer in looked_up.layers])[looked_up.index]
     else:
-        # Where layers blend their own soft edges are partly lit by that as well: the sampler says that it reads four texels.
-        radius = 1.0 if bilinear and blended.any() else None
-    if not form and partly > PARTLY:
-        reaches = (lookup.filter_radius(layer, places[unsure & _is_looked_up_in(selection, k, distance)]) for k, layer in enumerate(layers))
-        reach = next((reach for reach in reaches if reach is not None), None)
-        radius = radius if reach is None else float(reach) if bilinear else reach + 0.5
-    held = np.any([m.inside for m in margins], axis=0)  # what is made of places outside is another matter
-    agreement = None if exponent else float(right[held].mean()) if held.any() else 1.0
-    return Test(selection, agreement, 1 - before, partly, radius, exponent, form=form)
+        cosine = forms.cosines(looked_up.layers[0].place, sure.at, sure.normals)
+        moved = form.moved(sure.at, sure.normals, cosine)
+        values, inside = looked_up.between_texels(moved) if form.linear else looked_up.margins(moved)
+        values = values + form.bias(cosine)
+    held = inside | (looked_up.index < 0) & np.any([lookup.texel_places(layer, sure.at)[3] for layer in looked_up.layers], axis=0)
+    right = np.where(looked_up.index < 0, ~sure.told, values >= 0) == (sure.value > 0.5)
+    return float(right[held].mean()) if held.any() else 1.0

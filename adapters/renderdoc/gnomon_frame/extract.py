@@ -245,7 +245,8 @@ def read_layers(frame, found, layers):
             if layer.reader.has_depth:
                 layer.shift = caster_shift(layer.light.matrix, layer.stored_row, layer.reader, layer.state.reversed)
     own = literals.of_code(frame.fragment_code(found.passes.readers[-1].event))
-    return replace(own, given=tuple(value for _, value in numbers))
+    given = literals.of_constants(numbers)
+    return replace(own, given=given.given, vectors=given.vectors)
 
 
 def _cannot_be_said(found, layers):

@@ -92,9 +92,10 @@ def cosines(place, positions, normals_):
 class Search:
     """Tries forms on places whose light is sure."""
 
-    def __init__(self, layer, places, normals_, lit, numbers, linear):
+    def __init__(self, looked_up, places, normals_, lit, numbers, linear):
+        layer = looked_up.layers[0]
         kept = slice(None, None, max(1, len(places) // MOST_PLACES))
-        self.layer, self.places, self.normals, self.lit = layer, places[kept], normals_[kept], lit[kept]
+        self.looked_up, self.places, self.normals, self.lit = looked_up.of(kept), places[kept], normals_[kept], lit[kept]
         self.cosine = cosines(layer.place, self.places, self.normals)
         largest = LARGEST if layer.content is None or layer.content.base == "depth" else np.inf  # world units have no scale of their own
         kept = lambda values: sorted({abs(float(n)) for n in values if n and abs(n) < largest})
@@ -106,12 +107,7 @@ class Search:
 
     def margins(self, form):
         at = form.moved(self.places, self.normals, self.cosine)
-        if not form.linear:
-            found = lookup.margins(self.layer, at)
-            return found.values, found.inside
-        stored, inside = lookup.bilinear(self.layer, at, self.layer.texels)
-        depth = lookup.texel_places(self.layer, at)[2]
-        return np.where(inside, depth - stored if self.layer.state.reversed else stored - depth, 1.0), inside
+        return self.looked_up.between_texels(at) if form.linear else self.looked_up.margins(at)
 
     def _note(self, form, values, inside):
         wrong = ((values + form.bias(self.cosine) >= 0) != self.lit)[inside]
@@ -135,8 +131,12 @@ class Search:
 
     def _constant(self, form, values, inside):
         """The form with the constant that gives most of the picture."""
-        c, _, _ = lookup.best_constant(values[inside], self.lit[inside], self.constants)
-        return self._note(replace(form, constant=c), values, inside)
+        tried = []
+        for among in (self.given, self.constants):  # numbers that the shader is given before those of its text
+            c, wrong, _ = lookup.best_constant(values[inside], self.lit[inside], among)
+            tried.append((wrong, len(tried), c))
+        nearly = min(tried)[0] + NEARLY
+        return self._note(replace(form, constant=next(c for wrong, _, c in tried if wrong <= nearly)), values, inside)
 
     def _angles(self, form, values, inside):
         v, lit, cosine = values[inside], self.lit[inside], self.cosine[inside]
@@ -155,7 +155,7 @@ class Search:
                     self._note(replace(one, high=high), values, inside)
 
     def _offsets(self, form):
-        texel = np.sqrt(np.median(self._texels()))
+        texel = np.sqrt(np.nanmedian(self.looked_up.texel_areas(self.places)))
         known = [k for k in self.lengths if 0.05 * texel < k < 20 * texel]
         for angle in ("none", "sine", "one_minus_cosine"):
             best = None
@@ -168,13 +168,6 @@ class Search:
             for k in best.offset * np.linspace(0.75, 1.4, 14):
                 one = replace(best, offset=float(k))
                 self._constant(one, *self.margins(one))
-
-    def _texels(self):
-        """Squared widths of a texel at some places, world units."""
-        places = self.places[:200]
-        moved = lookup.texel_places(self.layer, places + self.layer.place.direction[[1, 2, 0]] * 1e-2)
-        here = lookup.texel_places(self.layer, places)
-        return 1e-4 / np.maximum((moved[0] - here[0]) ** 2 + (moved[1] - here[1]) ** 2, 1e-12)
 
     def best(self):
         """The Forms that give the picture alike, of each kind the one that is taken first; the first of all first."""
@@ -198,7 +191,7 @@ class Search:
         return list(kinds.values())
 
 
-def find(layer, places, normals_, lit, numbers, linear):
-    """The Forms that one layer's test may have, the likeliest first. `lit`: whether the light reaches each of the places; `numbers`: those of the frame; `linear`: whether
-    its sampler interpolates, and compares nothing."""
-    return Search(layer, places, normals_, lit, numbers, linear).best()
+def find(looked_up, places, normals_, lit, numbers, linear):
+    """The Forms that the test of a LookedUp map may have, the likeliest first. `lit`: whether the light reaches each of the places; `numbers`:
+    those of the frame; `linear`: whether its sampler interpolates, and compares nothing."""
+    return Search(looked_up, places, normals_, lit, numbers, linear).best()

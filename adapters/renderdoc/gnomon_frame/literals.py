@@ -17,10 +17,19 @@ class Numbers:
     alone: tuple = ()
     factors: tuple = ()
     has_tangent: bool = False  # whether it asks for one
+    vectors: tuple = ()  # of the constants that it is given, those that are several numbers
 
     @property
     def all(self):
         return [*self.given, *self.alone, *self.factors]
+
+
+def of_constants(named):
+    """The Numbers of constants [(name, value)]: those of one vector or array have one name, but for what follows it."""
+    together = {}
+    for name, value in named:
+        together.setdefault(re.sub(r"(\.[xyzw]|\[\d+\])$", "", name), []).append(value)
+    return Numbers(tuple(value for _, value in named), vectors=tuple(tuple(v) for v in together.values() if len(v) > 1))
 
 
 def _value(text):

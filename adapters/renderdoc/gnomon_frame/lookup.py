@@ -4,6 +4,7 @@ Margins are stored numbers, positive where the place is lit: what the texel hold
 reversed, the other way round. They are what the picture is held against to find how the frame was drawn.
 """
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
@@ -11,6 +12,7 @@ SURE = 0.02  # a pixel so near to lit or shadowed was decided by one comparison
 CLEARLY = 0.3  # layers that differ by more tell what a picture has of each
 BLENDED = 0.05  # shares of a blend from here to 1 less this are held against the distance
 FEW = 15  # places, too few to tell a law by
+MOST_ENDS = 8  # of cascades that stand in one constant
 NOISE = 1e-3  # of the pixels: on borders of texels, arithmetic decides
 
 
@@ -88,53 +90,130 @@ class Selection:
     blends: tuple = ()  # world units before each limit over which the next layer takes over; empty: 0 at all
 
 
-def _first(all_margins):
-    chosen = np.full(len(all_margins[0].values), -1)
-    for k in range(len(all_margins) - 1, -1, -1):
-        chosen[all_margins[k].inside] = k
-    return chosen
+def _limit(part, keys, numbers, below):
+    """One end of a layer along sorted keys, of the cost `part` of each place among them: of a number of the reader's where one is as good, and
+    of those that nothing seen tells apart the nearest to what is seen."""
+    count = len(keys)
+    fine = np.flatnonzero(part <= part.min() + NOISE * count)
+    low = keys[fine[0] - 1] if fine[0] > 0 else 0.0
+    high = keys[fine[-1]] if fine[-1] < count else np.inf
+    # Of an open range the end that is seen: before all places the next one, behind all of them the last.
+    here = float(keys[-1]) * (1 + 1e-6) if np.isinf(high) else float(high if low == 0 else keys[min(int(np.argmin(part)), count - 1)])
+    cost = lambda n: part[min(int(np.searchsorted(keys, n)), len(part) - 1)]
+    known = [n for n in numbers if low <= n <= high and 0 < n < below]
+    return float(min(known, key=lambda n: (cost(n), abs(n - here)))) if known else min(here, below)
 
 
 def _limits(cost, keys, numbers):
-    """Ends of the layers along sorted keys: least cost, found layer by layer; a number of the reader's where one is as good."""
+    """Ends of the layers along sorted keys: least cost, found layer by layer."""
     layers, count = cost.shape
     prefix = np.concatenate([np.zeros((layers, 1)), np.cumsum(cost, axis=1)], axis=1)
     best = [prefix[0]]
     for k in range(1, layers):
         best.append(prefix[k] + np.minimum.accumulate(best[-1] - prefix[k]))
-    ends, end = [], count
+    ends, end = [], np.inf
     for k in range(layers - 1, 0, -1):
-        part = (best[k - 1] - prefix[k])[:end + 1]
-        fine = np.flatnonzero(part <= part.min() + NOISE * count)
-        low, high = keys[max(fine[0] - 1, 0)], keys[min(fine[-1], count - 1)]
-        end = int(np.argmin(part))
-        here = keys[min(end, count - 1)]
-        known = sorted((n for n in numbers if low <= n <= high), key=lambda n: part[min(int(np.searchsorted(keys, n)), len(part) - 1)])
-        ends.append(float(known[0]) if known else float(here))
+        held = int(np.searchsorted(keys, end)) if np.isfinite(end) else count
+        end = _limit((best[k - 1] - prefix[k])[:held + 1], keys, numbers, end)
+        ends.append(end)
     return tuple(reversed(ends))
 
 
-def choose_layers(all_margins, lit, keys, numbers=()):
-    """(Selection, index of each place's layer, -1 where none): `keys` {"view_z": .., "distance": ..} of the places."""
-    values = np.array([m.values for m in all_margins])
-    wrong = (values >= 0) != lit
-    first = _first(all_margins)
-    picked = np.where(first >= 0, np.take_along_axis(values, np.maximum(first, 0)[None], 0)[0], 1.0)
-    best = Selection("first", (), float(np.mean((picked >= 0) != lit)))
-    chosen = first
-    if len(all_margins) == 1:
-        return best, chosen
-    for by, key in keys.items():
+def index_of(selection, layers_inside, keys):
+    """The layer that each place looks up, -1 where none: of whether each layer holds it, and of `keys` {"view_z": .., "distance": ..}."""
+    if selection.by == "first":
+        out = np.full(layers_inside[0].shape, -1)
+        for k in range(len(layers_inside) - 1, -1, -1):
+            out[layers_inside[k]] = k
+        return out
+    index = np.searchsorted(np.array(selection.limits), keys[selection.by], side="right")
+    return np.where(index >= len(layers_inside), -1, index)
+
+
+def choices(all_margins, lit, keys, numbers=(), vectors=(), told=False):
+    """The Selections that may be, the first that holds a place before those by `keys` {"view_z": .., "distance": ..} of the places. `vectors`:
+    numbers that stand together in a constant of the reader. `told`: places whose light the map decides, so that some layer is looked up there."""
+    values, inside = np.array([m.values for m in all_margins]), [m.inside for m in all_margins]
+    wrong, none = (values >= 0) != lit, ~lit | told  # beyond the last layer everything is lit
+
+    def with_share(selection):
+        index = index_of(selection, inside, keys)
+        return replace(selection, share=float(np.mean(np.where(index >= 0, np.take_along_axis(wrong, np.maximum(index, 0)[None], 0)[0], none))))
+
+    out = [with_share(Selection("first", (), 0.0))]
+    for by, key in keys.items() if len(all_margins) > 1 else ():
         order = np.argsort(key)
-        none = (~lit)[order][None]  # beyond the last layer everything is lit
-        ends = _limits(np.concatenate([wrong[:, order], none]).astype(float), key[order], numbers)
-        index = np.searchsorted(np.array(ends), key, side="right")
-        index = np.where(index >= len(all_margins), -1, index)
-        picked = np.where(index >= 0, np.take_along_axis(values, np.maximum(index, 0)[None], 0)[0], 1.0)
-        share = float(np.mean((picked >= 0) != lit))
-        if share < best.share - 0.2 * NOISE:
-            best, chosen = Selection(by, ends, share), index
-    return best, chosen
+        ends = [_limits(np.concatenate([wrong, none[None]])[:, order].astype(float), key[order], numbers), *_rising(vectors, len(all_margins))]
+        found, *given = [with_share(Selection(by, one, 0.0)) for one in ends]
+        best = min(given, key=lambda one: one.share, default=found)
+        out.append(best if best.share <= found.share + 0.2 * NOISE else found)
+    return out
+
+
+def _rising(vectors, count):
+    """Ends of `count` layers that stand together in one constant: as many rising numbers, of which those of layers that this frame does not draw
+    are left out, or one less, behind which the last layer goes on."""
+    ends = [v for v in vectors if count - 1 <= len(v) <= MOST_ENDS and count > 1 and all(0 < a < b for a, b in zip((1e-30, *v), v))]
+    return [one for v in ends for one in ([(*v, np.inf)] if len(v) == count - 1 else combinations(v, count))]
+
+
+def choose_layers(all_margins, lit, keys, numbers=(), vectors=(), told=False):
+    """(Selection, index of each place's layer, -1 where none) of choices()."""
+    best, *others = choices(all_margins, lit, keys, numbers, vectors, told)
+    for one in others:
+        best = one if one.share < best.share - 0.2 * NOISE else best
+    return best, index_of(best, [m.inside for m in all_margins], keys)
+
+
+@dataclass(frozen=True)
+class LookedUp:
+    """Layers of a map, and which of them each of some places looks up; -1 where none."""
+
+    layers: list
+    index: np.ndarray
+
+    def of(self, kept):
+        return replace(self, index=self.index[kept])
+
+    def _gathered(self, fills, work):
+        """The arrays that work(layer, its places) gives, of all places; `fills`: what stands where no layer is looked up."""
+        out = [np.full(len(self.index), fill) for fill in fills]
+        for k, layer in enumerate(self.layers):
+            mine = self.index == k
+            for whole, part in zip(out, work(layer, mine) if mine.any() else ()):
+                whole[mine] = part
+        return out
+
+    def margins(self, places):
+        """(margins, whether a layer holds each place)"""
+        def of_layer(layer, mine):
+            found = margins(layer, places[mine])
+            return found.values, found.inside
+        return self._gathered((1.0, False), of_layer)
+
+    def between_texels(self, places):
+        """The same where a sampler interpolates the depths first."""
+        def of_layer(layer, mine):
+            stored, inside = bilinear(layer, places[mine], layer.texels)
+            depth = texel_places(layer, places[mine])[2]
+            return np.where(inside, depth - stored if layer.state.reversed else stored - depth, 1.0), inside
+        return self._gathered((1.0, False), of_layer)
+
+    def filtered(self, places, bias, reach, is_bilinear, step=1):
+        return self._gathered((1.0,), lambda layer, mine: (filtered(layer, places[mine], bias[mine], reach, is_bilinear, step),))[0]
+
+    def filter_radius(self, places, bias):
+        """Of the first layer whose places tell one."""
+        of_layers = (filter_radius(layer, places[self.index == k], bias[self.index == k]) for k, layer in enumerate(self.layers))
+        return next((radius for radius in of_layers if radius is not None), None)
+
+    def texel_areas(self, places):
+        """Squared widths of a texel at the places, world units."""
+        def of_layer(layer, mine):
+            moved = texel_places(layer, places[mine] + layer.place.direction[[1, 2, 0]] * 1e-2)
+            here = texel_places(layer, places[mine])
+            return (1e-4 / np.maximum((moved[0] - here[0]) ** 2 + (moved[1] - here[1]) ** 2, 1e-12),)
+        return self._gathered((np.nan,), of_layer)[0]
 
 
 @dataclass
@@ -145,23 +224,24 @@ class Answer:
     inside: np.ndarray
 
 
-def answer(layer, positions, bilinear):
-    """The layer's own test with its constant: one comparison, or the four nearest, weighed by how near they are."""
+def answer(layer, positions, bilinear, bias=None):
+    """The layer's own test: one comparison, or the four nearest, weighed by how near they are. `bias` of each place, in place of the layer's constant."""
     column, row, depth, inside = texel_places(layer, positions)
     rows, columns = layer.texels.shape
+    bias = layer.constant if bias is None else bias
 
     def lit(i, j):
         stored = layer.texels[np.clip(j, 0, rows - 1).astype(int), np.clip(i, 0, columns - 1).astype(int)]
-        return ((depth - stored if layer.state.reversed else stored - depth) + layer.constant >= 0).astype(float)
+        return ((depth - stored if layer.state.reversed else stored - depth) + bias >= 0).astype(float)
 
     column, row = np.where(inside, column, 0), np.where(inside, row, 0)
     light = _weighed(column, row, lit) if bilinear else lit(np.floor(column), np.floor(row))
     return Answer(np.where(inside, light, 1.0), inside)
 
 
-def filtered(layer, positions, bias, reach, is_bilinear):
-    """What comparisons of the texels up to `reach` around each place make of it on average; each is of the four nearest where the sampler
-    weighs those."""
+def filtered(layer, positions, bias, reach, is_bilinear, step=1):
+    """What comparisons of the texels up to `reach` steps around each place make of it on average; each is of the four nearest where the sampler
+    weighs those. Of one part of an atlas, that of the whole is sometimes taken for its width: a step is two texels then."""
     column, row, depth, _ = texel_places(layer, positions)
     rows, columns = layer.texels.shape
 
@@ -170,7 +250,7 @@ def filtered(layer, positions, bias, reach, is_bilinear):
         return ((depth - stored if layer.state.reversed else stored - depth) + bias >= 0).astype(float)
 
     one = (lambda i, j: _weighed(i, j, lit)) if is_bilinear else (lambda i, j: lit(np.floor(i), np.floor(j)))
-    steps = range(-reach, reach + 1)
+    steps = step * np.arange(-reach, reach + 1)
     return np.mean([one(column + i, row + j) for i in steps for j in steps], axis=0)
 
 

@@ -44,8 +44,8 @@ def _keep(values, at, depths, sign):
     np.copyto(values, new, where=sign * new > sign * values)
 
 
-def _seems_to_have_holes(places, triangles, shown, tolerance):
-    """A look at some points of a mesh before all of it is gone through: whether many show what is farther."""
+def _seems_to_have_holes(places, triangles, shown, tolerance, slopes):
+    """A look at some points of a mesh before all of it is gone through: whether many show what is farther. `slopes` by which it was moved."""
     corners = places[triangles.reshape(-1, 3)]
     e1, e2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     area = e1[:, 0] * e2[:, 1] - e1[:, 1] * e2[:, 0]
@@ -62,7 +62,7 @@ def _seems_to_have_holes(places, triangles, shown, tolerance):
     inside = (i >= 0) & (j >= 0) & (i < shown.shape[1]) & (j < shown.shape[0])
     if not inside.any():
         return False
-    farther = shown[j[inside], i[inside]] > (points[:, 2] + np.abs(rise).sum(1) + tolerance)[inside]
+    farther = shown[j[inside], i[inside]] > (points[:, 2] + (1 + slopes) * np.abs(rise).sum(1) + tolerance)[inside]
     return farther.mean() >= SEEMING
 
 
@@ -102,14 +102,27 @@ def _around(values, best, reach=1):
     return values
 
 
-def _has_holes(places, triangles, shown, tolerance):
+def _has_holes(places, triangles, shown, tolerance, slopes=0.0):
     """Whether inner cells of a mesh show what is farther than it."""
-    if not _seems_to_have_holes(places, triangles, shown, tolerance):
+    if not len(triangles) or not _seems_to_have_holes(places, triangles, shown, tolerance, slopes):
         return False
     mesh = cells(places, triangles, shown.shape)
     inner = np.isfinite(_around(np.where(np.isfinite(mesh.near), mesh.near, np.inf), np.maximum))
-    holes = inner & (shown > _around(mesh.far, np.maximum) + tolerance)
+    far = _around(mesh.far, np.maximum)
+    with np.errstate(invalid="ignore"):
+        far = far + slopes * (far - _around(mesh.near, np.minimum))
+    holes = inner & (shown > far + tolerance)
     return holes.sum() >= max(FEW, SHARE * inner.sum())
+
+
+def _not_culled(layer, mesh):
+    """Corners of the triangles that a layer's culling leaves; those that reach behind the light stay."""
+    if not layer.state.side:
+        return mesh.corners
+    corners = mesh.clip[mesh.corners.reshape(-1, 3)]
+    x, y, w = corners[..., 0], corners[..., 1], corners[..., 3]
+    area = np.linalg.det(np.stack([x, y, w], -1))  # its sign is that of the area, where all w are above 0
+    return mesh.corners.reshape(-1, 3)[(area * layer.state.side > 0) | (w <= 0).any(1)].reshape(-1)
 
 
 def _step(layer):
@@ -151,10 +164,11 @@ def find(frame, view, layers, pixels, silent=()):
     for layer in layers:
         if layer.distance or layer.is_colour:
             continue
-        shown, shift = _stored(layer), TOLERANCE + abs(layer.state.depth_bias.get("constant", 0)) * 2.0**-16
+        shown, moved = _stored(layer), layer.state.depth_bias
+        shift, slopes = TOLERANCE + abs(moved.get("constant", 0)) * 2.0**-16, abs(moved.get("slope", 0))
         for k, mesh in layer.pairs:
             key = _key(k, mesh)
-            if key not in found and can_discard(frame, mesh.event) and _has_holes(in_map(layer, mesh.clip), mesh.corners, shown, shift):
+            if key not in found and can_discard(frame, mesh.event) and _has_holes(in_map(layer, mesh.clip), _not_culled(layer, mesh), shown, shift, slopes):
                 found.add(key)
     for k, (mesh, points) in enumerate(zip(view.meshes, view.positions)):
         if k not in found and k not in silent and can_discard(frame, mesh.event):

@@ -48,7 +48,7 @@ def _cut_all(layer, picture):
     return picture[y:y + height, x:x + width]
 
 
-def _flip(picture, view):
+def flip(picture, view):
     clip = view.state.conventions
     return picture[::-1] if clip.bottom_row_first == clip.y_up else picture
 
@@ -73,7 +73,7 @@ def measure(frame, found, layers, encoding, others, numbers):
     tried = []
     for encoded in ([False] if not unsaid or encoding == "linear" else [True] if encoding == "srgb" else [True, False]):
         seen = visibility.work_out(drawn, empty, full, encoded)
-        pixels = Pixels(positions, is_drawn, _flip(seen.values, found.view).copy(), _flip(seen.asked, found.view) & is_drawn, seen.asked,
+        pixels = Pixels(positions, is_drawn, flip(seen.values, found.view).copy(), flip(seen.asked, found.view) & is_drawn, flip(seen.asked, found.view),
                         drawn.depth)
         tried.append((seen, pixels, _exponent(layers, pixels), _moments(layers, pixels, numbers.all)))
     seen, pixels, exponent, fitted = max(tried, key=lambda one: (-one[3].off if one[3] else -1, one[2].correlation if one[2] else 0))
@@ -141,7 +141,7 @@ def _leave_out_earlier_frames(found, layers, pixels):
     lost = np.zeros(pixels.drawn.shape, bool)
     lost[pixels.drawn] = kept
     if not found.is_bilinear:
-        lost &= ~_flip(pixels.told, found.view)
+        lost &= ~pixels.told
     share = max(layer.old.mean() for layer in layers)
     why = f"{100 * share:.0f} % of the map's texels are of an earlier frame: the engine keeps what stands still"
     if not inside.any() or lost.sum() > MOST * inside.sum():
@@ -247,7 +247,7 @@ def _light_beside_casters(pixels, layers):
 
 def hide(pixels, hidden, view):
     """Takes pixels out, given with the texture's own first row first: they show what is not in the scene."""
-    pixels.hidden = _flip(hidden, view)
+    pixels.hidden = flip(hidden, view)
     pixels.asked &= ~pixels.hidden
 
 

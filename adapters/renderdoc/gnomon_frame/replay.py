@@ -68,6 +68,7 @@ class State:
     writes_depth: bool = True
     depth_bias: dict = field(default_factory=dict)  # constant, slope, clamp as the API has them
     shaders: dict = field(default_factory=dict)  # stage -> id
+    side: int = 0  # of which triangles are drawn: 1 those whose corners turn to the left with x to the right and y up in clip space, -1 the others
 
 
 def _actions(roots):
@@ -184,9 +185,24 @@ class Frame:
         colours = [int(t.resourceId) for t in pipe.GetOutputTargets() if int(t.resourceId)]
         y, height = (view.y, view.height) if view.height >= 0 else (view.y + view.height, -view.height)
         shaders = {stage: int(pipe.GetShader(stage)) for stage in (rd.ShaderStage.Vertex, rd.ShaderStage.Fragment) if int(pipe.GetShader(stage))}
+        side = self._side(pipe, clip)
         return State((view.x, y, view.width, height), colours, int(target.resourceId), getattr(target, "firstSlice", 0), clip,
                      compare in (rd.CompareFunction.Greater, rd.CompareFunction.GreaterEqual), bool(writes_depth),
-                     dict(zip(("constant", "slope", "clamp"), bias)), shaders)
+                     dict(zip(("constant", "slope", "clamp"), bias)), shaders, side)
+
+    def _side(self, pipe, clip):
+        """State.side"""
+        if pipe.IsCaptureGL():
+            s = self.controller.GetGLPipelineState().rasterizer.state
+        elif pipe.IsCaptureVK():
+            s = self.controller.GetVulkanPipelineState().rasterizer
+        else:
+            s = (self.controller.GetD3D11PipelineState() if pipe.IsCaptureD3D11() else self.controller.GetD3D12PipelineState()).rasterizer.state
+        if s.cullMode not in (rd.CullMode.Front, rd.CullMode.Back):
+            return 0
+        front_ccw = getattr(s, "frontCCW", True)
+        left = 1 if pipe.IsCaptureGL() or clip.y_up else -1  # the sign of those that turn to the left as they are shown
+        return left if front_ccw == (s.cullMode == rd.CullMode.Back) else -left
 
     def reads(self, event):
         """{texture: what its sampler does} of the fragment shader's textures; "" where it is not told."""

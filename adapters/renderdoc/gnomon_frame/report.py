@@ -62,7 +62,7 @@ def findings(frame, found, layers, test):
             out.append(f"{which}casters are drawn {layer.shift.world:.4f} world units away from the light ({how}; residual "
                        f"{layer.shift.residual:.1e})")
         if test.form:
-            out += _form(test.form)
+            out += _form(test.form) if k == 0 else []
         elif layer.constant and not test.fitted:
             out.append(f"{which}the reader's test lets {layer.constant:.3g} of stored depth pass (found from the picture)")
         if layer.is_held:
