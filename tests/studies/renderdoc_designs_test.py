@@ -31,12 +31,13 @@ JUDGED = {
     "normaloff": ({"constant_depth": 0.0, "normal_offset_world": 0.05}, 1), "spotlinear": ({"constant_depth": 0.05}, 30),
     "scaled": ({"constant_depth": 0.002}, 1), "dynres": ({"constant_depth": 0.002}, 1), "viewmodel": ({"constant_depth": 0.002}, 1),
     "same512": ({"constant_depth": 0.002}, 2), "pancake": ({"constant_depth": 0.002}, 2), "taa": ({"constant_depth": 0.002}, 1),
-    "vsm": (None, 1), "evsm": (None, 1), "cascades": (None, 1)}
+    "vsm": (None, 1), "evsm": (None, 1), "cascades": ({"constant_depth": 0.002}, 1), "castnormal": ({"constant_depth": 0.002}, 3),
+    "omni": ({"constant_depth": 8e-5}, 40), "layered": ({"constant_depth": 8e-5}, 40)}
 # Name: what the refusal says.
-REFUSED = {"staticbig": "of an earlier frame", "castnormal": "neither a projection nor distances"}
+REFUSED = {"staticbig": "of an earlier frame"}
 # Name: what a note says of what was left out.
 NOTES = {"skydome": "casts no shadow in the verdict: event .* writes no depth", "spotlamp": "stands around the light", "roof": "has an alpha mask",
-         "viewmodel": "drawn with another projection than most", "pancake": "are held at it", "vsm": "those of vsm", "evsm": "those of evsm"}
+         "viewmodel": "drawn with another projection than most", "pancake": "are held at it", "vsm": "those of vsm", "evsm": "those of evsm", "castnormal": "along their normals", "omni": "distances from the light, 0 to 25"}
 
 
 def judged(name):

@@ -43,6 +43,21 @@ class Lens(unittest.TestCase):
         with self.assertRaisesRegex(FrameError, "no mesh|different fields of view"):
             lens.fit_lens(meshes, [projection @ squeezed[1]], pipeline())
 
+    def test_of_logarithmic_depths_is_told_by_the_other_rows(self):
+        projection = perspective(1.7, 2.4, 0.05, 80, True)
+        curved = [(CUBE, drawn(projection @ m, CUBE)) for m in PLACES]
+        for _, clip in curved:
+            clip[:, 2] = (2 * np.log2(1 + clip[:, 3]) / np.log2(81) - 1) * clip[:, 3]
+        found, kept = lens.fit_lens(curved, [projection, perspective(0.7, 0.7, 1, 30, True)], pipeline())
+        self.assertTrue(found.curved and all(kept))
+        self.assertAlmostEqual(found.fx, 1.7, delta=1e-5)
+        self.assertLess(np.abs(found.view_of(curved[2][1], True) - (fit.homogeneous(CUBE) @ PLACES[2].T)[:, :3]).max(), 1e-5)
+        found, _ = lens.fit_lens([(None, clip) for _, clip in curved], [projection], pipeline())
+        self.assertAlmostEqual(found.fy, 2.4, delta=1e-5)
+        state = SimpleNamespace(conventions=conventions.opengl(), reversed=False)
+        places, seen = pixels.positions_of(np.array([[0.4, 1.0], [0.5, 0.6]]), SimpleNamespace(lens=found, state=state), np.array([[3.0, 4.0], [np.nan, 7.0]]))
+        self.assertEqual((seen.tolist(), (-places[..., 2]).tolist()), ([[False, True], [True, False]], [[0, 7], [3, 0]]))
+
     def test_is_that_of_most_meshes(self):
         projection, weapon = perspective(1.7, 2.4, 0.05, 80, True), perspective(3.1, 4.4, 0.01, 20, True)
         meshes = [(CUBE, drawn(projection @ m, CUBE)) for m in PLACES] + [(CUBE, drawn(weapon @ PLACES[0], CUBE))]
@@ -119,6 +134,34 @@ class Light(unittest.TestCase):
         place = fit.light_place(fit.fit_light(VIEWS, drawn(matrix, VIEWS)).matrix)
         self.assertLess(np.abs(place.apex - np.linalg.inv(TO_SUN)[:3, 3]).max(), 1e-4)
         self.assertLess(np.abs(place.direction + np.linalg.inv(TO_SUN)[:3, 2]).max(), 1e-5)
+
+    NORMALS = CUBE / np.sqrt(3)
+
+    def pushed(self, by, of_sine):
+        """(places, normals, clip positions) of cubes and of a flat square that were moved along their normals before a sun's matrix."""
+        light = parallel(8, -10, 20) @ TO_SUN
+        square, up = CUBE[[0, 1, 2, 3]], np.tile([-1.0, 0, 0], (4, 1))
+        meshes = [(CUBE, self.NORMALS, m) for m in PLACES] + [(square, up, PLACES[1])]
+        views = [(fit.homogeneous(points) @ m.T)[:, :3] for points, _, m in meshes]
+        normals = [fit.turned_normals(points, n, view) for (points, n, _), view in zip(meshes, views)]
+        to_light = -fit.light_place(light).direction
+        places, turned_ = np.concatenate(views), np.concatenate(normals)
+        turned_ /= np.linalg.norm(turned_, axis=1, keepdims=True)
+        right = np.concatenate([n @ m[:3, :3].T for _, n, m in meshes])
+        self.assertLess(np.abs(turned_ - right).max(), 1e-9)
+        amount = by * (np.sqrt(1 - (right @ to_light) ** 2) if of_sine else np.ones(len(right)))
+        return light, places, turned_, drawn(light, places + right * amount[:, None])
+
+    def test_of_casters_moved_along_their_normals_is_found(self):
+        for by, of_sine in ((-0.04, True), (0.05, False)):
+            light, places, normals, clips = self.pushed(by, of_sine)
+            self.assertGreater(fit.fit_light(places, clips).residuals.max(), extract.PUSHED)
+            found = fit.fit_pushed(places, normals, clips)
+            self.assertAlmostEqual(found.by, by, delta=1e-5)
+            self.assertEqual(found.of_sine, of_sine)
+            self.assertLess(np.abs(found.light.matrix - light).max(), 1e-4)
+        clips[:, 0] += np.sin(9 * places[:, 1]) * 0.01
+        self.assertIsNone(fit.fit_pushed(places, normals, clips))
 
     def test_of_a_flat_cascade_takes_another_ones_axes(self):
         near, far = (parallel(half, -10, 20) @ TO_SUN for half in (3, 12))

@@ -1,7 +1,9 @@
 """How adapters/renderdoc looks maps up, and its frames, shaders and files. /usr/bin/python3 renderdoc_frame_test.py FOLDER_OF_THE_ADAPTER"""
+import dataclasses
 import unittest
 
 from renderdoc_scenes import *  # noqa: F403
+from gnomon_frame import forms, literals, moments  # noqa: E402
 
 
 class Lookup(unittest.TestCase):
@@ -157,7 +159,7 @@ class Lookup(unittest.TestCase):
         for slope, said in ((0.0, False), (2.0, True)):
             layer = SimpleNamespace(
                 state=SimpleNamespace(reversed=False, depth_bias={"constant": 4, "slope": slope, "clamp": 0.1}, conventions=conventions.opengl()),
-                has_caster_bias=False, is_held=False, constant=0.0, half=SimpleNamespace(residual=0.0), distance=SimpleNamespace(range=9.0, residual=0.0), matrix=np.eye(4),
+                has_caster_bias=False, is_held=False, pushed=None, content=None, constant=0.0, half=SimpleNamespace(residual=0.0), distance=SimpleNamespace(range=9.0, residual=0.0), matrix=np.eye(4),
                 matched=1, place=SimpleNamespace(apex=np.zeros(3)), texels=np.ones((2, 2)))
             found = SimpleNamespace(passes=SimpleNamespace(texture=1), view=SimpleNamespace(lens=lens.Lens(1, 1, 0, 0, 1, 1, 0)), notes=[])
             test = SimpleNamespace(selection=lookup.Selection("first", (), 0.0), exponent=None, form=None, fitted=None, unread="", radius=None, agreement=None)
@@ -166,6 +168,43 @@ class Lookup(unittest.TestCase):
             with tempfile.TemporaryDirectory() as folder:
                 written = capture._layer(folder, texture, "map.exr", 0, layer, test, 1)
             self.assertEqual(list(written["caster_bias"]), ["constant"])
+
+
+class Samples(unittest.TestCase):
+    """Pictures of several samples a pixel."""
+
+    def test_a_pixel_of_one_plane_is_none_of_two(self):
+        plane = np.array([0.2, 0.26, 0.24, 0.3])  # in any order
+        self.assertEqual(visibility._is_no_plane(np.stack([plane, [0.2, 0.2, 0.2, 0.4], [0.5] * 4], -1)[..., None, None]).ravel().tolist(), [False, True, False])
+
+    def test_mean_is_taken_and_mixed_pixels_are_told(self):
+        colours = np.zeros((4, 1, 2, 3))
+        colours[0, 0, 1] = 0.4
+        frame = SimpleNamespace(textures={1: SimpleNamespace(samples=4), 2: SimpleNamespace(samples=1)}, samples=lambda _: colours, picture=lambda _: colours[0])
+        whole = SimpleNamespace(cut=lambda picture: picture)
+        mean, mixed = visibility._one_thing_each(frame, whole, 1, lambda samples: np.ptp(samples[..., :3], axis=0).max(-1) > 0)
+        self.assertEqual((mean[0, 1, 0], mixed.tolist()), (0.1, [[False, True]]))
+        self.assertIsNone(visibility._one_thing_each(frame, whole, 2, None)[1])
+
+
+class Layers(unittest.TestCase):
+    def test_a_geometry_shader_spreads_draws_over_them(self):
+        @dataclasses.dataclass
+        class State:
+            slice: int
+            viewport: tuple
+
+        state = State(0, (0, 0, 64, 64))
+        made = [SimpleNamespace(layer=layer) for layer in (0, 1, 0, 1)]
+        frame = SimpleNamespace(state=lambda _: state, meshes=lambda draw: made)
+        grouped = extract.grouped(frame, [SimpleNamespace(event=4), SimpleNamespace(event=5)])
+        self.assertEqual([(one.state.slice, one.events, len(one.meshes)) for one in grouped], [(0, [4, 5], 4), (1, [4, 5], 4)])
+
+    def test_numbers_are_world_units_where_a_map_stores_a_share_of_a_range(self):
+        content = moments.Content("distance", (0.0, 25.0))
+        one = SimpleNamespace(content=content, place=fit.LightPlace(np.array([0.0, 0, -1]), np.zeros(3)))
+        search = forms.Search(lookup.LookedUp([one], np.zeros(3, int)), np.ones((3, 3)), np.ones((3, 3)), np.ones(3, bool), literals.Numbers((0.5,)), False)
+        self.assertEqual(search.given, [0.02, 0.5])
 
 
 class PolygonOffset(unittest.TestCase):
@@ -335,6 +374,18 @@ class StandIns(unittest.TestCase):
                 self.assertEqual(at, len(words))
                 self.assertEqual((ops[0], ops[-1]), (17, 56))
                 self.assertEqual(252 in ops, fragment and not full)
+
+    def test_distances_are_written_after_what_the_original_leaves(self):
+        original = "#version 330\nvoid main() { discard; }"
+        for nearest, formula in ((0.0, "gl_FragDepth = 1.0 - 0.25 * gl_FragCoord.w;"), (1.0, "gl_FragDepth = 0.25 * gl_FragCoord.w;")):
+            text = stand_ins.glsl(stand_ins.Source(True, False, nearest, near=0.25, original=original))
+            self.assertIn(f"void main() {{ drawn_otherwise(); {formula} }}", text)
+            self.assertIn("#define main drawn_otherwise\nvoid main() { discard; }", text)
+        ops = lambda **more: [op for op, _ in spirv._instructions(stand_ins.spir_v(stand_ins.Source(True, False, **more)))]
+        self.assertTrue(spirv.replaces_depth(stand_ins.spir_v(stand_ins.Source(True, False, near=0.25))))
+        self.assertNotIn(252, ops(near=0.25))
+        self.assertFalse({252, 62} & set(ops(plain=True)))
+        self.assertFalse(spirv.replaces_depth(stand_ins.spir_v(stand_ins.Source(True, False, plain=True))))
 
     def test_text_guards_what_is_shared(self):
         source = stand_ins.Source(True, False, **self.SHARED)

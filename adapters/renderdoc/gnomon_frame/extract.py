@@ -13,6 +13,7 @@ from .pairing import pair
 from .passes import MapPasses
 from .reader import CasterShift, ReaderMatrix, caster_shift, find_reader, texture_places, through_model
 
+PUSHED = 1e-5  # casters whose places are off by more may have been moved along their normals
 PROJECTED = 1e-3  # a light's matrix that is off by more is no projection
 
 
@@ -37,6 +38,7 @@ class Layer:
     matrix: np.ndarray | None = None  # clip_from_view whose z/w is what a texel stores; of a half the light's view alone
     constant: float = 0.0  # the reader's own bias, stored numbers
     is_held: bool = False  # whether casters before the near plane are held at it
+    pushed: fit.PushedFit | None = None  # of casters that were moved along their normals
     is_colour: bool = False  # whether its texels are those of a colour texture
     content: Content | None = None  # what these hold, where that is known
     averages: dict = field(default_factory=dict)  # of a map of moments: what readers find with it drawn, empty and full
@@ -138,20 +140,29 @@ def _visited(frame, draw):
     return frame.meshes(draw)
 
 
-def _layers(frame, found, view):
-    grouped = {}
-    for draw in found.writers:
+def grouped(frame, writers):
+    """Layers by what each draw is drawn into: a slice, which a geometry shader may choose, and a viewport."""
+    out = {}
+    for draw in writers:
         state = frame.state(draw.event)
-        layer = grouped.setdefault((state.slice, state.viewport), Layer(state, [], []))
-        layer.events.append(draw.event)
-        layer.meshes += frame.meshes(draw)
+        for mesh in frame.meshes(draw):
+            slice_ = state.slice if mesh.layer is None else mesh.layer
+            layer = out.setdefault((slice_, state.viewport), Layer(replace(state, slice=slice_), [], []))
+            layer.events += [] if draw.event in layer.events[-1:] else [draw.event]
+            layer.meshes.append(mesh)
+    return list(out.values())
+
+
+def _layers(frame, found, view):
     cameras = [(mesh.source, place) for mesh, place in zip(view.meshes, view.positions)]
-    layers = [layer for layer in grouped.values() if _fit_layer(layer, view, cameras)]
+    layers = [layer for layer in grouped(frame, found.writers) if _fit_layer(layer, view, cameras)]
     whole = next((layer for layer in layers if layer.light.rank == 4), None)
     for layer in layers:
         if layer.light.rank < 4 and whole:
             views, clips = _points(layer, view)
             layer.light = fit.complete_flat(layer.light, views, clips, whole.light.matrix)
+        if layer.light.rank < 4 and layer.light.residuals.max() <= PROJECTED:
+            raise FrameError("what camera and light both draw lies in one plane, which does not tell the light: look at something solid that casts")
         if not layer.distance and layer.light.residuals.max() > PROJECTED:
             raise FrameError("the casters' positions in the map are neither a projection nor distances from a point: no light can be told")
         layer.place = (fit.LightPlace(np.array([0.0, 0.0, -1.0]), layer.distance.apex) if layer.distance
@@ -174,10 +185,26 @@ def _fit_layer(layer, view, cameras):
     layer.light = fit.fit_light(views, clips)
     if layer.light.rank == 4 and layer.light.residuals.max() > PROJECTED:
         _without_what_is_held(layer, views, clips)
+    if layer.light.rank == 4 and layer.light.residuals.max() > PUSHED and (turned := _turned_normals(layer, view)) is not None:
+        layer.pushed = fit.fit_pushed(views, turned, clips)
+        layer.light = layer.pushed.light if layer.pushed else layer.light
     if layer.light.rank == 4 and layer.light.residuals.max() > PROJECTED:
         layer.distance = fit.fit_distance(views, layer.state.conventions.window_row(clips[:, 2], clips[:, 3]) / clips[:, 3])
         layer.half = fit.fit_half(views, layer.distance.apex, clips) if layer.distance else None
     return True
+
+
+def _turned_normals(layer, view):
+    """Normals in view space of the casters of _points(), or None where some mesh has none."""
+    out = []
+    for place, caster in layer.pairs:
+        if place is None:
+            continue
+        if caster.normals is None or caster.objects is None:
+            return None
+        normals = fit.turned_normals(caster.objects, caster.normals, view.positions[place])
+        out.append(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30))
+    return np.concatenate(out)
 
 
 def _without_what_is_held(layer, views, clips):

@@ -10,6 +10,7 @@ from . import lookup
 NEARLY = 1e-4  # of the pixels: forms that differ by fewer give the picture alike
 MOST_PLACES = 25000  # that are looked at while a form is searched
 OF_NORMALS = 5e-4  # the same, of forms that ask for normals: a shader's are interpolated, these are of the picture's places
+OF_GIVEN = 4e-4  # by so much more of the places a constant that the shader is given must give than none
 LARGEST = 0.3  # of stored depths, or texels of 1 / 30: what a bias is not larger than
 ANGLES = {"sine": lambda c: np.sqrt(np.maximum(1 - c * c, 0)), "tangent": lambda c: np.sqrt(np.maximum(1 - c * c, 0)) / np.maximum(c, 1e-3),
           "one_minus_cosine": lambda c: 1 - c}
@@ -99,6 +100,9 @@ class Search:
         self.cosine = cosines(layer.place, self.places, self.normals)
         largest = LARGEST if layer.content is None or layer.content.base == "depth" else np.inf  # world units have no scale of their own
         kept = lambda values: sorted({abs(float(n)) for n in values if n and abs(n) < largest})
+        # Of distances that are stored as shares of a range numbers are world units.
+        span = layer.content.range[1] - layer.content.range[0] if layer.content else 1.0
+        numbers = replace(numbers, **{name: tuple(n / unit for n in getattr(numbers, name) for unit in {1.0, span}) for name in ("given", "alone", "factors")})
         self.given, self.constants, self.factors = kept(numbers.given), kept(numbers.given + numbers.alone), kept(numbers.given + numbers.factors)
         self.known = kept(numbers.all)
         self.lengths = sorted({abs(float(n)) for n in numbers.all if n})
@@ -131,12 +135,17 @@ class Search:
 
     def _constant(self, form, values, inside):
         """The form with the constant that gives most of the picture."""
+        values_, lit = values[inside], self.lit[inside]
         tried = []
         for among in (self.given, self.constants):  # numbers that the shader is given before those of its text
-            c, wrong, _ = lookup.best_constant(values[inside], self.lit[inside], among)
+            c, wrong, _ = lookup.best_constant(values_, lit, among)
             tried.append((wrong, len(tried), c))
         nearly = min(tried)[0] + NEARLY
-        return self._note(replace(form, constant=next(c for wrong, _, c in tried if wrong <= nearly)), values, inside)
+        found = next((wrong, c) for wrong, _, c in tried if wrong <= nearly)
+        if not found[1]:  # none is taken where it is nearly as good; one that the shader is given needs less to speak for it
+            own = min(((float(np.mean((values_ + c >= 0) != lit)), c) for c in self.given[:20]), default=found)
+            found = own if len(lit) and own[0] < found[0] - OF_GIVEN else found
+        return self._note(replace(form, constant=found[1]), values, inside)
 
     def _angles(self, form, values, inside):
         v, lit, cosine = values[inside], self.lit[inside], self.cosine[inside]

@@ -31,6 +31,7 @@ class Lens:
     zb: float
     residual: float
     parallel: bool = False
+    curved: bool = False  # of a perspective camera whose z/w is no such function, as of logarithmic depths: za and zb tell nothing
 
     def distance(self, z):
         """d of z/w."""
@@ -52,6 +53,8 @@ class Lens:
     def planes(self, minus_one):
         """(near, far, reversed): world units; far is at most FAR_AWAY. A parallel camera may see what lies behind it: near is below 0 then."""
         low = -1.0 if minus_one else 0.0
+        if self.curved:
+            return 1e-2, FAR_AWAY, False
         if self.parallel:
             first, last = float(self.distance(low)), float(self.distance(1.0))
         else:
@@ -78,7 +81,8 @@ def _rows_of_mesh(objects, clip):
     if len(points) < 4 or np.linalg.matrix_rank(points, 1e-6 * np.linalg.norm(points)) < 4:
         return None
     rows = np.linalg.lstsq(points, clip, rcond=None)[0].T
-    return rows if residual(points @ rows.T, clip) <= 1e-4 else None
+    told = [0, 1, 3]  # depths may be no projection's
+    return rows if residual(points @ rows[told].T, clip[:, told]) <= 1e-4 else None
 
 
 def fit_lens(meshes, matrices, state):
@@ -105,13 +109,13 @@ def _of_rows(rows):
     return (fx, fy, cx, cy) if min(fx, fy) > 1e-6 and abs(x @ y) < ALIKE * scale**2 * fx * fy else None
 
 
-def _of_camera(matrix, za, zb):
-    """(fx, fy, cx, cy) of a matrix that projects a rigid space with the z row that was drawn, or None."""
+def _of_camera(matrix, za, zb, curved):
+    """(fx, fy, cx, cy) of a matrix that projects a rigid space with the z row that was drawn, or None. Curved depths are no matrix's."""
     for m in (matrix, matrix.T):
         if not np.isfinite(m).all() or abs(np.linalg.norm(m[3, :3]) - 1) > 1e-4:
             continue
         left = m[2] - za * m[3]
-        if np.abs(left[:3]).max() < 1e-4 * abs(za) and abs(left[3] - zb) < 1e-3 * abs(zb) + 1e-6 and (lens := _of_rows(m)) is not None:
+        if (curved or np.abs(left[:3]).max() < 1e-4 * abs(za) and abs(left[3] - zb) < 1e-3 * abs(zb) + 1e-6) and (lens := _of_rows(m)) is not None:
             return lens
     return None
 
@@ -137,8 +141,11 @@ def _of_most(told):
 
 def _perspective_lens(clips, rows, matrices):
     (za, zb), kept = _line_of_most(clips)
+    # Depths of another function lie on no line: few vertices share one then, and a constant draws none of them.
+    curved = 2 * sum(len(c) for c, one in zip(clips, kept) if one) < sum(map(len, clips)) and len(clips) > 1
+    kept = [True] * len(clips) if curved else kept
     rigid = [r for r, one in zip(rows, kept) if one and r is not None]
-    told = [lens for m in matrices if (lens := _of_camera(m, za, zb)) is not None]
+    told = [lens for m in matrices if (lens := _of_camera(m, za, zb, curved)) is not None] if not (curved and rigid) else []
     asked = len(told) or len(rigid)
     told = told or [lens for r in rigid if (lens := _of_rows(r)) is not None]
     if not told:
@@ -148,6 +155,8 @@ def _perspective_lens(clips, rows, matrices):
         raise FrameError(f"the frame's {asked} solid meshes tell different fields of view, and no constant says which is the camera's: meshes that are "
                          "scaled unevenly hide it")
     spread = float(np.median(np.abs(np.array(told)[alike][:, :2] / lens[:2] - 1)))
+    if curved:
+        return Lens(*lens, 0.0, 0.0, spread, curved=True), kept
     used = np.concatenate([c for c, one in zip(clips, kept) if one])
     return Lens(*lens, za, zb, max(spread, residual(used[:, 3] * za + zb, used[:, 2]))), kept
 

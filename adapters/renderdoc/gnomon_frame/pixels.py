@@ -26,13 +26,19 @@ class Pixels:
     hidden: np.ndarray | None = None  # pixels that show meshes that are not in the scene
 
 
-def positions_of(depth, view):
-    """(positions, whether anything was drawn) of the camera's depth buffer, whose own first row comes first."""
+def positions_of(depth, view, distances=None):
+    """(positions, whether anything was drawn) of the camera's depth buffer, whose own first row comes first; of `distances` where depths do not
+    tell them."""
     lens, clip = view.lens, view.state.conventions
-    depth = depth[::-1] if clip.bottom_row_first == clip.y_up else depth
+    depth = flip(depth, view)
     drawn = depth != (0.0 if view.state.reversed else 1.0)
-    quotient = 2 * depth - 1 if clip.minus_one else depth
-    distance = np.where(drawn, lens.distance(np.where(drawn, quotient, 0)), 0)
+    if distances is None:
+        quotient = 2 * depth - 1 if clip.minus_one else depth
+        distance = np.where(drawn, lens.distance(np.where(drawn, quotient, 0)), 0)
+    else:
+        distances = flip(distances, view)
+        drawn = drawn & np.isfinite(distances)
+        distance = np.where(drawn, distances, 0)
     height, width = depth.shape
     x, y = np.meshgrid((np.arange(width) + 0.5) / width * 2 - 1, 1 - (np.arange(height) + 0.5) / height * 2)
     return np.where(drawn[..., None], lens.place(x, y if clip.y_up else -y, distance, clip.y_up), 0), drawn
@@ -56,14 +62,15 @@ def flip(picture, view):
 def measure(frame, found, layers, encoding, others, numbers):
     """(pixels of one light, the exponential map's factor or None, a map of moments' Fit or None): three replays. `numbers`: the reader's. `others`: layers of other lights. `encoding`: "srgb",
     "linear", or "auto", which takes 8-bit pictures for sRGB unless an exponential map fits better without."""
-    if frame.textures[found.passes.picture].samples > 1:
-        raise FrameError("the picture has several samples a pixel: record a frame without MSAA")
     drawn = visibility.take_pictures(frame, found.passes, sorted({layer.state.slice for layer in layers}))
     for layer in layers:
         layer.texels, layer.read = (_cut(layer, maps[layer.state.slice]) for maps in (drawn.maps, drawn.read))
-        layer.content = _content(frame, found, layer, drawn) if layer.is_colour and layer.matrix is not None else None
+    if not layers[0].is_colour:
+        drawn.depths = visibility.rasterized_depths(frame, found.passes, layers)
+    for layer in layers:
+        layer.content = _content(frame, found, layer, drawn) if layer.matrix is not None else None
     empty, full = visibility.replay(frame, found.passes, layers, found.view.lens, drawn, others)
-    positions, is_drawn = positions_of(drawn.depth, found.view)
+    positions, is_drawn = positions_of(drawn.depth, found.view, visibility.distances(frame, found))
     for layer in layers:
         if layer.content and layer.content.kind != "depths":
             order = list(layer.content.order[:layer.content.channels])
@@ -93,6 +100,10 @@ def measure(frame, found, layers, encoding, others, numbers):
         _leave_out_earlier_frames(found, layers, pixels)
     if not seen.untouched:
         found.notes.append("the stand-ins for the casters changed the camera's depth, too: they share a shader, and some pixels may be wrong")
+    if drawn.mixed is not None:
+        pixels.asked &= ~flip(drawn.mixed | empty.mixed | full.mixed, found.view)
+        found.notes.append(f"several samples a pixel: {int((drawn.mixed & flip(is_drawn, found.view)).sum())} pixels whose samples show more than one thing "
+                           "are not compared")
     if seen.darkest > 0.01:
         found.notes.append(f"full shadow leaves {100 * seen.darkest:.0f} % of the lit picture: ambient light, other lights, a fade with the "
                            f"distance, or a strength of {1 - seen.darkest:.2f}; it is taken out")

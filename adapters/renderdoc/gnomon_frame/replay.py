@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import renderdoc as rd
 
-from . import conventions, formats, stand_ins
+from . import conventions, formats, spirv, stand_ins
 from .errors import FrameError
 
 
@@ -53,6 +53,8 @@ class Mesh:
     corners: np.ndarray  # three vertices for each triangle
     source: tuple  # equal for the same vertices in the same order, whichever shader moved them
     name: str = ""  # the draw's event, which qrenderdoc shows, and the instance
+    layer: int | None = None  # of the texture, where a geometry shader chose it
+    normals: np.ndarray | None = None  # of the same vertices before the shader, where an attribute that is called so tells
 
 
 @dataclass
@@ -285,6 +287,8 @@ class Frame:
         self.go_to(draw.event)
         pipe, action = self.controller.GetPipelineState(), self._actions[draw.event]
         source = self._source(pipe, action)
+        turned = self._source(pipe, action, ("norm",))
+        called_by = self._name(pipe, action, source[2] if source else next(iter(pipe.GetVBuffers()), None))
         out = []
         for instance in range(draw.instances):
             drawn = self._clip(action, instance)
@@ -292,16 +296,52 @@ class Frame:
                 continue
             vertices, indices, places = drawn
             kept, corners = formats.numbered(indices[places])
-            objects, name = None, (draw.event, instance)
+            objects = normals = None
             if source:
-                points, order, name = source
+                points, order, _ = source
                 if len(order) > places.max():
                     place_of = np.empty(len(kept), np.int32)  # one of the places at which a vertex stands among the indices
                     place_of[corners] = places
                     objects = points[order[place_of]]
+                    normals = turned and turned[0][turned[1][place_of]]
             called = f"event {draw.event}" + (f", instance {instance}" if draw.instances > 1 else "")
-            out.append(Mesh(draw.event, vertices[kept].astype(float), objects, corners, name, called))
+            one = Mesh(draw.event, vertices[kept].astype(float), objects, corners, called_by, called, normals=normals)
+            out += self._of_geometry(pipe, one, instance) if int(pipe.GetShader(rd.ShaderStage.Geometry)) else [one]
         return out
+
+    def _of_geometry(self, pipe, mesh, instance):
+        """What a geometry shader makes of a mesh, in each layer that it chooses: where it hands every triangle on, the same vertices, moved; of
+        others nothing is told."""
+        made = self.controller.GetPostVSData(instance, 0, rd.MeshDataStage.GSOut)
+        if not int(made.vertexResourceId) or not made.numIndices:
+            return []
+        words = made.vertexByteStride // 4
+        data = self.controller.GetBufferData(made.vertexResourceId, made.vertexByteOffset, made.numIndices * made.vertexByteStride)
+        rows = np.frombuffer(data, np.float32, len(data) // 4 // words * words).reshape(-1, words)
+        before, layers = 4, None  # its position comes first, then what else it hands on
+        for signature in pipe.GetShaderReflection(rd.ShaderStage.Geometry).outputSignature:
+            if signature.systemValue == rd.ShaderBuiltin.RTIndex:
+                layers = rows.view(np.int32)[:, before]
+            before += signature.compCount if signature.systemValue != rd.ShaderBuiltin.Position else 0
+        out = []
+        for layer in [None] if layers is None else np.unique(layers):
+            mine = rows[:, :4] if layer is None else rows[layers == layer, :4]
+            if len(mine) == len(mesh.corners):
+                clip = np.empty_like(mesh.clip)
+                clip[mesh.corners] = mine
+                out.append(replace(mesh, clip=clip, layer=None if layer is None else int(layer)))
+        return out
+
+    def _name(self, pipe, action, buffer):
+        """What names a draw's vertices: the buffers that it goes through, of which `buffer` holds positions, and which part of them."""
+        indexed = bool(action.flags & rd.ActionFlags.Indexed)
+        return (int(buffer.resourceId) if buffer else 0, buffer.byteOffset if buffer else 0, int(pipe.GetIBuffer().resourceId) if indexed else 0,
+                action.indexOffset, action.vertexOffset, action.baseVertex, action.numIndices, action.instanceOffset)
+
+    def writes_own_depth(self, event):
+        """Whether a draw's fragment shader chooses depths itself; of a language that is not read, it does not."""
+        code = self.fragment_code(event)
+        return bool(code) and ("gl_FragDepth" in code if isinstance(code, str) else spirv.replaces_depth(code))
 
     def _clip(self, action, instance):
         """(clip positions of vertices, each index, corners of triangles as places among the indices), or None."""
@@ -326,10 +366,11 @@ class Frame:
             indices = indices - used.min()
         return vertices, np.clip(indices, 0, count - 1, out=indices), corners
 
-    def _source(self, pipe, action):
-        """(object positions, the row of each index among them, what names the vertices), or None where no attribute is three numbers."""
+    def _source(self, pipe, action, called=()):
+        """(object positions, the row of each index among them, their buffer), or None where no attribute is three numbers. `called`: the same of an
+        attribute whose name has one of these words, in place of positions."""
         fit = [a for a in pipe.GetVertexInputs() if formats.of_attribute(a.format.compType.name, a.format.compByteWidth) and a.format.compCount >= 3
-               and not a.perInstance]
+               and not a.perInstance and (not called or any(word in a.name.lower() for word in called))]
         if not fit:
             return None
         fit.sort(key=lambda a: (not any(word in a.name.lower() for word in ("pos", "vert")), a.format.compType != rd.CompType.Float, -a.format.compByteWidth))
@@ -351,16 +392,22 @@ class Frame:
         count = (len(data) // width * width - 3 * width) // stride + 1
         points = np.lib.stride_tricks.as_strided(values, (count, 3), (stride, width))
         points = points if width == 4 else points / np.float32(largest)
-        name = (int(buffer.resourceId), buffer.byteOffset, int(index.resourceId) if indexed else 0, action.indexOffset, action.vertexOffset,
-                action.baseVertex, action.numIndices, action.instanceOffset)
-        return points, np.clip(order, 0, count - 1, out=order), name
+        return points, np.clip(order, 0, count - 1, out=order), buffer
 
     # --- Pictures ---------------------------------------------------------------------------------------------------
 
     def picture(self, texture, slice_=0):
-        """Channels of a texture as they are now, [rows, columns, channels], the texture's own first row first."""
+        """Channels of a texture as they are now, [rows, columns, channels], the texture's own first row first; of several samples a pixel the
+        mean."""
+        return self.samples(texture, slice_).mean(0) if self.textures[texture].samples > 1 else self._sample(texture, slice_, 0)
+
+    def samples(self, texture, slice_=0):
+        """The same of each sample of a pixel, [samples, rows, columns, channels]."""
+        return np.array([self._sample(texture, slice_, k) for k in range(self.textures[texture].samples)])
+
+    def _sample(self, texture, slice_, sample):
         t = self.textures[texture]
-        data = self.controller.GetTextureData(self._ids[texture], rd.Subresource(0, slice_, 0))
+        data = self.controller.GetTextureData(self._ids[texture], rd.Subresource(0, slice_, sample))
         opengl = self.controller.GetPipelineState().IsCaptureGL()
         return formats.decode(data, t.format, t.width, t.height, opengl)
 

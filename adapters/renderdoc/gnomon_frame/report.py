@@ -65,6 +65,10 @@ def findings(frame, found, layers, test):
             out += _form(test.form) if k == 0 else []
         elif layer.constant and not test.fitted:
             out.append(f"{which}the reader's test lets {layer.constant:.3g} of stored depth pass (found from the picture)")
+        if layer.pushed:
+            times = " times the sine of the angle to the light" if layer.pushed.of_sine else ""
+            out.append(f"{which}casters are moved {layer.pushed.by:.4g} world units{times} along their normals (residual {layer.pushed.light.residuals.max():.1e}); "
+                       "a capture has no word for it, so that the verdict charges it to casters")
         if layer.is_held:
             out.append(f"{which}casters before the map's near plane are held at it")
         offset = polygon_offset(layer, texture)
@@ -90,6 +94,12 @@ def findings(frame, found, layers, test):
     out.append(f"light: from {sum(layer.matched for layer in layers)} meshes that camera and light both draw, residual {off:.1e}")
     height = f"orthographic, {2 / lens.fy:.4g} world units" if lens.parallel else f"{2 * np.degrees(np.arctan(1 / lens.fy)):.2f} degrees"
     out.append(f"camera: {height} high, residual {lens.residual:.1e}")
+    if lens.curved:
+        out.append("the camera's depths are no projection's, as logarithmic ones: shaders of its draws were exchanged to tell the distances")
+    if one.content and one.content.base != "depth" and one.matrix is not None:
+        low, high = one.content.range
+        what = {"distance": "distances from the light", "axis": "depths along the light's axis"}[one.content.base]
+        out.append(f"the map's texels are {what}, " + ("world units" if (low, high) == (0.0, 1.0) else f"{low:.4g} to {high:.4g} world units"))
     if test.selection.by != "first":
         limits = ", ".join(f"{limit:.4g}" for limit in test.selection.limits)
         blends = ", ".join(f"{blend:.4g}" for blend in test.selection.blends)

@@ -115,6 +115,11 @@ def can_discard(code):
     return any(op in (252, 4416, 5380) for op, _ in _instructions(code))
 
 
+def replaces_depth(code):
+    """Whether a module writes the depth of its fragments: the execution mode DepthReplacing."""
+    return any(op == 16 and words[1] == 12 for op, words in _instructions(code))
+
+
 def float_constants(code):
     """The 32-bit floats that a module declares."""
     floats = {words[0] for op, words in _instructions(code) if op == 22 and words[1] == 32}

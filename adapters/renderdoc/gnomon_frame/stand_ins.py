@@ -26,6 +26,8 @@ class Source:
     colour: bool = False  # whether the map is a colour texture
     original: str = ""  # text of the shader in GLSL, where a constant of its own tells the casters
     told: Constant | None = None
+    plain: bool = False  # a fragment shader that does nothing: depths are then the rasterizer's
+    near: float | None = None  # a fragment shader that writes depths of w alone: 1 - near / w, or near / w where depths are reversed (nearest is 1)
 
 
 def encoded(source, pipe, encodings):
@@ -59,6 +61,12 @@ def glsl(source):
     if not source.fragment:
         place = "vec4(k == 1 ? 3.0 : -1.0, k == 2 ? 3.0 : -1.0, -1.0, 1.0)" if source.full else "vec4(2.0, 2.0, 2.0, 1.0)"
         return f"#version 330\nvoid main() {{ int k = gl_VertexID % 3; gl_Position = {place}; }}\n"
+    if source.plain:
+        return "#version 330\nvoid main() { }\n"
+    if source.near is not None:
+        depth = f"{source.near:.9g} * gl_FragCoord.w"
+        write = f"gl_FragDepth = {depth if source.nearest else '1.0 - ' + depth};"
+        return _after_the_original(source, write) if source.original else f"#version 330\nvoid main() {{ {write} }}\n"
     here = _condition(source, "gl_FragCoord", "gl_FragCoord.w")
     if source.told:
         return _above_the_original(source, here)
@@ -68,16 +76,26 @@ def glsl(source):
     return (f"#version 330\n{colour[0]}void main() {{ gl_FragDepth = ({here}) ? {source.nearest:.1f} : gl_FragCoord.z;{colour[1]} }}\n")
 
 
-def _above_the_original(source, here):
-    """The original with another `main`, which calls its own for draws that are no casters of the light."""
+def _renamed(source):
+    """The original with a `main` of another name."""
     version = re.search(r"^[ \t]*#[ \t]*version.*\n", source.original, re.MULTILINE)
     begin = version.end() if version else 0
+    return source.original[:begin] + "#define main drawn_otherwise\n" + source.original[begin:] + "\n#undef main\n"
+
+
+def _after_the_original(source, write):
+    """The original, after which something more is done with the fragments that it leaves."""
+    return _renamed(source) + f"void main() {{ drawn_otherwise(); {write} }}\n"
+
+
+def _above_the_original(source, here):
+    """The original with another `main`, which calls its own for draws that are no casters of the light."""
     told = source.told
     number = f"{told.matrix}[{told.column}][{told.row}]"
     own = " || ".join(f"abs({number} - ({value:.9g})) < {told.within:.9g}" for value in told.own)
     act = f"gl_FragDepth = {source.nearest:.1f};" if source.full else "discard;"
     kept = "gl_FragDepth = gl_FragCoord.z; " if source.full else ""
-    return (source.original[:begin] + "#define main drawn_otherwise\n" + source.original[begin:] + "\n#undef main\n"
+    return (_renamed(source) +
             f"void main() {{ if (({here}) && ({own})) {{ {act} }} else {{ {kept}drawn_otherwise(); }} }}\n")
 
 
@@ -85,6 +103,8 @@ def hlsl(source):
     if not source.fragment:
         place = "float4(k == 1 ? 3.0 : -1.0, k == 2 ? 3.0 : -1.0, %.1f, 1.0)" % source.nearest if source.full else "float4(2.0, 2.0, 2.0, 1.0)"
         return f"float4 main(uint id : SV_VertexID) : SV_Position {{ uint k = id % 3; return {place}; }}\n"
+    if source.plain:
+        return "void main() { }\n"
     here = _condition(source, "p", "(1.0 / p.w)")
     if not source.full:
         return f"void main(float4 p : SV_Position) {{ if ({here}) discard; }}\n"
@@ -149,13 +169,22 @@ def _spirv_condition(m, source, coord):
 
 def _spirv_fragment(source):
     m = spirv.Module(spirv.FRAGMENT)
-    m.modes = [7, 12] if source.full else [7]  # the origin is at the upper left; depth is replaced
+    m.modes = [7, 12] if source.full or source.near is not None else [7]  # the origin is at the upper left; depth is replaced
+    if source.plain:
+        m.do(248, m.new())
+        m.do(253)
+        return m.assembled()
     four = m.vector(4)
     coord_at = m.builtin(spirv.INPUT, four, spirv.FRAG_COORD)
-    depth = m.builtin(spirv.OUTPUT, m.float, spirv.FRAG_DEPTH) if source.full else 0
+    depth = m.builtin(spirv.OUTPUT, m.float, spirv.FRAG_DEPTH) if source.full or source.near is not None else 0
     colour = m.output(four, 0) if source.full and source.colour else 0
     m.do(248, m.new())
     coord = m.load(four, coord_at)
+    if source.near is not None:
+        of_w = m.op(133, m.float, m.number(source.near), m.part(coord, 3))
+        m.do(62, depth, of_w if source.nearest else m.op(131, m.float, m.number(1.0), of_w))
+        m.do(253)
+        return m.assembled()
     here = _spirv_condition(m, source, coord)
     nearest = m.number(source.nearest)
     if source.full:

@@ -46,6 +46,9 @@ def _plan(frame, passes, layers, lens, others):
             raise FrameError("the casters have no fragment shader and share their vertex shader with other draws: the light cannot be "
                              "told apart in this frame")
         of_camera = shared - of_others
+        if of_camera and lens.curved:
+            raise FrameError("the camera's depths are no function of the distance that a matrix makes, and casters share a shader with its draws: they cannot "
+                             "be told apart. Record a frame without logarithmic depths")
         like_camera = of_camera and any(apart.are_one(apart.line(layer), apart.lens_line(lens)) for layer in layers)
         lines = ([apart.lens_line(lens)] if of_camera and not like_camera else []) + apart.lines_of_others(layers, others, shared)
         original, told = _told_by_a_constant(frame, layers, of_camera, event) if like_camera else ("", None)
@@ -80,6 +83,7 @@ class Pictures:
     maps: dict  # slice -> texels
     read: dict  # slice -> texels as the readers found them
     depths: dict = field(default_factory=dict)  # slice -> the depths that were drawn beside a colour map's texels
+    mixed: np.ndarray | None = None  # pixels of several samples that show more than one thing
 
     def linear(self, encoded):
         return formats.linear(self.colour) if encoded else self.colour
@@ -92,7 +96,62 @@ def take_pictures(frame, passes, slices):
     depths = {s: frame.picture(beside, s)[..., 0] for s in slices if beside and beside != passes.texture and s < frame.textures[beside].slices}
     frame.go_to(passes.readers[-1].event, again=True)
     read = {s: frame.picture(passes.texture, s) for s in slices}
-    return Pictures(passes.cut(frame.picture(passes.picture))[..., :3], passes.cut(frame.picture(passes.camera_depth))[..., 0], maps, read, depths)
+    colour, mixed = _one_thing_each(frame, passes, passes.picture, lambda samples: np.ptp(samples[..., :3], axis=0).max(-1) > 0)
+    depth, broken = _one_thing_each(frame, passes, passes.camera_depth, _is_no_plane)
+    mixed = mixed if broken is None else broken if mixed is None else mixed | broken
+    return Pictures(colour[..., :3], depth[..., 0], maps, read, depths, mixed)
+
+
+def _one_thing_each(frame, passes, texture, is_mixed):
+    """(the camera's part of a picture, which of its pixels are mixed): of several samples a pixel the mean, which is what lies in its middle where
+    all show one thing."""
+    if frame.textures[texture].samples <= 1:
+        return passes.cut(frame.picture(texture)), None
+    samples = np.array([passes.cut(one) for one in frame.samples(texture)])
+    return samples.mean(0), is_mixed(samples)
+
+
+def _is_no_plane(samples):
+    """Pixels whose depths are of more than one plane: nearest and farthest of four samples lie as far from the middle as one another."""
+    depths = np.sort(samples[..., 0], axis=0)
+    if len(depths) != 4:  # whose places are not told
+        return np.zeros(depths.shape[1:], bool)
+    return np.abs(depths[0] + depths[3] - depths[1] - depths[2]) > 0.1 * (depths[3] - depths[0]) + 4 * 2.0**-24
+
+
+def rasterized_depths(frame, passes, layers):
+    """{slice: depths of the map as the rasterizer makes them} where the casters' fragment shaders write others; {} where none does."""
+    fragment, _ = _stages()
+    events = sorted({event for layer in layers for event in layer.events})
+    own = {frame.state(event).shaders[fragment] for event in events if fragment in frame.state(event).shaders and frame.writes_own_depth(event)}
+    if not own:
+        return {}
+    with frame.replaced({(shader, fragment): Source(True, False, plain=True) for shader in own}):
+        frame.go_to(passes.writers[-1].event, again=True)
+        return {s: frame.picture(passes.texture, s)[..., 0] for s in sorted({layer.state.slice for layer in layers})}
+
+
+def distances(frame, found):
+    """The camera's picture of distances along its axis, NaN where nothing was drawn, of depths that no lens tells: shaders of its draws write
+    depths of w instead. None where the lens tells them."""
+    passes, view = found.passes, found.view
+    fragment, _ = _stages()
+    draws = [d for d in passes.camera if frame.state(d.event).writes_depth]
+    if view.lens.parallel or not (view.lens.curved or any(frame.writes_own_depth(d.event) for d in draws)):
+        return None
+    if any(fragment not in frame.state(d.event).shaders for d in draws):
+        raise FrameError("the camera's depths are no function of the distance that a matrix makes, and some draws have no fragment shader that could tell it: "
+                         "switch the depth prepass off, or logarithmic depths")
+    before = np.concatenate([-points[:, 2] for points in view.positions])
+    near = 0.5 * float(before[before > 1e-3].min())
+    nearest = 1.0 if view.state.reversed else 0.0
+    plan = {(frame.state(d.event).shaders[fragment], fragment): Source(True, False, nearest, near=near, original=frame.glsl(d.event)) for d in draws}
+    with frame.replaced(plan):
+        frame.go_to(passes.readers[-1].event, again=True)
+        depth = passes.cut(frame.picture(passes.camera_depth))[..., 0]
+    of_w = depth if view.state.reversed else 1 - depth
+    with np.errstate(divide="ignore"):
+        return np.where((of_w > 0) & (of_w < 1), near / of_w, np.nan)
 
 
 def does_not_say(frame, passes):
