@@ -102,7 +102,7 @@ class Casters(unittest.TestCase):
         self.assertEqual(len(capture._shapes(view, [], {2}, {2})), 2)
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "scene.glb")
-            files.write_glb(path, shapes, {"eye": [0, 0, 2], "type": "orthographic", "orthographic": {}}, [])
+            files.write_glb(path, shapes, {"eye": [0, 0, 2], "world": np.eye(4), "type": "orthographic", "orthographic": {}}, [])
             with open(path, "rb") as file:
                 data = file.read()
         nodes = json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])["nodes"]

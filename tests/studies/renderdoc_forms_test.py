@@ -249,6 +249,14 @@ class Moments(unittest.TestCase):
         np.testing.assert_allclose(found.range, (1, 30), atol=1e-3)
         self.assertEqual(moments.find_content(far[:, None], bases, "32").range, (0.0, 1.0))
 
+    def test_exponentials_of_distances_have_a_range_that_holds_all(self):
+        along = 3 + 8 * self.X
+        found = moments.find_content(np.exp(0.9 * (along - 2))[:, None], {"depth": 1 / self.X, "axis": along}, "32")
+        self.assertEqual((found.kind, found.base), ("esm", "axis"))
+        self.assertAlmostEqual(found.range[0], 2, delta=1e-3)
+        self.assertAlmostEqual(found.exponents[0] / (found.range[1] - found.range[0]), 0.9, delta=1e-4)
+        self.assertGreater(found.range[1], along.max())
+
     def fitted(self, content, variance, reduction, numbers_=(), bent=lambda v: v):
         random = np.random.default_rng(5)
         mean = random.uniform(0.2, 0.8, 5000)

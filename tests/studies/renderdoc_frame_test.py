@@ -207,6 +207,29 @@ class Layers(unittest.TestCase):
         self.assertEqual(search.given, [0.02, 0.5])
 
 
+    def test_of_one_light_share_a_range(self):
+        of = lambda end, count: SimpleNamespace(content=end and moments.Content("distance", (1e-5, end)), texels=np.arange(count))
+        layers = [of(24.0, 3), of(None, 2), of(24.9995, 50)]
+        pixels._share_ranges(layers, [0.3, 25.0])
+        self.assertEqual([one.content.range for one in layers], [(0.0, 25.0)] * 3)
+
+    def test_a_cube_stands_upright_in_the_captures_world(self):
+        turn = turned(0.8, (1, 2, 0.5))
+        faces = []
+        for k in range(3):
+            for sign in (1, -1):
+                w = sign * np.eye(3)[k]
+                x = np.eye(3)[(k + 1) % 3]
+                rows = np.array([x, np.cross(w, x), w, w]) @ turn[:3, :3]
+                faces.append(SimpleNamespace(matrix=np.c_[rows, np.zeros(4)], place=SimpleNamespace(apex=np.zeros(3))))
+        world = capture.world_from_view([faces])
+        self.assertAlmostEqual(np.linalg.det(world), 1)
+        for face in faces:
+            along = face.matrix[3, :3] @ np.linalg.inv(world)[:3, :3]
+            self.assertAlmostEqual(np.abs(along).max(), 1)
+        self.assertTrue(np.array_equal(capture.world_from_view([faces[:1]]), np.eye(4)))
+
+
 class PolygonOffset(unittest.TestCase):
     def test_is_stored_numbers_away_from_the_light(self):
         layer = SimpleNamespace(state=SimpleNamespace(reversed=False, depth_bias={"constant": 4, "slope": 1.5, "clamp": 0}))
@@ -249,6 +272,13 @@ class Formats(unittest.TestCase):
     def test_vertices_are_numbered_in_their_order(self):
         kept, places = formats.numbered(np.array([9, 4, 9, 7]))
         self.assertEqual((kept.tolist(), places.tolist()), ([4, 7, 9], [2, 0, 2, 1]))
+
+
+class WholeDepths(unittest.TestCase):
+    def test_of_32_bits_are_told_from_floats(self):
+        for kind, scale in ((np.float32, 1), (np.uint32, 2**32 - 1)):
+            raw = (np.array([0.25, 0.5, 1.0, 0.75]) * scale).astype(kind).tobytes()
+            np.testing.assert_allclose(formats.decode(raw, "D32", 4, 1)[0, :, 0], [0.25, 0.5, 1.0, 0.75], atol=1e-6)
 
 
 class FakeFrame:
@@ -387,6 +417,13 @@ class StandIns(unittest.TestCase):
         self.assertFalse({252, 62} & set(ops(plain=True)))
         self.assertFalse(spirv.replaces_depth(stand_ins.spir_v(stand_ins.Source(True, False, plain=True))))
 
+    def test_an_empty_colour_map_may_hold_what_is_far_away(self):
+        source = stand_ins.Source(True, False, colour=True, far=60000.0)
+        self.assertIn("colour = vec4(vec3(60000.0), 1.0);", stand_ins.glsl(source))
+        self.assertIn("float4(60000.0, 60000.0, 60000.0, 1.0)", stand_ins.hlsl(source))
+        self.assertFalse({252} & {op for op, _ in spirv._instructions(stand_ins.spir_v(source))})
+        self.assertNotIn("60000", stand_ins.glsl(dataclasses.replace(source, full=True)))
+
     def test_text_guards_what_is_shared(self):
         source = stand_ins.Source(True, False, **self.SHARED)
         self.assertIn("discard", stand_ins.glsl(source))
@@ -431,7 +468,7 @@ class Files(unittest.TestCase):
     def test_glb_and_capture_are_read_back(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "scene.glb")
-            files.write_glb(path, [(CUBE, np.arange(6), "event 1", True)], {"eye": [0, 0, 2], "type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0, "zfar": 20}},
+            files.write_glb(path, [(CUBE, np.arange(6), "event 1", True)], {"eye": [0, 0, 2], "world": np.eye(4), "type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0, "zfar": 20}},
                             [{"name": name, "type": kind, "matrix": np.eye(4), "inner": 0.1, "outer": 0.2} for name, kind in (("a", "directional"), ("b", "spot"))])
             with open(path, "rb") as file:
                 data = file.read()
@@ -439,7 +476,7 @@ class Files(unittest.TestCase):
             document = json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
             self.assertEqual(document["accessors"][0]["max"], [1, 1, 1])
             self.assertEqual(document["cameras"], [{"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0, "zfar": 20}}])
-            self.assertEqual(document["nodes"][1]["translation"], [0, 0, 2])
+            self.assertEqual(document["nodes"][1]["matrix"][12:15], [0, 0, 2])
             lights = document["extensions"]["KHR_lights_punctual"]["lights"]
             self.assertEqual([(light["name"], "spot" in light) for light in lights], [("a", False), ("b", True)])
             files.write_exr(os.path.join(folder, "a.exr"), {"Z": np.arange(6.0).reshape(2, 3)})

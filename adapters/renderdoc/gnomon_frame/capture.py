@@ -86,13 +86,24 @@ def _convention(layer):
     return "reversed" if layer.state.reversed else "zero_to_one", layer.matrix, None
 
 
-def _layer(folder, texture, name, k, layer, test, count):
+def world_from_view(lights):
+    """The capture's world: the camera's view space, but for a light with a cube, whose faces look along the world's axes."""
+    cube = next((layers for layers in lights if len(layers) == 6 and layers[0].place.apex is not None and layers[0].matrix is not None), None)
+    turn = np.eye(4)
+    if cube:
+        x, y = (row / np.linalg.norm(row) for row in cube[0].matrix[:2, :3])
+        y = y - (x @ y) * x
+        turn[:3, :3] = x, y / np.linalg.norm(y), np.cross(x, y / np.linalg.norm(y))
+    return turn
+
+
+def _layer(folder, texture, name, k, layer, test, count, world=np.eye(4)):
     held = {"RGBA"[k]: layer.averages["drawn"][..., k] for k in range(layer.content.channels)} if test.fitted else {"Z": layer.texels}
     files.write_exr(os.path.join(folder, name), held)
     convention, matrix, reach = _convention(layer)
     out = {"depth": name, "convention": convention,
            "rows": "bottom_up" if layer.state.conventions.bottom_row_first else "top_down",
-           "clip_from_world": files.column_major(matrix), **_select(test.selection, k, count)}
+           "clip_from_world": files.column_major(matrix @ np.linalg.inv(world)), **_select(test.selection, k, count)}
     moved = extract.polygon_offset(layer, texture)
     if layer.has_caster_bias:
         moved["constant_world"] = layer.shift.world
@@ -129,7 +140,7 @@ def _filter(layers, test):
     return {"kind": "esm" if test.exponent else "vsm" if blurred else "pcf", "radius_texels": min(test.radius or 1.5, 64)}
 
 
-def _light(folder, frame, light, prefix):
+def _light(folder, frame, light, prefix, world):
     """What the capture says of one light, whose files' names begin with the prefix."""
     layers, pixels = light.layers, light.pixels
     if len(layers) > MOST_LAYERS:
@@ -142,7 +153,7 @@ def _light(folder, frame, light, prefix):
     if layers[0].matrix is None:
         return said
     texture = frame.textures[light.found.passes.texture]
-    maps = [_layer(folder, texture, f"{prefix}map{k}.exr", k, layer, light.test, len(layers)) for k, layer in enumerate(layers)
+    maps = [_layer(folder, texture, f"{prefix}map{k}.exr", k, layer, light.test, len(layers), world) for k, layer in enumerate(layers)
             if light.test.selection.by == "first" or _select(light.test.selection, k, len(layers))]  # what nothing looks up is none of its layers
     if layers[0].half and len(maps) == 1:
         maps.append(_other_half(folder, f"{prefix}map1.exr", maps[0], layers[0]))
@@ -197,15 +208,18 @@ def write(folder, frame, lights, name):
     drawn = (pixels.drawn & ~np.any(hidden, axis=0)).astype(float) if hidden else pixels.drawn.astype(float)
     gone = set().union(*(light.found.roles.gone for light in lights))
     silent = set().union(*(light.found.roles.silent for light in lights))
-    files.write_exr(os.path.join(folder, "position.exr"), {c: pixels.positions[..., i] * drawn for i, c in enumerate("XYZ")} | {"A": drawn})
-    camera = _camera(view, width / height)
+    world = world_from_view([light.layers for light in lights])
+    turned = lambda points: points @ world[:3, :3].T
+    files.write_exr(os.path.join(folder, "position.exr"), {c: turned(pixels.positions)[..., i] * drawn for i, c in enumerate("XYZ")} | {"A": drawn})
+    camera = {**_camera(view, width / height), "world": world}
     names = {light.number: f"light {light.number}" if len(lights) > 1 else "light" for light in lights}
-    files.write_glb(os.path.join(folder, "scene.glb"), _shapes(view, [layer for light in lights for layer in light.layers], gone, silent), camera,
-                    [{"name": names[light.number], **light_node(light.layers)} for light in lights])
+    shapes = [(turned(points), *rest) for points, *rest in _shapes(view, [layer for light in lights for layer in light.layers], gone, silent)]
+    nodes = [{"name": names[light.number], **light_node(light.layers)} for light in lights]
+    files.write_glb(os.path.join(folder, "scene.glb"), shapes, camera, [{**node, "matrix": world @ node["matrix"]} for node in nodes])
     if len(lights) == 1:
-        of_lights, settings = _light(folder, frame, lights[0], ""), _settings(frame, lights[0], "")
+        of_lights, settings = _light(folder, frame, lights[0], "", world), _settings(frame, lights[0], "")
     else:
-        of_lights = {"lights": [{"light": names[one.number], **_light(folder, frame, one, f"light{one.number}-")} for one in lights]}
+        of_lights = {"lights": [{"light": names[one.number], **_light(folder, frame, one, f"light{one.number}-", world)} for one in lights]}
         settings = {key: value for one in lights for key, value in _settings(frame, one, names[one.number] + ", ").items()}
     files.write_capture(folder, {
         "renderer": {"name": name, "version": "(RenderDoc)", "settings": settings}, "scene": "scene.glb", "size": [width, height], "casters": "found", **_jitter(view, width, height),

@@ -86,6 +86,8 @@ def _measure(frame, found, layers, lights, encoding, before):
         raise FrameError("another camera draws it than the first light: --light judges it by itself")
     found.roles, hidden = casters.decide(frame, found.view, [layer for _, those in lights for layer in those], seen.depth, pixels.flip(seen.told, found.view), found.passes.cut)
     pixels.hide(seen, hidden, found.view)
+    if not seen.asked.any():
+        raise FrameError("no pixel is left whose light could be told: what the camera shows of this light's reach is not what its meshes are")
     masked = masks.leave_out(frame, found, layers, seen)
     found.notes += casters.words(found.view, found.roles)
     test = decision.find_test(found, layers, seen, numbers, exponent, fitted)

@@ -64,8 +64,8 @@ class _Blob:
 
 
 def write_glb(path, shapes, camera, lights):
-    """A scene of white `shapes` [(positions, three indices for each triangle, name, whether it casts shadows)]; camera as glTF has it, and
-    its `eye`, from which it looks along -z; lights [{name, type, matrix} and of spots {inner, outer}]."""
+    """A scene of white `shapes` [(positions, three indices for each triangle, name, whether it casts shadows)]; camera as glTF has it,
+    its `eye`, from which it looks along -z, and `world`, a turn of both; lights [{name, type, matrix} and of spots {inner, outer}]."""
     blob = _Blob()
     meshes, nodes = [], []
     for positions, corners, name, casts in shapes:
@@ -74,7 +74,9 @@ def write_glb(path, shapes, camera, lights):
         order = blob.add(corners.astype(np.uint32), "SCALAR", 5125, 34963)
         meshes.append({"name": name, "primitives": [{"attributes": {"POSITION": at}, "indices": order, "material": 0}]})
         nodes.append({"mesh": len(meshes) - 1, "name": name, **({} if casts else {"extras": {"casts_shadow": False}})})
-    nodes.append({"camera": 0, "name": "camera", "translation": camera["eye"]})
+    stands = np.eye(4)
+    stands[:3, 3] = camera["eye"]
+    nodes.append({"camera": 0, "name": "camera", "matrix": column_major(camera["world"] @ stands)})
     punctual = []
     for light in lights:
         nodes.append({"name": light["name"], "matrix": column_major(light["matrix"]), "extensions": {"KHR_lights_punctual": {"light": len(punctual)}}})
@@ -83,7 +85,7 @@ def write_glb(path, shapes, camera, lights):
                          "color": [1, 1, 1], **cone})
     white = {"name": "white", "doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 1}}
     document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}], "nodes": nodes, "meshes": meshes,
-                "cameras": [{key: value for key, value in camera.items() if key != "eye"}], "materials": [white], "accessors": blob.accessors,
+                "cameras": [{key: value for key, value in camera.items() if key not in ("eye", "world")}], "materials": [white], "accessors": blob.accessors,
                 "bufferViews": blob.views, "buffers": [{"byteLength": len(blob.data)}], "extensionsUsed": ["KHR_lights_punctual"],
                 "extensions": {"KHR_lights_punctual": {"lights": punctual}}}
     text = json.dumps(document).encode()

@@ -21,7 +21,9 @@ def _depth(data, name, texels, opengl):
     if name.startswith("D32S8") or name.startswith("D32_FLOAT_S8"):
         return np.frombuffer(data, np.float32, 2 * texels)[::2]
     if name.startswith("D32"):
-        return np.frombuffer(data, np.float32, texels)
+        values = np.frombuffer(data, np.float32, texels)
+        # Whole numbers have the same name; as floats those of most depths are none, or lie outside.
+        return values if ((values >= 0) & (values <= 1)).all() else np.frombuffer(data, np.uint32, texels) / 4294967295.0
     if name.startswith("D16"):
         return np.frombuffer(data, np.uint16, texels) / 65535.0
     bits = np.frombuffer(data, np.uint32, texels)

@@ -47,6 +47,10 @@ def _holds(condition, macros):
         return None
 
 
+def without_comments(text):
+    return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL)
+
+
 def _taken(text):
     """A GLSL text without the lines that its preprocessor leaves out; those of conditions that are not understood stay."""
     macros, stack, out = set(), [], []  # stack: [whether lines are taken, whether a branch was]
@@ -73,7 +77,7 @@ def _taken(text):
 
 def of_glsl(text):
     """Numbers of a GLSL text, and products of two that stand side by side; macros that are numbers are put in their places."""
-    text = _taken(re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL))
+    text = _taken(without_comments(text))
     macros = dict(re.findall(rf"^[ \t]*#[ \t]*define[ \t]+(\w+)[ \t]+(-?{_NUMBER})[ \t]*$", text, flags=re.MULTILINE))
     if macros:
         text = re.sub(r"\b(" + "|".join(map(re.escape, macros)) + r")\b", lambda found: macros[found[1]], text)

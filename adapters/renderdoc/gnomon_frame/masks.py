@@ -1,11 +1,10 @@
 """Casters with an alpha mask: what of them casts stands in a texture, which no vertex tells. They are known by their holes: texels of the
 map, or pixels of the camera, that lie within their triangles and show what is farther. Their shadows are left out."""
-import re
 from collections import namedtuple
 
 import numpy as np
 
-from . import spirv
+from . import literals, spirv
 
 FEW = 12  # holes, which may be rounding
 SHARE = 0.01  # of a mesh's inner cells
@@ -24,7 +23,7 @@ def can_discard(frame, event):
     if code is None:
         return False
     if isinstance(code, str):
-        return "discard" in re.sub(r"//[^\n]*|/\*.*?\*/", "", code, flags=re.DOTALL)
+        return "discard" in literals.without_comments(code)
     return code == b"" or spirv.can_discard(code)
 
 

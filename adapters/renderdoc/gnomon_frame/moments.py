@@ -75,10 +75,10 @@ def find_content(channels, bases, bits):
         if plain and (base != "depth" or abs(rise - 1) < fine and abs(start) < fine):
             is_itself = abs(rise - 1) < fine and abs(start) < fine * np.ptp(x)
             return _powers(Content(base, (0.0, 1.0) if is_itself else (float(-start / rise), float((1 - start) / rise))), c, fine)
-        if base == "depth" and (c[0] > 0).all():
+        if (c[0] > 0).all():
             rise, start, off = _line(x, np.log(c[0]))
-            if off <= 4 * fine and rise > 0.5:
-                return _warped(c, float(rise), float(start), x, fine)
+            if off <= 4 * fine and (rise > 0.5 if base == "depth" else rise * np.ptp(x) > 0.5):
+                return _warped(c, float(rise), float(start), x, fine) if base == "depth" else _of_world_units(base, float(rise), float(start), x)
     return None
 
 
@@ -86,6 +86,12 @@ def _powers(content, c, fine):
     if len(c) > 3 and _is(c[1], c[0] ** 2, fine) and _is(c[2], c[0] ** 3, fine) and _is(c[3], c[0] ** 4, fine):
         return replace(content, kind="msm")
     return replace(content, kind="vsm") if len(c) > 1 and _is(c[1], c[0] ** 2, fine) else content
+
+
+def _of_world_units(base, rise, start, x):
+    """An exponential of distances, whose factor alone is told: the range ends behind what is drawn."""
+    near, far = -start / rise, 1.05 * float(x.max())
+    return Content(base, (near, far), "esm", (rise * (far - near),))
 
 
 def _warped(c, rise, start, x, fine):

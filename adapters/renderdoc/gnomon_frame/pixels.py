@@ -8,6 +8,7 @@ from .errors import FrameError
 
 
 MOST_SLICES = 16  # of a map that are looked at
+RANGES = 1e-3  # of a range: layers whose ends differ by less have one
 MOST = 0.5  # share of the pixels within the map: where so many are not told nothing is
 
 
@@ -69,6 +70,7 @@ def measure(frame, found, layers, encoding, others, numbers):
         drawn.depths = visibility.rasterized_depths(frame, found.passes, layers)
     for layer in layers:
         layer.content = _content(frame, found, layer, drawn) if layer.matrix is not None else None
+    _share_ranges(layers, numbers.all)
     empty, full = visibility.replay(frame, found.passes, layers, found.view.lens, drawn, others)
     positions, is_drawn = positions_of(drawn.depth, found.view, visibility.distances(frame, found))
     for layer in layers:
@@ -89,6 +91,7 @@ def measure(frame, found, layers, encoding, others, numbers):
     for layer in layers:
         layer.covered = _cut(layer, seen.full_map[layer.state.slice]) == (1.0 if layer.state.reversed else 0.0)
         layer.old = _of_earlier_frames(_cut(layer, empty.maps[layer.state.slice]), frame.textures[found.passes.texture].is_depth, layer.state.reversed)
+        layer.old &= ~layer.covered
     if found.is_bilinear:
         _light_between_casters(pixels, layers)
     if _has_parts_of_earlier_frames(frame, found, [*layers, *others], empty):
@@ -171,6 +174,18 @@ def _content(frame, found, layer, drawn):
     held = (x > 0) & (x < 1)
     bits = frame.textures[found.passes.texture].format.lstrip("R")[:2]
     return moments.find_content(texels[held], _bases(layer, x, held), bits)
+
+
+def _share_ranges(layers, numbers):
+    """Layers of one light store distances in one range, told by the one that holds most, and which mostly ends at a number of the reader."""
+    told = [layer for layer in layers if layer.content is not None]
+    if not told or any(layer.content.base == "depth" or layer.content.base != told[0].content.base or layer.content.kind != told[0].content.kind for layer in told):
+        return
+    best = max(told, key=lambda layer: len(np.unique(layer.texels))).content
+    near, far = best.range
+    snapped = tuple(float(min((n for n in (0.0, *numbers) if abs(n - end) < RANGES * (far - near)), key=lambda n: abs(n - end), default=end)) for end in (near, far))
+    for layer in layers:
+        layer.content = replace(best, range=snapped)
 
 
 def _bases(layer, depths, held):

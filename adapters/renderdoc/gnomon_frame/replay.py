@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import renderdoc as rd
 
-from . import conventions, formats, spirv, stand_ins
+from . import conventions, formats, literals, spirv, stand_ins
 from .errors import FrameError
 
 
@@ -341,7 +341,7 @@ class Frame:
     def writes_own_depth(self, event):
         """Whether a draw's fragment shader chooses depths itself; of a language that is not read, it does not."""
         code = self.fragment_code(event)
-        return bool(code) and ("gl_FragDepth" in code if isinstance(code, str) else spirv.replaces_depth(code))
+        return bool(code) and ("gl_FragDepth" in literals.without_comments(code) if isinstance(code, str) else spirv.replaces_depth(code))
 
     def _clip(self, action, instance):
         """(clip positions of vertices, each index, corners of triangles as places among the indices), or None."""

@@ -24,6 +24,7 @@ class Source:
     minus_one: bool = False  # whether z/w runs from -1
     rects: tuple = ()  # (x0, y0, x1, y1), texels: what lies outside of all is left alone
     colour: bool = False  # whether the map is a colour texture
+    far: float | None = None  # what an empty colour map's texels hold where casters would be, in place of what it was cleared with
     original: str = ""  # text of the shader in GLSL, where a constant of its own tells the casters
     told: Constant | None = None
     plain: bool = False  # a fragment shader that does nothing: depths are then the rasterizer's
@@ -70,6 +71,8 @@ def glsl(source):
     here = _condition(source, "gl_FragCoord", "gl_FragCoord.w")
     if source.told:
         return _above_the_original(source, here)
+    if source.far is not None and not source.full:
+        return f"#version 330\nlayout(location = 0) out vec4 colour;\nvoid main() {{ colour = vec4(vec3({source.far:.1f}), 1.0); }}\n"
     if not source.full:
         return f"#version 330\nvoid main() {{ if ({here}) discard; }}\n"
     colour = ("layout(location = 0) out vec4 colour;\n", f" colour = vec4({source.nearest:.1f});") if source.colour else ("", "")
@@ -106,6 +109,8 @@ def hlsl(source):
     if source.plain:
         return "void main() { }\n"
     here = _condition(source, "p", "(1.0 / p.w)")
+    if source.far is not None and not source.full:
+        return "float4 main(float4 p : SV_Position) : SV_Target0 {{ return float4({0:.1f}, {0:.1f}, {0:.1f}, 1.0); }}\n".format(source.far)
     if not source.full:
         return f"void main(float4 p : SV_Position) {{ if ({here}) discard; }}\n"
     colour = (", out float4 colour : SV_Target0", f" colour = {source.nearest:.1f};") if source.colour else ("", "")
@@ -177,12 +182,17 @@ def _spirv_fragment(source):
     four = m.vector(4)
     coord_at = m.builtin(spirv.INPUT, four, spirv.FRAG_COORD)
     depth = m.builtin(spirv.OUTPUT, m.float, spirv.FRAG_DEPTH) if source.full or source.near is not None else 0
-    colour = m.output(four, 0) if source.full and source.colour else 0
+    is_far = source.far is not None and not source.full
+    colour = m.output(four, 0) if is_far or source.full and source.colour else 0
     m.do(248, m.new())
     coord = m.load(four, coord_at)
     if source.near is not None:
         of_w = m.op(133, m.float, m.number(source.near), m.part(coord, 3))
         m.do(62, depth, of_w if source.nearest else m.op(131, m.float, m.number(1.0), of_w))
+        m.do(253)
+        return m.assembled()
+    if is_far:
+        m.do(62, colour, m.op(80, four, *[m.number(source.far)] * 3, m.number(1.0)))
         m.do(253)
         return m.assembled()
     here = _spirv_condition(m, source, coord)
