@@ -10,35 +10,73 @@ import sys
 import tempfile
 import time
 
-LONGEST_S = 120  # from the program's start to the frame
+LONGEST_S = 600  # from the program's start to the frame
+SAID_S = 30  # after so long without a frame it is said what is waited for
+TO_END_S = 5  # in which a program may end by itself when it is told to
 
 
 def record(program, words, number, path):
     """Records frame `number` of a program to `path`; an error is a SystemExit with its words."""
+    found = shutil.which(program)
+    if not found:
+        raise SystemExit(f"record: {program} may not be executed" if os.path.isfile(program) else f"record: no such program: {program}")
     import renderdoc as rd
 
     rd.InitialiseReplay(rd.GlobalEnvironment(), [])
     options = rd.GetDefaultCaptureOptions()
     options.refAllResources = False
-    with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(path))) as folder:
-        started = rd.ExecuteAndInject(shutil.which(program) or program, os.getcwd(), " ".join(words), [], os.path.join(folder, "frame"), options, False)
-        if started.result != rd.ResultCode.Succeeded:
-            raise SystemExit(f"record: {program} cannot be started: {started.result.Message()}")
-        control, until = None, time.monotonic() + LONGEST_S
-        while control is None and time.monotonic() < until:
-            control = rd.CreateTargetControl("", started.ident, "gnomon", True)
-        if control is None:
-            raise SystemExit(f"record: {program} has ended, or does not answer")
-        try:
-            shutil.move(_wait(rd, control, number, until), path)
-        finally:
-            process = control.GetPID()
+    for caught in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(caught, lambda number, _: sys.exit(128 + number))
+    controls = []
+    try:
+        with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(path))) as folder:
+            started = rd.ExecuteAndInject(os.path.abspath(found), os.getcwd(), _as_one(words), [], os.path.join(folder, "frame"), options, False)
+            if started.result != rd.ResultCode.Succeeded:
+                raise SystemExit(f"record: {program} cannot be started: {started.result.Message()}")
+            shutil.move(_wait(rd, controls, started.ident, number, time.monotonic() + LONGEST_S), path)
+    finally:
+        for control in controls:
             control.Shutdown()
+        _end(_descendants())
+        rd.ShutdownReplay()
+
+
+def _as_one(words):
+    """RenderDoc takes words as one text, which it splits at spaces that do not stand between quotes."""
+    return " ".join('"' + word.replace("\\", "\\\\").replace('"', '\\"') + '"' if not word or any(c in word for c in " \t\"'\\") else word for word in words)
+
+
+def _descendants():
+    """Processes that this one started, and what these did."""
+    children = {}
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{name}/stat", encoding="utf-8", errors="replace") as file:
+                state, parent = file.read().rpartition(")")[2].split()[:2]
+        except OSError:
+            continue
+        if state != "Z":
+            children.setdefault(int(parent), []).append(int(name))
+    found, left = [], [os.getpid()]
+    while left:
+        mine = children.get(left.pop(), [])
+        found, left = found + mine, left + mine
+    return found
+
+
+def _end(processes):
+    """Tells processes to end, and makes those that do not."""
+    for asked in (signal.SIGTERM, signal.SIGKILL):
+        for process in processes:
             try:
-                os.kill(process, signal.SIGTERM)
+                os.kill(process, asked)
             except ProcessLookupError:
                 pass
-            rd.ShutdownReplay()
+        until = time.monotonic() + TO_END_S
+        while (processes := [one for one in processes if one in _descendants()]) and time.monotonic() < until:
+            time.sleep(0.05)
+        if not processes:
+            return
 
 
 def _numbers(number):
@@ -49,28 +87,43 @@ def _numbers(number):
     return numbers
 
 
-def _wait(rd, control, number, until):
-    """The file of the frame, once it is recorded."""
-    queued = False
+def _wait(rd, controls, ident, number, until):
+    """The file of the frame, once it is recorded. `controls`: what is opened to speak with the program."""
+    presents, begun = False, time.monotonic()
+    said = begun + SAID_S
     while time.monotonic() < until:
-        message = control.ReceiveMessage(None)
-        if message.type == rd.TargetControlMessageType.RegisterAPI and message.apiUse.presenting and not queued:
-            if not message.apiUse.supported:
-                raise SystemExit(f"record: RenderDoc cannot record {message.apiUse.name} here: {message.apiUse.supportMessage}")
-            # RenderDoc forgets without a word what is asked for too late, and does not say which frame is being drawn.
-            for at in _numbers(number):
-                control.QueueCapture(at, 1)
-            queued = True
-        elif message.type == rd.TargetControlMessageType.NewCapture:
-            taken = message.newCapture.frameNumber
-            if taken > number:
-                print(f"record: frame {taken}, for the program had drawn frame {number} before it could be recorded", file=sys.stderr)
-            return message.newCapture.path
-        elif message.type == rd.TargetControlMessageType.Disconnected:
+        if not controls and (control := rd.CreateTargetControl("", ident, "gnomon", True)) is not None:
+            controls.append(control)
+        for control in controls:
+            message = control.ReceiveMessage(None)
+            if message.type == rd.TargetControlMessageType.RegisterAPI and message.apiUse.presenting and not presents:
+                if not message.apiUse.supported:
+                    raise SystemExit(f"record: RenderDoc cannot record {message.apiUse.name} here: {message.apiUse.supportMessage}")
+                presents = True
+                _queue(control, number)
+            elif message.type == rd.TargetControlMessageType.NewCapture:
+                taken = message.newCapture.frameNumber
+                if taken > number:
+                    print(f"record: frame {taken}, for the program had drawn frame {number} before it could be recorded", file=sys.stderr)
+                return message.newCapture.path
+            elif message.type == rd.TargetControlMessageType.Disconnected:
+                raise SystemExit("record: the program has ended before the frame was drawn" + ("" if presents else ", and presented nothing. Of a script that "
+                                 "starts a program, name the program itself"))
+        if time.monotonic() > said:
+            said += SAID_S
+            waited = f"frame {number}" if presents else "the program to present a picture"
+            print(f"record: waiting for {waited} ({time.monotonic() - begun:.0f} s)", file=sys.stderr)
+        if not _descendants():
             raise SystemExit("record: the program has ended before the frame was drawn")
-        elif message.type == rd.TargetControlMessageType.Noop:
-            time.sleep(0.02)
-    raise SystemExit(f"record: no frame within {LONGEST_S} s" + ("" if queued else ": the program presents nothing"))
+        time.sleep(0.02)
+    raise SystemExit(f"record: no frame within {LONGEST_S} s" + ("" if presents else ": the program presents nothing that RenderDoc sees (a core profile of "
+                                                                 "OpenGL, Vulkan or Direct3D; not a script that starts another program)"))
+
+
+def _queue(control, number):
+    """RenderDoc forgets without a word what is asked for too late, and does not say which frame is being drawn."""
+    for at in _numbers(number):
+        control.QueueCapture(at, 1)
 
 
 def main():

@@ -1,5 +1,6 @@
 """How adapters/renderdoc looks maps up, and its frames, shaders and files. /usr/bin/python3 renderdoc_frame_test.py FOLDER_OF_THE_ADAPTER"""
 import dataclasses
+import subprocess
 import unittest
 
 from renderdoc_scenes import *  # noqa: F403
@@ -462,6 +463,42 @@ class Extension(unittest.TestCase):
         menus["Judge this frame",](context, None)
         with open(os.path.join(ADAPTER, "extension.json"), encoding="utf-8") as file:
             self.assertEqual(json.load(file)["extension_api"], 1)
+
+
+class Recorder(unittest.TestCase):
+    """record.py, as far as RenderDoc is not asked."""
+
+    PATH = os.path.join(ADAPTER, "record.py")
+
+    def recorder(self):
+        spec = importlib.util.spec_from_file_location("record", self.PATH)
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module
+
+    def test_what_is_no_program_is_said(self):
+        for program, said in (("./no-such-program", "no such program: ./no-such-program"), (os.path.join(ADAPTER, "extension.json"), "may not be executed")):
+            done = subprocess.run([sys.executable, "-B", self.PATH, "-o", "frame.rdc", program], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(said, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_words_with_spaces_stay_one(self):
+        self.assertEqual(self.recorder()._as_one(["-a", "two words", 'say "x"', ""]), '-a "two words" "say \\"x\\"" ""')
+
+    def test_ends_what_it_started_and_what_that_started(self):
+        record = self.recorder()
+        record.TO_END_S = 0.3
+        stubborn = "import signal, subprocess, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); subprocess.Popen(['sleep', '60']); print(1, flush=True); time.sleep(60)"
+        started = subprocess.Popen([sys.executable, "-c", stubborn], stdout=subprocess.PIPE)
+        started.stdout.readline()
+        mine = record._descendants()
+        self.assertIn(started.pid, mine)
+        self.assertEqual(len(mine), 2)
+        record._end(mine)
+        self.assertEqual(record._descendants(), [])
+        started.stdout.close()
+        started.wait()
 
 
 class Files(unittest.TestCase):
